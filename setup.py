@@ -1,4 +1,4 @@
-"""What colcon needs to know too, which does not read pyproject.toml; the rest stands there."""
+"""Metadata for colcon, which does not read pyproject.toml; everything else is declared there."""
 
 import re
 from pathlib import Path

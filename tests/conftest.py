@@ -1,4 +1,4 @@
-"""What tests of several folders share."""
+"""Fixtures shared by tests of several folders."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ EXPECTED = (
     "Failed to load resource",
     "THREE.BufferGeometry.computeBoundingSphere(): Computed radius is NaN.",
 )
-"""What Chromium says when a server is gone, and three.js of points that are not finite, as some
-tests want it."""
+"""Messages of Chromium when a server is gone, and of three.js about points that are not finite,
+which some tests provoke."""
 
 JAGGED = """{
   const get = HTMLCanvasElement.prototype.getContext;

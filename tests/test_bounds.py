@@ -1,4 +1,4 @@
-"""How far what is drawn reaches."""
+"""Extents of what is drawn."""
 
 from __future__ import annotations
 

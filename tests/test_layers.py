@@ -41,9 +41,9 @@ SHARED_WITH_THE_SIMULATOR = (
     "webviz.edges.ros.types",
 )
 BELOW_THE_EDGES = ("webviz.edges.access", "webviz.edges.page")
-"""What scene and page are made with; each knows only those before it."""
+"""Rooms below scene and page; each knows only those before it."""
 PUBLIC = ("webviz.api", "webviz.data")
-"""What displays and tools may import besides `webviz` itself."""
+"""Modules that displays and tools may import besides `webviz` itself."""
 
 
 def name_of(path: Path) -> str:
@@ -109,7 +109,7 @@ def test_no_modules_import_each_other_in_a_circle() -> None:
 
 
 def is_outer(name: str, other: str) -> bool:
-    """Whether a module names the package that it is in, or the public face of all."""
+    """Return whether a module names the package that it is in, or the public face of all."""
     return other in FACES or name == other or name.startswith(f"{other}.")
 
 

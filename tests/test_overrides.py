@@ -42,7 +42,7 @@ def config() -> Config:
 
 
 def changed(config: Config, *assignments: str) -> Any:
-    """What a file says with these values, by their path."""
+    """Return the text of a file with these values, given by path."""
     before = dump(config)
     values = document(override(config, assignments))
     assert dump(config) == before, "the config itself must stay"

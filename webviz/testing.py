@@ -1,4 +1,4 @@
-"""What visual tests of other packages get; see `webviz.shell.testing`."""
+"""Tools for visual tests of other packages; see `webviz.shell.testing`."""
 
 from webviz.shell.testing import *  # noqa: F403
 from webviz.shell.testing import __all__ as __all__

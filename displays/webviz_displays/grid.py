@@ -97,7 +97,7 @@ class Grid(Display):
 
 
 def _count(plane: int, normal: int) -> int:
-    """How many lines a grid has, by its cells along the plane and along the normal."""
+    """Return the number of lines of a grid from its cells along the plane and the normal."""
     return 2 * (plane + 1) * (normal + 1) + ((plane + 1) ** 2 if normal else 0)
 
 

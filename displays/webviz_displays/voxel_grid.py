@@ -37,7 +37,7 @@ Cells = NDArray[np.bool_]
 
 
 def cells_of(message: Any) -> dict[str, Cells]:
-    """Which cells (columns along y, x; levels) of a nav2_msgs/msg/VoxelGrid are of each kind.
+    """Return the cells (columns along y, x; levels) of each kind of a nav2_msgs/msg/VoxelGrid.
 
     As in nav2_voxel_grid's voxel_grid.hpp both bits of a marked cell are set and none of a free
     one.
@@ -161,7 +161,7 @@ def _add(
 
 
 def _is_enclosed(cells: Cells) -> Cells:
-    """Which cells have all six neighbours."""
+    """Return the mask of cells with all six neighbours."""
     enclosed = np.zeros_like(cells)
     inner = cells[1:-1, 1:-1, 1:-1]
     enclosed[1:-1, 1:-1, 1:-1] = inner

@@ -42,12 +42,12 @@ class ServerGoal:
 
     @property
     def is_active(self) -> bool:
-        """Whether it has not ended."""
+        """Return whether it has not ended."""
         return self.status in (GoalStatus.STATUS_EXECUTING, GoalStatus.STATUS_CANCELING)
 
     @property
     def is_canceling(self) -> bool:
-        """Whether a client wants it to end."""
+        """Return whether a client wants it to end."""
         return self.status == GoalStatus.STATUS_CANCELING
 
     def report(self, feedback: Mapping[str, Any]) -> None:

@@ -1,4 +1,4 @@
-"""What the simulated robot and its Nav2 publish."""
+"""Publishers of the simulated robot and its Nav2."""
 
 import math
 from collections import deque
@@ -180,7 +180,7 @@ class Broadcaster:
 
 
 class _Schedule:
-    """Whether something that happens at a rate is due, in simulated seconds."""
+    """Schedule of an event that repeats at a rate, in simulated seconds."""
 
     def __init__(self):
         self._next = 0.0

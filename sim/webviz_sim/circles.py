@@ -21,7 +21,7 @@ def nearest(circles: Circles, x: float, y: float) -> float:
 def cast(
     circles: Circles, x: NDArray[np.float64], y: NDArray[np.float64], angles: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """How far rays get until they meet a circle, in the units of the circles.
+    """Return the distance rays travel until they meet a circle, in the units of the circles.
 
     Args:
         circles: of the world.

@@ -27,7 +27,7 @@ _STEPS = {
 
 
 class Lifecycle:
-    """Whether the navigation is active, as clients decide; it starts active.
+    """Lifecycle of the navigation, as clients decide; it starts active.
 
     Args:
         node: The node that offers the services.
@@ -43,7 +43,7 @@ class Lifecycle:
 
     @property
     def is_active(self) -> bool:
-        """Whether goals are accepted."""
+        """Return whether goals are accepted."""
         return self._state == "active"
 
     def _answer(self, request: Any, response: Any) -> Any:

@@ -41,7 +41,7 @@ class Perfect:
         """Take a scan, and the true pose of the scanner in the map."""
 
     def put(self, pose: Pose2D) -> bool:
-        """Whether a pose on /initialpose is an estimate, and not a place to move the robot to."""
+        """Return whether a pose on /initialpose is an estimate, not the robot's new place."""
         return False
 
 

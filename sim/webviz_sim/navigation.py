@@ -27,7 +27,7 @@ STUCK, TF_ERROR, OUTSIDE, OCCUPIED, NO_PATH = 105, 202, 204, 206, 208
 
 @dataclass
 class _Task:
-    """What the robot does for a goal of a client."""
+    """Task of the robot for a goal of a client."""
 
     action: str
     goal: ServerGoal
@@ -111,7 +111,7 @@ class Navigation:
             self._fail(task, NO_PATH, "No path to the goal.")
 
     def _is_free(self, pose: Pose2D) -> bool | None:
-        """Whether a pose is in known free space, None outside the map."""
+        """Return whether a pose is in known free space, None outside the map."""
         free = self._simulation.world.traversable
         x, y, _ = self._simulation.world.to_grid(pose)
         height, width = free.shape
@@ -163,5 +163,5 @@ def _poses(action: str, request: Any) -> Any:
 
 
 def _stops(task: _Task) -> bool:
-    """Whether it takes the heading of the pose that it drives to, too."""
+    """Return whether it takes the heading of the pose that it drives to, too."""
     return task.action != THROUGH_POSES or task.at == len(task.poses) - 1

@@ -50,7 +50,7 @@ class Option:
 
 
 FAULT = "fault_"
-"""What the names of faults begin with."""
+"""Prefix of the names of faults."""
 
 OPTIONS = {
     "world": Option(
@@ -139,7 +139,7 @@ def fault_parameter(text: str) -> str:
 
 
 def _is_list(value: Any) -> bool:
-    """Whether a value is a list of finite numbers."""
+    """Return whether a value is a list of finite numbers."""
     if isinstance(value, str | bytes) or not isinstance(value, Sequence):
         return False
     return all(isinstance(each, int | float) and math.isfinite(each) for each in value)

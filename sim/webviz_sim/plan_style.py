@@ -1,4 +1,4 @@
-"""What SVG says about how shapes are painted: inherited properties and transforms."""
+"""Painting of SVG shapes: inherited properties and transforms."""
 
 import math
 import re

@@ -88,7 +88,7 @@ def _first_crossing(
 def _lookup(
     occupied: NDArray[np.bool_], rows: NDArray[np.float64], columns: NDArray[np.float64]
 ) -> NDArray[np.bool_]:
-    """Whether cells are occupied; those outside the grid are not."""
+    """Return whether cells are occupied; those outside the grid are not."""
     height, width = occupied.shape
     inside = (rows >= 0) & (rows < height) & (columns >= 0) & (columns < width)
     index = np.where(inside, rows, 0).astype(np.intp), np.where(inside, columns, 0).astype(np.intp)

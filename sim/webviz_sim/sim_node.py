@@ -157,7 +157,7 @@ class SimNode(Node):
 
 
 def _descriptor(option: options.Option) -> ParameterDescriptor:
-    """What `ros2 param describe` says about a parameter."""
+    """Return the descriptor that `ros2 param describe` shows."""
     # Typed dynamically, a rate of 10 is as good as one of 10.0.
     described = ParameterDescriptor(
         description=option.help, read_only=option.read_only, dynamic_typing=True

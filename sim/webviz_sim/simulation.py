@@ -29,11 +29,11 @@ class SimulationSettings:
     """Settings that may change while the simulation runs."""
 
     tour: bool = True
-    """Whether the robot tours the world while no commands arrive."""
+    """True if the robot tours the world while no commands arrive."""
     tour_speed: float = 0.35
     """Speed along a path in m/s."""
     cmd_vel_timeout: float = 0.5
-    """How long a velocity command is valid, in seconds."""
+    """Validity of a velocity command, in seconds."""
     odom_drift: float = 0.0
     """See `Robot.drift`."""
     slip: float = 0.0
@@ -214,7 +214,7 @@ class Simulation:
         return moving[np.hypot(moving[:, 0] - here.x, moving[:, 1] - here.y) < NEARBY]
 
     def _waits(self) -> bool:
-        """Whether something that moves is so near ahead that there would be no room to turn."""
+        """Return whether something that moves is so near that there would be no room to turn."""
         near, here = self._near, self.robot.pose
         x, y = (near[:, :2] - here[:2]).T
         ahead = x * math.cos(here.yaw) + y * math.sin(here.yaw)
@@ -223,7 +223,7 @@ class Simulation:
         return bool((is_close & (ahead > 0.5 * distance)).any())
 
     def _goes_around(self) -> bool:
-        """Whether it can go on to its goal around what moves and stands in the way."""
+        """Return whether it can go on to its goal around what moves and stands in the way."""
         goal = self.goal
         return goal is not None and len(self._near) > 0 and self.go_to(goal, self._turns)
 
@@ -238,7 +238,7 @@ class Simulation:
         self._follower = None
 
     def _is_stuck(self) -> bool:
-        """Whether the robot has not moved for a while although it had a path."""
+        """Return whether the robot has not moved for a while although it had a path."""
         pose, since = self._progress
         here = self.robot.pose
         if math.dist(pose[:2], here[:2]) > PROGRESS:

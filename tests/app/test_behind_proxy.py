@@ -114,5 +114,5 @@ def told(port: int, host: str, path: str, origin: str = "", cookie: str = "") ->
 
 
 def is_upgraded(answer: bytes) -> bool:
-    """Whether a websocket is open."""
+    """Return whether a websocket is open."""
     return answer.startswith(b"HTTP/1.1 101 ")

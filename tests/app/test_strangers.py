@@ -1,4 +1,4 @@
-"""What strangers can send over the channel of a page to a whole viewer."""
+"""Untrusted messages over the channel of a page, against a whole viewer."""
 
 from __future__ import annotations
 

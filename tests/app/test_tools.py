@@ -74,7 +74,7 @@ def show(viewer: webviz.Viewer, view: dict[str, Any]) -> None:
 
 
 def is_active(page: Page) -> bool:
-    """Whether another tool than the default one is selected."""
+    """Return whether another tool than the default one is selected."""
     return active(page) != "Interact"
 
 

@@ -31,7 +31,7 @@ displays:
 
 
 def is_gone(url: str) -> bool:
-    """Whether nobody serves a page."""
+    """Return whether nobody serves a page."""
     try:
         urllib.request.urlopen(url, timeout=60).close()
     except OSError:

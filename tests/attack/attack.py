@@ -1,4 +1,4 @@
-"""What an attack is: cases that follow from a seed and a number, and what became of each."""
+"""Attacks: cases that follow from a seed and a number, and their outcomes."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from random import Random
 
 
 class Outcome(enum.Enum):
-    """What became of a case that broke no promise."""
+    """Outcome of a case that broke no promise."""
 
     REFUSED = "refused"
     """The viewer refused it, by a sentence, a status or the end of the connection."""

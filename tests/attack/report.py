@@ -1,4 +1,4 @@
-"""What was tried, and what became of it."""
+"""Report of the cases tried and their outcomes."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ CORPUS = Path(__file__).parent / "corpus"
 """Cases that once broke a promise, in a folder per kind: LABEL__NAME, packed if it ends with .gz.
 Its README says what each of them broke."""
 TURN_S = 2.0
-"""How long one kind attacks before the next does."""
+"""Duration of one kind of attack before the next begins."""
 MOST_BREACHES = 20
 ROLES = (None, *Role)
 KINDS = (

@@ -40,7 +40,7 @@ def save(path: Path, number: int) -> None:
 
 
 def is_whole(path: Path) -> bool:
-    """Whether a file is one of the versions that were saved."""
+    """Return whether a file is one of the versions that were saved."""
     if path.suffix == ".png":
         with PIL.Image.open(path) as picture:
             picture.load()

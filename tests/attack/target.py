@@ -103,7 +103,7 @@ class Target:
 
     @property
     def is_alive(self) -> bool:
-        """Whether the viewer runs."""
+        """Return whether the viewer runs."""
         return self._program.process.poll() is None
 
     def check(self) -> None:

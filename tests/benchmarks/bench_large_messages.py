@@ -1,4 +1,4 @@
-"""How late a scan is shown beside large messages that are drawn in the frame loop or in a thread.
+"""Delay of a scan beside large messages drawn in the frame loop or in a thread.
 
     PYTHONPATH=tests/benchmarks:tests/support python tests/benchmarks/bench_large_messages.py
 

@@ -1,4 +1,4 @@
-"""What markers cost the frame loop, next to a viewer that makes a viser node of each.
+"""Cost of markers in the frame loop, next to a viewer that makes one viser node of each.
 
     .venv/bin/python tests/benchmarks/bench_markers.py
 

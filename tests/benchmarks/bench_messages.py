@@ -1,4 +1,4 @@
-"""How fast messages are decoded, next to rosbags and rclpy on the same bytes in the same run.
+"""Speed of decoding, next to rosbags and rclpy on the same bytes in the same run.
 
     python tests/benchmarks/bench_messages.py
 
@@ -82,7 +82,7 @@ def transforms() -> list[Any]:
 
 
 def with_rclpy(type_name: str, cdr: bytes) -> Callable[[], Any] | None:
-    """What rclpy does in a subscription that is not raw; None where it cannot."""
+    """Decode as rclpy does in a subscription that is not raw; None where it cannot."""
     parts = [(type_name, cdr)]
     if type_name == "tf2_msgs/msg/TFMessage":
         stamped = "geometry_msgs/msg/TransformStamped"

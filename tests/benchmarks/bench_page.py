@@ -1,4 +1,4 @@
-"""What the page costs with five and with a hundred displays, in one run.
+"""Cost of the page with five and with a hundred displays, in one run.
 
     python tests/benchmarks/bench_page.py
 
@@ -105,7 +105,7 @@ class Reader:
         self._said = [msgspec.json.encode(message).decode() for message in said]
 
     async def recv(self) -> str:
-        """What the page says, then nothing more."""
+        """Return the page's message once, then wait for ever."""
         return self._said.pop(0) if self._said else await asyncio.Future()
 
     async def send(self, message: str | bytes, /) -> None:
@@ -215,7 +215,7 @@ class Viewer:
         self._state = state_of(count)
 
     def update(self) -> None:
-        """What the frame loop does five times a second."""
+        """Update as the frame loop does five times a second."""
         self._pages.update(self._state)
 
     def play(self, page: playwright.Page, seconds: float) -> None:

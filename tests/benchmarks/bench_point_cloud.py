@@ -1,4 +1,4 @@
-"""What a PointCloud2 costs from its bytes to the nodes that viser sends, next to the obvious way.
+"""Cost of a PointCloud2 from its bytes to the nodes viser sends, next to the obvious way.
 
     python tests/benchmarks/bench_point_cloud.py
 

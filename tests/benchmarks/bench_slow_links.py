@@ -1,4 +1,4 @@
-"""How old the pose of a robot gets in a browser on a slow link, beside a scan and a cloud.
+"""Age of a robot's pose in a browser on a slow link, beside a scan and a cloud.
 
     PYTHONPATH=. .venv/bin/python tests/benchmarks/bench_slow_links.py
 
@@ -31,7 +31,7 @@ ROUND_TRIP_S = 0.2
 
 @dataclass
 class Found:
-    """What a client got each second, and the ages of its pose in s."""
+    """Bytes a client received each second, and the ages of its pose in s."""
 
     poses: float
     p50: float
@@ -98,7 +98,7 @@ def watch(peer: Peer, seconds: float) -> Found:
 
 
 def behind_proxy(port: int, mbit: float, seconds: float) -> Found:
-    """What a client behind the proxy gets."""
+    """Return what a client behind the proxy receives."""
     link = SlowLink(port, mbit * 1e6 / 8, ROUND_TRIP_S / 2)
     peer = Peer(link)
     peer.look()

@@ -1,4 +1,4 @@
-"""What tracing samples costs, asked for and not, next to the same work without it, in one run.
+"""Cost of tracing samples, with and without a request, in one run.
 
     python tests/benchmarks/bench_trace.py
 

@@ -1,4 +1,4 @@
-"""How fast the transform buffer is, next to straightforward ways, in one run.
+"""Speed of the transform buffer, next to straightforward ways, in one run.
 
     python tests/benchmarks/bench_transforms.py
 

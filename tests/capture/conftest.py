@@ -59,7 +59,7 @@ def studio(browser: playwright.Browser) -> Iterator[Studio]:
 
 @dataclass(frozen=True)
 class Ended:
-    """How a command ended, and what it printed."""
+    """Exit status and output of a command."""
 
     status: int
     output: str

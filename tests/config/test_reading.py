@@ -1,4 +1,4 @@
-"""What a config file says is what is shown, and every mistake has its answer."""
+"""Reading of config files: values arrive as written, and every mistake has its error."""
 
 from __future__ import annotations
 

@@ -32,13 +32,13 @@ CHECK = Draft7Validator(SCHEMA)
 
 
 def faults(written: str) -> list[str]:
-    """What the schema has against the text of a config."""
+    """Return the errors the schema reports for the text of a config."""
     values = json.loads(json.dumps(YAML(typ="safe", pure=True).load(io.StringIO(written))))
     return [f"{error.json_path}: {error.message}" for error in CHECK.iter_errors(values)]
 
 
 def accepts(written: str) -> bool:
-    """Whether webviz has nothing against the text of a config."""
+    """Return whether webviz has nothing against the text of a config."""
     try:
         config = parse(written, "x.yaml")
     except ConfigError:

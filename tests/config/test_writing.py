@@ -1,4 +1,4 @@
-"""What is saved is what is opened again, for every display and every value."""
+"""Round trips of saved configs, for every display and every value."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the commands of a ROS 2 course ask of the graph of `webviz demo`, as of a TurtleBot's.
+"""Commands of a ROS 2 course against the graph of `webviz demo`, as against a TurtleBot's.
 
 `ros2` itself is not on PyPI. Each test makes the requests of one command, with rclpy or, for bags,
 with rosbags; displays/docs/ros/course.md has the commands.

@@ -135,7 +135,7 @@ class Bench:
             self.turn()
 
     def nodes(self) -> dict[str, Node]:
-        """What can be seen, by key; keys used in several groups get a number."""
+        """Return the visible nodes by key; keys used in several groups get a number."""
         return {key: node for key, _, node in self.scene.visible()}
 
     def poses(self) -> dict[str, Pose]:

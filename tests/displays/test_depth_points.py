@@ -1,4 +1,4 @@
-"""Which pixels the points of a depth image are."""
+"""Pixels that the points of a depth image belong to."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What a user reads about the built-in displays."""
+"""Documentation of the built-in displays."""
 
 from __future__ import annotations
 

@@ -276,7 +276,7 @@ SCENES: dict[str, Callable[[Any], None]] = {
 
 PLAYERS = (("MotionPlanning", "planned_path."), ("Trajectory", ""))
 ANIMATED = ("interrupt_display", "loop_animation", "state_display_time", "use_sim_time")
-"""What acts on the animation of a path."""
+"""Properties that act on the animation of a path."""
 
 # What these say, as decay_time and history_length do, shows with what comes next, not with what is
 # drawn already.

@@ -219,7 +219,7 @@ def send(at: Any, name: str, values: Values) -> None:
 
 
 def faults(at: Any) -> list[str]:
-    """What must never be, however odd a message is."""
+    """Return violations of what must hold however odd a message is."""
     found, nodes = [], at.nodes()
     for key, node in nodes.items():
         found += [f"{key}.{name} is not finite" for name in infinite(node)]

@@ -1,4 +1,4 @@
-"""How frames that are no longer published grow old."""
+"""Ageing of frames that are no longer published."""
 
 import numpy as np
 import pytest

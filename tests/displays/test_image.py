@@ -1,4 +1,4 @@
-"""What the Image display shows of messages, without a browser."""
+"""Pictures of the Image display from messages, without a browser."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What each display says about something that was selected."""
+"""Details each display reports about a selected item."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ QUARTER = (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))
 
 
 def pick(at: Any, key: str, number: int | None, point: Any = None) -> Details:
-    """What is said about an item of a node, given as a browser has it, or about a point on one."""
+    """Return the details of an item of a node, as a browser picks it, or of a point on one."""
     group = next(group for group, nodes in at.scene.groups.items() if key in nodes)
     node, _ = at.scene.groups[group][key]
     color: Any = None

@@ -25,7 +25,7 @@ KEEP_ALIVE, CHANGE = 0, 1
 
 
 class Server:
-    """What a client hears of a server, and its answers."""
+    """Server side of a client: recorded requests and prepared answers."""
 
     clock_s = 0.0
     node = "/webviz"

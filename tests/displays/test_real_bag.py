@@ -72,7 +72,7 @@ def test_the_scans_lie_on_the_walls_of_the_map(bench: Benches) -> None:
 
 
 def share_on_walls(hits: NDArray[np.float64]) -> float:
-    """How many points (N, 2) of the map's frame are at most two cells (6 cm) from a wall."""
+    """Return the number of points (N, 2) of the map's frame within two cells (6 cm) of a wall."""
     columns, rows = np.floor((hits - ORIGIN) / RESOLUTION).astype(int).T
     picture = np.flipud(np.asarray(PIL.Image.open(MAP)))
     to_wall: Any = distance_transform_edt(picture > BLACK)

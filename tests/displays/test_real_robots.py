@@ -37,7 +37,7 @@ FILES = (
 
 
 def said_of_visuals(bench: Any) -> tuple[int, int]:
-    """How many visuals the display says are loaded, of how many."""
+    """Return the number of visuals the display reports as loaded, and their total."""
     found = re.search(r"(\d+) of (\d+) visuals loaded", bench.statuses()["URDF"][1])
     assert found is not None
     loaded, total = map(int, found.groups())

@@ -1,4 +1,4 @@
-"""What is drawn of a robot, and how it looks, by the user's choices."""
+"""Drawn parts of a robot and their appearance, by the user's choices."""
 
 from dataclasses import replace
 from pathlib import Path

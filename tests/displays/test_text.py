@@ -1,4 +1,4 @@
-"""What the Text display reads out of messages of any type."""
+"""Values the Text display reads from messages of any type."""
 
 from __future__ import annotations
 

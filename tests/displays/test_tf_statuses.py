@@ -1,4 +1,4 @@
-"""What the TF display says."""
+"""Statuses of the TF display."""
 
 import pytest
 

@@ -17,7 +17,7 @@ pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webv
 
 
 def token(env: dict[str, str], *arguments: str, status: int = 0) -> str:
-    """What `webviz token` prints."""
+    """Return the output of `webviz token`."""
     done = subprocess.run(
         [sys.executable, "-m", "webviz", "token", *arguments],
         env=env,

@@ -39,7 +39,7 @@ SPEED, SECONDS = 0.4, 2.5
 
 @dataclass
 class Seen:
-    """What a picture shows, in metres of the fixed frame."""
+    """Positions seen in a picture, in metres of the fixed frame."""
 
     robot: np.ndarray
     """Centre of the robot (2,), NaN if there is none."""
@@ -164,7 +164,7 @@ def choose_fixed_frame(page: Page, frame: str) -> None:
 
 
 def settled(page: Page) -> Seen:
-    """What is seen once everything is drawn."""
+    """Return the positions seen once everything is drawn."""
 
     def complete() -> Seen | None:
         seen = look(page)

@@ -1,4 +1,4 @@
-"""How programs end: signals at any moment, a parent that is killed, parts that hang."""
+"""Ends of programs: signals at any moment, a killed parent, parts that hang."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ PATIENCE_S = 60.0
 
 
 def has_handlers(program: Program) -> bool:
-    """Whether the program, and not the Python that starts it, is who hears a signal."""
+    """Return whether the program, and not the Python that starts it, is who hears a signal."""
     status = Path(f"/proc/{program.process.pid}/status").read_text()
     (caught,) = re.findall(r"SigCgt:\s*(\w+)", status)
     return bool(int(caught, 16) & 1 << signal.SIGTERM - 1)

@@ -82,7 +82,7 @@ def peer(peer_python: str, domain: str, tmp_path: Path) -> Iterator[Program]:
 
 @pytest.fixture
 def echo(peer_python: str, domain: str, tmp_path: Path) -> Iterator[Program]:
-    """What the peer hears of tools."""
+    """Return the messages of tools that the peer receives."""
     env = {k: v for k, v in os.environ.items() if k != "_ROS_WHEELS_BOOTSTRAP_COMPLETE"}
     command = [peer_python, "-u", str(PEER), "echo", *SENT]
     program = Program(

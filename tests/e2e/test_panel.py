@@ -30,7 +30,7 @@ view: {distance: 20.0, yaw: -1.570796, pitch: 1.5697}
 
 
 def picture(page: Page) -> Pixels:
-    """What the page shows once it shows the same for a second."""
+    """Return the picture of the page once it stays the same for a second."""
     before = page.pixels()
     for _ in range(60):
         page.tab.wait_for_timeout(1000)
@@ -43,7 +43,7 @@ def picture(page: Page) -> Pixels:
 
 
 def colors(pixels: Pixels) -> int:
-    """How many colours fill at least a thousandth of a picture."""
+    """Return the number of colours that fill at least a thousandth of a picture."""
     _, counts = np.unique(pixels.reshape(-1, 3), axis=0, return_counts=True)
     return int((counts > pixels.size / 3000).sum())
 

@@ -75,7 +75,7 @@ class Robot:
         return [twist.linear.x for _, twist in self.heard]
 
     def has_stopped(self) -> bool:
-        """Whether a drive ended with a zero; of several, those that wait give way to the next."""
+        """Return whether a drive ended with a zero; of several, waiting ones make way in turn."""
         return any(self.speeds()) and self.speeds()[-1] == 0.0
 
 

@@ -103,7 +103,7 @@ def keep_sample(plan: WorkDB, count: int, seed: int) -> None:
 
 
 def is_of_hint(item: WorkItem) -> bool:
-    """Whether a fault is probably in a type hint."""
+    """Return whether a fault is probably in a type hint."""
     return any(mutation.operator_name.startswith(UNION) for mutation in item.mutations)
 
 

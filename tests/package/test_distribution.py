@@ -1,4 +1,4 @@
-"""What people get who install webviz: all files, all requirements, all licences."""
+"""Contents of the distribution: all files, requirements and licences."""
 
 from __future__ import annotations
 

@@ -32,7 +32,7 @@ OFFERS = {
 
 
 def commands(loop: Loop) -> list[tuple[str, object]]:
-    """What was added, with its properties."""
+    """Return the added displays with their properties."""
     return [
         (command.type, command.values)
         for command in loop.commands

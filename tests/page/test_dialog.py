@@ -35,7 +35,7 @@ def dialog(tab: Tab) -> playwright.Locator:
 
 
 def answer(tab: Tab) -> object:
-    """What the dialog was closed with."""
+    """Return the answer the dialog was closed with."""
     return tab.page.evaluate("window.answer")
 
 

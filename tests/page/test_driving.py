@@ -1,4 +1,4 @@
-"""Which set-points of pages count."""
+"""Acceptance of set-points from pages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How the page looks: themes, contrast, tooltips, and states in which something is missing."""
+"""Appearance of the page: themes, contrast, tooltips, and states with something missing."""
 
 from __future__ import annotations
 

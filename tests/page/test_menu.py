@@ -37,7 +37,7 @@ def open_menu(tab: Tab) -> Callable[..., playwright.Locator]:
 
 
 def ran(tab: Tab) -> Any:
-    """What was done."""
+    """Return the executed commands."""
     return tab.page.evaluate("window.ran")
 
 

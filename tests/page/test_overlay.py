@@ -1,4 +1,4 @@
-"""What lies over the scene: axes, scale, legend, what is under the mouse, rates."""
+"""Overlays of the scene: axes, scale, legend, hover, rates."""
 
 from __future__ import annotations
 

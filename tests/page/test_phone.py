@@ -24,7 +24,7 @@ HIT = """(element) => {
   const isHit = (x, y) => element.contains(document.elementFromPoint(x, y));
   return [reach.filter((d) => isHit(x + d, y)).length, reach.filter((d) => isHit(x, y + d)).length];
 }"""
-"""How wide and high an element is for a finger."""
+"""Width and height of an element for a finger."""
 
 
 @pytest.fixture(scope="module")
@@ -133,7 +133,7 @@ def test_of_more_tabs_than_fit_the_open_one_is_in_sight(phone: Tab) -> None:
 
 
 def too_small(phone: Tab) -> list[str]:
-    """What can be tapped in the panel, but is not high enough for it."""
+    """Return the elements of the panel that can be tapped but are too low."""
     return phone.page.locator(".wv-panel").evaluate(
         """(panel, least) => [...panel.querySelectorAll("button, input, select, .wv-row")]
           .filter((one) => one.checkVisibility() && one.getBoundingClientRect().height < least)

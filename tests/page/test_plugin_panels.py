@@ -119,7 +119,7 @@ def tabs(tab: Tab) -> list[str]:
 
 
 def shown(*types: Any) -> tuple[PanelTab, ...]:
-    """What the state has of panels of these types, which are registered."""
+    """Return the state of panels of these registered types."""
     registry.register("tests", {cls.__name__: cls for cls in types if cls.__module__ == __name__})
     names = [f"{cls.__name__}{i or ''}" for i, cls in enumerate(types)]
     tabs = zip(names, types, strict=True)

@@ -19,12 +19,12 @@ CHANGES = """() => {
 
 
 def bar(tab: Tab) -> str:
-    """What the bar says, in one line."""
+    """Return the text of the bar in one line."""
     return " ".join(tab.page.locator(".wv-time").inner_text().split())
 
 
 def shows_seconds(tab: Tab) -> bool:
-    """Whether the bar begins with the time of the clock in seconds."""
+    """Return whether the bar begins with the time of the clock in seconds."""
     first, *_ = bar(tab).split(" ")  # empty while the page loads
     return "." in first and abs(float(first) - time.time()) < 60.0
 

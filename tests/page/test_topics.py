@@ -57,7 +57,7 @@ def names(tab: Tab) -> list[str]:
 
 
 def row(tab: Tab, name: str) -> str:
-    """What a row says, in one line."""
+    """Return the text of a row in one line."""
     rows = tab.page.locator(".wv-topic").all_inner_texts()
     lines = [" ".join(text.split()) for text in rows]
     return next((line for line in lines if line.startswith(name)), "")

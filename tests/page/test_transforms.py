@@ -34,7 +34,7 @@ def panel(tab: Tab) -> Iterator[Tab]:
 
 
 def rows(tab: Tab) -> list[str]:
-    """What the rows say, from top to bottom."""
+    """Return the texts of the rows, from top to bottom."""
     texts = tab.page.locator(".wv-frame").all_inner_texts()
     return [" ".join(text.split()) for text in texts]
 

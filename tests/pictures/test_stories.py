@@ -28,7 +28,7 @@ START = Pose2D(-2.0, 0.0)
 
 
 def displays() -> tuple[Map, RobotModel, LaserScan, TF]:
-    """What everybody has in the list; TF tells where two frames are."""
+    """Return the displays every story has in its list; TF tells where two frames are."""
     scan = LaserScan(size=0.08, color_transformer="FlatColor", color=(255, 40, 40))
     frames = TF(marker_scale=2.0, all_enabled=False, frames={"odom": True, "base_scan": True})
     return Map(), RobotModel(), scan, frames

@@ -1,4 +1,4 @@
-"""What tests of the pipeline share."""
+"""Fixtures shared by tests of the pipeline."""
 
 from __future__ import annotations
 

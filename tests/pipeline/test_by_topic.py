@@ -1,4 +1,4 @@
-"""Which displays show which topics."""
+"""Displays offered for topics."""
 
 from __future__ import annotations
 

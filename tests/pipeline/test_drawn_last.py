@@ -1,4 +1,4 @@
-"""What stays where it was drawn last, and what a worker draws while properties are set."""
+"""Pictures kept from the last drawing, and drawing in a worker while properties are set."""
 
 from __future__ import annotations
 

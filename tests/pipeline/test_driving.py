@@ -84,7 +84,7 @@ def until(condition: Callable[[], Any]) -> None:
 
 
 def stands(b: Any) -> bool:
-    """Whether a drive ended with zeros, and nothing more."""
+    """Return whether a drive ended with zeros, and nothing more."""
     ended = speeds(b)
     return ended[-TAIL:] == [0.0] * TAIL and ended[-TAIL - 1] > 0.0
 

@@ -1,4 +1,4 @@
-"""What a viewer concludes from several displays: scans beside walls, paths through obstacles."""
+"""Conclusions from several displays: scans beside walls, paths through obstacles."""
 
 from __future__ import annotations
 

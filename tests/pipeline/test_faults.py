@@ -167,7 +167,7 @@ PARTS = {
     "scene.upsert": "",
     "viewer._show": "Panel",
 }
-"""What the frame loop calls, and the key of the status that tells of it; "" is the display's."""
+"""Hook the frame loop calls, and the key of the status that reports it; "" is the display's."""
 
 
 @pytest.mark.parametrize("part", PARTS)

@@ -45,7 +45,7 @@ class Robot:
         return str(answer.exception(0) or "")
 
     def shown(self) -> list[GoalProgress]:
-        """What pages show now."""
+        """Return the goals that pages show now."""
         return list(self.bench.do(Refresh()).goals)
 
     def only(self) -> GoalProgress:

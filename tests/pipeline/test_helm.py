@@ -24,7 +24,7 @@ def make_helm(deceleration: float = 2.0) -> Helm:
 
 
 def drive(helm: Helm, start: float, seconds: float, held: Velocity | None) -> list[Velocity | None]:
-    """What is published while a browser holds something and sends heartbeats, or is silent."""
+    """Return the commands published while a browser holds keys with heartbeats, or is silent."""
     steps = []
     for index in range(round(seconds / PERIOD_S)):
         now = start + index * PERIOD_S

@@ -1,4 +1,4 @@
-"""What a display keeps has a bound in bytes, and says when that is less than was asked for."""
+"""History of a display: bounded in bytes, and reported when less than asked for."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a display may tell the framework besides what to draw."""
+"""Hooks of displays besides drawing."""
 
 from __future__ import annotations
 

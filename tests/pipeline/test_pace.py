@@ -1,4 +1,4 @@
-"""How ROS time goes on, for those who count by themselves."""
+"""Rate of ROS time, for pages that count by themselves."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ WALL = 1_700_000_000.0
 
 
 def paces(rate: float, step_s: float = 0.2, tick_s: float = 0.01) -> list[ClockPace]:
-    """What a simulation at a rate gives in 10 s, whose /clock has these ticks."""
+    """Return the rates a simulation yields in 10 s, given the ticks of its /clock."""
     meter = PaceMeter()
     found = []
     for i in range(int(10 / step_s)):

@@ -20,7 +20,7 @@ from webviz.engine.state import State
 from webviz.shell.testing.source import SECOND
 
 KINDS = (Command, FileCommand, ViewCommand)
-"""What commands are kinds of, and nobody sends."""
+"""Bases of commands, which nobody sends."""
 
 
 class Boom(Exception):

@@ -1,4 +1,4 @@
-"""What was drawn a moment ago: the newest first, within bounds of time and bytes."""
+"""Recently drawn pictures: newest first, bounded in time and bytes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from webviz.engine.pipeline.picking import Shot
 
 
 def shot(count: int = 1) -> Shot:
-    """What was drawn with so many points, of 15 bytes each."""
+    """Return a drawn picture of so many points, of 15 bytes each."""
     node = Points(np.zeros((count, 3), np.float32), np.zeros((count, 3), np.uint8), 0.1)
     groups = cast(Any, {"": SimpleNamespace(nodes={"points": node})})
     return Shot(groups, (), "map")

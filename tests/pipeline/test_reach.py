@@ -45,7 +45,7 @@ class Following(NoCameras):
 
 
 def finite(b: Any) -> bool:
-    """Whether all poses in the scene are."""
+    """Return whether all poses in the scene are."""
     return all(math.isfinite(sum((*p.position, *p.wxyz))) for p in b.scene.poses.values())
 
 

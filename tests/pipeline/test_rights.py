@@ -1,4 +1,4 @@
-"""What tools may publish, call and send: one allow-list for the whole viewer."""
+"""Allow-list of a viewer: what tools may publish, call and send."""
 
 from __future__ import annotations
 

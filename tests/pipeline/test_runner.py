@@ -1,4 +1,4 @@
-"""What a display may rely on, shown with displays of a few lines."""
+"""Guarantees to displays, shown with displays of a few lines."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What browsers select: found in what they show, and asked of its display."""
+"""Selections of browsers: found in what they show, and asked of the display."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def pose(b: Any, x: float) -> None:
 
 
 def told(b: Any, browser: int = 1) -> Any:
-    """What its panel shows of the only thing selected."""
+    """Return what the panel shows of the only selected item."""
     b.viewer._next_panel = 0.0
     b.turn()
     things = {key: each for key, each in b.states[-1].selections[browser].items() if key != "/info"}

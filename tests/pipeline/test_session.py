@@ -1,4 +1,4 @@
-"""What people do to a viewer: files, copies, moves, settings; and what came of it."""
+"""Actions on a viewer: files, copies, moves, settings, and their outcomes."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ from webviz_displays.path import Path as PathDisplay
 
 
 def do(b: Any, command: Command) -> State:
-    """What the panel shows after a command."""
+    """Run a command and return the state that panels show."""
     return b.do(command)
 
 
@@ -56,7 +56,7 @@ def names(state: State) -> list[str]:
 
 
 def offers(b: Any, *names: str) -> bool:
-    """Whether the config files of the folder become these."""
+    """Return whether the config files of the folder become these."""
     return any(do(b, Refresh()).file.others == names or time.sleep(0.01) for _ in range(1000))
 
 

@@ -1,4 +1,4 @@
-"""What panels are spared: parts of a state that are as they were."""
+"""Reuse of unchanged parts of a state."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the tools publish, message for message as RViz2."""
+"""Messages published by the tools, compared with RViz2's."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def b(bench: Callable[..., Any]) -> Any:
 
 
 def use(b: Any, tool: str, x: float, y: float, z: float = 0.0, yaw: float = 0.0) -> Any:
-    """What a tool publishes for a stroke, and to what."""
+    """Return what a tool publishes for a stroke, and where."""
     answer = b.viewer.enqueue(UseTool(tool, ((x, y, z),), yaw))
     b.turn()
     assert answer.result() == ""

@@ -65,7 +65,7 @@ def ids(b: Any) -> dict[str, str]:
 
 
 def labels(b: Any) -> list[str]:
-    """What can be undone, newest first, without the opening of the config."""
+    """Return the undoable steps, newest first, without the opening of the config."""
     return [step.label for step in b.do(Refresh()).history.undo][:-1]
 
 

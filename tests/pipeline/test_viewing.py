@@ -1,4 +1,4 @@
-"""What people ask of views, and how views follow frames."""
+"""Commands for views, and views that follow frames."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ class Looking:
         self.bench, self.cameras = b, cameras
 
     def do(self, command: Command, sender: Sender = PROGRAM) -> State:
-        """What the panel shows after a command."""
+        """Run a command and return the state that panels show."""
         return self.bench.do(command, sender)
 
     def refused(self, command: Command) -> str:
@@ -130,7 +130,7 @@ def test_a_view_command_acts_in_the_browser_that_sends_it_unless_it_names_anothe
     cameras = looking.cameras
 
     def acted(command: Command, sender: Sender) -> tuple[list[Any], ...]:
-        """What differs afterwards, for each browser."""
+        """Return the changes after a command, for each browser."""
         cameras.shown = {ALICE: Orbit(pitch=0.1), BOB: Orbit(pitch=0.3)}
         before = dict(cameras.shown)
         views = looking.do(command, sender).settings.views

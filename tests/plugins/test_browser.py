@@ -71,7 +71,7 @@ def publish(webviz_domain: int) -> Iterator[Callable[[], None]]:
 
 
 def is_drawn(page: Page, rgb: tuple[int, int, int]) -> bool:
-    """Whether the middle of every edge of the polygon has a colour."""
+    """Return whether the middle of every edge of the polygon has a colour."""
     page.draw()
     pixels = page.pixels().astype(int)
     for (x1, y1), (x2, y2) in zip(CORNERS, CORNERS[1:] + CORNERS[:1], strict=True):

@@ -1,4 +1,4 @@
-"""What `--plugin FILE.py` makes of a file, and its one sentence for every mistake."""
+"""Loading of `--plugin FILE.py`, and one sentence for every mistake."""
 
 from __future__ import annotations
 

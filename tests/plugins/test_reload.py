@@ -1,4 +1,4 @@
-"""What becomes of a display while its file is edited."""
+"""Reloading of a display while its file is edited."""
 
 from __future__ import annotations
 

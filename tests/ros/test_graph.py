@@ -1,4 +1,4 @@
-"""What the ROS node sends: messages, service calls and goals, to real nodes over DDS."""
+"""Output of the ROS node: messages, service calls and goals, to real nodes over DDS."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What large messages took is given back once they stop."""
+"""Memory of large messages, returned once they stop."""
 
 from __future__ import annotations
 

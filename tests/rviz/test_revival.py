@@ -1,4 +1,4 @@
-"""What was kept of a .rviz file comes alive when its display is there."""
+"""Revival of kept `.rviz` entries once their display is available."""
 
 from __future__ import annotations
 

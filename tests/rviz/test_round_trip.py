@@ -390,7 +390,7 @@ def test_any_values_are_a_config_that_is_written_again(manager: dict[str, Any]) 
 
 
 def lost_but_shape(before: Any, after: Any) -> list[str]:
-    """What was lost besides lists of displays that are none."""
+    """Return the losses besides lists of displays that are not lists."""
     return [path for path in lost(before, after) if not path.endswith("/Displays")]
 
 

@@ -56,7 +56,7 @@ def current(view: str) -> tuple[View, str]:
 
 
 def exported(config: Config) -> dict[str, Any]:
-    """What is written under "Views"."""
+    """Return the exported "Views" section."""
     text = rviz.write(config)[0]
     return YAML(typ="safe").load(text)["Visualization Manager"]["Views"]
 

@@ -121,7 +121,7 @@ class View(Page):
 
 
 class HasPort(Protocol):
-    """What is needed of a server, which may be in another process."""
+    """Protocol of a server, which may run in another process."""
 
     def get_port(self) -> int:
         """Its port on this machine."""

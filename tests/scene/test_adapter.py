@@ -1,4 +1,4 @@
-"""What we use of viser's private parts is there and does what we need."""
+"""Contract of viser's private parts: they exist and do what we need."""
 
 from __future__ import annotations
 

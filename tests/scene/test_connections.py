@@ -1,4 +1,4 @@
-"""How many may connect, and how much each may send."""
+"""Limits on connections and on what each may send."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What moves by its pose and what moves by its data is never seen apart, however slow the page."""
+"""Consistency of movement by pose and by data, however slow the page."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How many texts a scene sends."""
+"""Number of texts a scene sends."""
 
 from __future__ import annotations
 

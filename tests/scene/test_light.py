@@ -1,4 +1,4 @@
-"""How surfaces are lit, opaque and transparent ones."""
+"""Lighting of opaque and transparent surfaces."""
 
 from __future__ import annotations
 

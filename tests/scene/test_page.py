@@ -1,4 +1,4 @@
-"""What stays in a real browser: no more than what is shown."""
+"""Contents of a real browser: no more than what is shown."""
 
 from __future__ import annotations
 

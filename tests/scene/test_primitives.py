@@ -1,4 +1,4 @@
-"""What a real browser draws: the right thing, in the right place and colour."""
+"""Primitives in a real browser: right thing, place and colour."""
 
 from __future__ import annotations
 

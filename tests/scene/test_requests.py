@@ -1,4 +1,4 @@
-"""What the server answers to requests that are not a browser's."""
+"""Answers to requests that are not a browser's."""
 
 from __future__ import annotations
 

@@ -195,7 +195,7 @@ def cloud(count: int) -> dict[str, np.ndarray]:
 
 
 def taken(queue: Queue, seconds: float = 10.0) -> list[Any]:
-    """What is sent meanwhile."""
+    """Return the messages sent meanwhile."""
     sent = []
     until = queue.now + seconds
     while queue.now < until:

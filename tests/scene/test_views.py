@@ -51,7 +51,7 @@ class Window(Page):
 
     @property
     def view(self) -> View:
-        """What the server believes is shown."""
+        """Return the view the server believes is shown."""
         (view,) = self.scene.cameras.views().values()
         return view
 
@@ -82,7 +82,7 @@ class Window(Page):
         return self.view
 
     def is_red(self) -> NDArray[np.bool_]:
-        """Which pixels are red."""
+        """Return the mask of red pixels."""
         pixels = self.pixels().astype(int)
         return (pixels[..., 0] > 90) & (pixels[..., 1] < 60) & (pixels[..., 2] < 60)
 

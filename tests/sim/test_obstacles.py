@@ -1,4 +1,4 @@
-"""What no map has: people, boxes and other robots, as the scanner and the robot meet them."""
+"""Obstacles no map has: people, boxes and other robots, for the scanner and the robot."""
 
 import math
 

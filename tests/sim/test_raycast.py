@@ -29,7 +29,7 @@ def brute_force(occupied, x, y, angle):
 
 
 def passes_a_corner(x, y, angle, size):
-    """Whether a ray passes so close to a corner that rounding decides which cells it meets."""
+    """Return whether a ray passes so close to a corner that rounding decides the cells it meets."""
     corners = np.stack(np.meshgrid(np.arange(size + 1), np.arange(size + 1)), -1).reshape(-1, 2)
     across = np.array([-math.sin(angle), math.cos(angle)])
     return (np.abs((corners - (x, y)) @ across) < 1e-9).any()

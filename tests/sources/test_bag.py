@@ -1,4 +1,4 @@
-"""What a bag delivers, and when."""
+"""Messages of a bag and the times they are delivered."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is given beside a bag."""
+"""Sources beside a bag."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ from webviz.data.recordings import open_recording
 from webviz.engine.sources.bag import BagError, BagSource
 
 ZSTD = b"\x28\xb5\x2f\xfd"
-"""What compressed data begins with."""
+"""First bytes of compressed data."""
 DAMAGED = Path(__file__).parents[3] / "shared/data/bags/damaged"
 
 
@@ -228,7 +228,7 @@ def _noisy(count: int, kilobytes: int = 8) -> Bag:
 
 
 def _beginning(recorded: Bag, heard: Sequence[str]) -> int:
-    """How many messages were heard, which are the first."""
+    """Return the number of messages received, which are the first of the recording."""
     assert list(heard) == _texts(recorded)[: len(heard)]
     return len(heard)
 

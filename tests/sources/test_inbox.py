@@ -1,4 +1,4 @@
-"""What the inbox keeps until the next turn."""
+"""Messages the inbox keeps until the next tick."""
 
 from __future__ import annotations
 

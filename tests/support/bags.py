@@ -27,7 +27,7 @@ START_NS = 1_700_000_000 * SECOND
 
 @dataclass
 class Topic:
-    """How a topic of a bag was published."""
+    """Publication settings of a topic of a bag."""
 
     type: str
     latched: bool = False
@@ -39,7 +39,7 @@ class Topic:
 
 @dataclass
 class Bag:
-    """What is to be recorded: (seconds from the start, topic, values or bytes)."""
+    """Bag to record: (seconds from the start, topic, values or bytes)."""
 
     topics: dict[str, Topic] = field(default_factory=dict)
     messages: list[tuple[float, str, Mapping[str, Any] | bytes]] = field(default_factory=list)

@@ -19,7 +19,7 @@ HALF = math.sqrt(0.5)
 ALONG_X = Quaternion(w=HALF, x=HALF)
 ALONG_Y = Quaternion(w=HALF, z=HALF)
 ALONG_Z = Quaternion(w=HALF, y=HALF)
-"""What turns the x axis of a control to that axis, or to its opposite."""
+"""Rotation from the x axis of a control to that axis, or to its opposite."""
 
 
 def box(scale: float) -> Marker:

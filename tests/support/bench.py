@@ -96,7 +96,7 @@ class Bench:
         self.viewer.turn()
 
     def do(self, command: Command, sender: Sender = PROGRAM) -> State:
-        """What the panel shows after a command."""
+        """Run a command and return the state that panels show."""
         self.until_done(self.viewer.enqueue(command, sender))
         return self.states[-1]
 

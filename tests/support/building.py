@@ -38,7 +38,7 @@ def with_box(x: float, y: float, edge: float) -> World:
 
 
 def scan(laser: Pose2D, world: World = WORLD) -> dict[str, Any]:
-    """What a laser there measures, as a sensor_msgs/LaserScan."""
+    """Return the scan of a laser there, as a sensor_msgs/LaserScan."""
     random = np.random.default_rng(0)
     measured = lidar.scan(world, laser, laser, LIDAR, random)
     return {

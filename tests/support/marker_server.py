@@ -45,9 +45,9 @@ class MarkerServer:
 
     def __init__(self, namespace: str, domain: int, markers: Sequence[InteractiveMarker]) -> None:
         self.feedback: list[Feedback] = []
-        """What was received, oldest first, of all clients that were listened to."""
+        """Feedback received, oldest first, from all clients listened to."""
         self.requests = 0
-        """How often all markers were asked for."""
+        """Number of requests for all markers."""
         self.callback: Callable[[Feedback], object] = lambda feedback: None
         """Called with each feedback, before changes are applied."""
         self.markers = {marker.name: marker for marker in markers}

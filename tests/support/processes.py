@@ -43,7 +43,7 @@ def no_thread_left() -> Iterator[None]:
 
 
 def eventually(condition: Callable[[], bool]) -> bool:
-    """Whether a condition holds within a minute."""
+    """Return whether a condition holds within a minute."""
     deadline = time.monotonic() + PATIENCE_S
     while not condition():
         if time.monotonic() > deadline:

@@ -119,7 +119,7 @@ def substituted(text: str, changes: dict[str, str]) -> str:
 
 
 def accepts(port: int) -> bool:
-    """Whether something listens on a port of this machine."""
+    """Return whether something listens on a port of this machine."""
     try:
         socket.create_connection(("127.0.0.1", port), timeout=5).close()
     except OSError:

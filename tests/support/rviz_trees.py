@@ -1,4 +1,4 @@
-"""How the YAML of .rviz files is compared."""
+"""Comparison of the YAML of .rviz files."""
 
 from __future__ import annotations
 

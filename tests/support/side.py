@@ -1,4 +1,4 @@
-"""What a person does with the side of a page, in tests of whole programs."""
+"""Actions of a person at the side of a page, in tests of whole programs."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ import threading
 
 CHUNK = 1 << 12
 BUFFER_BYTES = 1 << 18
-"""What waits in the router before the link, at most; further bytes wait at their senders."""
+"""Maximum bytes waiting in the router before the link; further bytes wait at their senders."""
 
 
 class SlowLink:

@@ -1,4 +1,4 @@
-"""What the buffer stores, changes and refuses: tf2's setTransform tests and its surprises."""
+"""Insertions into the buffer: tf2's setTransform tests and its surprises."""
 
 import math
 from collections.abc import Callable

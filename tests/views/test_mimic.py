@@ -43,7 +43,7 @@ def seen_as(view: View, cls: type[Any]) -> Any:
 
 
 def same_picture(a: Camera, b: Camera) -> bool:
-    """Whether two cameras stand in one place and look in one direction."""
+    """Return whether two cameras stand in one place and look in one direction."""
     lines = [(c.look_at - c.position) / c.distance for c in (a, b)]
     return np.allclose(a.position, b.position, atol=1e-3) and np.allclose(*lines, atol=1e-4)
 

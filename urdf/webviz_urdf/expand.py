@@ -74,7 +74,7 @@ def expand(path: Path) -> str:
 
 
 def _run(path: Path) -> tuple[bytes, int, bool]:
-    """What xacro writes, a byte more than allowed at most; its status; whether it took too long."""
+    """Return xacro's output (one byte beyond the limit at most), status, and a timeout flag."""
     # Tokens are in variables of webviz.
     environment = {k: v for k, v in os.environ.items() if not k.startswith("WEBVIZ_")}
     with subprocess.Popen(

@@ -18,7 +18,7 @@ OPAQUE = 0.9998
 
 @dataclass(frozen=True)
 class Surface:
-    """How a part looks.
+    """Appearance of a part.
 
     Args:
         rgba: 0 to 1, sRGB; multiplies texture and vertex colours.

@@ -23,7 +23,7 @@ START_S = 60.0
 """For a process to start and to read the description."""
 
 IDLE_S = 60.0
-"""How long a process is kept for the next robot; its imports take as long as a robot does."""
+"""Idle time before a process for robots ends; its imports take as long as a robot does."""
 
 MAX_MEMORY = 3 << 30
 """Bytes of address space of a process; half a gigabyte of it is taken by its imports."""

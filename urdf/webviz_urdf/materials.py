@@ -1,4 +1,4 @@
-"""Which URDF material a visual has, by urdfdom's and RViz's rules.
+"""URDF materials of visuals, by urdfdom's and RViz's rules.
 
 Names are global: the robot's own materials come first, then those defined inside links, in the
 order of the text; the first definition of a name wins, also over a visual's own colour

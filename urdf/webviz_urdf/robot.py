@@ -79,7 +79,7 @@ class Mimic:
 
 @dataclass(frozen=True)
 class Joint:
-    """How a child link moves relative to its parent.
+    """Motion of a child link relative to its parent.
 
     Args:
         name: unique in the robot.

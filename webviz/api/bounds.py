@@ -87,7 +87,7 @@ def _of_instances(node: Instances) -> Extents:
 
 
 def _half_size(shape: Solid | Shape) -> Any:
-    """How far a shape reaches from its origin along each axis, at scale 1."""
+    """Return the extent of a shape from its origin along each axis, at scale 1."""
     if isinstance(shape, str):
         return 0.5
     return np.abs(shape.vertices.astype(np.float64)).max(axis=0, initial=0.0)

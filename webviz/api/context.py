@@ -47,7 +47,7 @@ class Placement:
 
 @dataclass(frozen=True)
 class ColorScale:
-    """Which values colours stand for.
+    """Range of values that colours stand for.
 
     Args:
         label: what the values are, such as "intensity" or "x (m)".

@@ -70,7 +70,7 @@ class Sync:
 
 @dataclass(frozen=True)
 class Keep:
-    """How much history the framework holds for each input of a display.
+    """Amount of history the framework holds for each input of a display.
 
     Args:
         count: number of newest samples to hold; 0 is unlimited.
@@ -87,7 +87,7 @@ class Display(Declared, kw_only=True):
     kind = "display"
 
     is_threaded: ClassVar[bool] = False
-    """Whether `fold` and `draw` run in a thread for large messages, while the frame loop goes on.
+    """True if `fold` and `draw` run in a thread for large messages, while the frame loop goes on.
 
     They then get a copy of the display, must not change what they are given, and must use neither
     `ctx.frames` nor `ctx.background`. The previous result stays until the new one is there, and
@@ -96,12 +96,12 @@ class Display(Declared, kw_only=True):
     slow_bytes: ClassVar[int] = 8_000_000
     """From which size on a message is large: it takes longer than the way to a thread and back."""
     has_pane: ClassVar[bool] = False
-    """Whether it draws a `webviz.Pane`, for which pages keep a place beside the scene."""
+    """True if it draws a `webviz.Pane`, for which pages keep a place beside the scene."""
     sync: ClassVar[Sync | None] = None
     """Inputs that are drawn together; others are drawn as their messages arrive."""
 
     offered_for: ClassVar[Namespace | None] = None
-    """What Add by topic offers it for, besides the topics of its inputs."""
+    """Topics that Add by topic offers it for, besides those of its inputs."""
 
     name: Annotated[str, msgspec.Meta(description="Shown in the list of displays.")] = ""
     enabled: Annotated[bool, msgspec.Meta(description="Draw this display.")] = True
@@ -119,21 +119,21 @@ class Display(Declared, kw_only=True):
         return ()
 
     def history(self) -> Keep:
-        """How much history to hold; all held samples stay drawn.
+        """Return the amount of history to hold; all held samples stay drawn.
 
         By default as many as a property `history_length` says, else the newest.
         """
         return Keep(count=getattr(self, "history_length", 1))
 
     def listens(self, name: str) -> bool:
-        """Whether to subscribe to the input `name`, given the properties.
+        """Return whether to subscribe to the input `name`, given the properties.
 
         Samples received before are kept.
         """
         return True
 
     def waits(self, name: str) -> bool:
-        """Whether messages of the input `name` wait for the transform at their stamp.
+        """Return whether messages of the input `name` wait for the transform at their stamp.
 
         A display that follows the frame itself returns False; its samples have the current pose
         of the frame, or the identity without one.
@@ -141,14 +141,14 @@ class Display(Declared, kw_only=True):
         return True
 
     def duration_ns(self, message: Any) -> int:
-        """How long a message lasts after its stamp; it waits for transforms until then.
+        """Return the duration of a message after its stamp; it waits for transforms until then.
 
         Messages of a display that defines this are decoded as they arrive, all others when drawn.
         """
         return 0
 
     def accept(self, new: Sample, kept: Sequence[Sample]) -> bool | str:
-        """Whether to hold a new sample, given those held of its input (oldest first).
+        """Return whether to hold a new sample, given those held of its input (oldest first).
 
         A text reports why the message cannot be shown.
         """
@@ -163,7 +163,7 @@ class Display(Declared, kw_only=True):
         return sample.message
 
     def depends(self, ctx: Context) -> object:
-        """What drawing depends on besides properties and messages, such as the lost frames.
+        """Return what drawing depends on besides properties and messages, such as the lost frames.
 
         Called on every turn of the frame loop; everything is redrawn when the result changes. So a
         display that seldom changes can draw in `draw_all` at little cost. Nodes and statuses
@@ -194,7 +194,7 @@ class Display(Declared, kw_only=True):
         """
 
     def handles(self, ctx: Context) -> Mapping[str, Handle]:
-        """What browsers can grip, by key; the same mapping until something changes.
+        """Return the handles browsers can drag, by key; the same mapping until something changes.
 
         Called on every turn of the frame loop, after `talk`.
         """
@@ -204,7 +204,7 @@ class Display(Declared, kw_only=True):
         """Take up what a browser does with a handle. One at a time holds it."""
 
     def evidence(self, samples: Sequence[Sample], ctx: Context) -> Evidence | None:
-        """What the held samples, oldest first, say about where things are.
+        """Return the held samples, oldest first, as inputs of the consistency check.
 
         The viewer compares it with that of other displays and reports contradictions. Called once
         a second while something of the display is drawn; nodes and statuses added to `ctx` are
@@ -213,7 +213,7 @@ class Display(Declared, kw_only=True):
         return None
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
-        """What is known of something that was selected; None if it does not exist any more.
+        """Return the details of a selected item; None if it does not exist any more.
 
         The name of the display, the frame, the stamp and the position are added. Called again twice
         a second while a browser shows the selection; nodes and statuses added to `ctx` are ignored.
@@ -226,7 +226,7 @@ D = TypeVar("D", bound=Display)
 
 
 def overrides(display: Display, hook: str) -> bool:
-    """Whether a display overrides a hook."""
+    """Return whether a display overrides a hook."""
     return getattr(type(display), hook) is not getattr(Display, hook)
 
 

@@ -1,4 +1,4 @@
-"""What displays know of where things are, so that the viewer can compare them.
+"""Inputs of the consistency check between displays.
 
 A laser scan that lies beside the walls of the map, or a path that leads through what the scan sees,
 is a fault that no display finds alone. A display returns one of these from `Display.evidence`.
@@ -32,7 +32,7 @@ class Hits:
 
 @dataclass(frozen=True, eq=False)
 class Walls:
-    """What is occupied, according to a map.
+    """Occupied cells of a map.
 
     Args:
         topic: of the map.

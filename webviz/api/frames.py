@@ -175,7 +175,7 @@ def to_pose(transform: Transform) -> Pose:
 
 
 def is_placeable(pose: Pose) -> bool:
-    """Whether a pose is finite and within `REACH_M`, so that it can be drawn."""
+    """Return whether a pose is finite and within `REACH_M`, so that it can be drawn."""
     return is_within_reach(_flat(pose))
 
 

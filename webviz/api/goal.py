@@ -1,4 +1,4 @@
-"""What a tool asks of an action, and how its progress reads."""
+"""Goals of tools for actions, and the text of their progress."""
 
 from __future__ import annotations
 

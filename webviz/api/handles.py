@@ -1,4 +1,4 @@
-"""What browsers grip and move: handles with controls, and what people do with them.
+"""Handles that browsers drag: controls, and the events of people.
 
 A display that has some overrides `Display.handles` and `Display.grip`. Pages follow a drag at their
 own frame rate, with the rules of `Control`, and report it as grips.
@@ -23,10 +23,10 @@ Mode = Literal[
     "rotate_3d",
     "move_rotate_3d",
 ]
-"""What a drag does: those of visualization_msgs/InteractiveMarkerControl, in its order."""
+"""Effect of a drag: the modes of visualization_msgs/InteractiveMarkerControl, in its order."""
 
 Facing = Literal["inherit", "fixed", "view_facing"]
-"""How a control is turned: with the handle, not with it, or towards the camera."""
+"""Orientation of a control: with the handle, independent of it, or towards the camera."""
 
 Wxyz = tuple[float, float, float, float]
 Position = tuple[float, float, float]

@@ -18,12 +18,12 @@ from webviz.api.pictures import Picture, Sight
 F32 = NDArray[np.float32]
 U8 = NDArray[np.uint8]
 Ids = NDArray[Any]
-"""What identifies each item of a node when it is selected: the `Hit.id` of `Display.inspect`."""
+"""Ids of the items of a node when selected: the `Hit.id` of `Display.inspect`."""
 Rgb = tuple[int, int, int]
 Solid = Literal["box", "sphere", "cylinder", "cone"]
 
 POINTS_HELD = 400_000
-"""How many points a browser draws fast enough, as long as it has not measured it."""
+"""Number of points a browser draws fast enough, until it has measured it."""
 
 POINTS_PER_BLOCK = 1 << 15
 """Of `Points` that browsers may thin."""
@@ -50,7 +50,7 @@ class _Node:
 
 
 def same(a: object, b: object) -> bool:
-    """Whether two values are equal; stops at the first difference of arrays."""
+    """Return whether two values are equal; stops at the first difference of arrays."""
     if a is b:
         return True
     if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
@@ -298,7 +298,7 @@ Node = Points | Lines | Arrows | Axes | Labels | Mesh | Instances | Models | Glb
 
 
 def has_content(node: Node) -> bool:
-    """Whether a node has any content."""
+    """Return whether a node has any content."""
     if isinstance(node, Pane):
         return True
     content = getattr(node, fields(node)[0].name)

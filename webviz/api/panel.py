@@ -180,7 +180,7 @@ class Panel(Declared, kw_only=True, dict=True):
     """Tabs with a lower number come first; those with the same one are sorted by name."""
 
     on_request: ClassVar[bool] = False
-    """Whether it is shown only if the config or somebody adds it."""
+    """True if it is shown only if the config or somebody adds it."""
 
     def build(self, ui: Ui, send: Send) -> None:
         """Build the tab. Called once, before the first `show`."""

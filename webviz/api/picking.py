@@ -1,4 +1,4 @@
-"""What was selected in the scene, and what its display says about it.
+"""Selected items of the scene, and the details their displays report.
 
 def inspect(self, hit, ctx):
     wheel = hit.sample.message.wheels[hit.id]
@@ -45,7 +45,7 @@ class Hit:
 
 @dataclass(frozen=True)
 class Details:
-    """What is known of something that was selected.
+    """Details of a selected item.
 
     Args:
         title: what it is, such as "Point 12".
@@ -58,7 +58,7 @@ class Details:
 
 
 def noun_of(node: Node) -> str:
-    """What an item of a node is called."""
+    """Return the noun for an item of a node."""
     if isinstance(node, Instances) and isinstance(node.shape, str):
         return node.shape.capitalize()
     return _NOUNS.get(type(node), "Mesh")

@@ -149,7 +149,7 @@ Picture = Pixels | Encoded | Video | Readout
 
 @dataclass(frozen=True, eq=False)
 class Warp:
-    """How an image is bent to show what a camera without distortion sees; equal only to itself.
+    """Distortion of an image to a camera without distortion; equal only to itself.
 
     Args:
         grid: float32 (R, C, 2), see `webviz.data.images.Lens.grid`.
@@ -160,7 +160,7 @@ class Warp:
 
 @dataclass(frozen=True)
 class Sight:
-    """How a camera sees the scene, so that a page draws it over and under a picture.
+    """Overlay camera: a page draws the scene through it over and under a picture.
 
     Args:
         position, wxyz: of the optical frame's centre of projection in the fixed frame, metres and a

@@ -50,7 +50,7 @@ class Input:
 
     @property
     def follows(self) -> bool:
-        """Whether its topic follows from that of the first input."""
+        """Return whether its topic follows from that of the first input."""
         return bool(self.suffix or self.beside)
 
     def named_after(self, first: str) -> str:

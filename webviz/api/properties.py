@@ -58,7 +58,7 @@ class Property:
         return value_at(declared, self.path)
 
     def applies(self, declared: msgspec.Struct) -> bool:
-        """Whether the other properties let it have an effect."""
+        """Return whether the other properties let it have an effect."""
         return all(value_at(declared, path) in values for path, values in self.when)
 
 

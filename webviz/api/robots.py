@@ -39,7 +39,7 @@ class NamespacedRobot(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def root(self) -> str:
-        """What the full names of its topics begin with."""
+        """Return the prefix of the full names of its topics."""
         return f"/{self.name}/"
 
     def frame(self, name: str) -> str:

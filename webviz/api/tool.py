@@ -260,7 +260,7 @@ class Tool(Declared, kw_only=True):
     """Place in a toolbar that no config orders; those of webviz come first, as in RViz."""
     gesture: ClassVar[Gesture] = "point"
     surface: ClassVar[bool] = False
-    """Whether a gesture starts on the surface under the pointer instead of on the ground, the plane
+    """True if a gesture starts on the surface under the pointer instead of on the ground, the plane
     z = 0 of the fixed frame."""
     several: ClassVar[tuple[str, ...]] = ()
     """Labels of the buttons that send several poses, which the page collects; () for one pose per
@@ -270,12 +270,12 @@ class Tool(Declared, kw_only=True):
 
     @property
     def stays(self) -> bool:
-        """Whether it remains the active tool after a gesture."""
+        """Return whether it remains the active tool after a gesture."""
         return False
 
     @property
     def asks(self) -> bool:
-        """Whether pages ask before they send a gesture, as its property `confirm` says."""
+        """Return whether pages ask before they send a gesture, as its property `confirm` says."""
         return getattr(self, "confirm", False)
 
     @property
@@ -288,7 +288,7 @@ class Tool(Declared, kw_only=True):
 
     @property
     def vehicle(self) -> Vehicle | None:
-        """What it drives, with the present properties; None unless its gesture is "drive"."""
+        """Return the vehicle, with the present properties; None unless its gesture is "drive"."""
         return None
 
     def done(self, stroke: Stroke, ctx: ToolContext) -> None:

@@ -1,4 +1,4 @@
-"""What a tool that drives a robot declares about it."""
+"""Vehicle declared by a tool that drives a robot."""
 
 from __future__ import annotations
 

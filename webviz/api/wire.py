@@ -1,4 +1,4 @@
-"""How a display follows a protocol of its own: topics, services and publishers at run time."""
+"""Protocol client of a display: topics, services and publishers at run time."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any, Protocol
 
 @dataclass(frozen=True)
 class Heard:
-    """What has happened on a topic since the last call.
+    """Events on a topic since the last call.
 
     Args:
         messages: serialised with the encapsulation header, oldest first; each is passed once.

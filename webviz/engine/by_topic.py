@@ -1,4 +1,4 @@
-"""Which displays could show which live topics."""
+"""Displays that can show live topics."""
 
 from __future__ import annotations
 

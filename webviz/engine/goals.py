@@ -73,16 +73,16 @@ class RunningGoal:
 
     @property
     def is_active(self) -> bool:
-        """Whether it has not ended."""
+        """Return whether it has not ended."""
         return self.outcome is None
 
     @property
     def is_replaced(self) -> bool:
-        """Whether the server has accepted another goal instead, so that it should end this one."""
+        """Return whether the server accepted another goal instead, so that this one should end."""
         return self._replaced_s is not None
 
     def is_stuck(self, now: float) -> bool:
-        """Whether the server has not ended it although it was asked to a while ago."""
+        """Return whether the server has not ended it although it was asked to a while ago."""
         return self.is_active and self._asked_s is not None and now > self._asked_s + SILENCE_S
 
     def cancel(self) -> None:
@@ -120,7 +120,7 @@ class RunningGoal:
             self._follow_cancel(self._sent, now)
 
     def progress(self, now: float) -> GoalProgress:
-        """What pages show of it."""
+        """Return the progress pages show."""
         shown = self.shown
         if self.outcome is not None:
             return replace(shown, phase="ended", status=self.outcome, values={})

@@ -50,7 +50,7 @@ IDLE_S = 0.25
 """Interval of turns while nothing arrives: ages in statuses, frames that fade."""
 PANEL_S = 0.2
 FAILURE_S = 15.0
-"""How long the failure of a part is shown."""
+"""Duration for which the failure of a part is shown."""
 
 
 class FrameLoop:
@@ -236,7 +236,7 @@ class FrameLoop:
         return replace(state, statuses=statuses | crashed | self._showing.statuses)
 
     def is_busy(self) -> bool:
-        """Whether a display is loading something that it has not drawn yet."""
+        """Return whether a display is loading something that it has not drawn yet."""
         return any(runner.is_busy() for runner in self._displays.list.active())
 
     def config(self) -> Config:

@@ -1,4 +1,4 @@
-"""Whether a laser scan fits a map, and what would make it fit; whether it lies on a path."""
+"""Fit of laser scans to a map, the correction that improves it, and obstacles on paths."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ OCCUPIED = 65
 REACH_CELLS = 300
 """Cells around the laser, in each direction, within which points are compared."""
 SHIFT_M = 3.0
-"""How far away a better place is looked for."""
+"""Radius of the search for a better place."""
 
 WIDTH_M = 0.1
 """Distance from a path within which a point is in the way of any robot."""
@@ -58,7 +58,7 @@ _FINE_SHIFTS = _square(0.3, 0.05)
 
 @dataclass(frozen=True)
 class Fit:
-    """How well a scan fits.
+    """Quality of the fit of a scan.
 
     Args:
         share: of `points` that lie on walls.
@@ -78,12 +78,12 @@ class Fit:
 
     @property
     def is_cured(self) -> bool:
-        """Whether something would make it fit."""
+        """Return whether something would make it fit."""
         return self.is_mirrored or self.turn is not None or self.shift is not None
 
     @property
     def is_good(self) -> bool:
-        """Whether the scan belongs where it is, as far as can be known."""
+        """Return whether the scan belongs where it is, as far as can be known."""
         return self.share >= GOOD or (self.share >= BAD and not self.is_cured)
 
 
@@ -161,7 +161,7 @@ def fit(
 
 
 def in_the_way(laser: complex, points: C128, way: C128) -> int:
-    """How many points of a scan lie on a path, where the robot would hit them.
+    """Return the number of points of a scan on a path, where the robot would hit them.
 
     Those on the robot itself and around the end of the path, where it may stop, do not count.
 

@@ -1,4 +1,4 @@
-"""What a viewer may publish, call and send if its config has no list of that."""
+"""Default allow-list of a viewer whose config has none."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 log = logging.getLogger("webviz")
 
 POLL_S = 1.0
-"""How often files are checked for changes."""
+"""Interval between checks of files for changes."""
 STATUS = "Plugin"
 """Key of the status of a reload."""
 

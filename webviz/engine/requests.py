@@ -20,7 +20,7 @@ MAX_REQUESTS = 1000
 MAX_FILES = 20
 """File commands of programs that wait for the disk; of each browser it is one."""
 ENDING_S = 1.0
-"""How long `end` waits for a file that is being written."""
+"""Time `end` waits for a file that is being written."""
 ENDED = "The viewer has ended."
 
 T = TypeVar("T")

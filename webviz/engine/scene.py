@@ -81,15 +81,15 @@ class Scene(DrawingScene, Protocol):
         ...
 
     def has_watchers(self) -> bool:
-        """Whether any browser is connected."""
+        """Return whether any browser is connected."""
         ...
 
     def is_unseen(self, display: str) -> bool:
-        """Whether pages have a pane for a display, by its id, but none has shown it for a while."""
+        """Return whether pages have a pane for a display id, but none has shown it for a while."""
         ...
 
     def points_held(self) -> int:
-        """How many points every connected browser draws fast enough."""
+        """Return the number of points every connected browser draws fast enough."""
         ...
 
     def set_background(self, rgb: Color) -> None:

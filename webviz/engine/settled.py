@@ -1,4 +1,4 @@
-"""Which parts of a state are as they were before, for panels that skip those."""
+"""Memoised parts of a state: unchanged ones are reused, so that panels skip them."""
 
 from __future__ import annotations
 

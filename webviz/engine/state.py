@@ -72,7 +72,7 @@ class ConfigFile:
 
 @dataclass(frozen=True)
 class ClockPace:
-    """How ROS time goes on, for pages that count by themselves.
+    """Rate of ROS time, for pages that count by themselves.
 
     Args:
         ros_ns, wall_s: ROS time, and wall time in seconds since 1970, of one moment.
@@ -115,7 +115,7 @@ class PanelTimes:
 
 @dataclass(frozen=True)
 class Traffic:
-    """What arrives on a topic, over the last seconds.
+    """Traffic of a topic over the last seconds.
 
     Args:
         rate_hz, bytes_per_s: over the last seconds.
@@ -272,7 +272,7 @@ class Step:
 
 @dataclass(frozen=True)
 class UndoHistory:
-    """What can be undone and redone, each with the newest step first."""
+    """Undo and redo steps, each with the newest first."""
 
     undo: tuple[Step, ...] = ()
     redo: tuple[Step, ...] = ()

@@ -10,7 +10,7 @@ from webviz.data.transforms.explain import unknown_fixed_frame
 
 
 def fixed_frame_status(fixed_frame: str, buffer: TransformBuffer) -> Status:
-    """Whether the fixed frame is known."""
+    """Return whether the fixed frame is known."""
     known = buffer.frames()
     if fixed_frame in known:
         return Status(Level.OK, "OK")

@@ -104,7 +104,7 @@ class Tracer:
         self._asked.setdefault(display, []).append(answer)
 
     def wants(self, display: str) -> bool:
-        """Whether the next sample of a display is to be traced."""
+        """Return whether the next sample of a display is to be traced."""
         return display in self._asked
 
     def decoded(self, display: str, sample: Sample, raw: Raw, ready_s: float, at_s: float) -> None:

@@ -78,7 +78,7 @@ def save(config: Config, path: Path) -> list[str]:
 
 
 def _is_kept(item: Item) -> bool:
-    """Whether the displays include unsupported ones of a .rviz file, in groups too."""
+    """Return whether the displays include unsupported ones of a .rviz file, in groups too."""
     if isinstance(item, Branch):
         return any(map(_is_kept, item.displays))
     return isinstance(item, Unreadable) and item.is_from_rviz

@@ -15,7 +15,7 @@ from webviz.engine.commands import CallService, SendGoal
 
 DOCK, UNDOCK = "dock_robot", "undock_robot"
 ASK_S = 5.0
-"""How often the docking server is asked for its types until it answers."""
+"""Interval between requests for the types of the docking server, until it answers."""
 STAGING_S, UNDOCKING_S = 1000.0, 30.0
 """Times allowed for the way to the staging pose, and for undocking; the actions' defaults."""
 DEFAULT = "Default"
@@ -59,7 +59,7 @@ class Docking(Panel):
     frame_id: Annotated[str, Prop(widget="frame", help="Frame of the dock's pose.")] = "map"
 
     def build(self, ui: Ui, send: Send) -> None:
-        """What the goal says, and two buttons."""
+        """Build the text of the goal and two buttons."""
         self.send = send
         self.asked_s = 0.0
         self.types: list[str] | None = None
@@ -171,7 +171,7 @@ class Docking(Panel):
 
 
 def progress(feedback: Any) -> dict[str, str]:
-    """What the feedback of DockRobot says."""
+    """Return the progress in the feedback of DockRobot."""
     return {
         "State": STATES.get(feedback.state, "unknown"),
         "Time taken": f"{feedback.docking_time.sec} s",
@@ -180,7 +180,7 @@ def progress(feedback: Any) -> dict[str, str]:
 
 
 def fault(result: Any) -> str:
-    """What went wrong according to a result; "" for nothing."""
+    """Return the fault in a result; "" for none."""
     if result.success:
         return ""
     reason = result.error_msg or ERRORS.get(result.error_code, "no reason given")

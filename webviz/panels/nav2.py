@@ -14,7 +14,7 @@ from webviz.engine.commands import CallService
 from webviz.tools.nav2_goal import progress
 
 ASK_S = 1.0
-"""How often the lifecycle managers are asked."""
+"""Interval between requests to the lifecycle managers."""
 STARTUP, PAUSE, RESUME, RESET, SHUTDOWN = range(5)
 """Commands of nav2_msgs/srv/ManageLifecycleNodes."""
 BUTTONS = (

@@ -14,7 +14,7 @@ from webviz.data.words import listed
 from webviz.engine.commands import CallService, Publish
 
 ASK_S = 5.0
-"""How often servers that have not answered are asked."""
+"""Interval between requests to servers that have not answered."""
 DEFAULT = "Default"
 """The choice of Nav2 itself, before somebody chooses."""
 STRING = "std_msgs/msg/String"

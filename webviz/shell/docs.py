@@ -214,7 +214,7 @@ def _types(declared: Input) -> str:
 
 
 def _default_topic(declared: Input) -> str:
-    """What an input without a topic of its own subscribes to."""
+    """Return the default subscription of an input without a topic of its own."""
     if declared.beside:
         return f"`{declared.beside}` beside the first topic"
     return f"the first topic + `{declared.suffix}`" if declared.suffix else "none"
@@ -259,7 +259,7 @@ def values(each: Property | inspect.Field) -> str:
 
 
 def is_topic(each: Property) -> bool:
-    """Whether a property is a topic, whose keys have their own table."""
+    """Return whether a property is a topic, whose keys have their own table."""
     return isinstance(each.type, inspect.StructType) and each.type.cls is Topic
 
 

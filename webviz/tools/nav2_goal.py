@@ -115,7 +115,7 @@ def _remedy(node: str) -> str:
 
 
 def progress(feedback: Any) -> dict[str, str]:
-    """What the feedback of NavigateToPose and NavigateThroughPoses says."""
+    """Return the progress in the feedback of NavigateToPose and NavigateThroughPoses."""
     left = feedback.distance_remaining
     values = {
         "Distance left": f"{left:.1f} m" if 0.0 <= left <= EARTH_M else "unknown",
@@ -128,7 +128,7 @@ def progress(feedback: Any) -> dict[str, str]:
 
 
 def at_waypoint(count: int, feedback: Any) -> dict[str, str]:
-    """What the feedback of FollowWaypoints says."""
+    """Return the progress in the feedback of FollowWaypoints."""
     return {"Waypoint": f"{feedback.current_waypoint + 1} of {count}"}
 
 
@@ -143,7 +143,7 @@ def _time(duration: Any) -> str:
 
 
 def _fault(result: Any) -> str:
-    """What went wrong according to a result; "" for nothing."""
+    """Return the fault in a result; "" for none."""
     missed = getattr(result, "missed_waypoints", ())
     if len(missed):
         numbers = ", ".join(str(each.index + 1) for each in missed[:10])

@@ -29,7 +29,7 @@ class PublishPoint(Tool):
 
     @property
     def stays(self) -> bool:
-        """Whether more points may follow."""
+        """Return whether more points may follow."""
         return not self.single_click
 
     def done(self, stroke: Stroke, ctx: ToolContext) -> None:

@@ -120,7 +120,7 @@ class Camera(ImageDisplay):
     def _sight(
         self, picture: Pixels | Encoded, image: Sample, pose: Pose, ctx: Context
     ) -> Sight | None:
-        """How the camera sees the scene, None without a camera info."""
+        """Return the overlay camera for the scene, None without a camera info."""
         try:
             info, late = ctx.state.infos.of(image.stamp_ns)
         except LookupError:
@@ -155,7 +155,7 @@ class Camera(ImageDisplay):
     def _warp(
         self, info: Any, whole: CameraModel, size: tuple[int, int], state: _State
     ) -> tuple[Warp | None, str]:
-        """How the image has to be bent, and why it fits or does not."""
+        """Return the distortion to apply to the scene, and why the image fits or does not."""
         if self.undistort == "Never":
             return None, ""
         if self.undistort == "Auto" and _RECTIFIED.search(self.topic.name):

@@ -50,7 +50,7 @@ class _State:
 
 
 class CameraInfo(Display):
-    """What a camera can see, as a pyramid, with its image at the far end on request."""
+    """The view of a camera as a pyramid, with its image at the far end on request."""
 
     rviz = "rviz_default_plugins/CameraInfo"
 

@@ -19,11 +19,11 @@ NEAREST_M, FARTHEST_M = 1e-6, 1e6
 
 U8 = NDArray[np.uint8]
 Behind = Callable[[NDArray[np.float32], NDArray[np.bool_], U8 | None], HiddenPoints]
-"""What an image hides, of its depths, which of them are valid, and its colours."""
+"""Points behind an image: takes its depths, their validity mask and its colours."""
 
 
 class DepthPoints(NamedTuple):
-    """What a depth image and a colour image show.
+    """Points of a depth image and a colour image.
 
     Args:
         xyz: float32 (N, 3), metres in the optical frame.

@@ -15,13 +15,13 @@ U8 = NDArray[np.uint8]
 F32 = NDArray[np.float32]
 
 NEARER_M = 0.01
-"""How much nearer a point has to be to hide another; also how far a camera stays at its place."""
+"""Distance by which a point must be nearer to hide another, and a camera may move."""
 TURNED = math.cos(math.radians(0.5) / 2)
 """Product of two quaternions that are half a degree apart."""
 
 
 class HiddenPoints(NamedTuple):
-    """What was seen behind the points of an image.
+    """Points seen earlier behind those of the newest image.
 
     Args:
         is_hidden: bool (H, W), pixels behind whose point there is another.
@@ -87,7 +87,7 @@ class Hidden:
     def _continues(
         self, depths: F32, colors: U8 | None, model: CameraModel, pose: Pose, now_ns: int
     ) -> bool:
-        """Whether an image shows what the former ones did, as far as can be known."""
+        """Return whether an image shows what the former ones did, as far as can be known."""
         # From where the background was begun, so that a slow drift counts too.
         far = math.dist(pose.position, self._pose.position)
         aligned = abs(float(np.dot(pose.wxyz, self._pose.wxyz)))

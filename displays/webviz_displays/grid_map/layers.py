@@ -78,7 +78,7 @@ class Layers:
         return np.roll(matrix, (-start[0], -start[1]), axis=(0, 1))
 
     def validity(self, height_layer: str | None) -> Mask:
-        """Which cells (rows, columns) have a value in all basic layers and in that of the height.
+        """Return the mask of cells (rows, columns) with a value in all basic layers and the height.
 
         Raises:
             GridMapFault: see `layer`.

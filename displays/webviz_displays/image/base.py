@@ -1,4 +1,4 @@
-"""What displays of images share: their properties, and how a message becomes a picture."""
+"""Base of image displays: common properties, and the way from a message to a picture."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ class ImageDisplay(Display):
     ] = "Grey"
 
     def picture(self, sample: Sample, ctx: Context) -> Pixels | Encoded | None:
-        """What to show of the newest message of `topic`, None if there is nothing yet.
+        """Return the picture of the newest message of `topic`, None if there is none.
 
         `ImageState.number` becomes that of its message.
 
@@ -95,7 +95,7 @@ class ImageDisplay(Display):
         return Pixels(image, self._tone(state.number, image, ctx))
 
     def _tone(self, number: int, image: RawImage, ctx: Context) -> Tone:
-        """How measurements become colours."""
+        """Return the mapping from measurements to colours."""
         low, high = self.min_value, self.max_value
         if not image.layout.is_scaled:
             return Tone()

@@ -99,7 +99,7 @@ def codec_of(name: str) -> str:
 
 
 def is_key(codec: str, data: NDArray[np.uint8], flags: int | None) -> bool:
-    """Whether a packet can be decoded without others.
+    """Return whether a packet can be decoded without others.
 
     Args:
         codec: see `codec_of`.

@@ -126,7 +126,7 @@ class Imu(Display):
     ] = AccelerationSettings()
 
     def draw(self, sample: Sample, ctx: Context) -> None:
-        """What is enabled, at the sensor."""
+        """Draw the enabled parts at the sensor."""
         message = sample.message
         q, a = message.orientation, message.linear_acceleration
         xyzw = np.array((q.x, q.y, q.z, q.w))
@@ -158,7 +158,7 @@ class Imu(Display):
             ctx.ok("Imu", f"Acceleration {_told(a, 'm/s²')}.")
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
-        """What the sensor measures, in its own frame."""
+        """Return what the sensor measures, in its own frame."""
         message, frame = hit.sample.message, hit.sample.frame
         q, turn, acceleration = (
             message.orientation,

@@ -32,7 +32,7 @@ State = Literal["searching", "asking", "running"]
 
 @dataclass(frozen=True)
 class News:
-    """What has changed on a server.
+    """Changes on a server.
 
     Args:
         markers: new or changed ones, visualization_msgs/InteractiveMarker.
@@ -62,7 +62,7 @@ class Client:
     problem: str = ""
     """Why it had to ask again, or could not, a sentence."""
     gaps: int = 0
-    """How often updates were missed."""
+    """Number of gaps in the sequence of updates."""
     _heard: Heard = field(default_factory=Heard)
     _answer: Future[bytes] | None = None
     _next_s: float = 0.0
@@ -93,7 +93,7 @@ class Client:
         return self._take_answer(wire) if self.state == "asking" else []
 
     def status(self, count: int) -> Status:
-        """How it goes, given the number of markers."""
+        """Return the status of the connection, given the number of markers."""
         service, publishers = f"{self.namespace}/get_interactive_markers", self._heard.publishers
         if not publishers:
             text = f"No interactive marker server at {self.namespace}. Start it, or choose another."

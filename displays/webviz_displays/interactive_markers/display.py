@@ -34,7 +34,7 @@ NO_NAMESPACE = "No namespace. Choose that of an interactive marker server."
 
 @dataclass
 class _State:
-    """What is kept between calls.
+    """State kept between calls.
 
     Args:
         server: None without a valid namespace.
@@ -130,7 +130,7 @@ class InteractiveMarkers(Display):
         server.assets.start(ctx)
 
     def tick(self, ctx: Context) -> None:
-        """How the connection is, and what is wrong with markers."""
+        """Report the connection and the problems of markers."""
         state: _State = ctx.state
         if (server := state.server) is None:
             ctx.warn("Server", state.problem)

@@ -35,7 +35,7 @@ TITLE = "title"
 
 @dataclass(frozen=True)
 class MarkerLook:
-    """What is drawn besides controls.
+    """Properties of everything drawn besides controls.
 
     Args:
         titles, axes: whether they are.
@@ -190,7 +190,7 @@ class ShownMarker:
 
 
 def has_own_group(part: CompleteControl) -> bool:
-    """Whether the shapes of a control are turned apart from the marker."""
+    """Return whether the shapes of a control are turned apart from the marker."""
     facing = part.control.facing
     return facing == "fixed" or (facing == "view_facing" and not part.is_independent)
 

@@ -1,4 +1,4 @@
-"""What is sent to an interactive marker server."""
+"""Messages to an interactive marker server."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ Wxyz = tuple[float, float, float, float]
 
 
 def handles_of(mode: Mode, wxyz: Wxyz, scale: float, text: str) -> list[Marker]:
-    """What to draw for a control of a mode; nothing for some.
+    """Return the handles that draw a control of a mode; empty for some modes.
 
     Args:
         wxyz: orientation of the control.

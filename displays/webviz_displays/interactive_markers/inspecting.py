@@ -1,4 +1,4 @@
-"""What is known of an interactive marker that was selected."""
+"""Details of a selected interactive marker."""
 
 from __future__ import annotations
 

@@ -38,7 +38,7 @@ def menu_of(entries: Sequence[Any]) -> tuple[tuple[MenuEntry, ...], list[str]]:
 
 
 def can_choose(menu: Sequence[MenuEntry], id: int) -> bool:
-    """Whether a menu has an entry that can be chosen."""
+    """Return whether a menu has an entry that can be chosen."""
     return any(
         can_choose(entry.entries, id) if entry.entries else entry.id == id and not entry.refusal
         for entry in menu

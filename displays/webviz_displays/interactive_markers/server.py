@@ -1,4 +1,4 @@
-"""What the display knows of a server: its markers, and what is to be sent to it."""
+"""Known state of a server: its markers and the messages for it."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class InteractiveMarkerServer:
         self.markers: dict[str, Tracked] = {}
         """By name."""
         self.shown: dict[str, ShownMarker] = {}
-        """What is drawn of each, by name."""
+        """Drawn markers, by name."""
         self.assets = Assets()
         """The files that shapes name."""
         self.outgoing = FeedbackQueue()
@@ -43,7 +43,7 @@ class InteractiveMarkerServer:
         """Why messages were ignored, by the name of the marker; sentences."""
         self.too_many = 0
         self.is_waiting = False
-        """Whether something is not drawn because of a missing transform."""
+        """True if something is not drawn because of a missing transform."""
         self._by_key: dict[str, Tracked] = {}
         self._made = 0
         self._handles: Mapping[str, Handle] = {}
@@ -75,7 +75,7 @@ class InteractiveMarkerServer:
         self.version += bool(news)
 
     def handles(self, frames: Frames, aids: bool, refusal: str) -> Mapping[str, Handle]:
-        """What browsers can grip, by key; the same mapping until something changes."""
+        """Return the handles browsers can drag, by key; the same mapping until one changes."""
         of = self.version, frames.fixed_frame, aids, refusal
         if self._handles_of != of:
             self._handles_of = of

@@ -1,4 +1,4 @@
-"""What is reported about interactive markers."""
+"""Statuses about interactive markers."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def report(server: InteractiveMarkerServer, refusal: str, ctx: Context) -> None:
 
 
 def _troubles(server: InteractiveMarkerServer, ctx: Context) -> dict[str, tuple[bool, str]]:
-    """What is wrong with markers, by name: whether it is an error, and a sentence."""
+    """Return the problems of markers by name: an error or not, and a sentence."""
     found = {name: (True, text) for name, text in server.ignored.items()}
     frames = ctx.frames
     for name, marker in server.markers.items():

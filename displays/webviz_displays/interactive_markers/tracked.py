@@ -47,7 +47,7 @@ class Tracked:
 
     @property
     def is_locked(self) -> bool:
-        """Whether it moves with its frame."""
+        """Return whether it moves with its frame."""
         return self._place.stamp_ns == 0
 
     @property

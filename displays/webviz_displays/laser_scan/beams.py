@@ -40,7 +40,7 @@ class BeamHits:
     dropped: dict[str, int]
 
     def sentence(self) -> str:
-        """How many points are shown and why the others are dropped."""
+        """Return the number of points shown and the reasons why others are dropped."""
         text = f"Showing {len(self.beams)} of {self.total} points"
         if not self.dropped:
             return text + "."

@@ -1,4 +1,4 @@
-"""What is known of one cell of a map."""
+"""Details of one cell of a map."""
 
 from __future__ import annotations
 

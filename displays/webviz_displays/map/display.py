@@ -27,7 +27,7 @@ BEHIND = 100_000
 
 @dataclass(frozen=True)
 class MapStyle:
-    """How the cells of a tile become a picture.
+    """Mapping from the cells of a tile to a picture.
 
     Args:
         table: RGBA by cell value, uint8 (256, 4).
@@ -40,7 +40,7 @@ class MapStyle:
     layer: int
 
     def is_like(self, other: MapStyle | None) -> bool:
-        """Whether equal cells look alike; tables are cached, so identity is enough."""
+        """Return whether equal cells look alike; tables are cached, so identity is enough."""
         if other is None or self.table is not other.table:
             return False
         return (self.resolution, self.layer) == (other.resolution, other.layer)
@@ -71,7 +71,7 @@ Tile = tuple[NDArray[np.int8], Image]
 
 @dataclass
 class _State:
-    """What was drawn last.
+    """State drawn last.
 
     Args:
         look: of all tiles.
@@ -138,7 +138,7 @@ class MapDisplay(Display):
         return lookup_table(self.color_scheme, alpha, threshold)
 
     def told(self, value: int) -> str | int:
-        """What is said about a cell's value, -128 to 127."""
+        """Return the label of a cell's value, -128 to 127."""
         meaning = MEANINGS[self.color_scheme].get(value)
         return f"{value}, {meaning}" if meaning else value
 

@@ -1,4 +1,4 @@
-"""What the markers of one message do, taken together."""
+"""Combined effect of the markers of one message."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Effect:
     unknown: list[int] = field(default_factory=list)
 
     def doomed(self, known: Collection[Key]) -> list[Key]:
-        """Which of the known markers are deleted for good."""
+        """Return the known markers that are deleted for good."""
         if self.deletes_all or self.deleted_namespaces:
             named = self.deleted_namespaces
             gone = [

@@ -39,7 +39,7 @@ class Assets:
 
     @property
     def loading(self) -> int:
-        """How many files are being loaded for the first time."""
+        """Return the number of files being loaded for the first time."""
         return sum(request not in self._known for request in self._loading)
 
     def version(self) -> int:
@@ -101,7 +101,7 @@ class Assets:
         self._failed[request] = time.monotonic() + pause_s, pause_s
 
     def of(self, batch: MarkerBatch) -> tuple[Files, list[Fault], set[LoadRequest]]:
-        """What markers take from files, what they lack, and which files they name."""
+        """Return files, faults and file names of markers."""
         meshes: dict[int, LoadedMesh] = {}
         pictures: dict[int, bytes] = {}
         faults: list[Fault] = []

@@ -11,7 +11,7 @@ from webviz.data.messages.markers import NOTHING, Content
 
 
 def is_same(a: Content, b: Content) -> bool:
-    """Whether two contents are equal."""
+    """Return whether two contents are equal."""
     if a is b:
         return True
     if (a is NOTHING) != (b is NOTHING):
@@ -50,7 +50,7 @@ def detached(content: Content) -> Content:
 
 
 class Memory:
-    """How much memory the contents of all rows take.
+    """Memory taken by the contents of all rows.
 
     Args:
         limit: bytes.

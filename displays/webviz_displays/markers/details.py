@@ -1,4 +1,4 @@
-"""What is known of a marker that was selected."""
+"""Details of a selected marker."""
 
 from __future__ import annotations
 

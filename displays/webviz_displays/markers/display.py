@@ -29,7 +29,7 @@ MAX_NAMES = 1000
 
 @dataclass
 class _State:
-    """What is drawn.
+    """State of what is drawn.
 
     Args:
         store: all markers, None before the first message.
@@ -75,7 +75,7 @@ class Markers(Display):
         return store
 
     def depends(self, ctx: Context) -> object:
-        """What has expired or has got its transform since the last turn."""
+        """Return what has expired or received its transform since the last tick."""
         state: _State = ctx.state
         if state.store is None:
             return None

@@ -37,7 +37,7 @@ _LINES = (Marker.LINE_STRIP, Marker.LINE_LIST)
 _LISTS = (*_LINES, Marker.CUBE_LIST, Marker.SPHERE_LIST, Marker.POINTS, Marker.TRIANGLE_LIST)
 _SHAPES = (Marker.CUBE, Marker.SPHERE, Marker.CYLINDER)
 _HAS_CONTENT = ~np.isin(np.arange(len(TYPES)), _SHAPES)
-"""Which types need more than a scale and a color to be seen."""
+"""Types that need more than a scale and a color to be visible."""
 
 
 def type_name(type_: int) -> str:
@@ -46,7 +46,7 @@ def type_name(type_: int) -> str:
 
 
 def is_valid(markers: MarkerSequence) -> NDArray[np.bool_]:
-    """Which markers have numbers that are finite, and lengths that a screen can show."""
+    """Return the mask of markers with finite numbers and drawable lengths."""
     with np.errstate(invalid="ignore"):
         ok = is_drawable(markers.positions) & is_drawable(markers.scales)
     ok &= np.isfinite(markers.orientations).all(axis=1) & np.isfinite(markers.colors).all(axis=1)

@@ -38,7 +38,7 @@ def lines_of(batch: MarkerBatch) -> dict[str, Node]:
 
 
 def _pairing(rows: Rows, is_list: NDArray[np.bool_]) -> Callable[[NDArray[Any]], NDArray[Any]]:
-    """What makes the ends (S, 2, ...) of line segments of the values (M, ...) of points.
+    """Return a function that makes segment ends (S, 2, ...) from values (M, ...) of points.
 
     Args:
         rows: (M,), the marker of each point.

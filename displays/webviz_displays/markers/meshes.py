@@ -95,7 +95,7 @@ Meshes = Mapping[int, LoadedMesh]
 
 
 def mesh_solids(batch: MarkerBatch, meshes: Meshes) -> Iterator[Solids]:
-    """What has one colour; that of one file is drawn together."""
+    """Yield solids of one colour; those from one file are drawn together."""
     for mesh, rows in _by_mesh(meshes).items():
         own = batch.own_materials[rows]
         plain = batch.only(rows[~own])
@@ -112,7 +112,7 @@ def mesh_solids(batch: MarkerBatch, meshes: Meshes) -> Iterator[Solids]:
 def models_of(
     batch: MarkerBatch, meshes: Meshes, cache: dict[tuple[int, Tint], bytes]
 ) -> dict[str, Node]:
-    """What has a texture or vertex colours.
+    """Return models for parts with a texture or vertex colours.
 
     Args:
         batch: the markers.
@@ -144,7 +144,7 @@ def models_of(
 
 
 def tint_of(color: F32) -> Tint:
-    """What a colour (4,) does to the materials of a file: multiplies them.
+    """Return the tint by a colour (4,): it multiplies the materials of a file.
 
     All zeros, the default, and black leave them as they are; RViz mixes the colour in by half, so
     that white, which most programs send, would wash them out.
@@ -157,7 +157,7 @@ def tint_of(color: F32) -> Tint:
 
 
 def is_colorful(part: MeshPart) -> bool:
-    """Whether a part has more than one colour."""
+    """Return whether a part has more than one colour."""
     return part.colors is not None or bool(part.surface and part.surface.texture)
 
 

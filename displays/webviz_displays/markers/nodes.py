@@ -16,7 +16,7 @@ from webviz_displays.markers.triangles import triangles_of
 
 @dataclass(frozen=True)
 class Files:
-    """What markers take from files, by the row of the marker in its batch.
+    """Files used by markers, by the row of the marker in its batch.
 
     Args:
         meshes: of MESH_RESOURCE; a marker without one is not drawn.

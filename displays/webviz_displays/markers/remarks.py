@@ -1,4 +1,4 @@
-"""What is to be said about markers that are not drawn as they were sent."""
+"""Remarks about markers that are not drawn as sent."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Gone:
     at_ns: int
 
     def age(self, now_ns: int) -> str:
-        """How long ago that was."""
+        """Return the time since then, as text."""
         seconds = max(0, now_ns - self.at_ns) / SECOND
         return f"{seconds:.0f} s ago" if seconds >= 1.0 else "just now"
 

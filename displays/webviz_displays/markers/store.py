@@ -29,7 +29,7 @@ SHORTEST_NS = 100_000
 MAX_LOOKUPS = 1000
 """Frames and stamps that are looked up in one turn of the frame loop."""
 TILTED = 1e-3
-"""How far the length of a quaternion may be from 1."""
+"""Tolerance of the length of a quaternion around 1."""
 
 Place = tuple[str, int]
 """A frame and a stamp."""

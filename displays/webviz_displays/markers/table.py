@@ -26,7 +26,7 @@ LOOK = [
     ("own_materials", np.bool_),
     ("locked", np.bool_),
 ]
-"""What a marker looks like, apart from its content."""
+"""Appearance of a marker, apart from its content."""
 _TIMES = [("stamp_ns", np.int64), ("expires_ns", np.int64), ("received_ns", np.int64)]
 _FIRST = 64
 
@@ -111,7 +111,7 @@ class Table:
         self.shown_contents[row], self.counts[row] = content, len(content.points)
 
     def in_namespaces(self, names: Iterable[str]) -> NDArray[np.bool_]:
-        """Which rows have a marker of some namespaces."""
+        """Return the mask of rows with a marker of these namespaces."""
         numbers = [number for name in names if (number := self._numbers.get(name)) is not None]
         return np.isin(self._namespace_of, numbers)
 

@@ -98,7 +98,7 @@ class Body:
 
     @property
     def shapes(self) -> dict[str, int]:
-        """How many there are of each kind."""
+        """Return the number of shapes of each kind."""
         counts: dict[str, int] = {kind: len(some.positions) for kind, some in self.solids.items()}
         return counts | ({"triangle": len(self.faces)} if len(self.faces) else {})
 

@@ -124,7 +124,7 @@ def _solids(shown: Sequence[ShownObject]) -> list[Solids]:
 
 @dataclass
 class HeldObjects:
-    """What a robot holds.
+    """Objects attached to a robot.
 
     Args:
         places: relative to the links.
@@ -178,7 +178,7 @@ def owner_of(hit: Hit, owners: Mapping[str, object]) -> Body | None:
 
 
 def body_details(body: Body, first: Mapping[str, object]) -> Details:
-    """What is known of an object."""
+    """Return the details of an object."""
     values = dict(first)
     if body.type:
         values["Type"] = body.type

@@ -39,7 +39,7 @@ class JointValues:
 
     @property
     def is_empty(self) -> bool:
-        """Whether nothing is known."""
+        """Return whether nothing is known."""
         return not (self.positions or self.poses)
 
     def over(self, before: JointValues) -> JointValues:

@@ -37,7 +37,7 @@ _STATE = "moveit_msgs/msg/RobotState"
 
 @dataclass(frozen=True)
 class Plans:
-    """What publishers said about scene and plans.
+    """Messages received about scene and plans.
 
     Args:
         received: description and scene.
@@ -52,7 +52,7 @@ class Plans:
 
 @dataclass
 class MotionPlanningDrawing:
-    """What is drawn."""
+    """State of what is drawn."""
 
     robots: Robots = field(default_factory=Robots)
     asking: Asking = field(default_factory=Asking)

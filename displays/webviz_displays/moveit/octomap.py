@@ -29,7 +29,7 @@ Coloring = Literal["Z-Axis", "Cell Probability"]
 
 @dataclass(frozen=True, eq=False)
 class _Read:
-    """What a worker found.
+    """Result of a worker.
 
     Args:
         seen: what is drawn.

@@ -26,7 +26,7 @@ PREFIX = "path "
 
 @dataclass(frozen=True)
 class Playback:
-    """How a path is played, from the properties of a display.
+    """Playback of a path, from the properties of a display.
 
     Args:
         look: of the robot.

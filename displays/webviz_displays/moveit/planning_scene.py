@@ -25,7 +25,7 @@ from webviz_displays.moveit.world import DrawnWorld, look_of
 
 @dataclass(frozen=True)
 class ReceivedPlanningScene:
-    """What publishers said.
+    """Messages received about a scene.
 
     Args:
         description: URDF of the robot, None before the first.
@@ -50,7 +50,7 @@ class ReceivedPlanningScene:
 
 @dataclass
 class PlanningSceneDrawing:
-    """What is drawn of a scene.
+    """State of what is drawn of a scene.
 
     Args:
         robots: the robot.
@@ -67,7 +67,7 @@ class PlanningSceneDrawing:
 
 
 class PlanningScene(Display):
-    """What MoveIt knows of the world: objects, the robot, and what the robot holds."""
+    """MoveIt's planning scene: objects, the robot, and the objects attached to it."""
 
     rviz = "moveit_rviz_plugin/PlanningScene"
     is_threaded = True

@@ -14,7 +14,7 @@ DEFAULT_SPEED = "3x"
 
 
 class Speed(NamedTuple):
-    """How fast a path is played.
+    """Speed of the animation of a path.
 
     Attributes:
         factor: of its own time, or 0.

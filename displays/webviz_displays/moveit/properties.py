@@ -44,7 +44,7 @@ ATTACHED = (150, 50, 150)
 
 
 class SceneGeometry(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """How the objects of a scene look."""
+    """Appearance of the objects of a scene."""
 
     show_scene_geometry: Annotated[bool, Prop(help="Draw the objects of the scene.")] = True
     scene_alpha: Annotated[Alpha, Prop(help="Opacity of objects without a colour.")] = 0.9
@@ -64,7 +64,7 @@ class SceneGeometry(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fi
 
 
 class SceneRobot(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """How the robot of a scene looks."""
+    """Appearance of the robot of a scene."""
 
     show_robot_visual: ShowVisual = True
     show_robot_collision: ShowCollision = False
@@ -107,7 +107,7 @@ Position = Annotated[
 
 
 class PlannedPath(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """How a planned path is played."""
+    """Animation of a planned path."""
 
     show_robot_visual: ShowVisual = True
     show_robot_collision: ShowCollision = False
@@ -127,7 +127,7 @@ class PlannedPath(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
 
 
 class PlanningRequest(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """How the two ends of a plan look."""
+    """Appearance of the two ends of a plan."""
 
     show_workspace: Annotated[bool, Prop(help="Draw the box in which plans may move.")] = False
     query_start_state: Annotated[bool, Prop(help="Draw the robot where a plan begins.")] = False

@@ -29,7 +29,7 @@ from webviz_displays.moveit.world import report_names
 
 @dataclass(frozen=True)
 class ReceivedRobotState:
-    """What publishers said.
+    """Messages received about a robot state.
 
     Args:
         description: URDF of the robot, None before the first.
@@ -46,7 +46,7 @@ class ReceivedRobotState:
 
 @dataclass
 class RobotStateDrawing:
-    """What is drawn."""
+    """State of what is drawn."""
 
     robots: Robots = field(default_factory=Robots)
     held: HeldObjects = field(default_factory=HeldObjects)

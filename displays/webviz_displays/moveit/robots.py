@@ -37,7 +37,7 @@ class PosedRobot:
 
 @dataclass(frozen=True)
 class RobotLook:
-    """How a robot is drawn.
+    """Appearance of a robot.
 
     Args:
         visual, collision: which shapes.

@@ -34,7 +34,7 @@ class Attached:
 
 @dataclass(frozen=True, eq=False)
 class KnownScene:
-    """What is known of a scene. Mappings that a message does not change stay the same objects.
+    """Known state of a scene. Mappings that a message does not change stay the same objects.
 
     Args:
         name: of the scene.

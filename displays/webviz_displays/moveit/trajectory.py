@@ -36,7 +36,7 @@ from webviz_displays.moveit.robots import Robots
 
 @dataclass
 class TrajectoryDrawing:
-    """What is drawn."""
+    """State of what is drawn."""
 
     robots: Robots = field(default_factory=Robots)
     view: PathView = field(init=False)

@@ -34,7 +34,7 @@ NO_LINKS: Mapping[str, Pose] = {}
 
 @dataclass(frozen=True, eq=False)
 class _Look:
-    """What the nodes of objects depend on.
+    """Inputs that the nodes of objects depend on.
 
     Args:
         world: the objects and their poses in the frame of the scene.
@@ -47,7 +47,7 @@ class _Look:
     default: Rgba
 
     def is_of(self, world: object, colors: object, default: Rgba) -> bool:
-        """Whether nothing has changed."""
+        """Return whether nothing has changed."""
         return self.world is world and self.colors is colors and self.default == default
 
     def drawn(self) -> DrawnObjects:
@@ -63,7 +63,7 @@ class _Look:
 
 @dataclass
 class DrawnWorld:
-    """What is drawn of a scene.
+    """Drawn part of a scene.
 
     Args:
         robots: draw its robot.
@@ -85,7 +85,7 @@ class DrawnWorld:
     _stance: tuple[Poser, JointValues, float, Stance] | None = None
 
     def is_late(self, interval_s: float) -> bool:
-        """Whether the robot may move now to where the scene has it."""
+        """Return whether the robot may move now to where the scene has it."""
         if self._stance is None or self._stance[1] is self.scene.joints:
             return False
         return time.monotonic() - self._stance[2] >= interval_s
@@ -165,7 +165,7 @@ class DrawnWorld:
 
 
 def look_of(robot: SceneRobot) -> RobotLook:
-    """How the robot of a scene is drawn."""
+    """Return the appearance of the robot of a scene."""
     return RobotLook(
         robot.show_robot_visual,
         robot.show_robot_collision,

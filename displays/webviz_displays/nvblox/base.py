@@ -18,7 +18,7 @@ EDGE = 4
 
 @dataclass
 class _State:
-    """What is drawn: by region, the blocks and their node."""
+    """State of what is drawn: blocks and their node, by region."""
 
     drawn: dict[Key, tuple[Sequence[MapBlock], Node]] = field(default_factory=dict)
 
@@ -29,7 +29,7 @@ class NvbloxDisplay(Display):
     noun: ClassVar[str] = ""
     """One of the things that are drawn."""
     most: ClassVar[int] = 0
-    """How many of them are drawn at once."""
+    """Maximum number of items drawn at once."""
 
     cut_ceiling: Annotated[bool, Prop(help="Hide blocks above Ceiling Height.")] = False
     ceiling_height: Annotated[
@@ -70,11 +70,11 @@ class NvbloxDisplay(Display):
         self._report(layer, count, left_out, ctx)
 
     def size(self, block: MapBlock) -> int:
-        """How many things of a block are drawn."""
+        """Return the number of items drawn for a block."""
         raise NotImplementedError
 
     def node(self, blocks: Sequence[MapBlock], layer: Layer) -> Node:
-        """What draws blocks."""
+        """Return the node that draws blocks."""
         raise NotImplementedError
 
     def _report(self, layer: Layer, count: int, left_out: int, ctx: Context) -> None:

@@ -35,7 +35,7 @@ _NOUNS: dict[Rendering, str] = {
 
 @dataclass
 class _State:
-    """What was read last, so that another colour does not read it again.
+    """Octree read last, so that a change of colour does not read it again.
 
     Args:
         message: that the others are of.

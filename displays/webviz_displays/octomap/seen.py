@@ -1,4 +1,4 @@
-"""What of an octree is drawn, and in which colours."""
+"""Visible voxels of an octree and their colours."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _STOPS = 7
 
 @dataclass(frozen=True)
 class VoxelChoice:
-    """Which voxels of a tree are wanted.
+    """Selection of the voxels of a tree.
 
     Args:
         rendering: whether occupied ones, free ones or both.
@@ -57,7 +57,7 @@ class VisibleVoxels:
 
 
 def seen_of(tree: Octree, choice: VoxelChoice) -> VisibleVoxels:
-    """What is to be drawn of a tree: no deeper than allowed, until it is few enough voxels."""
+    """Return the voxels to draw: no deeper than allowed, and coarser until they are few enough."""
     for depth in range(choice.depth, -1, -1):
         voxels = voxels_of(tree, depth)
         heights, log_odds = voxels.centers[:, 2], tree.log_odds[voxels.nodes]

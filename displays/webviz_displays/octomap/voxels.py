@@ -1,4 +1,4 @@
-"""Which voxels of an octree can be seen, and where they are."""
+"""Visibility and position of the voxels of an octree."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def places_of(tree: Octree, voxels: Voxels) -> I64:
 
 
 def is_exposed(tree: Octree, voxels: Voxels) -> Mask:
-    """Which voxels (N,) have a side that the others do not cover completely.
+    """Return the mask of voxels (N,) with a side that others do not cover completely.
 
     A side counts as covered if the whole space of the size of the voxel beside it is.
 

@@ -81,7 +81,7 @@ def read(covariances: F64) -> tuple[Covariances, Mask]:
 
 
 def has_negative_variance(covariances: F64) -> Mask:
-    """Which (N,) of covariances (N, 36) have a variance below zero, by more than rounding."""
+    """Return the mask (N,) of covariances (N, 36) with a variance below zero beyond rounding."""
     matrices = np.reshape(covariances, (-1, 6, 6))
     variances = np.diagonal(matrices, axis1=1, axis2=2)
     return variances.min(axis=1) < -_ROUNDING * np.abs(variances).max(axis=1)

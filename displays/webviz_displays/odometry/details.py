@@ -1,4 +1,4 @@
-"""What is known of an odometry message that was selected."""
+"""Details of a selected odometry message."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def details(sample: Sample) -> Details:
 
 
 def covariance_details(covariance: Any) -> dict[str, object]:
-    """What is known of the covariance (36,) of a pose."""
+    """Return the details of the covariance (36,) of a pose."""
     return {
         "Standard deviations": _deviations(covariance),
         "Covariance of the pose": _rows(covariance),

@@ -47,7 +47,7 @@ class Odometry(Display):
         return Keep(count=self.keep)
 
     def accept(self, new: Sample, kept: Sequence[Sample]) -> bool | str:
-        """Whether the robot moved by one of the tolerances, or why the pose is invalid.
+        """Return whether the robot moved by one of the tolerances, or why the pose is invalid.
 
         A robot at rest counts as well when its covariance becomes invalid, or valid again.
         """

@@ -32,7 +32,7 @@ def fault(message: messages.Odometry) -> str:
 def has_moved(
     new: messages.Odometry, last: messages.Odometry, distance: float, angle: float
 ) -> bool:
-    """Whether a pose is at least this far (m) or turned this much (rad) from the last one."""
+    """Return whether a pose is at least this far (m) or turned this much (rad) from the last."""
     a, b = new.pose.pose, last.pose.pose
     p, q = a.position, b.position
     if dist((p.x, p.y, p.z), (q.x, q.y, q.z)) >= distance:
@@ -42,6 +42,6 @@ def has_moved(
 
 
 def is_sound(message: messages.Odometry) -> bool:
-    """Whether the covariance of a pose is finite, of a sensible size and nowhere negative."""
+    """Return whether the covariance of a pose is finite, of a sensible size, nowhere negative."""
     entries = message.pose.covariance
     return bool(np.abs(entries).max() <= LARGEST and entries[::7].min() >= 0)

@@ -189,7 +189,7 @@ class Cloud:
 
 
 def drawable(xyz: NDArray[np.float32]) -> NDArray[np.intp] | None:
-    """Which rows of (N, 3) are finite and near enough to be drawn; None if all are."""
+    """Return the rows of (N, 3) that are finite and near enough to draw; None if all are."""
     with np.errstate(invalid="ignore"):
         if not len(xyz) or (xyz.min() > -FARTHEST and xyz.max() < FARTHEST):
             return None
@@ -197,7 +197,7 @@ def drawable(xyz: NDArray[np.float32]) -> NDArray[np.intp] | None:
 
 
 def _make_sense_swapped(columns: list[NDArray[Any]]) -> bool:
-    """Whether coordinates are plausible only in the other byte order.
+    """Return whether coordinates are plausible only in the other byte order.
 
     Floats in the wrong order are noise, of which one fifth happens to be plausible.
     """
@@ -210,7 +210,7 @@ def _make_sense_swapped(columns: list[NDArray[Any]]) -> bool:
 
 
 def _are_sensible(values: NDArray[Any]) -> NDArray[np.bool_]:
-    """Which of (N,) are NaN, or between a micrometre and `FARTHEST`."""
+    """Return the mask of (N,) values that are NaN, or between a micrometre and `FARTHEST`."""
     with np.errstate(invalid="ignore"):
         return np.isnan(values) | ((np.abs(values) > 1e-6) & (np.abs(values) < FARTHEST))
 

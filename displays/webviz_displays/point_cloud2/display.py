@@ -102,7 +102,7 @@ class CloudDisplay(PointsDisplay):
         return _State()
 
     def depends(self, ctx: Context) -> tuple[int, int, int | None]:
-        """How many clouds share which limit of points, and which cloud is shown as a whole.
+        """Return the number of clouds that share each limit of points, and the cloud shown whole.
 
         The number of clouds is a power of two, so that it seldom changes; the limit is 0 if it
         leaves out nothing.

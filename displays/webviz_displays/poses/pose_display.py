@@ -48,7 +48,7 @@ class PoseDisplay(Display):
         return GrowingTrail(self.pose_of())
 
     def pose_of(self) -> PoseOf:
-        """How to get the pose of a message."""
+        """Return the function that reads the pose of a message."""
         raise NotImplementedError
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:

@@ -149,13 +149,13 @@ def pose_set(
 
 
 def is_invisible(alpha: float, ctx: Context, noun: str) -> bool:
-    """Whether alpha hides everything; says so."""
+    """Return whether alpha hides everything; says so."""
     if alpha == 0:
         ctx.warn(f"{noun.capitalize()}s", "Invisible: alpha is 0. Increase it to show them.")
     return alpha == 0
 
 
 def pose_details(hit: Hit, noun: str, pose: messages.Pose, total: int) -> Details:
-    """What is known of a pose of a message."""
+    """Return the details of a pose of a message."""
     values = {f"Pose in {hit.sample.frame}": placed(pose), f"{noun}s in the message": total}
     return Details(f"{noun} {hit.id}", values)

@@ -1,4 +1,4 @@
-"""What is known of a link of a robot."""
+"""Details of a link of a robot."""
 
 from __future__ import annotations
 

@@ -33,7 +33,7 @@ SECOND = 1_000_000_000
 
 
 class MassProperties(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """Which inertial properties of the links to show."""
+    """Inertial properties of the links to show."""
 
     mass: Annotated[bool, Prop(help="Show each link's mass as a lead sphere.")] = False
     inertia: Annotated[

@@ -18,7 +18,7 @@ MOST_JOINTS = 10_000
 
 @dataclass(frozen=True)
 class ReceivedRobot:
-    """What publishers said about a robot.
+    """Messages received about a robot.
 
     Args:
         description: its URDF, None before the first.

@@ -140,7 +140,7 @@ def report_joint(joint: Joint, ctx: Context) -> None:
 
 
 def has_axis(joint: Joint) -> bool:
-    """Whether a joint moves along or about an axis."""
+    """Return whether a joint moves along or about an axis."""
     return joint.type not in ("fixed", "floating") and any(joint.axis)
 
 

@@ -9,7 +9,7 @@ from webviz_displays.sensors.scalar_display import HIGHEST, LOWEST, ScalarDispla
 
 
 class Illuminance(ScalarDisplay):
-    """How bright it is, as the colour of a point where its sensor is."""
+    """Brightness as the colour of a point at its sensor."""
 
     rviz = "rviz_default_plugins/Illuminance"
     quantity: ClassVar[str] = "illuminance"

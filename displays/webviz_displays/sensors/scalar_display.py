@@ -26,7 +26,7 @@ class ScalarDisplay(PointStyle):
     """Base of displays that draw a point where a sensor is, coloured by what it measures."""
 
     quantity: ClassVar[str]
-    """What is measured, which names the field of the message."""
+    """Measured quantity, which names the field of the message."""
     unit: ClassVar[str]
     """Of the quantity, as the message has it; "" for a ratio."""
 
@@ -70,7 +70,7 @@ class ScalarDisplay(PointStyle):
         self.draw_points(points, ramp(values[ids], low, high, stops), group, ctx, ids=ids)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
-        """What was measured."""
+        """Return the measured value."""
         message = hit.samples[hit.id].message
         values: dict[str, object] = {"Value": self._amount(getattr(message, self.quantity))}
         if message.variance > 0:

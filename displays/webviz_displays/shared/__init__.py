@@ -1,1 +1,1 @@
-"""What several displays share."""
+"""Building blocks shared by several displays."""

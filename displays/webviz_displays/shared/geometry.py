@@ -46,7 +46,7 @@ def inverse(pose: Pose) -> Pose:
 
 
 def is_drawable(xyz: ArrayLike) -> NDArray[np.bool_]:
-    """Which points (N, 3) have finite coordinates that a screen can show."""
+    """Return the mask of points (N, 3) with finite coordinates that a screen can show."""
     return np.all(np.abs(np.asarray(xyz, dtype=np.float64)) < FARTHEST, axis=-1)
 
 

@@ -1,4 +1,4 @@
-"""How many messages a display shows at once."""
+"""Number of messages a display shows at once."""
 
 from __future__ import annotations
 

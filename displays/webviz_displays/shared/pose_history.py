@@ -22,7 +22,7 @@ PoseOf = Callable[[Any], messages.Pose]
 """The pose of a message."""
 
 UNIT_TOLERANCE = 0.01
-"""How far the squared length of a quaternion may be from 1 (RViz's constant)."""
+"""Tolerance of the squared length of a quaternion around 1 (RViz's constant)."""
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from webviz_displays.shared.geometry import Metres
 
 
 class PoseShape(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """How to draw a pose."""
+    """Appearance of a pose."""
 
     value: Annotated[
         Literal["Arrow", "Axes"], Prop(help="Draw an arrow along x, or all three axes.")
@@ -38,7 +38,7 @@ class PoseShape(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
 
 
 class PositionCovariance(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """How to draw the uncertainty of positions: ellipses, or ellipsoids."""
+    """Appearance of the uncertainty of positions: ellipses or ellipsoids."""
 
     value: Annotated[bool, Prop(help="Draw this covariance.")] = True
     color: Annotated[Color, Prop(when=("value", True), help="Colour of the ellipses.")] = (
@@ -53,7 +53,7 @@ class PositionCovariance(msgspec.Struct, frozen=True, kw_only=True, forbid_unkno
 
 
 class OrientationCovariance(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """How to draw the uncertainty of orientations: wedges, or discs at the tips of the axes."""
+    """Appearance of the uncertainty of orientations: wedges, or discs at the tips of the axes."""
 
     value: Annotated[bool, Prop(help="Draw this covariance.")] = True
     frame: Annotated[
@@ -80,7 +80,7 @@ class OrientationCovariance(msgspec.Struct, frozen=True, kw_only=True, forbid_un
 
 
 class Covariance(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """How to draw the uncertainty of poses."""
+    """Appearance of the uncertainty of poses."""
 
     value: Annotated[bool, Prop(help="Draw this covariance.")] = True
     position: Annotated[

@@ -46,7 +46,7 @@ class _Known:
 
 @dataclass(frozen=True)
 class _Tick:
-    """What one tick drew and said, for those that draw nothing new."""
+    """Nodes and statuses of one tick, reused by ticks that draw nothing new."""
 
     now_ns: int
     groups: dict[str, Group]
@@ -55,7 +55,7 @@ class _Tick:
 
 @dataclass
 class _State:
-    """What is derived from properties, names and time.
+    """State derived from properties, names and time.
 
     Args:
         fixed_frame: in which `ages` were measured.

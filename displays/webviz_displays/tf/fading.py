@@ -16,7 +16,7 @@ STEPS = 10
 
 
 class Ages:
-    """How long ago the transform of each frame last changed, in ROS time.
+    """Time since the transform of each frame last changed, in ROS time.
 
     A stamp alone is not enough: a bag played without its clock has stamps of another day, yet its
     frames move. A frame therefore ages from when it was first seen, and anew with each new stamp.

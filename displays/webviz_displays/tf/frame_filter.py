@@ -1,4 +1,4 @@
-"""Which frames the TF display shows, and their parents."""
+"""Frames shown by the TF display, and their parents."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How the TF display draws frames. All sizes and colours are RViz's, at a marker scale of 1.
+"""Appearance of frames in the TF display. All sizes and colours are RViz's, at a marker scale of 1.
 
 Frames are drawn in at most three batches: fresh, grey and faint. Transparent solids have to be
 sorted by a browser, and made anew for each new opacity, so they are kept apart from the others.

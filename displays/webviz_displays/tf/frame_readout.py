@@ -25,7 +25,7 @@ def readout(frames: Frames, name: str) -> str | None:
 
 
 def details(frames: Frames, name: str) -> Details | None:
-    """What is known of a frame now, None if it is unknown."""
+    """Return the current details of a frame, None if it is unknown."""
     link, pose = frames.link(name), frames.latest(name)
     if link is None and pose is None:
         return None

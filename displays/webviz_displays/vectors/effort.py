@@ -44,7 +44,7 @@ class _Waiting:
 
 @dataclass
 class _State:
-    """What is drawn, and what waits.
+    """State of what is drawn and what waits.
 
     Args:
         waiting: messages without a transform of some link at their stamp, oldest first.
@@ -266,7 +266,7 @@ def _turning_joints(text: str) -> Joints:
 
 
 def _is_ready(message: _Waiting, frames: Frames) -> bool:
-    """Whether all links have a pose at the stamp, but for those that have none at all."""
+    """Return whether all links have a pose at the stamp, but for those that have none at all."""
     return all(
         frames.at(frame, message.stamp_ns) is not None or frames.latest(frame) is None
         for frame in message.frames

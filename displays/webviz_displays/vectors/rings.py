@@ -65,7 +65,7 @@ class Rings(NamedTuple):
 
 
 def shares(efforts: F64, largest: F64) -> F64:
-    """How large rings are, from 0.05 for none to 1.05 for the largest effort, as in RViz.
+    """Return the sizes of rings, from 0.05 for no effort to 1.05 for the largest, as in RViz.
 
     Without a largest effort it is the effort itself.
     """

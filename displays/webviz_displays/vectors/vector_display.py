@@ -20,7 +20,7 @@ Mask = NDArray[np.bool_]
 
 
 class VectorLook(NamedTuple):
-    """How to draw one of the vectors.
+    """Appearance of one of the vectors.
 
     Attributes:
         noun: such as "force".
@@ -53,11 +53,11 @@ class VectorDisplay(Display):
         raise NotImplementedError
 
     def looks(self) -> tuple[VectorLook, VectorLook]:
-        """How to draw them."""
+        """Return the appearance of both vectors."""
         raise NotImplementedError
 
     def hides(self, lengths: F64) -> Mask:
-        """Which vectors (N,) of these lengths in metres are not drawn."""
+        """Return the mask of vectors (N,), given their lengths in metres, that are not drawn."""
         return lengths == 0
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:

@@ -49,7 +49,7 @@ class Audience:
         return () if pid is None else (pid,)
 
     def seen(self) -> list[list[Sighting]]:
-        """What each client that recognises publications has seen.
+        """Return the publications seen by each client that recognises them.
 
         Raises:
             CaseFailed: a client was disconnected.

@@ -58,7 +58,7 @@ MARKED = {
         "image-hd": 0,
     }.items()
 }
-"""What is looked for in each scene."""
+"""Pattern to recognise in each scene."""
 NOW = "() => [performance.timeOrigin + performance.now(), window.__frames]"
 HEAD = (
     "| scene | system | p50 ms | p99 ms | painted /s | frames /s | long tasks /s | longest ms "

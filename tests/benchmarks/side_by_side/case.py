@@ -122,7 +122,7 @@ class Case:
         _said(self._publisher, "steady")
 
     def log(self) -> Log:
-        """What was published so far."""
+        """Return the log of publications so far."""
         return Log(self._log)
 
     def cpu(self) -> float:

@@ -1,4 +1,4 @@
-"""How long a browser takes to join after much was sent, to webviz's server and to viser's own.
+"""Time a browser needs to join after much was sent, with webviz's server and viser's own.
 
     python -m side_by_side.join [--messages 10000 1000000 3000000]
 

@@ -1,4 +1,4 @@
-"""Which publication a sighting is of, and how late it came."""
+"""Matching of sightings with publications, and their delays."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class Log:
         }
 
     def published(self, lane: int, since_ns: int, until_ns: int) -> int:
-        """How many were published in a span of time."""
+        """Return the number of publications in a span of time."""
         return len(self._between(lane, since_ns, until_ns))
 
     def latencies(

@@ -31,7 +31,7 @@ FRAME_Z, LINK_Z = -7.0, -8.0
 
 @dataclass(frozen=True)
 class Lane:
-    """What makes publications of one stream recognisable."""
+    """Marks that make publications of one stream recognisable."""
 
     number: int
     place: Place

@@ -1,4 +1,4 @@
-"""Whether memory grows: everything at once for minutes, with a client that has stopped reading.
+"""Growth of memory: everything at once for minutes, with a client that has stopped reading.
 
     python -m side_by_side.memory [--seconds 600] [--scene G]
 
@@ -28,7 +28,7 @@ WARM_UP_S = 30.0
 
 @dataclass(frozen=True)
 class Soak:
-    """What came of it.
+    """Result of a soak.
 
     Args:
         times: of the samples after the warm-up, s (N,).

@@ -32,7 +32,7 @@ class PictureWatcher(ViserWatcher):
 
     @property
     def is_connected(self) -> bool:
-        """Whether both connections stand."""
+        """Return whether both connections stand."""
         return super().is_connected and self._channel is not None and self._channel.is_connected
 
     def hear(self, kind: Opcode, data: memoryview) -> None:

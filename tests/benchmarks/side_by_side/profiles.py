@@ -36,7 +36,7 @@ AREAS = {
     "event loop, the rest": "_background_worker",
     "ROS thread": "RosSource._run",
 }
-"""What a stack belongs to: the first of these that is in it."""
+"""Owner of a stack: the first of these that it contains."""
 
 
 def profile(scene: str, seconds: float, folder: Path, functions: int) -> None:

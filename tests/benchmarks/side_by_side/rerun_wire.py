@@ -27,7 +27,7 @@ UNLIMITED = -1
 
 
 def timeline_value(stamp_ns: int) -> int:
-    """What a logger sets the timeline to."""
+    """Return the timeline value a logger sets."""
     return stamp_ns * SCRAMBLE % CYCLE << 8 * len(SIGN) | int.from_bytes(SIGN, "little")
 
 
@@ -55,7 +55,7 @@ class RerunWatcher:
 
     @property
     def is_connected(self) -> bool:
-        """Whether the stream goes on."""
+        """Return whether the stream goes on."""
         return self._thread.is_alive()
 
     def close(self) -> None:

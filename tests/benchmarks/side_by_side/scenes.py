@@ -43,7 +43,7 @@ class Scene:
 
     @cached_property
     def streams(self) -> list[Stream]:
-        """What is published."""
+        """Return the published streams."""
         return self.make()
 
     @property

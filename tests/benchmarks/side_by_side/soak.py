@@ -1,4 +1,4 @@
-"""Whether anything grows: displays, frames, markers and browsers that come and go for minutes.
+"""Growth over time: displays, frames, markers and browsers that come and go for minutes.
 
     make soak ARGS="--minutes 10"
 

@@ -1,4 +1,4 @@
-"""What is published: serialised messages with gaps for the stamp and for the mark."""
+"""Published streams: serialised messages with gaps for the stamp and for the mark."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class Stream:
 
     @property
     def is_latched(self) -> bool:
-        """Whether it is sent once, to whoever comes."""
+        """Return whether it is sent once, to whoever comes."""
         return self.hz == 0
 
     @cached_property

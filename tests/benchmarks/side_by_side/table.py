@@ -32,7 +32,7 @@ COLUMNS = {
 
 
 def machine() -> dict[str, str]:
-    """What the figures depend on."""
+    """Return the properties of the machine that figures depend on."""
     memory = round(psutil.virtual_memory().total / 2**30)
     model = "unknown"
     for line in Path("/proc/cpuinfo").read_text().splitlines():

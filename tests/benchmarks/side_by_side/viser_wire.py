@@ -19,7 +19,7 @@ from side_by_side.log import Sighting
 from side_by_side.marks import FRAME_Z, LINK_Z, Lane, Place
 
 EXACT_M = 1e-4
-"""What composing transforms may add to a mark."""
+"""Rounding error that composing transforms may add to a mark."""
 _SIZES = struct.Struct("<QQ")
 
 

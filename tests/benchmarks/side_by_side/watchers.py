@@ -24,7 +24,7 @@ class Watcher(Protocol):
 
     @property
     def sightings(self) -> Sequence[Sighting]:
-        """What was recognised so far, in order."""
+        """Return the sightings so far, in order."""
         ...
 
     @property
@@ -34,7 +34,7 @@ class Watcher(Protocol):
 
     @property
     def is_connected(self) -> bool:
-        """Whether the viewer still sends to it."""
+        """Return whether the viewer still sends to it."""
         ...
 
     def close(self) -> None:
@@ -67,7 +67,7 @@ class SocketWatcher:
 
     @property
     def is_connected(self) -> bool:
-        """Whether the connection stands."""
+        """Return whether the connection stands."""
         return self._thread.is_alive()
 
     def close(self) -> None:
@@ -106,7 +106,7 @@ class ViserWatcher(SocketWatcher):
         super().__init__(WebSocket(port, f"viser-v{viser.__version__}"), scene, stalls)
 
     def recognise(self, scene: Scene, data: memoryview, now_ns: int) -> Sequence[Sighting]:
-        """What the arrays, poses and pictures of a window of messages say."""
+        """Return the marks found in the arrays, poses and pictures of a window of messages."""
         window = viser_wire.messages(data)
         viser_wire.follow_nodes(window, self.nodes)
         return viser_wire.sightings(window, scene.lanes, now_ns)
@@ -142,7 +142,7 @@ class FoxgloveWatcher(SocketWatcher):
 
 
 class FileWatcher:
-    """What the floor's callback wrote."""
+    """Reader of the file that the floor's callback writes."""
 
     def __init__(self, path: Path) -> None:
         self._path = path

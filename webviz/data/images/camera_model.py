@@ -1,4 +1,4 @@
-"""How a camera sees: sensor_msgs/CameraInfo for rectified images (REP 104)."""
+"""Camera model: sensor_msgs/CameraInfo for rectified images (REP 104)."""
 
 from __future__ import annotations
 

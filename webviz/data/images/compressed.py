@@ -1,4 +1,4 @@
-"""What is inside sensor_msgs/CompressedImage, without decompressing it."""
+"""Content of sensor_msgs/CompressedImage, without decompressing it."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _PNG16_BYTES = 6
 
 @dataclass(frozen=True)
 class CompressedInfo:
-    """What a compressed image says of itself.
+    """Declared content of a compressed image.
 
     Args:
         mime: for browsers, such as "image/jpeg".
@@ -46,7 +46,7 @@ class CompressedInfo:
 
 
 def inspect_compressed(format_: str, data: NDArray[np.uint8]) -> CompressedInfo:
-    """What is inside a compressed image; its data decides, whatever `format_` says.
+    """Return the content of a compressed image; its data decides, not `format_`.
 
     Args:
         format_: "<encoding>; jpeg compressed <encoding of the pixels>", or just "jpeg".

@@ -17,7 +17,7 @@ Order = Literal["plain", "rgb", "bgr", "bayer", "uyvy", "yuyv", "nv21", "nv24"]
 
 @dataclass(frozen=True)
 class PixelLayout:
-    """How the pixels of an encoding lie in the bytes of an image.
+    """Layout of the pixels of an encoding in the bytes of an image.
 
     Args:
         dtype: of one number, in the byte order of this machine.

@@ -32,7 +32,7 @@ _MAX_SEGMENTS = 1000
 
 
 class ImageHeader(NamedTuple):
-    """What a file says of itself.
+    """Declared properties of an image file.
 
     Args:
         kind: "JPEG", "PNG", "WEBP", or one that browsers do not show.
@@ -52,7 +52,7 @@ class ImageHeader(NamedTuple):
 
 
 def read_header(data: memoryview) -> ImageHeader | None:
-    """What the first bytes of a file say; None if it is not an image.
+    """Return the properties in the first bytes of a file; None if it is not an image.
 
     Raises:
         ImageError: it begins as an image, but has no size.

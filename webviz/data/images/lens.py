@@ -32,7 +32,7 @@ _TURNED = 0.01
 
 @dataclass(frozen=True)
 class Lens:
-    """How a camera sees before its image is rectified.
+    """Lens of a camera before its image is rectified.
 
     Args:
         model: one of `MODELS`.
@@ -103,7 +103,7 @@ class Lens:
             return bent * self.focal + self.principal
 
     def grid(self, model: CameraModel) -> NDArray[np.float32] | None:
-        """Which place of an image each place of the rectified image shows.
+        """Return the place in the image for each place of the rectified image.
 
         Args:
             model: of the rectified image, see `CameraModel.whole`.

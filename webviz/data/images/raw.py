@@ -89,7 +89,7 @@ class RawImage:
 
 
 def remarks(message: Any, image: RawImage) -> str:
-    """What is suspicious about the fields of a message that can be shown; "" if nothing is."""
+    """Return a sentence on suspicious fields of a drawable message; "" if there are none."""
     if not message.step:
         return f"step is 0 instead of {image.step}; rows are assumed to follow without a gap."
     size = _whole(image.layout, image.height, image.step)

@@ -26,7 +26,7 @@ _DIRECT = {
 
 
 def render(image: RawImage, tone: Tone, factor: int = 1) -> Image.Image:
-    """What a screen shows of an image.
+    """Return an image as a screen shows it.
 
     Args:
         image: of any encoding.

@@ -18,7 +18,7 @@ U8 = NDArray[np.uint8]
 
 @dataclass(frozen=True)
 class Tone:
-    """How values become colours.
+    """Mapping from values to colours.
 
     Args:
         low, high: the values of the first and the last colour.

@@ -102,7 +102,7 @@ def action(type_name: str, text: str = "") -> Action:
 def taker(
     service: str, type: str, answered: Callable[[Any], object], failed: Callable[[str], object]
 ) -> Callable[[Future[bytes]], None]:
-    """What takes the response of a service when it is there.
+    """Return the function that takes the response of a service once it is there.
 
     Args:
         service: its name.

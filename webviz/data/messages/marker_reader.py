@@ -93,7 +93,7 @@ class _Layout:
         )
 
     def fits(self, data: bytes | memoryview, pos: int, end: int) -> bool:
-        """Whether the marker at `pos` has this layout."""
+        """Return whether the marker at `pos` has this layout."""
         if pos & 7 != self.phase or pos + self.size > end:
             return False
         if self._read is None:

@@ -159,7 +159,7 @@ def _names_beside(parent: Any, value: Any) -> Sequence[str]:
 
 
 def _is_key(name: Any) -> bool:
-    """Whether an element can be called by a name."""
+    """Return whether an element can be called by a name."""
     return isinstance(name, str) and bool(re.fullmatch(r"[^\[\]]+", name)) and not _is_index(name)
 
 

@@ -14,11 +14,11 @@ from webviz.data.messages.geometry import NANOSECONDS, Duration, Time
 MAX_NODES = 500
 """Fields and elements of a message in all."""
 _ARRAY_HEAD = 20
-"""How many numbers of an array are kept."""
+"""Number of items kept of an array."""
 _LIST_HEAD = 10
-"""How many elements of a sequence of messages are kept."""
+"""Number of elements kept of a sequence of messages."""
 _STRING_HEAD = 400
-"""How many characters of a string are kept: robot descriptions have a million."""
+"""Number of characters kept of a string: robot descriptions have a million."""
 
 _YEAR_NS = 31_536_000 * NANOSECONDS
 

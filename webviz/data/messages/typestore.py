@@ -64,7 +64,7 @@ def full_name(type_name: str) -> str:
 
 
 def type_exists(type_name: str) -> bool:
-    """Whether messages of this type can be decoded."""
+    """Return whether messages of this type can be decoded."""
     try:
         return full_name(type_name) in _store().fielddefs
     except UnknownTypeError:

@@ -129,7 +129,7 @@ class McapIndex:
             return ""
 
     def _read_summary(self) -> bool:
-        """Whether there is an intact summary that names all chunks and channels."""
+        """Return whether there is an intact summary that names all chunks and channels."""
         end = self._read(max(0, self._size - END_SIZE), END_SIZE)
         if len(end) < END_SIZE or end[-len(MAGIC) :] != MAGIC or end[0] != FOOTER:
             return False
@@ -290,7 +290,7 @@ class McapIndex:
             return False
 
     def _is_followed(self, at: int) -> bool:
-        """Whether the file ends at an offset, or a plausible record begins."""
+        """Return whether the file ends at an offset, or a plausible record begins."""
         if at == self._size:
             return True
         opcode, length = self._prefix(at)

@@ -61,7 +61,7 @@ def _kind(path: Path) -> str:
 
 
 def _other(path: Path, head: bytes) -> str:
-    """What a file is that is not a recording of ROS 2."""
+    """Return what a file is that is not a recording of ROS 2."""
     if not head:
         return f"{path} is empty (0 bytes). Copy it again, or choose another bag."
     if head.startswith(LFS):

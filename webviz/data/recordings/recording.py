@@ -65,7 +65,7 @@ class Recording(Protocol):
 
 @dataclass
 class Losses:
-    """What cannot be read of a recording.
+    """Parts of a recording that cannot be read.
 
     Args:
         unit: what may be lost, such as "message".
@@ -102,6 +102,6 @@ class TextAllowance:
         self._left = MAX_DEFINITIONS
 
     def take(self, *sizes: int) -> bool:
-        """Whether texts of these sizes may be kept, too."""
+        """Return whether texts of these sizes may be kept, too."""
         self._left -= sum(sizes)
         return self._left >= 0

@@ -200,7 +200,7 @@ def _damaged(path: Path, reason: str) -> RecordingError:
 
 
 def _is_cut(path: Path) -> bool:
-    """Whether the file is smaller than its header says."""
+    """Return whether the file is smaller than its header says."""
     with path.open("rb") as file:
         page_size, pages = struct.unpack_from(">H10xI", file.read(32), 16)
     return path.stat().st_size < (page_size if page_size > 1 else 1 << 16) * pages

@@ -23,7 +23,7 @@ from webviz.data.transforms.topology import Topology
 from webviz.data.transforms.tree import FrameTree, roots
 
 QUATERNION_TOLERANCE = 10e-3
-"""How far the squared length of a normalised quaternion may be from 1 (tf2's constant)."""
+"""Tolerance of the squared length of a normalised quaternion around 1 (tf2's constant)."""
 
 
 _SILENT = np.errstate(over="ignore", invalid="ignore")
@@ -250,7 +250,7 @@ class TransformBuffer:
         return Transform(pose[:3], pose[3:], stamp_ns)
 
     def can_transform(self, target: str, source: str, stamp_ns: int) -> bool:
-        """Whether `lookup` would succeed."""
+        """Return whether `lookup` would succeed."""
         try:
             self._pose(target, source, stamp_ns)
         except TransformException:

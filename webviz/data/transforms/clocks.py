@@ -1,4 +1,4 @@
-"""Whether the clocks of the publishers of transforms agree with ours."""
+"""Agreement between the clocks of the publishers of transforms and ours."""
 
 from __future__ import annotations
 

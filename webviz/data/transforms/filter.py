@@ -57,7 +57,7 @@ class MessageFilter(Generic[P]):
 
     @property
     def is_stuck(self) -> bool:
-        """Whether messages wait or were dropped since one last became ready."""
+        """Return whether messages wait or were dropped since one last became ready."""
         return bool(self._queue) or self._given_up is not None
 
     def __len__(self) -> int:
@@ -170,7 +170,7 @@ def _pose(buffer: TransformBuffer, fixed_frame: str, message: _Waiting[P]) -> Tr
 
 
 def _is_too_old(buffer: TransformBuffer, fixed_frame: str, message: _Waiting[P]) -> bool:
-    """Whether a transform for it can no longer arrive (tf2's rule)."""
+    """Return whether a transform for it can no longer arrive (tf2's rule)."""
     try:
         newest = buffer.latest_common_time(fixed_frame, message.frame)
     except TransformException:

@@ -25,7 +25,7 @@ Finite transforms may compose to infinity or NaN, which no viewer can draw.
 
 
 def is_within_reach(pose: PoseTuple) -> bool:
-    """Whether a pose is finite and near enough to be drawn."""
+    """Return whether a pose is finite and near enough to be drawn."""
     return all(abs(value) <= REACH_M for value in pose)
 
 

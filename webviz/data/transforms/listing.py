@@ -13,7 +13,7 @@ SHORTEST_SPAN_NS = 100_000
 
 
 def frames_as_yaml(tree: FrameTree, publishers: Mapping[str, Publishers], now_ns: int) -> str:
-    """What tf2's all_frames_as_yaml returns, and `view_frames` reads.
+    """Return tf2's all_frames_as_yaml, which `view_frames` reads.
 
     `transform_delay` is omitted if `now_ns` is 0.
     """

@@ -146,7 +146,7 @@ class _Group(NamedTuple):
 
     frame: str
     rows: NDArray[np.intp] | slice
-    """Which requests, (n,); a slice is all of them."""
+    """Indices of requests, (n,); a slice stands for all of them."""
     pose: C128 | None
     """The start of the walk in `frame`, pairs (4, n) or one for all (4, 1); None: the identity."""
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from webviz.data.transforms.cache import ParentedPose
 
 Claim = str | ParentedPose
-"""What distinguishes publishers of one frame: the authority of a moving transform, and of a static
-one the parent and pose, as publishers of the same static transform agree."""
+"""Key that distinguishes publishers of one frame: the authority of a moving transform, the parent
+and pose of a static one, as publishers of the same static transform agree."""
 
 MAX_REPLACED = 8
 """Claims remembered per frame."""
@@ -28,7 +28,7 @@ class Contest:
 
     @property
     def is_static(self) -> bool:
-        """Whether a static transform takes part: those are not repeated, so it cannot expire."""
+        """Return whether a static transform takes part: as they do not repeat, it cannot expire."""
         return not all(isinstance(claim, str) for claim in self.claims)
 
     def parents(self) -> list[str]:

@@ -20,7 +20,7 @@ RECENT = 100
 MIN_TURNS = 6
 """Consecutive changes of pose, each back to the pose before the last, that mean two publishers."""
 LEAP = 10.0
-"""How many times longer each step of a turn is than both steps together."""
+"""Ratio between each step of a turn and the distance of both steps together."""
 MIN_LEAP_M = 0.01
 """Smaller changes are noise, such as an encoder's last digit."""
 
@@ -78,7 +78,7 @@ def _in_words(frame: str, contest: Contest) -> str:
 
 
 def _takes_turns(samples: deque[ParentedPose]) -> bool:
-    """Whether the newest poses alternate between two places."""
+    """Return whether the newest poses alternate between two places."""
     newest = [pose[:3] for pose, _ in islice(reversed(samples), MIN_TURNS + 2)]
     if len(newest) < MIN_TURNS + 2:
         return False

@@ -50,7 +50,7 @@ class Topology:
         self._nodes: dict[str, int] = {}
         self._parents: list[int] = []
         self.is_usable = self._climb(tree, target)
-        """Whether the target is neither in nor below a loop."""
+        """True if the target is neither in nor below a loop."""
         if not self.is_usable:
             return
         for frame in frames:

@@ -31,7 +31,7 @@ MAX_MISSED = 5
 
 @dataclass(frozen=True)
 class Grant:
-    """What somebody may do.
+    """Rights of a connection.
 
     Args:
         role: what they may do.
@@ -47,7 +47,7 @@ class Grant:
 
 
 EVERYBODY = Grant(Role.OWNER)
-"""What holds if no tokens are asked for."""
+"""Grant in effect if no tokens are required."""
 
 
 def _now() -> datetime:
@@ -99,19 +99,19 @@ class Access:
         return self._own
 
     def by_secret(self, secret: str, role: Role) -> Grant | None:
-        """What a link gives, None if it is not valid."""
+        """Return the grant of a link, None if it is not valid."""
         token = self._file[1].by_secret(secret)
         return None if token is None or role_of(token) is not role else self._grant(token)
 
     def by_cookie(self, cookie: str) -> Grant | None:
-        """What a cookie gives, None if it is not valid."""
+        """Return the grant of a cookie, None if it is not valid."""
         if not self.asks:
             return EVERYBODY
         token = self._file[1].by_cookie(cookie)
         return None if token is None else self._grant(token)
 
     def holds(self, grant: Grant) -> bool:
-        """Whether a grant is still valid: its token was neither revoked, nor did it expire."""
+        """Return whether a grant is still valid: its token is neither revoked nor expired."""
         return not self.asks or self.by_cookie(grant.cookie) == grant
 
     def seconds_left(self, grant: Grant) -> float:
@@ -157,7 +157,7 @@ class Access:
 
 
 def _stamp(path: Path | None) -> tuple[int, ...]:
-    """What changes whenever a file is written, replaced, or gets another mode."""
+    """Return a value that changes whenever a file is written, replaced, or gets another mode."""
     try:
         status = os.stat(path) if path is not None else None
     except OSError:

@@ -1,4 +1,4 @@
-"""What people have done with a viewer: for its owner, and for the log."""
+"""Journal of people's actions, for the viewer's owner and for the log."""
 
 from __future__ import annotations
 

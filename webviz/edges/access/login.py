@@ -59,7 +59,7 @@ def cookie_name(port: int) -> str:
 
 
 def grant_of(access: Access, headers: Headers, port: int) -> Grant | None:
-    """What a request may do by its cookie, None for nothing."""
+    """Return the grant of a request by its cookie, None for nothing."""
     if not access.asks:
         return access.by_cookie("")
     grants = (access.by_cookie(value) for value in _cookies(headers, cookie_name(port)))
@@ -67,7 +67,7 @@ def grant_of(access: Access, headers: Headers, port: int) -> Grant | None:
 
 
 def token_in(path: str) -> bool:
-    """Whether the address of a request carries a token, valid or not."""
+    """Return whether the address of a request carries a token, valid or not."""
     return any(name in LINKS for name, _ in _fields(path) or ())
 
 

@@ -1,4 +1,4 @@
-"""What proxies say of the requests that they forward."""
+"""Headers that proxies add to the requests they forward."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Caller:
     hosts: tuple[str, ...]
     """The values of its Host header, of which there should be one."""
     is_secure: bool
-    """Whether the browser uses https."""
+    """True if the browser uses https."""
 
 
 class Proxies:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 
 class Role(enum.IntEnum):
-    """What somebody may do; each role includes those before it."""
+    """Rights of a connection; each role includes those before it."""
 
     WATCHER = 1
     """Looks: has a camera, a view and a selection of their own, and reads the panels."""
@@ -33,7 +33,7 @@ LINKS = {"watch": Role.WATCHER, "operate": Role.OPERATOR, "own": Role.OWNER}
 
 @dataclass(frozen=True)
 class Limits:
-    """What one connection may use.
+    """Limits of one connection.
 
     Args:
         share: of all connections that there may be, as far as connections of this role and of those

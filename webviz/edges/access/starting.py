@@ -1,4 +1,4 @@
-"""Which tokens a viewer asks for, as decided by how it is started."""
+"""Tokens a viewer requires, as decided by how it is started."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ NAMES = {Role.WATCHER: "watcher", Role.OPERATOR: "operator", Role.OWNER: "owner"
 
 
 def is_local(host: str) -> bool:
-    """Whether only programs of this machine reach an address."""
+    """Return whether only programs of this machine reach an address."""
     try:
         found = socket.getaddrinfo(host or "0.0.0.0", None, flags=socket.AI_PASSIVE)
         return all(ipaddress.ip_address(entry[4][0]).is_loopback for entry in found)
@@ -33,7 +33,7 @@ def access_to(
     path: Path | None = None,
     environment: MutableMapping[str, str] = os.environ,
 ) -> Access:
-    """What a viewer asks for: nothing on this machine only, unless told to; else tokens.
+    """Return the access rules: none on this machine only, unless told to; else tokens.
 
     Args:
         host: address to listen on.

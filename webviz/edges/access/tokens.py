@@ -59,7 +59,7 @@ class Token(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         return hmac.new(self.secret.encode(), _PURPOSE, hashlib.sha256).hexdigest()
 
     def is_valid(self, now: datetime) -> bool:
-        """Whether it has not expired."""
+        """Return whether it has not expired."""
         return self.expires is None or now < self.expires
 
 

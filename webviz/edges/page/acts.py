@@ -1,4 +1,4 @@
-"""What pages ask of the viewer: commands by name, each answered in the page that sent it."""
+"""Dispatcher of the pages' commands, each answered in the page that sent it."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ NOT_OF_PAGES = frozenset({"browser", "made", "deliver"})
 """Fields that the server fills in: a page acts for itself and gets what it made with the answer."""
 
 NOTED = (Load, Open, Save)
-"""What is noted for the owner."""
+"""Commands noted for the owner."""
 
 MAX_ERROR = 1000
 """Characters of what is answered to a page that is refused: it may quote what the page sent."""

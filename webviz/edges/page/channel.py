@@ -48,20 +48,20 @@ _OWN: Any = Hello | Watch | Unwatch
 
 
 class Websocket(Protocol):
-    """What is needed of a websocket."""
+    """Protocol of a websocket."""
 
     logger: Any
     transport: Any
     is_expelled: bool
-    """Whether nothing that it sends counts any more."""
+    """True if nothing that it sends counts any more."""
     stretch: Stretch
-    """What was sent and may not have arrived."""
+    """Bytes sent that may not have arrived."""
     latency: float
     """Of the last ping in seconds, 0 before the first."""
 
     @property
     def grant(self) -> Grant:
-        """What it may do."""
+        """Return its grant."""
         ...
 
     @property
@@ -146,7 +146,7 @@ class Channel:
                 loop.call_soon_threadsafe(call)
 
     def pace(self, browser: int) -> LinkPace | None:
-        """How fast a browser takes what it is sent; None if it is gone. From any thread."""
+        """Return the congestion control of a browser; None if it is gone. From any thread."""
         with self._lock:
             outbox = self._outboxes.get(browser)
         return None if outbox is None else outbox.pace
@@ -185,7 +185,7 @@ class Channel:
         }
 
     def grant_of(self, browser: int) -> Grant | None:
-        """What a browser may do, None if it is gone; from any thread."""
+        """Return the grant of a browser, None if it is gone; from any thread."""
         with self._lock:
             known = self._visitors.get(browser)
         return None if known is None else known[1].grant
@@ -373,11 +373,11 @@ async def _nothing(browser: int) -> None:
 
 
 class _Long(msgspec.Struct, tag="Do"):
-    """What is read of a command that is too long."""
+    """Readable part of a command that is too long."""
 
     number: Number
 
 
 def objection(data: str | bytes, role: Role) -> str | None:
-    """What is wrong with a message before it is read, or None."""
+    """Return the objection to a message before it is read, or None."""
     return None if isinstance(data, str) else "bytes instead of text"

@@ -19,7 +19,7 @@ from webviz.data.images import COLOR_MAPS
 
 @dataclass(frozen=True)
 class Sent:
-    """What a page has already.
+    """Packets a page has already.
 
     Args:
         packet: number of the newest packet of a video.
@@ -77,13 +77,13 @@ def frame(
 
 
 def _following(packets: tuple[Packet, ...], sent: int) -> tuple[Packet, ...]:
-    """What a page needs that has all up to a packet: the rest, or all if it missed some."""
+    """Return the packets for a page that has all up to one of them: the rest, all after a gap."""
     first, last = packets[0].number, packets[-1].number
     return packets[sent + 1 - first :] if first <= sent <= last else packets
 
 
 def _legend(picture: Pixels) -> dict[str, Any]:
-    """Which values the colours of a measurement stand for."""
+    """Return the range of values that the colours of a measurement stand for."""
     layout, tone = picture.image.layout, picture.tone
     if not layout.is_scaled or layout.channels > 1:
         return {}

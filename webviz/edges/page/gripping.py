@@ -1,4 +1,4 @@
-"""What pages do with handles: passed on in order, of several moves only the newest."""
+"""Drags of handles by pages: passed on in order, of several moves only the newest."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ MOST = 50
 
 @dataclass
 class _Hand:
-    """What one browser does.
+    """Drag of one browser.
 
     Args:
         recent: when it did something else than move.

@@ -43,7 +43,7 @@ class Links:
 
 
 def reduced(pace: LinkPace) -> str:
-    """What is reduced because of a link, as a sentence; "" if nothing is."""
+    """Return a sentence on what is reduced because of a link; "" if nothing is."""
     parts = []
     if pace.every > 1:
         parts.append(f"clouds show every {pace.every}{_ordinal(pace.every)} point")

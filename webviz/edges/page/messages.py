@@ -1,4 +1,4 @@
-"""What the server and its pages tell each other: JSON objects whose `type` is the class's name."""
+"""Messages between the server and its pages: JSON objects whose `type` is the class's name."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ import msgspec
 from webviz.api.handles import GripKind
 
 Number = Annotated[int, msgspec.Meta(ge=0, lt=1 << 53)]
-"""What both JavaScript and JSON can hold."""
+"""Integers both JavaScript and JSON can hold."""
 
 
 class ToPage(msgspec.Struct, frozen=True, tag=True):
     """A message from the server to a page."""
 
     kept: ClassVar[bool] = False
-    """Whether only the newest of a kind counts: pages that join receive it, and it replaces
+    """True if only the newest of a kind counts: pages that join receive it, and it replaces
     older ones that wait to be sent."""
 
 
@@ -188,7 +188,7 @@ class Tools(ToPage, frozen=True):
 
 
 class Result(ToPage, frozen=True):
-    """What came of a stroke: a sentence, and its level "ok", "warn" or "error".
+    """Outcome of a stroke: a sentence, and its level "ok", "warn" or "error".
 
     Args:
         number: of the stroke.
@@ -315,7 +315,7 @@ class Unwatch(FromPage, frozen=True):
 
 
 class Values(ToPage, frozen=True):
-    """What is new in a store that the page watches.
+    """Changes of a store that the page watches.
 
     Args:
         store: its name.
@@ -363,7 +363,7 @@ class Use(FromPage, frozen=True):
 
 
 class Done(ToPage, frozen=True):
-    """What came of a `Do` or a `Use`.
+    """Outcome of a `Do` or a `Use`.
 
     Args:
         number: of the request.

@@ -1,4 +1,4 @@
-"""What browsers are sent: viser's page, to which JavaScript modules and style sheets are added.
+"""Page for browsers: viser's, with our JavaScript modules and style sheets added.
 
 They are in the one file of the page: to load more than a hundred small files takes longer than all
 the rest of the page, above all over a slow network.
@@ -23,7 +23,7 @@ _STYLE = re.compile(r'<link rel="stylesheet" href="webviz/([^"]+)">')
 _MODULES = "$MODULES"
 """Stands in `head.html` for all modules, as JSON."""
 _OWN = b"(async()=>{  const d=document.currentScript.dataset;"
-"""How the script of viser begins, which unpacks the rest of it."""
+"""Beginning of viser's script, which unpacks the rest of it."""
 
 
 class Modules:

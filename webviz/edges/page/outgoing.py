@@ -1,4 +1,4 @@
-"""What waits to be sent to one page over the channel."""
+"""Queue of messages to one page over the channel."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class PageQueue:
         """Bytes to send once no message waits, by key."""
         self.watched = Watched()
         self.is_full = False
-        """Whether something did not fit any more."""
+        """True if something did not fit any more."""
         self.filled = asyncio.Event()
         self._numbers = itertools.count()
 

@@ -1,4 +1,4 @@
-"""How fast a browser takes what it is sent, and how much may be on its way to it.
+"""Congestion control: the throughput of a browser, and the bytes allowed on their way to it.
 
 What is written to a socket cannot be overtaken any more: on a slow link it waits in buffers of the
 kernel, of routers and of tunnels, and everything after it waits as well. Hence only as much is on
@@ -99,7 +99,7 @@ class LinkPace:
         self._freed = asyncio.Event()
 
     def room(self, share: float = 1.0) -> int:
-        """How many bytes may be sent now, none if that is less than 1.
+        """Return the number of bytes that may be sent now, 0 if that is less than 1.
 
         Args:
             share: of the usual window.
@@ -137,7 +137,7 @@ class LinkPace:
             self._paid_until = max(self._paid_until, self.clock()) + size / self._limit
 
     def wants_ping(self, size: int) -> bool:
-        """Whether a ping should follow, `size` bytes after the one before on its connection."""
+        """Return whether a ping should follow, `size` bytes after the last on its connection."""
         return size > 0 and (
             size >= self._window / 4
             or self.in_flight >= self._window
@@ -210,7 +210,7 @@ class LinkPace:
 
 
 class Stretch:
-    """What one connection of a browser has sent since its last ping.
+    """In-flight window: bytes one connection of a browser has sent since its last ping.
 
     Args:
         pace: of the browser.
@@ -235,7 +235,7 @@ class Stretch:
 
     @property
     def is_due(self) -> bool:
-        """Whether a ping should follow."""
+        """Return whether a ping should follow."""
         return self.pace.wants_ping(self._size)
 
     def end(self) -> Mark | None:

@@ -76,7 +76,7 @@ class Pages:
             "panels": panels.panels,
         }
         self._read: dict[str, StateReading] = {}
-        """What the stores were made of that are kept."""
+        """Dependencies of the stores that are kept."""
         self._types = display_types()
         # A store that a page begins to watch is filled on the next turn of the frame loop.
         channel.on_watch = lambda browser: request(Refresh(), Sender(browser))
@@ -128,6 +128,6 @@ def _ranked(channel: Channel, sender: Sender) -> Sender:
 
 
 def _may_watch(browser: int, store: str) -> bool:
-    """Whether a store may be sent to a browser: a view is that of its own page only."""
+    """Return whether a store may be sent to a browser: a view is that of its own page only."""
     name, _, argument = store.partition(":")
     return name not in OF_ONE_BROWSER or argument == str(browser)

@@ -41,7 +41,7 @@ T = TypeVar("T")
 
 
 class People:
-    """What stores hold of people, see `webviz.edges.page.content`, and invitations.
+    """Stores about people, see `webviz.edges.page.content`, and invitations.
 
     Args:
         channel: to the pages.
@@ -89,7 +89,7 @@ class People:
         }
 
     def journal(self, state: State, _: str) -> Mapping[str, Any]:
-        """What people did, the newest first."""
+        """Return people's actions, newest first."""
         return {"entries": [dataclasses.asdict(entry) for entry in self._journal.entries]}
 
     # Called on the event loop

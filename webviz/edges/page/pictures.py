@@ -32,7 +32,7 @@ log = logging.getLogger("webviz")
 
 @dataclass(frozen=True)
 class _Shown:
-    """What a display shows now, and the number of it."""
+    """Picture a display shows now, and its number."""
 
     number: int
     pane: Pane
@@ -109,7 +109,7 @@ class Pictures:
                 del self._made[key]
 
     def is_unseen(self, display: str) -> bool:
-        """Whether pages have a pane for a display, but none has shown it for `UNSEEN_S`."""
+        """Return whether pages have a pane for a display, but none has shown it for `UNSEEN_S`."""
         now = time.monotonic()
         with self._lock:
             self._pages &= self._channel.browsers()
@@ -119,7 +119,7 @@ class Pictures:
             return now - self._seen.setdefault(display, now) > UNSEEN_S
 
     def panes(self) -> dict[str, Pane]:
-        """What is shown now by id of the display, in the order of the displays."""
+        """Return the panes shown now by display id, in the order of the displays."""
         with self._lock:
             shown = {display: each.pane for display, each in self._shown.items()}
         return dict(sorted(shown.items(), key=lambda item: item[1].order))
@@ -249,7 +249,7 @@ class Pictures:
         return look.shrink > before
 
     def _file(self, shown: _Shown, display: str, look: _Look) -> File | None:
-        """What a page decodes, None of a video; made once for all pages that show it as large."""
+        """Return the picture a page decodes, None for video; made once for all pages of a size."""
         picture = shown.pane.picture
         if isinstance(picture, Video):
             return None

@@ -1,4 +1,4 @@
-"""What a pixel of an image holds, in words."""
+"""Value of a pixel of an image, in words."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a store is made of, so that it is made anew only if that has changed."""
+"""Dependency tracking of stores: a store is made anew only if what it reads has changed."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class StateReading:
         """The state, to be read once."""
 
     def is_as_in(self, state: State) -> bool:
-        """Whether these fields are the same objects in another state."""
+        """Return whether these fields are the same objects in another state."""
         return all(getattr(state, name) is value for name, value in self._read.items())
 
 

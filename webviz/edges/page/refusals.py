@@ -1,4 +1,4 @@
-"""What a page is answered whose message its role does not allow, or which is not text."""
+"""Refusals of messages that the role of a page does not allow, or that are not text."""
 
 from __future__ import annotations
 

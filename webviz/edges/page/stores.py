@@ -19,7 +19,7 @@ Content = dict[str, msgspec.Raw]
 
 
 class Stores:
-    """What is in the stores, by their names."""
+    """Contents of the stores, by name."""
 
     def __init__(self) -> None:
         self._content: dict[str, Content] = {}
@@ -46,7 +46,7 @@ class Stores:
         return changed + [key for key in old if key not in new]
 
     def get(self, store: str) -> Content | None:
-        """What is in a store, None if nothing has been put there since it is watched."""
+        """Return the content of a store, None if nothing was put there since it is watched."""
         return self._content.get(store)
 
     def forget(self, watched: set[str]) -> None:
@@ -89,7 +89,7 @@ class Watched:
         return bool(dirty) or store in self._fresh
 
     def next(self, stores: Stores) -> Values | None:
-        """What is to be sent next, if anything."""
+        """Return the next changes to send, if any."""
         for store, dirty in self._dirty.items():
             content = stores.get(store)
             if content is None:

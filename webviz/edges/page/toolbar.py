@@ -93,7 +93,7 @@ class Toolbar:
         self._enqueue(command, Sender(browser)).add_done_callback(finish)
 
     def _is_flood(self, browser: int) -> bool:
-        """Whether a browser makes strokes faster than people do; if not, counts this one."""
+        """Return whether a browser makes strokes faster than people do; if not, counts this one."""
         now = self._clock()
         recent = {id: times for id, times in self._recent.items() if times[-1] > now - 1.0}
         times = recent.setdefault(browser, deque(maxlen=MOST))

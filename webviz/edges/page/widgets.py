@@ -1,4 +1,4 @@
-"""What panels are built of: widgets that are recorded here and drawn by pages."""
+"""Widgets of panels: recorded here and drawn by pages."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ MAX_CELL = 1000
 MAX_SLIDES = 300
 MAX_HTML = 500_000
 SETTLE_S = 0.5
-"""How long a field keeps what a browser entered before it shows what the panel has."""
+"""Time a field keeps what a browser entered before it shows the panel's value."""
 
 # Half characters, as bytes of another encoding become, cannot be sent.
 _UNSENDABLE = re.compile("[\ud800-\udfff]")
@@ -82,7 +82,7 @@ class ButtonWidget(Widget):
 
     @property
     def label(self) -> str:
-        """What stands on it."""
+        """Return the label."""
         return self.values["label"]
 
     @label.setter
@@ -104,7 +104,7 @@ class FieldWidget(Widget):
 
     @property
     def value(self) -> Any:
-        """What it holds now."""
+        """Return the current value."""
         return self.values["value"]
 
     def show(self, value: Any) -> None:

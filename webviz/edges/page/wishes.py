@@ -1,4 +1,4 @@
-"""What the viewer does only because pages watch it."""
+"""Subscriptions that exist only because pages watch them."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Wishes:
 
 
 def _wishes(stores: set[str]) -> set[Command]:
-    """What is needed for these stores."""
+    """Return the commands that these stores need."""
     pairs = map(pair_of, _arguments("between", stores))
     return {
         InspectTopics(frozenset(_arguments("message", stores))),
@@ -49,7 +49,7 @@ def _wishes(stores: set[str]) -> set[Command]:
 
 
 def _arguments(name: str, stores: set[str]) -> set[str]:
-    """What stands behind the colon of the stores of a name."""
+    """Return the arguments after the colon of the stores of a name."""
     return {store.partition(":")[2] for store in stores if store.startswith(f"{name}:")}
 
 

@@ -35,7 +35,7 @@ class Bell:
     # For executors
 
     def done(self) -> bool:
-        """Whether it has rung."""
+        """Return whether it has rung."""
         return self._has_rung
 
     def add_done_callback(self, callback: Callable[[Any], object]) -> None:

@@ -18,7 +18,7 @@ MOST_CLIENTS = 100
 MOST_CALLS = 100
 """Pending service calls."""
 WAIT_S = 2.0
-"""How long to wait for a service or action to appear, and for an answer that is still on its way
+"""Time to wait for a service or action to appear, and for an answer that is still on its way
 when the node has ended."""
 
 

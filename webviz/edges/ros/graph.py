@@ -1,4 +1,4 @@
-"""What the node can do besides reading: publish, call services, send goals."""
+"""Output of the node: publishing, service calls, goals."""
 
 from __future__ import annotations
 

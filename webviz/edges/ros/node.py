@@ -32,7 +32,7 @@ from webviz.edges.ros.types import learn, message_class
 from webviz.engine.sources import Inbox, Offer, Publisher, Raw, Subscription
 
 REST_S = 0.25
-"""How long to wait before looking at the publishers of subscribed topics. Finite, because the
+"""Time to wait before looking at the publishers of subscribed topics. Finite, because the
 events executor of rclpy 7.1.6 spins at full load in an unlimited wait."""
 PENDING_S = 0.05
 """The same while calls are pending."""
@@ -110,7 +110,7 @@ class RosSource:
         return time.time_ns()
 
     def clock_messages(self) -> int | None:
-        """How many messages of /clock have moved ROS time; None without use_sim_time."""
+        """Return the number of /clock messages that moved ROS time; None without use_sim_time."""
         is_simulated = isinstance(self._clock, ROSClock) and self._clock.ros_time_is_active
         return self._clock_messages if is_simulated else None
 
@@ -195,7 +195,7 @@ class RosSource:
         return True
 
     def _has_as_many(self, topic: str, known: Offer) -> bool:
-        """Whether a topic has as many publishers as were known, which is quick to find out."""
+        """Return whether a topic has as many publishers as were known, which is quick to check."""
         return self._node.count_publishers(topic) == len(known.publishers)
 
     def _reconcile(self, wanted: Mapping[str, Subscription]) -> None:

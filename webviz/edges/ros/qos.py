@@ -54,7 +54,7 @@ def adapt(wish: Subscription, publishers: Sequence[Publisher]) -> tuple[Reliabil
 
 
 def is_mixed(wish: Subscription, publishers: Sequence[Publisher]) -> bool:
-    """Whether only some publishers are transient local, so that it takes two subscriptions.
+    """Return whether only some publishers are transient local, so that it takes two subscriptions.
 
     A volatile one misses latched messages, a transient local one does not match the others.
     """

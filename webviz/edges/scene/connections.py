@@ -147,26 +147,26 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
     ) -> None:
         super().__init__(*arguments, **options)
         self.stretch = Stretch(LinkPace(rate))
-        """What was sent and may not have arrived."""
+        """Bytes sent that may not have arrived."""
         self._asking: asyncio.Task[None] | None = None
         # websockets fails, and logs it, if a browser is gone before it is answered.
         send_eof = self.protocol.send_eof
         self.protocol.send_eof = lambda: None if self.protocol.eof_sent else send_eof()
         self.wants_head = False
-        """Whether the request is for the headers only."""
+        """True if the request is for the headers only."""
         self.host = ""
         """By what name the browser addresses this server, if it is allowed."""
         self.address = ""
         """IP address of the browser, as far as it is known."""
         self.is_secure = False
-        """Whether the browser uses https."""
+        """True if the browser uses https."""
         self.is_channel = False
-        """Whether this is the channel of a page, instead of viser's own connection."""
+        """True if this is the channel of a page, instead of viser's own connection."""
         self._gate = gate
         self.objection: Callable[[str | bytes, Role], str | None] = objection
         """The reason to ignore a message, or None."""
         self.is_expelled = False
-        """Whether nothing that it sends counts any more."""
+        """True if nothing that it sends counts any more."""
         self.grant = EVERYBODY
         self._head: bytearray | None = bytearray()
         self._read = memoryview(bytearray(READ_BYTES))
@@ -174,7 +174,7 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
 
     @property
     def grant(self) -> Grant:
-        """What it may do."""
+        """Return its grant."""
         return self._grant
 
     @grant.setter

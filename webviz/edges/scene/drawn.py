@@ -96,7 +96,7 @@ def finite(*arrays: NDArray[np.floating[Any]], along: Sequence[Any] = ()) -> lis
 
 
 def finite_rows(array: NDArray[np.floating[Any]]) -> NDArray[np.bool_]:
-    """Which rows of an array are finite."""
+    """Return the mask of finite rows of an array."""
     is_finite = np.isfinite(array)
     if is_finite.all():  # nearly always, and ten times as fast as row by row
         return np.ones(len(array), np.bool_)

@@ -1,4 +1,4 @@
-"""How many points browsers hold."""
+"""Number of points that browsers can hold."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Holds(FromPage, frozen=True):
 
 
 class Holding:
-    """What pages report of how many points they draw fast enough.
+    """Reports of pages on the number of points they draw fast enough.
 
     Args:
         link: to the server.
@@ -36,7 +36,7 @@ class Holding:
         link.channel.on(Holds, self._hear)
 
     def points(self) -> int:
-        """How many every connected page draws fast enough that has reported it."""
+        """Return the number of points every connected page that has reported draws fast enough."""
         clients = self._link.server.get_clients()
         with self._lock:
             for browser in self._reports.keys() - clients.keys():

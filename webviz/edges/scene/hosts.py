@@ -13,7 +13,7 @@ LOOPBACK = ("127.0.0.1", "localhost", "::1")
 
 
 def is_loopback(host: str) -> bool:
-    """Whether a valid Host header names the machine of the browser."""
+    """Return whether a valid Host header names the machine of the browser."""
     match = _HOST.fullmatch(host)
     return match is not None and (match["name"] or match["ipv6"]) in LOOPBACK
 

@@ -36,7 +36,7 @@ UNUSED_FEATURES = (
 )
 """Of browsers; the page needs gamepads, full screen and the clipboard."""
 HTTPS_ONLY_S = 30 * 86400
-"""How long browsers use https only. It holds for all ports of a host, so it should pass one day."""
+"""Duration of HSTS. It holds for all ports of a host, so it should pass one day."""
 
 Refusal = tuple[http.HTTPStatus, str]
 
@@ -44,7 +44,7 @@ NOT_FOUND: Refusal = http.HTTPStatus.NOT_FOUND, "Not found. The page of webviz i
 
 
 def is_complete(head: bytes) -> bool:
-    """Whether the bytes received so far are enough to check a request."""
+    """Return whether the bytes received so far are enough to check a request."""
     is_text = head[:1].isalpha()  # unlike a TLS handshake, which may have no end of line
     return not is_text or b"\n\r\n" in head or b"\n\n" in head or len(head) > MAX_HEAD_BYTES
 
@@ -77,7 +77,7 @@ def refusal(head: bytes) -> Refusal | None:
 
 
 def is_head(head: bytes) -> bool:
-    """Whether the request is for the headers only."""
+    """Return whether the request is for the headers only."""
     return head.startswith(b"HEAD ")
 
 
@@ -87,7 +87,7 @@ def as_get(head: bytes) -> bytes:
 
 
 def is_upgrade(request: Request) -> bool:
-    """Whether a request opens a websocket."""
+    """Return whether a request opens a websocket."""
     return "websocket" in (value.lower() for value in request.headers.get_all("Upgrade"))
 
 
@@ -128,7 +128,7 @@ def add_policy(headers: Headers, host: str, *, is_tls: bool = False) -> None:
 
 
 def _is_readable(head: bytes) -> bool:
-    """Whether websockets can parse a request, which it would otherwise not answer."""
+    """Return whether websockets can parse a request, which it would otherwise not answer."""
     reader = StreamReader()
     reader.feed_data(head)
     try:

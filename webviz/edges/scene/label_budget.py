@@ -1,4 +1,4 @@
-"""How many texts browsers show, and how fast they are sent."""
+"""Number of texts that browsers show, and the rate at which they are sent."""
 
 from __future__ import annotations
 
@@ -62,10 +62,10 @@ class LabelBudget:
 
     @property
     def is_waiting(self) -> bool:
-        """Whether a node has texts that are not shown."""
+        """Return whether a node has texts that are not shown."""
         return bool(self._waiting)
 
     @property
     def is_unfinished(self) -> bool:
-        """Whether the next flush can add more texts."""
+        """Return whether the next flush can add more texts."""
         return bool(self._waiting) and not self._due

@@ -33,7 +33,7 @@ URGENT = 1.5
 """Share of the window that small messages may fill."""
 
 REST_S = 0.5
-"""How long nothing may have waited before clouds that were thinned are sent whole."""
+"""Idle time before thinned clouds are sent again as a whole."""
 
 
 class Message(Protocol):
@@ -53,7 +53,7 @@ parts in it. Pages show a version once they have all parts (`web/scene/whole.js`
 
 @dataclass(frozen=True)
 class Progress:
-    """How far a browser is; those with the same need the same messages next.
+    """Progress of a browser; those with equal progress need the same messages next.
 
     Args:
         cursor: number of the last message that was sent or put in the line.
@@ -103,7 +103,7 @@ class Outbox:
 
     @property
     def progress(self) -> Progress:
-        """How far the browser is."""
+        """Return the progress of the browser."""
         return Progress(self.cursor, tuple(self._line.items()), self._begun)
 
     @progress.setter
@@ -113,11 +113,11 @@ class Outbox:
 
     @property
     def is_common(self) -> bool:
-        """Whether it sends what any other outbox sends that has the same progress, and room."""
+        """Return whether it sends what other outboxes with the same progress send, and has room."""
         return self._pace.rate is None and not (self._pieces or self._thin)
 
     def is_waiting(self) -> bool:
-        """Whether messages are in the line, or thinned clouds to be sent whole."""
+        """Return whether messages are in the line, or thinned clouds to be sent whole."""
         return bool(self._line or self._pieces or self._thin)
 
     def small(self, live: Mapping[int, M], newest: int, limit: int | None) -> list[M]:
@@ -234,7 +234,7 @@ class Outbox:
         return bulk(message) > BULK_BYTES and is_cloud(getattr(message, "updates", {}))
 
     def _is_next(self, key: object, number: int) -> bool:
-        """Whether nothing in the line is from before."""
+        """Return whether nothing in the line is from before."""
         is_first = key == next(iter(self._line))
         return is_first and all(begun.number > number for begun in self._pieces.values())
 
@@ -306,7 +306,7 @@ class _Begun:
 
 
 def _cloud(message: Message) -> tuple[Any, ...] | None:
-    """Which version of which cloud a message is part of, None if it is whole."""
+    """Return the cloud and version that a message is part of, None if it is whole."""
     return getattr(message, "updates", {}).get(CLOUD)
 
 

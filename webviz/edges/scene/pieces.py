@@ -96,7 +96,7 @@ class Pieces:
 
     @property
     def is_over(self) -> bool:
-        """Whether all of them were taken."""
+        """Return whether all of them were taken."""
         return self._start >= len(self._data)
 
     def take(self, size: int) -> Piece:

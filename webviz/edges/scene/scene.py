@@ -77,15 +77,15 @@ class ViserScene:
         self._holding = Holding(self.link)
 
     def has_watchers(self) -> bool:
-        """Whether any browser is connected."""
+        """Return whether any browser is connected."""
         return self.link.watchers > 0
 
     def is_unseen(self, display: str) -> bool:
-        """Whether pages have a pane for a display, by its id, but none has shown it for a while."""
+        """Return whether pages have a pane for a display id, but none has shown it for a while."""
         return self.link.pictures.is_unseen(display)
 
     def points_held(self) -> int:
-        """How many points every connected browser draws fast enough."""
+        """Return the number of points every connected browser draws fast enough."""
         return self._holding.points()
 
     def set_background(self, rgb: Rgb) -> None:

@@ -18,7 +18,7 @@ MOST = 1 << 12
 
 
 def is_cloud(updates: dict[str, Any]) -> bool:
-    """Whether properties are those of a cloud of points."""
+    """Return whether properties are those of a cloud of points."""
     points = updates.get("points")
     return isinstance(points, np.ndarray) and points.ndim == 2
 

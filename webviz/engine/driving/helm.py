@@ -20,7 +20,7 @@ TAIL = 5
 
 @dataclass(frozen=True)
 class HelmAnswer:
-    """What a browser learns about a helm.
+    """Answer to a browser about its velocity controller.
 
     Args:
         driver: id of the browser that drives, None if it is free.
@@ -52,7 +52,7 @@ class Helm:
 
     @property
     def is_at_rest(self) -> bool:
-        """Whether there is nothing to publish."""
+        """Return whether there is nothing to publish."""
         return self._wanted == self._velocity == STILL and self._tail == 0
 
     @property

@@ -20,7 +20,7 @@ GAP_S = 0.02
 ATTENDED_S = 2.0
 """A helm is attended for so long after a browser looked at it."""
 ENDING_S = 0.5
-"""How long `close` waits for the last commands to be published."""
+"""Time `close` waits for the last commands to be published."""
 UNKNOWN = "This tool has no valid topic, or is gone. Choose a topic in the panel Tools."
 ENDED = "The viewer has ended."
 
@@ -78,7 +78,7 @@ class Helms:
             return {tool for tool in self._helms if self._is_attended(tool, now)}
 
     def outlets(self) -> set[Outlet]:
-        """What has to be advertised: where commands of attended vehicles go."""
+        """Return the topics to advertise: where the commands of attended vehicles go."""
         now = time.monotonic()
         taken = {outlet.topic for outlet in self.stopping()}  # a topic has one type at a time
         with self._lock:

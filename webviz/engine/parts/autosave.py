@@ -22,7 +22,7 @@ log = logging.getLogger("webviz")
 
 AUTOSAVE_S = 2.0
 ENDING_S = 0.5
-"""How long `close` waits for the disk, at most twice."""
+"""Time `close` waits for the disk, at most twice."""
 NOT_SAVED = "The session is not saved: %s"
 
 
@@ -79,7 +79,7 @@ class AutosavePart(Part):
             self._warn(str(error.strerror))
 
     def _pending(self) -> tuple[Any, Callable[[], None]]:
-        """What there is to save, to compare it with what was saved last; and what writes it."""
+        """Return the state to save, to compare with what was saved last, and its writer."""
         config = self._files.config()
         if config.settings.publish is None:
             # What pages have changed must not become the list of the next start.

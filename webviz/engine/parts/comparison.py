@@ -16,7 +16,7 @@ from webviz.engine.parts.part import Core
 from webviz.engine.pipeline import Runner
 
 EVERY_S = 1.0
-"""How often displays are compared."""
+"""Interval of the consistency check."""
 ON_MAP, ON_WAY = "Map", "Obstacles"
 """Keys of the statuses of scans and of paths."""
 LEVEL = math.cos(math.radians(6.0))
@@ -77,7 +77,7 @@ class Comparison:
                 runner.remarks[ON_WAY] = Status(Level.WARN, _blocked(count, age_s))
 
     def _on_map(self, hits: Hits, maps: list[Walls]) -> tuple[Fit, Walls] | None:
-        """How well a scan lies on the walls of the map that fits best; None if that is unknown."""
+        """Return the fit of a scan to the best map; None if it is unknown."""
         found: list[tuple[Fit, Walls]] = []
         for walls in maps:
             if placed := self._placed(hits, walls.frame, walls.origin):
@@ -127,7 +127,7 @@ def _status(best: Fit, walls: Walls, hits: Hits, is_placed: bool) -> Status:
 
 
 def _sentence(best: Fit, walls: Walls, hits: Hits) -> str:
-    """How well a scan fits, and what would cure it."""
+    """Return a sentence on the fit of a scan and its remedy."""
     text = f"{best.share:.0%} of {best.points} points lie on walls of {walls.topic}"
     if best.is_good:
         return f"{text}."
@@ -157,7 +157,7 @@ def _sentence(best: Fit, walls: Walls, hits: Hits) -> str:
 
 
 def _blocked(count: int, age_s: float) -> str:
-    """What it means that a path leads through obstacles."""
+    """Return a sentence on a path that leads through obstacles."""
     text = f"The path leads through {count} points of the laser scan"
     if age_s > OLD_S:
         return (

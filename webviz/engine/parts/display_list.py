@@ -184,7 +184,7 @@ class DisplayList:
         return settings
 
     def written(self, ids: Iterable[str]) -> list[Item]:
-        """What to save of these displays and groups: a snapshot, for any thread."""
+        """Return the saved form of these displays and groups: a snapshot, for any thread."""
         chosen = [entry for entry in self._entries if entry.id in set(ids)]
         return [
             self._item(entry)
@@ -197,7 +197,7 @@ class DisplayList:
         return [self._item(entry) for entry in self._entries if entry.parent is parent]
 
     def kept(self, before: Mapping[str, Snapshot]) -> dict[str, Snapshot]:
-        """What undo needs of the entries, by id; unchanged ones are those from `before`."""
+        """Return the undo snapshot of the entries, by id; unchanged ones come from `before`."""
         return {
             entry.id: kept(entry.declared, _id(entry.parent), before.get(entry.id))
             for entry in self._entries

@@ -1,4 +1,4 @@
-"""What a panel shows of the list of displays."""
+"""Rows of the list of displays, as a panel shows them."""
 
 from __future__ import annotations
 

@@ -71,7 +71,7 @@ class DisplaysPart(Part):
         return merged(each.subscriptions() for each in active if not self._is_unseen(each))
 
     def outlets(self) -> set[Outlet]:
-        """What the displays publish."""
+        """Return the publishers of the displays."""
         return {outlet for runner in self.list.active() for outlet in runner.outlets()}
 
     def take(self, batches: Batches) -> None:
@@ -97,7 +97,7 @@ class DisplaysPart(Part):
         return runner.statuses(core.offers, core.frames, dropped, core.is_watched())
 
     def _is_unseen(self, runner: Runner) -> bool:
-        """Whether all that a display shows is a pane that nobody sees."""
+        """Return whether all that a display shows is a pane that nobody sees."""
         scene, display = self.core.scene, runner.display
         if not (display.enabled and type(display).has_pane):
             return False

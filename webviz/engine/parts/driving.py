@@ -1,4 +1,4 @@
-"""What robots that people drive report about themselves."""
+"""Reports of robots that people drive."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from webviz.engine.state import Driving
 
 ODOMETRY = "nav_msgs/msg/Odometry"
 FRESH_S = 1.0
-"""How long a speed counts."""
+"""Validity of a speed."""
 DIGITS = 2
 """Of speeds, so that nothing is sent while nothing changes."""
 REMEDY = "Choose another topic of odometry in the panel Tools."
@@ -62,7 +62,7 @@ class DrivingPart(Part):
         self._subscriber.ask()
 
     def state(self) -> Mapping[str, Any]:
-        """What attended vehicles do."""
+        """Return the state of attended vehicles."""
         drivers, topics = self._helms.drivers(), self._topics()
         return {
             "driving": {

@@ -33,16 +33,16 @@ class Entry:
 
     @property
     def depth(self) -> int:
-        """How many groups it is in."""
+        """Return the number of groups around it."""
         return 0 if self.parent is None else 1 + self.parent.depth
 
     @property
     def is_enabled(self) -> bool:
-        """Whether it and all groups it is in are enabled."""
+        """Return whether it and all groups it is in are enabled."""
         declared = self.declared
         own = isinstance(declared, Unreadable) or declared.enabled
         return own and (self.parent is None or self.parent.is_enabled)
 
     def is_within(self, other: Entry) -> bool:
-        """Whether it is `other` or in it."""
+        """Return whether it is `other` or in it."""
         return self is other or (self.parent is not None and self.parent.is_within(other))

@@ -42,7 +42,7 @@ from webviz.files.config.files import SUFFIXES, refuse_too_large
 
 MAX_OTHERS = 200
 FOLDER_S = 2.0
-"""How often to list the config files of the folder."""
+"""Interval between listings of the config files of the folder."""
 
 
 class FilesPart(Part):
@@ -172,7 +172,7 @@ class FilesPart(Part):
         return self._folder / path
 
     def _check(self, file: Path, sender: Sender) -> Callable[[], None]:
-        """What refuses, for pages, files that are no files of the folder; it reads the disk."""
+        """Refuse files for pages that are not files of the folder; reads the disk."""
         is_free = sender.browser is None or file == self._path
         return (lambda: None) if is_free else functools.partial(_refuse_elsewhere, file)
 

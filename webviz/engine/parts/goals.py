@@ -16,7 +16,7 @@ from webviz.engine.state import GoalProgress
 
 MAX_ACTIVE = 20
 SHOWN_S = 10.0
-"""How long a goal that ended well is shown; others until they are dismissed."""
+"""Duration for which a goal that ended well is shown; others stay until dismissed."""
 
 
 class GoalsPart(Part):
@@ -79,7 +79,7 @@ class GoalsPart(Part):
         self._goals = {id: goal for id, goal in self._goals.items() if self._is_worth_keeping(goal)}
 
     def state(self) -> Mapping[str, Any]:
-        """What pages show of the goals."""
+        """Return the goals as pages show them."""
         goals, now = self._goals.values(), self.core.clock()
         # Those that may have ended because of a new one, which is not accepted yet.
         old = {old for goal in goals for old in goal.before if goal.is_active and not old.is_active}

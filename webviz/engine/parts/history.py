@@ -97,7 +97,7 @@ class HistoryPart(Part):
             self._undo.append(_Done(step, before, self._now))
 
     def _goes_on(self, done: Difference, sender: Sender) -> bool:
-        """Whether a step belongs to the one before."""
+        """Return whether a step belongs to the one before."""
         now = self.core.clock()
         then, *same = self._last
         self._last = now, sender, done.property

@@ -1,4 +1,4 @@
-"""How tools and panels publish: names, QoS, and the sentence on the result."""
+"""Publishing by tools and panels: names, QoS, and the sentence on the result."""
 
 from __future__ import annotations
 

@@ -55,7 +55,7 @@ class PanelsPart(Part):
         }
 
     def subscriptions(self) -> Mapping[str, Subscription]:
-        """What the open panels read."""
+        """Return the subscriptions of the open panels."""
         known, self._subscribers = self._subscribers, {}
         wanted = []
         for tab in self._attended():
@@ -95,7 +95,7 @@ class PanelsPart(Part):
         return {"panels": tuple(self._tabs())}
 
     def statuses(self) -> Mapping[str, Status]:
-        """Which panels cannot be used."""
+        """Return the statuses of unusable panels."""
         return self.list.statuses()
 
     def _attended(self) -> list[PanelTab]:
@@ -114,7 +114,7 @@ class PanelsPart(Part):
             yield PanelTab(id, name if count[name] == 1 else f"{name} {count[name]}", panel)
 
     def _topics(self, panel: Panel, hook: str) -> Mapping[str, str]:
-        """What a panel says of its topics; nothing if it fails to."""
+        """Return the topics a panel names; empty if its hook fails."""
         return self.core.guard.attempt(f"The panel {panel.name}", {}, getattr(panel, hook))
 
     def _add(self, command: AddPanel, sender: Sender) -> str:

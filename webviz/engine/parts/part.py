@@ -57,7 +57,7 @@ class Core:
         """Publishers and QoS by topic."""
 
     def is_watched(self) -> bool:
-        """Whether any browser is connected."""
+        """Return whether any browser is connected."""
         return self.guard.attempt("Scene", True, self.scene.has_watchers)
 
 
@@ -112,5 +112,5 @@ class Part:
 
 
 def overrides(part: Part, hook: str) -> bool:
-    """Whether a part overrides a hook; the others do nothing."""
+    """Return whether a part overrides a hook; the others do nothing."""
     return getattr(type(part), hook) is not getattr(Part, hook)

@@ -59,7 +59,7 @@ class PluginList(Generic[P]):
         return item.name
 
     def items(self) -> list[P | Unreadable]:
-        """What to save: a snapshot, for any thread."""
+        """Return the items to save: a snapshot, for any thread."""
         return [copy.copy(item) for item in self._items.values()]
 
     def usable(self) -> dict[str, P]:
@@ -109,7 +109,7 @@ class PluginList(Generic[P]):
             raise not_changed(error, type(item), path, value) from error
 
     def kept(self, before: Mapping[str, Snapshot]) -> dict[str, Snapshot]:
-        """What undo needs of them, by id; unchanged ones are those from `before`."""
+        """Return the undo snapshot, by id; unchanged ones are those from `before`."""
         return {id: kept(item, "", before.get(id)) for id, item in self._items.items()}
 
     def restore(self, wanted: Mapping[str, Snapshot]) -> None:
@@ -132,7 +132,7 @@ class PluginList(Generic[P]):
         return item
 
     def statuses(self) -> Mapping[str, Status]:
-        """Which of them cannot be used."""
+        """Return the statuses of unusable ones."""
         faults = [item.reason for item in self._items.values() if isinstance(item, Unreadable)]
         key = f"{self._base.kind}s".capitalize()
         return {key: Status(Level.ERROR, " ".join(faults))} if faults else {}

@@ -1,4 +1,4 @@
-"""What each browser has selected in the scene, and what displays say about it."""
+"""Selections of browsers in the scene, and the details displays report."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ MAX_SELECTED = 1000
 MAX_LIVE = 50
 """Of a selection whose values are kept up to date."""
 EVERY_S = 0.5
-"""How often they are."""
+"""Interval between updates."""
 MAX_PAST = 20
 """Messages that are held for a selection alone, because newer ones have replaced them."""
 
@@ -38,13 +38,13 @@ class _Selected:
 
     @property
     def is_moving(self) -> bool:
-        """Whether it stays the same thing wherever it goes, such as a frame."""
+        """Return whether it stays the same thing wherever it goes, such as a frame."""
         return not self.found.hit.samples
 
 
 @dataclass
 class _Selection:
-    """What one browser has selected.
+    """Selection of one browser.
 
     Args:
         things: by the ids that the browser gave them.
@@ -99,7 +99,7 @@ class SelectionPart(Part):
                 selection.told = selection.told if told == selection.told else told
 
     def state(self) -> Mapping[str, Any]:
-        """What each browser has selected."""
+        """Return the selections of all browsers."""
         viewers = self._wanted.viewers
         held, told = {}, {}
         for browser, selection in self._selections.items():
@@ -180,7 +180,7 @@ class SelectionPart(Part):
         return {**told, "/info": info | {"count": len(selection.things)}}
 
     def _whereabouts(self, found: Found) -> dict[str, str]:
-        """What is known of anything that is drawn."""
+        """Return the details known of anything that is drawn."""
         hit = found.hit
         known: dict[str, str] = {}
         if (position := found.position(self.core.frames)) is not None:

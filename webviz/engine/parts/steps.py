@@ -1,4 +1,4 @@
-"""What undo goes back to, and how the difference of two such moments reads."""
+"""Undo snapshots, and the text of the difference of two of them."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def kept(content: Declared | Unreadable, group: str, before: Snapshot | None) ->
 
 
 def made_anew(kept: Snapshot) -> Declared | Unreadable:
-    """What was kept, made anew."""
+    """Return the declared object of a snapshot, made anew."""
     if kept.class_ is None:
         assert kept.content is not None
         return kept.content
@@ -90,7 +90,7 @@ class Moment:
 
 @dataclass(frozen=True)
 class Difference:
-    """What was done between two moments.
+    """Actions between two moments.
 
     Args:
         label: in a few words, "" if nothing was.
@@ -103,7 +103,7 @@ class Difference:
 
 
 def difference(before: Moment, after: Moment) -> Difference:
-    """What was done between two moments.
+    """Return the actions between two moments.
 
     An entry that can be shown because its plug-in came is the same one.
     """
@@ -134,7 +134,7 @@ def difference(before: Moment, after: Moment) -> Difference:
 
 
 def _outer(all_: Mapping[str, Snapshot], some: Sequence[Snapshot]) -> str:
-    """What some of all entries are called; what is in a group goes without saying."""
+    """Return the names of the outermost entries; those in a group go without saying."""
     groups = {id for id, kept in all_.items() if kept in some}
     outer = [kept.name for kept in some if kept.group not in groups]
     return outer[0] if len(outer) == 1 else f"{len(outer)} displays"

@@ -33,7 +33,7 @@ class TimePart(Part):
         self._clock_rate = Rate()
         self._start()
         self.missed = 0
-        """How many messages were dropped while paused."""
+        """Number of messages dropped while paused."""
         self.ros = RosTime(core.clock)
         """Detects that time went back."""
 
@@ -44,7 +44,7 @@ class TimePart(Part):
 
     @property
     def is_paused(self) -> bool:
-        """Whether the shown time is paused."""
+        """Return whether the shown time is paused."""
         return self._paused_ns is not None
 
     @property
@@ -71,7 +71,7 @@ class TimePart(Part):
         return {"clock": clock}
 
     def statuses(self) -> Mapping[str, Status]:
-        """Whether time runs."""
+        """Return whether time runs."""
         status = self.ros.status(self.core.offers)
         if self.is_paused and self.missed and not status:
             text = f"{counted(self.missed, 'message')} dropped while paused; the newest are kept."

@@ -109,7 +109,7 @@ class ToolsPart(Part):
         }
 
     def statuses(self) -> Mapping[str, Status]:
-        """Which tools cannot be used."""
+        """Return the statuses of unusable tools."""
         return self.list.statuses()
 
     def _use(self, command: UseTool, sender: Sender) -> None:

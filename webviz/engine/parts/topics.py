@@ -1,4 +1,4 @@
-"""What arrives on topics: rates, and the last messages of those that are inspected."""
+"""Traffic of topics: rates, and the last messages of inspected ones."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ SPAN_S = 3.0
 """Over how long a rate is measured."""
 MEASURED_S = 0.5
 EVERY_S = 1.0
-"""How often a message is read to be looked into."""
+"""Interval between readings of an inspected message."""
 MAX_INSPECTED = 64
 """Topics that are looked into at once."""
 
@@ -142,7 +142,7 @@ class TopicsPart(Part):
         return traffic
 
     def _look(self, topic: str) -> Inspected:
-        """What there is to say of a topic that is looked into."""
+        """Return the report on an inspected topic."""
         offer = self.core.offers.get(topic)
         type_ = _type_of(offer) if offer else ""
         if not offer or not offer.publishers:
@@ -161,7 +161,7 @@ class TopicsPart(Part):
 
 
 def _type_of(offer: Offer) -> str:
-    """What its messages are read as."""
+    """Return the type its messages are decoded as."""
     return offer.type or (offer.publishers[0].type if offer.publishers else "")
 
 

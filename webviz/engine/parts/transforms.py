@@ -16,7 +16,7 @@ from webviz.engine.state import Between
 from webviz.engine.statuses import fixed_frame_status
 
 EVERY_S = 1.0
-"""How often the tree is looked at."""
+"""Interval between readings of the tree."""
 MAX_BETWEEN = 64
 """Transforms that are read out at once."""
 
@@ -36,7 +36,7 @@ class TransformsPart(Part):
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
-        """What does each of its commands."""
+        """Return the handler of each of its commands."""
         return {InspectTransforms: self._inspect}
 
     def subscriptions(self) -> Mapping[str, Subscription]:
@@ -71,7 +71,7 @@ class TransformsPart(Part):
         }
 
     def statuses(self) -> Mapping[str, Status]:
-        """Whether anything can be drawn in the fixed frame, and what is wrong with transforms."""
+        """Return whether anything can be drawn in the fixed frame, and the transforms' problem."""
         core = self.core
         fixed = fixed_frame_status(core.frames.fixed_frame, core.buffer)
         found = self._listener.statuses(core.offers, core.frames.now_ns)

@@ -10,7 +10,7 @@ from webviz.api.display import Display
 
 
 def is_slow(display: Display, size: int) -> bool:
-    """Whether messages of `size` bytes are folded and drawn in a worker."""
+    """Return whether messages of `size` bytes are folded and drawn in a worker."""
     return display.is_threaded and size >= display.slow_bytes
 
 
@@ -102,11 +102,11 @@ class Tasks:
         return future.result()
 
     def has_news(self) -> bool:
-        """Whether a result is ready that was not when it was requested."""
+        """Return whether a result is ready that was not when it was requested."""
         return any(self._futures[key].done() for key in self._pending)
 
     def is_busy(self) -> bool:
-        """Whether a requested result is not drawn yet."""
+        """Return whether a requested result is not drawn yet."""
         return bool(self._pending)
 
     def cancel_unrequested(self) -> None:

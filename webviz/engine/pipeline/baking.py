@@ -37,7 +37,7 @@ def origin_near(position: Position, former: Position) -> Position:
 
 
 def can_bake(node: Node) -> bool:
-    """Whether the coordinates of a node can be transformed one by one."""
+    """Return whether the coordinates of a node can be transformed one by one."""
     return isinstance(node, Points | Lines | Arrows | Axes | Labels | Instances | Models)
 
 

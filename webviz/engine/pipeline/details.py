@@ -1,4 +1,4 @@
-"""What is known of something selected, as a tree of texts."""
+"""Details of a selected item, as a tree of texts."""
 
 from __future__ import annotations
 

@@ -86,7 +86,7 @@ class Drawing:
             self._past = Past() if is_wanted else None
 
     def find(self, picks: Picks) -> dict[int, Found]:
-        """What browsers picked, by its id; without what was on no screen in the last seconds."""
+        """Return the items browsers picked, by id; none that was on no recent screen."""
         scope, _, group = picks.group.removeprefix(f"{self._prefix}/").partition("/")
         shots = [self._shot(scope)] if scope in self._scopes else []
         found: dict[int, Found] = {}
@@ -157,7 +157,7 @@ class Drawing:
                     self._follow(self._name(scope, key), drawn, frames)
 
     def is_empty(self) -> bool:
-        """Whether nothing of the display is visible."""
+        """Return whether nothing of the display is visible."""
         return not any(
             drawn.visible and any(map(has_content, drawn.group.nodes.values()))
             for groups in self._scopes.values()

@@ -48,7 +48,7 @@ class Folding:
 
     def __init__(self, workers: Workers, judged: Callable[[str, str], None]) -> None:
         self.dropped: Counter[str] = Counter()
-        """How many samples of each input could not wait."""
+        """Number of samples of each input that could not wait."""
         self._workers = workers
         self._judged = judged
         self._state: Any = None
@@ -57,7 +57,7 @@ class Folding:
 
     @property
     def busy_with(self) -> Received | None:
-        """What is merged in a worker."""
+        """Return the message being merged in a worker."""
         return self._work and self._work[0]
 
     def put(self, received: Received) -> None:
@@ -70,7 +70,7 @@ class Folding:
             self.dropped[oldest.sample.input] += 1
 
     def results(self, display: Display, guard: Guard) -> Iterator[Received]:
-        """What was merged since the last call, with the merged message in the sample."""
+        """Return the samples merged since the last call, with the merged message."""
         while self._work or self._waiting:
             if self._work is None:
                 received = self._waiting.popleft()

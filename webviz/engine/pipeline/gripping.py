@@ -32,7 +32,7 @@ class Gripping:
 
     def __init__(self, id: str, services: Services) -> None:
         self.handles: Mapping[str, Handle] = {}
-        """What browsers can grip, by key; another object only after a change."""
+        """Handles browsers can drag, by key; another object only after a change."""
         self._id = id
         self._scene = services.scene
         self._wire = DisplayWire(services, services.gate) if services.gate else None
@@ -40,7 +40,7 @@ class Gripping:
         self._unseen = 0
 
     def subscriptions(self) -> Mapping[str, Subscription]:
-        """What the display listens to."""
+        """Return the subscriptions of the display."""
         return self._wire.subscriptions() if self._wire else {}
 
     def topics(self) -> tuple[str, ...]:
@@ -48,7 +48,7 @@ class Gripping:
         return self._wire.topics() if self._wire else ()
 
     def outlets(self) -> list[Outlet]:
-        """What the display publishes."""
+        """Return the publishers of the display."""
         return self._wire.outlets() if self._wire else []
 
     def followed(self) -> set[str]:

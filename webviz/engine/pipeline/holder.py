@@ -83,7 +83,7 @@ class Holder:
 
     @property
     def is_empty(self) -> bool:
-        """Whether no message is held."""
+        """Return whether no message is held."""
         return not any(history.held for history in self.histories.values())
 
     def prepare(self, frames: Frames) -> bool:

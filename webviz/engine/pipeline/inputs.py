@@ -54,11 +54,11 @@ class Inputs:
         return [intake.name for intake in self.intakes.values()]
 
     def is_waiting(self) -> bool:
-        """Whether the newest message of an input waits for its transform."""
+        """Return whether the newest message of an input waits for its transform."""
         return any(intake.is_waiting for intake in self._active().values())
 
     def waits(self, name: str) -> bool:
-        """Whether messages of an input wait for the transform at their stamp."""
+        """Return whether messages of an input wait for the transform at their stamp."""
         return self._guard("waits", self._display.waits, name) is not False
 
     def reset(self) -> None:
@@ -123,7 +123,7 @@ class Inputs:
         return duration_ns if isinstance(duration_ns, int) else 0
 
     def _is_replaced(self, intake: Intake, offer: Offer | None) -> bool:
-        """Whether nobody publishes an input, but another one that serves as well."""
+        """Return whether nobody publishes an input, but another one that serves as well."""
         other = self.intakes.get(intake.spec.unless)
         is_silent = not intake.has_received and not (offer and offer.publishers)
         return is_silent and other is not None and other.has_received
@@ -152,7 +152,7 @@ class Inputs:
         return Synchronizer(part, round(sync.slop * 1e9), sync.queue_size)
 
     def _sync_status(self, clock: float) -> Status | None:
-        """Which input the others wait for, unless its own messages wait for transforms."""
+        """Return the status on the input others wait for, unless it waits for transforms itself."""
         synchronizer, sync = self._synchronizer, type(self._display).sync
         if synchronizer is None or sync is None:
             return None

@@ -20,7 +20,7 @@ from webviz.engine.sources import Offer, Raw, Subscription
 PATIENCE_S = 1.0
 """A message that waits longer for its transform gets a status; TF is often 30 ms late."""
 DROPS_S = 10.0
-"""How long dropped messages are reported."""
+"""Duration for which dropped messages are reported."""
 LATE_S = 0.3
 """A message drawn later than this because of its transform gets a warning."""
 
@@ -47,7 +47,7 @@ class Drops:
         self._last_at = 0.0
 
     def recent(self, total: int, clock: float) -> int:
-        """How many to report.
+        """Return the number to report.
 
         Args:
             total: dropped so far; less than before if counting started over.
@@ -90,12 +90,12 @@ class Intake:
 
     @property
     def has_received(self) -> bool:
-        """Whether any message has arrived."""
+        """Return whether any message has arrived."""
         return self._reception.count > 0
 
     @property
     def is_waiting(self) -> bool:
-        """Whether the newest message waits for its transform."""
+        """Return whether the newest message waits for its transform."""
         return len(self._filter) > 0 and self._newest > self._newest_placed
 
     def subscription(self) -> Subscription:

@@ -1,4 +1,4 @@
-"""How fast ROS time runs, so that a page can count by itself."""
+"""Rate of ROS time, so that a page can count by itself."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class PaceMeter:
 
 
 class Rate:
-    """How often in a second something happens that is counted."""
+    """Rate per second of a counted event."""
 
     def __init__(self) -> None:
         self._counts: deque[tuple[int, float]] = deque()

@@ -61,7 +61,7 @@ class Painter:
     def __init__(self, id: str, scene: DrawingScene, workers: Workers, points: PointBudget) -> None:
         self.order = 0
         self.is_stale = True
-        """Whether everything must be redrawn, such as after a property changed."""
+        """True if everything must be redrawn, such as after a property changed."""
         self._id = id
         self._workers = workers
         self._points = points
@@ -140,22 +140,22 @@ class Painter:
         self._drawing.remember(is_wanted)
 
     def find(self, picks: Picks) -> dict[int, Found]:
-        """What browsers picked; see `Drawing.find`."""
+        """Return the items browsers picked; see `Drawing.find`."""
         return self._drawing.find(picks)
 
     def inspect(self, display: Display, guard: Guard, hit: Hit, frames: Frames) -> Details | None:
-        """What the display says about something that was selected, if it still exists."""
+        """Return the details the display reports of a selected item, if it still exists."""
         if self._state is _NO_STATE:
             return None
         return guard.attempt("inspect", None, display.inspect, hit, self._context(frames))
 
     def has(self, sample: Sample) -> bool:
-        """Whether a sample is drawn, by itself or with others."""
+        """Return whether a sample is drawn, by itself or with others."""
         drawn = self._drawn.get(sample.input)
         return drawn is None or any(sample is each for each, _ in drawn.values())
 
     def is_busy(self) -> bool:
-        """Whether the result of slow work is not drawn yet."""
+        """Return whether the result of slow work is not drawn yet."""
         return self._errand is not None or self._tasks.is_busy()
 
     @property
@@ -172,7 +172,7 @@ class Painter:
         return self._drawing.lost(frames)
 
     def is_empty(self) -> bool:
-        """Whether nothing of the display is visible."""
+        """Return whether nothing of the display is visible."""
         return self._drawing.is_empty()
 
     def statuses(self) -> dict[str, Status]:
@@ -185,7 +185,7 @@ class Painter:
         return result
 
     def color_scale(self) -> ColorScale | None:
-        """Which values colours stand for, as the hooks said when they were last called."""
+        """Return the colour scale that the hooks reported when they were last called."""
         return next((scale for scale in self._scales.values() if scale is not None), None)
 
     def offered(self) -> dict[str, Mapping[str, int]]:

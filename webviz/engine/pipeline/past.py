@@ -1,4 +1,4 @@
-"""What a display drew in the last seconds, for browsers whose picture is older than the scene."""
+"""Pictures of the last seconds, for browsers whose picture is older than the scene."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Past:
         self._trim()
 
     def of(self, scope: str) -> Iterator[Shot]:
-        """What was drawn in a scope, the newest first."""
+        """Yield the pictures of a scope, newest first."""
         self._trim()
         return (shot for _, name, shot, _ in reversed(self._shots) if name == scope)
 

@@ -33,7 +33,7 @@ N = TypeVar("N", bound=Items)
 
 @dataclass(frozen=True, eq=False)
 class Shot:
-    """What one call of a hook drew.
+    """Picture drawn by one call of a hook.
 
     Args:
         groups: by key, as they were sent.
@@ -76,7 +76,7 @@ class Found:
 
 
 def found_in(shot: Shot, group_key: str, key: str, picks: Sequence[Pick]) -> dict[int, Found]:
-    """What was picked of a node, by id, if this is what was on the screen.
+    """Return the picked items of a node, by id, if this was on the screen.
 
     Of things that the node does not have, or has elsewhere, there is nothing: the picture was
     another one, or a program made them up.
@@ -178,7 +178,7 @@ def _positions(node: Items) -> NDArray[np.float32]:
 
 
 def _is_at(node: Items, positions: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Whether each item is where a browser has it."""
+    """Return whether each item is where a browser has it."""
     if isinstance(node, Arrows):
         tails, tips = node.segments[:, 0].astype(np.float64), node.segments[:, 1]
         ways = tips - tails

@@ -1,4 +1,4 @@
-"""How many points each display may show, of those that the browsers draw fast enough."""
+"""Point budget: shares of displays in the points that browsers draw fast enough."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class PointBudget:
         self._wanted: dict[str, int] = {}
 
     def share(self, display: str, wanted: int) -> int:
-        """How many points a display may show.
+        """Return the number of points a display may show.
 
         Args:
             display: its id.

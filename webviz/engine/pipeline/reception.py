@@ -1,4 +1,4 @@
-"""How the messages of a topic arrive, or why they do not."""
+"""Topic statistics: rates, or the reasons why messages do not arrive."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class Reception:
         self.last = None
 
     def status(self, offers: Mapping[str, Offer], now_ns: int, clock: float) -> Status:
-        """What is received, or why nothing is.
+        """Return the status: what is received, or why nothing is.
 
         Args:
             offers: all topics.
@@ -183,7 +183,7 @@ class Reception:
 
 
 def _is_match(reliability: str, durability: str, publisher: Publisher) -> bool:
-    """Whether DDS connects a request, of which "auto" follows the publisher, with an offer."""
+    """Return whether DDS connects a request with an offer; "auto" follows the publisher."""
     unreliable = reliability == "reliable" and publisher.reliability == "best_effort"
     forgetful = durability == "transient_local" and publisher.durability == "volatile"
     return not unreliable and not forgetful

@@ -15,7 +15,7 @@ JUMP_NS = 100_000_000
 """Smaller steps back are corrections by NTP; bags and simulations go back further."""
 STILL_S = 2.0
 EVENT_S = 15.0
-"""How long it is shown that time went back."""
+"""Duration for which a jump back of time is shown."""
 
 
 class RosTime:
@@ -49,7 +49,7 @@ class RosTime:
         self._event, self._event_at = event, self._clock()
 
     def status(self, offers: Mapping[str, Offer]) -> Status | None:
-        """Whether time is missing, paused or went back; None if all is well."""
+        """Return whether time is missing, paused or went back; None if all is well."""
         publishers = offers["/clock"].publishers if "/clock" in offers else ()
         nodes = ", ".join(publisher.label for publisher in publishers)
         if not self._now_ns:

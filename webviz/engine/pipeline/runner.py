@@ -52,7 +52,7 @@ class Runner:
         self._holder = self._new_holder()
         self._robot: NamespacedRobot | None = None
         self._known_by: object = None
-        """What the robot was found by."""
+        """Key by which the robot was found."""
 
     # Configuration
 
@@ -109,7 +109,7 @@ class Runner:
         return merged([self._holder.inputs.subscriptions(), self._gripping.subscriptions()])
 
     def outlets(self) -> list[Outlet]:
-        """What the display publishes, none while it is disabled."""
+        """Return the publishers of the display, none while it is disabled."""
         return self._gripping.outlets() if self.display.enabled else []
 
     def reset(self) -> None:
@@ -141,11 +141,11 @@ class Runner:
             self._guard("scene", self._draw, self._own(frames))
 
     def is_waiting(self) -> bool:
-        """Whether the newest message of an input waits for its transform."""
+        """Return whether the newest message of an input waits for its transform."""
         return self.display.enabled and self._holder.inputs.is_waiting()
 
     def is_busy(self) -> bool:
-        """Whether the result of slow work is not drawn yet."""
+        """Return whether the result of slow work is not drawn yet."""
         return self.display.enabled and bool(self._holder.busy_with or self._painter.is_busy())
 
     def followed(self) -> set[str]:
@@ -155,11 +155,11 @@ class Runner:
         return self._painter.followed() | self._gripping.followed()
 
     def color_scale(self) -> ColorScale | None:
-        """Which values colours stand for, None if nothing of them can be seen."""
+        """Return the range of values that colours stand for, None if none is visible."""
         return None if self._painter.is_empty() else self._painter.color_scale()
 
     def evidence(self, frames: Frames) -> Evidence | None:
-        """What the display says about where things are; None if nothing of it can be seen."""
+        """Return the inputs of the consistency check; None if nothing of it can be seen."""
         if not overrides(self.display, "evidence") or self._painter.is_empty():
             return None
         context = self._painter.context(self.display, self._guard, self._own(frames))
@@ -171,7 +171,7 @@ class Runner:
     # Handles
 
     def handles(self) -> Mapping[str, Handle]:
-        """What browsers can grip, by key; another object only after a change."""
+        """Return the handles browsers can drag, by key; another object only after a change."""
         return self._gripping.handles
 
     def grip(self, grip: Grip, frames: Frames) -> None:
@@ -190,15 +190,15 @@ class Runner:
         return self._painter.offered()
 
     def find(self, picks: Picks) -> dict[int, Found]:
-        """What browsers picked, by its id; without what was on no screen in the last seconds."""
+        """Return the items browsers picked, by id; none that was on no recent screen."""
         return self._guard.attempt("selection", {}, self._painter.find, picks)
 
     def inspect(self, found: Found, frames: Frames) -> Details | None:
-        """What the display says about something that was selected, if it still exists."""
+        """Return the details the display reports of a selected item, if it still exists."""
         return self._painter.inspect(self.display, self._guard, found.hit, self._own(frames))
 
     def shows(self, found: Found) -> bool:
-        """Whether the message that something was drawn from is still drawn."""
+        """Return whether the message that something was drawn from is still drawn."""
         samples = found.hit.samples
         return not samples or self._painter.has(samples[-1])
 

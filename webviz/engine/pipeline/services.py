@@ -1,4 +1,4 @@
-"""What the displays of a viewer share."""
+"""Services shared by the displays of a viewer."""
 
 from __future__ import annotations
 

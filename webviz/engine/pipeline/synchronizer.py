@@ -43,9 +43,9 @@ class Synchronizer(Generic[P]):
     def __init__(self, inputs: Sequence[str], slop_ns: int = 0, queue_size: int = 10) -> None:
         self.inputs = tuple(inputs)
         self.sets = 0
-        """How many sets were formed."""
+        """Number of sets formed."""
         self.dropped = 0
-        """How many messages were in no set."""
+        """Number of messages that were in no set."""
         self._slop_ns = slop_ns
         self._queue_size = queue_size
         self._queues: dict[str, dict[int, P]] = {name: {} for name in self.inputs}
@@ -53,7 +53,7 @@ class Synchronizer(Generic[P]):
 
     @property
     def is_waiting(self) -> bool:
-        """Whether any message waits for its partners."""
+        """Return whether any message waits for its partners."""
         return any(self._queues.values())
 
     def add(self, name: str, stamp_ns: int, payload: P) -> dict[str, P] | None:

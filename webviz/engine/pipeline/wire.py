@@ -64,7 +64,7 @@ class DisplayWire:
         return self._services.resolve("~/node").rpartition("/")[0]
 
     def listen(self, topic: str, type: str, depth: int) -> Heard:
-        """What has happened on a topic since the last call; see `webviz.api.wire.Wire`."""
+        """Return the events on a topic since the last call; see `webviz.api.wire.Wire`."""
         name = self._services.resolve(topic)
         self._named.add(name)
         wanted = Subscription(type, Topic(name, "reliable", "volatile", depth))
@@ -119,7 +119,7 @@ class DisplayWire:
         return tuple(self._lines)
 
     def outlets(self) -> list[Outlet]:
-        """What it publishes."""
+        """Return its publishers."""
         return list(self._outlets.values())
 
     def take(self, batches: Mapping[str, Iterable[Raw]], offers: Mapping[str, Offer]) -> None:

@@ -264,7 +264,7 @@ class BagSource:
 
 
 def _is_new(wish: Subscription, before: Subscription | None) -> bool:
-    """Whether a subscription asks for latched messages."""
+    """Return whether a subscription asks for latched messages."""
     return before is None or before.type != wish.type or wish.asked > before.asked
 
 

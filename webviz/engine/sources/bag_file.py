@@ -85,7 +85,7 @@ class BagFile:
 
     @property
     def remarks(self) -> list[str]:
-        """What is missing, unusual or damaged so far, in sentences."""
+        """Return sentences on what is missing, unusual or damaged so far."""
         losses = self._recording.losses
         lost = str(losses)
         damage = f"{self.path.name} is damaged: {lost}; everything else is shown."

@@ -16,7 +16,7 @@ MAX_PROFILES = 100
 
 
 class BagProfile(NamedTuple):
-    """What one publisher offered; `depth` is 0 if it is unknown."""
+    """QoS offered by one publisher; `depth` is 0 if it is unknown."""
 
     reliability: Reliability
     durability: Durability

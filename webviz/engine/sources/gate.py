@@ -23,7 +23,7 @@ AllowList = tuple[str, ...]
 
 @dataclass(frozen=True)
 class Rights:
-    """What may be published, called and sent, as decided where the viewer was started.
+    """Rights to publish, call and send, as decided where the viewer was started.
 
     Args:
         may_publish: whether anything may be.

@@ -101,12 +101,12 @@ class Inbox:
             return self._held_drops
 
     def dropped(self, topic: str) -> int:
-        """How many messages of a topic were dropped since it was opened, but for `hold`."""
+        """Return the messages of a topic dropped since it was opened, but for `hold`."""
         with self._lock:
             return self._dropped.get(topic, 0)
 
     def received(self) -> dict[str, tuple[int, int]]:
-        """How many messages and bytes arrived on each topic since it was opened."""
+        """Return the messages and bytes received on each topic since it was opened."""
         with self._lock:
             return dict(self._received)
 

@@ -131,7 +131,7 @@ class Source(Protocol):
         ...
 
     def clock_messages(self) -> int | None:
-        """How many messages of /clock have set ROS time; None while ROS time is wall time."""
+        """Return the number of /clock messages that set ROS time; None while it is wall time."""
         ...
 
     def resolve(self, topic: str) -> str:

@@ -18,7 +18,7 @@ from webviz.files.config.errors import ConfigError
 BACKUP = ".bak"
 """Suffix of the file's previous version."""
 LOCK_S = 0.5
-"""How long to wait for another program saving in the same folder, which takes a millisecond."""
+"""Time to wait for another program saving in the same folder, which takes a millisecond."""
 PATIENCE_S = 20.0
 """For the disk; a memory card that is busy takes seconds."""
 POLL_S = 0.01

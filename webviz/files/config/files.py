@@ -68,5 +68,5 @@ def _read(path: Path) -> bytes:
 
 
 def is_rviz(path: Path) -> bool:
-    """Whether a file name ends with .rviz."""
+    """Return whether a file name ends with .rviz."""
     return path.suffix.lower() == ".rviz"

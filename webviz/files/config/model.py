@@ -1,4 +1,4 @@
-"""What a config holds: settings, and the lists of displays, tools and panels."""
+"""Config: settings, and the lists of displays, tools and panels."""
 
 from __future__ import annotations
 
@@ -77,12 +77,12 @@ class Unreadable:
 
     @property
     def is_from_rviz(self) -> bool:
-        """Whether it comes from a .rviz file and its class is unsupported."""
+        """Return whether it comes from a .rviz file and its class is unsupported."""
         return isinstance(self.values, Mapping) and "rviz" in self.values
 
     @property
     def enabled(self) -> bool:
-        """Whether the file enables it; RViz's displays are off by default."""
+        """Return whether the file enables it; RViz's displays are off by default."""
         if not isinstance(self.values, Mapping):
             return True
         if not self.is_from_rviz:

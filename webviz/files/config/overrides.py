@@ -31,7 +31,7 @@ from webviz.files.config import (
 from webviz.files.config.source import Path
 
 Entry = Item | ToolItem | PanelItem
-"""What the lists of a config consist of."""
+"""Entry of a list of a config."""
 
 _LISTS = {"displays": read_display, "tools": read_tool, "panels": read_panel}
 FORM = "write it as displays.Scan.size=0.1 or view.distance=5"

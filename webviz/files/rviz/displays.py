@@ -145,7 +145,7 @@ def bare(display: Display) -> Tree:
 
 
 def is_writable(item: P | Unreadable, report: Report) -> TypeGuard[P]:
-    """Whether RViz has a display or tool; otherwise the reason is reported."""
+    """Return whether RViz has a display or tool; otherwise the reason is reported."""
     if isinstance(item, Unreadable):
         report.note(item.name, "this entry", f"skipped: {item.reason.removesuffix('.')}")
         return False

@@ -37,7 +37,7 @@ NEW_FILE: Tree = {
         "Transformation": {"Current": {"Class": "rviz_default_plugins/TF"}},
     },
 }
-"""What RViz needs besides displays in a new file, to have panels and tools."""
+"""Parts RViz needs besides displays in a new file, to have panels and tools."""
 
 
 def read(text: str, where: str) -> tuple[Config, Report]:

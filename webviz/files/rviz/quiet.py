@@ -63,7 +63,7 @@ IGNORED_BY_PLUGINS = {("Namespaces", "nvblox_rviz_plugin/NvbloxVoxelBlockLayer")
 
 
 def is_without_effect(path: Path, tree: Tree) -> bool:
-    """Whether the value at a path of a display has no effect on what RViz shows."""
+    """Return whether the value at a path of a display has no effect on what RViz shows."""
     if any(key in ALWAYS for key in path):
         return True
     if path in IGNORED_BY_RVIZ2 or (path[0], str(tree.get("Class"))) in IGNORED_BY_PLUGINS:

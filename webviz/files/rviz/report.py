@@ -44,7 +44,7 @@ class Report:
 
     @property
     def is_complete(self) -> bool:
-        """Whether everything that was counted is carried over."""
+        """Return whether everything that was counted is carried over."""
         return not self.missing
 
     @property

@@ -53,7 +53,7 @@ def note_rest(document: Tree, report: Report) -> None:
 
 
 def is_supported(kind: str, cls: str) -> bool:
-    """Whether a class of "Panels" or "Tools" is supported, also by its name in ROS 1."""
+    """Return whether a class of "Panels" or "Tools" is supported, also by its name in ROS 1."""
     if counterpart(Tool if kind == "Tools" else Panel, cls):
         return True
     if kind == "Panels" and any(cls == tool.rviz_panel for tool in plugin_types(Tool).values()):

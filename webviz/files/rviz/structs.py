@@ -117,7 +117,7 @@ class Reading:
 
 
 def _is_said(place: RvizProperty, tree: Tree) -> bool:
-    """Whether a tree says what a topic is; that of a display without one is "" in RViz."""
+    """Return whether a tree says what a topic is; that of a display without one is "" in RViz."""
     is_output = isinstance(place.port, Output)
     return place.path[0] in tree if is_output else place.port is not None
 

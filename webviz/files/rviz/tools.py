@@ -87,7 +87,7 @@ def _all() -> list[Tool]:
 
 
 def _is_added(tool: ToolItem, panels: Any) -> bool:
-    """Whether `read_tools` adds the tool as it is."""
+    """Return whether `read_tools` adds the tool as it is."""
     if not isinstance(tool, Tool) or type(tool).rviz:
         return False
     added = _with_topic(make(type(tool), {}), panels)

@@ -129,7 +129,7 @@ def put(tree: Tree, path: Path, value: Any) -> None:
 
 
 def is_same(a: Any, b: Any) -> bool:
-    """Whether two values are equal to RViz, which uses single precision."""
+    """Return whether two values are equal to RViz, which uses single precision."""
     if isinstance(a, bool) or isinstance(b, bool):
         return a is b
     if isinstance(a, int | float) and isinstance(b, int | float):
@@ -186,7 +186,7 @@ def restored(tree: Tree, kept: Any, meant: object, meaning: Callable[[Tree], obj
 
 
 def _is_either(value: object, a: object, b: object) -> bool:
-    """Whether each part of a value is that of `a` or that of `b`; what a mapping lacks is None."""
+    """Return whether each part of a value is that of `a` or `b`; a missing key counts as None."""
     values = (value, a, b)
     trees = [each for each in values if isinstance(each, Mapping)]
     if not trees or len(trees) + values.count(None) < len(values):

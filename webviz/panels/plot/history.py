@@ -100,7 +100,7 @@ class CurveHistory:
         self._has_gap = False
 
     def _pending(self) -> list[Point]:
-        """What is kept of the newest interval, in order of time, each value once."""
+        """Return the points kept of the newest interval, in order of time, each value once."""
         kept = sorted(set(self._bucket or ()), key=lambda point: point[0])
         if kept and self._has_gap:
             kept.append((kept[-1][0], math.nan))

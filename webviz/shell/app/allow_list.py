@@ -1,4 +1,4 @@
-"""What may be published, as named where a viewer is started."""
+"""Allow-list as named where a viewer is started."""
 
 from __future__ import annotations
 

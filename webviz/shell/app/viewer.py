@@ -263,7 +263,7 @@ class Viewer(Running):
 
     @property
     def is_changed(self) -> bool:
-        """Whether there are unsaved changes."""
+        """Return whether there are unsaved changes."""
         return self.state.file.is_changed
 
     def open(self, path: str | os.PathLike[str]) -> None:

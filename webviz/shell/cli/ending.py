@@ -111,7 +111,7 @@ class Stop:
 
     @property
     def is_asked(self) -> bool:
-        """Whether the program was asked to end."""
+        """Return whether the program was asked to end."""
         return self._asked_s < math.inf
 
     @property

@@ -137,7 +137,7 @@ def _write(options: ScreenshotOptions, order: Order) -> int:
 
 
 class _Report:
-    """Which pictures have displays that are not OK."""
+    """Pictures with displays that are not OK."""
 
     def __init__(self) -> None:
         self.count = 0

@@ -64,7 +64,7 @@ BAG = Parameter(group=Group("Pictures of a bag", sort_key=2))
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
 class ScreenshotOptions(ConfigOptions):
-    """What pictures to make."""
+    """Options for the pictures to make."""
 
     output: Annotated[File, Parameter(alias="-o")]
     """Picture to write (.png, .jpg, .webp, .gif); several get the view and a number as suffix."""
@@ -110,7 +110,7 @@ class ScreenshotOptions(ConfigOptions):
 
     @property
     def is_animation(self) -> bool:
-        """Whether the pictures become one animated file."""
+        """Return whether the pictures become one animated file."""
         return (
             self.output.suffix.lower() in picture_files.ANIMATIONS
             and not self.contact_sheet

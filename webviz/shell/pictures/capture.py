@@ -73,7 +73,7 @@ class Capture:
 
     @property
     def is_ok(self) -> bool:
-        """Whether all awaited displays are OK in every picture."""
+        """Return whether all awaited displays are OK in every picture."""
         return all(picture.shown.is_ok for picture in self.pictures)
 
 

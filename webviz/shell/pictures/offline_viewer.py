@@ -49,7 +49,7 @@ class Readiness:
 
     @property
     def is_ok(self) -> bool:
-        """Whether all awaited displays are OK."""
+        """Return whether all awaited displays are OK."""
         return all(self.statuses[name].level is Level.OK for name in self.awaited)
 
 

@@ -95,5 +95,5 @@ class Snapshots:
         return contextlib.closing(Page(browser, url, *size, cookie=self._cookie))
 
     def _is_loaded(self) -> bool:
-        """Whether no display is loading; meshes are only read once a browser is connected."""
+        """Return whether no display is loading; meshes are read once a browser is connected."""
         return not any(LOADING in row.statuses for row in self._draw().rows)

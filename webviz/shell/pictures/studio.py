@@ -29,10 +29,10 @@ class StudioScene(ViserScene):
     """A scene that is updated only while a picture is wanted."""
 
     is_watched = True
-    """Whether the page counts as a browser; without one, viewers draw nothing."""
+    """True if the page counts as a browser; without one, viewers draw nothing."""
 
     def has_watchers(self) -> bool:
-        """Whether the scene has to be updated."""
+        """Return whether the scene has to be updated."""
         return self.is_watched and super().has_watchers()
 
     def is_unseen(self, display: str) -> bool:

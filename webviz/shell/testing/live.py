@@ -207,7 +207,7 @@ class LiveViewer(Shown):
                 self.viewer.turned.notify_all()
 
     def _is_connected(self, topic: str, type_name: str) -> bool:
-        """Whether the subscription is up to date with its publishers, including the test's."""
+        """Return whether the subscription knows all its publishers, including the test's."""
         from webviz.edges.ros.qos import adapt
 
         wish, offer = self.viewer.wanted().get(topic), self.source.offers().get(topic)

@@ -117,15 +117,15 @@ class RecordingScene:
             target.flush()
 
     def has_watchers(self) -> bool:
-        """Whether viewers draw."""
+        """Return whether viewers draw."""
         return self.watched
 
     def is_unseen(self, display: str) -> bool:
-        """Whether pages have a pane for a display, but none shows it."""
+        """Return whether pages have a pane for a display, but none shows it."""
         return display in self.unseen
 
     def points_held(self) -> int:
-        """How many points browsers draw fast enough."""
+        """Return the number of points browsers draw fast enough."""
         return self.held
 
     def visible(self, prefix: str = "") -> Iterator[tuple[str, Pose, Node]]:

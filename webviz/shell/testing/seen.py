@@ -118,7 +118,7 @@ class Seen:
         return {key: pose for key, (pose, _) in self.nodes(display).items()}
 
     def is_drawn(self, display: str | None = None) -> bool:
-        """Whether a display draws anything visible."""
+        """Return whether a display draws anything visible."""
         prefix = self._prefix(display)
         with self.scene.lock:
             return self._has_content(prefix)

@@ -52,7 +52,7 @@ class HandFedSource:
         return self.now
 
     def clock_messages(self) -> int | None:
-        """How many messages of /clock there were, which is `clock_count`."""
+        """Return the number of /clock messages, which is `clock_count`."""
         return self.clock_count
 
     def resolve(self, topic: str) -> str:

@@ -50,13 +50,13 @@ class WatchedViewer(FrameLoop):
             return self._parts.subscriptions()
 
     def is_waiting(self, id: str) -> bool:
-        """Whether the newest message of a display waits for its transform."""
+        """Return whether the newest message of a display waits for its transform."""
         with self._lock:
             return any(
                 runner.is_waiting() for runner in self._displays.list.active() if runner.id == id
             )
 
     def is_busy(self) -> bool:
-        """Whether a display is loading."""
+        """Return whether a display is loading."""
         with self._lock:
             return super().is_busy()

@@ -1,4 +1,4 @@
-"""What the systems beside webviz are told: topics, and which of them are latched."""
+"""Arguments of the systems beside webviz: topics, and which of them are latched."""
 
 from __future__ import annotations
 

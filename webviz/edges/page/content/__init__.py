@@ -1,4 +1,4 @@
-"""What the stores of the page hold, made of the state of the viewer.
+"""Contents of the page's stores, made from the state of the viewer.
 
 One function a store: from a state, and what stands behind the colon of the store's name, to values
 by key. It runs some times a second while a page watches, so it has to be quick; what has not

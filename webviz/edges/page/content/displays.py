@@ -30,7 +30,7 @@ def rate(state: State, id_: str) -> Mapping[str, Any]:
 
 
 class _Rows:
-    """What the page shows of rows, by id; the same object for a row as long as it is the same."""
+    """Rows as the page shows them, by id; the same object for a row as long as it is unchanged."""
 
     def __init__(self) -> None:
         self._known: dict[str, tuple[Row, Mapping[str, Any]]] = {}

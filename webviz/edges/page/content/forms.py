@@ -89,7 +89,7 @@ def _declared(each: Property, defaults: msgspec.Struct) -> dict[str, Any]:
 
 
 def _message_types(port: Input | Output | None) -> str:
-    """What a topic may carry, as `topics_of` reads it."""
+    """Return the message types of a topic, as `topics_of` reads them."""
     return ",".join(port.types) if isinstance(port, Input) else port.type if port else ""
 
 
@@ -126,12 +126,12 @@ def _kind(each: Property) -> str:
 
 
 def _is_float(item: inspect.Type) -> bool:
-    """Whether it is a number with more to say about it."""
+    """Return whether it is a number with more to say about it."""
     return isinstance(item, inspect.Metadata) and isinstance(item.type, inspect.FloatType)
 
 
 def _items(type_: inspect.Type) -> str:
-    """What is in a list or a dictionary: "text", or "json" for all else."""
+    """Return the kind of items of a list or a dictionary: "text", or "json" for all else."""
     items = getattr(type_, "value_type", None) or getattr(type_, "item_type", None)
     if items is None and not isinstance(type_, inspect.TupleType):
         return ""

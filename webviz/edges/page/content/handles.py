@@ -1,4 +1,4 @@
-"""What pages can grip in the scene."""
+"""Handles that pages can drag in the scene."""
 
 from __future__ import annotations
 

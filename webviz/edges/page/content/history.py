@@ -1,4 +1,4 @@
-"""What can be undone and redone."""
+"""Undo and redo history."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ from webviz.engine.state import Row, State
 
 
 def panes(state: State, _: str) -> Mapping[str, Any]:
-    """What is said about each pane by the id of its display, and "order": the ids.
+    """Return the captions of panes by the id of their display, and "order": the ids.
 
     Each has a "name", the first "problem" of the worst, and whether it "has_picture"; one that
     draws the scene, too, the ids of displays that are "hidden" in it.

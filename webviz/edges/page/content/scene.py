@@ -1,4 +1,4 @@
-"""What the page shows over the scene."""
+"""Overlays of the scene."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from webviz.engine.state import State
 
 
 def legend(state: State, _: str) -> Mapping[str, Any]:
-    """Which values colours stand for, by the id of the display; bounds to four digits."""
+    """Return the range of values of colour scales, by display id; bounds to four digits."""
     return {
         row.id: {
             "name": row.name,
@@ -24,5 +24,5 @@ def legend(state: State, _: str) -> Mapping[str, Any]:
 
 
 def watchers(state: State, _: str) -> Mapping[str, Any]:
-    """How many browsers look at the scene."""
+    """Return the number of browsers that watch the scene."""
     return {"count": len(state.views)}

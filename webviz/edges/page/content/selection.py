@@ -1,4 +1,4 @@
-"""What one browser has selected in the scene."""
+"""Selection of one browser."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from webviz.engine.state import State
 
 
 def selection(state: State, browser: str) -> Mapping[str, Any]:
-    """What is known of each thing, by its id, and "/info" on all of it.
+    """Return the details of each selected item by its id, and "/info" on all of them.
 
     A thing has the id and the "name" of its "display", a "title", a "tree" of values, and a "note".
     "/info" has their "total" before any limit, the "count" of those selected, and how many are

@@ -24,7 +24,7 @@ def tool(state: State, id_: str) -> Mapping[str, Any]:
 
 
 def driving(state: State, id_: str) -> Mapping[str, Any]:
-    """What the vehicle of the tool with this id does; nothing while no browser attends to it."""
+    """Return the state of the vehicle of the tool with this id; empty if no browser drives it."""
     found = state.driving.get(id_)
     if found is None:
         return {}

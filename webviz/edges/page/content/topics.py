@@ -72,7 +72,7 @@ def _topic(offer: Offer, types: Sequence[str], fits: Sequence[Pick]) -> Mapping[
 
 
 def _qos(publishers: Sequence[Publisher]) -> str:
-    """What publishers offer, "mixed" where they differ."""
+    """Return the QoS of publishers, "mixed" where they differ."""
     reliabilities = {publisher.reliability for publisher in publishers}
     durabilities = {publisher.durability for publisher in publishers}
     words = [each.pop() if len(each) == 1 else "mixed" for each in (reliabilities, durabilities)]

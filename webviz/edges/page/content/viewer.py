@@ -1,4 +1,4 @@
-"""What holds for the viewer as a whole."""
+"""Settings of the viewer as a whole."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def file(state: State, _: str) -> Mapping[str, Any]:
 
 
 def graph(state: State, _: str) -> Mapping[str, Any]:
-    """Whether nothing is published, except by webviz and on topics of every node."""
+    """Return whether nothing is published, except by webviz and on topics of every node."""
     published = (offer for topic, offer in state.offers.items() if topic not in OF_EVERY_NODE)
     nodes = {publisher.node for offer in published for publisher in offer.publishers}
     return {"is_empty": not nodes - {OWN_NODE}}

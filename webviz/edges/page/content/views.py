@@ -1,4 +1,4 @@
-"""What one browser looks at, and the views that are saved."""
+"""View of one browser, and the saved views."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ DIGITS = 3
 
 
 def view(state: State, browser: str) -> Mapping[str, Any]:
-    """What the browser with this id looks at: "declared" and the values, rounded; all "types"."""
+    """Return a browser's view: "declared" and the values, rounded; all "types"."""
     shown = state.views.get(int(browser)) if browser.isdecimal() else None
     if shown is None:
         return {}

@@ -1,4 +1,4 @@
-"""Which displays a pane shows that draws the scene with a camera of its own."""
+"""Displays visible in a pane that draws the scene with an overlay camera."""
 
 from __future__ import annotations
 

@@ -42,7 +42,7 @@ class Member(NamedTuple):
 
     @property
     def is_nested(self) -> bool:
-        """Whether it holds a type instead of a primitive."""
+        """Return whether it holds a type instead of a primitive."""
         return self.type_name not in _DESCRIBED
 
 

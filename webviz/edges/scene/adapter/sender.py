@@ -46,7 +46,7 @@ class SceneSender:
         self._packer = Packer()
         self._browsers: dict[int, _Browser] = {}
         self.is_held = False
-        """Whether messages wait for the end of an atomic block."""
+        """True if messages wait for the end of an atomic block."""
         self._thread: int | None = None
         self._due: asyncio.Handle | None = None
         buffer._window_loop = self._windows
@@ -192,7 +192,7 @@ class _Browser:
 
     @property
     def pace(self) -> LinkPace:
-        """How fast it takes what it is sent."""
+        """Return the congestion control of its link."""
         return self.connection.stretch.pace
 
 
