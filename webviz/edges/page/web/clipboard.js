@@ -8,7 +8,7 @@ export async function copy(text) {
     await navigator.clipboard.writeText(text);
     return true;
   } catch {
-    const before = document.activeElement;
+    const before = /** @type {HTMLElement | null} */ (document.activeElement);
     const field = el("textarea", { style: "position: fixed; opacity: 0" });
     field.value = text;
     document.body.append(field);

@@ -79,12 +79,12 @@ export const reveal = () => (document.documentElement.dataset.wvShown = "");
 
 /** Resolves when a condition holds, which is looked at before each frame. */
 export function until(condition) {
-  return new Promise((resolve) => {
+  return /** @type {Promise<void>} */ (new Promise((resolve) => {
     (function look() {
       if (condition()) resolve();
       else requestAnimationFrame(look);
     })();
-  });
+  }));
 }
 
 export const hasScene = () => Boolean(page()?.scene?.__r3f?.root && page().canvas);

@@ -13,6 +13,12 @@ import { sync } from "./sync.js";
  * refuses stays in the field for correction, `refused(text)` receives the reason. Unless `free`, only options
  * are taken. `opened()` is called when the list opens, and what it returns when it closes. Returns
  * `{element, input, update({value, options})}`.
+ *
+ * @param {{
+ *   label: string, value: any, options: any[], change: (value: any) => unknown,
+ *   refused?: (text: string) => void, free?: boolean, placeholder?: string,
+ *   opened?: () => (() => void) | void,
+ * }} options
  */
 export function combobox({
   label, value, options, change, refused, free = true, placeholder = "", opened = () => {},

@@ -26,7 +26,7 @@ export function lines(property, options) {
 /** The text for a list or a dictionary. */
 export function encode({ items }, value) {
   const dump = items === "text" ? flat : JSON.stringify;
-  if (Array.isArray(value)) return value.map(dump).join("\n");
+  if (Array.isArray(value)) return value.map((item) => dump(item)).join("\n");
   return Object.entries(value).map(([key, item]) => `${flat(key)}: ${dump(item)}`).join("\n");
 }
 

@@ -18,6 +18,12 @@ let lists = 0;
  * has the focus instead, such as a grid whose rows of heads are above.
  *
  * Returns `{element, show(items), resize(height), mark(key), marked()}`; `height` is of a row in pixels.
+ *
+ * @param {{
+ *   label: string, role?: string, rowRole?: string, height: number, make: (item: any) => any,
+ *   update: (...parts: any[]) => void, choose?: (item: any) => void,
+ *   onKey?: (event: KeyboardEvent, item: any) => boolean, host?: HTMLElement | null,
+ * }} options
  */
 export function rowList({
   label, role = "listbox", rowRole = "option", height, make, update, choose, onKey = () => false,

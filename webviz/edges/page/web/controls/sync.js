@@ -11,6 +11,10 @@ const LOST = { level: "error", text: "Not changed: the viewer does not answer. T
 /**
  * `show(value)` makes the control show a value. `send(value)` sends it to the viewer; it may return a promise
  * of `{level, text}`. `refused(text)` says why the viewer did not take it, or "" that all is well.
+ *
+ * @param {{
+ *   show: (value: any) => void, send: (value: any) => any, refused?: (text: string) => void,
+ * }} control
  */
 export function sync({ show, send, refused = () => {} }) {
   let newest;

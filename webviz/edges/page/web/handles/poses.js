@@ -11,7 +11,9 @@ const FACING = /\|m\d+\.(title|\d+v)$/;
 const BEFORE_PLACING = -1000.5; // viser places nodes at -1000
 const AFTER_PLACING = -999;
 const SETTLE_FRAMES = 3; // for the server's own pose to arrive after a drag
+/** @type {import("./vectors.js").Vector} */
 const X = [1, 0, 0];
+/** @type {import("./vectors.js").Quaternion} */
 const FROM_CAMERA = [0.5, -0.5, 0.5, 0.5]; // from right, up and back to forward, left and up
 
 const dragged = new Map(); // poses by id of the handle

@@ -1,5 +1,10 @@
 // Vectors `[x, y, z]`, unit quaternions `[w, x, y, z]`, and poses `{position, wxyz}`.
 
+/**
+ * @typedef {[number, number, number]} Vector
+ * @typedef {[number, number, number, number]} Quaternion
+ */
+
 export const add = (a, b) => a.map((value, axis) => value + b[axis]);
 export const sub = (a, b) => a.map((value, axis) => value - b[axis]);
 export const scaled = (a, factor) => a.map((value) => value * factor);
@@ -9,7 +14,11 @@ export const cross = (a, b) => [
 ];
 export const norm = (a) => Math.hypot(...a);
 
-/** The quaternion product: first `b`, then `a`. */
+/**
+ * The quaternion product: first `b`, then `a`.
+ *
+ * @type {(a: Quaternion, b: Quaternion) => Quaternion}
+ */
 export const turnedBy = ([aw, ax, ay, az], [bw, bx, by, bz]) => [
   aw * bw - ax * bx - ay * by - az * bz,
   aw * bx + ax * bw + ay * bz - az * by,
@@ -26,13 +35,24 @@ export function rotate(wxyz, vector) {
   return add(add(vector, scaled(twice, wxyz[0])), cross(axis, twice));
 }
 
-/** The rotation about a unit vector by an angle in radians. */
-export const about = (axis, angle) => [Math.cos(angle / 2), ...scaled(axis, Math.sin(angle / 2))];
+/**
+ * The rotation about a unit vector by an angle in radians.
+ *
+ * @type {(axis: Vector, angle: number) => Quaternion}
+ */
+export const about = ([x, y, z], angle) => {
+  const sine = Math.sin(angle / 2);
+  return [Math.cos(angle / 2), x * sine, y * sine, z * sine];
+};
 
-/** Of length one; rounding adds up over a long drag. */
-export function unit(wxyz) {
-  const length = Math.hypot(...wxyz);
-  return wxyz.map((value) => value / length);
+/**
+ * Of length one; rounding adds up over a long drag.
+ *
+ * @type {(wxyz: Quaternion) => Quaternion}
+ */
+export function unit([w, x, y, z]) {
+  const length = Math.hypot(w, x, y, z);
+  return [w / length, x / length, y / length, z / length];
 }
 
 /** The pose of `b`, given relative to `a`. */

@@ -33,8 +33,9 @@ function makeBench() {
   const gl = canvas.getContext("webgl", { premultipliedAlpha: true, antialias: true });
   if (!gl) throw new Error("This browser cannot bend images: it has no WebGL.");
   const program = gl.createProgram();
-  for (const [type, source] of [[gl.VERTEX_SHADER, VERTEX], [gl.FRAGMENT_SHADER, FRAGMENT]]) {
-    const shader = gl.createShader(type);
+  const sources = { [gl.VERTEX_SHADER]: VERTEX, [gl.FRAGMENT_SHADER]: FRAGMENT };
+  for (const [type, source] of Object.entries(sources)) {
+    const shader = gl.createShader(Number(type));
     gl.shaderSource(shader, source);
     gl.compileShader(shader);
     gl.attachShader(program, shader);
@@ -90,7 +91,7 @@ function trianglesOf({ rows, columns, places }) {
 }
 
 /** Which place of the image, as shares of its size, is shown at a place of the bent one; or null. */
-export function straight({ rows, columns, places }, [x, y]) {
+export function straight({ rows, columns, places }, /** @type {number[]} */ [x, y]) {
   const [across, down] = [x * (columns - 1), y * (rows - 1)];
   const column = Math.min(Math.floor(across), columns - 2);
   const row = Math.min(Math.floor(down), rows - 2);

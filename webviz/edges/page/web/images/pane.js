@@ -120,7 +120,7 @@ export function makePane(id, changed, withScene) {
     channel.send({ type: "ReadPixel", display: id, x: pixel[0], y: pixel[1] });
   }
 
-  const tell = ([x, y], text) => setText(value, `x ${x} · y ${y}${text && ` · ${text}`}`);
+  const tell = (/** @type {number[]} */ [x, y], text) => setText(value, `x ${x} · y ${y}${text && ` · ${text}`}`);
   readers.set(id, ({ x, y, text }) => mouse && tell([x, y], text));
   canvas.addEventListener("pointermove", (event) => {
     mouse = { clientX: event.clientX, clientY: event.clientY };

@@ -74,10 +74,10 @@ export function makePicture(canvas, { drawn, fail }) {
       return x >= 0 && y >= 0 && x < size[0] && y < size[1] ? [x, y] : null;
     },
     /** Red, green and blue of a pixel as it is drawn. */
-    colorAt([x, y]) {
+    colorAt(/** @type {number[]} */ [x, y]) {
       const column = Math.floor((x * canvas.width) / size[0]);
       const row = Math.floor((y * canvas.height) / size[1]);
-      return [...read(column, row, 1, 1).data.slice(0, 3)];
+      return Array.from(read(column, row, 1, 1).data.subarray(0, 3));
     },
     close() {
       video?.close();

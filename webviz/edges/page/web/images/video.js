@@ -62,8 +62,8 @@ export function makeVideo(draw, fail) {
       // A decoder that falls behind makes the server wait, too.
       while (decoder?.state === "configured" && decoder.decodeQueueSize > MAX_QUEUED) {
         await new Promise((resolve) => {
-          goOn = resolve;
-          decoder.addEventListener("dequeue", resolve, { once: true });
+          goOn = () => resolve(undefined);
+          decoder.addEventListener("dequeue", goOn, { once: true });
         });
       }
     },

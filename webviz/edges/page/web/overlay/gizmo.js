@@ -6,6 +6,7 @@ import * as viser from "../viser_page.js";
 
 const SIZE = 84;
 const REACH = 28;
+/** @type {[string, number, number][]} */
 const ENDS = [
   ["X", 0, 1], ["Y", 1, 1], ["Z", 2, 1], ["-X", 0, -1], ["-Y", 1, -1], ["-Z", 2, -1],
 ];

@@ -46,7 +46,7 @@ export function build() {
   // A look at all that is drawn is too slow for each frame; and its display knows more.
   async function rest() {
     const found = mouse && hit(mouse);
-    if (!found?.object) return;
+    if (!found || !("group" in found)) return; // the ground
     isNamed = true;
     const [at, point] = [mouse, toFixedFrame(found.point)];
     show(point, nameOf(found, names));

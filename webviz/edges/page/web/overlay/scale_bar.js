@@ -5,6 +5,7 @@ import * as views from "../scene/view.js";
 import * as viser from "../viser_page.js";
 
 const WIDEST = 110;
+/** @type {[string, number][]} */
 const UNITS = [["km", 1000], ["m", 1], ["cm", 0.01], ["mm", 0.001]];
 
 /** The largest of 1, 2 and 5 times a power of ten up to a length. */

@@ -59,7 +59,11 @@ function open(element, name) {
   };
 }
 
-// The elements with the properties of a panel, and what ends them.
+/**
+ * The elements with the properties of a panel, and what ends them.
+ *
+ * @returns {[HTMLElement[], () => void]}
+ */
 function properties(name) {
   let id = "";
   const send = (path, value) =>

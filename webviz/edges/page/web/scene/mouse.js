@@ -128,7 +128,7 @@ export function install() {
   });
   events.addEventListener("pointerleave", () => (mouse = null));
   window.addEventListener("keydown", (event) => {
-    const isTyping = /^(INPUT|TEXTAREA|SELECT)$/.test(event.target.tagName);
+    const isTyping = /^(INPUT|TEXTAREA|SELECT)$/.test(/** @type {Element} */ (event.target).tagName);
     const isPlain = !event.ctrlKey && !event.metaKey && !event.altKey;
     if (event.key !== "f" || isTyping || !isPlain || mouse === null) return;
     const point = pick(mouse);

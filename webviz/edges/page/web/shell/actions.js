@@ -87,7 +87,11 @@ export function install() {
     command(Object.assign(action, { group: action.group ?? "File" }));
 }
 
-/** An action as an item of a menu, with what is different there. */
+/**
+ * An action as an item of a menu, with what is different there.
+ *
+ * @param {{name: string, icon: string, key?: string | string[], run: () => unknown, needs?: string}} action
+ */
 export const item = ({ name, icon, key, run, needs }, more = {}) => ({
   label: name,
   icon,

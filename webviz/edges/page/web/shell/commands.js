@@ -79,7 +79,7 @@ export function install() {
     event.stopPropagation();
     if (event.repeat) return;
     // What was typed counts before anything is saved.
-    if (isInField) document.activeElement.blur();
+    if (isInField) /** @type {HTMLElement} */ (document.activeElement).blur();
     run(found);
   });
 }

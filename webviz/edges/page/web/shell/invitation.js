@@ -3,6 +3,7 @@
 import * as channel from "../channel.js";
 import { el, setText } from "../dom.js";
 
+/** @type {[string, number | null][]} */
 const ENDS = [["never ends", null], ["ends in 1 day", 1], ["ends in 7 days", 7], ["ends in 30 days", 30]];
 
 const LOCAL = "Only this machine can open this link. For others, start webviz with --host, open this page "

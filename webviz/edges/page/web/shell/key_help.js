@@ -47,8 +47,8 @@ export function openKeys() {
       [one.name.replace("…", ""), keysOf(one).map(keyText)],
     ]);
   }
-  for (const [keys, name] of [[TREE, "Tree of displays"], [TELEOP, "While driving"]]) {
-    groups.set(name, keys.map(([does, all]) => [does, all.map(keyText)]));
+  for (const [name, keys] of Object.entries({ "Tree of displays": TREE, "While driving": TELEOP })) {
+    groups.set(name, keys.map(([does, all]) => [does, [...all].map(keyText)]));
   }
   groups.set("Scene", SCENE);
   openDialog({

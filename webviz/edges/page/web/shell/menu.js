@@ -18,7 +18,7 @@ const GAP = 4;
  * Returns what closes the menu. `outer` is the menu that a submenu belongs to.
  */
 export function openMenu(x, y, items, outer = null) {
-  const before = document.activeElement;
+  const before = /** @type {HTMLElement | null} */ (document.activeElement);
   const menu = el(
     "div",
     { class: "wv-menu", role: "menu", popover: "auto", tabindex: -1 },

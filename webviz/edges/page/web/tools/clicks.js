@@ -5,6 +5,10 @@ const CLICK_PX = 4;
 /**
  * Makes `pointer` of a tool that acts on clicks of the left button, `onClick(event)`, of the right
  * one, `onRight`, and on what moves without a button, `onMove`.
+ *
+ * @param {(event: PointerEvent) => void} onClick
+ * @param {(event: PointerEvent) => void} onRight
+ * @param {(event: PointerEvent) => void} onMove
  */
 export function clicks(onClick, onRight = () => {}, onMove = () => {}) {
   let pressed = null;

@@ -44,7 +44,7 @@ export function install() {
   window.addEventListener("pagehide", () => away());
   document.addEventListener("visibilitychange", () => document.hidden && away());
   document.addEventListener("focusin", (event) => {
-    if (isTyping(event) || event.target.closest("dialog")) release();
+    if (isTyping(event) || /** @type {Element} */ (event.target).closest("dialog")) release();
   });
   channel.on("HelmReport", hear);
   channel.onOpen(() => {

@@ -55,7 +55,7 @@ export function makeStick(change) {
     /** Shows what is held, by whatever. */
     show([linear, , angular]) {
       const size = 1 / Math.max(1, Math.hypot(linear, angular));
-      for (const [name, part] of [["--wv-x", -angular], ["--wv-y", -linear]]) {
+      for (const [name, part] of Object.entries({ "--wv-x": -angular, "--wv-y": -linear })) {
         const place = (part * size).toFixed(3);
         if (knob.style.getPropertyValue(name) !== place) knob.style.setProperty(name, place);
       }

@@ -24,7 +24,8 @@ export function virtualList({ scroller, canvas, make, guess, isHeld }) {
 
   const measured = new ResizeObserver((entries) => {
     let isNew = false;
-    for (const { target } of entries) {
+    for (const entry of entries) {
+      const target = /** @type {HTMLElement} */ (entry.target);
       const height = target.offsetHeight;
       if (!target.isConnected || heights.get(target.dataset.id) === height) continue;
       heights.set(target.dataset.id, height);

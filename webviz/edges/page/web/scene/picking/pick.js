@@ -17,6 +17,9 @@ const PLANE_PX = 1; // what is as close together in depth lies in one plane
  *
  * Only things that are wanted count, and those within `reach` pixels. What the pointer is on comes first, the nearest of several; then lines and points next to it. A
  * picture, such as a map, comes last of what is not behind it.
+ *
+ * @param {[number, number]} xy
+ * @param {(thing: any) => boolean} isWanted
  */
 export function pickAt(xy, isWanted = () => true, reach = NEAR_PX) {
   const at = onCanvasAt(xy);
