@@ -108,6 +108,19 @@ def test_no_modules_import_each_other_in_a_circle() -> None:
     assert list(graphlib.TopologicalSorter(graph).static_order())
 
 
+def test_no_modules_of_the_page_import_each_other_in_a_circle() -> None:
+    folder = ROOT / "webviz/edges/page/web"
+    graph = {
+        path: {
+            (path.parent / target).resolve()
+            for target in re.findall(r'(?:from|import) "(\.[^"]+)"', path.read_text("utf-8"))
+        }
+        for path in folder.resolve().rglob("*.js")
+    }
+    assert len(graph) > 100
+    assert list(graphlib.TopologicalSorter(graph).static_order())
+
+
 def is_outer(name: str, other: str) -> bool:
     """Return whether a module names the package that it is in, or the public face of all."""
     return other in FACES or name == other or name.startswith(f"{other}.")

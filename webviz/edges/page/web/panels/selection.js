@@ -5,7 +5,7 @@ import { indent, rowList, touchable } from "../controls/rows.js";
 import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
 import { toast } from "../shell/toasts.js";
-import { openPanel } from "../shell/shell.js";
+import { openPanel } from "../shell/layout.js";
 import { watch } from "../stores.js";
 import { select } from "../tools/registry.js";
 import * as tool from "../tools/select.js";

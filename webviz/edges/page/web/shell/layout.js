@@ -34,6 +34,16 @@ export function fold(wanted = !isFolded()) {
   if (!narrow.matches) remember("folded", wanted);
 }
 
+/**
+ * Opens the tab of a panel by its name.
+ *
+ * @param {string} name
+ */
+export function openPanel(name) {
+  fold(false);
+  document.getElementById(`wv-tab-${name}`)?.click();
+}
+
 function setWidth(pixels) {
   const width = Math.max(MIN_WIDTH, Math.min(pixels, innerWidth * MAX_SHARE));
   document.documentElement.style.setProperty("--wv-width", `${Math.round(width)}px`);

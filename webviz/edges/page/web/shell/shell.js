@@ -56,12 +56,3 @@ function build() {
   firstRun.install(scene);
   layout.install();
 }
-
-/** Folds the side away, or shows it again. */
-export const { fold } = layout;
-
-/** Opens the tab of a panel by its name. */
-export function openPanel(name) {
-  layout.fold(false);
-  document.getElementById(`wv-tab-${name}`)?.click();
-}
