@@ -16,7 +16,7 @@ from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.frame_names import FIXED_FRAME, frame_of
 from webviz_displays.shared.geometry import Metres
 
-MOST_LINES = 200_000
+MAX_LINES = 200_000
 """More lines would make the browser unresponsive."""
 
 # Which axes of the frame are the two of the plane and its normal.
@@ -80,7 +80,7 @@ class Grid(Display):
         cells = f"{plane} x {plane}" + (f" x {normal}" if normal else "")
         ctx.warn(
             "Grid",
-            f"More than {MOST_LINES} lines are too many for a browser; showing the {cells} "
+            f"More than {MAX_LINES} lines are too many for a browser; showing the {cells} "
             "cells in the middle. Choose fewer and larger cells.",
         )
 
@@ -108,10 +108,10 @@ def _inner(plane: int, normal: int) -> tuple[int, int]:
         # Fewer by an even number, so that the remaining lines keep their places.
         return min(plane, most - (plane - most) % 2), min(normal, most - (normal - most) % 2)
 
-    if _count(plane, normal) <= MOST_LINES:
+    if _count(plane, normal) <= MAX_LINES:
         return plane, normal
-    limits = range(2, MOST_LINES)
-    return within(bisect.bisect_right(limits, MOST_LINES, key=lambda n: _count(*within(n))) + 1)
+    limits = range(2, MAX_LINES)
+    return within(bisect.bisect_right(limits, MAX_LINES, key=lambda n: _count(*within(n))) + 1)
 
 
 @functools.lru_cache(maxsize=4)

@@ -32,7 +32,7 @@ from webviz_displays.shared.geometry import Metres, along_x, is_drawable, origin
 
 F64 = NDArray[np.float64]
 
-MOST_POSES = 100_000
+MAX_POSES = 100_000
 """Poses drawn per path; they take up to 50 ms of the frame loop."""
 
 
@@ -102,9 +102,9 @@ class Path(Display):
         ctx.ok("Path", f"Showing {counted(count, 'pose')}.")
         positions, orientations = path.poses.positions, path.poses.orientations
         rows = None
-        if count > MOST_POSES:
-            ctx.warn("Path", f"Showing {MOST_POSES} of {count} poses, evenly picked.")
-            rows = evenly(count, MOST_POSES)
+        if count > MAX_POSES:
+            ctx.warn("Path", f"Showing {MAX_POSES} of {count} poses, evenly picked.")
+            rows = evenly(count, MAX_POSES)
             positions, orientations = positions[rows], orientations[rows]
         if count == 1 and self.pose_style == "None":
             ctx.warn("Path", "The path has only one pose; a line needs two.")

@@ -26,9 +26,9 @@ from webviz_displays.point_cloud2.decimation import evenly
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import FARTHEST
 
-MOST_VOXELS = 200_000
+MAX_VOXELS = 200_000
 """Boxes drawn at once; each takes 43 bytes to send."""
-MOST_LEVELS = 16
+MAX_LEVELS = 16
 """A column is 32 bits: from bit 0 on those that are not free, from bit 16 on those marked."""
 
 KINDS = ("marked", "unknown", "free")
@@ -45,7 +45,7 @@ def cells_of(message: Any) -> dict[str, Cells]:
     levels = np.arange(message.size_z, dtype=np.uint32)
     columns = message.data.reshape(message.size_y, message.size_x, 1)
     low = (columns >> levels & 1).astype(np.bool_)
-    high = (columns >> (levels + MOST_LEVELS) & 1).astype(np.bool_)
+    high = (columns >> (levels + MAX_LEVELS) & 1).astype(np.bool_)
     return {"marked": low & high, "unknown": low ^ high, "free": ~(low | high)}
 
 
@@ -129,10 +129,10 @@ def _fault_of(message: Any) -> str:
             f"The size is {shape[0]} x {shape[1]} columns, but the data has {len(message.data)}. "
             "Fix the publisher."
         )
-    if not all(shape) or message.size_z > MOST_LEVELS:
+    if not all(shape) or message.size_z > MAX_LEVELS:
         return (
             f"The size is {shape[0]} x {shape[1]} x {shape[2]} voxels; each must be at least 1 "
-            f"and the last at most {MOST_LEVELS}. Fix the publisher."
+            f"and the last at most {MAX_LEVELS}. Fix the publisher."
         )
     size = message.resolutions
     for length, count in zip((size.x, size.y, size.z), shape, strict=True):
@@ -148,9 +148,9 @@ def _add(
 ) -> bool:
     """Draw the cells of a kind that are not enclosed by others of it; whether there are any."""
     ids = np.flatnonzero(cells & ~_is_enclosed(cells))
-    if len(ids) > MOST_VOXELS:
-        ctx.warn("Limit", f"Showing {MOST_VOXELS} of {len(ids)} {kind} voxels, evenly picked.")
-        ids = ids[evenly(len(ids), MOST_VOXELS)]
+    if len(ids) > MAX_VOXELS:
+        ctx.warn("Limit", f"Showing {MAX_VOXELS} of {len(ids)} {kind} voxels, evenly picked.")
+        ids = ids[evenly(len(ids), MAX_VOXELS)]
     if len(ids):
         size = message.resolutions
         group.instances(

@@ -32,7 +32,7 @@ CORPUS = Path(__file__).parent / "corpus"
 Its README says what each of them broke."""
 TURN_S = 2.0
 """Duration of one kind of attack before the next begins."""
-MOST_BREACHES = 20
+MAX_BREACHES = 20
 ROLES = (None, *Role)
 KINDS = (
     *(class_.kind for class_ in (Dds, Requests, Uploads, Files, Saving, Simulator)),
@@ -121,7 +121,7 @@ def _attack(
     numbers = dict.fromkeys((attack.kind for attack in attacks), first)
     end = time.monotonic() + seconds
     turn_s = min(TURN_S, seconds / len(attacks))
-    while time.monotonic() < end and len(report.breaches) < MOST_BREACHES and target.is_alive:
+    while time.monotonic() < end and len(report.breaches) < MAX_BREACHES and target.is_alive:
         for attack in attacks:
             turn_end = time.monotonic() + turn_s
             while True:

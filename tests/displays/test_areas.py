@@ -107,7 +107,7 @@ def test_cells_that_are_not_drawn_are_counted(
     at.send(CELLS, cells(size=(1, 1)), frame="odom")
     at.turn()
     assert at.statuses()["Cells"] == ("WARN", "The message has no cells. Check its publisher.")
-    monkeypatch.setattr(grid_cells_module, "MOST_CELLS", 5)
+    monkeypatch.setattr(grid_cells_module, "MAX_CELLS", 5)
     at.send(CELLS, cells(*((i, 0, 0) for i in range(50)), size=(1, 1)), frame="odom")
     at.turn()
     assert len(at.nodes()["cells"].faces) == 10

@@ -149,7 +149,7 @@ DISPLAYS: list[Callable[[], Display]] = [
     RobotState,
 ]
 
-MOST_CASES = 128
+MAX_CASES = 128
 """Of one message; of twice as many every other one is tried."""
 
 LAST = "\x7f"
@@ -275,7 +275,7 @@ def test_an_extreme_value_is_never_drawn_as_nonsense_nor_left_out_in_silence(
     type_name = inputs_of(type(make()))[name].type
     found = []
     known = list(cases(type_name, MESSAGES[type_name]))
-    for case in known[:: len(known) // MOST_CASES or 1]:
+    for case in known[:: len(known) // MAX_CASES or 1]:
         values = copy.deepcopy(MESSAGES[type_name])
         changed(values, case)
         at = at_work(bench, make, name)

@@ -143,7 +143,7 @@ def test_former_maps_stay(shown: Callable) -> None:
 
 
 def test_a_large_map_is_thinned_out(shown: Callable, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(display_module, "MOST_CELLS", 30)
+    monkeypatch.setattr(display_module, "MAX_CELLS", 30)
     at = shown(GridMap(), grid_map({"elevation": slope}, (10, 10)))
     assert len(corners(at)) == 25
     assert at.statuses()["Grid map"][0] == "WARN"

@@ -201,7 +201,7 @@ def test_spheres_and_boxes_are_solids_and_really_transparent(
 def test_of_more_beams_than_any_laser_has_some_are_drawn_and_the_rest_counted(
     lab: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("webviz_displays.laser_scan.beams.MOST_BEAMS", 3)
+    monkeypatch.setattr("webviz_displays.laser_scan.beams.MAX_BEAMS", 3)
     bench = lab(scan([1, 2, 3, NAN, 4, 5], intensities=[1, 2, 3, 4, 5, 6]))
     assert len(bench.nodes()["points"].xyz) == 3
     assert bench.statuses()["Points"][1].endswith("dropped 3: 1 NaN, 2 over the limit of 3.")

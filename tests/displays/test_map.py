@@ -9,7 +9,7 @@ from webviz import Image, Topic
 from webviz.shell.testing.messages import header
 from webviz_displays.map import Map
 from webviz_displays.map.palettes import lookup_table
-from webviz_displays.map.tiles import LONGEST_TILE, MOST_CELLS, MOST_TILES, TILE
+from webviz_displays.map.tiles import LONGEST_TILE, MAX_CELLS, MAX_TILES, TILE
 
 GRID = "nav_msgs/msg/OccupancyGrid"
 UPDATE = "map_msgs/msg/OccupancyGridUpdate"
@@ -101,7 +101,7 @@ def test_a_map_of_whatever_shape_is_a_bounded_number_of_pictures(bench, shape) -
     send_map(at, cells)
     at.settle()
     nodes = at.nodes()
-    assert len(nodes) <= MOST_TILES
+    assert len(nodes) <= MAX_TILES
     assert sum(node.cells.size for node in nodes.values()) == cells.size
     assert max(max(node.cells.shape) for node in nodes.values()) <= LONGEST_TILE
     send_update(at, shape[1] - 1, shape[0] - 1, [[0]])
@@ -110,7 +110,7 @@ def test_a_map_of_whatever_shape_is_a_bounded_number_of_pictures(bench, shape) -
 
 def test_a_map_longer_than_any_picture_is_refused(bench) -> None:
     at = bench(Map())
-    send_map(at, np.zeros((1, MOST_CELLS + 1)))
+    send_map(at, np.zeros((1, MAX_CELLS + 1)))
     assert "at most 1048576 along an edge" in at.statuses()["Map"][1]
 
 

@@ -122,7 +122,7 @@ def test_too_large_maps_are_cut_with_a_warning(
     at = shown(NvbloxVoxelBlockLayer(), VOXELS)
     assert set(at.nodes()) == {NEAR}
     assert at.statuses()["Blocks"] == ("WARN", "Showing 6 of 9 voxels.")
-    monkeypatch.setattr(layer, "MOST_POINTS", 6)
+    monkeypatch.setattr(layer, "MAX_POINTS", 6)
     at = shown(NvbloxVoxelBlockLayer(), VOXELS)
     sentence = "1 block left out: the map is too large. Send it with clear set."
     assert at.statuses()["Blocks"] == ("WARN", sentence)

@@ -156,7 +156,7 @@ def test_colors_are_by_height_probability_or_of_the_cells(shown: Callable) -> No
 
 
 def test_too_many_voxels_are_merged(shown: Callable, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(seen_module, "MOST_VOXELS", 50)
+    monkeypatch.setattr(seen_module, "MAX_VOXELS", 50)
     at = shown(OccupancyGrid(), binary(octree(CUBE), 1.0))
     assert at.nodes()["voxels"].scales.tolist() == [[2.0] * 3] * 8
     level, text = at.statuses()["Voxels"]
@@ -199,7 +199,7 @@ def test_a_tree_that_cannot_be_read_says_why(shown: Callable, case: str) -> None
 
 
 def test_a_tree_of_too_many_nodes_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(octree_module, "MOST_NODES", 50)
+    monkeypatch.setattr(octree_module, "MAX_NODES", 50)
     for form in (binary, full):
         with pytest.raises(OctreeFault, match="The tree has more than"):
             read(form(octree(CUBE)))

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from webviz.data.rotations import matrices
 from webviz_displays.odometry import Odometry
-from webviz_displays.odometry.covariance_marks import MOST_COVARIANCES
+from webviz_displays.odometry.covariance_marks import MAX_COVARIANCES
 from webviz_displays.shared.pose_properties import (
     Covariance,
     OrientationCovariance,
@@ -216,11 +216,11 @@ def test_correlated_and_mirrored_axes_make_an_ellipsoid_of_the_same_spread(shown
 
 
 def test_covariances_are_drawn_for_the_newest_poses_only(shown: Benches) -> None:
-    count = MOST_COVARIANCES + 20
+    count = MAX_COVARIANCES + 20
     bench = shown(*map(odometry, range(count)), keep=0)
     assert len(tails(bench)) == count
-    assert len(bench.nodes()["wedges"].faces) == MOST_COVARIANCES
-    assert bench.statuses()["Covariance"][1].endswith(f"{MOST_COVARIANCES} of {count} covariances.")
+    assert len(bench.nodes()["wedges"].faces) == MAX_COVARIANCES
+    assert bench.statuses()["Covariance"][1].endswith(f"{MAX_COVARIANCES} of {count} covariances.")
 
 
 def test_a_covariance_that_is_none_is_left_out_and_named(shown: Benches) -> None:

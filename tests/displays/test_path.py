@@ -76,7 +76,7 @@ def test_colour_and_alpha_change_what_is_drawn_already(shown: Benches) -> None:
 def test_of_a_path_of_very_many_poses_some_are_drawn_and_it_is_said(
     shown: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("webviz_displays.path.MOST_POSES", 3)
+    monkeypatch.setattr("webviz_displays.path.MAX_POSES", 3)
     bench = shown(path(*((x, 0, 0) for x in range(9))), pose_style="Axes")
     assert len(bench.nodes()["line"].segments) == 2
     assert len(bench.nodes()["poses"].positions) == 3

@@ -249,8 +249,8 @@ def test_what_is_invalid_is_named_and_the_rest_is_drawn(
 
 
 def test_objects_without_end_are_bounded(world: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("webviz_displays.moveit.scene.MOST_BYTES", 5000)
-    monkeypatch.setattr("webviz_displays.moveit.scene.MOST_NAMES", 10)
+    monkeypatch.setattr("webviz_displays.moveit.scene.MAX_BYTES", 5000)
+    monkeypatch.setattr("webviz_displays.moveit.scene.MAX_NAMES", 10)
     for first in range(0, 40, 4):
         tell(world, scene(*(box(str(first + i), float(i)) for i in range(4)), is_diff=True))
     assert len(boxes(world)) == 4
@@ -319,7 +319,7 @@ def test_objects_that_follow_each_other_backwards_are_placed_at_once(world: Any)
 def test_a_hand_holds_a_limited_number_of_objects(
     world: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("webviz_displays.moveit.scene.MOST_HELD", 3)
+    monkeypatch.setattr("webviz_displays.moveit.scene.MAX_HELD", 3)
     things = [held("base", box(str(number), frame="base")) for number in range(4)]
     tell(world, {"robot_state": state("map", *things)})
     text = world.statuses()["Objects"][1]

@@ -137,7 +137,7 @@ def test_poses_that_are_not_finite_are_left_out_and_counted(shown: Benches) -> N
 
 
 def test_of_too_many_poses_some_are_picked(shown: Benches, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(pose_sets, "MOST_POSES", 10)
+    monkeypatch.setattr(pose_sets, "MAX_POSES", 10)
     at = shown(PoseArray(shape="Axes"), ARRAY, {"poses": [pose(i) for i in range(100)]})
     ids = at.nodes()["poses"].ids
     assert (len(ids), set(ids // 10)) == (10, set(range(10)))

@@ -100,7 +100,7 @@ def test_invalid_joint_states_are_reported_and_change_nothing(
 def test_names_without_end_are_not_all_remembered(
     rail: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("webviz_displays.robot_model.joint_states.MOST_JOINTS", 3)
+    monkeypatch.setattr("webviz_displays.robot_model.joint_states.MAX_JOINTS", 3)
     report(rail, **{f"stranger_{i}": 0.0 for i in range(2)})
     report(rail, slide=0.1, more=1.0, turn=1.0)
     report(rail, slide=0.2)

@@ -88,7 +88,7 @@ def test_voxels_inside_others_are_not_sent(shown: Callable) -> None:
 
 
 def test_too_many_voxels_are_thinned_out(shown: Callable, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(voxel_grid_module, "MOST_VOXELS", 5)
+    monkeypatch.setattr(voxel_grid_module, "MAX_VOXELS", 5)
     at = shown(VoxelGrid(), voxel_grid((3, 3, 1), set(product(range(3), range(3), [0]))))
     assert len(at.nodes()["marked"].positions) == 5
     assert at.statuses()["Limit"][0] == "WARN"

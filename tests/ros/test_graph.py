@@ -287,7 +287,7 @@ def test_a_truncated_result_ends_a_goal(source: RosSource, peer: Peer, result: b
 def test_a_goal_that_is_no_longer_followed_frees_its_place(
     source: RosSource, peer: Peer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("webviz.edges.ros.calls.MOST_CALLS", 2)
+    monkeypatch.setattr("webviz.edges.ros.calls.MAX_CALLS", 2)
     peer.node.create_service(SetBool, "/waiting", lambda _, response: response)
     request = encode("std_srvs/srv/SetBool_Request")
     first = source.graph.call("/waiting", "std_srvs/srv/SetBool", request, 60.0)

@@ -7,7 +7,7 @@ from bags import START_NS, TF, Bag, files, ns, stamped, strings
 from rosbags.rosbag2 import CompressionMode, StoragePlugin
 
 from webviz.data.messages import decode
-from webviz.engine.sources.bag import MOST
+from webviz.engine.sources.bag import MAX_BATCH
 
 KINDS = [
     (StoragePlugin.SQLITE3, CompressionMode.NONE),
@@ -55,14 +55,14 @@ def test_a_message_arrives_with_the_time_of_its_recording(tmp_path, opened):
 
 
 def test_many_messages_come_in_parts_and_none_is_lost(tmp_path, opened):
-    seconds = [0.001 * i for i in range(3 * MOST)]
+    seconds = [0.001 * i for i in range(3 * MAX_BATCH)]
     bag = opened(strings(*seconds).write(tmp_path / "bag"))
     bag.want("/words")
     source, heard = bag.source, []
     while source.position_ns < source.end_ns:
         source.play(source.end_ns)
         heard.append(bag.heard())
-    assert max(map(len, heard)) <= MOST
+    assert max(map(len, heard)) <= MAX_BATCH
     assert [float(text) for part in heard for text in part] == pytest.approx(seconds)
 
 
@@ -222,10 +222,10 @@ def test_topics_are_named_and_remapped_as_for_a_node(tmp_path, opened):
 
 
 def test_messages_of_one_stamp_arrive_together_however_many_they_are(tmp_path, opened):
-    bag = opened(strings(*[0.0] * (MOST + 5), 1).write(tmp_path / "bag"))
+    bag = opened(strings(*[0.0] * (MAX_BATCH + 5), 1).write(tmp_path / "bag"))
     bag.want("/words")
     bag.source.play(bag.source.end_ns)
-    assert len(bag.heard()) == MOST + 5
+    assert len(bag.heard()) == MAX_BATCH + 5
     assert bag.source.position_ns == START_NS
     bag.source.play(bag.source.end_ns)
     assert bag.heard() == ["1"]

@@ -5,8 +5,8 @@ from collections.abc import Callable
 import pytest
 
 from webviz.data.transforms import TransformBuffer
+from webviz.data.transforms.conflicts import conflicts
 from webviz.data.transforms.publishers import Contest
-from webviz.data.transforms.quarrels import quarrels
 
 S = 1_000_000_000
 Put = Callable[..., bool]
@@ -26,7 +26,7 @@ def test_two_authorities_that_take_turns_are_told_from_a_restart(
     put("map", "odom", 1.3, authority="amcl")
     assert contest(buffer, "odom") == Contest(("amcl again", "amcl"), 1_300_000_000)
     assert set(buffer.publishers["odom"].names()) == {"amcl", "amcl again"}
-    assert list(quarrels(buffer, "odom")) == [
+    assert list(conflicts(buffer, "odom")) == [
         '"odom" has two publishers, amcl again and amcl: stop one of them.'
     ]
 
@@ -37,9 +37,9 @@ def test_a_contest_of_authorities_is_over_when_one_is_silent_for_the_cache_time(
     for i in range(4):
         put("map", "odom", 1.0 + i / 10, authority=("amcl", "slam")[i % 2])
     put("map", "odom", 11.2, authority="slam")
-    assert len(list(quarrels(buffer, "odom"))) == 1
+    assert len(list(conflicts(buffer, "odom"))) == 1
     put("map", "odom", 11.4, authority="slam")
-    assert list(quarrels(buffer, "odom")) == []
+    assert list(conflicts(buffer, "odom")) == []
 
 
 def test_a_static_publisher_that_restarts_with_another_pose_is_not_contested(
@@ -73,7 +73,7 @@ def test_a_static_transform_that_returns_names_both_sides_though_nobody_is_named
     for _ in range(2):
         put("base", "laser", x=1.0, is_static=True)
         put(other, "laser", x=x, is_static=True)
-    (sentence,) = quarrels(buffer, "laser")
+    (sentence,) = conflicts(buffer, "laser")
     assert words in sentence
 
 
@@ -91,7 +91,7 @@ def test_a_frame_that_is_static_and_moving_in_turn_is_contested(
     assert contest(buffer, "laser") is None
     put("base", "laser", is_static=True)
     put("base", "laser", 50.0)
-    (sentence,) = quarrels(buffer, "laser")
+    (sentence,) = conflicts(buffer, "laser")
     assert 'published on /tf and as a static transform in "base"' in sentence
 
 
@@ -101,7 +101,7 @@ def test_quarrels_are_forgotten_when_publishers_came_or_went(
     for parent in ("a", "b", "a"):
         put(parent, "laser", is_static=True)
     buffer.forget_publishers()
-    assert list(quarrels(buffer, "laser")) == []
+    assert list(conflicts(buffer, "laser")) == []
     put("b", "laser", is_static=True)
     assert contest(buffer, "laser") is None
     put("a", "laser", is_static=True)
@@ -114,7 +114,7 @@ def test_poses_that_leap_to_and_fro_betray_two_publishers_without_names(
 ) -> None:
     for i in range(20):
         put("map", "odom", 1.0 + i / 10, x=0.01 * i + (3.0 if i % 2 else 0.0))
-    (sentence,) = quarrels(buffer, "odom")
+    (sentence,) = conflicts(buffer, "odom")
     assert "alternates between two poses" in sentence
 
 
@@ -126,4 +126,4 @@ def test_neither_a_drive_nor_a_leap_nor_standing_still_is_a_quarrel(
         put("map", "leap", 1.0 + i / 10, x=0.1 * i + (5.0 if i > 20 else 0.0))
         put("map", "stand", 1.0 + i / 10, x=1.0)
         put("map", "tick", 1.0 + i / 10, x=0.001 * (i % 2))
-    assert [list(quarrels(buffer, f)) for f in ("drive", "leap", "stand", "tick")] == [[]] * 4
+    assert [list(conflicts(buffer, f)) for f in ("drive", "leap", "stand", "tick")] == [[]] * 4

@@ -11,10 +11,10 @@ import yourdfpy
 from webviz.api.nodes import Glb, Mesh
 from webviz_urdf import primitives
 from webviz_urdf.description import Description, pose_of
-from webviz_urdf.dress import Dresser
 from webviz_urdf.glb import MeshPart
 from webviz_urdf.materials import DEFAULT, Material, Materials
 from webviz_urdf.meshes import MeshContent, MeshError, Scale, read_mesh, scaled
+from webviz_urdf.part_materials import MaterialApplier
 from webviz_urdf.resolve import ResolveError, Resolver
 from webviz_urdf.robot import Inertial, Link, MissingShape, Progress, Robot, RobotShape
 
@@ -47,7 +47,7 @@ class _Builder:
         self._description = description
         self._collisions = collisions
         self._materials = Materials(description.model)
-        self._dresser = Dresser(resolver)
+        self._applier = MaterialApplier(resolver)
         self._resolver = resolver
         self._files: dict[Path, MeshContent] = {}
         self._nodes: dict[tuple[Path, Scale, Material], Mesh | Glb] = {}
@@ -70,7 +70,7 @@ class _Builder:
         warnings = (
             *description.warnings,
             *self._materials.warnings,
-            *self._dresser.warnings,
+            *self._applier.warnings,
             *self._warnings,
         )
         return Robot(
@@ -144,7 +144,7 @@ class _Builder:
         if geometry.mesh is None:
             part = _primitive(geometry)
             self._warn(material.warning)
-            return self._dresser.dress((part,), material)
+            return self._applier.apply((part,), material)
         path, scale = self._resolver.resolve(geometry.mesh.filename), _scale(geometry.mesh.scale)
         if path not in self._files:
             self._files[path] = read_mesh(path, self._resolver)
@@ -155,7 +155,7 @@ class _Builder:
         key = (path, scale, material)
         if key not in self._nodes:
             parts = [scaled(part, scale) for part in file.parts]
-            self._nodes[key] = self._dresser.dress(parts, material)
+            self._nodes[key] = self._applier.apply(parts, material)
         return self._nodes[key]
 
     def _warn(self, *sentences: str) -> None:

@@ -28,7 +28,7 @@ IDLE_S = 60.0
 MAX_MEMORY = 3 << 30
 """Bytes of address space of a process; half a gigabyte of it is taken by its imports."""
 
-MOST_FAILURES = 3
+MAX_FAILURES = 3
 """Shapes that may end the process before loading gives up."""
 
 
@@ -96,7 +96,7 @@ class Loading:
                 if what:
                     raise RobotDescriptionError(f"Loading {what} failed. {ended}") from None
                 done, total, link = self.at
-                if done in skip or len(skip) == MOST_FAILURES or done == total:
+                if done in skip or len(skip) == MAX_FAILURES or done == total:
                     where = f" It stopped at link '{link}'." if link else ""
                     raise RobotDescriptionError(
                         f"Loading the robot failed. {ended}{where}"

@@ -31,7 +31,7 @@ WIDTH_M = 0.1
 """Distance from a path within which a point is in the way of any robot."""
 AROUND_M = 0.4
 """Distance from the laser and from the end of a path within which nothing is in the way."""
-MOST_STEPS = 1000
+MAX_STEPS = 1000
 """Places along a path that are looked at."""
 
 GOOD = 0.8
@@ -174,7 +174,7 @@ def in_the_way(laser: complex, points: C128, way: C128) -> int:
     most = float(lengths[-1]) - AROUND_M
     if most <= 0.0:
         return 0
-    steps = np.linspace(0.0, most, min(MOST_STEPS, math.ceil(most / WIDTH_M) + 1))
+    steps = np.linspace(0.0, most, min(MAX_STEPS, math.ceil(most / WIDTH_M) + 1))
     line = np.interp(steps, lengths, way)
     points = laser + points[np.abs(points) > AROUND_M]
     points = points[np.abs(points - way[-1]) > AROUND_M]

@@ -26,7 +26,7 @@ from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import FARTHEST, is_drawable, origin_near
 from webviz_displays.shared.history import HistoryLength
 
-MOST_CELLS = 50_000
+MAX_CELLS = 50_000
 """Cells drawn per message; each takes 72 bytes to send."""
 
 _CORNERS = np.array(((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)))
@@ -71,9 +71,9 @@ class GridCells(Display):
                 f"{len(cells) - len(ids)} of {len(cells)} cells are not finite or farther than "
                 "1e9 m and not drawn. Fix the publisher.",
             )
-        if len(ids) > MOST_CELLS:
-            ctx.warn("Cells", f"Showing {MOST_CELLS} of {len(cells)} cells, evenly picked.")
-            ids = ids[evenly(len(ids), MOST_CELLS)]
+        if len(ids) > MAX_CELLS:
+            ctx.warn("Cells", f"Showing {MAX_CELLS} of {len(cells)} cells, evenly picked.")
+            ids = ids[evenly(len(ids), MAX_CELLS)]
         if self.alpha == 0:
             ctx.warn("Cells", "Invisible: alpha is 0. Increase it to show the cells.")
             return

@@ -7,7 +7,7 @@ from typing import Any
 
 from webviz import Sample
 
-MOST = 30
+MAX_INFOS = 30
 FAR_APART_NS = 200_000_000
 SKIPPED_NS = 2_000_000_000
 """The same if images had the camera info of their stamp: a busy machine skips those of some."""
@@ -24,7 +24,7 @@ class Infos:
         """Take a camera info."""
         self._by_stamp.pop(sample.stamp_ns, None)
         self._by_stamp[sample.stamp_ns] = sample.message
-        while len(self._by_stamp) > MOST:
+        while len(self._by_stamp) > MAX_INFOS:
             self._by_stamp.popitem(last=False)
 
     def of(self, stamp_ns: int) -> tuple[Any, float]:

@@ -34,7 +34,7 @@ U8 = NDArray[np.uint8]
 F32 = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 
-MOST_CELLS = 100_000
+MAX_CELLS = 100_000
 """Cells drawn per map; each takes 48 bytes to send, and its lines 48."""
 
 NO_VALUE = (128, 128, 128)
@@ -124,7 +124,7 @@ class GridMap(Display):
             heights = np.zeros(layers.shape, np.float32)
             if not is_flat:
                 heights = layers.layer(self.height_layer, "Height Layer")
-            step = math.ceil(math.sqrt(heights.size / MOST_CELLS))
+            step = math.ceil(math.sqrt(heights.size / MAX_CELLS))
             thinned = np.s_[::step, ::step]
             colors = self._colors(layers, is_valid, ctx)[thinned]
         except GridMapFault as fault:
@@ -202,7 +202,7 @@ class GridMap(Display):
             ctx.warn(
                 "Grid map",
                 f"Showing every {step}th row and column of {size}, because the limit is "
-                f"{MOST_CELLS} cells. Publish a smaller map to see all.",
+                f"{MAX_CELLS} cells. Publish a smaller map to see all.",
             )
         else:
             ctx.ok("Grid map", f"Showing {shown} of {size}.")

@@ -9,7 +9,7 @@ from webviz.api.pictures import Encoded, Pixels
 from webviz.api.stills import opened
 from webviz.data.images import render
 
-MOST_TEXELS = 320
+MAX_TEXELS = 320
 """Along an edge."""
 
 
@@ -24,7 +24,7 @@ def texels(picture: Pixels | Encoded, alpha: float = 1.0) -> NDArray[np.uint8]:
     Raises:
         ImageError: its file is damaged.
     """
-    factor = max(1, -(-max(picture.size) // MOST_TEXELS))
+    factor = max(1, -(-max(picture.size) // MAX_TEXELS))
     if isinstance(picture, Pixels):
         shown = render(picture.image, picture.tone, factor)
     else:

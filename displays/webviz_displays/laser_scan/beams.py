@@ -16,10 +16,10 @@ from webviz_displays.shared.geometry import FARTHEST, is_drawable
 
 F64 = NDArray[np.float64]
 
-MOST_ANGLE = 1000.0
+MAX_ANGLE = 1000.0
 """Radians; float32 resolves 0.003 degrees there, and no laser turns that often."""
 
-MOST_BEAMS = 100_000
+MAX_BEAMS = 100_000
 """Drawn of one scan, twenty times as many as any laser has; they take 25 ms of the frame loop."""
 
 
@@ -56,7 +56,7 @@ def fault(scan: messages.LaserScan) -> str:
         value = getattr(scan, name)
         if math.isnan(value) or (name.startswith("angle") and math.isinf(value)):
             return f"{name} is {value}. The publisher must set it to a finite number."
-    for name, most in (("angle_min", MOST_ANGLE), ("angle_increment", math.tau)):
+    for name, most in (("angle_min", MAX_ANGLE), ("angle_increment", math.tau)):
         if abs(value := getattr(scan, name)) > most:
             return f"{name} is {value:g} rad; expected a number from {-most:g} to {most:g}."
     if scan.range_max <= scan.range_min:
@@ -77,9 +77,9 @@ def project(scan: messages.LaserScan) -> BeamHits:
     farthest = min(scan.range_max, FARTHEST)
     is_hit = np.isfinite(ranges) & (ranges >= scan.range_min) & (ranges < farthest)
     beams = np.flatnonzero(is_hit)
-    over = max(len(beams) - MOST_BEAMS, 0)
+    over = max(len(beams) - MAX_BEAMS, 0)
     if over:
-        beams = beams[evenly(len(beams), MOST_BEAMS)]
+        beams = beams[evenly(len(beams), MAX_BEAMS)]
     angles = scan.angle_min + beams * scan.angle_increment
     hits = ranges[beams]
     xyz = np.zeros((len(hits), 3))
@@ -95,7 +95,7 @@ def project(scan: messages.LaserScan) -> BeamHits:
     }
     dropped = {reason: int(mask.sum()) for reason, mask in counts.items() if mask.any()}
     if over:
-        dropped[f"over the limit of {MOST_BEAMS}"] = over
+        dropped[f"over the limit of {MAX_BEAMS}"] = over
     return BeamHits(beams, xyz, len(ranges), dropped)
 
 

@@ -15,12 +15,12 @@ from webviz.data.rotations import normalized
 from webviz_displays.shared.geometry import FARTHEST
 
 TILE = 512
-"""Cells along the edges of a tile, unless there would be more than `MOST_TILES`."""
-MOST_TILES = 128
+"""Cells along the edges of a tile, unless there would be more than `MAX_TILES`."""
+MAX_TILES = 128
 """Per map. Each tile is a picture, which takes the frame loop up to a millisecond."""
 LONGEST_TILE = 8192
 """Cells along the edge of a texture that every browser accepts."""
-MOST_CELLS = MOST_TILES * LONGEST_TILE
+MAX_CELLS = MAX_TILES * LONGEST_TILE
 """Cells along the edge of a map."""
 
 SMALLEST_CELL = 1e-6
@@ -77,9 +77,9 @@ def tiled(message: Any, frame: str, before: TiledGrid | None = None) -> TiledGri
             f"The map's size is {width} x {height} = {width * height} cells, "
             f"but its data has {len(data)}. Fix the publisher."
         )
-    if max(width, height) > MOST_CELLS:
+    if max(width, height) > MAX_CELLS:
         raise GridFault(
-            f"The map's size is {width} x {height} cells; at most {MOST_CELLS} along an edge can "
+            f"The map's size is {width} x {height} cells; at most {MAX_CELLS} along an edge can "
             "be drawn."
         )
     if not (SMALLEST_CELL <= info.resolution < FARTHEST / max(width, height)):
@@ -148,12 +148,12 @@ def window(grid: TiledGrid, row: int, column: int, rows: int, columns: int) -> N
 
 
 def tile_shape(height: int, width: int) -> tuple[int, int]:
-    """Rows and columns of the tiles of a map, so that it has at most `MOST_TILES`.
+    """Rows and columns of the tiles of a map, so that it has at most `MAX_TILES`.
 
     Larger maps have larger tiles; long ones have long tiles.
     """
     rows, columns = min(TILE, height), min(TILE, width)
-    while -(-height // rows) * -(-width // columns) > MOST_TILES:
+    while -(-height // rows) * -(-width // columns) > MAX_TILES:
         if rows >= height or (columns <= rows and columns < width):
             columns *= 2
         else:

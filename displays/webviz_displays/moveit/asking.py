@@ -15,7 +15,7 @@ ANSWER_S = 5.0
 """For move_group to answer."""
 PAUSE_S = 5.0
 """Between two requests."""
-MOST_TRIES = 12
+MAX_TRIES = 12
 """Then only messages are shown; many robots publish scenes without that service."""
 
 
@@ -48,12 +48,12 @@ class Asking:
         if self._received is not None:
             self._read(self._received, ctx)
             return
-        if self._answer is None and self._tries < MOST_TRIES and wire.clock_s >= self._next_s:
+        if self._answer is None and self._tries < MAX_TRIES and wire.clock_s >= self._next_s:
             self._tries += 1
             try:
                 self._answer = wire.query(service, SERVICE, ANSWER_S)
             except ValueError as error:
-                self.problem, self._tries = f"{error} Correct the namespace.", MOST_TRIES
+                self.problem, self._tries = f"{error} Correct the namespace.", MAX_TRIES
                 return
         if self._answer is not None and self._answer.done():
             self._take(self._answer, wire.clock_s)

@@ -28,7 +28,7 @@ _KINDS: Mapping[int, Solid] = {BOX: "box", SPHERE: "sphere", CYLINDER: "cylinder
 PLANE_SIZE = 10.0
 """Metres: a plane has no end, so a square of it is drawn."""
 PLANE_THICKNESS = 0.002
-MOST_FAULTS = 10
+MAX_FAULTS = 10
 """Sentences that are kept of an object."""
 SLOW_BYTES = 100_000
 """From which size on messages with objects are read in a thread: 600 objects in 40 ms."""
@@ -92,7 +92,7 @@ class Body:
             vertices=np.concatenate((self.vertices, more.vertices)),
             faces=np.concatenate((self.faces, more.faces + np.uint32(len(self.vertices)))),
             subframes={**self.subframes, **more.subframes},
-            faults=(*self.faults, *more.faults)[:MOST_FAULTS],
+            faults=(*self.faults, *more.faults)[:MAX_FAULTS],
             size=self.size + more.size,
         )
 
@@ -145,7 +145,7 @@ def body_of(message: Any, frame: str | None = None) -> Body | None:
         vertices,
         faces,
         subframes,
-        tuple(about + fault for fault in dict.fromkeys(faults))[:MOST_FAULTS],
+        tuple(about + fault for fault in dict.fromkeys(faults))[:MAX_FAULTS],
         size,
     )
 

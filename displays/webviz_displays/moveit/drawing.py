@@ -20,7 +20,7 @@ from webviz_displays.moveit.frames import Links, Places
 from webviz_displays.moveit.scene import KnownScene, Rgba
 from webviz_displays.shared.geometry import is_drawable, origin_near
 
-MOST_MESHES = 2000
+MAX_MESHES = 2000
 """Objects with meshes that are drawn, as each is a node of its own."""
 
 
@@ -78,7 +78,7 @@ def drawn(shown: Iterable[ShownObject], prefix: str) -> DrawnObjects:
     owners: dict[str, object] = {}
     groups: list[PlacedNodes] = []
     for body, pose, rgba in shown:
-        if not len(body.faces) or len(owners) >= MOST_MESHES or not is_placeable(pose):
+        if not len(body.faces) or len(owners) >= MAX_MESHES or not is_placeable(pose):
             continue
         if opacity := opacity_of(rgba):
             key = f"{prefix}mesh {body.id:.40} {zlib.crc32(body.id.encode()):08x}"

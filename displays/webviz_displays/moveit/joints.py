@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from webviz import Pose
 from webviz.data.rotations import normalized
 from webviz.data.words import counted
-from webviz_displays.robot_model.joint_states import MOST_JOINTS, positions_of
+from webviz_displays.robot_model.joint_states import MAX_JOINTS, positions_of
 from webviz_displays.robot_model.placing import poses_by_link
 from webviz_displays.shared.geometry import is_drawable
 from webviz_urdf import Kinematics, Robot
@@ -168,6 +168,6 @@ class Poser:
 
 
 def _bounded(values: dict[str, Any]) -> dict[str, Any]:
-    if len(values) <= MOST_JOINTS:
+    if len(values) <= MAX_JOINTS:
         return values
-    return dict(list(values.items())[:MOST_JOINTS])
+    return dict(list(values.items())[:MAX_JOINTS])

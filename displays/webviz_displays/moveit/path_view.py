@@ -17,7 +17,7 @@ from webviz_displays.moveit.playing import DEFAULT_SPEED, Player, Speed, speed_o
 from webviz_displays.moveit.properties import ATTACHED
 from webviz_displays.moveit.robots import RobotLook, Robots
 from webviz_displays.moveit.scene import KnownScene
-from webviz_displays.moveit.trail import MOST_STATES, PathTrail
+from webviz_displays.moveit.trail import MAX_STATES, PathTrail
 
 SECOND = 1_000_000_000
 NAMED = 5
@@ -141,7 +141,7 @@ class PathView:
         if playback.look.visual or playback.look.collision:
             self.held.draw(scene, poses, rgba, frame, PREFIX, ctx)
         if playback.trail:
-            step = max(playback.step, -(-len(path) // MOST_STATES))
+            step = max(playback.step, -(-len(path) // MAX_STATES))
             if step > playback.step:
                 ctx.warn("Trail", f"Only every {step}th point is drawn: there are {len(path)}.")
             last = index if self.player.is_moving else len(path) - 1

@@ -17,7 +17,7 @@ from webviz_displays.moveit.scene import Attached, KnownScene, updated_state
 from webviz_displays.shared.geometry import FARTHEST
 
 F64 = NDArray[np.float64]
-MOST_POINTS = 100_000
+MAX_POINTS = 100_000
 """Of a path; further ones are left out."""
 
 
@@ -107,10 +107,10 @@ class _Builder:
         begin = self.times[-1] if self.times else 0.0
         before = begin if self.times else None
         rows = self._rows(single.points, len(columns))
-        times = single.points.times_ns[:MOST_POINTS].tolist()
+        times = single.points.times_ns[:MAX_POINTS].tolist()
         for index in range(count):
-            if len(self.times) >= MOST_POINTS:
-                self.faults.append(f"Only the first {MOST_POINTS} points are kept.")
+            if len(self.times) >= MAX_POINTS:
+                self.faults.append(f"Only the first {MAX_POINTS} points are kept.")
                 return
             row = rows.get(index)
             if row is not None and known:
@@ -131,9 +131,9 @@ class _Builder:
 
     def _rows(self, points: JointTrajectoryPointSequence, width: int) -> dict[int, F64]:
         """The positions of each point that has valid ones."""
-        numbers, rows = points.positions(width, MOST_POINTS)
+        numbers, rows = points.positions(width, MAX_POINTS)
         valid = (np.abs(rows) < FARTHEST).all(axis=1)
-        if wrong := min(len(points), MOST_POINTS) - int(valid.sum()):
+        if wrong := min(len(points), MAX_POINTS) - int(valid.sum()):
             self.faults.append(
                 f"{counted(wrong, 'point')} without a valid position for each joint. "
                 "Fix the publisher."

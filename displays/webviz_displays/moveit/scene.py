@@ -12,11 +12,11 @@ from webviz_displays.moveit.joints import JointValues, joints_of, pose_of
 
 ADD, REMOVE, APPEND, MOVE = range(4)
 """Operations of moveit_msgs/CollisionObject."""
-MOST_BYTES = 256 << 20
+MAX_BYTES = 256 << 20
 """That the objects of a scene may take; a message that would exceed it is not applied to them."""
-MOST_NAMES = 20_000
+MAX_NAMES = 20_000
 """Objects, colours and transforms of each kind."""
-MOST_HELD = 500
+MAX_HELD = 500
 """Objects that a robot holds: they are placed anew whenever it moves."""
 LONGEST_KEY = 10_000
 """Characters of a name; things with longer ones are ignored."""
@@ -201,7 +201,7 @@ class _Edit:
 
     def _attach(self, message: Any) -> None:
         key = message.object.id
-        if not self._fits(key, self._held(), MOST_HELD):
+        if not self._fits(key, self._held(), MAX_HELD):
             return
         there = self._world().get(key)
         has_shapes = any(map(len, (message.object.primitives, message.object.meshes)))
@@ -250,8 +250,8 @@ class _Edit:
         world = self._world()
         before = world.get(body.id)
         size = self._size + body.size - (before.size if before else 0)
-        if size > MOST_BYTES:
-            self._faults.append(f"The objects take more than {MOST_BYTES >> 20} MB.")
+        if size > MAX_BYTES:
+            self._faults.append(f"The objects take more than {MAX_BYTES >> 20} MB.")
             return
         self._size = size
         world[body.id] = body
@@ -263,7 +263,7 @@ class _Edit:
         if self._fits(key, self._gone):
             self._gone.add(key)
 
-    def _fits(self, key: str, among: Any, most: int = MOST_NAMES) -> bool:
+    def _fits(self, key: str, among: Any, most: int = MAX_NAMES) -> bool:
         if len(key) > LONGEST_KEY:
             self._faults.append(f"The name {named(key)} has {len(key)} characters.")
             return False

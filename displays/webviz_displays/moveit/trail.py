@@ -16,7 +16,7 @@ from webviz_displays.robot_model.parts import parts_of
 from webviz_displays.shared.geometry import transformed
 from webviz_urdf import glb_parts
 
-MOST_STATES = 100
+MAX_STATES = 100
 """States of the robot in a trail."""
 KEY = "trail "
 

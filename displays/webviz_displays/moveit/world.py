@@ -26,7 +26,7 @@ from webviz_displays.moveit.scene import KnownScene, Rgba
 
 NAMED = 5
 """Objects, joints and faults that are listed."""
-MOST_AT_ONCE = 500
+MAX_AT_ONCE = 500
 """Objects that are drawn without a thread."""
 NOTHING = DrawnObjects((), {})
 NO_LINKS: Mapping[str, Pose] = {}
@@ -137,7 +137,7 @@ class DrawnWorld:
         if look is None or not look.is_of(world, scene.colors, default):
             look = self._look = _Look(world, scene.colors, default)
         if self._made[0] is not look:
-            if len(world) <= MOST_AT_ONCE:
+            if len(world) <= MAX_AT_ONCE:
                 self._made = look, look.drawn()
             elif (made := ctx.background(look, look.drawn)) is not None:
                 self._made = look, made

@@ -18,7 +18,7 @@ Key = tuple[int, int, int]
 GREY = 160
 """Of what the message gives no colour."""
 
-MOST_POINTS = 3_000_000
+MAX_POINTS = 3_000_000
 """Corners or voxels that are held; 48 MB."""
 
 
@@ -70,7 +70,7 @@ class Layer:
             block = _block_of(part)
             if isinstance(block, str):
                 faults[key] = block
-            elif points + len(block.points) > MOST_POINTS:
+            elif points + len(block.points) > MAX_POINTS:
                 dropped += 1
             elif len(block.points):
                 blocks[key] = block

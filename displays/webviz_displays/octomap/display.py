@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from webviz import Context, Details, Display, Hit, Input, Pose, Prop, Sample, Topic, compose
 from webviz_displays.octomap.octree import LEVELS, SLOW_BYTES, Octree, OctreeFault, read_octree
 from webviz_displays.octomap.seen import (
-    MOST_VOXELS,
+    MAX_VOXELS,
     Rendering,
     VisibleVoxels,
     VoxelChoice,
@@ -198,7 +198,7 @@ class OctreeDisplay(Display):
         elif seen.depth < levels:
             ctx.warn(
                 "Voxels",
-                f"{told}. More than {MOST_VOXELS} would be seen below depth {seen.depth}, so "
+                f"{told}. More than {MAX_VOXELS} would be seen below depth {seen.depth}, so "
                 "smaller ones are merged. Limit the heights to see them.",
             )
         else:

@@ -25,7 +25,7 @@ Mask = NDArray[np.bool_]
 
 LEVELS = 16
 """Below the root; the smallest voxels are at this depth."""
-MOST_NODES = 3_000_000
+MAX_NODES = 3_000_000
 """Per tree; they take about 500 MB while they are read and drawn."""
 
 SLOW_BYTES = 20_000
@@ -137,7 +137,7 @@ def _read_binary(kind: str, size: float, data: NDArray[np.int8]) -> Octree:
 
 def _records(data: NDArray[np.int8], dtype: np.dtype[Any]) -> NDArray[Any]:
     """The records of a message, at most one more than a tree may have."""
-    count = min(len(data) // dtype.itemsize, MOST_NODES + 1)
+    count = min(len(data) // dtype.itemsize, MAX_NODES + 1)
     return np.frombuffer(np.ascontiguousarray(data).data, dtype, count)
 
 
@@ -165,7 +165,7 @@ def _ends(kinds: U8) -> I64:
     awaited = np.cumsum(counts - 1)
     done = np.flatnonzero(awaited < 0)
     if not len(done):
-        raise OctreeFault(_TOO_LARGE if len(kinds) > MOST_NODES else _INCOMPLETE)
+        raise OctreeFault(_TOO_LARGE if len(kinds) > MAX_NODES else _INCOMPLETE)
     total = int(done[0]) + 1
     counts, awaited = counts[:total], awaited[:total]
     if awaited.max() > 7 * LEVELS:
@@ -179,7 +179,7 @@ def _ends(kinds: U8) -> I64:
 _INCOMPLETE = "The data ends inside the tree. Publish the tree as a whole."
 _TOO_DEEP = f"The tree is deeper than {LEVELS} levels. Fix the publisher."
 _TOO_LARGE = (
-    f"The tree has more than {MOST_NODES} nodes. Publish a part of it, or at a lower resolution."
+    f"The tree has more than {MAX_NODES} nodes. Publish a part of it, or at a lower resolution."
 )
 
 
@@ -200,7 +200,7 @@ def _levels(kinds: U8, ends: I64) -> list[_Level]:
         level.counts[inner] = is_there.sum(axis=1)
         levels.append(level)
         total += int(level.counts.sum())
-        if total > MOST_NODES:
+        if total > MAX_NODES:
             raise OctreeFault(_TOO_LARGE)
         if not is_there.any():
             break

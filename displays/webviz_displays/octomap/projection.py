@@ -18,7 +18,7 @@ from webviz_displays.octomap.voxels import voxels_of
 
 I64 = NDArray[np.int64]
 
-MOST_CELLS = 16_000_000
+MAX_CELLS = 16_000_000
 """Per map; they take about 250 MB while it is made."""
 
 UPDATE = "map_msgs/msg/OccupancyGridUpdate"
@@ -44,9 +44,9 @@ def projected(tree: Octree, depth: int) -> Any:
     corner = lows.min(axis=0)
     lows -= corner
     width, height = (lows + edges[:, None]).max(axis=0).tolist()
-    if width * height > MOST_CELLS:
+    if width * height > MAX_CELLS:
         raise GridFault(
-            f"The map would have {width} x {height} cells; at most {MOST_CELLS} can be drawn. "
+            f"The map would have {width} x {height} cells; at most {MAX_CELLS} can be drawn. "
             "Lower Max. Octree Depth."
         )
     is_occupied = tree.log_odds[voxels.nodes] >= 0

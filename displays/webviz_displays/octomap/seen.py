@@ -17,7 +17,7 @@ from webviz_displays.shared.geometry import is_drawable
 U8 = NDArray[np.uint8]
 Rendering = Literal["Occupied Voxels", "Free Voxels", "All Voxels"]
 
-MOST_VOXELS = 200_000
+MAX_VOXELS = 200_000
 """Boxes drawn at once; each takes 43 bytes to send."""
 
 _HUES = 0.96
@@ -46,7 +46,7 @@ class VisibleVoxels:
     """The voxels that can be seen from outside.
 
     Args:
-        voxels: at most `MOST_VOXELS`.
+        voxels: at most `MAX_VOXELS`.
         wanted: how many there are with those inside.
         depth: at which the tree had to be cut off.
     """
@@ -66,7 +66,7 @@ def seen_of(tree: Octree, choice: VoxelChoice) -> VisibleVoxels:
             is_wanted &= (log_odds >= 0) == (choice.rendering == "Occupied Voxels")
         wanted = voxels.only(is_wanted & is_drawable(voxels.centers))
         seen = wanted.only(is_exposed(tree, wanted))
-        if len(seen.nodes) <= MOST_VOXELS:
+        if len(seen.nodes) <= MAX_VOXELS:
             return VisibleVoxels(seen, len(wanted.nodes), depth)
     raise AssertionError("a tree has one root")
 

@@ -31,7 +31,7 @@ from webviz_displays.shared.pose_properties import (
 F64 = NDArray[np.float64]
 Ids = NDArray[np.intp]
 
-MOST_COVARIANCES = 100
+MAX_COVARIANCES = 100
 """RViz's default Keep. Each covariance is several transparent solids, which browsers sort."""
 
 THICKNESS = 1e-3
@@ -47,7 +47,7 @@ def draw_covariances(
 
     Args:
         look: properties.
-        newest: those of the last poses (36,) as messages have them, at most `MOST_COVARIANCES`.
+        newest: those of the last poses (36,) as messages have them, at most `MAX_COVARIANCES`.
         poses: N poses in the coordinates of the group, oldest first.
         group: where to draw.
         ctx: collects statuses.

@@ -11,7 +11,7 @@ import numpy as np
 from webviz import Context, Details, Display, Hit, Input, Keep, Pose, Prop, Sample, Topic
 from webviz.data import messages
 from webviz.data.words import counted
-from webviz_displays.odometry.covariance_marks import MOST_COVARIANCES, draw_covariances
+from webviz_displays.odometry.covariance_marks import MAX_COVARIANCES, draw_covariances
 from webviz_displays.odometry.details import details
 from webviz_displays.odometry.poses import fault, has_moved, is_sound
 from webviz_displays.shared.geometry import origin_near
@@ -70,7 +70,7 @@ class Odometry(Display):
         group = ctx.follow(None, offset=Pose(origin))
         poses = replace(poses, positions=poses.positions - origin)
         draw_poses(self.shape, poses, group, ctx)
-        rows = [sample.message.pose.covariance for sample in samples[-MOST_COVARIANCES:]]
+        rows = [sample.message.pose.covariance for sample in samples[-MAX_COVARIANCES:]]
         draw_covariances(self.covariance, rows, poses, group, ctx, np.arange(len(samples)))
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:

@@ -38,7 +38,7 @@ ArrowAlpha = Annotated[
     ),
 ]
 
-MOST_POSES = 50_000
+MAX_POSES = 50_000
 """Poses drawn per message; browsers draw three lines or two solids for each."""
 
 _WINGS = np.array(((0.0, 0.0), (1.0, 0.0), (0.75, 0.2), (0.75, -0.2)))
@@ -135,9 +135,9 @@ def pose_set(
             f"{total - len(ids)} of {total} {noun}s are not finite or farther than 1e9 m and not "
             "drawn. Fix the publisher.",
         )
-    if len(ids) > MOST_POSES:
-        ctx.warn(key, f"Showing {MOST_POSES} of {total} {noun}s, evenly picked.")
-        ids = ids[evenly(len(ids), MOST_POSES)]
+    if len(ids) > MAX_POSES:
+        ctx.warn(key, f"Showing {MAX_POSES} of {total} {noun}s, evenly picked.")
+        ids = ids[evenly(len(ids), MAX_POSES)]
     xyz = positions[ids]
     with np.errstate(over="ignore"):
         report_orientations(np.square(orientations[ids]).sum(axis=1), noun, ctx)

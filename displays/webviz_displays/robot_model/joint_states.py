@@ -12,7 +12,7 @@ from webviz.data import messages
 from webviz.data.words import counted
 from webviz_displays.shared.geometry import FARTHEST
 
-MOST_JOINTS = 10_000
+MAX_JOINTS = 10_000
 """Joints whose positions are remembered; further names are ignored."""
 
 
@@ -35,7 +35,7 @@ class ReceivedRobot:
         if name == "description_topic":
             return replace(self, description=sample.message.data)
         positions, fault = positions_of(sample.message)
-        room = MOST_JOINTS - len(self.positions)
+        room = MAX_JOINTS - len(self.positions)
         if room < len(positions):
             new = [joint for joint in positions if joint not in self.positions][max(room, 0) :]
             for joint in new:

@@ -14,7 +14,7 @@ RATIO = 1.3
 through."""
 REACH = 6
 """Clouds of smaller and of larger points than the median; those beyond join the last ones."""
-LEAST_M, MOST_M = 1e-6, 1e6
+LEAST_M, MAX_M = 1e-6, 1e6
 
 
 def by_size(sizes: NDArray[np.floating]) -> Iterator[tuple[str, NDArray[np.intp], float]]:
@@ -25,7 +25,7 @@ def by_size(sizes: NDArray[np.floating]) -> Iterator[tuple[str, NDArray[np.intp]
     """
     if not len(sizes):
         return
-    steps = np.log(np.clip(sizes, LEAST_M, MOST_M)) / math.log(RATIO)
+    steps = np.log(np.clip(sizes, LEAST_M, MAX_M)) / math.log(RATIO)
     numbers = np.ceil(steps - 1e-4).astype(np.int16)
     least = int(numbers.min())
     counts = np.bincount(numbers - least)

@@ -21,7 +21,7 @@ from webviz_displays.shared.history import HistoryLength
 from webviz_displays.vectors.rings import Rings, add_rings
 from webviz_urdf import RobotDescriptionError, TurningJoint
 
-MOST_NM = 1e6
+MAX_NM = 1e6
 """Larger efforts are not measurements; they could make a ring that cannot be drawn."""
 
 NAMED = 20
@@ -257,7 +257,7 @@ class Effort(Display):
         return {
             name: effort
             for name, effort in pairs
-            if name in joints and self._shows(name) and abs(effort) < MOST_NM
+            if name in joints and self._shows(name) and abs(effort) < MAX_NM
         }
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from side_by_side.log import Sighting
 from side_by_side.scenes import SCENES
 
-MOST_SHARP = 30
+MAX_SHARP = 30
 """Clients that recognise publications; more only count, as that would take most of the machine."""
 PATIENCE_S = 60.0
 
@@ -81,7 +81,7 @@ def _attend(
 
     scene = SCENES[scene_name]
     watchers = [
-        SYSTEMS[system].watch(port, folder, scene if index < MOST_SHARP else None, False)
+        SYSTEMS[system].watch(port, folder, scene if index < MAX_SHARP else None, False)
         for index in range(count)
     ]
     deadline = time.monotonic() + PATIENCE_S / 2
@@ -90,5 +90,5 @@ def _attend(
     pipe.send(([], True))
     pipe.recv()
     is_connected = all(watcher.is_connected for watcher in watchers)
-    pipe.send(([list(watcher.sightings) for watcher in watchers[:MOST_SHARP]], is_connected))
+    pipe.send(([list(watcher.sightings) for watcher in watchers[:MAX_SHARP]], is_connected))
     pipe.recv()

@@ -47,7 +47,7 @@ OBJECTS = """() => {
   window.__viserMutable.scene.traverse(() => { count += 1; });
   return count;
 }"""
-MOST = {
+MAX_GROWTH = {
     "RSS MB": 1.0,
     "descriptors": 0.5,
     "threads": 0.3,
@@ -116,7 +116,7 @@ def sample(process: psutil.Process, reader: ViserWatcher, page: playwright.Page)
 
 
 def run(minutes: float, folder: Path) -> tuple[NDArray[np.float64], NDArray[np.float64], list[str]]:
-    """Times in s (N,), figures in the order of MOST (N, 7), and what went wrong."""
+    """Times in s (N,), figures in the order of MAX_GROWTH (N, 7), and what went wrong."""
     failures: list[str] = []
     ended = threading.Event()
     times, rows, seen = [], [], []
@@ -170,15 +170,17 @@ def main() -> int:
     minutes = parser.parse_args().minutes
     with tempfile.TemporaryDirectory() as folder:
         times, figures, failures = run(minutes, Path(folder))
-    print("| minutes | " + " | ".join(MOST) + " |")
-    print("| ---: |" + " ---: |" * len(MOST))
+    print("| minutes | " + " | ".join(MAX_GROWTH) + " |")
+    print("| ---: |" + " ---: |" * len(MAX_GROWTH))
     for part in np.array_split(np.arange(len(times)), PARTS):
         cells = (f"{value:.1f}" for value in np.median(figures[part], axis=0))
         print(f"| {times[part[-1]] / 60:.1f} | " + " | ".join(cells) + " |")
     counts = times > WARM_UP * times[-1]
     slopes = [slope(times[counts], column[counts]) for column in figures.T]
     print("| a minute | " + " | ".join(f"{each:+.2f}" for each in slopes) + " |\n")
-    growing = [name for name, each in zip(MOST, slopes, strict=True) if each > MOST[name]]
+    growing = [
+        name for name, each in zip(MAX_GROWTH, slopes, strict=True) if each > MAX_GROWTH[name]
+    ]
     for failure in dict.fromkeys(failures):
         print(f"failed: {failure}")
     print(f"grows: {', '.join(growing)}" if growing else "flat")

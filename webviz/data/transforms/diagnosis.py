@@ -7,9 +7,9 @@ from itertools import islice, pairwise
 
 from webviz.data.transforms.buffer import TransformBuffer
 from webviz.data.transforms.cache import Cache, TimeCache
+from webviz.data.transforms.conflicts import conflicts
 from webviz.data.transforms.errors import NS_PER_S
-from webviz.data.transforms.quarrels import quarrels
-from webviz.data.transforms.reasons import MOST_LISTED, YEAR_NS, in_words, listed
+from webviz.data.transforms.reasons import MAX_LISTED, YEAR_NS, in_words, listed
 from webviz.data.transforms.tree import ancestors, roots
 
 GAP_NS = NS_PER_S // 2
@@ -76,7 +76,7 @@ class Diagnosis:
         found = [
             f"The frames form a loop: {listed(loop, ' → ')}. Two publishers disagree about the "
             "parents; stop one of them."
-            for loop in self.loops[:MOST_LISTED]
+            for loop in self.loops[:MAX_LISTED]
         ]
         if len(self.roots) > 1:
             found.append(
@@ -174,7 +174,7 @@ def _report(buffer: TransformBuffer, frame: str, cache: Cache, now_ns: int) -> F
     history_ns = cache.newest_stamp - cache.oldest_stamp
     rate_hz = (len(cache) - 1) * NS_PER_S / history_ns if history_ns else 0.0
     age_ns = now_ns - cache.newest_stamp if isinstance(cache, TimeCache) and cache.stamps else None
-    problems = [*quarrels(buffer, frame)]
+    problems = [*conflicts(buffer, frame)]
     if newest is None:
         problems.append(f'No transform of "{frame}" has arrived since the transforms were cleared.')
     if age_ns is not None and age_ns > STALE_NS and age_ns * rate_hz > STALE_PERIODS * NS_PER_S:

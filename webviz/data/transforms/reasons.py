@@ -61,8 +61,8 @@ class Explanation:
 
 FOR_ALL = (Kind.NO_TRANSFORMS, Kind.UNKNOWN_FIXED_FRAME)
 """Reasons that do not depend on a single frame."""
-MOST_TRIED = 20
-MOST_LISTED = 10
+MAX_TRIED = 20
+MAX_LISTED = 10
 
 
 def distinct(
@@ -76,7 +76,7 @@ def distinct(
         most: maximum number of sentences.
     """
     found: dict[tuple[Kind, str], tuple[str, str]] = {}
-    for frame in frames[:MOST_TRIED]:
+    for frame in frames[:MAX_TRIED]:
         reason = explain(frame)
         if reason.kind in FOR_ALL:
             return {frame: reason.sentence}
@@ -86,8 +86,8 @@ def distinct(
 
 def listed(frames: Sequence[str], link: str = ", ") -> str:
     """The first frames by name; the number of the others."""
-    more = len(frames) - MOST_LISTED
-    return link.join(frames) if more <= 0 else f"{link.join(frames[:MOST_LISTED])} and {more} more"
+    more = len(frames) - MAX_LISTED
+    return link.join(frames) if more <= 0 else f"{link.join(frames[:MAX_LISTED])} and {more} more"
 
 
 def in_words(duration_ns: int) -> str:

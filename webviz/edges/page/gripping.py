@@ -14,7 +14,7 @@ from webviz.edges.page.channel import Channel
 from webviz.edges.page.messages import Gripped, GripRefused
 from webviz.engine.commands import Command, GripHandle, Sender
 
-MOST = 50
+MAX_PER_SECOND = 50
 """Grips of a browser, moves aside, within a second."""
 
 
@@ -29,7 +29,7 @@ class _Hand:
         heard_s: when it did something.
     """
 
-    recent: deque[float] = field(default_factory=lambda: deque(maxlen=MOST))
+    recent: deque[float] = field(default_factory=lambda: deque(maxlen=MAX_PER_SECOND))
     sent: Future[str] | None = None
     next: Gripped | None = None
     heard_s: float = 0.0
@@ -66,7 +66,7 @@ class GripMessages:
             if hand.sent is None or hand.sent.done():
                 self._move(browser, hand)
             return
-        if len(hand.recent) == MOST and hand.recent[0] > now - 1.0:
+        if len(hand.recent) == MAX_PER_SECOND and hand.recent[0] > now - 1.0:
             return
         hand.recent.append(now)
         if hand.next is not None:

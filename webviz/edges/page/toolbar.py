@@ -18,7 +18,7 @@ from webviz.edges.page.messages import Published, Result, StrokeDone, Tools
 from webviz.engine.commands import Command, Sender, UseTool
 from webviz.engine.state import State, ToolButton
 
-MOST = 20
+MAX_PER_SECOND = 20
 """Strokes of a browser within a second; people make one or two."""
 
 _SENT = [field.name for field in fields(ToolButton) if field.name != "tool"]
@@ -76,7 +76,7 @@ class Toolbar:
                 tell(Status(Level.ERROR, str(error)))
 
         if self._is_flood(browser):
-            text = f"Not sent: more than {MOST} gestures within a second. Wait a moment."
+            text = f"Not sent: more than {MAX_PER_SECOND} gestures within a second. Wait a moment."
             tell(Status(Level.ERROR, text))
             return
         keys = frozenset(stroke.keys)
@@ -96,9 +96,9 @@ class Toolbar:
         """Return whether a browser makes strokes faster than people do; if not, counts this one."""
         now = self._clock()
         recent = {id: times for id, times in self._recent.items() if times[-1] > now - 1.0}
-        times = recent.setdefault(browser, deque(maxlen=MOST))
+        times = recent.setdefault(browser, deque(maxlen=MAX_PER_SECOND))
         self._recent = recent
-        is_flood = len(times) == MOST and times[0] > now - 1.0
+        is_flood = len(times) == MAX_PER_SECOND and times[0] > now - 1.0
         if not is_flood:
             times.append(now)
         return is_flood

@@ -14,8 +14,8 @@ from rclpy.node import Node
 from webviz.edges.ros.types import from_cdr, service_class, to_cdr
 from webviz.engine.sources.graph import Missing, NotConnected
 
-MOST_CLIENTS = 100
-MOST_CALLS = 100
+MAX_CLIENTS = 100
+MAX_CALLS = 100
 """Pending service calls."""
 WAIT_S = 2.0
 """Time to wait for a service or action to appear, and for an answer that is still on its way
@@ -86,8 +86,8 @@ class Calls:
         Raises:
             NotConnected: too many calls are pending.
         """
-        if len(self._calls) >= MOST_CALLS:
-            raise NotConnected(f"{MOST_CALLS} service calls are pending. Try again later.")
+        if len(self._calls) >= MAX_CALLS:
+            raise NotConnected(f"{MAX_CALLS} service calls are pending. Try again later.")
         client = self._client(service, type)
         message = from_cdr(request, service_class(type).Request)
         now = time.monotonic()
@@ -110,7 +110,7 @@ class Calls:
 
     def _client(self, service: str, type: str) -> Client:
         if (service, type) not in self._clients:
-            for _ in range(len(self._clients) - MOST_CLIENTS + 1):
+            for _ in range(len(self._clients) - MAX_CLIENTS + 1):
                 self._node.destroy_client(self._clients.pop(next(iter(self._clients))))
             self._clients[service, type] = self._node.create_client(service_class(type), service)
         return self._clients[service, type]

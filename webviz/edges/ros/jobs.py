@@ -11,7 +11,7 @@ from webviz.engine.sources.graph import NotConnected
 
 T = TypeVar("T")
 
-MOST = 1000
+MAX_JOBS = 1000
 
 
 class Jobs:
@@ -23,7 +23,7 @@ class Jobs:
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._wake = wake
-        self._queue: queue.Queue[tuple[Callable[[], object], Future]] = queue.Queue(MOST)
+        self._queue: queue.Queue[tuple[Callable[[], object], Future]] = queue.Queue(MAX_JOBS)
         self._has_ended = False
 
     def put(self, do: Callable[[], T]) -> Future[T]:

@@ -23,9 +23,9 @@ from rclpy.subscription import Subscription as RclpySubscription
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from webviz.edges.ros import qos
-from webviz.edges.ros.bell import Bell
 from webviz.edges.ros.control import ControlNode
 from webviz.edges.ros.graph import RosGraph
+from webviz.edges.ros.guard_condition import GuardCondition
 from webviz.edges.ros.heap import Heap
 from webviz.edges.ros.shared_memory import remove_abandoned
 from webviz.edges.ros.types import learn, message_class
@@ -81,10 +81,10 @@ class RosSource:
         self._clock = self._node.get_clock()
         self._clock_messages = 0
         self._jumps = self._clock.create_jump_callback(ANY_JUMP, post_callback=self._count_clock)
-        self._bell = Bell()
-        self.control = ControlNode(self._node, self._bell.ring)
+        self._guard_condition = GuardCondition()
+        self.control = ControlNode(self._node, self._guard_condition.trigger)
         self._executor = _executor(self._context)
-        self.graph = RosGraph(self._node, self._bell.ring)
+        self.graph = RosGraph(self._node, self._guard_condition.trigger)
         self._wanted: Mapping[str, Subscription] = {}
         self._held: dict[str, _Held] = {}
         self._offers: dict[str, Offer] = {}
@@ -97,7 +97,7 @@ class RosSource:
         """Replace all subscriptions; takes effect soon."""
         if subscriptions != self._wanted:
             self._wanted = dict(subscriptions)
-            self._bell.ring()
+            self._guard_condition.trigger()
 
     def offers(self) -> Mapping[str, Offer]:
         """All topics of the graph."""
@@ -129,7 +129,7 @@ class RosSource:
     def close(self) -> None:
         """Destroy the node and end the thread."""
         self._stop.set()
-        self._bell.ring()
+        self._guard_condition.trigger()
         self._thread.join()
 
     def _run(self) -> None:
@@ -139,7 +139,7 @@ class RosSource:
         wanted: Mapping[str, Subscription] = {}
         try:
             while not self._stop.is_set():
-                self._bell.reset()
+                self._guard_condition.reset()
                 now = time.monotonic()
                 if now >= next_graph:
                     next_graph = now + GRAPH_POLL_S
@@ -154,11 +154,11 @@ class RosSource:
                         self._reconcile(wanted)
                 self._heap.turn()
                 self.control.turn()
-                bell: Any = self._bell  # which is no whole future
+                guard: Any = self._guard_condition  # which is no whole future
                 if self.graph.turn():
-                    executor.spin_once_until_future_complete(bell, PENDING_S)
+                    executor.spin_once_until_future_complete(guard, PENDING_S)
                 else:
-                    executor.spin_until_future_complete(bell, REST_S)
+                    executor.spin_until_future_complete(guard, REST_S)
         finally:
             self.control.close()
             self.graph.close()
@@ -250,7 +250,7 @@ class RosSource:
         for subscription in held.subscriptions:
             self._node.destroy_subscription(subscription)
         # The executor has to let go of it before the topic can have another type.
-        never: Any = Bell()
+        never: Any = GuardCondition()
         self._executor.spin_until_future_complete(never, 0.0)
 
     def _count_clock(self, jump: object) -> None:

@@ -13,7 +13,7 @@ from webviz.edges.ros.qos import NO_EVENTS_OF_PUBLISHERS
 from webviz.edges.ros.types import MessageTypeError, message_class
 from webviz.engine.sources.graph import Outlet
 
-MOST_PUBLISHERS = 100
+MAX_PUBLISHERS = 100
 
 
 class OutletPublishers:
@@ -45,7 +45,7 @@ class OutletPublishers:
 
     def _find(self, outlet: Outlet) -> Publisher:
         if outlet not in self._publishers:
-            for _ in range(len(self._publishers) - MOST_PUBLISHERS + 1):
+            for _ in range(len(self._publishers) - MAX_PUBLISHERS + 1):
                 self._destroy(next(iter(self._publishers)))
             profile = QoSProfile(
                 depth=outlet.depth,

@@ -6,7 +6,7 @@ from webviz.api.nodes import POINTS_HELD
 from webviz.api.views.placement import EYE, FIELD_OF_VIEW, FLAT_FIELD_OF_VIEW, RAISED
 from webviz.edges.access import rules
 from webviz.edges.page.messages import MAX_PANES
-from webviz.edges.scene.holding import FEWEST_POINTS, MOST_POINTS
+from webviz.edges.scene.holding import FEWEST_POINTS, MAX_POINTS
 from webviz.edges.scene.lines import OPACITY_BIT
 from webviz.edges.scene.names import BLOCK_PREFIX, PART_PREFIX, ROOT, TILE_PREFIX
 from webviz.edges.scene.points import PART
@@ -23,7 +23,7 @@ CONSTANTS = {
     "POINTS_PER_PART": PART,
     "POINTS_HELD": POINTS_HELD,
     "FEWEST_POINTS": FEWEST_POINTS,
-    "MOST_POINTS": MOST_POINTS,
+    "MAX_POINTS": MAX_POINTS,
     "MAX_PANES": MAX_PANES,
     "DARKEST": DARKEST,
     "OPACITY_BIT": OPACITY_BIT,

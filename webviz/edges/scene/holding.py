@@ -8,7 +8,7 @@ from webviz.api.nodes import POINTS_HELD
 from webviz.edges.page.messages import FromPage, Number
 from webviz.edges.scene.adapter import Adapter
 
-FEWEST_POINTS, MOST_POINTS = 100_000, 6_400_000
+FEWEST_POINTS, MAX_POINTS = 100_000, 6_400_000
 """No browser gets fewer, however slow it is or says it is; none gets more, as each point of
 a cloud that moves costs the viewer and the network, too."""
 
@@ -46,4 +46,4 @@ class Holding:
     def _hear(self, browser: int, report: Holds) -> None:
         """Called on viser's event loop."""
         with self._lock:
-            self._reports[browser] = min(max(report.points, FEWEST_POINTS), MOST_POINTS)
+            self._reports[browser] = min(max(report.points, FEWEST_POINTS), MAX_POINTS)

@@ -13,7 +13,7 @@ PATIENCE_S = 0.3
 """Seconds of the link that all clouds together may take."""
 MOVING_S = 2.0
 """Clouds that did not change for so long do not count: they are sent whole once there is time."""
-MOST = 1 << 12
+MAX_RATIO = 1 << 12
 """At least one of so many points is sent."""
 
 
@@ -64,7 +64,7 @@ class Thinning:
             self.every = 1
         elif self._sizes:
             ratio = sum(size for _, size in self._sizes.values()) / (rate * PATIENCE_S)
-            wanted = 2 ** math.ceil(math.log2(min(max(ratio, 1.0), MOST)))
+            wanted = 2 ** math.ceil(math.log2(min(max(ratio, 1.0), MAX_RATIO)))
             # Rates vary: back only to what still fits with some room.
             if wanted > self.every or ratio < 0.45 * self.every:
                 self.every = wanted

@@ -14,7 +14,7 @@ from webviz.files.config import Branch, Item, Unreadable
 D = TypeVar("D", bound=Display)
 
 
-def twin_of(item: Item, names: set[str]) -> Item:
+def copy_of(item: Item, names: set[str]) -> Item:
     """A copy of a display, or of a group with its contents, under an unused name.
 
     Args:

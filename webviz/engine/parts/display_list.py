@@ -14,7 +14,7 @@ from webviz.api.declared import Topic, set_property
 from webviz.api.display import Display
 from webviz.api.group import DisplayGroup
 from webviz.api.properties import FIRST
-from webviz.engine.parts.copies import twin_of
+from webviz.engine.parts.copies import copy_of
 from webviz.engine.parts.entry import Entry
 from webviz.engine.parts.refusals import not_changed
 from webviz.engine.parts.steps import Snapshot, kept, made_anew
@@ -84,7 +84,7 @@ class DisplayList:
             return None
         self._make_room(len(self.within(id)))
         names = {entry.declared.name for entry in self._entries}
-        copied = twin_of(self._item(original), names)
+        copied = copy_of(self._item(original), names)
         twin, *_ = self.add([copied], original.parent)
         siblings = [entry for entry in self._entries if entry.parent is original.parent]
         self.move(twin.id, _id(original.parent), siblings[siblings.index(original) + 1].id)

@@ -11,7 +11,7 @@ from webviz.api.status import Level, Status
 from webviz.data.messages import MessageError, TFMessage, decode
 from webviz.data.transforms import TransformBuffer
 from webviz.data.transforms.clocks import clock_problem
-from webviz.data.transforms.quarrels import quarrels
+from webviz.data.transforms.conflicts import conflicts
 from webviz.engine.pipeline.transform_layout import Layouts, TransformBatch
 from webviz.engine.sources import Offer, Raw, Subscriber, Subscription
 
@@ -188,7 +188,9 @@ class TransformListener:
 
     def _review(self, offers: Mapping[str, Offer], now_ns: int) -> dict[str, Status]:
         buffer = self._buffer
-        problems = [sentence for frame in buffer.publishers for sentence in quarrels(buffer, frame)]
+        problems = [
+            sentence for frame in buffer.publishers for sentence in conflicts(buffer, frame)
+        ]
         if problems:
             who = [
                 f"{topic}: {', '.join(_nodes(offers, topic)) or 'no publisher'}"

@@ -31,7 +31,7 @@ Look = tuple[Sample, int]
 
 
 @dataclass(frozen=True)
-class _Errand:
+class _DrawJob:
     """A sample that is drawn in a worker.
 
     Args:
@@ -73,7 +73,7 @@ class Painter:
         self._offered: dict[str, Mapping[str, Mapping[str, int]]] = {}
         self._drawn: dict[str, dict[int, Look]] = {}
         self._version = 0
-        self._errand: _Errand | None = None
+        self._draw_job: _DrawJob | None = None
         self._seen: list[tuple[History, int]] | None = None
         self._depended: object = None
 
@@ -85,7 +85,7 @@ class Painter:
         self.is_stale |= depends or self._tasks.has_news()
         self._version += self.is_stale
         held = [(history, history.version) for history in histories.values()]
-        changed = self._finish_errand(guard, histories, frames)
+        changed = self._finish_job(guard, histories, frames)
         changed |= self.is_stale or self._seen != held
         if changed and overrides(display, "draw"):
             for name, history in histories.items():
@@ -106,7 +106,7 @@ class Painter:
         """Remove everything from the scene until the next call of `draw`."""
         self._drawing.clear()
         self._drawn.clear()
-        self._drop_errand()
+        self._drop_job()
         self._points.leave(self._id)
         self.is_stale = True
 
@@ -122,7 +122,7 @@ class Painter:
 
     def replace(self, display: Display) -> None:
         """Continue with an instance of another class, keeping what is drawn."""
-        self._drop_errand()
+        self._drop_job()
         self._tasks.close()
         self._tasks = Tasks(self._workers)
         self._state = _NO_STATE
@@ -156,12 +156,12 @@ class Painter:
 
     def is_busy(self) -> bool:
         """Return whether the result of slow work is not drawn yet."""
-        return self._errand is not None or self._tasks.is_busy()
+        return self._draw_job is not None or self._tasks.is_busy()
 
     @property
     def busy_with(self) -> int:
         """Size of the message that is drawn in a worker, in bytes; 0 if none is."""
-        return self._errand.held.size if self._errand else 0
+        return self._draw_job.held.size if self._draw_job else 0
 
     def followed(self) -> set[str]:
         """The frames whose poses `draw` needs."""
@@ -236,7 +236,7 @@ class Painter:
                     samples=(sample,),
                     voice=_voice(name),
                 )
-            elif self._errand is None:
+            elif self._draw_job is None:
                 self._send(name, display, held, look, frames)
         if not samples:
             self._statuses.pop(_voice(name), None)
@@ -254,31 +254,31 @@ class Painter:
             for key, group in context.groups.items():
                 bake(group, origins.get(key, (0.0, 0.0, 0.0)))
 
-        self._errand = _Errand(name, held, look, context, self._workers.submit(draw))
+        self._draw_job = _DrawJob(name, held, look, context, self._workers.submit(draw))
 
-    def _finish_errand(self, guard: Guard, histories: Histories, frames: Frames) -> bool:
+    def _finish_job(self, guard: Guard, histories: Histories, frames: Frames) -> bool:
         """Show what was drawn in a worker; whether there was anything.
 
         It is shown even if a newer message waits: else nothing is, if they come faster than they
         are drawn.
         """
-        errand = self._errand
-        if errand is None or not errand.done.done():
+        job = self._draw_job
+        if job is None or not job.done.done():
             return False
-        self._errand = None
-        name, slot = errand.name, errand.held.slot
+        self._draw_job = None
+        name, slot = job.name, job.held.slot
         is_held = any(held.slot == slot and held.has_pose for held in histories[name].held)
-        if is_held and errand.context.frames.fixed_frame == frames.fixed_frame:
-            self._drawn[name][slot] = errand.look
-            samples = (errand.held.sample,)
-            scope, context, voice = _scope(name, slot), errand.context, _voice(name)
-            self._call(scope, guard, _result, context, errand.done, samples=samples, voice=voice)
+        if is_held and job.context.frames.fixed_frame == frames.fixed_frame:
+            self._drawn[name][slot] = job.look
+            samples = (job.held.sample,)
+            scope, context, voice = _scope(name, slot), job.context, _voice(name)
+            self._call(scope, guard, _result, context, job.done, samples=samples, voice=voice)
         return True
 
-    def _drop_errand(self) -> None:
-        if self._errand is not None:
-            self._workers.cancel(self._errand.done)
-            self._errand = None
+    def _drop_job(self) -> None:
+        if self._draw_job is not None:
+            self._workers.cancel(self._draw_job.done)
+            self._draw_job = None
 
     def _context(self, frames: Frames, placement: Placement = Placement()) -> Context:
         share = functools.partial(self._points.share, self._id)

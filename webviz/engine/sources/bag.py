@@ -17,9 +17,9 @@ from webviz.engine.sources.source import Durability, Offer, Publisher, Reliabili
 
 NODE = "webviz"
 """The node name of private topics (~/...), as in the live viewer."""
-MOST = 500
+MAX_BATCH = 500
 """Messages per call of `play`, so that no queue of the inbox overflows."""
-MOST_BYTES = 32 << 20
+MAX_BATCH_BYTES = 32 << 20
 STEP_NS = 100_000_000
 """Recording time between two turns of a frame loop without browsers."""
 INBOX_LIMIT = 20_000
@@ -101,7 +101,7 @@ class BagSource:
         while self._next is not None and self._next.stamp_ns <= until_ns:
             # Messages of one stamp arrive together. Stamps in a file may be slightly out of order.
             is_later = self._next.stamp_ns > self._position_ns
-            if is_later and (count >= MOST or size >= MOST_BYTES):
+            if is_later and (count >= MAX_BATCH or size >= MAX_BATCH_BYTES):
                 break
             self._position_ns = max(self._position_ns, self._next.stamp_ns)
             self._arrive(self._next)

@@ -16,9 +16,9 @@ from webviz.api.properties import bare, properties_of
 from webviz.files.config.errors import nearest
 from webviz.files.config.source import Location, Path
 
-MOST = 60
+MAX_LENGTH = 60
 """Characters of a value shown in an error."""
-MOST_MISTAKES = 10
+MAX_MISTAKES = 10
 
 WORDS = {
     "float": "a number",
@@ -97,9 +97,9 @@ def mistakes(
 
 def sentences(found: Sequence[tuple[Path, str]], place: Location = Location()) -> str:  # noqa: B008
     """Errors with their places, up to a limit."""
-    told = [place.at(*path).says(clause) for path, clause in found[:MOST_MISTAKES]]
-    if len(found) > MOST_MISTAKES:
-        told.append(f"{len(found) - MOST_MISTAKES} more errors.")
+    told = [place.at(*path).says(clause) for path, clause in found[:MAX_MISTAKES]]
+    if len(found) > MAX_MISTAKES:
+        told.append(f"{len(found) - MAX_MISTAKES} more errors.")
     return " ".join(told)
 
 
@@ -116,7 +116,7 @@ def shown(value: Any) -> str:
 
 def _short(text: str) -> str:
     text = "".join(letter if letter.isprintable() else " " for letter in text)
-    return text if len(text) <= MOST else f"{text[: MOST - 1]}…"
+    return text if len(text) <= MAX_LENGTH else f"{text[: MAX_LENGTH - 1]}…"
 
 
 def _followed(steps: str, hint: Any, value: Any) -> tuple[Path, Any, Any]:

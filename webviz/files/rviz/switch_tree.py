@@ -12,7 +12,7 @@ from webviz.files.rviz.values import Unfit
 
 OWN = "Value"
 """Of a group, its own switch."""
-MOST_LEVELS = 64
+MAX_LEVELS = 64
 
 
 def read(raw: Any) -> dict[str, bool]:
@@ -45,7 +45,7 @@ def write(switches: Mapping[str, bool]) -> Tree:
 
 
 def _collect(raw: Mapping[str, Any], groups: tuple[str, ...], found: dict[str, bool]) -> None:
-    if len(groups) > MOST_LEVELS:
+    if len(groups) > MAX_LEVELS:
         raise Unfit("nested too deeply")
     for name, entry in raw.items():
         if name == OWN and (not groups or not isinstance(entry, Mapping)):

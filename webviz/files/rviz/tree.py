@@ -28,7 +28,7 @@ MANAGER = "Visualization Manager"
 
 _NULL = "tag:yaml.org,2002:null"
 _FLOAT_MAX = float(np.finfo(np.float32).max)
-_MOST_DIGITS = 18
+_MAX_DIGITS = 18
 """Longer integers stay text: many readers do not support them."""
 
 
@@ -59,12 +59,12 @@ def scalar(text: str) -> bool | int | float | str:
         return text == "true"
     for kind in (int, float):
         try:
-            value = kind(text) if len(text) <= _MOST_DIGITS + 8 else None
+            value = kind(text) if len(text) <= _MAX_DIGITS + 8 else None
         except ValueError:
             continue
         if value is None or not math.isfinite(value) or repr(value) != text:
             continue
-        if kind is float or len(text) <= _MOST_DIGITS:
+        if kind is float or len(text) <= _MAX_DIGITS:
             return value
     return text
 

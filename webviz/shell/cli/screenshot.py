@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from webviz.engine.sources.bag import BagSource
     from webviz.shell.pictures.capture import Order, Picture
 
-MOST_TOPICS = 40
+MAX_TOPICS = 40
 """Topics of a bag to list at most."""
 SHEET_SIZE = (480, 270)
 """Default size of the pictures of a contact sheet."""
@@ -187,8 +187,8 @@ def _table(statuses: dict[str, Status]) -> Iterator[str]:
 def _topics(bag: BagSource) -> str:
     """The topics of a bag that displays can show, as a sentence."""
     topics = sorted(topic for topic, offer in bag.offers().items() if not offer.problem)
-    more = f" and {len(topics) - MOST_TOPICS} more" if len(topics) > MOST_TOPICS else ""
-    return f"The topics are {', '.join(topics[:MOST_TOPICS])}{more}."
+    more = f" and {len(topics) - MAX_TOPICS} more" if len(topics) > MAX_TOPICS else ""
+    return f"The topics are {', '.join(topics[:MAX_TOPICS])}{more}."
 
 
 def _caption(picture: Picture) -> str:

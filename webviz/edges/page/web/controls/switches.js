@@ -9,7 +9,7 @@ import { wordsOf } from "../words.js";
 import { rowList, touchable } from "./rows.js";
 import { sync } from "./sync.js";
 
-const MOST_ROWS = 8;
+const MAX_ROWS = 8;
 const ROW_PX = 24;
 
 /**
@@ -88,7 +88,7 @@ export function switches({ offered }, { label, change, refused }) {
     const all = [...new Set([...names, ...Object.keys(current)])].sort();
     const words = wordsOf(search.value);
     shown = all.filter((name) => words.every((word) => name.toLowerCase().includes(word)));
-    list.element.style.height = `${Math.min(shown.length, MOST_ROWS) * height}px`;
+    list.element.style.height = `${Math.min(shown.length, MAX_ROWS) * height}px`;
     list.show(shown.map((key) => ({ key })));
     set(search, { placeholder: `Filter ${all.length} ${noun}`, disabled: !all.length });
     for (const each of buttons) set(each, { disabled: !shown.length });

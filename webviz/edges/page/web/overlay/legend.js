@@ -3,7 +3,7 @@
 import { el, setChildren, setText } from "../dom.js";
 import { watch } from "../stores.js";
 
-const MOST = 4;
+const MAX_CARDS = 4;
 
 export function build() {
   const list = el("div", { class: "wv-legends" });
@@ -13,7 +13,7 @@ export function build() {
       if (!scales.has(id)) cards.delete(id);
       else show(cards.get(id) ?? add(id), scales.get(id));
     }
-    setChildren(list, [...cards.values()].slice(0, MOST).map(({ element }) => element));
+    setChildren(list, [...cards.values()].slice(0, MAX_CARDS).map(({ element }) => element));
   });
 
   function add(id) {

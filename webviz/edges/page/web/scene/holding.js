@@ -5,7 +5,7 @@ import * as channel from "../channel.js";
 import constants from "../constants.js";
 import * as viser from "../viser_page.js";
 
-const { POINTS_HELD, FEWEST_POINTS, MOST_POINTS } = constants;
+const { POINTS_HELD, FEWEST_POINTS, MAX_POINTS } = constants;
 const GOAL_MS = 50;
 // Between these the number stays: it goes in steps of two, which lead from neither to the other.
 const SLOW_MS = 1.5 * GOAL_MS;
@@ -74,7 +74,7 @@ function decide(frames) {
 
 function stepBelow(count) {
   const step = FEWEST_POINTS * 2 ** Math.floor(Math.log2(count / FEWEST_POINTS));
-  return Math.min(Math.max(step, FEWEST_POINTS), MOST_POINTS);
+  return Math.min(Math.max(step, FEWEST_POINTS), MAX_POINTS);
 }
 
 // What watchers report would change what others see.

@@ -91,7 +91,7 @@ function makeBox() {
 }
 
 function finish({ clientX, clientY, shiftKey, ctrlKey, metaKey }) {
-  const found = drag.isBox ? pickIn(boxTo(clientX, clientY), selection.MOST, isSelectable) : picked([clientX, clientY]);
+  const found = drag.isBox ? pickIn(boxTo(clientX, clientY), selection.MAX_SELECTED, isSelectable) : picked([clientX, clientY]);
   // At once: a moment later there may be another message.
   const find = finder();
   for (const pick of found.picks) outlineOf(pick, find, false);

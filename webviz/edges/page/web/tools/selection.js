@@ -6,7 +6,7 @@ import * as channel from "../channel.js";
 import { watch } from "../stores.js";
 
 /** How many things are selected at most. */
-export const MOST = 1000;
+export const MAX_SELECTED = 1000;
 
 const listeners = new Set();
 let things = new Map(); // by id
@@ -72,7 +72,7 @@ export async function change(way, picks, found = picks.length) {
   }
   for (const pick of picks) {
     if (way === "add" && old.has(keyOf(pick))) continue;
-    if (keep.length + fresh.size >= MOST) break;
+    if (keep.length + fresh.size >= MAX_SELECTED) break;
     count += 1;
     fresh.set(count, { ...pick, id: count });
   }

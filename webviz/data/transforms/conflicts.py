@@ -25,7 +25,7 @@ MIN_LEAP_M = 0.01
 """Smaller changes are noise, such as an encoder's last digit."""
 
 
-def quarrels(buffer: TransformBuffer, frame: str) -> Iterator[str]:
+def conflicts(buffer: TransformBuffer, frame: str) -> Iterator[str]:
     """Sentences, one for each sign of two publishers of a child frame."""
     cache = buffer.tree.caches[frame]
     contest = buffer.publishers[frame].contested(cache.newest_stamp, buffer.cache_time_ns)

@@ -14,7 +14,7 @@ from webviz_urdf.resolve import ResolveError, Resolver
 from webviz_urdf.textures import TextureError, encode, mean_color, open_image
 
 
-class Dresser:
+class MaterialApplier:
     """Applies URDF materials to parts without a material of their own.
 
     Args:
@@ -26,19 +26,19 @@ class Dresser:
         self._pictures: dict[str, tuple[bytes, tuple[float, float, float]] | None] = {}
         self.warnings: list[str] = []
 
-    def dress(self, parts: Sequence[MeshPart], material: Material) -> Mesh | Glb:
+    def apply(self, parts: Sequence[MeshPart], material: Material) -> Mesh | Glb:
         """One node: a `Mesh` if one colour is enough, else a `Glb`."""
-        dressed = [
+        painted = [
             part if part.surface else replace(part, surface=self._surface(part, material))
             for part in parts
         ]
-        first = dressed[0].surface or Surface()
-        plain = first.texture is None and all(p.colors is None for p in dressed)
-        if not plain or any(part.surface != first for part in dressed):
-            return Glb(write_glb(dressed))
+        first = painted[0].surface or Surface()
+        plain = first.texture is None and all(p.colors is None for p in painted)
+        if not plain or any(part.surface != first for part in painted):
+            return Glb(write_glb(painted))
         r, g, b = (round(255.0 * v) for v in first.rgba[:3])
         opacity = first.rgba[3] if first.rgba[3] < OPAQUE else 1.0
-        return Mesh(*_joined(dressed), color=(r, g, b), opacity=opacity)
+        return Mesh(*_joined(painted), color=(r, g, b), opacity=opacity)
 
     def _surface(self, part: MeshPart, material: Material) -> Surface:
         picture = self._picture(material.texture) if material.texture else None

@@ -7,43 +7,43 @@ from collections.abc import Callable
 from typing import Any
 
 
-class Bell:
-    """The part of a future that executors need to wait for it; unlike a future, it rings again.
+class GuardCondition:
+    """The part of a future that executors wait for; unlike a future, it is triggered repeatedly.
 
     rclpy's events executor is not ended by its `wake`, but by a future.
     """
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._has_rung = False
+        self._is_triggered = False
         self._end: Callable[[Any], object] | None = None
 
-    def ring(self) -> None:
+    def trigger(self) -> None:
         """End the current wait, or else the next one; from any thread."""
         with self._lock:
-            self._has_rung = True
+            self._is_triggered = True
             end = self._end
         if end is not None:
             end(self)
 
     def reset(self) -> None:
-        """Begin anew, before looking for what it was rung for."""
+        """Begin anew, before looking for what it was triggered for."""
         with self._lock:
-            self._has_rung = False
+            self._is_triggered = False
             self._end = None
 
     # For executors
 
     def done(self) -> bool:
-        """Return whether it has rung."""
-        return self._has_rung
+        """Return whether it was triggered."""
+        return self._is_triggered
 
     def add_done_callback(self, callback: Callable[[Any], object]) -> None:
-        """Have this called when it rings, at once if it has rung."""
+        """Have this called when it is triggered, at once if it already is."""
         with self._lock:
             self._end = callback
-            has_rung = self._has_rung
-        if has_rung:
+            is_triggered = self._is_triggered
+        if is_triggered:
             callback(self)
 
     def remove_done_callback(self, callback: Callable[[Any], object]) -> None:
