@@ -1,8 +1,11 @@
-"""Counts and lists in sentences."""
+"""Counts, lists and joins of sentences."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+
+ENDS = ".!?:…"
+"""Characters that end a sentence; a list follows the colon."""
 
 
 def counted(number: int, noun: str) -> str:
@@ -14,3 +17,12 @@ def listed(names: Sequence[str], most: int) -> str:
     """The first names, and how many more there are, such as "a, b and 3 more"."""
     rest = len(names) - most
     return ", ".join(names[:most]) + (f" and {rest} more" if rest > 0 else "")
+
+
+def joined(*texts: str) -> str:
+    """Sentences after each other; one that does not end gets a full stop, empty ones are dropped.
+
+    For texts of which one comes from elsewhere, such as an exception or another machine.
+    """
+    stripped = (text.strip() for text in texts)
+    return " ".join(text if text[-1] in ENDS else f"{text}." for text in stripped if text)

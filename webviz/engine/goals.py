@@ -10,6 +10,7 @@ from webviz.api.errors import Error
 from webviz.api.goal import GoalRequest
 from webviz.api.status import Level, Status
 from webviz.data.messages import MessageError, decode
+from webviz.data.words import joined
 from webviz.engine.sources import Goal, Missing
 from webviz.engine.state import GoalProgress
 
@@ -233,7 +234,7 @@ class RunningGoal:
     def _failure(self, error: BaseException) -> Status:
         text = str(error) or "The viewer has ended."
         if isinstance(error, Missing):
-            text = f"{error.cause} {self._request.remedy}"
+            text = joined(error.cause, self._request.remedy)
         return Status(Level.ERROR, text)
 
     def _end(self, outcome: Status, now: float) -> None:
@@ -244,4 +245,4 @@ class RunningGoal:
 
 def _unreadable(what: str, error: Exception) -> str:
     reason = f": {error}" if isinstance(error, MessageError) else f" ({type(error).__name__})."
-    return f"{what} cannot be read{reason} Correct the server or the tool."
+    return joined(f"{what} cannot be read{reason}", "Correct the server or the tool.")

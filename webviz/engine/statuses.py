@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from webviz.api.status import Level, OtherFixedFrame, Status
 from webviz.data.transforms import TransformBuffer
 from webviz.data.transforms.explain import unknown_fixed_frame
+from webviz.data.words import joined
 
 
 def fixed_frame_status(fixed_frame: str, buffer: TransformBuffer) -> Status:
@@ -29,13 +30,12 @@ def fixed_frame_status(fixed_frame: str, buffer: TransformBuffer) -> Status:
 
 def import_status(report: Sequence[str]) -> Status:
     """The unsupported parts of a .rviz file, at least one sentence."""
-    text = f"Parts of this .rviz file are unsupported. {' '.join(report)}"
-    return Status(Level.WARN, text)
+    return Status(Level.WARN, joined("Parts of this .rviz file are unsupported.", *report))
 
 
 def failures(crashes: Mapping[str, str]) -> dict[str, Status]:
     """The parts of the viewer that failed, by name."""
     return {
-        part: Status(Level.ERROR, f"{text} The log has the details; please report this.")
+        part: Status(Level.ERROR, joined(text, "The log has the details; please report this."))
         for part, text in crashes.items()
     }

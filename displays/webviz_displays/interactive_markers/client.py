@@ -15,6 +15,7 @@ from typing import Any, Literal
 from webviz import Error, Level, Status
 from webviz.api.wire import Heard, Wire
 from webviz.data.messages import MessageError, decode
+from webviz.data.words import joined
 
 SERVICE = "visualization_msgs/srv/GetInteractiveMarkers"
 UPDATE = "visualization_msgs/msg/InteractiveMarkerUpdate"
@@ -154,7 +155,7 @@ class Client:
             try:
                 update = decode(UPDATE, cdr)
             except MessageError as error:
-                self.problem = f"An update cannot be read: {error} Correct the server."
+                self.problem = joined(f"An update cannot be read: {error}", "Correct the server.")
                 continue
             if update.type != KEEP_ALIVE:
                 updates.append(update)

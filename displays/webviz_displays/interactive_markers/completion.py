@@ -16,6 +16,7 @@ from webviz.api.handles import Control, Facing, MenuEntry, Mode
 from webviz.data.messages.markers import Marker, MarkerSequence
 from webviz.data.rotations import normalized
 from webviz.data.transforms.geometry import REACH_M
+from webviz.data.words import joined
 from webviz_displays.interactive_markers.handles import handles_of
 from webviz_displays.interactive_markers.menus import menu_of
 
@@ -88,7 +89,7 @@ def completed(message: Any) -> Completed | str:
         try:
             parts.append(_part(name, control, scale))
         except _Invalid as error:
-            problems.append(f"Control '{name}' {error} Correct the server.")
+            problems.append(joined(f"Control '{name}' {error}", "Correct the server."))
     return Completed(
         name=str(message.name),
         frame=str(message.header.frame_id).removeprefix("/"),

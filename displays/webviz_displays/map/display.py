@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from webviz import Context, Details, Display, Hit, Image, Input, Pose, Prop, Sample, Topic, compose
 from webviz.api.evidence import Walls
-from webviz.data.words import counted
+from webviz.data.words import counted, joined
 from webviz_displays.map.cells import MEANINGS, cell_details, tile_key
 from webviz_displays.map.palettes import lookup_table
 from webviz_displays.map.tiles import Corner, GridFault, TiledGrid, tiled, updated, window
@@ -192,7 +192,7 @@ class MapDisplay(Display):
                 outer, frame = at_stamp, None
             else:
                 reason = ctx.frames.why_not(grid.frame, folded.stamp_ns)
-                ctx.warn("Transform", f"{reason} Until then the map follows its frame.")
+                ctx.warn("Transform", joined(reason, "Until then the map follows its frame."))
         group = ctx.follow(frame, when="now", offset=compose(outer, grid.origin))
         for (row, column), image in images.items():
             corner = (column * grid.resolution, row * grid.resolution, 0.0)
@@ -216,7 +216,7 @@ class MapDisplay(Display):
     def _report(self, folded: Folded, grid: TiledGrid, ctx: Context) -> None:
         size = f"{grid.width} x {grid.height} cells of {grid.resolution:.4g} m"
         if folded.fault:
-            ctx.error("Map", f"{folded.fault} Keeping the previous map.")
+            ctx.error("Map", joined(folded.fault, "Keeping the previous map."))
         elif self.alpha == 0:
             ctx.warn("Map", f"{size}, invisible: alpha is 0. Increase it to show the map.")
         else:

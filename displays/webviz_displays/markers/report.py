@@ -9,7 +9,7 @@ import numpy as np
 
 from webviz import Context, Level
 from webviz.data.messages.markers import Marker
-from webviz.data.words import counted, listed
+from webviz.data.words import counted, joined, listed
 from webviz_displays.markers.actions import Key, name_of
 from webviz_displays.markers.blocks import MAX_PLACES, Blocks
 from webviz_displays.markers.store import MAX_MARKERS, Store
@@ -39,7 +39,8 @@ def report_markers(store: Store, blocks: Blocks, off: Set[str], loading: int, ct
         if (key := table.keys[row]) is not None
     }
     refused = {
-        key: (Level.ERROR, f"{why} Fix the publisher.") for key, why in remarks.refused.items()
+        key: (Level.ERROR, joined(why, "Fix the publisher."))
+        for key, why in remarks.refused.items()
     }
     faults = {**refused, **faults}
     shown = sum(block.shown for block in blocks)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from webviz import Context, Error
 from webviz.api.wire import Wire
 from webviz.data.messages import decode
+from webviz.data.words import joined
 from webviz_displays.moveit.scene import KnownScene, updated
 
 SERVICE = "moveit_msgs/srv/GetPlanningScene"
@@ -53,7 +54,8 @@ class Asking:
             try:
                 self._answer = wire.query(service, SERVICE, ANSWER_S)
             except ValueError as error:
-                self.problem, self._tries = f"{error} Correct the namespace.", MAX_TRIES
+                self.problem = joined(str(error), "Correct the namespace.")
+                self._tries = MAX_TRIES
                 return
         if self._answer is not None and self._answer.done():
             self._take(self._answer, wire.clock_s)

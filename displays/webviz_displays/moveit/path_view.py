@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from webviz import Context, Details, Hit, Rgb
-from webviz.data.words import counted, listed
+from webviz.data.words import counted, joined, listed
 from webviz_displays.moveit.bodies import named
 from webviz_displays.moveit.drawing import HeldObjects, with_alpha
 from webviz_displays.moveit.joints import Poser
@@ -173,7 +173,7 @@ class PathView:
                 f"{named(model.robot.name)}.",
             )
         if newest.faults:
-            ctx.warn("Points", " ".join(newest.faults[:NAMED]))
+            ctx.warn("Points", joined(*newest.faults[:NAMED]))
 
 
 def _point(path: JointPath, index: int) -> str:

@@ -8,6 +8,7 @@ from typing import Annotated
 
 from webviz import Context, Details, Display, Hit, Prop, Sample, Topic
 from webviz.api.wire import Wire
+from webviz.data.words import joined
 from webviz_displays.moveit.asking import Asking
 from webviz_displays.moveit.bodies import SLOW_BYTES
 from webviz_displays.moveit.properties import (
@@ -134,5 +135,4 @@ class PlanningScene(Display):
 
 def no_scene(topic: str, asking: Asking) -> str:
     """Why there is no scene, with the remedy."""
-    problem = f" {asking.problem}" if asking.problem else ""
-    return f"No planning scene received on {topic}.{problem} Start move_group."
+    return joined(f"No planning scene received on {topic}", asking.problem, "Start move_group.")

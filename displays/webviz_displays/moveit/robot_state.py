@@ -9,6 +9,7 @@ from typing import Annotated, Any
 import msgspec
 
 from webviz import Context, Details, Display, Hit, Input, Prop, Rgb, Sample, Topic
+from webviz.data.words import joined
 from webviz_displays.moveit.bodies import SLOW_BYTES, named
 from webviz_displays.moveit.drawing import HeldObjects, opacity_of, rgb_of, with_alpha
 from webviz_displays.moveit.properties import (
@@ -127,7 +128,7 @@ class RobotState(Display):
         known = len(scene.joints.positions) + len(scene.joints.poses)
         report_names(known, stance.assumed, stance.strangers, "The state", ctx)
         if scene.faults:
-            ctx.warn("State", " ".join(scene.faults[:3]))
+            ctx.warn("State", joined(*scene.faults[:3]))
         look = self._look(self._highlights(received, model.robot.links, ctx))
         frame = scene.frame or model.robot.root
         robots.draw(stance.poses, look, frame, "", ctx)

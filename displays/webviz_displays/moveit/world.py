@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from webviz import Context, Details, Hit, Pose
-from webviz.data.words import counted, listed
+from webviz.data.words import counted, joined, listed
 from webviz_displays.moveit.bodies import Body, named
 from webviz_displays.moveit.drawing import (
     DrawnObjects,
@@ -237,4 +237,4 @@ def report_objects(scene: KnownScene, lost: list[Body], lost_held: list[str], ct
         )
     if faults:
         more = " And more." if len(faults) > NAMED else ""
-        ctx.warn("Objects", " ".join(faults[:NAMED]) + more)
+        ctx.warn("Objects", joined(*faults[:NAMED]) + more)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from webviz import Context, Details, Hit, Input, Pose, Prop, Rgb, Sample, Topic, compose
 from webviz.api.nodes import POINTS_HELD
+from webviz.data.words import joined
 from webviz_displays.point_cloud2.blocks import in_blocks
 from webviz_displays.point_cloud2.cloud import Cloud, CloudError, drawable
 from webviz_displays.point_cloud2.cloud_colors import (
@@ -149,7 +150,7 @@ class CloudDisplay(PointsDisplay):
         try:
             colors, opacities = self._colors(cloud, rows, xyz, own, fixed, ctx)
         except CloudError as error:
-            ctx.warn("Colors", f"{error} The points are white.")
+            ctx.warn("Colors", joined(str(error), "The points are white."))
             colors, opacities = WHITE, None
         if opacities is not None and opacities.min(initial=255) < 255:
             seen = opacities > 0

@@ -12,7 +12,7 @@ from webviz import Color, Context, Details, Display, Group, Hit, Pose, Prop, Sam
 from webviz.api.nodes import Ids
 from webviz.data import messages
 from webviz.data.rotations import normalized
-from webviz.data.words import counted
+from webviz.data.words import counted, joined
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import LONGEST, Length, origin_near
 from webviz_displays.shared.history import HistoryLength
@@ -67,7 +67,9 @@ class PoseDisplay(Display):
             report_orientations(poses.squares, "pose", ctx)
             self.draw_more([samples[i] for i in ids.tolist()], poses, group, ctx, ids)
         if not every.ok[-1]:
-            ctx.error("Pose", f"{fault(self.pose_of()(samples[-1].message))} Fix the publisher.")
+            ctx.error(
+                "Pose", joined(fault(self.pose_of()(samples[-1].message)), "Fix the publisher.")
+            )
 
     def draw_more(
         self, samples: Sequence[Sample], poses: PoseTrail, group: Group, ctx: Context, ids: Ids

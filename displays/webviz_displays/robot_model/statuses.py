@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from webviz import Context, Pose
 from webviz.data.transforms import Explanation, Kind
-from webviz.data.words import counted, listed
+from webviz.data.words import counted, joined, listed
 from webviz_urdf import Joint, Robot
 
 NAMED = 5
@@ -146,4 +146,4 @@ def has_axis(joint: Joint) -> bool:
 
 def _first(sentences: Sequence[str]) -> str:
     rest = len(sentences) - NAMED
-    return " ".join([*sentences[:NAMED], *([f"And {rest} more."] if rest > 0 else [])])
+    return joined(*sentences[:NAMED], f"And {rest} more." if rest > 0 else "")

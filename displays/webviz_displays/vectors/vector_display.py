@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from webviz import Color, Context, Details, Display, Group, Hit, Pose, Prop, Sample, Topic
 from webviz.data import messages
 from webviz.data.rotations import matrices
+from webviz.data.words import joined
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import FARTHEST, Length, origin_near
 from webviz_displays.vectors.marks import Vectors, add_straight, add_turning
@@ -114,7 +115,7 @@ class VectorDisplay(Display):
             elif shown:
                 ctx.ok("Vectors", sentence)
             else:
-                ctx.warn("Vectors", f"{sentence} {self.why_hidden()}")
+                ctx.warn("Vectors", joined(sentence, self.why_hidden()))
 
     def why_hidden(self) -> str:
         """Why no vector is drawn."""

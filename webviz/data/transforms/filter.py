@@ -13,6 +13,7 @@ from webviz.data.transforms.explain import explain
 from webviz.data.transforms.geometry import is_within_reach
 from webviz.data.transforms.reasons import Explanation, Kind, in_words
 from webviz.data.transforms.records import Transform
+from webviz.data.words import joined
 
 P = TypeVar("P")
 
@@ -120,8 +121,8 @@ class MessageFilter(Generic[P]):
         if self._lost and caught_up:
             reason = self._queue_full(buffer, fixed_frame, now_ns)
         if self._lost:
-            were = "message was" if self._lost == 1 else "messages were"
-            reason = replace(reason, sentence=f"{reason.sentence} {self._lost} {were} given up.")
+            given_up = "1 message was" if self._lost == 1 else f"{self._lost} messages were"
+            reason = replace(reason, sentence=joined(reason.sentence, f"{given_up} given up."))
         return reason
 
     def clear(self) -> None:

@@ -13,6 +13,7 @@ from rclpy.qos import QoSProfile
 from rclpy.subscription import Subscription
 
 from webviz.data.messages import MessageError, decode, encode, interfaces
+from webviz.data.words import joined
 from webviz.edges.ros.calls import WAIT_S, Calls
 from webviz.edges.ros.types import learn, message_class
 from webviz.engine.sources.graph import Goal, NotConnected
@@ -146,7 +147,7 @@ def _read(type: str, cdr: bytes, action: str) -> Any:
     try:
         return decode(type, cdr)
     except MessageError as error:
-        text = f"An answer of {action} cannot be read: {error} Correct the server."
+        text = joined(f"An answer of {action} cannot be read: {error}", "Correct the server.")
         raise NotConnected(text) from error
 
 

@@ -8,6 +8,7 @@ from typing import Any
 
 from webviz.api.declared import Topic
 from webviz.data.messages import MessageError, decode
+from webviz.data.words import joined
 from webviz.engine.driving import Helms
 from webviz.engine.parts.part import Batches, Core, Part
 from webviz.engine.sources import Raw, Subscriber, Subscription
@@ -93,10 +94,10 @@ class DrivingPart(Part):
         try:
             twist = decode(ODOMETRY, raw.cdr).twist.twist
         except MessageError as error:
-            return Driving(driver, problem=f"{name} cannot be read: {error} {REMEDY}")
+            return Driving(driver, problem=joined(f"{name} cannot be read: {error}", REMEDY))
         x, y, turn = float(twist.linear.x), float(twist.linear.y), float(twist.angular.z)
         speed = math.copysign(math.hypot(x, y), x) if abs(x) >= abs(y) else math.hypot(x, y)
         if not (math.isfinite(speed) and math.isfinite(turn)):
             cause = f"{name} has velocities that are not finite."
-            return Driving(driver, problem=f"{cause} Correct its publisher.")
+            return Driving(driver, problem=joined(cause, "Correct its publisher."))
         return Driving(driver, round(speed, DIGITS) + 0.0, round(turn, DIGITS) + 0.0)

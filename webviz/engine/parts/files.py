@@ -16,6 +16,7 @@ from webviz.api.status import Status
 from webviz.api.tool import Tool
 from webviz.data.disk import in_thread
 from webviz.data.names import MAX_FILE_BYTES, file_problem_of, readable
+from webviz.data.words import joined
 from webviz.engine.commands import (
     Command,
     Export,
@@ -229,7 +230,7 @@ class FilesPart(Part):
         def then(left_out: list[str]) -> str:
             self._path = target
             self._saved = {target: config_file.document(config)}
-            return " ".join([f"Saved {target.name}.", *left_out])
+            return joined(f"Saved {target.name}.", *left_out)
 
         return Job(work, then)
 

@@ -12,6 +12,7 @@ import msgspec
 from webviz.api.declared import P, make, set_property
 from webviz.api.registry import plugin_types
 from webviz.api.status import Level, Status
+from webviz.data.words import joined
 from webviz.engine.parts.refusals import not_changed
 from webviz.engine.parts.steps import Snapshot, kept, made_anew
 from webviz.engine.plugins import made_new
@@ -135,4 +136,4 @@ class PluginList(Generic[P]):
         """Return the statuses of unusable ones."""
         faults = [item.reason for item in self._items.values() if isinstance(item, Unreadable)]
         key = f"{self._base.kind}s".capitalize()
-        return {key: Status(Level.ERROR, " ".join(faults))} if faults else {}
+        return {key: Status(Level.ERROR, joined(*faults))} if faults else {}

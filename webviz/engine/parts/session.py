@@ -11,6 +11,7 @@ from typing import Any
 import msgspec
 
 from webviz.api.status import Level, Status
+from webviz.data.words import joined
 from webviz.engine.commands import Restore
 from webviz.engine.parts.autosave import AutosavePart
 from webviz.engine.parts.files import FilesPart
@@ -83,7 +84,7 @@ class SessionPart(AutosavePart):
     def _refuse(self, reason: str) -> None:
         self._problem = f"The last session was not restored: {reason}"
         try:
-            self._problem += f" It is kept in {self._set_aside()}."
+            self._problem = joined(self._problem, f"It is kept in {self._set_aside()}.")
         except OSError as error:
             log.warning("%s It cannot be renamed: %s", self._problem, error.strerror)
         else:

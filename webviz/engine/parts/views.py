@@ -23,6 +23,7 @@ from webviz.api.views import (
     type_of,
 )
 from webviz.data.names import file_problem_of, problem_of
+from webviz.data.words import joined
 from webviz.engine.commands import (
     ChangeView,
     Command,
@@ -115,7 +116,7 @@ class ViewsPart(Part):
             for frame in sorted(self._cameras.target_frames())
             if frames.latest(frame) is None
         ]
-        return {"Target Frame": Status(Level.WARN, " ".join(lost))} if lost else {}
+        return {"Target Frame": Status(Level.WARN, joined(*lost))} if lost else {}
 
     def state(self) -> Mapping[str, Any]:
         """The current view of every browser."""

@@ -13,7 +13,7 @@ from webviz.api.ports import ANY, Input
 from webviz.api.status import Level, Remedy, Status
 from webviz.data.messages import MessageError, decode, peek_header
 from webviz.data.transforms import MessageFilter
-from webviz.data.words import counted
+from webviz.data.words import counted, joined
 from webviz.engine.pipeline.reception import Reception
 from webviz.engine.sources import Offer, Raw, Subscription
 
@@ -228,7 +228,7 @@ class Intake:
             text = (
                 f"Drawn {self._late_s:.1f} s late: the transforms arrive that long after the data."
             )
-            return Status(Level.WARN, f"{text} {waiting.sentence}" if waiting else text)
+            return Status(Level.WARN, joined(text, waiting.sentence) if waiting else text)
         return Status(Level.OK, "Transform OK")
 
 

@@ -12,6 +12,7 @@ from webviz.data.messages import MessageError, TFMessage, decode
 from webviz.data.transforms import TransformBuffer
 from webviz.data.transforms.clocks import clock_problem
 from webviz.data.transforms.conflicts import conflicts
+from webviz.data.words import joined
 from webviz.engine.pipeline.transform_layout import Layouts, TransformBatch
 from webviz.engine.sources import Offer, Raw, Subscriber, Subscription
 
@@ -209,7 +210,7 @@ class TransformListener:
             if now_ns - rejection.received_ns < REFUSED_NS
         ]
         found = {
-            "Transforms": " ".join(problems + _few(refused)),
+            "Transforms": joined(*problems, *_few(refused)),
             "Clocks": clock_problem(buffer, now_ns),
         }
         return {key: Status(Level.WARN, text) for key, text in found.items() if text}

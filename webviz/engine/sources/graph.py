@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Literal, Protocol
 
 from webviz.api.errors import Error
+from webviz.data.words import joined
 
 Reliability = Literal["reliable", "best_effort"]
 Durability = Literal["volatile", "transient_local"]
@@ -25,7 +26,7 @@ class Missing(NotConnected):
     """
 
     def __init__(self, cause: str) -> None:
-        super().__init__(f"{cause} Start the node, or choose another name.")
+        super().__init__(joined(cause, "Start the node, or choose another name."))
         self.cause = cause
 
 

@@ -13,6 +13,7 @@ import msgspec
 
 from webviz.api.declared import Declared, Topic, make
 from webviz.api.properties import bare, properties_of
+from webviz.data.words import joined
 from webviz.files.config.errors import nearest
 from webviz.files.config.source import Location, Path
 
@@ -100,7 +101,7 @@ def sentences(found: Sequence[tuple[Path, str]], place: Location = Location()) -
     told = [place.at(*path).says(clause) for path, clause in found[:MAX_MISTAKES]]
     if len(found) > MAX_MISTAKES:
         told.append(f"{len(found) - MAX_MISTAKES} more errors.")
-    return " ".join(told)
+    return joined(*told)
 
 
 def shown(value: Any) -> str:

@@ -10,6 +10,7 @@ import msgspec
 from webviz.api.declared import make
 from webviz.api.errors import Error
 from webviz.api.registry import display_types
+from webviz.data.words import joined
 from webviz.engine.by_topic import picks
 from webviz.files.config import mistakes, nearest, sentences
 
@@ -42,7 +43,7 @@ def check_properties(type: str, properties: Mapping[str, Any]) -> None:
             else no_property(type, str(path[0]), fields)
             for path, clause in mistakes(cls, properties, error)
         ]
-        raise NoSuchProperty(" ".join(reasons)) from error
+        raise NoSuchProperty(joined(*reasons)) from error
 
 
 def by_topic(

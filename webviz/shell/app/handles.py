@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from webviz.api.errors import Error
 from webviz.api.status import Level, Status
+from webviz.data.words import joined
 from webviz.engine.commands import (
     Command,
     DuplicateDisplay,
@@ -232,7 +233,7 @@ def _worst(row: Row) -> Status:
 def _check(row: Row, name: str) -> None:
     """Refuse an unknown property."""
     if row.display is None:
-        reason = " ".join(status.text for status in row.statuses.values())
+        reason = joined(*(status.text for status in row.statuses.values()))
         raise NoSuchProperty(f"{row.name} is invalid and has no properties: {reason}")
     if name not in row.display.__struct_fields__:
         raise NoSuchProperty(no_property(row.type, name, row.display.__struct_fields__))

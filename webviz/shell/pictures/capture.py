@@ -16,6 +16,7 @@ from webviz.api.errors import Error
 from webviz.api.registry import plugin_types
 from webviz.api.status import Status
 from webviz.api.views import View
+from webviz.data.words import joined
 from webviz.engine import plugins
 from webviz.engine.sources import Source
 from webviz.engine.sources.bag import BagSource
@@ -234,7 +235,7 @@ def pictures(order: Order, studio: Studio | None = None) -> Generator[Picture]:
                 if pixels is None:
                     if order.is_image:
                         reasons = [status.text for status in shown.statuses.values()]
-                        raise Error(f"No image to write. {' '.join(reasons)}")
+                        raise Error(joined("No image to write.", *reasons))
                     pixels = studio.capture(order.transparent, viewer.hidden())
                 yield Picture(pixels, name, at_s, shown)
 

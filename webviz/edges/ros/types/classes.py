@@ -11,6 +11,7 @@ from rclpy.serialization import deserialize_message, serialize_message
 from rclpy.utilities import get_rmw_implementation_identifier
 
 from webviz.data.messages import MessageError, UnknownTypeError, interfaces
+from webviz.data.words import joined
 from webviz.edges.ros.types.composing import composed_message, composed_service
 from webviz.edges.ros.types.descriptions import describe
 from webviz.edges.ros.types.wire import RawPayload
@@ -102,7 +103,7 @@ def _composed(
         check(type_name)
     except UnknownTypeError as error:
         remedy = "Install its package, or source the workspace that contains it."
-        raise MessageTypeError(f"{error} {remedy}") from error
+        raise MessageTypeError(joined(str(error), remedy)) from error
     except MessageError as error:
         raise MessageTypeError(str(error)) from error
     rmw = get_rmw_implementation_identifier()
