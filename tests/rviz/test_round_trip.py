@@ -218,6 +218,32 @@ Visualization Manager:
             assert {camera.topic.reliability, camera.camera_info_topic.reliability} == policy
 
 
+def test_a_qos_that_a_file_does_not_name_stays_automatic() -> None:
+    text = """\
+Visualization Manager:
+  Displays:
+    - Class: rviz/Image
+      Image Topic: /a
+      Unreliable: false
+    - Class: rviz_default_plugins/Camera
+      Image Topic: /b
+      Queue Size: 2
+    - Class: rviz/RobotModel
+      Robot Description: robot_description
+    - Class: rviz/Image
+      Image Topic: /a
+      Unreliable: true
+"""
+    back = again(text)
+    assert all(place.endswith("/Class") for place in lost(texts(text), texts(back)))
+    wanted = ["auto", "auto", "auto", "best_effort"]
+    for each in (text, back):
+        image, camera, robot, lossy = rviz.read(each, "x.rviz")[0].displays
+        assert isinstance(camera, Camera)
+        topics = [image.topic, camera.topic, robot.joint_states_topic, lossy.topic]  # pyright: ignore
+        assert [topic.reliability for topic in topics] == wanted
+
+
 def test_all_that_a_rviz_file_cannot_hold_is_reported() -> None:
     config = parse(
         "robots: [one, two]\npublish: [/a]\n"

@@ -13,9 +13,9 @@ from webviz.api.display import Display
 from webviz.api.group import DisplayGroup
 from webviz.api.registry import type_name
 from webviz.files.config import Branch, Item, Location, Unreadable, read_display
-from webviz.files.rviz import values
+from webviz.files.rviz import topics, values
 from webviz.files.rviz.classes import counterpart
-from webviz.files.rviz.properties import keys
+from webviz.files.rviz.properties import keys, properties
 from webviz.files.rviz.quiet import is_without_effect
 from webviz.files.rviz.report import Report
 from webviz.files.rviz.rest import KEPT
@@ -66,7 +66,9 @@ def _read_item(entry: Any, report: Report, kept: Kept, place: Location) -> Item:
     if found.rviz != cls:
         report.note(name, cls, f"ROS 1's class, written as {found.rviz}")
     inner = tree.pop("Displays", []) if isinstance(display, DisplayGroup) else []
-    rest = difference({k: v for k, v in tree.items() if k not in ("Class", "Name")}, bare(display))
+    written = bare(display)
+    rest = difference({k: v for k, v in tree.items() if k not in ("Class", "Name")}, written)
+    topics.keep_automatic(tree, written, rest, properties(found))
     kept.entries.append({"Class": found.rviz, "Name": display.name, **rest})
     if not isinstance(display, DisplayGroup):
         return display

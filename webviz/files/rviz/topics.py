@@ -8,21 +8,22 @@ always subscribed with transient local, as in RViz.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from webviz.api.declared import Topic
 from webviz.api.ports import Input, Output
 from webviz.files.rviz import values
 from webviz.files.rviz.properties import RvizProperty
-from webviz.files.rviz.tree import Path, Tree, child
+from webviz.files.rviz.tree import Path, Tree, child, put
 from webviz.files.rviz.values import Unfit
 
 DEPTH = 5
 ROS_1_QUEUE_SIZE = 10
 RELIABILITY = {"reliable": "Reliable", "best_effort": "Best Effort"}
 DURABILITY = {"volatile": "Volatile", "transient_local": "Transient Local"}
-POLICIES = ("Depth", "Filter size", "History Policy", "Reliability Policy", "Durability Policy")
+RELIABLE = "Reliability Policy"
+POLICIES = ("Depth", "Filter size", "History Policy", RELIABLE, "Durability Policy")
 TOPIC = "Topic"
 OLD_KEYS = ("Image Topic", "Marker Topic", "Octomap Topic")
 """ROS 1's keys for `TOPIC`."""
@@ -87,6 +88,24 @@ def complete(display: dict[str, Any], topics: list[RvizProperty]) -> None:
         suffix = each.port.suffix if isinstance(each.port, Input) else ""
         if suffix and topic.get("name") == f"{first}{suffix}":
             topic["name"] = ""
+
+
+def keep_automatic(tree: Tree, written: Tree, rest: Tree, places: Iterable[RvizProperty]) -> None:
+    """Keep the QoS of topics automatic whose file has no place for it, such as one of ROS 1.
+
+    What `write` chooses for them in new files would be an explicit choice on reading.
+
+    Args:
+        tree: of the display in the file.
+        written: the same display without the file.
+        rest: the parts of the file that are kept; gains RViz's default.
+        places: the properties of the display.
+    """
+    for place in places:
+        own = child(written, *place.path)
+        is_named = child(tree, *place.path[:-1]).get(place.path[-1]) is not None
+        if isinstance(place.port, Input) and not is_named and own.get(RELIABLE) == "Best Effort":
+            put(rest, (*place.path, RELIABLE), "Reliable")
 
 
 def write(topic: Topic, port: Input | Output, first: Topic) -> Tree | str:
