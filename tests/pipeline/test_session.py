@@ -43,6 +43,7 @@ from webviz_displays.axes import Axes
 from webviz_displays.grid import Grid
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.path import Path as PathDisplay
+from webviz_displays.text import Text
 
 
 def do(b: Any, command: Command) -> State:
@@ -295,6 +296,17 @@ def test_a_config_is_handed_out_as_text(folder: Path, bench: Callable[..., Any])
     do(b, Export(texts.append, "a.rviz"))
     assert [type(d) for d in parse(texts[0], "a.yaml").displays] == [Axes]
     assert "Class: rviz_default_plugins/Axes" in texts[1]
+
+
+def test_a_config_handed_out_as_rviz_is_answered_with_what_is_left_out(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Axes(name="A"), Text(name="B"))
+    answers = {n: b.viewer.enqueue(Export(lambda _: None, n)) for n in ("a.yaml", "a.rviz")}
+    b.until_done(answers["a.rviz"])
+    assert answers["a.yaml"].result() == ""
+    left_out = "B: Text: skipped, because RViz has no such display."
+    assert answers["a.rviz"].result() == left_out
 
 
 # The list

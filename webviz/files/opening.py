@@ -51,9 +51,16 @@ def parse(text: str, where: str) -> Config:
     return config
 
 
-def text_of(config: Config, name: str) -> str:
-    """The text of a config file; in RViz's format if `name` ends with .rviz, else YAML."""
-    return rviz.write(config)[0] if is_rviz(Path(name)) else dump(config)
+def text_of(config: Config, name: str) -> tuple[str, list[str]]:
+    """The text of a config file, in RViz's format if `name` ends with .rviz, else YAML.
+
+    Returns:
+        The text, and sentences on what RViz's format cannot hold, which is left out.
+    """
+    if is_rviz(Path(name)):
+        text, report = rviz.write(config)
+        return text, report.sentences()
+    return dump(config), []
 
 
 def save(config: Config, path: Path) -> list[str]:
@@ -69,12 +76,9 @@ def save(config: Config, path: Path) -> list[str]:
     Raises:
         ConfigError: it cannot be written.
     """
-    if is_rviz(path):
-        text, report = rviz.write(config)
-        write_text(text, path)
-        return report.sentences()
-    write_text(_comments(path) + dump(config), path)
-    return []
+    text, left_out = text_of(config, path.name)
+    write_text(text if is_rviz(path) else _comments(path) + text, path)
+    return left_out
 
 
 def _is_kept(item: Item) -> bool:

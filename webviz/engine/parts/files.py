@@ -234,12 +234,13 @@ class FilesPart(Part):
 
         return Job(work, then)
 
-    def _export(self, command: Export, sender: Sender) -> Job[str]:
+    def _export(self, command: Export, sender: Sender) -> Job[tuple[str, list[str]]]:
         config = self.config()
 
-        def then(text: str) -> str:
+        def then(written: tuple[str, list[str]]) -> str:
+            text, left_out = written
             command.deliver(text)
-            return ""
+            return joined(*left_out)
 
         return Job(lambda: opening.text_of(config, command.name), then)
 
