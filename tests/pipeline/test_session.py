@@ -305,8 +305,10 @@ def test_a_config_handed_out_as_rviz_is_answered_with_what_is_left_out(
     answers = {n: b.viewer.enqueue(Export(lambda _: None, n)) for n in ("a.yaml", "a.rviz")}
     b.until_done(answers["a.rviz"])
     assert answers["a.yaml"].result() == ""
-    left_out = "B: Text: skipped, because RViz has no such display."
-    assert answers["a.rviz"].result() == left_out
+    assert answers["a.rviz"].result() == (
+        "Settings: publish: not in RViz's format, so it is left out. "
+        "B: Text: skipped, because RViz has no such display."
+    )
 
 
 # The list
