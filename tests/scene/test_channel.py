@@ -108,6 +108,18 @@ def test_a_page_receives_what_waited_for_it_and_only_the_newest_of_what_is_kept(
     assert got == [{"type": "News", "text": "for you"}, {"type": "Weather", "text": "wind"}]
 
 
+def test_a_page_measures_its_way_before_the_viewer_is_ready(
+    server: Server, call: Callable[..., Any], caplog: pytest.LogCaptureFixture
+) -> None:
+    _, key = key_of(call())
+    with channel(server) as page:
+        page.send(hello(key))
+        assert receive(page)["type"] == "You"
+        page.send('{"type":"Ping"}')
+        assert receive(page) == {"type": "Pong"}
+    assert "ignored" not in caplog.text
+
+
 @pytest.mark.parametrize(
     "first", [hello("x"), hello(""), "", "[", '{"type":"Hello"}', b"\x00", '{"type":"Wish"}']
 )

@@ -26,6 +26,8 @@ from webviz.edges.page.messages import (
     FromPage,
     Hello,
     Number,
+    Ping,
+    Pong,
     ToPage,
     Unwatch,
     Watch,
@@ -113,6 +115,8 @@ class Channel:
         """Called on the event loop with a browser that watches another store."""
         self._listeners: dict[type[FromPage], list[Callable[[int, Any], object]]] = {}
         self._decoder = msgspec.json.Decoder[FromPage](_OWN)
+        # Pages that join before the viewer is ready, or without panels, measure their way, too.
+        self.on(Ping, lambda browser, _: self.send(Pong(), browser))
 
     def send(self, message: ToPage, browser: int | None = None) -> None:
         """Sends to one page, or to all; from any thread, without waiting.

@@ -11,7 +11,6 @@ import viser
 from numpy.typing import NDArray
 from viser import _messages as wire
 
-from webviz.edges.page.messages import Ping, Pong
 from webviz.edges.page.pictures import Pictures
 from webviz.edges.scene.adapter.acknowledging import AcknowledgementRequest, Acknowledgements
 from webviz.edges.scene.adapter.hints import evaluate_hints_once
@@ -45,8 +44,6 @@ class Adapter:
         self.server = server
         self.channel = server.channel
         """To the modules of the pages."""
-        # Pages without panels measure their way to the server, too.
-        self.channel.on(Ping, lambda browser, _: self.channel.send(Pong(), browser))
         self.pictures = Pictures(server.channel)
         """In panes beside the scene."""
         self.late = Late()
