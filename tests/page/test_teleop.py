@@ -14,7 +14,8 @@ from webviz.engine.driving import HelmAnswer
 from webviz.engine.state import Driving, ToolButton
 from webviz.tools.teleop import Teleop
 
-CAMERA = "window.__viserMutable.camera.matrixWorld.toArray().join()"
+CAMERA = "window.__viserMutable.cameraControl.toJSON()"
+"""Where the camera goes: where it is still follows the last drag, by frames of another test."""
 PAD = """(axes) => { navigator.getGamepads = () => [{connected: true, axes}] }"""
 
 
