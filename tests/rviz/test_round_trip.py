@@ -7,6 +7,7 @@ import textwrap
 from pathlib import Path
 from typing import Any
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rviz_trees import loaded, lost, texts
@@ -150,11 +151,21 @@ def test_an_exported_config_is_imported_as_it_was() -> None:
     assert dump(rviz.read(text, "x.rviz")[0]) == dump(rviz.read(again(text), "x.rviz")[0])
 
 
-def test_ros_1_classes_are_written_as_those_of_ros_2() -> None:
-    text = "Visualization Manager:\n  Displays: [{Class: rviz/Grid, Name: Floor, Value: true}]\n"
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("rviz/Grid", "rviz_default_plugins/Grid"),
+        ("rviz/WrenchStamped", "rviz_default_plugins/Wrench"),
+        ("octomap_rviz_plugin/OccupancyGrid", "octomap_rviz_plugins/OccupancyGrid"),
+        ("octomap_rviz_plugin/ColorOccupancyGrid", "octomap_rviz_plugins/ColorOccupancyGrid"),
+        ("octomap_rviz_plugin/OccupancyMap", "octomap_rviz_plugins/OccupancyMap"),
+    ],
+)
+def test_ros_1_classes_are_written_as_those_of_ros_2(old: str, new: str) -> None:
+    text = f"Visualization Manager:\n  Displays: [{{Class: {old}, Name: A, Value: true}}]\n"
     where = ["/Visualization Manager/Displays[0]/Class"]
     assert list(lost(texts(text), texts(again(text)))) == where
-    assert "Class: rviz_default_plugins/Grid" in again(text)
+    assert f"Class: {new}\n" in again(text)
 
 
 def test_every_display_type_goes_to_rviz_and_back() -> None:

@@ -7,10 +7,18 @@ import functools
 from webviz.api.declared import P
 from webviz.api.registry import plugin_types
 
+ROS_1 = {
+    "rviz/WrenchStamped": "rviz_default_plugins/Wrench",
+    "octomap_rviz_plugin/OccupancyGrid": "octomap_rviz_plugins/OccupancyGrid",
+    "octomap_rviz_plugin/ColorOccupancyGrid": "octomap_rviz_plugins/ColorOccupancyGrid",
+    "octomap_rviz_plugin/OccupancyMap": "octomap_rviz_plugins/OccupancyMap",
+}
+"""Classes of ROS 1 whose names in ROS 2 differ by more than RViz's package."""
+
 
 def counterpart(base: type[P], cls: str) -> type[P] | None:
     """The type of display or tool for RViz's class, also by its name in ROS 1."""
-    return _classes(tuple(plugin_types(base).values())).get(cls)
+    return _classes(tuple(plugin_types(base).values())).get(ROS_1.get(cls, cls))
 
 
 @functools.lru_cache(maxsize=8)
