@@ -300,8 +300,35 @@ def test_a_folder_of_several_files_is_read_without_those_that_are_missing_or_bro
     assert bag.source.remarks == [
         "bag_3.mcap, named by metadata.yaml, is missing. Reading "
         f"{first.name}, bag_1.mcap, bag_2.mcap.",
+        "bag_1.mcap is empty (0 bytes). Copy it again, or choose another bag.",
         "bag is damaged: bag_1.mcap cannot be read; everything else is shown.",
     ]
+
+
+def test_losses_within_the_files_of_a_folder_are_reported(tmp_path, opened):
+    folder = strings(*range(400)).write(tmp_path / "bag", StoragePlugin.SQLITE3)
+    (file,) = files(folder, ".db3")
+    file.write_bytes(file.read_bytes()[: int(file.stat().st_size * 0.7)])
+    bag = opened(folder)
+    bag.want("/words")
+    bag.play(400)
+    (remark,) = bag.source.remarks
+    assert remark.startswith(f"bag is damaged: in {file.name} ")
+    assert remark.endswith("its end is missing; everything else is shown.")
+
+
+def test_a_folder_without_any_bag_file(tmp_path):
+    assert refusal(tmp_path).endswith(
+        "is not a bag: it has no metadata.yaml, MCAP or db3 file. Give an MCAP or db3 file, or a "
+        "rosbag2 folder."
+    )
+
+
+def test_metadata_that_are_a_pointer_of_git_lfs(tmp_path):
+    folder = strings(0).write(tmp_path / "bag")
+    pointer = f"version https://git-lfs.github.com/spec/v1\noid sha256:{'a' * 64}\nsize 9\n"
+    (folder / "metadata.yaml").write_text(pointer)
+    assert refusal(folder).endswith("metadata.yaml is a Git LFS pointer: run `git lfs pull`.")
 
 
 def test_an_empty_bag(tmp_path):

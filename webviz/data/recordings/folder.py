@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path, PurePath
 from typing import Any
 
 from ruamel.yaml import YAML
 
-from webviz.data.recordings.opening import open_file
+from webviz.data.recordings.opening import is_lfs, open_file
 from webviz.data.recordings.recording import (
     Losses,
     RecordedChannel,
@@ -38,28 +39,41 @@ class FolderRecording:
     """
 
     def __init__(self, path: Path) -> None:
-        self.losses = Losses("message", "skipped")
+        self._losses = Losses("message", "skipped")
         names, self._compression = _metadata(path)
         with contextlib.ExitStack() as stack:
-            self._parts = self._opened(self._existing(path, names), stack)
+            self._files = self._opened(self._existing(path, names), stack)
             self._stack = stack.pop_all()
-        channels = (channel for part in self._parts for channel in part.channels)
+        parts = self._files.values()
+        channels = (channel for part in parts for channel in part.channels)
         self.channels = tuple(dict.fromkeys(channels))
-        spans = [part.span_ns for part in self._parts if part.span_ns]
+        spans = [part.span_ns for part in parts if part.span_ns]
         self.span_ns = (min(s[0] for s in spans), max(s[1] for s in spans)) if spans else None
+
+    @property
+    def losses(self) -> Losses:
+        """Those of the folder and of each file; reading finds more."""
+        within = {name: part.losses for name, part in self._files.items()}
+        lost = [f"in {name} {text}" for name, losses in within.items() if (text := str(losses))]
+        notes = [note for losses in within.values() for note in losses.notes]
+        return replace(
+            self._losses,
+            others=[*self._losses.others, *lost],
+            notes=[*self._losses.notes, *notes],
+        )
 
     def messages(
         self, channels: Collection[RecordedChannel], start_ns: int, end_ns: int
     ) -> Iterator[RecordedMessage]:
         """`Recording.messages`."""
-        for part in self._parts:
+        for part in self._files.values():
             for entry in part.messages(channels, start_ns, end_ns):
                 if not self._compression:
                     yield entry
                     continue
                 data, fault = unpack(entry.data, self._compression, MAX_BYTES)
                 if fault:
-                    self.losses.skipped[entry.channel, entry.stamp_ns] = fault
+                    self._losses.skipped[entry.channel, entry.stamp_ns] = fault
                 else:
                     yield entry._replace(data=data)
 
@@ -81,21 +95,24 @@ class FolderRecording:
             )
         if missing:
             read = ", ".join(file.name for file in found)
-            self.losses.notes.append(f"{missing}, named by {METADATA}, is missing. Reading {read}.")
+            self._losses.notes.append(
+                f"{missing}, named by {METADATA}, is missing. Reading {read}."
+            )
         return found
 
-    def _opened(self, files: Sequence[Path], stack: contextlib.ExitStack) -> list[Recording]:
-        parts: list[Recording] = []
+    def _opened(self, files: Sequence[Path], stack: contextlib.ExitStack) -> dict[str, Recording]:
+        parts: dict[str, Recording] = {}
         errors: list[RecordingError] = []
         for file in files:
             try:
                 part = open_file(file)
             except RecordingError as error:
                 errors.append(error)
-                self.losses.others.append(f"{file.name} cannot be read")
+                self._losses.notes.append(str(error).replace(str(file), file.name))
+                self._losses.others.append(f"{file.name} cannot be read")
             else:
                 stack.callback(part.close)
-                parts.append(part)
+                parts[file.name] = part
         if not parts:
             raise errors[0]
         return parts
@@ -110,10 +127,17 @@ def _metadata(folder: Path) -> tuple[list[str], str]:
     """
     path = folder / METADATA
     remedy = f"run `ros2 bag reindex {folder}`, or give one of the files in it."
+    if not path.is_file() and not any(file.suffix in ENDINGS for file in folder.iterdir()):
+        raise RecordingError(
+            f"{folder} is not a bag: it has no {METADATA}, MCAP or db3 file. Give an MCAP or db3 "
+            "file, or a rosbag2 folder."
+        )
     if not path.is_file():
         raise RecordingError(f"{folder} has no {METADATA}: {remedy}")
     with path.open("rb") as file:
         text = file.read(MAX_METADATA + 1)
+    if is_lfs(text):
+        raise RecordingError(f"{path} is a Git LFS pointer: run `git lfs pull`.")
     try:
         if len(text) > MAX_METADATA:
             raise ValueError

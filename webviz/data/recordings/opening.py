@@ -22,7 +22,6 @@ from webviz.data.recordings.unpacking import unpack_file
 SQLITE = b"SQLite format 3\0"
 COMPRESSED = {b"\x28\xb5\x2f\xfd": "zstd", b"\x04\x22\x4d\x18": "lz4"}
 ROS_1 = b"#ROSBAG V"
-LFS = b"version https://git-lfs.github.com/spec/"
 _LOOKED_AT = 512
 CONTAINERS: dict[str, Callable[[Path], Recording]] = {
     "mcap": McapRecording,
@@ -39,6 +38,11 @@ def open_file(path: Path) -> Recording:
     """
     kind = _kind(path)
     return CONTAINERS[kind](path) if kind in CONTAINERS else _Unpacked(path, kind)
+
+
+def is_lfs(head: bytes) -> bool:
+    """Return whether the first bytes of a file are those of a pointer of Git LFS."""
+    return head.startswith(b"version https://git-lfs.github.com/spec/")
 
 
 def _kind(path: Path) -> str:
@@ -64,7 +68,7 @@ def _other(path: Path, head: bytes) -> str:
     """Return what a file is that is not a recording of ROS 2."""
     if not head:
         return f"{path} is empty (0 bytes). Copy it again, or choose another bag."
-    if head.startswith(LFS):
+    if is_lfs(head):
         return f"{path} is a Git LFS pointer, not the bag itself: run `git lfs pull`."
     if head.startswith(ROS_1):
         return (

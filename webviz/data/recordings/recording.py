@@ -50,7 +50,11 @@ class Recording(Protocol):
     channels: tuple[RecordedChannel, ...]
     span_ns: tuple[int, int] | None
     """Stamps of the first and the last message; None if there is no message."""
-    losses: Losses
+
+    @property
+    def losses(self) -> Losses:
+        """What could not be read until now."""
+        ...
 
     def messages(
         self, channels: Collection[RecordedChannel], start_ns: int, end_ns: int
