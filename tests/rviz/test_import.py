@@ -381,6 +381,20 @@ def test_ros_1_topics_and_transports_are_those_of_one_input() -> None:
     assert report.carried["properties"] == report.total["properties"]
 
 
+@pytest.mark.parametrize(
+    ("cls", "is_ignored"),
+    [
+        ("rviz/WrenchStamped", True),
+        ("rviz_default_plugins/Wrench", True),
+        ("rviz_default_plugins/Pose", False),
+    ],
+)
+def test_what_rviz2_no_longer_reads_of_ros_1_is_not_told(cls: str, is_ignored: bool) -> None:
+    _, report = opened(f"        - {{Class: {cls}, Hide Small Values: true}}\n")
+    assert ("Hide Small Values" not in said(report)) is is_ignored
+    assert report.is_complete is is_ignored
+
+
 def test_what_has_no_effect_is_not_told() -> None:
     _, report = opened(
         """\

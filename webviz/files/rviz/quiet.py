@@ -58,8 +58,12 @@ IGNORED_BY_RVIZ2 = (("Queue Size",), ("Unreliable",), ("Transport Hint",))
 """Keys of ROS 1 that files keep beside the topics of ROS 2, which have the values in use."""
 
 
-IGNORED_BY_PLUGINS = {("Namespaces", "nvblox_rviz_plugin/NvbloxVoxelBlockLayer")}
-"""Keys that files have from other displays of the same name, with the class that ignores them."""
+IGNORED_BY_PLUGINS = {
+    ("Namespaces", "nvblox_rviz_plugin/NvbloxVoxelBlockLayer"),
+    ("Hide Small Values", "rviz/WrenchStamped"),
+    ("Hide Small Values", "rviz_default_plugins/Wrench"),
+}
+"""Keys that files have from ROS 1 or other displays, with the class that ignores them in RViz2."""
 
 
 def is_without_effect(path: Path, tree: Tree) -> bool:
