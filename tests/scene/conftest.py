@@ -75,7 +75,8 @@ class View(Page):
         server = scene.link.server
         others = set(server.get_clients())
         super().__init__(browser, f"http://127.0.0.1:{server.get_port()}", *SIZE)
-        self.wait_for(lambda: set(server.get_clients()) > others, "the server knows the tab")
+        # Until it has placed its camera at the start view, it would leave any other place again.
+        self.wait_for(lambda: scene.cameras.views().keys() - others, "the tab has its start view")
         self.wait_for(lambda: self.evaluate(CANVAS) == [*SIZE], "the canvas has its size")
 
     def look(self, position: Point, at: Point) -> None:
