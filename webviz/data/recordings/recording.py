@@ -53,7 +53,7 @@ class Recording(Protocol):
 
     @property
     def losses(self) -> Losses:
-        """What could not be read until now."""
+        """Parts that could not be read so far."""
         ...
 
     def messages(
