@@ -97,6 +97,7 @@ HOOKS = sorted(
 PARTS = ["Autosave", "Counter", "Displays", "Driving", "Files", "Goals", "Handles", "History"]
 PARTS += [
     "Panels",
+    "Playback",
     "Plugins",
     "Selection",
     "Settings",

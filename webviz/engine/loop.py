@@ -25,6 +25,7 @@ from webviz.engine.parts.goals import GoalsPart
 from webviz.engine.parts.handles import HandlesPart
 from webviz.engine.parts.history import HistoryPart
 from webviz.engine.parts.panels import PanelsPart
+from webviz.engine.parts.playback import PlaybackPart
 from webviz.engine.parts.plugins import PluginsPart
 from webviz.engine.parts.selection import SelectionPart
 from webviz.engine.parts.session import SessionPart
@@ -37,6 +38,7 @@ from webviz.engine.parts.views import ViewsPart
 from webviz.engine.pipeline import Services, Workers
 from webviz.engine.pipeline.guard import Guard
 from webviz.engine.pipeline.point_budget import PointBudget
+from webviz.engine.playback import Playable, PlaybackControl
 from webviz.engine.requests import Requests
 from webviz.engine.scene import Scene
 from webviz.engine.settled import settled
@@ -49,6 +51,8 @@ from webviz.files.config import Config, Settings
 IDLE_S = 0.25
 """Interval of turns while nothing arrives: ages in statuses, frames that fade."""
 PANEL_S = 0.2
+SEEKING_S = 0.1
+"""Of a turn while a recording is read up to a position."""
 FAILURE_S = 15.0
 """Duration for which the failure of a part is shown."""
 
@@ -69,7 +73,8 @@ class FrameLoop:
         restore: whether to show those of the last one.
         parts: factories of additional parts.
         strict: let exceptions of displays through, for tests.
-        clock: monotonic time in seconds, for rates and ages.
+        clock: monotonic time in seconds, for rates and ages; None for that of the source, which
+            stands still with a recording.
     """
 
     def __init__(
@@ -87,9 +92,11 @@ class FrameLoop:
         restore: bool = True,
         parts: Sequence[Callable[[Core], Part]] = (),
         strict: bool = False,
-        clock: Callable[[], float] = time.monotonic,
+        clock: Callable[[], float] | None = None,
     ) -> None:
         self._source = source
+        control = PlaybackControl(source) if isinstance(source, Playable) else None
+        clock = clock or (control.clock if control else time.monotonic)
         self._show = show
         self._stop = threading.Event()
         self._guard = Guard("", strict, shown_s=FAILURE_S, clock=clock)
@@ -119,7 +126,9 @@ class FrameLoop:
         )
         self._tracer = services.tracer
         transforms = TransformsPart(core, self._robots)
-        self._time = TimePart(core, lambda: self._parts.reset())
+        self._time = TimePart(core, lambda: self._parts.reset(), control)
+        self._playback = PlaybackPart(core, control, self._time.start_over)
+        self._owed: list[Callable[[], None]] = []
         displays = self._displays = DisplaysPart(core, services)
         settings = self._settings = SettingsPart(core)
         views = ViewsPart(core, settings, displays)
@@ -136,6 +145,7 @@ class FrameLoop:
         all_parts = [
             transforms,
             self._time,
+            self._playback,
             displays,
             settings,
             views,
@@ -213,11 +223,11 @@ class FrameLoop:
     def turn(self) -> None:
         """One turn of the frame loop."""
         core, parts = self._core, self._parts
-        answers = self._requests.obey(self._do)
-        batches = self._arrivals.take(parts)
-        self._move_on()
-        parts.take(batches)
-        if core.is_watched():
+        self._owed += self._requests.obey(self._do)
+        self._receive()
+        is_seeking = self._playback.is_seeking
+        answers, self._owed = ([], self._owed) if is_seeking else (self._owed, [])
+        if core.is_watched() and not is_seeking:
             runners = self._displays.list.active()
             self._showing.draw(runners, core.frames, self.settings.background)
             self._tracer.sent()
@@ -228,6 +238,20 @@ class FrameLoop:
             self._guard("Panel", self._show_state)
         for answer in answers:
             answer()  # once the effect is visible
+
+    def _receive(self) -> None:
+        """Take what has arrived; of a recording, as much as brings the position to be shown."""
+        until = time.monotonic() + SEEKING_S
+        while True:
+            if self._playback.is_seeking:  # publishers repeat latched messages from there on
+                self._guard("Source", self._source.want, self._parts.subscriptions())
+            is_late = any(runner.is_late() for runner in self._displays.list.active())
+            self._guard("Playback", self._playback.advance, is_late)
+            batches = self._arrivals.take(self._parts)
+            self._move_on()
+            self._parts.take(batches)
+            if is_late or not self._playback.is_seeking or time.monotonic() > until:
+                return
 
     def state(self) -> State:
         """A snapshot for a panel, as of the last turn."""

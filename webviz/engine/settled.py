@@ -9,7 +9,7 @@ from webviz.engine.state import Row, State
 
 _COMPARED = (
     *("frames", "statuses", "file", "traffic", "inspected", "between", "views", "history"),
-    *("transforms", "driving", "selected", "selections"),
+    *("transforms", "driving", "playback", "selected", "selections"),
 )
 """Fields that are made anew for each state, and cannot change within."""
 

@@ -279,6 +279,34 @@ class UndoHistory:
 
 
 @dataclass(frozen=True, kw_only=True)
+class PlaybackState:
+    """The recording that is played; see `webviz.engine.playback`.
+
+    Args:
+        names: of the recordings.
+        start_ns, end_ns: times of recording of the first and the last message, since 1970.
+        position_s: what is shown, in seconds from the start.
+        rate: seconds of the recording per second; infinity is as fast as possible.
+        is_playing: whether the position moves on.
+        is_seeking: whether the position is being approached; the scene still shows another one.
+        loop: whether the span starts over at its end.
+        selected: the first and the last second to play, None for all.
+        histogram: counts of messages in equal parts of the whole span, by topic.
+    """
+
+    names: tuple[str, ...]
+    start_ns: int
+    end_ns: int
+    position_s: float
+    rate: float
+    is_playing: bool
+    is_seeking: bool
+    loop: bool
+    selected: tuple[float, float] | None
+    histogram: Mapping[str, Sequence[int]]
+
+
+@dataclass(frozen=True, kw_only=True)
 class State:
     """A viewer at one moment; each part fills in the fields that it owns.
 
@@ -304,6 +332,7 @@ class State:
         handles: what browsers can grip, by id of the display and key, each with the id of the
             browser that holds it.
         history: what can be undone and redone.
+        playback: the recording that is played, None for live topics.
         selected: ids of what each browser has selected, each with that of its display, and
             whether it moves.
         selections: what is known of it, for the browsers that show it.
@@ -330,6 +359,7 @@ class State:
     driving: Mapping[str, Driving] = field(default_factory=dict)
     handles: Mapping[tuple[str, str], tuple[Handle, int | None]] = field(default_factory=dict)
     history: UndoHistory = UndoHistory()
+    playback: PlaybackState | None = None
     selected: Mapping[int, Mapping[int, tuple[str, bool]]] = field(default_factory=dict)
     selections: Mapping[int, Mapping[str, Any]] = field(default_factory=dict)
     more: Mapping[str, Any] = field(default_factory=dict)

@@ -283,6 +283,16 @@ class TransformBuffer:
         self.version += 1
         self.structure_version += 1
 
+    def forget(self) -> None:
+        """Forget all frames, static ones too."""
+        self._tree.caches.clear()
+        self._tree.names.clear()
+        self._publishers.clear()
+        self._rejections.clear()
+        self._topology = self._largest = None
+        self.version += 1
+        self.structure_version += 1
+
     def forget_publishers(self) -> None:
         """Forget conflicts over frames, such as after publishers came or went."""
         for publishers in self._publishers.values():

@@ -27,6 +27,7 @@ from webviz.engine.commands.panel import (
     RemovePanel,
     SetPanelProperty,
 )
+from webviz.engine.commands.playback import Play, Seek, SelectSpan, SetLoop, SetRate, StepMessage
 from webviz.engine.commands.selection import Identify, InspectSelections, Pick, Picks, Select
 from webviz.engine.commands.tools import (
     CallService,
@@ -90,6 +91,7 @@ __all__ = [
     "Pause",
     "Pick",
     "Picks",
+    "Play",
     "Publish",
     "Redo",
     "Refresh",
@@ -105,17 +107,22 @@ __all__ = [
     "Save",
     "SaveImage",
     "SaveView",
+    "Seek",
     "Select",
+    "SelectSpan",
     "SendGoal",
     "Sender",
     "SetBackground",
     "SetFixedFrame",
     "SetFrameRate",
+    "SetLoop",
     "SetPanelProperty",
     "SetProperty",
+    "SetRate",
     "SetToolProperty",
     "ShowView",
     "StartWithView",
+    "StepMessage",
     "TraceDisplay",
     "Undo",
     "UseTool",

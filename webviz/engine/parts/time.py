@@ -12,6 +12,7 @@ from webviz.engine.commands import Command, Pause, Reset, Sender
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.pipeline.pace import PaceMeter, Rate
 from webviz.engine.pipeline.ros_time import RosTime
+from webviz.engine.playback import PlaybackControl
 from webviz.engine.state import PanelTimes
 
 
@@ -21,12 +22,16 @@ class TimePart(Part):
     Args:
         core: shared by all parts.
         reset: discards the received data of all parts.
+        control: of the source, which is paused instead of the inbox; None if it has no past.
     """
 
     name = "Time"
 
-    def __init__(self, core: Core, reset: Callable[[], None]) -> None:
+    def __init__(
+        self, core: Core, reset: Callable[[], None], control: PlaybackControl | None = None
+    ) -> None:
         super().__init__(core)
+        self._control = control
         self._reset_all = reset
         self._paused_ns: int | None = None
         self._pace = PaceMeter()
@@ -44,7 +49,7 @@ class TimePart(Part):
 
     @property
     def is_paused(self) -> bool:
-        """Return whether the shown time is paused."""
+        """Return whether messages wait in the inbox."""
         return self._paused_ns is not None
 
     @property
@@ -58,13 +63,14 @@ class TimePart(Part):
         if not 0 < self._began_ns <= ros_ns:  # time may have gone back while paused
             self._began_ns = ros_ns
         messages = self.core.source.clock_messages()
+        is_paused = self.is_paused if self._control is None else not self._control.is_playing
         clock = PanelTimes(
             ros_ns,
             ros_ns - self._began_ns,
             wall_s,
             wall_s - self._began_s,
-            self.is_paused,
-            self._pace.step(ros_ns, wall_s, self.is_paused),
+            is_paused,
+            self._pace.step(ros_ns, wall_s, is_paused),
             messages is not None,
             self._clock_rate.step(messages or 0, self.core.clock()),
         )
@@ -82,6 +88,12 @@ class TimePart(Part):
         """Restart elapsed time."""
         self._start()
 
+    def start_over(self) -> None:
+        """Discard all received data, since the recording is played from another position."""
+        self.core.buffer.forget()  # also static transforms that come later in the recording
+        self._reset_all()
+        self.ros.restart(self.core.source.now_ns())
+
     def _start(self) -> None:
         self._began_ns = 0  # set when ROS time is known
         self._began_s = time.time()
@@ -90,4 +102,9 @@ class TimePart(Part):
         self._reset_all()
 
     def _pause(self, command: Pause, sender: Sender) -> None:
-        self._paused_ns = self.core.frames.now_ns if command.paused else None
+        if self._control is None:
+            self._paused_ns = self.core.frames.now_ns if command.paused else None
+        elif command.paused:
+            self._control.pause()
+        elif self._control.play():
+            self.start_over()

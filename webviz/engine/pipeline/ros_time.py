@@ -43,6 +43,10 @@ class RosTime:
         self.note(f"Time went back by {in_words(back_ns)}: everything was reset.")
         return True
 
+    def restart(self, now_ns: int) -> None:
+        """Go on from another time, deliberately."""
+        self._now_ns, self._moved_at, self._event = now_ns, self._clock(), ""
+
     def note(self, event: str) -> None:
         """Log a sentence, and show it for a while."""
         log.warning("%s", event)

@@ -144,6 +144,10 @@ class Runner:
         """Return whether the newest message of an input waits for its transform."""
         return self.display.enabled and self._holder.inputs.is_waiting()
 
+    def is_late(self) -> bool:
+        """Return whether messages wait until a large one is merged."""
+        return self.display.enabled and bool(self._holder.busy_with)
+
     def is_busy(self) -> bool:
         """Return whether the result of slow work is not drawn yet."""
         return self.display.enabled and bool(self._holder.busy_with or self._painter.is_busy())

@@ -120,6 +120,38 @@ class BagSource:
         next_ns = until_ns if self._next is None else self._next.stamp_ns
         self.play(min(until_ns, max(next_ns, self._position_ns + STEP_NS)))
 
+    @property
+    def names(self) -> Sequence[str]:
+        """The name of the file or folder."""
+        return (self._file.path.name,)
+
+    def seek(self, at_ns: int) -> None:
+        """Go back to the start."""
+        self.inbox.drain()
+        self._time.rewind()
+        self._position_ns = self._file.start_ns - 1
+        self._read_on()
+
+    def neighbour(self, topic: str, is_forward: bool) -> int | None:
+        """`Playable.neighbour`."""
+        channels = [
+            channel
+            for channel in self._file.channels
+            if (channel.topic == topic if topic else self._is_shown(channel))
+        ]
+        if is_forward:
+            found = next(self._file.messages(channels, self._position_ns + 1), None)
+            return found and found.stamp_ns
+        before_ns = min(self._position_ns, self._file.end_ns) - 1
+        stamp_ns = None
+        for found in self._file.messages(channels, self._file.start_ns, before_ns):
+            stamp_ns = found.stamp_ns
+        return stamp_ns
+
+    def histogram(self, buckets: int) -> Mapping[str, Sequence[int]]:
+        """`Playable.histogram`."""
+        return {}
+
     # The interface of webviz.engine.sources.Source
 
     def want(self, subscriptions: Mapping[str, Subscription]) -> None:
@@ -137,8 +169,7 @@ class BagSource:
         for topic, wish in fresh.items():
             self._repeat(topic, wish)
         if _types(before) != _types(self._wanted):
-            self._upcoming = self._file.messages(self._channels_to_read(), self._position_ns + 1)
-            self._next = next(self._upcoming, None)
+            self._read_on()
         self._offers = self._all_offers()
 
     def offers(self) -> Mapping[str, Offer]:
@@ -174,6 +205,15 @@ class BagSource:
         self._file.close()
 
     # Internal
+
+    def _read_on(self) -> None:
+        """Read the subscribed channels from the position on."""
+        self._upcoming = self._file.messages(self._channels_to_read(), self._position_ns + 1)
+        self._next = next(self._upcoming, None)
+
+    def _is_shown(self, channel: BagChannel) -> bool:
+        """Return whether displays subscribe to a channel."""
+        return channel.topic in self._wanted and channel.type not in (TF, CLOCK)
 
     def _channels(self) -> list[BagChannel]:
         """The subscribed channels that can be read."""

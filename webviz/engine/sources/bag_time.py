@@ -33,11 +33,16 @@ class BagTime:
         """The channels of /clock."""
         self._clock_ns: int | None = None
         self._offset_ns = 0
-        first = next(file.messages(self.clocks, file.start_ns), None)
-        if first is not None:
-            self.update(first)
+        self._first = next(file.messages(self.clocks, file.start_ns), None)
+        if self._first is not None:
+            self.update(self._first)
         else:
             self._follow_transforms(file)
+
+    def rewind(self) -> None:
+        """Go back to the start of the bag."""
+        if self._first is not None:
+            self.update(self._first)
 
     def update(self, recorded: Recorded) -> None:
         """Process a message of /clock, in the order of the bag."""

@@ -1,0 +1,76 @@
+"""A viewer that plays a bag, turn by turn."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from bags import Bag
+
+from webviz.engine.commands import Command, Refresh
+from webviz.engine.loop import FrameLoop
+from webviz.engine.sources.bag import BagSource
+from webviz.engine.state import PlaybackState, State
+from webviz.files.opening import parse
+from webviz.shell.testing.recording import RecordingScene
+
+TURNS = 10_000
+
+
+class Theater:
+    """A viewer of a bag that only runs in `turn`."""
+
+    def __init__(self, path: Path, config: str) -> None:
+        self.source = BagSource(path)
+        self.scene = RecordingScene()
+        self.loop = FrameLoop(parse(config, "the config"), self.source, self.scene, strict=True)
+        self.turn()
+
+    def turn(self) -> None:
+        self.loop.turn()
+
+    def do(self, command: Command) -> State:
+        """Carry out a command; the state when it is answered."""
+        answer = self.loop.enqueue(command)
+        self.turn_until(answer.done)
+        answer.result()
+        return self.loop.state()
+
+    def turn_until(self, is_reached: Callable[[], bool]) -> None:
+        for _ in range(TURNS):
+            if is_reached():
+                return
+            self.turn()
+        raise AssertionError("not reached")
+
+    @property
+    def playback(self) -> PlaybackState:
+        state = self.do(Refresh()).playback
+        assert state is not None
+        return state
+
+    def nodes(self) -> list[Any]:
+        """Poses and nodes that are seen."""
+        # In which slot of a display a sample is drawn makes no difference.
+        return sorted(((pose, node) for _, pose, node in self.scene.visible()), key=repr)
+
+    def close(self) -> None:
+        self.loop.close()
+        self.source.close()
+
+
+@pytest.fixture
+def theater(tmp_path: Path) -> Iterator[Callable[..., Theater]]:
+    """Open a bag in a viewer; all are closed at the end."""
+    made: list[Theater] = []
+
+    def make(bag: Bag | Path, config: str = "displays: []\n") -> Theater:
+        path = bag if isinstance(bag, Path) else bag.write(tmp_path / f"bag{len(made)}")
+        made.append(Theater(path, config))
+        return made[-1]
+
+    yield make
+    for each in made:
+        each.close()

@@ -1,0 +1,180 @@
+"""Playing, pausing, seeking and stepping, as programs and pages ask for it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import pytest
+from bags import START_NS, Bag, ns, strings
+from bench import benches
+
+from webviz.engine.commands import (
+    Command,
+    Pause,
+    Play,
+    Refresh,
+    Seek,
+    SelectSpan,
+    SetLoop,
+    SetRate,
+    StepMessage,
+)
+from webviz.engine.playback import PlaybackControl
+from webviz.engine.requests import Refused
+
+CONFIG = """\
+fixed_frame: map
+displays:
+- {type: Path, topic: /path, buffer_length: 3}
+"""
+
+
+@pytest.fixture
+def bag() -> Bag:
+    recorded = strings(0, 1, 2, 3, 4)
+    recorded.add("/path", "nav_msgs/msg/Path")
+    for tenths in range(0, 41, 5):
+        at_s = tenths / 10
+        pose = {"header": {"frame_id": "map"}, "pose": {"position": {"x": at_s}}}
+        recorded.put(at_s, "/path", {"header": {"frame_id": "map"}, "poses": [pose, pose]})
+    return recorded
+
+
+def test_a_bag_is_paused_at_its_start(theater: Callable, bag: Bag) -> None:
+    shown = theater(bag).playback
+    assert (shown.start_ns, shown.end_ns) == (START_NS, START_NS + ns(4))
+    assert (shown.position_s, shown.rate, shown.is_playing) == (0.0, 1.0, False)
+    assert shown.names == ("bag0",)
+
+
+def test_playing_moves_the_position_and_stops_at_the_end(theater: Callable, bag: Bag) -> None:
+    viewer = theater(bag, CONFIG)
+    viewer.do(SetRate(0))
+    assert viewer.do(Play()).playback.is_playing
+    viewer.turn_until(lambda: not viewer.playback.is_playing)
+    assert viewer.playback.position_s == 4.0
+    assert viewer.loop.state().clock.is_paused
+    assert len(viewer.nodes()) == 3
+
+
+def test_at_the_end_playing_starts_over(theater: Callable, bag: Bag) -> None:
+    viewer = theater(bag, CONFIG)
+    viewer.do(Seek(4.0))
+    before = viewer.nodes()
+    viewer.do(SetRate(0.01))
+    shown = viewer.do(Play()).playback
+    assert shown.is_playing
+    assert shown.position_s < 0.5
+    assert len(viewer.nodes()) == 1 < len(before)
+
+
+def test_pause_holds_the_position(theater: Callable, bag: Bag) -> None:
+    viewer = theater(bag, CONFIG)
+    viewer.do(Play())
+    viewer.do(Pause())
+    before = viewer.playback
+    assert not before.is_playing
+    viewer.turn()
+    assert viewer.playback.position_s == before.position_s
+    assert viewer.do(Pause(False)).playback.is_playing
+
+
+def test_a_rate_is_seconds_of_the_recording_per_second(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Tape:
+        start_ns, end_ns, position_ns = 0, ns(100), -1
+
+        def play(self, until_ns: int) -> None:
+            self.position_ns = until_ns
+
+    now_s = 50.0
+    monkeypatch.setattr("time.monotonic", lambda: now_s)
+    control = PlaybackControl(Tape())  # pyright: ignore[reportArgumentType]
+    control.rate = 20.0
+    control.play()
+    now_s += 0.1
+    control.advance()
+    assert control.position_ns == pytest.approx(ns(2), abs=2)
+    now_s += 0.1
+    control.advance(is_busy=True)
+    assert control.position_ns == pytest.approx(ns(2), abs=2)
+    now_s += 30.0  # the machine slept: nothing is skipped
+    control.advance()
+    assert control.position_ns == pytest.approx(ns(2 + 0.25 * 20), abs=2)
+
+
+def test_a_loop_plays_the_selected_span(theater: Callable, bag: Bag) -> None:
+    viewer = theater(bag, CONFIG)
+    viewer.do(SetLoop())
+    shown = viewer.do(SelectSpan(1.0, 2.0)).playback
+    assert (shown.loop, shown.selected) == (True, (1.0, 2.0))
+    viewer.do(SetRate(0))
+    viewer.do(Play())
+    viewer.turn_until(lambda: viewer.playback.position_s == 2.0)
+    viewer.turn_until(lambda: viewer.playback.position_s < 2.0)
+    assert viewer.playback.position_s >= 1.0
+    assert viewer.playback.is_playing
+    assert viewer.do(SelectSpan()).playback.selected is None
+
+
+@pytest.mark.parametrize("topic", ["/words", "words"])
+def test_steps_go_from_message_to_message(theater: Callable, bag: Bag, topic: str) -> None:
+    viewer = theater(bag, CONFIG)
+    places = []
+    for is_forward in (True, True, False, True, True):
+        places.append(viewer.do(StepMessage(topic, is_forward)).playback.position_s)
+    assert places == [0.0, 1.0, 0.0, 1.0, 2.0]
+
+
+def test_a_step_without_a_topic_goes_to_what_is_displayed(theater: Callable, bag: Bag) -> None:
+    viewer = theater(bag, CONFIG)
+    viewer.do(Seek(2.0))
+    assert viewer.do(StepMessage()).playback.position_s == 2.5
+    assert viewer.do(StepMessage(is_forward=False)).playback.position_s == 2.0
+
+
+REFUSED = [
+    (SetRate(-1), "The rate -1 is out of range. Give 0.01 to 1000, or 0 for as fast as possible."),
+    (SelectSpan(3.0, 1.0), "The selected span is empty. Choose an end later than its start."),
+    (Seek(math.nan), "NaN is not a valid time. Give seconds from the start of the recording."),
+    (
+        StepMessage("/words", False),
+        "There is no previous message on /words. Step in the other direction.",
+    ),
+]
+
+
+@pytest.mark.parametrize(("command", "reason"), REFUSED, ids=lambda each: str(each)[:20])
+def test_what_cannot_be_done_is_refused(
+    theater: Callable, bag: Bag, command: Command, reason: str
+) -> None:
+    viewer = theater(bag)
+    with pytest.raises(Refused) as caught:
+        viewer.do(command)
+    assert str(caught.value) == reason
+
+
+def test_a_time_outside_of_the_recording_is_brought_into_it(theater: Callable, bag: Bag) -> None:
+    viewer = theater(bag)
+    assert viewer.do(Seek(1e9)).playback.position_s == 4.0
+    assert viewer.do(Seek(-math.inf)).playback.position_s == 0.0
+
+
+def test_live_topics_have_no_past() -> None:
+    with benches() as bench:
+        viewer = bench()
+        assert viewer.do(Refresh()).playback is None
+        answer = viewer.viewer.enqueue(Seek(1.0))
+        viewer.viewer.turn()
+        with pytest.raises(Refused, match=r"no past to play\. Start the viewer with --bag"):
+            answer.result()
+
+
+def test_the_clock_of_ages_never_goes_back(theater: Callable, bag: Bag) -> None:
+    viewer = theater(bag, CONFIG)
+    clock = viewer.loop._core.clock
+    times = [clock()]
+    for at_s in (3.0, 1.0, 2.0, 0.0, 4.0):
+        viewer.do(Seek(at_s))
+        times.append(clock())
+    assert times == sorted(times)

@@ -1,0 +1,161 @@
+"""Playing of the source, if it has a past."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from webviz.api.errors import Error
+from webviz.engine.commands import (
+    Command,
+    Play,
+    Seek,
+    SelectSpan,
+    Sender,
+    SetLoop,
+    SetRate,
+    StepMessage,
+)
+from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.playback import PlaybackControl
+from webviz.engine.state import PlaybackState
+
+MIN_RATE, MAX_RATE = 0.01, 1000.0
+BUCKETS = 500
+"""Parts of the span whose messages are counted: about one for each three pixels of a wide page."""
+LIVE = Error("Live topics have no past to play. Start the viewer with --bag to play a recording.")
+
+
+class PlaybackPart(Part):
+    """Plays, seeks and steps.
+
+    Args:
+        core: shared by all parts.
+        control: of the source, None if it has no past.
+        start_over: discards the received data of all parts.
+    """
+
+    name = "Playback"
+
+    def __init__(
+        self, core: Core, control: PlaybackControl | None, start_over: Callable[[], None]
+    ) -> None:
+        super().__init__(core)
+        self._control = control
+        self._start_over = start_over
+
+    @property
+    def handles(self) -> Mapping[type[Command], Handler]:
+        """The handler of each command."""
+        return {
+            Play: self._play,
+            Seek: self._seek,
+            SetRate: self._set_rate,
+            SetLoop: self._set_loop,
+            SelectSpan: self._select,
+            StepMessage: self._step,
+        }
+
+    @property
+    def is_seeking(self) -> bool:
+        """Return whether a position is being approached, so that nothing is to be drawn yet."""
+        return self._control is not None and self._control.is_seeking
+
+    def advance(self, is_busy: bool) -> None:
+        """Play what is due, before the messages of a turn are taken.
+
+        Args:
+            is_busy: whether displays have to catch up first.
+        """
+        if self._control and self._control.advance(is_busy):
+            self._start_over()
+
+    def state(self) -> Mapping[str, Any]:
+        """The state of the control."""
+        return {"playback": self._control and _state_of(self._control)}
+
+    # Commands
+
+    def _play(self, command: Play, sender: Sender) -> None:
+        if self._known().play():
+            self._start_over()
+
+    def _seek(self, command: Seek, sender: Sender) -> None:
+        if self._known().seek(self._at_ns(command.at_s)):
+            self._start_over()
+
+    def _set_rate(self, command: SetRate, sender: Sender) -> None:
+        control, rate = self._known(), command.rate
+        if rate and not MIN_RATE <= rate <= MAX_RATE:
+            raise Error(
+                f"The rate {rate:g} is out of range. Give {MIN_RATE:g} to {MAX_RATE:g}, or 0 for "
+                "as fast as possible."
+            )
+        control.rate = rate or math.inf
+
+    def _set_loop(self, command: SetLoop, sender: Sender) -> None:
+        self._known().loop = command.loop
+
+    def _select(self, command: SelectSpan, sender: Sender) -> None:
+        control = self._known()
+        playback = control.playback
+        if command.first_s is None and command.last_s is None:
+            control.selected = None
+            return
+        first, last = command.first_s, command.last_s
+        first_ns = playback.start_ns if first is None else self._at_ns(first)
+        last_ns = playback.end_ns if last is None else self._at_ns(last)
+        if first_ns >= last_ns:
+            raise Error("The selected span is empty. Choose an end later than its start.")
+        control.selected = first_ns, last_ns
+
+    def _step(self, command: StepMessage, sender: Sender) -> None:
+        control = self._known()
+        topic = command.topic
+        try:
+            topic = self.core.source.resolve(topic) if topic else ""
+        except ValueError as error:
+            raise Error(f"{error}.") from error
+        control.pause()
+        at_ns = control.playback.neighbour(topic, command.is_forward)
+        if at_ns is None:
+            where = "next" if command.is_forward else "previous"
+            what = f"message on {topic}" if topic else "message of a displayed topic"
+            raise Error(f"There is no {where} {what}. Step in the other direction.")
+        if control.seek(at_ns):
+            self._start_over()
+
+    def _known(self) -> PlaybackControl:
+        if self._control is None:
+            raise LIVE
+        return self._control
+
+    def _at_ns(self, seconds: float) -> int:
+        """A position, limited to the recording."""
+        playback = self._known().playback
+        duration_s = (playback.end_ns - playback.start_ns) / 1e9
+        if math.isnan(seconds):
+            raise Error("NaN is not a valid time. Give seconds from the start of the recording.")
+        return playback.start_ns + round(min(max(seconds, 0.0), duration_s) * 1e9)
+
+
+def _state_of(control: PlaybackControl) -> PlaybackState:
+    playback = control.playback
+    start_ns = playback.start_ns
+    selected = None
+    if control.selected:
+        first_ns, last_ns = control.selected
+        selected = (first_ns - start_ns) / 1e9, (last_ns - start_ns) / 1e9
+    return PlaybackState(
+        names=tuple(playback.names),
+        start_ns=start_ns,
+        end_ns=playback.end_ns,
+        position_s=(control.position_ns - start_ns) / 1e9,
+        rate=control.rate,
+        is_playing=control.is_playing,
+        is_seeking=control.is_seeking,
+        loop=control.loop,
+        selected=selected,
+        histogram=playback.histogram(BUCKETS),
+    )

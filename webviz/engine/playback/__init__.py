@@ -1,0 +1,6 @@
+"""Playing of recorded messages: the interface of sources with a past, and the control of it."""
+
+from webviz.engine.playback.control import PlaybackControl
+from webviz.engine.playback.playable import Playable
+
+__all__ = ["Playable", "PlaybackControl"]

@@ -1,0 +1,121 @@
+"""Plays a recording in step with the clock on the wall."""
+
+from __future__ import annotations
+
+import math
+import time
+
+from webviz.engine.playback.playable import Playable
+
+MAX_STEP_S = 0.25
+"""Wall time that one step makes up for: playing slows down where drawing is slow."""
+
+
+class PlaybackControl:
+    """Position, rate and span of what is played; moves on with each call of `advance`.
+
+    Args:
+        playback: what to play.
+    """
+
+    def __init__(self, playback: Playable) -> None:
+        self.playback = playback
+        self.rate = 1.0
+        """Seconds of the recording per second; infinity is as fast as possible."""
+        self.loop = False
+        """Whether the span starts over at its end."""
+        self.selected: tuple[int, int] | None = None
+        """The first and the last position to play; None plays all."""
+        self._is_playing = False
+        self._target_ns: int | None = None
+        self._stepped_s = 0.0
+        self._offset_ns = 0
+
+    @property
+    def is_playing(self) -> bool:
+        """Return whether the position moves on by itself."""
+        return self._is_playing
+
+    @property
+    def is_seeking(self) -> bool:
+        """Return whether a position is being approached; until then there is nothing to draw."""
+        return self._target_ns is not None
+
+    @property
+    def span_ns(self) -> tuple[int, int]:
+        """The first and the last position that is played."""
+        return self.selected or (self.playback.start_ns, self.playback.end_ns)
+
+    @property
+    def position_ns(self) -> int:
+        """The position that is shown, or that is being approached."""
+        shown = self.playback.position_ns if self._target_ns is None else self._target_ns
+        return max(shown, self.playback.start_ns)
+
+    def clock(self) -> float:
+        """Seconds of the recording that were played: monotonic, for ages and rates."""
+        return (self.playback.position_ns + self._offset_ns) / 1e9
+
+    def play(self) -> bool:
+        """Play on, at the end of the span from its start.
+
+        Returns:
+            Whether all received data must be discarded first.
+        """
+        self._is_playing = True
+        self._stepped_s = time.monotonic()
+        first_ns, last_ns = self.span_ns
+        return not first_ns - 1 <= self.position_ns < last_ns and self.seek(first_ns)
+
+    def pause(self) -> None:
+        """Stay at the position."""
+        self._is_playing = False
+
+    def seek(self, at_ns: int) -> bool:
+        """Approach a position; `advance` until `is_seeking` is False.
+
+        Returns:
+            Whether all received data must be discarded first.
+        """
+        at_ns = min(max(at_ns, self.playback.start_ns), self.playback.end_ns)
+        before_ns = self.playback.position_ns
+        self._target_ns = at_ns
+        if at_ns >= before_ns:
+            return False
+        self.playback.seek(at_ns)
+        self._offset_ns += before_ns - self.playback.position_ns
+        return True
+
+    def advance(self, is_busy: bool = False) -> bool:
+        """Play what is due since the last call.
+
+        Args:
+            is_busy: whether displays have to catch up first.
+
+        Returns:
+            Whether all received data must be discarded, since the span starts over.
+        """
+        now_s = time.monotonic()
+        passed_s = min(now_s - self._stepped_s, MAX_STEP_S)
+        self._stepped_s = now_s
+        if is_busy:
+            return False
+        if self._target_ns is not None:
+            self.playback.play_step(self._target_ns)
+            if self.playback.position_ns >= self._target_ns:
+                self._target_ns = None
+            return False
+        return self._is_playing and self._play_on(passed_s)
+
+    def _play_on(self, passed_s: float) -> bool:
+        playback = self.playback
+        first_ns, last_ns = self.span_ns
+        if playback.position_ns >= last_ns:
+            if self.loop and first_ns < last_ns:
+                return self.seek(first_ns)
+            self.pause()
+        elif math.isinf(self.rate):
+            playback.play_step(last_ns)
+        else:
+            playback.play(min(last_ns, playback.position_ns + round(passed_s * self.rate * 1e9)))
+        return False
