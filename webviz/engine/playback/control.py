@@ -23,7 +23,7 @@ class PlaybackControl:
         self.rate = 1.0
         """Seconds of the recording per second; infinity is as fast as possible."""
         self.loop = False
-        """Whether the span starts over at its end."""
+        """True if the span starts over at its end."""
         self.selected: tuple[int, int] | None = None
         """The first and the last position to play; None plays all."""
         self._is_playing = False
