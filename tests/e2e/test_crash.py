@@ -39,6 +39,7 @@ def test_a_killed_viewer_restores_what_was_not_saved(
 
     viewer = begin()
     page = open_page(viewer.url())
+    viewer.wait_for(r"Restored 1 display of the last session. Start with --no-restore to see the")
     page.tab.get_by_text("Restored 1 display of the last session.").wait_for()
     tree = page.tab.get_by_role("tree")
     tree.get_by_text("Ground").wait_for()

@@ -192,7 +192,7 @@ class ToolContext:
         feedback: Callable[[Any], Mapping[str, str]] | None = None,
         fault: Callable[[Any], str] = nothing,
     ) -> None:
-        """Send a goal to an action. All pages show its feedback and outcome, and can cancel it.
+        """Send a goal to an action. All pages show its progress; every operator can cancel it.
 
         It replaces the previous goal of the tool: the server of the same action preempts that one,
         at another action it is cancelled first.

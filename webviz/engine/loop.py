@@ -168,8 +168,10 @@ class FrameLoop:
         self._arrivals = Arrivals(core, self._time, transforms)
         self._showing = Showing(scene, views, self._guard)
         self._move_on()
+        self.restored: Future[str] | None = None
+        """The answer to what restores the last session, None if there is none."""
         if kept and (command := kept.restored(restore)):
-            self._requests.put(command, PROGRAM)
+            self.restored = self._requests.put(command, PROGRAM)
 
     @property
     def buffer(self) -> TransformBuffer:

@@ -48,7 +48,7 @@ REMEDY = "Start Nav2's docking_server, or set the namespace of this panel."
 class Docking(Panel):
     """Docks a robot, at a dock by its id or at a pose, and undocks it.
 
-    All pages show the progress and can cancel it.
+    All pages show the progress, and every operator can cancel it.
     """
 
     title = "Docking"

@@ -43,9 +43,9 @@ FOREVER_S = 2**31 - 1
 class Nav2Goal(Tool):
     """Let Nav2 drive the robot to a pose: press at the position, drag towards the heading.
 
-    All pages show the progress and can cancel it. With Shift held, or after a click on Waypoints,
-    poses are collected and then sent together, to drive through them or to stop at each.
-    With Ctrl held, moving the pointer up lifts a pose.
+    All pages show the progress, and every operator can cancel it. With Shift held, or after a click
+    on Waypoints, poses are collected and then sent together, to drive through them or to stop at
+    each. With Ctrl held, moving the pointer up lifts a pose.
     """
 
     title = "Nav2 Goal"

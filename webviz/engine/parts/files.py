@@ -16,7 +16,7 @@ from webviz.api.status import Status
 from webviz.api.tool import Tool
 from webviz.data.disk import in_thread
 from webviz.data.names import MAX_FILE_BYTES, file_problem_of, readable
-from webviz.data.words import joined
+from webviz.data.words import counted, joined
 from webviz.engine.commands import (
     Command,
     Export,
@@ -192,13 +192,14 @@ class FilesPart(Part):
 
         return Job(work, then)
 
-    def _restore(self, command: Restore, sender: Sender) -> None:
+    def _restore(self, command: Restore, sender: Sender) -> str:
         saved, origin = self._saved, self.origin()
         self._show(command.config, command.path)
         if command.path == origin.path:
             self.set_origin(origin)
         self._saved, self._is_changed = saved, True
         self.views.open(command.config.settings.view)
+        return f"Restored {counted(len(command.config.displays), 'display')} of the last session."
 
     def _load(self, command: Load, sender: Sender) -> Job[Config]:
         text, name = command.text, readable(command.name)

@@ -185,6 +185,13 @@ class Running:
             self._stack = stack.pop_all()
         atexit.register(self.close)
 
+    @property
+    def restored(self) -> str:
+        """How much of the last session is shown, in one sentence; "" if none was restored."""
+        answer = self._loop.restored
+        is_there = answer is not None and answer.done() and answer.exception() is None
+        return answer.result() if answer is not None and is_there else ""
+
     def close(self) -> None:
         """Close the viewer and its page, and end all threads except those that hang."""
         atexit.unregister(self.close)

@@ -54,6 +54,8 @@ class Viewer(Running):
         ros_args: for the ROS node: `["--ros-args", "-r", "/scan:=/front/scan"]`.
         plugins: Python files with displays, reloaded whenever they are saved.
         autosave: file to which every change is saved.
+        sessions: keeps unsaved changes and restores them at the next start, as the program does;
+            None to start with the config as it is saved.
         config_folders: from which ROS may open configs, besides the folder of `config`.
         publish: whether tools may publish, call services and send goals, as far as the list
             `publish` of the config allows; without it, those that the config uses. Configs opened

@@ -106,6 +106,8 @@ def _announce(options: ViewingOptions, viewer: Viewer, note: str) -> None:
     print(f"webviz: open {viewer.url} (press Ctrl-C to stop)")
     if note:
         print(note)
+    if viewer.restored:
+        print(f"{viewer.restored} Start with --no-restore to see the config as it is saved.")
     if viewer.access.asks:
         logging.getLogger("webviz.journal").setLevel(logging.INFO)
         show_links(viewer.access.tokens, viewer.url, options.host, options.allow_host)

@@ -1,4 +1,4 @@
-// The goals that tools have sent: what every page shows of them, and can cancel.
+// The goals that tools have sent: what every page shows of them; operators can cancel.
 
 import { needs } from "../access.js";
 import { act } from "../act.js";
