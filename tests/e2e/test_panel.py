@@ -96,7 +96,7 @@ def test_a_display_is_added_by_topic_changed_saved_and_comes_back(
         tab.get_by_role("button", name="Add display").click()
         dialog = tab.get_by_role("dialog")
         dialog.get_by_role("tab", name="By topic").click()
-        option = dialog.get_by_role("option", name="/camera/image_raw").filter(has_text="Image ·")
+        option = dialog.get_by_role("option", name="/camera/image_raw Image", exact=True)
         option.click(timeout=60_000)
         dialog.get_by_role("button", name="Add", exact=True).click()
         canvas = tab.get_by_label("Image Image", exact=True).locator("canvas")

@@ -17,6 +17,7 @@ from webviz.engine.state import Row, State, Traffic
 
 SCAN, BATTERY = "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/BatteryState"
 MAP = "nav_msgs/msg/OccupancyGrid"
+IMAGE, COMPRESSED = "sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"
 
 
 def offer(type_: str) -> Offer:
@@ -46,7 +47,7 @@ def dialog(tab: Tab) -> playwright.Locator:
     tab.loop.show(offers=OFFERS, traffic={"/front": Traffic(39.84, 1e4)})
     tab.page.keyboard.press("Insert")
     dialog = tab.page.get_by_role("dialog", name="Add display")
-    dialog.get_by_role("tab", name="By type").click()
+    dialog.get_by_role("tab", name="By display").click()
     tab.wait_for(lambda: dialog.get_by_role("option").count() >= 8)
     return dialog
 
@@ -98,6 +99,33 @@ def test_several_topics_are_added_at_once(tab: Tab, dialog: playwright.Locator) 
         dialog.get_by_role("option").filter(has_text=topic).click()
     dialog.get_by_role("button", name="Add 2 displays").click()
     added = [("LaserScan", {"topic": "/front"}), ("LaserScan", {"topic": "/back"})]
+    tab.wait_for(lambda: commands(tab.loop) == added)
+
+
+def test_a_double_click_adds_a_topic(tab: Tab, dialog: playwright.Locator) -> None:
+    dialog.get_by_role("tab", name="By topic").click()
+    dialog.get_by_role("option").filter(has_text="/front").dblclick()
+    tab.wait_for(lambda: commands(tab.loop) == [("LaserScan", {"topic": "/front"})])
+    playwright.expect(dialog).to_have_count(0)
+
+
+def test_topics_are_first_and_an_image_is_there_once_with_its_displays(tab: Tab) -> None:
+    kinds = {"": IMAGE, "/compressed": COMPRESSED, "/compressedDepth": COMPRESSED}
+    tab.loop.show(offers={f"/camera{name}": offer(type_) for name, type_ in kinds.items()})
+    tab.page.evaluate("localStorage.clear()")
+    tab.page.keyboard.press("Insert")
+    dialog = tab.page.get_by_role("dialog", name="Add display")
+    tabs = dialog.get_by_role("tab")
+    assert tabs.all_inner_texts() == ["By topic", "By display"]
+    playwright.expect(tabs.first).to_have_attribute("aria-selected", "true")
+    rows = dialog.get_by_role("option", name="Image", exact=False).filter(has_text="Image")
+    tab.wait_for(lambda: rows.count() >= 3)
+    assert dialog.get_by_text("/camera", exact=True).count() == 1
+    names = dialog.get_by_role("option").all_inner_texts()
+    assert len(names) == len(set(names)), "each display and transport once"
+    tab.page.keyboard.type("compressedDepth image")
+    dialog.get_by_role("option", name="/camera/compressedDepth Image", exact=True).dblclick()
+    added = [("Image", {"topic": "/camera/compressedDepth"})]
     tab.wait_for(lambda: commands(tab.loop) == added)
 
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Annotated
 
 from webviz.api.declared import Topic
-from webviz.api.display import Display, Input
+from webviz.api.display import Display, Input, inputs_of
 from webviz.api.ports import ANY, Namespace
+from webviz.api.registry import display_types
 from webviz.engine.by_topic import Pick, no_display, picks
 from webviz.engine.commands import AddDisplay
 
@@ -87,3 +88,12 @@ def test_a_display_of_a_namespace_is_offered_for_its_topic() -> None:
 def test_a_topic_without_a_display_says_why() -> None:
     assert no_display(("sensor_msgs/msg/Imu",)) == "No display for sensor_msgs/msg/Imu."
     assert no_display(("a/msg/B", "c/msg/D")) == "No display for a/msg/B or c/msg/D."
+
+
+def test_no_display_is_offered_twice_for_a_topic() -> None:
+    displays = display_types()
+    specs = [spec for cls in displays.values() for spec in inputs_of(cls).values()]
+    types = {type_ for spec in specs for type_ in spec.types if type_ != ANY}
+    found = picks({f"/{type_}": (type_,) for type_ in types}, displays)
+    offers = [(pick.topic, pick.display) for pick in found]
+    assert sorted(offers) == sorted(set(offers))

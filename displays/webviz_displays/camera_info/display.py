@@ -78,7 +78,7 @@ class CameraInfo(Display):
     show_image: Annotated[bool, Prop(help="Show the image at the far end.")] = False
     image_topic: Annotated[
         Topic,
-        Input(transports.RAW, also=(transports.COMPRESSED,), optional=True),
+        Input(transports.RAW, also=(transports.COMPRESSED,), optional=True, is_offered=False),
         Prop(
             rviz="Far Image Topic",
             when=("show_image", True),

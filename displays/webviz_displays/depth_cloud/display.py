@@ -57,7 +57,7 @@ class DepthCloud(PointsDisplay):
     ] = Topic()
     color_topic: Annotated[
         Topic,
-        Input(transports.RAW, also=(transports.COMPRESSED,), optional=True),
+        Input(transports.RAW, also=(transports.COMPRESSED,), optional=True, is_offered=False),
         Prop(
             rviz="Color Image Topic",
             help="Topic of colour images that are registered to the depths; empty for none.",

@@ -1,4 +1,4 @@
-// The dialog that adds displays: by type, or for topics that are published just now.
+// The dialog that adds displays: for topics that are published just now, or by type.
 
 import { act, newStep } from "../act.js";
 import { el, set, setText } from "../dom.js";
@@ -6,16 +6,16 @@ import { recall, remember } from "../remember.js";
 import { watch } from "../stores.js";
 import { openDialog } from "./dialog.js";
 import { optionList, search } from "./option_list.js";
+import { topicEntries } from "./topic_entries.js";
 import { typeIcon } from "./type_icons.js";
 
 const MAX_SHOWN = 200;
-const ANY = "any type";
-const WAYS = { type: "By type", topic: "By topic" };
+const WAYS = { topic: "By topic", type: "By display" };
 
 /** Opens the dialog; what is chosen goes to the end of the list, or of a group with this id. */
 export function openAdd({ group = "" } = {}) {
   if (document.querySelector(".wv-add[open]")) return;
-  const state = { way: recall("add", "type"), types: null, topics: null, traffic: null, shown: null };
+  const state = { way: recall("add", "topic"), types: null, topics: null, traffic: null, shown: null };
   const checked = new Map();
   const input = el("input", {
     class: "wv-field wv-search",
@@ -71,11 +71,12 @@ export function openAdd({ group = "" } = {}) {
       const list = optionList(input, "Displays", (row, event) => {
         const { pick } = found.find(({ id }) => id === row.id);
         if (state.way === "type") return close([pick]);
-        if (event.type === "click") {
+        if (event.type === "click" && event.detail < 2) {
           if (!checked.delete(row.id)) checked.set(row.id, pick);
           return show();
         }
-        return close(checked.size ? [...checked.values()] : [pick]);
+        if (event.type === "click" || !checked.size) checked.set(row.id, pick);
+        return close([...checked.values()]);
       });
       let found = [];
       show = () => {
@@ -83,11 +84,11 @@ export function openAdd({ group = "" } = {}) {
           const isShown = tab.dataset.way === state.way;
           set(tab, { "aria-selected": String(isShown) });
         }
-        const all = rows(state, checked);
-        found = search(all, input.value, ({ title, line, note: more }) => [
-          title,
-          `${line} ${more}`,
-        ]);
+        const all = state.way === "type" ? typeEntries(state) : topicEntries(state, checked);
+        found = search(all, input.value, ({ words }) => words).flatMap(({ words, rows }) => {
+          const narrow = search(rows, input.value, ({ title, note: more }) => [words[0], `${title} ${more}`]);
+          return narrow.length ? narrow : rows;
+        });
         list.show(found.slice(0, MAX_SHOWN).map(({ pick: _, ...row }) => row));
         setText(note, remark(state, all, found.length));
         note.hidden = note.textContent === "";
@@ -119,54 +120,21 @@ export function openAdd({ group = "" } = {}) {
   });
 }
 
-function rows({ way, types, topics, traffic, shown }, checked) {
-  if (way === "type") {
-    return (types ?? []).map(([name, { help, topics: takes, picture }]) => ({
-      id: name,
-      title: name,
-      icon: typeIcon(name),
-      picture,
-      line: help,
-      note: takes.join(", "),
-      pick: { type: name, values: {} },
-    }));
-  }
-  const isShown = (topic) => shown?.has(topic) ?? false;
-  const all = topics ?? [];
-  const plain = new Set((types ?? []).filter(([, { topics }]) => topics.includes(ANY)).map(([name]) => name));
-  const isPlain = (show) => show.every(([display]) => plain.has(display));
-  const rank = ([topic, { show }]) => (show.length ? Number(isShown(topic)) + 2 * isPlain(show) : 4);
-  const sorted = all.toSorted((a, b) => rank(a) - rank(b));
-  return sorted.flatMap(([topic, offer]) => {
-    const about = { title: topic, note: noteOf(offer, traffic?.get(topic), isShown(topic)) };
-    if (!offer.show.length) {
-      return [
-        {
-          ...about,
-          id: topic,
-          icon: "file",
-          line: offer.why,
-          disabled: true,
-          group: "Not shown by any display",
-        },
-      ];
-    }
-    return offer.show.map(([display, values]) => ({
-      ...about,
-      id: `${topic} ${display}`,
-      icon: typeIcon(display),
-      line: `${display} · ${offer.types.join(", ")}`,
-      group: isPlain(offer.show) ? "Shown as text only" : undefined,
-      checked: checked.has(`${topic} ${display}`),
-      pick: { type: display, values },
-    }));
-  });
-}
-
-function noteOf({ nodes }, traffic, isShown) {
-  const rate = traffic?.hz ? `${Number(traffic.hz.toPrecision(2))} Hz` : "";
-  const publishers = `${nodes.length} publisher${nodes.length === 1 ? "" : "s"}`;
-  return [isShown ? "already shown" : "", rate, publishers].filter(Boolean).join(" · ");
+function typeEntries({ types }) {
+  return (types ?? []).map(([name, { help, topics: takes, picture }]) => ({
+    words: [name, `${help} ${takes.join(", ")}`],
+    rows: [
+      {
+        id: name,
+        title: name,
+        icon: typeIcon(name),
+        picture,
+        line: help,
+        note: takes.join(", "),
+        pick: { type: name, values: {} },
+      },
+    ],
+  }));
 }
 
 const absolute = (topic) => (topic.startsWith("/") ? topic : `/${topic}`);

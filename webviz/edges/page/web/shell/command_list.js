@@ -57,7 +57,7 @@ export function openCommandList() {
             note: one.note,
             key: keysOf(one)[0],
             ...lockOf(one),
-            group: input.value.trim() ? "" : one.group,
+            group: input.value.trim() ? undefined : { title: one.group },
           })),
         );
         nothing.hidden = found.length > 0;

@@ -11,7 +11,8 @@ let count = 0;
  * A list of rows that a field searches; `choose(row)` is called by Enter and by a click.
  *
  * Rows are `{id, title}`, and if there are: `icon`, `picture`, an address, `line` below the title, `note` at its right,
- * `key`, `group` above the first of several, `checked` for rows of which several are taken, and
+ * `key`, `group`, `{title, line, note}` above the first of several, `isWithin` for rows that are set in
+ * below it, `label` for what reads the page aloud, `checked` for rows of which several are taken, and
  * `disabled`. Returns `{element, show(rows), active()}`, the last of which is an id.
  */
 export function optionList(input, label, choose) {
@@ -63,11 +64,12 @@ export function optionList(input, label, choose) {
   }
 
   function rowOf(row, number) {
-    const { title, icon: name, picture, line, note, key, checked, disabled, refusal } = row;
+    const { title, icon: name, picture, line, note, key, label, checked, disabled, refusal } = row;
     return el(
       "div",
       {
-        class: "wv-pick",
+        class: row.isWithin ? "wv-pick wv-pick-within" : "wv-pick",
+        "aria-label": label,
         role: "option",
         id: prefix + number,
         "aria-selected": "false",
@@ -84,12 +86,7 @@ export function optionList(input, label, choose) {
         : el("span", { class: "wv-box" }, checked ? icon("check", 12) : null),
       name ? el("span", { class: "wv-pick-icon" }, icon(name)) : null,
       picture === undefined ? null : pictureOf(picture),
-      el(
-        "span",
-        { class: "wv-pick-text" },
-        el("span", { class: "wv-pick-title" }, title),
-        line ? el("span", { class: "wv-pick-line" }, line) : null,
-      ),
+      textOf("wv-pick-title", title, line),
       note ? el("span", { class: "wv-pick-note" }, note) : null,
       key ? el("kbd", {}, keyText(key)) : null,
     );
@@ -100,17 +97,15 @@ export function optionList(input, label, choose) {
     made = new Map();
     rows = next;
     const children = [];
-    let group = "";
+    let group = null;
     for (const row of rows) {
       const text = JSON.stringify(row);
       const known = before.get(row.id);
       count += known ? 0 : 1;
       const isSame = known?.text === text;
       made.set(row.id, isSame ? known : { text, element: rowOf(row, count) });
-      if ((row.group ?? "") !== group) {
-        group = row.group ?? "";
-        children.push(el("div", { class: "wv-pick-group", role: "presentation" }, group));
-      }
+      if (row.group?.title !== group?.title && row.group) children.push(headOf(row.group));
+      group = row.group;
       children.push(made.get(row.id).element);
     }
     setChildren(element, children);
@@ -122,6 +117,22 @@ export function optionList(input, label, choose) {
   input.addEventListener("input", () => (active = null));
   return { element, show, active: () => active };
 }
+
+const textOf = (name, title, line) =>
+  el(
+    "span",
+    { class: "wv-pick-text" },
+    el("span", { class: name }, title),
+    line ? el("span", { class: "wv-pick-line" }, line) : null,
+  );
+
+const headOf = ({ title, line, note }) =>
+  el(
+    "div",
+    { class: "wv-pick-group", role: "presentation" },
+    textOf("wv-pick-head", title, line),
+    note ? el("span", { class: "wv-pick-note" }, note) : null,
+  );
 
 // Those without one keep its place.
 function pictureOf(picture) {

@@ -1,0 +1,71 @@
+// What can be added for topics: each with the displays that show it, an image once for all transports.
+
+import { typeIcon } from "./type_icons.js";
+
+const ANY = "any type";
+const TRANSPORT = /^(.+)\/(compressed|compressedDepth|ffmpeg|theora|zstd|draco)$/; // of ROS's transports
+
+/**
+ * Entries `{words: [title, more], rows}` for `optionList`, those first that are not shown yet.
+ *
+ * `types`, `topics` and `traffic` are the stores; `shown` has the topics of all displays, `checked`
+ * the ids of rows.
+ */
+export function topicEntries({ types, topics, traffic, shown }, checked) {
+  const plain = new Set((types ?? []).filter(([, { topics }]) => topics.includes(ANY)).map(([name]) => name));
+  const entries = families(topics ?? []).map((family) => {
+    const show = family.flatMap(({ offer }) => offer.show);
+    const isShown = family.some(({ topic }) => shown?.has(topic));
+    const isPlain = show.every(([display]) => plain.has(display));
+    const rank = show.length ? Number(isShown) + 2 * isPlain : 4;
+    return { rank, ...entryOf(family, { traffic, isShown, isPlain, checked }) };
+  });
+  return entries.toSorted((a, b) => a.rank - b.rank);
+}
+
+// Topics in lists: an image with its transports that a display shows, every other one alone.
+function families(topics) {
+  const known = new Map(topics);
+  const made = new Map();
+  for (const [topic, offer] of topics) {
+    const [, base, transport] = TRANSPORT.exec(topic) ?? [];
+    const isPart = offer.show.length && known.get(base)?.show.length;
+    const family = isPart ? base : topic;
+    made.set(family, [...(made.get(family) ?? []), { topic, offer, transport: isPart ? transport : "raw" }]);
+  }
+  return [...made.values()];
+}
+
+function entryOf(family, { traffic, isShown, isPlain, checked }) {
+  const [{ topic, offer }] = family;
+  const note = noteOf(offer, traffic?.get(topic), isShown);
+  if (!offer.show.length) {
+    const row = { id: topic, icon: "file", title: topic, note, line: offer.why, disabled: true };
+    return { words: [topic, offer.why], rows: [{ ...row, group: { title: "Not shown by any display" } }] };
+  }
+  const types = offer.types.join(", ");
+  const rows = family.flatMap((member) =>
+    member.offer.show.map(([display, values]) => ({
+      id: `${member.topic} ${display}`,
+      icon: typeIcon(display),
+      title: display,
+      label: `${member.topic} ${display}`,
+      note: family.length > 1 ? member.transport : undefined,
+      group: { title: topic, line: types, note },
+      isWithin: true,
+      checked: checked.has(`${member.topic} ${display}`),
+      pick: { type: display, values },
+    })),
+  );
+  const words = [topic, rows.map(({ title, note }) => `${title} ${note}`).join(" ") + types];
+  if (rows.length > 1) return { words, rows: rows.toSorted((a, b) => (a.title < b.title ? -1 : Number(a.title > b.title))) };
+  const group = isPlain ? { title: "Shown as text only" } : undefined;
+  const line = `${rows[0].title} · ${types}`;
+  return { words, rows: [{ ...rows[0], title: topic, line, note, group, isWithin: false }] };
+}
+
+function noteOf({ nodes }, traffic, isShown) {
+  const rate = traffic?.hz ? `${Number(traffic.hz.toPrecision(2))} Hz` : "";
+  const publishers = `${nodes.length} publisher${nodes.length === 1 ? "" : "s"}`;
+  return [isShown ? "already shown" : "", rate, publishers].filter(Boolean).join(" · ");
+}
