@@ -15,6 +15,7 @@ from webviz.data.transforms import REACH_M
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.frame_names import FIXED_FRAME, frame_of
 from webviz_displays.shared.geometry import Metres
+from webviz_displays.shared.opaque import opaque
 
 MAX_LINES = 200_000
 """More lines would make the browser unresponsive."""
@@ -61,7 +62,7 @@ class Grid(Display):
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """All lines as one node that follows the reference frame."""
         if self.alpha == 0:
-            ctx.warn("Grid", "Invisible: alpha is 0. Increase it to show the grid.")
+            ctx.warn("Grid", "Invisible: alpha is 0. Increase it to show the grid.", opaque())
             return
         wanted = self.plane_cell_count, self.normal_cell_count
         plane, normal = _inner(*wanted)

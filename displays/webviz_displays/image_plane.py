@@ -18,6 +18,7 @@ from webviz_displays.image.newest import Newest
 from webviz_displays.image.texels import texels
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import LONGEST, Metres
+from webviz_displays.shared.opaque import opaque
 
 _HALF = math.sqrt(0.5)
 # Rotations (w, x, y, z) that turn right and up, or right and down, into axes of the frame.
@@ -80,7 +81,7 @@ class ImagePlane(ImageDisplay):
         if not samples:
             return
         if self.alpha == 0:
-            ctx.warn("Image", "Invisible: alpha is 0. Increase it to show the image.")
+            ctx.warn("Image", "Invisible: alpha is 0. Increase it to show the image.", opaque())
             return
         newest = samples[-1]
         state: _State = ctx.state

@@ -23,6 +23,7 @@ from webviz import (
 from webviz.data.words import counted
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import is_drawable, origin_near
+from webviz_displays.shared.opaque import opaque
 
 KINDS = (
     "neighbor",
@@ -87,7 +88,7 @@ class MapGraph(Display):
         elif not len(numbers):
             ctx.warn("Graph", f"{shown}: nothing to draw. Wait until the robot has moved.")
         elif self.alpha == 0:
-            ctx.warn("Graph", "Invisible: alpha is 0. Increase it to show the links.")
+            ctx.warn("Graph", "Invisible: alpha is 0. Increase it to show the links.", opaque())
         else:
             ctx.ok("Graph", f"{shown}.")
         if not len(numbers) or self.alpha == 0:

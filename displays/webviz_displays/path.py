@@ -29,6 +29,7 @@ from webviz.data.words import counted
 from webviz_displays.point_cloud2.decimation import Rows, evenly
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import Metres, along_x, is_drawable, origin_near, transformed
+from webviz_displays.shared.opaque import opaque
 
 F64 = NDArray[np.float64]
 
@@ -115,7 +116,9 @@ class Path(Display):
         group = ctx.follow(None, offset=Pose(tuple(corner.tolist()), sample.pose.wxyz))
         xyz = positions - origin
         if self.alpha == 0:
-            ctx.warn("Path", "The line is invisible: alpha is 0. Increase it to show the line.")
+            ctx.warn(
+                "Path", "The line is invisible: alpha is 0. Increase it to show the line.", opaque()
+            )
         else:
             width, unit = (1.0, "px") if self.line_style == "Lines" else (self.line_width, "m")
             ids = None if rows is None else rows[:-1]

@@ -12,7 +12,7 @@ import pytest
 from numpy.typing import NDArray
 from remembering_graph import RememberingGraph
 
-from webviz import Display, Frames, Pose, Status
+from webviz import Display, Frames, Pose, Remedy, Status
 from webviz.api.display import inputs
 from webviz.api.nodes import Node
 from webviz.data.messages import encode, interfaces
@@ -151,6 +151,12 @@ class Bench:
     def statuses(self) -> dict[str, tuple[str, str]]:
         """Level and sentence by key."""
         return {key: (status.level.name, status.text) for key, status in self._statuses().items()}
+
+    def remedy(self, key: str) -> Remedy | None:
+        """The property that would help, according to a status."""
+        found = self._statuses()[key].remedy
+        assert found is None or isinstance(found, Remedy)
+        return found
 
     def _statuses(self) -> dict[str, Status]:
         frames = Frames(self.buffer, self.fixed_frame, self.now_ns)

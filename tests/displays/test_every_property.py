@@ -530,9 +530,13 @@ def test_every_display_is_tried() -> None:
         ("Grid", "alpha", "Grid"),
         ("ImagePlane", "alpha", "Image"),
         ("LaserScan", "alpha", "Points"),
+        ("OccupancyGrid", "voxel_alpha", "Voxels"),
         ("Odometry", "shape.alpha", "Pose"),
         ("Path", "alpha", "Path"),
         ("PointCloud2", "alpha", "Points"),
+        ("Pose", "alpha", "Pose"),
+        ("PoseArray", "alpha", "Poses"),
+        ("Range", "alpha", "Range"),
     ],
 )
 def test_alpha_0_hides_and_says_so(bench: Benches, name: str, path: str, status: str) -> None:
@@ -545,3 +549,39 @@ def test_alpha_0_hides_and_says_so(bench: Benches, name: str, path: str, status:
     level, text = at_work.statuses()[status]
     assert level == "WARN"
     assert "nvisible: alpha is 0." in text
+    remedy = at_work.remedy(status)
+    assert remedy is not None
+    at_work.set(remedy.path, remedy.value)
+    assert visible <= set(at_work.nodes())
+
+
+@pytest.mark.parametrize(
+    ("name", "off", "status"),
+    [
+        ("GridMap", {"color_transformer": "None", "show_grid_lines": False}, "Grid map"),
+        (
+            "Imu",
+            {
+                "axes_properties.enable_axes": False,
+                "acceleration_properties.enable_acceleration": False,
+            },
+            "Imu",
+        ),
+        ("RobotModel", {"visual_enabled": False}, "Shapes"),
+    ],
+)
+def test_what_is_switched_off_says_so_and_what_would_help(
+    bench: Benches, name: str, off: dict[str, object], status: str
+) -> None:
+    cls = next(cls for cls in display_classes() if cls.__name__ == name)
+    at_work = bench(cls())
+    SCENES[name](at_work)
+    for path, value in off.items():
+        at_work.set(path, value)
+    settle(at_work)
+    assert at_work.statuses()[status][0] == "WARN"
+    remedy = at_work.remedy(status)
+    assert remedy is not None
+    at_work.set(remedy.path, remedy.value)
+    settle(at_work)
+    assert at_work.statuses().get(status, ("OK", ""))[0] == "OK"

@@ -9,8 +9,8 @@ from typing import Annotated, Any
 import pytest
 
 from webviz import Context, Display, Input, Sample, Topic
-from webviz.api.status import Remedy
-from webviz.engine.commands import SetProperty
+from webviz.api.status import OtherFixedFrame, Remedy
+from webviz.engine.commands import SetFixedFrame, SetProperty
 from webviz.engine.sources import Offer, Publisher, Raw
 from webviz.shell.testing.messages import header
 from webviz_displays.path import Path
@@ -177,6 +177,21 @@ def test_a_missing_transform_is_explained_after_a_second_and_forgotten_when_it_c
     assert level == "ERROR"
     assert text.startswith('Frame "base" does not exist: no transform to it has arrived.')
     b.transform("map", "base", T, static=True)
+    assert b.statuses()["Transform"] == ("OK", "Transform OK")
+
+
+def test_of_two_trees_the_other_is_offered_as_fixed_frame(bench: Callable[..., Any]) -> None:
+    b = bench(Dot(name="Dot"))
+    b.transform("map", "base_link", T, static=True)
+    b.transform("world", "drone", T, static=True)
+    b.pose("/pose", "drone", T)
+    b.statuses()
+    b.clock += 1.1
+    level, text = b.statuses()["Transform"]
+    assert (level, "in two trees" in text) == ("ERROR", True)
+    remedy = b.states[-1].rows[0].statuses["Transform"].remedy
+    assert remedy == OtherFixedFrame("world")
+    b.do(SetFixedFrame(remedy.frame))
     assert b.statuses()["Transform"] == ("OK", "Transform OK")
 
 

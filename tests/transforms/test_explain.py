@@ -107,7 +107,7 @@ def test_a_fixed_frame_never_seen_comes_with_what_was_meant_or_the_root_of_the_l
     [
         (("map", "odom"), 'Start localisation or SLAM, which publishes "map" → "odom"'),
         (("odom", "base_link"), 'Start the odometry of the robot, which publishes "odom" →'),
-        (("base_link", "laser"), "Publish a transform from one to the other, or choose"),
+        (("base_link", "laser"), "Publish a transform from one to the other, or use"),
     ],
 )
 def test_two_trees_are_named_by_their_roots_with_who_usually_connects_them(
@@ -122,6 +122,10 @@ def test_two_trees_are_named_by_their_roots_with_who_usually_connects_them(
     assert found.kind == Kind.NOT_CONNECTED
     assert f'the root "{missing[1]}", the other "map"' in found.sentence
     assert remedy in found.sentence
+    assert found.other_frame == ("laser" if remedy.endswith("or use") else "")
+    assert not found.other_frame or why(buffer, "lens", 1.0, fixed=found.other_frame).kind == (
+        Kind.AVAILABLE
+    )
 
 
 def test_a_loop_is_spelled_out(buffer: TransformBuffer, put: Put) -> None:

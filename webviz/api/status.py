@@ -7,6 +7,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
+from webviz.data.transforms.reasons import Explanation
+
 
 class Level(enum.IntEnum):
     """The severity of a status; a parent has that of its worst child.
@@ -44,6 +46,11 @@ class OtherFixedFrame:
     """
 
     frame: str
+
+    @staticmethod
+    def of(reason: Explanation) -> OtherFixedFrame | None:
+        """Where a frame without a pose has one, None if the reason names no such frame."""
+        return OtherFixedFrame(reason.other_frame) if reason.other_frame else None
 
     @property
     def label(self) -> str:

@@ -25,6 +25,7 @@ from webviz_displays.point_cloud2.decimation import evenly
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import FARTHEST, is_drawable, origin_near
 from webviz_displays.shared.history import HistoryLength
+from webviz_displays.shared.opaque import opaque
 
 MAX_CELLS = 50_000
 """Cells drawn per message; each takes 72 bytes to send."""
@@ -75,7 +76,7 @@ class GridCells(Display):
             ctx.warn("Cells", f"Showing {MAX_CELLS} of {len(cells)} cells, evenly picked.")
             ids = ids[evenly(len(ids), MAX_CELLS)]
         if self.alpha == 0:
-            ctx.warn("Cells", "Invisible: alpha is 0. Increase it to show the cells.")
+            ctx.warn("Cells", "Invisible: alpha is 0. Increase it to show the cells.", opaque())
             return
         centers = cells[ids]
         origin = origin_near(centers)

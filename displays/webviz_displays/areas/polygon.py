@@ -23,6 +23,7 @@ from webviz.data.words import counted
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import is_drawable, origin_near
 from webviz_displays.shared.history import HistoryLength
+from webviz_displays.shared.opaque import opaque
 
 
 class Polygon(Display):
@@ -58,7 +59,7 @@ class Polygon(Display):
             )
             return
         if self.alpha == 0:
-            ctx.warn("Polygon", "Invisible: alpha is 0. Increase it to show the polygon.")
+            ctx.warn("Polygon", "Invisible: alpha is 0. Increase it to show the polygon.", opaque())
             return
         ctx.ok("Polygon", f"Showing {counted(len(points), 'point')}.")
         origin = origin_near(points)

@@ -27,6 +27,7 @@ from webviz_displays.image.newest import Newest
 from webviz_displays.image.texels import texels
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import Metres
+from webviz_displays.shared.opaque import opaque
 
 EDGE_M = 0.01
 
@@ -133,7 +134,7 @@ class CameraInfo(Display):
             group.add("polygons", Mesh(points, both, self.color, self.alpha))
         size = f"{model.width} x {model.height}, focal length {model.fx:.4g} px"
         if self.alpha == 0:
-            ctx.warn("Camera Info", f"{size}, invisible: alpha is 0. Increase it.")
+            ctx.warn("Camera Info", f"{size}, invisible: alpha is 0. Increase it.", opaque())
         elif problem := calibration_problem(info.message) or optical_problem(info.frame):
             ctx.warn("Camera Info", problem)
         else:

@@ -17,6 +17,7 @@ from webviz_displays.depth_cloud.cloud import DepthPoints, depth_points
 from webviz_displays.depth_cloud.hidden import Hidden
 from webviz_displays.image import transports
 from webviz_displays.image.newest import Newest
+from webviz_displays.shared.opaque import opaque
 from webviz_displays.shared.points_display import BY_INTENSITY, PointsDisplay
 
 U8 = NDArray[np.uint8]
@@ -227,7 +228,7 @@ class DepthCloud(PointsDisplay):
 
     def _report(self, points: DepthPoints, doubt: str, ctx: Context) -> None:
         if self.alpha == 0:
-            ctx.warn("Points", "Invisible: alpha is 0. Increase it to show the points.")
+            ctx.warn("Points", "Invisible: alpha is 0. Increase it to show the points.", opaque())
         elif len(points.xyz) == points.hidden:
             ctx.warn("Points", "No pixel has a depth. Check the camera.")
         elif points.remark:

@@ -19,6 +19,7 @@ from webviz import (
     Input,
     Mesh,
     Prop,
+    Remedy,
     Sample,
     Topic,
     compose,
@@ -28,6 +29,7 @@ from webviz_displays.grid_map.layers import NAMED, GridMapFault, Layers, read_la
 from webviz_displays.grid_map.surface import faces_of, lines_of, places
 from webviz_displays.shared.colors import RAINBOW, Alpha, bounds, ramp
 from webviz_displays.shared.geometry import LONGEST
+from webviz_displays.shared.opaque import opaque
 from webviz_displays.shared.points_display import MaxColor, MaxIntensity, MinColor, MinIntensity
 
 U8 = NDArray[np.uint8]
@@ -195,9 +197,15 @@ class GridMap(Display):
         if not shown:
             ctx.warn("Grid map", f"None of the {size} has a value. Check the publisher.")
         elif self.alpha == 0:
-            ctx.warn("Grid map", "Invisible: alpha is 0. Increase it to show the grid map.")
+            ctx.warn(
+                "Grid map", "Invisible: alpha is 0. Increase it to show the grid map.", opaque()
+            )
         elif self.color_transformer == "None" and not self.show_grid_lines:
-            ctx.warn("Grid map", "There is nothing to draw: choose a colour or show grid lines.")
+            ctx.warn(
+                "Grid map",
+                "There is nothing to draw: choose a colour or show grid lines.",
+                Remedy("show_grid_lines", True, "Show grid lines"),
+            )
         elif step > 1:
             ctx.warn(
                 "Grid map",

@@ -8,7 +8,20 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Color, Context, Details, Display, Group, Hit, Input, Pose, Prop, Sample, Topic
+from webviz import (
+    Color,
+    Context,
+    Details,
+    Display,
+    Group,
+    Hit,
+    Input,
+    Pose,
+    Prop,
+    Remedy,
+    Sample,
+    Topic,
+)
 from webviz.data.rotations import matrices, normalized
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import FARTHEST, LONGEST, Length
@@ -153,6 +166,7 @@ class Imu(Display):
             ctx.warn(
                 "Imu",
                 "Nothing is drawn. Enable the box, the axes or the acceleration, and raise alpha.",
+                Remedy("axes_properties.enable_axes", True, "Show the axes"),
             )
         else:
             ctx.ok("Imu", f"Acceleration {_told(a, 'm/s²')}.")

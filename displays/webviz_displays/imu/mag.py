@@ -9,6 +9,7 @@ import numpy as np
 from webviz import Color, Context, Details, Display, Hit, Input, Prop, Sample, Topic
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import Length
+from webviz_displays.shared.opaque import opaque
 from webviz_displays.shared.rods import add_solid_arrows
 
 SHAFT_LENGTH, SHAFT_RADIUS, HEAD_LENGTH, HEAD_RADIUS = 2.0, 0.05, 0.2, 0.05
@@ -48,7 +49,7 @@ class Mag(Display):
             ctx.warn("Field", "The field is zero, so it has no direction. Check the sensor.")
             return
         if self.alpha == 0:
-            ctx.warn("Field", "Invisible: alpha is 0. Increase it to show the field.")
+            ctx.warn("Field", "Invisible: alpha is 0. Increase it to show the field.", opaque())
             return
         ctx.ok("Field", f"{strength:.4g} T" + (" in the x-y plane." if self.is_2d else "."))
         direction = vector / largest  # first, since squares of small fields may vanish

@@ -15,6 +15,7 @@ from webviz.data import messages
 from webviz.data.rotations import conjugate
 from webviz_displays.laser_scan import beams
 from webviz_displays.shared.geometry import coordinate
+from webviz_displays.shared.opaque import opaque
 from webviz_displays.shared.points_display import PointsDisplay
 
 F64 = NDArray[np.float64]
@@ -73,7 +74,7 @@ class LaserScan(PointsDisplay):
         say = ctx.ok if len(hits.beams) else ctx.warn
         say("Points", hits.sentence())
         if self.alpha == 0:
-            ctx.warn("Points", f"Invisible: alpha is 0. {hits.sentence()}")
+            ctx.warn("Points", f"Invisible: alpha is 0. {hits.sentence()}", opaque())
             return
         if scan.angle_increment == 0 and hits.total > 1:
             ctx.warn(

@@ -17,6 +17,7 @@ from webviz_displays.map.cells import MEANINGS, cell_details, tile_key
 from webviz_displays.map.palettes import lookup_table
 from webviz_displays.map.tiles import Corner, GridFault, TiledGrid, tiled, updated, window
 from webviz_displays.shared.colors import Alpha
+from webviz_displays.shared.opaque import opaque
 
 OPAQUE = 0.9998
 """An alpha from here on counts as 1, as in RViz."""
@@ -218,7 +219,9 @@ class MapDisplay(Display):
         if folded.fault:
             ctx.error("Map", joined(folded.fault, "Keeping the previous map."))
         elif self.alpha == 0:
-            ctx.warn("Map", f"{size}, invisible: alpha is 0. Increase it to show the map.")
+            ctx.warn(
+                "Map", f"{size}, invisible: alpha is 0. Increase it to show the map.", opaque()
+            )
         else:
             ctx.ok("Map", f"{size} in frame '{grid.frame}'.")
         if folded.update_fault:

@@ -23,6 +23,7 @@ from webviz_displays.octomap.seen import (
 from webviz_displays.octomap.voxels import places_of, voxels_of
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import FARTHEST, origin_near
+from webviz_displays.shared.opaque import opaque
 
 OCTOMAP = "octomap_msgs/msg/Octomap"
 
@@ -194,7 +195,11 @@ class OctreeDisplay(Display):
                 "other heights.",
             )
         elif self.voxel_alpha == 0:
-            ctx.warn("Voxels", "Invisible: alpha is 0. Increase it to show the voxels.")
+            ctx.warn(
+                "Voxels",
+                "Invisible: alpha is 0. Increase it to show the voxels.",
+                opaque("voxel_alpha"),
+            )
         elif seen.depth < levels:
             ctx.warn(
                 "Voxels",

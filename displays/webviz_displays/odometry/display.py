@@ -69,7 +69,7 @@ class Odometry(Display):
         origin = origin_near(poses.positions)
         group = ctx.follow(None, offset=Pose(origin))
         poses = replace(poses, positions=poses.positions - origin)
-        draw_poses(self.shape, poses, group, ctx)
+        draw_poses(self.shape, poses, group, ctx, path="shape.alpha")
         rows = [sample.message.pose.covariance for sample in samples[-MAX_COVARIANCES:]]
         draw_covariances(self.covariance, rows, poses, group, ctx, np.arange(len(samples)))
 

@@ -21,6 +21,7 @@ from webviz_displays.point_cloud2.cloud_colors import (
 )
 from webviz_displays.point_cloud2.decimation import Rows, evenly, one_per_voxel
 from webviz_displays.shared.colors import faded
+from webviz_displays.shared.opaque import opaque
 from webviz_displays.shared.points_display import BY_INTENSITY, PointsDisplay
 
 U8 = NDArray[np.uint8]
@@ -161,7 +162,7 @@ class CloudDisplay(PointsDisplay):
         state.newest = sample.number  # not before, as this may have taken seconds
         (ctx.ok if len(xyz) else ctx.warn)("Points", sentence)
         if self.alpha == 0:
-            ctx.warn("Points", f"Invisible: alpha is 0. {sentence}")
+            ctx.warn("Points", f"Invisible: alpha is 0. {sentence}", opaque())
             return
         group = ctx.follow(None, offset=fixed) if any(origin) else ctx
         # As in RViz, boxes turn with the sensor.

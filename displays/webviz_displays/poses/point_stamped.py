@@ -13,6 +13,7 @@ from webviz.data.words import counted
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import Length, is_drawable, origin_near
 from webviz_displays.shared.history import HistoryLength
+from webviz_displays.shared.opaque import opaque
 
 
 class PointStamped(Display):
@@ -44,7 +45,9 @@ class PointStamped(Display):
             origin = origin_near(centers)
             group = ctx.follow(None, offset=Pose(origin))
             if self.alpha == 0:
-                ctx.warn("Point", "Invisible: alpha is 0. Increase it to show the points.")
+                ctx.warn(
+                    "Point", "Invisible: alpha is 0. Increase it to show the points.", opaque()
+                )
             else:
                 ctx.ok("Point", f"Showing {counted(len(ids), 'point')}.")
                 group.instances(

@@ -16,6 +16,7 @@ from webviz_displays.point_cloud2.decimation import evenly
 from webviz_displays.poses.pose_display import placed
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import along_x, is_drawable, origin_near, transformed
+from webviz_displays.shared.opaque import opaque
 from webviz_displays.shared.pose_marks import report_orientations
 from webviz_displays.shared.rods import add_solid_arrows, rods
 
@@ -151,7 +152,9 @@ def pose_set(
 def is_invisible(alpha: float, ctx: Context, noun: str) -> bool:
     """Return whether alpha hides everything; says so."""
     if alpha == 0:
-        ctx.warn(f"{noun.capitalize()}s", "Invisible: alpha is 0. Increase it to show them.")
+        ctx.warn(
+            f"{noun.capitalize()}s", "Invisible: alpha is 0. Increase it to show them.", opaque()
+        )
     return alpha == 0
 
 

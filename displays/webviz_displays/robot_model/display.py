@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 import msgspec
 
-from webviz import Context, Details, Display, Hit, Input, Prop, Sample, Topic
+from webviz import Context, Details, Display, Hit, Input, Prop, Remedy, Sample, Topic
 from webviz_displays.robot_model.details import TRAIL, link_details
 from webviz_displays.robot_model.joint_states import ReceivedRobot
 from webviz_displays.robot_model.loading import last_written, load, progress
@@ -147,7 +147,9 @@ class RobotModel(Display):
             report_joints(placing.missing, placing.total, placing.fault, ctx)
         if not (self.visual_enabled or self.collision_enabled):
             ctx.warn(
-                "Shapes", "Neither visual nor collision shapes are switched on. Enable one of them."
+                "Shapes",
+                "Neither visual nor collision shapes are switched on. Enable one of them.",
+                Remedy("visual_enabled", True, "Show visual shapes"),
             )
         report_strangers("Link", list(self.links), list(model.robot.links), ctx)
         report_strangers("Joint", list(self.joints), list(model.robot.joints), ctx)

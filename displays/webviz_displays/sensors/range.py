@@ -10,6 +10,7 @@ import numpy as np
 from webviz import Color, Context, Details, Display, Hit, Input, Keep, Prop, Sample, Topic
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import FARTHEST
+from webviz_displays.shared.opaque import opaque
 from webviz_displays.shared.rods import rods
 
 RADIATION = {0: "ultrasound", 1: "infrared"}
@@ -50,7 +51,7 @@ class Range(Display):
             ctx.warn("Range", sentence)
             return
         if self.alpha == 0:
-            ctx.warn("Range", f"Invisible: alpha is 0. {sentence}")
+            ctx.warn("Range", f"Invisible: alpha is 0. {sentence}", opaque())
             return
         ctx.ok("Range", sentence)
         cone = rods([(distance, 0.0, 0.0)], [(0.0, 0.0, 0.0)], 2 * radius)

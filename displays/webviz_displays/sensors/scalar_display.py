@@ -11,6 +11,7 @@ import numpy as np
 from webviz import ColorScale, Context, Details, Hit, Pose, Prop, Sample
 from webviz_displays.shared.colors import RAINBOW, ramp
 from webviz_displays.shared.geometry import origin_near
+from webviz_displays.shared.opaque import opaque
 from webviz_displays.shared.points_display import (
     InvertRainbow,
     MaxColor,
@@ -53,7 +54,7 @@ class ScalarDisplay(PointStyle):
         if not math.isfinite(values[-1]):
             ctx.error("Value", f"The {self._noun} is {said}. Check the sensor.")
         elif self.alpha == 0:
-            ctx.warn("Value", f"Invisible: alpha is 0. The {self._noun} is {said}.")
+            ctx.warn("Value", f"Invisible: alpha is 0. The {self._noun} is {said}.", opaque())
         else:
             ctx.ok("Value", said)
         if not len(ids) or self.alpha == 0:

@@ -7,13 +7,19 @@ import numpy as np
 from webviz import Context, Group
 from webviz.api.nodes import Ids
 from webviz_displays.shared.geometry import along_x
+from webviz_displays.shared.opaque import opaque
 from webviz_displays.shared.pose_history import UNIT_TOLERANCE, PoseTrail
 from webviz_displays.shared.pose_properties import PoseShape
 from webviz_displays.shared.rods import add_solid_arrows
 
 
 def draw_poses(
-    look: PoseShape, poses: PoseTrail, group: Group, ctx: Context, ids: Ids | None = None
+    look: PoseShape,
+    poses: PoseTrail,
+    group: Group,
+    ctx: Context,
+    ids: Ids | None = None,
+    path: str = "alpha",
 ) -> None:
     """Draw poses in the coordinates of a group, and say if they are invisible.
 
@@ -23,12 +29,15 @@ def draw_poses(
         group: where to draw.
         ctx: collects statuses.
         ids: (N,), of the samples; None if they are numbered from 0.
+        path: of the property with the opacity.
     """
     if look.value == "Axes":
         group.axes("poses", poses.positions, poses.wxyzs, look.axes_length, look.axes_radius, ids)
         return
     if look.alpha == 0:
-        ctx.warn("Pose", "The arrows are invisible: alpha is 0. Increase it to show them.")
+        ctx.warn(
+            "Pose", "The arrows are invisible: alpha is 0. Increase it to show them.", opaque(path)
+        )
         return
     length = look.shaft_length + look.head_length
     segments = along_x(poses.positions, poses.rotations, length)

@@ -18,6 +18,7 @@ from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.frame_names import prefixed
 from webviz_displays.shared.geometry import Length, origin_near
 from webviz_displays.shared.history import HistoryLength
+from webviz_displays.shared.opaque import opaque
 from webviz_displays.vectors.rings import Rings, add_rings
 from webviz_urdf import RobotDescriptionError, TurningJoint
 
@@ -178,7 +179,7 @@ class Effort(Display):
         self._report(newest.message, state.efforts, joints, rings[0], ctx)
         whole = Rings(*(np.concatenate(parts) for parts in zip(*rings, strict=True)))
         if self.alpha == 0:
-            ctx.warn("Efforts", "Invisible: alpha is 0. Increase it to show the rings.")
+            ctx.warn("Efforts", "Invisible: alpha is 0. Increase it to show the rings.", opaque())
         elif len(whole.names):
             origin = origin_near(whole.centers)
             group = ctx.follow(None, offset=Pose(origin))

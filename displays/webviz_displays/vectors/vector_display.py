@@ -14,6 +14,7 @@ from webviz.data.rotations import matrices
 from webviz.data.words import joined
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import FARTHEST, Length, origin_near
+from webviz_displays.shared.opaque import opaque
 from webviz_displays.vectors.marks import Vectors, add_straight, add_turning
 
 F64 = NDArray[np.float64]
@@ -111,7 +112,7 @@ class VectorDisplay(Display):
             text = "; ".join(told)
             sentence = f"{text[0].upper()}{text[1:]}."
             if self.alpha == 0:
-                ctx.warn("Vectors", f"Invisible: alpha is 0. {sentence}")
+                ctx.warn("Vectors", f"Invisible: alpha is 0. {sentence}", opaque())
             elif shown:
                 ctx.ok("Vectors", sentence)
             else:

@@ -62,6 +62,7 @@ def _invalid(buffer: TransformBuffer, fixed_frame: str, frame: str) -> Explanati
                 Kind.LEADING_SLASH,
                 f'{what} "{name}" starts with a slash, which ROS 2 does not allow in frame ids: '
                 f'use "{name.lstrip("/")}".',
+                other_frame=fixed_frame.lstrip("/") if name == fixed_frame else "",
             )
     names = buffer.tree.names
     if not names and buffer.recorded:
@@ -167,18 +168,21 @@ def _not_connected(tree: FrameTree, fixed_frame: str, frame: str) -> Explanation
                 f'No transform of "{top}" has arrived since the transforms were cleared, so '
                 f'"{frame}" is not connected with "{fixed_frame}".',
             )
+    link = _missing_link(tree, root, fixed_root)
+    remedy = link or f'Publish a transform from one to the other, or use "{root}" as fixed frame.'
     return Explanation(
         Kind.NOT_CONNECTED,
         f'"{frame}" and "{fixed_frame}" are in two trees that no transform connects: one has the '
-        f'root "{root}", the other "{fixed_root}". {_missing_link(tree, root, fixed_root)}',
+        f'root "{root}", the other "{fixed_root}". {remedy}',
         cause=f"{root} {fixed_root}",
+        other_frame="" if link else root,
     )
 
 
 def _missing_link(tree: FrameTree, root: str, fixed_root: str) -> str:
-    """The usual publisher of the link between two trees (REP 105), or a remedy."""
+    """The usual publisher of the link between two trees (REP 105), "" for none."""
     if fixed_root == "map" and root == "odom":
         return 'Start localisation or SLAM, which publishes "map" → "odom", and initialise it.'
     if root.startswith("base") and "odom" in tree.names and tree.root("odom") == fixed_root:
         return f'Start the odometry of the robot, which publishes "odom" → "{root}".'
-    return "Publish a transform from one to the other, or choose a fixed frame in the first."
+    return ""

@@ -49,6 +49,7 @@ class Explanation:
         is_catching_up: the transforms are behind, but still arriving.
         cause: what is missing, equal for all frames that lack it; "" for this frame alone.
         filter_size: of a queue that would be long enough, 0 if it is unknown.
+        other_frame: a fixed frame in which the frame has a pose, "" if the sentence names none.
     """
 
     kind: Kind
@@ -57,6 +58,7 @@ class Explanation:
     is_catching_up: bool = False
     cause: str = ""
     filter_size: int = 0
+    other_frame: str = ""
 
 
 FOR_ALL = (Kind.NO_TRANSFORMS, Kind.UNKNOWN_FIXED_FRAME)

@@ -10,7 +10,7 @@ from webviz.api.declared import Topic
 from webviz.api.display import Display, inputs
 from webviz.api.frames import Frames
 from webviz.api.ports import ANY, Input
-from webviz.api.status import Level, Remedy, Status
+from webviz.api.status import Level, OtherFixedFrame, Remedy, Status
 from webviz.data.messages import MessageError, decode, peek_header
 from webviz.data.transforms import MessageFilter
 from webviz.data.words import counted, joined
@@ -214,7 +214,7 @@ class Intake:
         waiting = self._filter.explanation(frames.buffer, frames.fixed_frame, frames.now_ns)
         since = self._waiting_since
         if waiting and since is not None and clock - since > PATIENCE_S:
-            size, remedy = waiting.filter_size, None
+            size, remedy = waiting.filter_size, OtherFixedFrame.of(waiting)
             if size:
                 label = f"Set the filter size to {size}"
                 remedy = Remedy(f"{self.path}.filter_size", size, label)

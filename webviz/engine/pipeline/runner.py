@@ -13,7 +13,7 @@ from webviz.api.frames import Frames
 from webviz.api.handles import Grip, Handle
 from webviz.api.picking import Details
 from webviz.api.robots import NamespacedRobot, RobotFrames, robot_of
-from webviz.api.status import Level, Status, worst
+from webviz.api.status import Level, OtherFixedFrame, Status, worst
 from webviz.engine.commands import Picks
 from webviz.engine.pipeline.gripping import Gripping
 from webviz.engine.pipeline.guard import Guard
@@ -258,7 +258,9 @@ class Runner:
     ) -> dict[str, Status]:
         result = self._holder.statuses(offers, frames, dropped)
         if lost := self._painter.lost(frames):
-            result["Transform"] = Status(Level.ERROR, frames.why_not(lost[0]))
+            reason = frames.explain(lost[0])
+            remedy = OtherFixedFrame.of(reason)
+            result["Transform"] = Status(Level.ERROR, reason.sentence, remedy)
         size = self._holder.busy_with or self._painter.busy_with
         if size:
             level = Level.WARN if self._painter.is_empty() else Level.OK
