@@ -11,7 +11,7 @@ from webviz.data.messages import decode, encode
 from webviz_displays.interactive_markers.completion import (
     FAR,
     Completed,
-    Refused,
+    RefusedMarker,
     completed,
     unique_names,
 )
@@ -22,7 +22,7 @@ NAN = math.nan
 MENU, MOVE_AXIS, ROTATE_AXIS = 1, 3, 5
 
 
-def made(**values: Any) -> Completed | Refused:
+def made(**values: Any) -> Completed | RefusedMarker:
     """A marker as its message is completed."""
     return completed(decode(MARKER, encode(MARKER, values)))
 
@@ -78,7 +78,7 @@ def test_invalid_markers_and_controls_say_what_is_wrong() -> None:
         *({"pose": {"position": {"x": value}}} for value in (NAN, math.inf, -1e308)),
         *({"pose": {"orientation": {"x": value}}} for value in (NAN, math.inf, 1e308)),
     ):
-        assert made(**values) == Refused("", FAR)
+        assert made(**values) == RefusedMarker("", FAR)
     bad = [
         ({"interaction_mode": 10}, "unknown interaction mode, 10"),
         ({"orientation_mode": 3}, "unknown orientation mode, 3"),

@@ -146,7 +146,7 @@ def test_on_a_phone_everything_is_inside_the_bar(
 
 
 def overflow(bar: playwright.Locator) -> list[str]:
-    """What of the toolbar is outside of its box."""
+    """Return the parts of the toolbar outside of its box."""
     return bar.evaluate(
         """(bar) => {
           const box = bar.getBoundingClientRect();

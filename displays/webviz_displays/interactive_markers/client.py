@@ -18,11 +18,11 @@ from webviz.api.context import Background
 from webviz.api.wire import Heard, Wire
 from webviz.data.messages import MessageError
 from webviz.data.words import joined
-from webviz_displays.interactive_markers.completion import Completed, Refused
+from webviz_displays.interactive_markers.completion import Completed, RefusedMarker
 from webviz_displays.interactive_markers.reading import (
     SERVICE,
     UPDATE,
-    Update,
+    MarkerUpdate,
     read_answer,
     read_update,
 )
@@ -51,7 +51,7 @@ class News:
         is_all: whether these are all markers.
     """
 
-    markers: Sequence[Completed | Refused] = ()
+    markers: Sequence[Completed | RefusedMarker] = ()
     poses: Sequence[Any] = ()
     erased: Sequence[str] = ()
     is_all: bool = False
@@ -79,7 +79,7 @@ class Client:
     _unread: deque[bytes] = field(default_factory=deque)
     _number: int = 0
     """Of the first unread update."""
-    _waiting: list[Update] = field(default_factory=list)
+    _waiting: list[MarkerUpdate] = field(default_factory=list)
 
     def step(self, wire: Wire, background: Background) -> list[News]:
         """Take up what has happened since the last call; what changed, in order.
@@ -158,7 +158,7 @@ class Client:
         late = [update for update in waiting if update.number > self.sequence]
         return [News(answer.markers, is_all=True), *self._follow(late, wire)]
 
-    def _follow(self, updates: Sequence[Update], wire: Wire) -> list[News]:
+    def _follow(self, updates: Sequence[MarkerUpdate], wire: Wire) -> list[News]:
         news = []
         for update in updates:
             if update.number != self.sequence + 1:
@@ -173,7 +173,7 @@ class Client:
             news.append(News(update.markers, update.poses, update.erased))
         return news
 
-    def _read(self, background: Background) -> list[Update]:
+    def _read(self, background: Background) -> list[MarkerUpdate]:
         """Return the next updates in order; one that cannot be read makes a gap."""
         updates = []
         while self._unread:

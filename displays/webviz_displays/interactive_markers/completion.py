@@ -80,7 +80,7 @@ class Completed:
 
 
 @dataclass(frozen=True)
-class Refused:
+class RefusedMarker:
     """An interactive marker that cannot be shown.
 
     Args:
@@ -92,15 +92,15 @@ class Refused:
     reason: str
 
 
-def completed(message: Any) -> Completed | Refused:
+def completed(message: Any) -> Completed | RefusedMarker:
     """Complete a visualization_msgs/InteractiveMarker, or say why it cannot be shown."""
     name = str(message.name)
     if len(name) > MAX_NAME:
-        reason = f"Its name has {len(name)} characters; the limit is {MAX_NAME}."
-        return Refused(name[:MAX_NAME], f"{reason} Correct the server.")
+        long = f"Its name has {len(name)} characters; the limit is {MAX_NAME}. Correct the server."
+        return RefusedMarker(name[:MAX_NAME], long)
     pose, scale = pose_of(message.pose), float(message.scale)
     if pose is None or not abs(scale) <= REACH_M:
-        return Refused(name, FAR)
+        return RefusedMarker(name, FAR)
     scale = scale or 1.0
     description = str(message.description)
     menu, problems = menu_of(message.menu_entries)

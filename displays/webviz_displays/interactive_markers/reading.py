@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 from webviz.data.messages import decode
-from webviz_displays.interactive_markers.completion import Completed, Refused, completed
+from webviz_displays.interactive_markers.completion import Completed, RefusedMarker, completed
 
 SERVICE = "visualization_msgs/srv/GetInteractiveMarkers"
 UPDATE = "visualization_msgs/msg/InteractiveMarkerUpdate"
@@ -15,7 +15,7 @@ MAX_MARKERS = 5000
 """Of one message; those beyond it are neither completed nor shown."""
 
 
-class Answer(NamedTuple):
+class MarkerAnswer(NamedTuple):
     """All markers of a server.
 
     Args:
@@ -24,10 +24,10 @@ class Answer(NamedTuple):
     """
 
     number: int
-    markers: Sequence[Completed | Refused]
+    markers: Sequence[Completed | RefusedMarker]
 
 
-class Update(NamedTuple):
+class MarkerUpdate(NamedTuple):
     """A change of a server's markers.
 
     Args:
@@ -40,29 +40,29 @@ class Update(NamedTuple):
 
     number: int
     is_keep_alive: bool
-    markers: Sequence[Completed | Refused]
+    markers: Sequence[Completed | RefusedMarker]
     poses: Sequence[Any]
     erased: Sequence[str]
 
 
-def read_answer(cdr: bytes) -> Answer:
+def read_answer(cdr: bytes) -> MarkerAnswer:
     """Read the response of the service.
 
     Raises:
         MessageError: it cannot be decoded; one sentence.
     """
     answer = decode(f"{SERVICE}_Response", cdr)
-    return Answer(int(answer.sequence_number), list(_completed(answer.markers)))
+    return MarkerAnswer(int(answer.sequence_number), list(_completed(answer.markers)))
 
 
-def read_update(cdr: bytes) -> Update:
+def read_update(cdr: bytes) -> MarkerUpdate:
     """Read a message of the topic.
 
     Raises:
         MessageError: it cannot be decoded; one sentence.
     """
     update = decode(UPDATE, cdr)
-    return Update(
+    return MarkerUpdate(
         int(update.seq_num),
         update.type == KEEP_ALIVE,
         list(_completed(update.markers)),
@@ -71,7 +71,7 @@ def read_update(cdr: bytes) -> Update:
     )
 
 
-def _completed(messages: Sequence[Any]) -> Iterator[Completed | Refused]:
+def _completed(messages: Sequence[Any]) -> Iterator[Completed | RefusedMarker]:
     # One more than the limit, so that the server finds that there are too many.
     for message in messages[: MAX_MARKERS + 1]:
         yield completed(message)

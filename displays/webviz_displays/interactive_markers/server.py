@@ -9,7 +9,12 @@ from typing import Any
 from webviz import Frames
 from webviz.api.handles import Handle
 from webviz_displays.interactive_markers.client import Client, News
-from webviz_displays.interactive_markers.completion import MAX_NAME, Completed, Refused, pose_of
+from webviz_displays.interactive_markers.completion import (
+    MAX_NAME,
+    Completed,
+    RefusedMarker,
+    pose_of,
+)
 from webviz_displays.interactive_markers.drawing import ShownMarker
 from webviz_displays.interactive_markers.feedback import FeedbackQueue
 from webviz_displays.interactive_markers.reading import MAX_MARKERS
@@ -97,10 +102,10 @@ class InteractiveMarkerServer:
                 self._handles = found
         return self._handles
 
-    def _add(self, made: Completed | Refused) -> None:
+    def _add(self, made: Completed | RefusedMarker) -> None:
         name = made.name
         self.ignored.pop(name, None)
-        if isinstance(made, Refused):
+        if isinstance(made, RefusedMarker):
             self._ignore(name, made.reason)
         elif (known := self.markers.get(name)) is not None:
             known.update(made)

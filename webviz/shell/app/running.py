@@ -187,7 +187,7 @@ class Running:
 
     @property
     def restored(self) -> str:
-        """How much of the last session is shown, in one sentence; "" if none was restored."""
+        """Return a sentence on how much of the last session is shown; "" if none was restored."""
         answer = self._loop.restored
         is_there = answer is not None and answer.done() and answer.exception() is None
         return answer.result() if answer is not None and is_there else ""

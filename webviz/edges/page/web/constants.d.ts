@@ -9,7 +9,7 @@ declare const constants: {
   POINTS_PER_PART: number;
   POINTS_HELD: number;
   FEWEST_POINTS: number;
-  MOST_POINTS: number;
+  MAX_POINTS: number;
   MAX_PANES: number;
   DARKEST: number;
   OPACITY_BIT: number;
