@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import Future
 from typing import Any
 
@@ -12,29 +12,16 @@ from webviz import Frames, Pose
 from webviz.api.wire import Heard
 from webviz.data.messages import decode, encode, interfaces
 from webviz.data.transforms import TransformBuffer
-from webviz_displays.interactive_markers.client import (
-    ANSWER_S,
-    MAX_WAITING,
-    SLOW_BYTES,
-    Client,
-    News,
-)
+from webviz_displays.interactive_markers.client import ANSWER_S, SERVICE, UPDATE, Client, News
 from webviz_displays.interactive_markers.completion import Completed, completed
 from webviz_displays.interactive_markers.feedback import (
     MOUSE_DOWN,
     POSE_UPDATE,
     FeedbackQueue,
 )
-from webviz_displays.interactive_markers.reading import MAX_MARKERS, SERVICE, UPDATE, read_update
-from webviz_displays.interactive_markers.server import MAX_IGNORED, InteractiveMarkerServer
 from webviz_displays.interactive_markers.tracked import Place, Tracked
 
 KEEP_ALIVE, CHANGE = 0, 1
-
-
-def at_once(key: object, fn: Callable[..., Any], *args: Any, stop: object = None) -> Any:
-    """Run slow work in the same thread."""
-    return fn(*args)
 
 
 class Server:
@@ -83,7 +70,7 @@ def server() -> Server:
 def client(server: Server) -> Client:
     """One that has asked."""
     client = Client("/arm")
-    client.step(server, at_once)
+    client.step(server)
     return client
 
 
@@ -102,9 +89,9 @@ def test_updates_that_the_answer_includes_are_not_applied_again(
 ) -> None:
     for number in (3, 4, 5, 6):
         server.update(number)
-    assert client.step(server, at_once) == []
+    assert client.step(server) == []
     server.answer(4, "a")
-    news = client.step(server, at_once)
+    news = client.step(server)
     assert all_of(news) == ["a"]
     assert erased(news) == ["at 5", "at 6"]
     assert (client.state, client.sequence, client.gaps) == ("running", 6, 0)
@@ -115,39 +102,39 @@ def test_signs_of_life_are_no_updates(server: Server, client: Client) -> None:
     server.update(4, KEEP_ALIVE)
     server.update(5)
     server.update(5, KEEP_ALIVE)
-    assert erased(client.step(server, at_once)) == ["at 5"]
+    assert erased(client.step(server)) == ["at 5"]
     assert (client.state, client.gaps) == ("running", 0)
     server.update(7)
-    assert erased(client.step(server, at_once)) == []
+    assert erased(client.step(server)) == []
     assert (client.state, client.gaps) == ("searching", 1)
 
 
 def test_a_server_that_was_started_again_is_asked_again(server: Server, client: Client) -> None:
     server.answer(4, "old")
-    client.step(server, at_once)
+    client.step(server)
     server.endpoints = frozenset({b"second"})
     server.clock_s += 1.0
-    assert client.step(server, at_once) == []
+    assert client.step(server) == []
     server.answer(0, "new")
-    assert all_of(client.step(server, at_once)) == ["new"]
+    assert all_of(client.step(server)) == ["new"]
     assert client.sequence == 0
     # One that ends while it is asked takes its markers along.
     server.update(9)
-    client.step(server, at_once)
+    client.step(server)
     server.endpoints = frozenset()
-    news = client.step(server, at_once)
+    news = client.step(server)
     assert all_of(news) == []
-    assert client.step(server, at_once) == []
+    assert client.step(server) == []
 
 
 def test_an_answer_that_cannot_be_read_is_asked_for_again(server: Server, client: Client) -> None:
     server.asked[-1].set_result(b"\0\1\0\0\7")
-    assert client.step(server, at_once) == []
+    assert client.step(server) == []
     assert client.problem
     server.clock_s += 1.0
-    client.step(server, at_once)
+    client.step(server)
     server.answer(1, "a")
-    assert all_of(client.step(server, at_once)) == ["a"]
+    assert all_of(client.step(server)) == ["a"]
 
 
 def tracked(stamp: int) -> Tracked:
@@ -208,65 +195,3 @@ def test_only_successive_poses_of_one_control_replace_each_other() -> None:
     queue.add(message(POSE_UPDATE, "b", "y", 7.0))
     found = [each["x"] for each in iter(queue.next, None)]
     assert found == [1.0, 2.0, 3.0, 4.0, 5.0, 7.0]
-
-
-def test_large_messages_are_read_in_a_worker_and_later_ones_wait(
-    server: Server, client: Client
-) -> None:
-    server.answer(1, "a")
-    client.step(server, at_once)
-    started: list[tuple[object, Callable[[], Any]]] = []
-    is_done = False
-
-    def later(key: object, fn: Callable[..., Any], *args: Any, stop: object = None) -> Any:
-        started.append((key, lambda: fn(*args)))
-        return fn(*args) if is_done else None
-
-    large = {"seq_num": 2, "type": CHANGE, "erases": ["x" * SLOW_BYTES]}
-    server.messages.append(encode(UPDATE, large))
-    server.update(3)
-    assert client.step(server, later) == client.step(server, later) == []
-    assert len({key for key, _ in started}) == 1
-    is_done = True
-    assert erased(client.step(server, later)) == ["x" * SLOW_BYTES, "at 3"]
-    assert (client.state, client.sequence, client.gaps) == ("running", 3, 0)
-
-
-def test_updates_that_no_worker_reads_in_time_make_the_client_ask_again(
-    server: Server, client: Client
-) -> None:
-    server.answer(1)
-    client.step(server, at_once)
-    server.messages.append(
-        encode(UPDATE, {"seq_num": 2, "type": CHANGE, "erases": ["x" * SLOW_BYTES]})
-    )
-    for number in range(3, MAX_WAITING + 3):
-        server.update(number)
-    asked = len(server.asked)
-    server.clock_s += 1.0
-    client.step(server, lambda *_, **__: None)
-    assert len(server.asked) == asked + 1
-    server.answer(MAX_WAITING + 2, "a")
-    assert all_of(client.step(server, at_once)) == ["a"]
-
-
-def news_of(**values: Any) -> News:
-    update = read_update(encode(UPDATE, {"type": CHANGE, **values}))
-    return News(update.markers, update.poses, update.erased)
-
-
-def test_markers_names_and_remarks_of_a_server_are_bounded() -> None:
-    known = InteractiveMarkerServer("/arm", "webviz")
-    many = [{"name": f"{number}"} for number in range(MAX_MARKERS + 20)]
-    update = read_update(encode(UPDATE, {"type": CHANGE, "markers": many}))
-    assert len(update.markers) == MAX_MARKERS + 1  # the others are not even completed
-    known.take([News(update.markers)])
-    assert (len(known.markers), known.has_too_many) == (MAX_MARKERS, True)
-    known.take([news_of(poses=[{"name": f"{number}"} for number in range(-MAX_IGNORED - 5, 0)])])
-    assert len(known.ignored) == MAX_IGNORED
-    known.take([News(is_all=True)])
-    assert (known.markers, known.ignored, known.has_too_many) == ({}, {}, False)
-    known.take([news_of(markers=[{"name": "n" * 100_000}], poses=[{"name": "p" * 100_000}])])
-    assert known.markers == {}
-    assert max(map(len, known.ignored)) <= 1001
-    assert "has 100000 characters; the limit is 1000" in next(iter(known.ignored.values()))

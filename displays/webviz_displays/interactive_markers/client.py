@@ -7,29 +7,20 @@ update on `<namespace>/update` has the next number. After a gap the client asks 
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Callable, Sequence
 from concurrent.futures import CancelledError, Future
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
 from webviz import Error, Level, Status
-from webviz.api.context import Background
 from webviz.api.wire import Heard, Wire
-from webviz.data.messages import MessageError
+from webviz.data.messages import MessageError, decode
 from webviz.data.words import joined
-from webviz_displays.interactive_markers.completion import Completed, RefusedMarker
-from webviz_displays.interactive_markers.reading import (
-    SERVICE,
-    UPDATE,
-    MarkerUpdate,
-    read_answer,
-    read_update,
-)
 
+SERVICE = "visualization_msgs/srv/GetInteractiveMarkers"
+UPDATE = "visualization_msgs/msg/InteractiveMarkerUpdate"
 DEPTH = 100
-SLOW_BYTES = 100_000
-"""Larger messages are read in a worker: they take more than 10 ms."""
+KEEP_ALIVE = 0
 ANSWER_S = 5.0
 """For the server to answer."""
 PAUSE_S = 0.5
@@ -45,13 +36,13 @@ class News:
     """Changes on a server.
 
     Args:
-        markers: new or changed ones.
+        markers: new or changed ones, visualization_msgs/InteractiveMarker.
         poses: new poses, visualization_msgs/InteractiveMarkerPose.
         erased: names of markers that are gone.
         is_all: whether these are all markers.
     """
 
-    markers: Sequence[Completed | RefusedMarker] = ()
+    markers: Sequence[Any] = ()
     poses: Sequence[Any] = ()
     erased: Sequence[str] = ()
     is_all: bool = False
@@ -76,17 +67,10 @@ class Client:
     _heard: Heard = field(default_factory=Heard)
     _answer: Future[bytes] | None = None
     _next_s: float = 0.0
-    _unread: deque[bytes] = field(default_factory=deque)
-    _number: int = 0
-    """Of the first unread update."""
-    _waiting: list[MarkerUpdate] = field(default_factory=list)
+    _waiting: list[Any] = field(default_factory=list)
 
-    def step(self, wire: Wire, background: Background) -> list[News]:
+    def step(self, wire: Wire) -> list[News]:
         """Take up what has happened since the last call; what changed, in order.
-
-        Args:
-            wire: to the server.
-            background: reads large messages; later ones wait for them.
 
         Raises:
             ValueError: the namespace is invalid; one sentence.
@@ -95,13 +79,10 @@ class Client:
         heard = self._heard = wire.listen(f"{self.namespace}/update", UPDATE, DEPTH)
         if heard.has_gap or heard.endpoints != before:  # the server may have been started again
             self._restart()
-        self._unread += heard.messages
-        if len(self._unread) > MAX_WAITING:
-            self._restart()
+        updates = self._decoded(heard.messages)
         if not heard.publishers:
             self._restart()
             return [News(is_all=True)] if before else []
-        updates = self._read(background)
         if self.state == "running":
             return self._follow(updates, wire)
         self._waiting += updates
@@ -110,7 +91,7 @@ class Client:
         if self.state == "searching" and heard.is_ready and wire.clock_s >= self._next_s:
             self._ask(wire.query)
             self._next_s = wire.clock_s + PAUSE_S
-        return self._take_answer(wire, background) if self.state == "asking" else []
+        return self._take_answer(wire) if self.state == "asking" else []
 
     def status(self, count: int) -> Status:
         """Return the status of the connection, given the number of markers."""
@@ -132,62 +113,50 @@ class Client:
 
     def _restart(self) -> None:
         self.state, self._answer, self._waiting = "searching", None, []
-        self._number += len(self._unread)
-        self._unread.clear()
 
     def _ask(self, query: Callable[[str, str, float], Future[bytes]]) -> None:
         self.state = "asking"
         self._answer = query(f"{self.namespace}/get_interactive_markers", SERVICE, ANSWER_S)
 
-    def _take_answer(self, wire: Wire, background: Background) -> list[News]:
+    def _take_answer(self, wire: Wire) -> list[News]:
         if self._answer is None or not self._answer.done():
             return []
         try:
-            cdr = self._answer.result()
-            if len(cdr) < SLOW_BYTES:
-                answer = read_answer(cdr)
-            elif (answer := background(("answer", id(self._answer)), read_answer, cdr)) is None:
-                return []
+            answer = decode(f"{SERVICE}_Response", self._answer.result())
         except (Error, MessageError, CancelledError) as error:
             self.state, self._answer, self.problem = "searching", None, str(error)
             self._next_s = wire.clock_s + PAUSE_S
             return []
         self.state, self.problem = "running", ""
-        self.sequence = answer.number
+        self.sequence = int(answer.sequence_number)
         waiting, self._waiting, self._answer = self._waiting, [], None
-        late = [update for update in waiting if update.number > self.sequence]
+        late = [update for update in waiting if int(update.seq_num) > self.sequence]
         return [News(answer.markers, is_all=True), *self._follow(late, wire)]
 
-    def _follow(self, updates: Sequence[MarkerUpdate], wire: Wire) -> list[News]:
+    def _follow(self, updates: Sequence[Any], wire: Wire) -> list[News]:
         news = []
         for update in updates:
-            if update.number != self.sequence + 1:
+            if int(update.seq_num) != self.sequence + 1:
                 self.gaps += 1
                 self.problem = (
-                    f"Update {update.number} came instead of {self.sequence + 1}. Asking again."
+                    f"Update {update.seq_num} came instead of {self.sequence + 1}. Asking again."
                 )
                 self._restart()
                 wire.wake()
                 break
             self.sequence += 1
-            news.append(News(update.markers, update.poses, update.erased))
+            news.append(News(update.markers, update.poses, update.erases))
         return news
 
-    def _read(self, background: Background) -> list[MarkerUpdate]:
-        """Return the next updates in order; one that cannot be read makes a gap."""
+    def _decoded(self, messages: Sequence[bytes]) -> list[Any]:
+        """The updates among messages; one that cannot be read makes a gap."""
         updates = []
-        while self._unread:
-            cdr = self._unread[0]
+        for cdr in messages:
             try:
-                if len(cdr) < SLOW_BYTES:
-                    update = read_update(cdr)
-                elif (update := background(("update", self._number), read_update, cdr)) is None:
-                    break
+                update = decode(UPDATE, cdr)
             except MessageError as error:
                 self.problem = joined(f"An update cannot be read: {error}", "Correct the server.")
-            else:
-                if not update.is_keep_alive:
-                    updates.append(update)
-            self._unread.popleft()
-            self._number += 1
+                continue
+            if update.type != KEEP_ALIVE:
+                updates.append(update)
         return updates

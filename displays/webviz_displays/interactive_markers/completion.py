@@ -16,10 +16,9 @@ from webviz.api.handles import Control, Facing, MenuEntry, Mode
 from webviz.data.messages.markers import Marker, MarkerSequence
 from webviz.data.rotations import normalized
 from webviz.data.transforms.geometry import REACH_M
-from webviz.data.words import counted, joined
+from webviz.data.words import joined
 from webviz_displays.interactive_markers.handles import handles_of
 from webviz_displays.interactive_markers.menus import menu_of
-from webviz_displays.markers.faults import is_valid
 
 MODES: tuple[Mode, ...] = get_args(Mode)
 FACINGS: tuple[Facing, ...] = get_args(Facing)
@@ -27,11 +26,6 @@ FACINGS: tuple[Facing, ...] = get_args(Facing)
 MAX_CONTROLS = 200
 MAX_SHAPES = 2000
 """Markers of a control."""
-
-MAX_NAME = 1000
-"""Characters of a name; it is a key of statuses and comes back with feedback."""
-MAX_TITLE = 1000
-"""Characters shown of a description."""
 
 FAR = "Its pose or scale is not finite, or too large. Correct the server."
 
@@ -79,33 +73,13 @@ class Completed:
     problems: tuple[str, ...]
 
 
-@dataclass(frozen=True)
-class RefusedMarker:
-    """An interactive marker that cannot be shown.
-
-    Args:
-        name: its beginning if it is too long.
-        reason: a sentence.
-    """
-
-    name: str
-    reason: str
-
-
-def completed(message: Any) -> Completed | RefusedMarker:
-    """Complete a visualization_msgs/InteractiveMarker, or say why it cannot be shown."""
-    name = str(message.name)
-    if len(name) > MAX_NAME:
-        long = f"Its name has {len(name)} characters; the limit is {MAX_NAME}. Correct the server."
-        return RefusedMarker(name[:MAX_NAME], long)
+def completed(message: Any) -> Completed | str:
+    """A visualization_msgs/InteractiveMarker, or why it cannot be shown: a sentence."""
     pose, scale = pose_of(message.pose), float(message.scale)
     if pose is None or not abs(scale) <= REACH_M:
-        return RefusedMarker(name, FAR)
+        return FAR
     scale = scale or 1.0
-    description = str(message.description)
     menu, problems = menu_of(message.menu_entries)
-    if len(description) > MAX_TITLE:
-        problems.append(f"Only {MAX_TITLE} of {len(description)} letters of its title are shown.")
     if len(message.controls) > MAX_CONTROLS:
         problems.append(f"Only {MAX_CONTROLS} of {len(message.controls)} controls are shown.")
     controls = message.controls[:MAX_CONTROLS]
@@ -113,22 +87,15 @@ def completed(message: Any) -> Completed | RefusedMarker:
     parts = []
     for name, control in zip(names, controls, strict=True):
         try:
-            part = _part(name, control, scale)
+            parts.append(_part(name, control, scale))
         except _Invalid as error:
             problems.append(joined(f"Control '{name}' {error}", "Correct the server."))
-            continue
-        parts.append(part)
-        if count := int(np.count_nonzero(~is_valid(part.shapes))):
-            problems.append(
-                f"Control '{name}' has {counted(count, 'marker')} that cannot be drawn: "
-                "not finite, or too large. Correct the server."
-            )
     return Completed(
-        name=name,
+        name=str(message.name),
         frame=str(message.header.frame_id).removeprefix("/"),
         stamp_ns=message.header.stamp_ns,
         pose=pose,
-        description=description[:MAX_TITLE],
+        description=str(message.description),
         scale=scale,
         parts=tuple(parts),
         menu=menu,

@@ -11,6 +11,7 @@ from webviz import Context, Details, Display, Hit, Prop, Sample, Status
 from webviz.api.handles import Grip, Handle
 from webviz.api.ports import Namespace
 from webviz.api.wire import Wire
+from webviz_displays.interactive_markers.client import UPDATE
 from webviz_displays.interactive_markers.drawing import MarkerLook
 from webviz_displays.interactive_markers.feedback import (
     BUTTON_CLICK,
@@ -25,7 +26,6 @@ from webviz_displays.interactive_markers.feedback import (
 )
 from webviz_displays.interactive_markers.inspecting import details, part_of
 from webviz_displays.interactive_markers.menus import can_choose
-from webviz_displays.interactive_markers.reading import UPDATE
 from webviz_displays.interactive_markers.server import InteractiveMarkerServer
 from webviz_displays.interactive_markers.statuses import report
 
@@ -94,7 +94,7 @@ class InteractiveMarkers(Display):
             state.server = InteractiveMarkerServer(namespace, f"{wire.node}_{state.token}")
         server, topic = state.server, f"{namespace}/feedback"
         try:
-            news = server.client.step(wire, ctx.background)
+            news = server.client.step(wire)
             state.refusal = wire.advertise(topic, FEEDBACK, DEPTH)
         except ValueError as error:
             state.server, state.problem = None, f"{error}. Correct the namespace."

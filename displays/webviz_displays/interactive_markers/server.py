@@ -9,21 +9,14 @@ from typing import Any
 from webviz import Frames
 from webviz.api.handles import Handle
 from webviz_displays.interactive_markers.client import Client, News
-from webviz_displays.interactive_markers.completion import (
-    MAX_NAME,
-    Completed,
-    RefusedMarker,
-    pose_of,
-)
+from webviz_displays.interactive_markers.completion import completed, pose_of
 from webviz_displays.interactive_markers.drawing import ShownMarker
 from webviz_displays.interactive_markers.feedback import FeedbackQueue
-from webviz_displays.interactive_markers.reading import MAX_MARKERS
 from webviz_displays.interactive_markers.tracked import Place, Tracked
 from webviz_displays.markers.assets import Assets
 from webviz_urdf import LoadRequest
 
-MAX_IGNORED = 1000
-"""Names of ignored messages that are kept."""
+MAX_MARKERS = 5000
 
 
 class InteractiveMarkerServer:
@@ -48,8 +41,7 @@ class InteractiveMarkerServer:
         """Changes with everything that is drawn."""
         self.ignored: dict[str, str] = {}
         """Why messages were ignored, by the name of the marker; sentences."""
-        self.has_too_many = False
-        """True if markers beyond `MAX_MARKERS` were not taken."""
+        self.too_many = 0
         self.is_waiting = False
         """True if something is not drawn because of a missing transform."""
         self._by_key: dict[str, Tracked] = {}
@@ -71,12 +63,12 @@ class InteractiveMarkerServer:
         """Apply changes in order; within one, markers, then poses, then erased ones."""
         for each in news:
             if each.is_all:
-                names = {marker.name for marker in each.markers}
+                names = {str(message.name) for message in each.markers}
                 self._erase([name for name in self.markers if name not in names])
                 self.ignored.clear()
-                self.has_too_many = False
-            for marker in each.markers:
-                self._add(marker)
+                self.too_many = 0
+            for message in each.markers:
+                self._add(message)
             for message in each.poses:
                 self._move(message)
             self._erase(each.erased)
@@ -102,39 +94,37 @@ class InteractiveMarkerServer:
                 self._handles = found
         return self._handles
 
-    def _add(self, made: Completed | RefusedMarker) -> None:
-        name = made.name
+    def _add(self, message: Any) -> None:
+        name = str(message.name)
+        if name not in self.markers and len(self.markers) >= MAX_MARKERS:
+            self.too_many += 1
+            return
+        made = completed(message)
         self.ignored.pop(name, None)
-        if isinstance(made, RefusedMarker):
-            self._ignore(name, made.reason)
+        if isinstance(made, str):
+            self.ignored[name] = made
         elif (known := self.markers.get(name)) is not None:
             known.update(made)
-        elif len(self.markers) >= MAX_MARKERS:
-            self.has_too_many = True
         else:
             self._made += 1
             marker = Tracked(f"m{self._made}", made)
             self.markers[name] = self._by_key[marker.key] = marker
             self.shown[name] = ShownMarker(self.assets)
 
-    def _ignore(self, name: str, reason: str) -> None:
-        if name in self.ignored or len(self.ignored) < MAX_IGNORED:
-            self.ignored[name] = reason
-
     def _move(self, message: Any) -> None:
-        name = str(message.name)[: MAX_NAME + 1]
+        name = str(message.name)
         pose, marker = pose_of(message.pose), self.markers.get(name)
         if marker is None:
-            self._ignore(name, "A pose came for this unknown marker. Correct the server.")
+            self.ignored[name] = "A pose came for this unknown marker. Correct the server."
         elif pose is None:
-            self._ignore(name, "Its new pose is not finite, or too large. Correct the server.")
+            self.ignored[name] = "Its new pose is not finite, or too large. Correct the server."
         else:
             self.ignored.pop(name, None)
             frame = str(message.header.frame_id).removeprefix("/")
             marker.put(Place(frame, message.header.stamp_ns, pose))
 
     def _erase(self, names: Sequence[str]) -> None:
-        for name in names:
+        for name in map(str, names):
             self.ignored.pop(name, None)
             if (marker := self.markers.pop(name, None)) is not None:
                 del self._by_key[marker.key], self.shown[name]

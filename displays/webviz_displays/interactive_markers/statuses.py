@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from webviz import Context
 from webviz.data.words import counted
-from webviz_displays.interactive_markers.reading import MAX_MARKERS
 from webviz_displays.interactive_markers.server import InteractiveMarkerServer
 
 MAX_ROWS = 20
 """Markers with a status of their own."""
-MAX_LABEL = 60
-"""Characters of a name in a status."""
 
 
 def report(server: InteractiveMarkerServer, refusal: str, ctx: Context) -> None:
@@ -19,13 +16,14 @@ def report(server: InteractiveMarkerServer, refusal: str, ctx: Context) -> None:
     ctx.statuses["Server"] = status
     if refusal:
         ctx.warn("Feedback", f"Markers cannot be moved from here. {refusal}")
-    if server.has_too_many:
-        ctx.warn("Markers", f"Only {MAX_MARKERS} markers are shown; the server has more.")
+    if server.too_many:
+        count = len(server.markers)
+        ctx.warn("Markers", f"{server.too_many} more markers are not shown; the limit is {count}.")
     if loading := server.assets.loading:
         ctx.warn("Loading", f"Loading {counted(loading, 'file')} of controls.")
     troubles = _troubles(server, ctx)
     for name, (is_error, text) in list(troubles.items())[:MAX_ROWS]:
-        (ctx.error if is_error else ctx.warn)(_label(name), text)
+        (ctx.error if is_error else ctx.warn)(name, text)
     if len(troubles) > MAX_ROWS:
         ctx.warn("Others", f"{len(troubles) - MAX_ROWS} more markers have problems.")
     for name in list(server.markers.keys() - troubles.keys())[: MAX_ROWS - len(troubles)]:
@@ -34,15 +32,9 @@ def report(server: InteractiveMarkerServer, refusal: str, ctx: Context) -> None:
         if place is None:
             continue
         if marker.is_locked:
-            ctx.ok(_label(name), f"Locked to frame {place.frame}.")
+            ctx.ok(name, f"Locked to frame {place.frame}.")
         else:
-            ctx.ok(_label(name), "Position is fixed.")
-
-
-def _label(name: str) -> str:
-    if len(name) > MAX_LABEL:
-        return f"{name[: MAX_LABEL - 1]}…"
-    return name or "(no name)"
+            ctx.ok(name, "Position is fixed.")
 
 
 def _troubles(server: InteractiveMarkerServer, ctx: Context) -> dict[str, tuple[bool, str]]:
