@@ -35,7 +35,7 @@ export function install(places) {
     icon("menu"),
   );
   const type = button("orbit", "", "View", () => openMenuBelow(type, viewMenu()));
-  const views = button("bookmark", "Saved views", "Saved views", () => openMenuBelow(views, savedMenu()));
+  const views = button("eye", "Views", "Saved views", () => openMenuBelow(views, savedMenu()));
   const fixed = frameField("Fixed frame", "axes", () => shown.frame, fixedOptions, setFixed);
   needs("SetFixedFrame", fixed.element);
   const target = frameField("Follow", "follow", () => shown.target, targetOptions, setTarget);
@@ -51,21 +51,45 @@ export function install(places) {
       "aria-label": "Tools and view",
       onkeydown: walk,
     },
-    el("div", { class: "wv-bar-part" }, open, tools.icons, tools.buttons),
+    open,
+    tools.icons,
+    tools.buttons,
     line,
-    el("div", { class: "wv-bar-part wv-bar-view" }, type, views, fixed.element, target.element, image, full, more),
+    type,
+    views,
+    fixed.element,
+    target.element,
+    image,
+    full,
+    more,
   );
-  // The frames stay, whatever stands beside the scene.
   const bar = fit(element, more, [
-    "wv-compact",
+    {
+      element: target.element,
+      items: () => [
+        {
+          label: "Follow…",
+          icon: "follow",
+          run: () => choose("Follow", () => shown.target, targetOptions, setTarget),
+        },
+      ],
+    },
+    {
+      element: fixed.element,
+      items: () => [
+        {
+          label: "Fixed frame…",
+          icon: "axes",
+          needs: "SetFixedFrame",
+          run: () => choose("Fixed frame", () => shown.frame, fixedOptions, setFixed),
+        },
+      ],
+    },
     { element: full, items: () => [item(actions.fullscreen)] },
     { element: image, items: () => [item(actions.image)] },
-    "wv-tight",
-    "wv-wrapped",
-    { element: tools.icons, items: () => tools.items(tools.icons) },
     { element: views, items: () => savedMenu() },
+    { element: tools.icons, items: () => tools.iconItems() },
     { element: type, items: () => viewMenu() },
-    { element: tools.buttons, items: () => tools.items(tools.buttons) },
   ]);
   places.toolbar.append(element, tools.cards, tools.hint);
   bar.watch(places.toolbar);
@@ -73,10 +97,6 @@ export function install(places) {
   new ResizeObserver(() => {
     places.toolbar.style.setProperty("--wv-status", `${places.status.offsetWidth}px`);
   }).observe(places.status);
-  // On a phone it stands below.
-  new ResizeObserver(() => {
-    places.status.style.setProperty("--wv-bar", `${element.offsetHeight}px`);
-  }).observe(element);
 
   const update = () => {
     setText(type.querySelector(".wv-bar-name"), shown.type);
@@ -156,6 +176,15 @@ function frameField(label, iconName, value, options, change) {
     element: el("div", { class: "wv-bar-field", "data-tip": label }, icon(iconName), field.element),
     update: () => field.update({ value: value(), options: options() }),
   };
+}
+
+function choose(title, value, options, change) {
+  const field = combobox({ label: title, value: value(), options: options(), change });
+  openDialog({
+    title,
+    content: field.element,
+    buttons: [{ label: "Done", primary: true, value: null }],
+  });
 }
 
 const viewMenu = () => [

@@ -18,7 +18,7 @@ import { canvas } from "../viser_page.js";
 import { command, provide } from "./commands.js";
 import { keyText } from "./keys.js";
 
-/** The buttons of the tools, which may go into a menu; those of the camera are icons. */
+/** The buttons of the tools; those that are icons may go into a menu. */
 export const buttons = el("div", { class: "wv-tools", role: "group", "aria-label": "Tools" });
 export const icons = el("div", { class: "wv-tools", role: "group", "aria-label": "Camera" });
 /** What goes on below the toolbar: waypoints that are collected, goals of robots. */
@@ -74,11 +74,11 @@ function update() {
   if (count() !== before) for (const listener of listeners) listener();
 }
 
-/** The tools of `icons` or `buttons`, as items of a menu. */
-export const items = (group) =>
+/** The tools that are icons, as items of a menu. */
+export const iconItems = () =>
   registry
     .all()
-    .filter(({ isLean }) => Boolean(isLean) === (group === icons))
+    .filter(({ isLean }) => isLean)
     .map((tool) => ({
       label: tool.name,
       icon: tool.icon,
