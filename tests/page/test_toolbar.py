@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import playwright.sync_api as playwright
@@ -9,10 +10,19 @@ import pytest
 
 from tests.page.conftest import Tab
 from webviz.api.views import FPS, Orbit
-from webviz.commands import ChangeView, ResetView, SaveView, SetFixedFrame, ShowView, StartWithView
+from webviz.commands import (
+    ChangeView,
+    FocusFrame,
+    ResetView,
+    SaveView,
+    SetFixedFrame,
+    ShowView,
+    StartWithView,
+)
 from webviz.engine.commands import Command
-from webviz.engine.state import ToolButton
+from webviz.engine.state import Row, ToolButton
 from webviz.files.config import Settings
+from webviz_displays.image import Image
 
 GOAL = ToolButton("goal", "2D Goal Pose", "Send the robot to a pose.", "g", "pose")
 POINT = ToolButton("point", "Point <b>", "Publish a point.", "", "point")
@@ -67,14 +77,40 @@ def test_menus_change_the_view(wide: Tab, button: str, item: str, command: Comma
 
 
 @pytest.mark.parametrize(
-    ("field", "command"),
-    [("Fixed frame", SetFixedFrame("odom")), ("Follow", ChangeView("target_frame", "odom"))],
+    ("field", "commands"),
+    [
+        ("Fixed frame", [SetFixedFrame("odom")]),
+        ("Follow", [ChangeView("target_frame", "odom"), FocusFrame("odom")]),
+    ],
 )
-def test_frames_are_chosen_by_name(wide: Tab, field: str, command: Command) -> None:
+def test_frames_are_chosen_by_name_and_the_followed_one_is_centered(
+    wide: Tab, field: str, commands: list[Command]
+) -> None:
     box = toolbar(wide).get_by_role("combobox", name=field)
     box.fill("odom")
     box.press("Enter")
-    wide.wait_for_command(command)
+    wide.wait_for(lambda: wide.loop.commands == commands)
+
+
+@pytest.mark.parametrize(("field", "before"), [("Fixed frame", "map"), ("Follow", "base_link")])
+def test_a_frame_that_the_viewer_refuses_does_not_stay_in_the_field(
+    wide: Tab, field: str, before: str
+) -> None:
+    box = toolbar(wide).get_by_role("combobox", name=field)
+    wide.loop.answer = ValueError("Frame names have no spaces.")
+    box.fill("no frame")
+    box.press("Enter")
+    wide.wait_for(lambda: "Frame names have no spaces." in wide.text())
+    playwright.expect(box).to_have_value(before)
+    playwright.expect(box).not_to_have_attribute("aria-invalid", "true")
+
+
+@pytest.mark.parametrize("field", ["Follow", "Fixed frame"])
+def test_the_list_of_commands_leads_to_the_fields_of_frames(wide: Tab, field: str) -> None:
+    wide.page.keyboard.press("Control+k")
+    wide.page.get_by_role("dialog").get_by_role("combobox").fill(field)
+    wide.page.keyboard.press("Enter")
+    playwright.expect(toolbar(wide).get_by_role("combobox", name=field)).to_be_focused()
 
 
 def test_a_view_is_saved_under_a_free_name_or_another(wide: Tab) -> None:
@@ -106,24 +142,59 @@ def test_arrow_keys_walk_along_the_bar_and_tooltips_tell_keys(wide: Tab) -> None
     playwright.expect(toolbar(wide).get_by_role("button", name="Point <b>")).to_be_focused()
     wide.page.keyboard.press("ArrowLeft")
     tip = wide.page.get_by_role("tooltip")
-    playwright.expect(tip).to_contain_text(": Send the robot to a pose.G")
+    playwright.expect(tip).to_have_text("2D Goal Pose: Send the robot to a pose.G")
     wide.page.keyboard.press("Escape")
     playwright.expect(tip).to_be_hidden()
 
 
-def test_what_does_not_fit_is_in_a_menu(wide: Tab) -> None:
-    playwright.expect(toolbar(wide).get_by_role("button", name="More")).to_be_hidden()
-    wide.page.set_viewport_size({"width": 760, "height": 700})
-    toolbar(wide).get_by_role("button", name="More").click()
-    items = wide.page.get_by_role("menu")
-    playwright.expect(items).to_contain_text("Fixed frame…")
-    playwright.expect(items).to_contain_text("Follow…")
-    items.get_by_text("Fixed frame…").click()
-    box = wide.page.get_by_role("dialog").get_by_role("combobox")
-    box.fill("odom")
-    box.press("Enter")
-    wide.wait_for_command(SetFixedFrame("odom"))
-    bar, scene = toolbar(wide).bounding_box(), wide.page.viewport_size
-    assert bar is not None
-    assert scene is not None
-    assert bar["x"] + bar["width"] <= scene["width"]
+@pytest.mark.parametrize(("width", "image"), [(620, 0), (700, 0), (1000, 0), (700, 1), (900, 1)])
+def test_what_does_not_fit_is_in_a_menu_but_frames_and_tools_stay(
+    wide: Tab, width: int, image: int
+) -> None:
+    bar = toolbar(wide)
+    playwright.expect(bar.get_by_role("button", name="More")).to_be_hidden()
+    wide.loop.show(*[Row("c", "Image", Image(name="c"), "c", {})] * image)
+    playwright.expect(wide.page.get_by_role("region", name="Image c")).to_have_count(image)
+    wide.page.set_viewport_size({"width": width, "height": 700})
+    bar.get_by_role("button", name="More").click()
+    wide.page.get_by_role("menuitem", name="Full screen").wait_for()
+    wide.page.keyboard.press("Escape")
+    assert overflow(bar) == []
+    for name in ("Fixed frame", "Follow"):
+        box = bar.get_by_role("combobox", name=name)
+        playwright.expect(box).to_be_in_viewport(ratio=1)
+    for tool in (GOAL, POINT):
+        playwright.expect(bar.get_by_role("button", name=tool.name)).to_be_in_viewport(ratio=1)
+
+
+@pytest.mark.parametrize("width", [360, 390, 430])
+def test_on_a_phone_everything_is_inside_the_bar(
+    wide: Tab, open_tab: Callable[..., Tab], width: int
+) -> None:
+    phone = open_tab(width, 780, has_touch=True, is_mobile=True)
+    bar = toolbar(phone)
+    more = bar.get_by_role("button", name="More")
+    phone.wait_for(lambda: bar.get_by_role("button", name="2D Goal Pose").is_visible())
+    phone.wait_for(more.is_visible)
+    assert overflow(bar) == []
+    playwright.expect(bar.get_by_role("combobox", name="Follow")).to_be_in_viewport(ratio=1)
+    rates = phone.page.locator(".wv-top-right").bounding_box()
+    box = bar.bounding_box()
+    assert box is not None
+    assert rates is not None
+    assert box["x"] + box["width"] <= width
+    assert rates["y"] >= box["y"] + box["height"]
+
+
+def overflow(bar: playwright.Locator) -> list[str]:
+    """Return the parts of the toolbar outside of its box."""
+    return bar.evaluate(
+        """(bar) => {
+          const box = bar.getBoundingClientRect();
+          return [...bar.querySelectorAll("button, input")]
+            .filter((one) => one.checkVisibility())
+            .map((one) => [one.ariaLabel, one.getBoundingClientRect()])
+            .filter(([, r]) => r.left < box.left || r.right > box.right || r.bottom > box.bottom)
+            .map(([name]) => name);
+        }"""
+    )

@@ -6,6 +6,7 @@ const PATHS = {
   "arrow-back": "M9 14 4 9l5-5M4 9h10a6 6 0 0 1 0 12h-3",
   "arrow-forward": "m15 14 5-5-5-5M20 9H10a6 6 0 0 0 0 12h3",
   axes: "M12 13V3M12 13l8 5M12 13l-8 5",
+  bookmark: "M6 3h12v18l-6-5-6 5z",
   camera: "M4 8h4l2-3h4l2 3h4v11H4zM12 16.5a3 3 0 1 0 0-6 3 3 0 0 0 0 6",
   check: "m5 12 5 5L19 7",
   chevron: "m9 6 6 6-6 6",

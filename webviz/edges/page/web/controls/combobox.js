@@ -12,7 +12,7 @@ import { sync } from "./sync.js";
  * place of the value, `level` colours the note. `change` may return the promise of `act`: what it
  * refuses stays in the field for correction, `refused(text)` receives the reason. Unless `free`, only options
  * are taken. `opened()` is called when the list opens, and what it returns when it closes. Returns
- * `{element, input, update({value, options})}`.
+ * `{element, input, restore(), update({value, options})}`.
  *
  * @param {{
  *   label: string, value: any, options: any[], change: (value: any) => unknown,
@@ -139,6 +139,8 @@ export function combobox({
   return {
     element,
     input,
+    /** Shows what the viewer has instead of what it refused. */
+    restore: back,
     update(next) {
       if (next.options) {
         options = next.options;

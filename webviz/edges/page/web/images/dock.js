@@ -8,6 +8,8 @@ import { makePane } from "./pane.js";
 
 const STANDARD = 360;
 const MIN_SIZE = 120;
+// Of what the panels leave: by itself, and by hand.
+const FAIR_SHARE = 0.5;
 const MAX_SHARE = 0.75;
 const STEP = 16;
 const FOLDED = 34;
@@ -24,13 +26,14 @@ export function install(page) {
     onpointerup: keep,
     onkeydown: step,
     ondblclick: () => {
-      resize(STANDARD);
+      resize(null);
       keep();
     },
   });
   const dock = el("aside", { class: "wv-dock", "aria-label": "Images", hidden: true }, list, border);
   page.append(dock);
-  let size = recall("dock", STANDARD);
+  const side = page.querySelector(".wv-side");
+  let size = recall("dock", null);
 
   watch("panes", (rows) => {
     for (const [id, pane] of panes) {
@@ -49,16 +52,21 @@ export function install(page) {
   narrow.addEventListener("change", layOut);
   window.addEventListener("resize", layOut);
   new ResizeObserver(frames.refresh).observe(list);
+  new ResizeObserver(layOut).observe(side);
+
+  // What the panels leave; on a phone they lie over it.
+  const room = () => (narrow.matches ? innerHeight : innerWidth - side.offsetWidth);
+  const wanted = () =>
+    Math.max(MIN_SIZE, Math.min(size ?? STANDARD, (size === null ? FAIR_SHARE : MAX_SHARE) * room()));
 
   function layOut() {
     const open = [...panes.values()].some((pane) => !pane.isFolded());
     dock.hidden = !panes.size;
-    const most = MAX_SHARE * (narrow.matches ? innerHeight : innerWidth);
-    const wanted = Math.max(MIN_SIZE, Math.min(size, most));
-    const low = open ? wanted : Math.min(wanted, FOLDED * panes.size);
+    const full = Math.round(wanted());
+    const low = open ? full : Math.min(full, FOLDED * panes.size);
     const style = document.documentElement.style;
     const isShown = panes.size > 0;
-    style.setProperty("--wv-dock-width", `${isShown && !narrow.matches ? wanted : 0}px`);
+    style.setProperty("--wv-dock-width", `${isShown && !narrow.matches ? full : 0}px`);
     style.setProperty("--wv-dock-height", `${isShown && narrow.matches ? low : 0}px`);
     border.setAttribute("aria-orientation", narrow.matches ? "horizontal" : "vertical");
     frames.refresh();
@@ -76,12 +84,12 @@ export function install(page) {
     if (!change) return;
     event.preventDefault();
     event.stopPropagation(); // viser's camera turns by them
-    resize(size + change);
+    resize(wanted() + change);
     keep();
   }
 
   function resize(pixels) {
-    size = Math.max(MIN_SIZE, Math.round(pixels));
+    size = pixels === null ? null : Math.max(MIN_SIZE, Math.round(pixels));
     layOut();
   }
 

@@ -6,6 +6,7 @@ import { el } from "../dom.js";
 import { watch } from "../stores.js";
 import { all, keysOf, run } from "./commands.js";
 import { openDialog } from "./dialog.js";
+import { FIXED, follow } from "./follow.js";
 import { optionList, search } from "./option_list.js";
 
 const MAX_SHOWN = 60;
@@ -85,14 +86,6 @@ const lockOf = ({ needs }) => {
   return { disabled: refusal !== "", refusal };
 };
 
-const setTarget = (value) => act("ChangeView", { key: "target_frame", value });
-
-// And puts it into the middle, since it may be far away.
-async function follow(frame) {
-  const { level } = await setTarget(frame);
-  if (level === "ok") act("FocusFrame", { frame });
-}
-
 function commands(values) {
   const { settings, frames } = values;
   const more = [...makers].flatMap(({ stores, make }) =>
@@ -124,6 +117,6 @@ function commands(values) {
       group: "Follow",
       run: () => follow(frame),
     })),
-    { name: "Follow nothing", icon: "follow", group: "Follow", run: () => setTarget("<Fixed Frame>") },
+    { name: "Follow nothing", icon: "follow", group: "Follow", run: () => follow(FIXED) },
   ];
 }

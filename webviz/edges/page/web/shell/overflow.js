@@ -1,24 +1,28 @@
-// A bar that is as long as there is space: what does not fit goes into a menu.
+// A bar that is as long as there is space: what does not fit is made smaller or goes into a menu.
 
 /**
- * Lets a bar fit. `parts`, `{element, items()}`, go one after the other, the first one first, when
- * there is not enough space; before that, names beside icons go. `more` is the button that is shown
- * then. Returns `{layout, watch(around), hiddenItems}`.
+ * Lets a bar fit. `steps` are taken one after the other while there is not enough space: the name of
+ * a class of the bar, or `{element, items()}`, whose element goes into the menu. `more` is the button
+ * that is shown then. Returns `{layout, watch(around), hiddenItems}`.
  */
-export function fit(bar, more, parts) {
+export function fit(bar, more, steps) {
+  const parts = steps.filter(({ element }) => element);
+  const classes = steps.filter((step) => typeof step === "string");
   let around = null;
   const isFull = () => bar.scrollWidth > bar.clientWidth;
 
   function layout() {
     if (!around?.clientWidth) return;
-    bar.classList.remove("wv-compact");
+    bar.classList.remove(...classes);
     more.hidden = true;
     for (const part of parts) part.element.hidden = false;
-    if (isFull()) bar.classList.add("wv-compact");
-    for (const part of parts) {
+    for (const step of steps) {
       if (!isFull()) break;
-      more.hidden = false;
-      part.element.hidden = true;
+      if (typeof step === "string") bar.classList.add(step);
+      else {
+        step.element.hidden = true;
+        more.hidden = false;
+      }
     }
   }
 

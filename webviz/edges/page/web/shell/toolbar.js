@@ -10,13 +10,13 @@ import { watch } from "../stores.js";
 import { actions, item } from "./actions.js";
 import { command } from "./commands.js";
 import { ask, openDialog } from "./dialog.js";
+import { FIXED, follow } from "./follow.js";
 import { fold } from "./layout.js";
 import { openMenuBelow } from "./menu.js";
 import { fit } from "./overflow.js";
 import * as tools from "./tools.js";
 
 const VIEW_TYPES = ["Orbit", "XYOrbit", "ThirdPersonFollower", "FPS", "TopDownOrtho"];
-const FIXED = "<Fixed Frame>";
 
 const shown = { type: "", target: FIXED, frame: "", frames: [], views: [] };
 
@@ -35,10 +35,10 @@ export function install(places) {
     icon("menu"),
   );
   const type = button("orbit", "", "View", () => openMenuBelow(type, viewMenu()));
-  const views = button("eye", "Views", "Saved views", () => openMenuBelow(views, savedMenu()));
+  const views = button("bookmark", "Saved views", "Saved views", () => openMenuBelow(views, savedMenu()));
   const fixed = frameField("Fixed frame", "axes", () => shown.frame, fixedOptions, setFixed);
   needs("SetFixedFrame", fixed.element);
-  const target = frameField("Follow", "follow", () => shown.target, targetOptions, setTarget);
+  const target = frameField("Follow", "follow", () => shown.target, targetOptions, follow);
   const image = button("camera", null, actions.image.name, actions.image.run);
   const full = button("fullscreen", null, actions.fullscreen.name, actions.fullscreen.run);
   const more = button("dots", null, "More", () => openMenuBelow(more, bar.hiddenItems()));
@@ -51,45 +51,21 @@ export function install(places) {
       "aria-label": "Tools and view",
       onkeydown: walk,
     },
-    open,
-    tools.icons,
-    tools.buttons,
+    el("div", { class: "wv-bar-part" }, open, tools.icons, tools.buttons),
     line,
-    type,
-    views,
-    fixed.element,
-    target.element,
-    image,
-    full,
-    more,
+    el("div", { class: "wv-bar-part wv-bar-view" }, type, views, fixed.element, target.element, image, full, more),
   );
+  // The frames and the tools that act on the robot stay, however little room the scene has.
   const bar = fit(element, more, [
-    {
-      element: target.element,
-      items: () => [
-        {
-          label: "Follow…",
-          icon: "follow",
-          run: () => choose("Follow", () => shown.target, targetOptions, setTarget),
-        },
-      ],
-    },
-    {
-      element: fixed.element,
-      items: () => [
-        {
-          label: "Fixed frame…",
-          icon: "axes",
-          needs: "SetFixedFrame",
-          run: () => choose("Fixed frame", () => shown.frame, fixedOptions, setFixed),
-        },
-      ],
-    },
+    "wv-compact",
     { element: full, items: () => [item(actions.fullscreen)] },
     { element: image, items: () => [item(actions.image)] },
-    { element: views, items: () => savedMenu() },
+    "wv-tight",
+    "wv-wrapped",
     { element: tools.icons, items: () => tools.iconItems() },
+    { element: views, items: () => savedMenu() },
     { element: type, items: () => viewMenu() },
+    "wv-stacked",
   ]);
   places.toolbar.append(element, tools.cards, tools.hint);
   bar.watch(places.toolbar);
@@ -97,10 +73,14 @@ export function install(places) {
   new ResizeObserver(() => {
     places.toolbar.style.setProperty("--wv-status", `${places.status.offsetWidth}px`);
   }).observe(places.status);
+  // In a narrow scene it stands below.
+  new ResizeObserver(() => {
+    places.status.style.setProperty("--wv-bar", `${element.offsetHeight}px`);
+  }).observe(element);
 
   const update = () => {
     setText(type.querySelector(".wv-bar-name"), shown.type);
-    set(type, { "aria-label": `View: ${shown.type}` });
+    set(type, { "aria-label": `View: ${shown.type}`, "data-tip": `View type: ${shown.type}` });
     line.hidden = !tools.buttons.children.length;
     fixed.update();
     target.update();
@@ -124,6 +104,13 @@ export function install(places) {
     group: "View",
     run: () => act("ResetView"),
   });
+  command({
+    name: "Follow frame…", icon: "follow", group: "View", run: () => focusField(target.element),
+  });
+  command({
+    name: "Fixed frame…", icon: "axes", group: "View", needs: "SetFixedFrame",
+    run: () => focusField(fixed.element),
+  });
   command({ name: "Save view…", icon: "save", group: "View", needs: "SaveView", run: saveView });
   for (const name of VIEW_TYPES) {
     command({ name: `View: ${name}`, icon: "orbit", group: "View", run: () => setType(name) });
@@ -146,7 +133,6 @@ function watchView(update) {
 }
 
 const setType = (value) => act("ChangeView", { key: "type", value });
-const setTarget = (value) => act("ChangeView", { key: "target_frame", value: value || FIXED });
 const setFixed = (frame) => act("SetFixedFrame", { frame });
 const fixedOptions = () => shown.frames.map((value) => ({ value }));
 const targetOptions = () => [
@@ -171,21 +157,16 @@ function button(iconName, label, tip, run) {
 }
 
 function frameField(label, iconName, value, options, change) {
-  const field = combobox({ label, value: value(), options: options(), change });
+  const field = combobox({
+    label, value: value(), options: options(), change, refused: (text) => text && field.restore(),
+  });
   return {
     element: el("div", { class: "wv-bar-field", "data-tip": label }, icon(iconName), field.element),
     update: () => field.update({ value: value(), options: options() }),
   };
 }
 
-function choose(title, value, options, change) {
-  const field = combobox({ label: title, value: value(), options: options(), change });
-  openDialog({
-    title,
-    content: field.element,
-    buttons: [{ label: "Done", primary: true, value: null }],
-  });
-}
+const focusField = (field) => field.querySelector("input").focus();
 
 const viewMenu = () => [
   ...VIEW_TYPES.map((name) => ({
