@@ -8,17 +8,26 @@ from typing import Any
 
 import pytest
 
-from webviz import Frames, Pose
+from webviz import Frames, Level, Pose
 from webviz.api.wire import Heard
 from webviz.data.messages import decode, encode, interfaces
 from webviz.data.transforms import TransformBuffer
-from webviz_displays.interactive_markers.client import ANSWER_S, SERVICE, UPDATE, Client, News
+from webviz_displays.interactive_markers import server as known_server
+from webviz_displays.interactive_markers.client import ANSWER_S, MAX_WAITING, Client
 from webviz_displays.interactive_markers.completion import Completed, completed
 from webviz_displays.interactive_markers.feedback import (
     MOUSE_DOWN,
     POSE_UPDATE,
     FeedbackQueue,
 )
+from webviz_displays.interactive_markers.reading import (
+    MAX_MARKERS,
+    SERVICE,
+    UPDATE,
+    News,
+    read_update,
+)
+from webviz_displays.interactive_markers.server import MAX_IGNORED, InteractiveMarkerServer
 from webviz_displays.interactive_markers.tracked import Place, Tracked
 
 KEEP_ALIVE, CHANGE = 0, 1
@@ -81,7 +90,7 @@ def erased(news: Sequence[News]) -> list[str]:
 def all_of(news: Sequence[News]) -> list[str]:
     """The names of the markers that replace all others."""
     assert news[0].is_all
-    return [marker.name for marker in news[0].markers]
+    return list(news[0].markers)
 
 
 def test_updates_that_the_answer_includes_are_not_applied_again(
@@ -135,6 +144,88 @@ def test_an_answer_that_cannot_be_read_is_asked_for_again(server: Server, client
     client.step(server)
     server.answer(1, "a")
     assert all_of(client.step(server)) == ["a"]
+
+
+def test_updates_that_cannot_be_read_or_are_too_many_are_reported(
+    server: Server, client: Client
+) -> None:
+    server.answer(0, "a")
+    client.step(server)
+    server.messages.append(b"\0\1\0\0\7")
+    assert client.step(server) == []
+    assert client.status(1).level is Level.WARN
+    assert "An update cannot be read" in client.status(1).text
+    server.update(1)
+    assert erased(client.step(server)) == ["at 1"]
+    assert client.status(1).text == "Connected to /arm, 1 marker."
+
+    server.endpoints = frozenset({b"second"})
+    server.clock_s += 1.0
+    client.step(server)
+    for number in range(1, MAX_WAITING + 2):
+        server.update(number)
+    server.clock_s += 1.0
+    client.step(server)
+    assert len(server.asked) == 3
+    server.answer(MAX_WAITING + 1, "b")
+    server.update(MAX_WAITING + 2)
+    assert erased(client.step(server)) == [f"at {MAX_WAITING + 2}"]
+
+
+def test_sequences_that_jump_back_or_wrap_are_gaps(server: Server, client: Client) -> None:
+    last = 2**64 - 1
+    for before, after in ((7, 3), (last, 0), (7, 7), (0, last)):
+        server.answer(before, "a")
+        assert all_of(client.step(server)) == ["a"]
+        server.update(after)
+        server.update(after + 1 if after < last else 0)
+        assert erased(client.step(server)) == []
+        assert f"Update {after} came instead of {before + 1}." in client.status(1).text
+        server.clock_s += 1.0
+        client.step(server)
+    assert client.gaps == 4
+
+
+def news_of(**values: Any) -> News:
+    news = read_update(encode(UPDATE, {"type": CHANGE, **values})).news
+    assert news
+    return news
+
+
+def test_markers_names_and_remarks_of_a_server_are_bounded() -> None:
+    known = InteractiveMarkerServer("/arm", "webviz")
+    known.take([news_of(markers=[{"name": f"{n}"} for n in range(MAX_MARKERS + 20)])])
+    assert (len(known.markers), known.left_out) == (MAX_MARKERS, 20)
+    known.take([news_of(markers=[{"name": "0"}, {"name": "more"}])])
+    assert (len(known.markers), known.left_out) == (MAX_MARKERS, 21)
+    known.take([news_of(poses=[{"name": f"{n}"} for n in range(-MAX_IGNORED - 5, 0)])])
+    assert (len(known.ignored), known.left_out) == (MAX_IGNORED, 26)
+    known.take([news_of(erases=["-1005", "0", "0", "ghost"])])
+    assert (len(known.ignored), len(known.markers)) == (MAX_IGNORED - 1, MAX_MARKERS - 1)
+    known.take([News(is_all=True)])
+    assert (known.markers, known.ignored, known.left_out) == ({}, {}, 0)
+    known.take([news_of(markers=[{"name": "n" * 100_000}], poses=[{"name": "p" * 100_000}])])
+    assert known.markers == {}
+    assert max(map(len, known.ignored)) <= 1000
+    assert "has 100000 characters; the limit is 1000" in next(iter(known.ignored.values()))
+
+
+def test_the_contents_of_all_markers_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(known_server, "MAX_BYTES", 30_000)
+
+    def line(name: str, points: int) -> dict[str, Any]:
+        shape = {"type": 4, "points": [{}] * points}
+        return {"name": name, "controls": [{"markers": [shape]}]}
+
+    known = InteractiveMarkerServer("/arm", "webviz")
+    known.take([news_of(markers=[line("a", 1000), line("b", 1000)])])
+    assert known.markers.keys() == {"a"}
+    assert known.ignored.keys() == {"b"}
+    known.take([news_of(markers=[line("a", 100), line("b", 1000)])])
+    assert known.markers.keys() == {"a", "b"}
+    assert not known.ignored
+    known.take([news_of(erases=["b"]), news_of(markers=[line("c", 1000)])])
+    assert known.markers.keys() == {"a", "c"}
 
 
 def tracked(stamp: int) -> Tracked:

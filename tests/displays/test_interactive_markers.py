@@ -11,17 +11,19 @@ from webviz.data.messages import decode, encode
 from webviz_displays.interactive_markers.completion import (
     FAR,
     Completed,
+    RefusedMarker,
     completed,
     unique_names,
 )
 from webviz_displays.interactive_markers.menus import can_choose, menu_of
+from webviz_displays.interactive_markers.reading import UPDATE, read_update
 
 MARKER = "visualization_msgs/msg/InteractiveMarker"
 NAN = math.nan
 MENU, MOVE_AXIS, ROTATE_AXIS = 1, 3, 5
 
 
-def made(**values: Any) -> Completed | str:
+def made(**values: Any) -> Completed | RefusedMarker:
     """A marker as its message is completed."""
     return completed(decode(MARKER, encode(MARKER, values)))
 
@@ -77,18 +79,52 @@ def test_invalid_markers_and_controls_say_what_is_wrong() -> None:
         *({"pose": {"position": {"x": value}}} for value in (NAN, math.inf, -1e308)),
         *({"pose": {"orientation": {"x": value}}} for value in (NAN, math.inf, 1e308)),
     ):
-        assert made(**values) == FAR
+        assert made(**values) == RefusedMarker("", FAR)
     bad = [
         ({"interaction_mode": 10}, "unknown interaction mode, 10"),
         ({"orientation_mode": 3}, "unknown orientation mode, 3"),
         ({"orientation": {"x": NAN}}, "not finite"),
         ({"markers": [{}] * 2001}, "the limit is 2000"),
+        ({"markers": [{"points": [{}] * 50_001}] * 2}, "100002 points; the limit is 100000"),
+        ({"markers": [{"text": "x" * 10_001}]}, "a text of 10001 characters; the limit is 10000"),
+        ({"name": "n" * 1001}, f"Control '{'n' * 59}…' has a name of 1001 characters"),
     ]
+    for point in ({"x": NAN}, {"y": 1e308}):
+        result = made(controls=[{"markers": [{}, {"type": 5, "points": [point, {}]}]}])
+        assert isinstance(result, Completed)
+        assert "has 1 marker that cannot be drawn: not finite, or too large" in result.problems[0]
     for control, problem in bad:
         result = made(controls=[{}, control])
         assert isinstance(result, Completed)
         assert len(result.parts) == 1
         assert problem in result.problems[0]
+
+
+def test_names_titles_and_frames_are_kept_or_said_to_be_too_long() -> None:
+    result = made(name="a", description="t" * 1001, controls=[{"name": "b"}, {"name": "c"}])
+    assert isinstance(result, Completed)
+    assert (result.name, len(result.description)) == ("a", 1000)
+    assert [each.control.name for each in result.parts] == ["b", "c"]
+    assert result.problems == ("Only 1000 of the 1001 characters of its title are shown.",)
+    for values, what in (
+        ({"name": "n" * 1001}, "name"),
+        ({"header": {"frame_id": "f" * 1001}}, ""),
+    ):
+        refused = made(**values)
+        assert isinstance(refused, RefusedMarker)
+        assert f"{what or 'frame id'} has 1001 characters; the limit is 1000" in refused.reason
+
+
+def test_a_name_that_is_given_twice_is_said() -> None:
+    update = {"type": 1, "markers": [{"name": "a"}, {"name": "a", "scale": 3.0}, {"name": "b"}]}
+    news = read_update(encode(UPDATE, update)).news
+    assert news
+    a, b = news.markers.values()
+    assert isinstance(a, Completed)
+    assert isinstance(b, Completed)
+    assert a.scale == 3.0
+    assert a.problems == ("2 markers of a message have this name. Correct the server.",)
+    assert not b.problems
 
 
 def entries(*rows: tuple[int, int, str, int]) -> list[Any]:
@@ -118,5 +154,8 @@ def test_menus_are_nested_checked_and_free_of_shell_commands() -> None:
         "Menu entry 2 precedes its parent 3",
         "The menu has an invalid or repeated id, 3",
     ]
+    menu, problems = menu_of(entries((1, 2, "round", 0), (2, 1, "and round", 0), (5, 5, "", 0)))
+    assert (menu, len(problems)) == ((), 3)
+    assert menu_of(entries((1, 0, "x" * 10_000, 0)))[0][0].title == "x" * 199 + "…"
     menu, problems = menu_of(entries(*((n, n - 1, "", 0) for n in range(1, 2000))))
     assert "1000 of its 1999" in problems[0]

@@ -275,7 +275,7 @@ def test_a_finger_that_rests_opens_the_menu_and_one_that_moves_drags(
     touch("touchEnd")
     moved = wait_for(page, server, UP)[-1]
     assert moved.pose.position.y == pytest.approx(y + 0.5, abs=0.05)
-    assert page.tab.locator(".wv-menu").count() == 0
+    page.wait_for(lambda: page.tab.locator(".wv-menu").count() == 0, "no menu")
 
 
 def test_a_browser_that_leaves_during_a_drag_lets_go(
@@ -317,7 +317,7 @@ def test_buttons_and_menus_report_clicks_and_no_shell_command_is_offered(
     chosen = wait_for(page, server, MENU)[-1]
     assert (chosen.menu_entry_id, chosen.control_name) == (4, "menu_only_control")
     assert chosen.mouse_point_valid
-    assert page.tab.locator(".wv-menu").count() == 0
+    page.wait_for(lambda: page.tab.locator(".wv-menu").count() == 0, "no menu")
 
 
 def test_one_browser_drags_and_others_see_who(

@@ -26,3 +26,8 @@ def joined(*texts: str) -> str:
     """
     stripped = (text.strip() for text in texts)
     return " ".join(text if text[-1] in ENDS else f"{text}." for text in stripped if text)
+
+
+def shortened(text: str, most: int) -> str:
+    """A text of at most `most` characters; "…" ends one that was longer."""
+    return text if len(text) <= most else f"{text[: most - 1]}…"

@@ -7,45 +7,35 @@ update on `<namespace>/update` has the next number. After a gap the client asks 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections import deque
+from collections.abc import Callable
 from concurrent.futures import CancelledError, Future
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Literal
 
 from webviz import Error, Level, Status
 from webviz.api.wire import Heard, Wire
-from webviz.data.messages import MessageError, decode
+from webviz.data.messages import MessageError
 from webviz.data.words import joined
+from webviz_displays.interactive_markers.reading import (
+    SERVICE,
+    UPDATE,
+    News,
+    Received,
+    read_answer,
+    read_update,
+)
 
-SERVICE = "visualization_msgs/srv/GetInteractiveMarkers"
-UPDATE = "visualization_msgs/msg/InteractiveMarkerUpdate"
 DEPTH = 100
-KEEP_ALIVE = 0
 ANSWER_S = 5.0
 """For the server to answer."""
 PAUSE_S = 0.5
 """Between two requests."""
 MAX_WAITING = 1000
-"""Updates that arrive while the server is asked."""
+"""Updates that wait, such as while the server is asked."""
+MAX_WAITING_BYTES = 64_000_000
 
 State = Literal["searching", "asking", "running"]
-
-
-@dataclass(frozen=True)
-class News:
-    """Changes on a server.
-
-    Args:
-        markers: new or changed ones, visualization_msgs/InteractiveMarker.
-        poses: new poses, visualization_msgs/InteractiveMarkerPose.
-        erased: names of markers that are gone.
-        is_all: whether these are all markers.
-    """
-
-    markers: Sequence[Any] = ()
-    poses: Sequence[Any] = ()
-    erased: Sequence[str] = ()
-    is_all: bool = False
 
 
 @dataclass
@@ -67,7 +57,10 @@ class Client:
     _heard: Heard = field(default_factory=Heard)
     _answer: Future[bytes] | None = None
     _next_s: float = 0.0
-    _waiting: list[Any] = field(default_factory=list)
+    _waiting: deque[bytes] = field(default_factory=deque)
+    """Updates that are not read yet."""
+    _early: int = 0
+    """Number of waiting updates that came before the answer, which may include them."""
 
     def step(self, wire: Wire) -> list[News]:
         """Take up what has happened since the last call; what changed, in order.
@@ -79,19 +72,19 @@ class Client:
         heard = self._heard = wire.listen(f"{self.namespace}/update", UPDATE, DEPTH)
         if heard.has_gap or heard.endpoints != before:  # the server may have been started again
             self._restart()
-        updates = self._decoded(heard.messages)
+        self._waiting += heard.messages
         if not heard.publishers:
             self._restart()
             return [News(is_all=True)] if before else []
-        if self.state == "running":
-            return self._follow(updates, wire)
-        self._waiting += updates
-        if len(self._waiting) > MAX_WAITING:
+        if len(self._waiting) > MAX_WAITING or sum(map(len, self._waiting)) > MAX_WAITING_BYTES:
             self._restart()
         if self.state == "searching" and heard.is_ready and wire.clock_s >= self._next_s:
             self._ask(wire.query)
             self._next_s = wire.clock_s + PAUSE_S
-        return self._take_answer(wire) if self.state == "asking" else []
+        news = self._take_answer(wire) if self.state == "asking" else []
+        if self.state == "running":
+            news += self._follow(wire)
+        return news
 
     def status(self, count: int) -> Status:
         """Return the status of the connection, given the number of markers."""
@@ -105,14 +98,15 @@ class Client:
                 f"{len(publishers)} servers share {self.namespace}: {', '.join(publishers)}. "
                 "Their updates contradict each other. Give each a namespace of its own.",
             )
-        if self.state == "running":
+        if self.state == "running" and not self.problem:
             markers = f"{count} marker{'s' * (count != 1)}"
             gaps = f"; asked again after {self.gaps} gaps in the updates" if self.gaps else ""
             return Status(Level.OK, f"Connected to {self.namespace}, {markers}{gaps}.")
         return Status(Level.WARN, self.problem or f"Waiting for the answer of {service}.")
 
     def _restart(self) -> None:
-        self.state, self._answer, self._waiting = "searching", None, []
+        self.state, self._answer = "searching", None
+        self._waiting.clear()
 
     def _ask(self, query: Callable[[str, str, float], Future[bytes]]) -> None:
         self.state = "asking"
@@ -122,41 +116,42 @@ class Client:
         if self._answer is None or not self._answer.done():
             return []
         try:
-            answer = decode(f"{SERVICE}_Response", self._answer.result())
+            number, news = read_answer(self._answer.result())
         except (Error, MessageError, CancelledError) as error:
             self.state, self._answer, self.problem = "searching", None, str(error)
             self._next_s = wire.clock_s + PAUSE_S
             return []
-        self.state, self.problem = "running", ""
-        self.sequence = int(answer.sequence_number)
-        waiting, self._waiting, self._answer = self._waiting, [], None
-        late = [update for update in waiting if int(update.seq_num) > self.sequence]
-        return [News(answer.markers, is_all=True), *self._follow(late, wire)]
+        self.state, self.problem, self._answer = "running", "", None
+        self.sequence, self._early = number, len(self._waiting)
+        return [news] if news else []
 
-    def _follow(self, updates: Sequence[Any], wire: Wire) -> list[News]:
-        news = []
-        for update in updates:
-            if int(update.seq_num) != self.sequence + 1:
+    def _follow(self, wire: Wire) -> list[News]:
+        """Apply the updates that wait, in order."""
+        found: list[News] = []
+        while self._waiting:
+            update = self._read(self._waiting.popleft())
+            is_early, self._early = self._early > 0, max(0, self._early - 1)
+            if update is None or update.news is None:
+                continue
+            if is_early and update.number <= self.sequence:
+                continue
+            if update.number != self.sequence + 1:
                 self.gaps += 1
                 self.problem = (
-                    f"Update {update.seq_num} came instead of {self.sequence + 1}. Asking again."
+                    f"Update {update.number} came instead of {self.sequence + 1}. Asking again."
                 )
                 self._restart()
                 wire.wake()
                 break
             self.sequence += 1
-            news.append(News(update.markers, update.poses, update.erases))
-        return news
+            self.problem = ""
+            found.append(update.news)
+        return found
 
-    def _decoded(self, messages: Sequence[bytes]) -> list[Any]:
-        """The updates among messages; one that cannot be read makes a gap."""
-        updates = []
-        for cdr in messages:
-            try:
-                update = decode(UPDATE, cdr)
-            except MessageError as error:
-                self.problem = joined(f"An update cannot be read: {error}", "Correct the server.")
-                continue
-            if update.type != KEEP_ALIVE:
-                updates.append(update)
-        return updates
+    def _read(self, cdr: bytes) -> Received | None:
+        """Read an update; one that cannot be read makes a gap."""
+        try:
+            return read_update(cdr)
+        except MessageError as error:
+            self.problem = joined(f"An update cannot be read: {error}", "Correct the server.")
+            return None

@@ -16,9 +16,11 @@ from webviz.api.handles import Control, Facing, MenuEntry, Mode
 from webviz.data.messages.markers import Marker, MarkerSequence
 from webviz.data.rotations import normalized
 from webviz.data.transforms.geometry import REACH_M
-from webviz.data.words import joined
+from webviz.data.words import counted, joined, shortened
 from webviz_displays.interactive_markers.handles import handles_of
 from webviz_displays.interactive_markers.menus import menu_of
+from webviz_displays.markers.contents import detached, size_of
+from webviz_displays.markers.faults import is_valid
 
 MODES: tuple[Mode, ...] = get_args(Mode)
 FACINGS: tuple[Facing, ...] = get_args(Facing)
@@ -26,6 +28,16 @@ FACINGS: tuple[Facing, ...] = get_args(Facing)
 MAX_CONTROLS = 200
 MAX_SHAPES = 2000
 """Markers of a control."""
+MAX_POINTS = 100_000
+"""Points of the markers of a control together."""
+MAX_NAME = 1000
+"""Characters of the names of markers, controls and frames, which feedback repeats as they are."""
+MAX_TEXT = 10_000
+"""Characters of a marker of text; browsers draw each of them as two triangles."""
+MAX_TITLE = 1000
+"""Characters shown of a description."""
+MAX_LABEL = 60
+"""Characters of a name in a status."""
 
 FAR = "Its pose or scale is not finite, or too large. Correct the server."
 
@@ -59,6 +71,7 @@ class Completed:
         scale: size of generated handles.
         parts: its controls.
         menu: its entries.
+        size: of the lists, texts and files of its shapes, in bytes.
         problems: what is wrong with it, in sentences.
     """
 
@@ -70,35 +83,51 @@ class Completed:
     scale: float
     parts: tuple[CompleteControl, ...]
     menu: tuple[MenuEntry, ...]
+    size: int
     problems: tuple[str, ...]
 
 
-def completed(message: Any) -> Completed | str:
-    """A visualization_msgs/InteractiveMarker, or why it cannot be shown: a sentence."""
+@dataclass(frozen=True)
+class RefusedMarker:
+    """An interactive marker that cannot be shown.
+
+    Args:
+        name: the beginning of one that is too long.
+        reason: a sentence.
+    """
+
+    name: str
+    reason: str
+
+
+def completed(message: Any) -> Completed | RefusedMarker:
+    """Complete a visualization_msgs/InteractiveMarker, or say why it cannot be shown."""
+    name, frame = str(message.name), str(message.header.frame_id).removeprefix("/")
+    for what, text in (("name", name), ("frame id", frame)):
+        if len(text) > MAX_NAME:
+            long = f"Its {what} has {len(text)} characters; the limit is {MAX_NAME}."
+            return RefusedMarker(name[:MAX_NAME], f"{long} Correct the server.")
     pose, scale = pose_of(message.pose), float(message.scale)
     if pose is None or not abs(scale) <= REACH_M:
-        return FAR
+        return RefusedMarker(name, FAR)
     scale = scale or 1.0
+    description = str(message.description)
     menu, problems = menu_of(message.menu_entries)
-    if len(message.controls) > MAX_CONTROLS:
-        problems.append(f"Only {MAX_CONTROLS} of {len(message.controls)} controls are shown.")
-    controls = message.controls[:MAX_CONTROLS]
-    names = list(unique_names([str(control.name) for control in controls]))
-    parts = []
-    for name, control in zip(names, controls, strict=True):
-        try:
-            parts.append(_part(name, control, scale))
-        except _Invalid as error:
-            problems.append(joined(f"Control '{name}' {error}", "Correct the server."))
+    if len(description) > MAX_TITLE:
+        problems.append(
+            f"Only {MAX_TITLE} of the {len(description)} characters of its title are shown."
+        )
+    parts = _parts(message.controls, scale, problems)
     return Completed(
-        name=str(message.name),
-        frame=str(message.header.frame_id).removeprefix("/"),
+        name=name,
+        frame=frame,
         stamp_ns=message.header.stamp_ns,
         pose=pose,
-        description=str(message.description),
+        description=description[:MAX_TITLE],
         scale=scale,
-        parts=tuple(parts),
+        parts=parts,
         menu=menu,
+        size=sum(size_of(each) for part in parts for each in part.shapes.contents),
         problems=tuple(problems),
     )
 
@@ -132,7 +161,33 @@ class _Invalid(Exception):
     """Of a control; what is wrong follows its name."""
 
 
+def _parts(
+    controls: Sequence[Any], scale: float, problems: list[str]
+) -> tuple[CompleteControl, ...]:
+    """Complete controls, and add what is wrong with them to the problems of their marker."""
+    if len(controls) > MAX_CONTROLS:
+        problems.append(f"Only {MAX_CONTROLS} of {len(controls)} controls are shown.")
+        controls = controls[:MAX_CONTROLS]
+    parts = []
+    for name, control in zip(unique_names([str(c.name) for c in controls]), controls, strict=True):
+        label = shortened(name, MAX_LABEL)
+        try:
+            part = _part(name, control, scale)
+        except _Invalid as error:
+            problems.append(joined(f"Control '{label}' {error}", "Correct the server."))
+            continue
+        parts.append(part)
+        if count := int(np.count_nonzero(~is_valid(part.shapes))):
+            problems.append(
+                f"Control '{label}' has {counted(count, 'marker')} that cannot be drawn: "
+                "not finite, or too large. Correct the server."
+            )
+    return tuple(parts)
+
+
 def _part(name: str, control: Any, scale: float) -> CompleteControl:
+    if len(name) > MAX_NAME:
+        raise _Invalid(f"has a name of {len(name)} characters; the limit is {MAX_NAME}.")
     wxyz = _wxyz(control.orientation)
     if wxyz is None:
         raise _Invalid("has an orientation that is not finite.")
@@ -142,30 +197,45 @@ def _part(name: str, control: Any, scale: float) -> CompleteControl:
         raise _Invalid(f"has an unknown orientation mode, {control.orientation_mode}.")
     mode, facing = MODES[control.interaction_mode], FACINGS[control.orientation_mode]
     is_independent = bool(control.independent_marker_orientation)
-    shapes: MarkerSequence = control.markers
+    shapes, help = control.markers, str(control.description)[:MAX_TITLE]
     if not len(shapes):
-        shapes = MarkerSequence.of(handles_of(mode, wxyz, scale, str(control.description)))
+        shapes = MarkerSequence.of(handles_of(mode, wxyz, scale, help))
         if mode == "menu":
             facing, is_independent = "view_facing", False
-    elif len(shapes) > MAX_SHAPES:
-        raise _Invalid(f"has {len(shapes)} markers; the limit is {MAX_SHAPES}.")
+    _check_size(shapes)
     made = Control(
         name=name,
         mode=mode,
         facing=facing,
         wxyz=wxyz,
         is_always_visible=bool(control.always_visible),
-        help=str(control.description),
+        help=help,
     )
     return CompleteControl(made, is_independent, _with_sizes(shapes))
 
 
+def _check_size(shapes: MarkerSequence) -> None:
+    if len(shapes) > MAX_SHAPES:
+        raise _Invalid(f"has {len(shapes)} markers; the limit is {MAX_SHAPES}.")
+    if (points := sum(len(each.points) for each in shapes.contents)) > MAX_POINTS:
+        raise _Invalid(f"has {points} points; the limit is {MAX_POINTS}.")
+    if (letters := max((len(each.text) for each in shapes.contents), default=0)) > MAX_TEXT:
+        raise _Invalid(f"has a text of {letters} characters; the limit is {MAX_TEXT}.")
+
+
 def _with_sizes(shapes: MarkerSequence) -> MarkerSequence:
-    """Shapes whose sizes of zero are one, but for the heads of arrows, where zero has a meaning."""
+    """Shapes whose sizes of zero are one, but for the heads of arrows, where zero has a meaning.
+
+    They do not keep the message alive, of which they may be a small part.
+    """
     is_zero = shapes.scales == 0.0
     has_points = np.array([len(each.points) == 2 for each in shapes.contents], bool)
     is_zero[(shapes.types == Marker.ARROW) & has_points, 2] = False
-    return replace(shapes, scales=np.where(is_zero, 1.0, shapes.scales))
+    return replace(
+        shapes,
+        scales=np.where(is_zero, 1.0, shapes.scales),
+        contents=[detached(each) for each in shapes.contents],
+    )
 
 
 def _wxyz(quaternion: Any) -> Wxyz | None:

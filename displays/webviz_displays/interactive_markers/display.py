@@ -11,7 +11,6 @@ from webviz import Context, Details, Display, Hit, Prop, Sample, Status
 from webviz.api.handles import Grip, Handle
 from webviz.api.ports import Namespace
 from webviz.api.wire import Wire
-from webviz_displays.interactive_markers.client import UPDATE
 from webviz_displays.interactive_markers.drawing import MarkerLook
 from webviz_displays.interactive_markers.feedback import (
     BUTTON_CLICK,
@@ -26,6 +25,7 @@ from webviz_displays.interactive_markers.feedback import (
 )
 from webviz_displays.interactive_markers.inspecting import details, part_of
 from webviz_displays.interactive_markers.menus import can_choose
+from webviz_displays.interactive_markers.reading import UPDATE
 from webviz_displays.interactive_markers.server import InteractiveMarkerServer
 from webviz_displays.interactive_markers.statuses import report
 

@@ -16,7 +16,7 @@ from webviz_displays.interactive_markers.completion import CompleteControl
 from webviz_displays.interactive_markers.tracked import Place, Tracked
 from webviz_displays.markers.assets import Assets
 from webviz_displays.markers.batch import MarkerBatch, batch_of
-from webviz_displays.markers.faults import faults_of
+from webviz_displays.markers.faults import faults_of, is_valid
 from webviz_displays.markers.nodes import nodes_of
 from webviz_displays.shared.geometry import inverse
 from webviz_urdf import LoadRequest
@@ -150,7 +150,7 @@ class ShownMarker:
         batch = batch_of(shapes)
         numbers = np.column_stack((shapes.positions, shapes.orientations, shapes.scales))
         with np.errstate(invalid="ignore"):
-            is_fine = np.all(np.abs(numbers) <= REACH_M, axis=1)
+            is_fine = np.all(np.abs(numbers) <= REACH_M, axis=1) & is_valid(shapes)
         named = [row for row, frame in enumerate(shapes.frame_ids) if frame]
         positions, wxyzs = batch.positions.copy(), batch.wxyzs.copy()
         for row in (row for row in named if is_fine[row]):

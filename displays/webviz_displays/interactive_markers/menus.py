@@ -6,10 +6,13 @@ from collections.abc import Sequence
 from typing import Any
 
 from webviz.api.handles import MenuEntry
+from webviz.data.words import shortened
 
 FEEDBACK = 0
 MAX_ENTRIES = 1000
 MAX_DEPTH = 8
+MAX_TITLE = 200
+"""Characters shown of an entry."""
 SHELL = "It would run a shell command on the machine of the viewer, which webviz never does."
 
 
@@ -56,4 +59,5 @@ def _entry(entry: Any, below: dict[int, list[Any]]) -> MenuEntry:
             title, is_checked = title.removeprefix(mark).strip(), checked
     refusal = "" if entry.command_type == FEEDBACK else SHELL
     entries = _level(int(entry.id), below)
+    title = shortened(title, MAX_TITLE)
     return MenuEntry(int(entry.id), title, is_checked, "" if entries else refusal, entries)

@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import replace
-from typing import Any
 
 from webviz import Frames
 from webviz.api.handles import Handle
-from webviz_displays.interactive_markers.client import Client, News
-from webviz_displays.interactive_markers.completion import completed, pose_of
+from webviz.data.words import shortened
+from webviz_displays.interactive_markers.client import Client
+from webviz_displays.interactive_markers.completion import MAX_NAME, Completed, RefusedMarker
 from webviz_displays.interactive_markers.drawing import ShownMarker
 from webviz_displays.interactive_markers.feedback import FeedbackQueue
+from webviz_displays.interactive_markers.reading import MAX_MARKERS, News
 from webviz_displays.interactive_markers.tracked import Place, Tracked
 from webviz_displays.markers.assets import Assets
 from webviz_urdf import LoadRequest
 
-MAX_MARKERS = 5000
+MAX_IGNORED = 1000
+"""Names of ignored messages that are kept."""
+MAX_BYTES = 256_000_000
+"""Of the lists, texts and files of all markers."""
 
 
 class InteractiveMarkerServer:
@@ -41,11 +45,14 @@ class InteractiveMarkerServer:
         """Changes with everything that is drawn."""
         self.ignored: dict[str, str] = {}
         """Why messages were ignored, by the name of the marker; sentences."""
-        self.too_many = 0
+        self.left_out = 0
+        """Number of markers and poses beyond a limit, since all markers came."""
         self.is_waiting = False
         """True if something is not drawn because of a missing transform."""
         self._by_key: dict[str, Tracked] = {}
         self._made = 0
+        self._size = 0
+        """Bytes of the contents of all markers."""
         self._handles: Mapping[str, Handle] = {}
         self._handles_of: object = None
         self._looks: dict[str, tuple[object, Handle]] = {}
@@ -63,15 +70,17 @@ class InteractiveMarkerServer:
         """Apply changes in order; within one, markers, then poses, then erased ones."""
         for each in news:
             if each.is_all:
-                names = {str(message.name) for message in each.markers}
-                self._erase([name for name in self.markers if name not in names])
+                self._erase(self.markers.keys() - each.markers.keys())
                 self.ignored.clear()
-                self.too_many = 0
-            for message in each.markers:
-                self._add(message)
-            for message in each.poses:
-                self._move(message)
-            self._erase(each.erased)
+                self.left_out = 0
+            self.left_out += each.ignored
+            for name, made in each.markers.items():
+                self._add(name, made)
+            for name, place in each.poses.items():
+                self._move(name, place)
+            self._erase(self.markers.keys() & each.erased)
+            for name in self.ignored.keys() & each.erased:
+                del self.ignored[name]
         self.version += bool(news)
 
     def handles(self, frames: Frames, aids: bool, refusal: str) -> Mapping[str, Handle]:
@@ -94,41 +103,47 @@ class InteractiveMarkerServer:
                 self._handles = found
         return self._handles
 
-    def _add(self, message: Any) -> None:
-        name = str(message.name)
-        if name not in self.markers and len(self.markers) >= MAX_MARKERS:
-            self.too_many += 1
-            return
-        made = completed(message)
-        self.ignored.pop(name, None)
-        if isinstance(made, str):
-            self.ignored[name] = made
-        elif (known := self.markers.get(name)) is not None:
-            known.update(made)
+    def _add(self, name: str, made: Completed | RefusedMarker) -> None:
+        known = self.markers.get(name)
+        if isinstance(made, RefusedMarker):
+            self._ignore(name, made.reason)
+        elif known is None and len(self.markers) >= MAX_MARKERS:
+            self.left_out += 1
+        elif self._size - (known.made.size if known else 0) + made.size > MAX_BYTES:
+            self._ignore(name, f"The markers of this server exceed {MAX_BYTES // 1_000_000} MB.")
         else:
+            self.ignored.pop(name, None)
+            self._size += made.size - (known.made.size if known else 0)
+            if known is not None:
+                known.update(made)
+                return
             self._made += 1
             marker = Tracked(f"m{self._made}", made)
             self.markers[name] = self._by_key[marker.key] = marker
             self.shown[name] = ShownMarker(self.assets)
 
-    def _move(self, message: Any) -> None:
-        name = str(message.name)
-        pose, marker = pose_of(message.pose), self.markers.get(name)
+    def _ignore(self, name: str, reason: str) -> None:
+        if name in self.ignored or len(self.ignored) < MAX_IGNORED:
+            self.ignored[shortened(name, MAX_NAME)] = reason
+        else:
+            self.left_out += 1
+
+    def _move(self, name: str, place: Place | None) -> None:
+        marker = self.markers.get(name)
         if marker is None:
-            self.ignored[name] = "A pose came for this unknown marker. Correct the server."
-        elif pose is None:
-            self.ignored[name] = "Its new pose is not finite, or too large. Correct the server."
+            self._ignore(name, "A pose came for this unknown marker. Correct the server.")
+        elif place is None:
+            self._ignore(name, "Its new pose is not finite, or too large. Correct the server.")
         else:
             self.ignored.pop(name, None)
-            frame = str(message.header.frame_id).removeprefix("/")
-            marker.put(Place(frame, message.header.stamp_ns, pose))
+            marker.put(place)
 
-    def _erase(self, names: Sequence[str]) -> None:
-        for name in map(str, names):
-            self.ignored.pop(name, None)
-            if (marker := self.markers.pop(name, None)) is not None:
-                del self._by_key[marker.key], self.shown[name]
-                self._looks.pop(marker.key, None)
+    def _erase(self, names: Set[str]) -> None:
+        for name in names:
+            marker = self.markers.pop(name)
+            self._size -= marker.made.size
+            del self._by_key[marker.key], self.shown[name]
+            self._looks.pop(marker.key, None)
 
 
 def _handle(marker: Tracked, place: Place, aids: bool, refusal: str) -> Handle:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from webviz import Context
-from webviz.data.words import counted
+from webviz.data.words import counted, shortened
+from webviz_displays.interactive_markers.completion import MAX_LABEL
+from webviz_displays.interactive_markers.reading import MAX_MARKERS
 from webviz_displays.interactive_markers.server import InteractiveMarkerServer
 
 MAX_ROWS = 20
@@ -16,25 +18,31 @@ def report(server: InteractiveMarkerServer, refusal: str, ctx: Context) -> None:
     ctx.statuses["Server"] = status
     if refusal:
         ctx.warn("Feedback", f"Markers cannot be moved from here. {refusal}")
-    if server.too_many:
-        count = len(server.markers)
-        ctx.warn("Markers", f"{server.too_many} more markers are not shown; the limit is {count}.")
+    if server.left_out:
+        ignored = counted(server.left_out, "marker")
+        ctx.warn("Markers", f"Ignored {ignored} beyond the limit of {MAX_MARKERS}.")
     if loading := server.assets.loading:
         ctx.warn("Loading", f"Loading {counted(loading, 'file')} of controls.")
     troubles = _troubles(server, ctx)
-    for name, (is_error, text) in list(troubles.items())[:MAX_ROWS]:
-        (ctx.error if is_error else ctx.warn)(name, text)
     if len(troubles) > MAX_ROWS:
         ctx.warn("Others", f"{len(troubles) - MAX_ROWS} more markers have problems.")
+    for name, (is_error, text) in list(troubles.items())[:MAX_ROWS]:
+        (ctx.error if is_error else ctx.warn)(_key(name, ctx), text)
     for name in list(server.markers.keys() - troubles.keys())[: MAX_ROWS - len(troubles)]:
         marker = server.markers[name]
         place = marker.place(ctx.frames)
         if place is None:
             continue
         if marker.is_locked:
-            ctx.ok(name, f"Locked to frame {place.frame}.")
+            ctx.ok(_key(name, ctx), f"Locked to frame {place.frame}.")
         else:
-            ctx.ok(name, "Position is fixed.")
+            ctx.ok(_key(name, ctx), "Position is fixed.")
+
+
+def _key(name: str, ctx: Context) -> str:
+    """Return the key of the status of a marker, which may be called like another one."""
+    label = shortened(name, MAX_LABEL) or "(no name)"
+    return f"{label} (marker)" if label in ctx.statuses else label
 
 
 def _troubles(server: InteractiveMarkerServer, ctx: Context) -> dict[str, tuple[bool, str]]:
