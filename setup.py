@@ -106,6 +106,7 @@ setup(
             "TwistStamped = webviz_displays.vectors:TwistStamped",
             "VoxelGrid = webviz_displays.voxel_grid:VoxelGrid",
             "Wrench = webviz_displays.vectors:Wrench",
+            "ZedOdDisplay = webviz_displays.zed:ZedOdDisplay",
         ],
         "webviz.tools": [
             "GoalPose = webviz.tools.goal_pose:GoalPose",

@@ -17,6 +17,7 @@ import trimesh
 from clouds import CLOUD, xyz_cloud
 from mapping_scenes import MAPPING_SCENES
 from moveit_scenes import moveit
+from perception_scenes import PERCEPTION_SCENES
 from plain_scenes import PLAIN_SCENES
 
 import webviz_displays
@@ -272,6 +273,7 @@ SCENES: dict[str, Callable[[Any], None]] = {
     **dict.fromkeys(("MotionPlanning", "PlanningScene", "RobotState", "Trajectory"), moveit),
     **PLAIN_SCENES,
     **MAPPING_SCENES,
+    **PERCEPTION_SCENES,
 }
 
 PLAYERS = (("MotionPlanning", "planned_path."), ("Trajectory", ""))

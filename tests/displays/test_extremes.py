@@ -16,6 +16,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from mapping_scenes import MAPPING_MESSAGES
 from moveit_scenes import MOVEIT_MESSAGES
+from perception_scenes import PERCEPTION_MESSAGES
 from plain_scenes import PLAIN_MESSAGES
 
 from webviz import Display
@@ -53,6 +54,7 @@ from webviz_displays.shared.geometry import FARTHEST
 from webviz_displays.shared.pose_properties import PoseShape
 from webviz_displays.vectors import AccelStamped, Effort, Twist, TwistStamped, Wrench
 from webviz_displays.voxel_grid import VoxelGrid
+from webviz_displays.zed import ZedOdDisplay
 
 Benches = Callable[..., Any]
 Values = dict[str, Any]
@@ -94,6 +96,7 @@ MESSAGES: dict[str, Values] = {
     },
     **PLAIN_MESSAGES,
     **MAPPING_MESSAGES,
+    **PERCEPTION_MESSAGES,
     **MOVEIT_MESSAGES,
 }
 """A message of each type that draws something."""
@@ -147,6 +150,7 @@ DISPLAYS: list[Callable[[], Display]] = [
     PlanningScene,
     lambda: Trajectory(show_trail=True),
     RobotState,
+    ZedOdDisplay,
 ]
 
 MAX_CASES = 128

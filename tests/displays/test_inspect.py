@@ -17,6 +17,7 @@ from grid_maps import GRID_MAP, grid_map
 from mapping_scenes import COSTMAP, FIELD, GRAPH, IMU, MESH, VOXEL_GRID, VOXELS, hill
 from moveit_scenes import moveit
 from octrees import OCTOMAP
+from perception_scenes import ZED_OBJECTS, ZED_SCENE
 from robot_arm import ARM, describe, place_arm
 
 from webviz import Context, Details, Display, Frames
@@ -51,6 +52,7 @@ from webviz_displays.sensors import PointCloud, Range, Temperature
 from webviz_displays.tf import TF
 from webviz_displays.vectors import Effort, Wrench
 from webviz_displays.voxel_grid import VoxelGrid
+from webviz_displays.zed import ZedOdDisplay
 
 NAN = math.nan
 Benches = Callable[..., Any]
@@ -324,6 +326,10 @@ def surface_of_nvblox(bench: Benches) -> Details:
     return pick(at, "region 0 0 0", None, (0.1, 0.1, 0.1))
 
 
+def car_of_a_zed_camera(bench: Benches) -> Details:
+    return one_of(bench, ZedOdDisplay(), ZED_OBJECTS, ZED_SCENE, "boxes", 3)
+
+
 def cell_of_a_costmap(bench: Benches) -> Details:
     at = bench(Costmap())
     at.send("nav2_msgs/msg/Costmap", COSTMAP, frame="map", topic="/local_costmap/costmap_raw")
@@ -528,6 +534,11 @@ CASES: dict[Callable[[Benches], Details], tuple[str, Mapping[str, Any]]] = {
     link_of_a_graph: ("Link 1 to 3", {"Type": "2, local loop closure"}),
     voxel_of_nvblox: ("Voxel", {"Edge": "0.1 m"}),
     surface_of_nvblox: ("Mesh", {}),
+    car_of_a_zed_camera: (
+        "3-Vehicle [Car]",
+        {"Kind": "Vehicle > Car", "Confidence": "87.5 %", "Velocity": "1.5, 0, 0 m/s",
+         "Size": "0.8 x 0.4 x 0.5 m", "Tracking": "tracked"},
+    ),
     cell_of_a_costmap: ("Cell 1, 1", {"Value": "254, lethal"}),
     inertial_sensor: (
         "Inertial sensor",

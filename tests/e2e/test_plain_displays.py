@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 from mapping_scenes import MAPPING_MESSAGES
 from moveit_scenes import MOVEIT_MESSAGES, URDF
+from perception_scenes import PERCEPTION_MESSAGES
 from plain_scenes import PLAIN_MESSAGES, ROBOT
 
 from webviz import Display, Level, Topic
@@ -40,6 +41,7 @@ from webviz_displays.sensors import (
 )
 from webviz_displays.vectors import AccelStamped, Effort, Twist, TwistStamped, Wrench
 from webviz_displays.voxel_grid import VoxelGrid
+from webviz_displays.zed import ZedOdDisplay
 
 pytest.importorskip("rclpy", reason="a live viewer needs rclpy")
 
@@ -49,8 +51,9 @@ CLASSES: tuple[type[Display], ...] = (
     *(AccelStamped, Effort, TwistStamped, Wrench),
     *(OccupancyGrid, OccupancyMap, GridMap, VoxelGrid, Costmap, Imu, Mag),
     *(MapGraph, NvbloxMesh, NvbloxVoxelBlockLayer),
+    ZedOdDisplay,
 )
-MESSAGES = PLAIN_MESSAGES | MAPPING_MESSAGES
+MESSAGES = PLAIN_MESSAGES | MAPPING_MESSAGES | PERCEPTION_MESSAGES
 
 
 def test_each_display_draws_what_is_published_and_says_ok(

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from grid_maps import grid_map
 from octrees import Node, binary, full
+from perception_scenes import ZED_SCENE
 
 from webviz import Display
 from webviz.api.display import inputs_of
@@ -48,6 +49,7 @@ from webviz_displays.sensors import (
 )
 from webviz_displays.vectors import AccelStamped, Effort, Twist, TwistStamped, Wrench
 from webviz_displays.voxel_grid import VoxelGrid
+from webviz_displays.zed import ZedOdDisplay
 
 Values = dict[str, Any]
 
@@ -257,6 +259,7 @@ CASES = [
     Case("nvblox_mesh", NvbloxMesh(), reconstructed()[:1]),
     Case("nvblox_voxel_block_layer", NvbloxVoxelBlockLayer(), reconstructed()[1:]),
     Case("costmap", Costmap(), (inflated(),)),
+    Case("zed_od_display", ZedOdDisplay(), (ZED_SCENE,)),
     Case("imu", Imu(box_properties=BOX, acceleration_properties=ACCELERATION), (TILTED,)),
     Case("mag", Mag(scale=0.6), ({"magnetic_field": vector(2e-5, 1e-5, -4e-5)},)),
 ]

@@ -72,6 +72,9 @@ VECTORS = {
     "visualization_msgs/msg/UVCoordinate": ("float32", 2),
     "nav2_msgs/msg/Particle": ("float64", 8),
     "nvblox_msgs/msg/Index3D": ("int32", 3),
+    "zed_msgs/msg/Keypoint3D": ("float32", 3),
+    "zed_msgs/msg/Keypoint2Df": ("float32", 2),
+    "zed_msgs/msg/Keypoint2Di": ("uint32", 2),
 }
 """Messages of k equal numbers, nested ones included: a sequence of N is one (N, k) array."""
 

@@ -11,7 +11,7 @@ Sequences that ROS users iterate slowly are arrays here:
 - `TransformStamped[]` is a list of `FrameTransform`, as a transform buffer takes;
 - `Point[]`, `Point32[]` and `Vector3[]` are (N, 3), `Quaternion[]` and `ColorRGBA[]` (N, 4) arrays;
 - `nav2_msgs/Particle[]` is an (N, 8) array: position, orientation, weight;
-- `nvblox_msgs/Index3D[]` is (N, 3).
+- `nvblox_msgs/Index3D[]` and `zed_msgs/Keypoint3D[]` are (N, 3).
 """
 
 from __future__ import annotations

@@ -1,0 +1,230 @@
+"""The ZedOdDisplay display."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Annotated, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz import (
+    Context,
+    Details,
+    Display,
+    Group,
+    Hit,
+    Input,
+    Pose,
+    Prop,
+    Remedy,
+    Sample,
+    Topic,
+    compose,
+)
+from webviz.data.words import counted
+from webviz_displays.shared.geometry import LONGEST, is_drawable, origin_near
+from webviz_displays.zed.bodies import BODIES
+
+F64 = NDArray[np.float64]
+U8 = NDArray[np.uint8]
+Rows = NDArray[np.intp]
+
+MAX_OBJECTS = 1000
+"""Objects drawn per message."""
+PIVOT = 0.02
+"""Diameter of the sphere at the position of an object, and height of its label per Label Scale."""
+OF_SKELETONS = 0.4
+"""Joints and links of skeletons, as a share of those of boxes."""
+
+TRACKED = 1
+TRACKING = ("off", "tracked", "searching", "terminated")
+"""By `tracking_state`."""
+TRACKING_COLORS = ((0, 0, 0), (0, 255, 0), (128, 89, 0), (255, 255, 255))
+"""Colours of corners, by `tracking_state`."""
+
+EDGES = np.array(
+    [(i, (i + 1) % 4) for i in range(4)]
+    + [(4 + i, 4 + (i + 1) % 4) for i in range(4)]
+    + [(i, 4 + i) for i in range(4)]
+)
+"""(12, 2), of the corners of a box: those above, those below, and between them."""
+
+
+class ZedOdDisplay(Display):
+    """Objects and people that a ZED camera detects: boxes, skeletons and labels."""
+
+    rviz = "rviz_plugin_zed_od/ZedOdDisplay"
+
+    topic: Annotated[
+        Topic, Input("zed_msgs/msg/ObjectsStamped"), Prop(help="Topic of the objects.")
+    ] = Topic("/zed/zed_node/obj_det/objects")
+    transparency: Annotated[
+        float, Prop(ge=0, le=1, help="Transparency of lines and joints; 1 is invisible.")
+    ] = 0.25
+    show_skeletons: Annotated[bool, Prop(help="Draw the skeletons of people.")] = True
+    show_labels: Annotated[bool, Prop(help="Show the number and the kind of each object.")] = True
+    show_bounding_boxes: Annotated[bool, Prop(help="Draw a box around each object.")] = True
+    link_size: Annotated[
+        float, Prop(ge=0.01, le=1, unit="m", help="Width of the edges of boxes.")
+    ] = 0.05
+    joint_radius: Annotated[
+        float, Prop(gt=0, le=LONGEST, unit="m", help="Diameter of the corners of boxes.")
+    ] = 0.1
+    label_scale: Annotated[float, Prop(ge=0.5, le=15, help="Height of labels, in 2 cm.")] = 5.0
+
+    def draw(self, sample: Sample, ctx: Context) -> None:
+        """The objects that are tracked, in the frame and at the stamp of the header."""
+        objects: Sequence[Any] = sample.message.objects
+        tracked = [row for row, each in enumerate(objects) if _is_tracked(each)]
+        positions = np.array([objects[row].position for row in tracked], np.float64).reshape(-1, 3)
+        is_placed = is_drawable(positions)
+        rows = np.array(tracked, np.intp)[is_placed][:MAX_OBJECTS]
+        self._report(len(objects), len(tracked), int(is_placed.sum()), ctx)
+        if not len(rows):
+            return
+        found = [objects[row] for row in rows]
+        positions = positions[is_placed][:MAX_OBJECTS]
+        origin = np.array(origin_near(positions))
+        group = ctx.follow(None, offset=compose(sample.pose, Pose(tuple(origin.tolist()))))
+        colors = np.array([box_color(each.label_id) for each in found], np.uint8)
+        if self.show_labels:
+            xyz = positions - origin
+            group.instances("pivots", "sphere", xyz, PIVOT, colors, ids=rows)
+            texts = tuple(map(label_of, found))
+            group.labels("labels", xyz, texts, PIVOT * self.label_scale, ids=rows)
+        if self.show_bounding_boxes:
+            self._draw_boxes(found, rows, colors, origin, group, ctx)
+        if self.show_skeletons:
+            self._draw_skeletons(found, rows, colors, origin, group, ctx)
+
+    def inspect(self, hit: Hit, ctx: Context) -> Details | None:
+        """An object: what it is, how sure that is, and how it moves."""
+        found = hit.sample.message.objects[hit.id]
+        x, y, z = found.velocity.tolist()
+        values: dict[str, object] = {
+            "Kind": " > ".join(filter(None, (found.label, found.sublabel))),
+            "Confidence": f"{found.confidence:g} %",
+            "Velocity": f"{x:g}, {y:g}, {z:g} m/s",
+            "Size": " x ".join(f"{metres:g}" for metres in found.dimensions_3d.tolist()) + " m",
+        }
+        if found.tracking_available:
+            values["Tracking"] = TRACKING[_state_of(found)]
+        return Details(label_of(found), values)
+
+    def _draw_boxes(
+        self, found: Sequence[Any], rows: Rows, colors: U8, origin: F64, group: Group, ctx: Context
+    ) -> None:
+        corners = np.array([each.bounding_box_3d.corners for each in found], np.float64)
+        ok = is_drawable(corners).all(axis=1)
+        if lost := int((~ok).sum()):
+            text = f"{lost} of {len(found)} boxes left out: corners are missing or invalid."
+            ctx.warn("Boxes", text)
+        corners, rows = corners[ok] - origin, rows[ok]
+        if not len(rows):
+            return
+        states = np.array([_state_of(each) for each in found], np.intp)[ok]
+        self._lines("boxes", corners[:, EDGES], colors[ok], rows, self.link_size, group)
+        group.instances(
+            "corners",
+            "sphere",
+            corners.reshape(-1, 3),
+            self.joint_radius,
+            np.repeat(np.array(TRACKING_COLORS, np.uint8)[states], 8, axis=0),
+            ids=np.repeat(rows, 8),
+        )
+
+    def _draw_skeletons(
+        self, found: Sequence[Any], rows: Rows, colors: U8, origin: F64, group: Group, ctx: Context
+    ) -> None:
+        bright = np.clip(colors + np.array((100, 50, -50)), 0, 255).astype(np.uint8)
+        bones, joints, bone_of, joint_of = [], [], [], []
+        for number, each in enumerate(found):
+            if not each.skeleton_available:
+                continue
+            if not 0 <= each.body_format < len(BODIES):
+                text = f"Body format {each.body_format} is unknown. Fix the publisher."
+                ctx.warn("Skeletons", text)
+                continue
+            body = BODIES[each.body_format]
+            xyz = np.asarray(each.skeleton_3d.keypoints[: body.joints], np.float64)
+            ok = is_drawable(xyz)
+            linked = body.bones[ok[body.bones].all(axis=1)]
+            joints.append(xyz[ok] - origin)
+            bones.append(xyz[linked] - origin)
+            joint_of += [number] * len(joints[-1])
+            bone_of += [number] * len(linked)
+        if not joints:
+            return
+        segments = np.concatenate(bones)
+        width = OF_SKELETONS * self.link_size
+        self._lines("bones", segments[:, None], bright[bone_of], rows[bone_of], width, group)
+        group.instances(
+            "joints",
+            "sphere",
+            np.concatenate(joints),
+            OF_SKELETONS * self.joint_radius,
+            bright[joint_of],
+            opacity=1.0 - self.transparency,
+            ids=rows[joint_of],
+        )
+
+    def _lines(
+        self, key: str, segments: F64, colors: U8, rows: Rows, width: float, group: Group
+    ) -> None:
+        """Draw lines (N, k, 2, 3) of N items, whose colours are (N, 3)."""
+        each = segments.shape[1]
+        ends = np.repeat(colors, 2 * each, axis=0).reshape(-1, 2, 3)
+        ids, opacity = np.repeat(rows, each), 1.0 - self.transparency
+        group.lines(key, segments, ends, width, "m", ids, opacity)
+
+    def _report(self, total: int, tracked: int, placed: int, ctx: Context) -> None:
+        reasons = [
+            f"{count} {why}"
+            for count, why in (
+                (total - tracked, "not tracked"),
+                (tracked - placed, "without a position"),
+                (placed - min(placed, MAX_OBJECTS), "too many"),
+            )
+            if count
+        ]
+        left_out = f": {', '.join(reasons)}" if reasons else ""
+        shown = f"{min(placed, MAX_OBJECTS)} of {counted(total, 'object')} shown{left_out}."
+        if not total:
+            ctx.warn("Objects", "No objects in the newest message.")
+        elif not (self.show_labels or self.show_bounding_boxes or self.show_skeletons):
+            remedy = Remedy("show_bounding_boxes", True, "Show bounding boxes")
+            ctx.warn("Objects", "Boxes, skeletons and labels are switched off.", remedy)
+        elif not placed or placed < tracked or placed > MAX_OBJECTS:
+            ctx.warn("Objects", shown)
+        else:
+            ctx.ok("Objects", shown)
+
+
+def box_color(label_id: int) -> tuple[int, int, int]:
+    """The colour of an object, by its number, as in Stereolabs' plug-in."""
+    step = 2 if label_id == -1 else label_id + 2
+    return 30 * step % 256, 60 * step % 256, 120 * step % 256
+
+
+def label_of(found: Any) -> str:
+    """The label of an object: its number and kind."""
+    number = "" if found.label_id == -1 else str(found.label_id)
+    if found.skeleton_available:
+        return "-".join(filter(None, ("Person", number)))
+    kind = found.label
+    if found.sublabel != found.label:
+        kind += f" [{found.sublabel}]"
+    return f"{number}-{kind}" if number else kind
+
+
+def _is_tracked(found: Any) -> bool:
+    """Return whether an object is shown: while tracking is on, only those in sight."""
+    if not found.tracking_available:
+        return True
+    return found.label_id != -1 and found.tracking_state == TRACKED
+
+
+def _state_of(found: Any) -> int:
+    """The tracking state of an object; unknown ones count as off."""
+    return found.tracking_state if 0 <= found.tracking_state < len(TRACKING) else 0
