@@ -21,7 +21,7 @@ from webviz_displays.interactive_markers.reading import (
     SERVICE,
     UPDATE,
     News,
-    Received,
+    ServerMessage,
     read_answer,
     read_update,
 )
@@ -148,7 +148,7 @@ class Client:
             found.append(update.news)
         return found
 
-    def _read(self, cdr: bytes) -> Received | None:
+    def _read(self, cdr: bytes) -> ServerMessage | None:
         """Read an update; one that cannot be read makes a gap."""
         try:
             return read_update(cdr)

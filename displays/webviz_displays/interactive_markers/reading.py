@@ -41,7 +41,7 @@ class News:
     is_all: bool = False
 
 
-class Received(NamedTuple):
+class ServerMessage(NamedTuple):
     """A message of a server.
 
     Args:
@@ -54,7 +54,7 @@ class Received(NamedTuple):
     news: News | None
 
 
-def read_answer(cdr: bytes) -> Received:
+def read_answer(cdr: bytes) -> ServerMessage:
     """Read the response of the service.
 
     Raises:
@@ -62,10 +62,10 @@ def read_answer(cdr: bytes) -> Received:
     """
     answer = decode(f"{SERVICE}_Response", cdr)
     markers, ignored = _markers(answer.markers)
-    return Received(int(answer.sequence_number), News(markers, ignored=ignored, is_all=True))
+    return ServerMessage(int(answer.sequence_number), News(markers, ignored=ignored, is_all=True))
 
 
-def read_update(cdr: bytes) -> Received:
+def read_update(cdr: bytes) -> ServerMessage:
     """Read a message of the topic.
 
     Raises:
@@ -73,12 +73,12 @@ def read_update(cdr: bytes) -> Received:
     """
     update = decode(UPDATE, cdr)
     if update.type == KEEP_ALIVE:
-        return Received(int(update.seq_num), None)
+        return ServerMessage(int(update.seq_num), None)
     markers, ignored = _markers(update.markers)
     poses = {str(each.name): _place(each) for each in update.poses[:MAX_MARKERS]}
     ignored += max(0, len(update.poses) - MAX_MARKERS)
     erased = frozenset(str(name) for name in update.erases)
-    return Received(int(update.seq_num), News(markers, poses, erased, ignored))
+    return ServerMessage(int(update.seq_num), News(markers, poses, erased, ignored))
 
 
 def _markers(messages: Sequence[Any]) -> tuple[dict[str, Completed | RefusedMarker], int]:
