@@ -291,7 +291,6 @@ class PlaybackState:
         is_seeking: whether the position is being approached; the scene still shows another one.
         loop: whether the span starts over at its end.
         selected: the first and the last second to play, None for all.
-        histogram: counts of messages in equal parts of the whole span, by topic.
     """
 
     names: tuple[str, ...]
@@ -303,7 +302,6 @@ class PlaybackState:
     is_seeking: bool
     loop: bool
     selected: tuple[float, float] | None
-    histogram: Mapping[str, Sequence[int]]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -333,6 +331,7 @@ class State:
             browser that holds it.
         history: what can be undone and redone.
         playback: the recording that is played, None for live topics.
+        recorded: counts of its messages in equal parts of its span, by topic.
         selected: ids of what each browser has selected, each with that of its display, and
             whether it moves.
         selections: what is known of it, for the browsers that show it.
@@ -360,6 +359,7 @@ class State:
     handles: Mapping[tuple[str, str], tuple[Handle, int | None]] = field(default_factory=dict)
     history: UndoHistory = UndoHistory()
     playback: PlaybackState | None = None
+    recorded: Mapping[str, Sequence[int]] = field(default_factory=dict)
     selected: Mapping[int, Mapping[int, tuple[str, bool]]] = field(default_factory=dict)
     selections: Mapping[int, Mapping[str, Any]] = field(default_factory=dict)
     more: Mapping[str, Any] = field(default_factory=dict)

@@ -72,8 +72,11 @@ class PlaybackPart(Part):
             self._start_over()
 
     def state(self) -> Mapping[str, Any]:
-        """The state of the control."""
-        return {"playback": self._control and _state_of(self._control)}
+        """The state of the control, and what is recorded when."""
+        if self._control is None:
+            return {}
+        recorded = self._control.playback.histogram(BUCKETS)
+        return {"playback": _state_of(self._control), "recorded": recorded}
 
     # Commands
 
@@ -157,5 +160,4 @@ def _state_of(control: PlaybackControl) -> PlaybackState:
         is_seeking=control.is_seeking,
         loop=control.loop,
         selected=selected,
-        histogram=playback.histogram(BUCKETS),
     )

@@ -22,7 +22,12 @@ export function roomy(low, high) {
 /** Where between 0 and 1 a value is in a range. */
 export const share = (value, [low, high]) => (value / 2 - low / 2) / (high / 2 - low / 2);
 
-/** The value at a share of a range. */
+/**
+ * The value at a share of a range.
+ *
+ * @param {number} share_
+ * @param {number[]} range
+ */
 export const at = (share_, [low, high]) => low * (1 - share_) + high * share_;
 
 /** A range that is scaled around the place at a share of it, and moved by a share. */

@@ -2,7 +2,7 @@
 
 const isMac = /Mac|iPhone|iPad/.test(navigator.platform);
 const ARROWS = { ArrowUp: "↑", ArrowDown: "↓", ArrowLeft: "←", ArrowRight: "→" };
-const NAMES = { Escape: "Esc", ...ARROWS };
+const NAMES = { Escape: "Esc", " ": "Space", ...ARROWS };
 
 /** A key as people read it: "Ctrl+Shift+S" of "Ctrl+Shift+s"; Ctrl is the command key of a Mac. */
 export function keyText(key) {

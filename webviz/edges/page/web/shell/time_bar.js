@@ -6,13 +6,14 @@ import { rosNow, wallNow, watchTime } from "../clock.js";
 import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
 import { recall, remember } from "../remember.js";
+import { timeline } from "../timeline/timeline.js";
 import { command, provide } from "./commands.js";
 import { duration, timeOfDay } from "./time_text.js";
 
 const TICK_MS = 100;
 const RESET_HINT = "Reset: forget all transforms and messages (R)";
 
-/** Fills the footer. The element `.wv-timeline` in its middle is for a recording. */
+/** Fills the footer. */
 export function build(place) {
   let isPaused = false;
   let inSeconds = recall("time-in-seconds", false);
@@ -30,10 +31,13 @@ export function build(place) {
   const elapsed = part("Elapsed", "ROS time since the viewer started or was reset");
   const wall = part("Wall", "Wall time of the machine that webviz runs on");
   const wallElapsed = part("Wall elapsed", "Wall time since the viewer started or was reset");
+  const track = el("div", { class: "wv-track-row" });
+  const buttons = el("div", { class: "wv-transport-place" });
   place.append(
-    needs("Pause", pause), needs("Reset", reset), ros, badge, elapsed.element, el("div", { class: "wv-timeline" }),
-    wall.element, wallElapsed.element,
+    track, needs("Pause", pause), needs("Reset", reset), buttons, ros, badge, elapsed.element,
+    el("div", { class: "wv-space" }), wall.element, wallElapsed.element,
   );
+  const recording = timeline({ track, buttons });
   place.setAttribute("aria-label", "Time");
 
   function toggle() {
@@ -56,35 +60,38 @@ export function build(place) {
     const format = inSeconds ? (time) => time.toFixed(isRunning ? 1 : 3) : timeOfDay;
     setText(ros, isKnown ? format(now, !isRunning) : "No time yet");
     set(ros, { "data-tip": hintOf(isKnown, isSimulated, inSeconds) });
-    setText(badge, badgeOf(isSimulated, clock.get("hz")));
+    setText(badge, recording.isThere() ? "recording" : badgeOf(isSimulated, clock.get("hz")));
     set(badge, { "data-simulated": isSimulated });
     const [beganRos, beganWall] = clock.get("began");
-    elapsed.show(isKnown ? duration(now - beganRos) : "");
+    // A recording has its own position; there the wall's time means nothing.
+    elapsed.show(isKnown && !recording.isThere() ? duration(now - beganRos) : "");
     // Of a viewer without simulated time both are the same; while paused nothing may tick.
-    const hasWall = isSimulated && !isPaused;
+    const hasWall = isSimulated && !isPaused && !recording.isThere();
     wall.show(hasWall ? (inSeconds ? wallNow().toFixed(1) : timeOfDay(wallNow())) : "");
     wallElapsed.show(hasWall ? duration(wallNow() - beganWall) : "");
   }
 
   function showPause(paused) {
-    if (pause.firstChild && paused === isPaused) return;
     isPaused = paused;
-    const name = paused ? "Resume" : "Pause";
-    set(pause, {
-      "aria-label": name, "aria-pressed": String(paused),
-      "data-tip": `${name} the scene in all browsers; messages wait meanwhile`,
-    });
+    const [name, tip] = recording.isThere()
+      ? [paused ? "Play" : "Pause", `${paused ? "Play" : "Pause"} the recording in all browsers (Space)`]
+      : [nameOf(paused), `${nameOf(paused)} the scene in all browsers; messages wait meanwhile`];
+    if (pause.ariaLabel === name) return;
+    const isPressed = recording.isThere() ? null : String(paused);
+    set(pause, { "aria-label": name, "aria-pressed": isPressed, "data-tip": tip });
     pause.replaceChildren(icon(paused ? "play" : "pause"));
-    place.classList.toggle("wv-paused", paused);
+    place.classList.toggle("wv-paused", paused && !recording.isThere());
   }
 
   showPause(false);
   command({ name: "Reset", icon: "reset", key: "r", group: "Time", run: () => act("Reset") });
-  provide(() => [
-    { name: isPaused ? "Resume" : "Pause", icon: isPaused ? "play" : "pause", group: "Time", run: toggle },
+  provide(() => recording.isThere() ? [] : [
+    { name: nameOf(isPaused), icon: isPaused ? "play" : "pause", group: "Time", run: toggle },
   ]);
   return watchTime(TICK_MS, show);
 }
+
+const nameOf = (isPaused) => (isPaused ? "Resume" : "Pause");
 
 /** A label and a time, hidden while there is none. */
 function part(label, title) {

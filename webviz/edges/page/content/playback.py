@@ -1,0 +1,44 @@
+"""The recording that is played, for the timeline."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from webviz.engine.state import State
+
+
+def playback(state: State, _: str) -> Mapping[str, Any]:
+    """The recording, empty for live topics; times in seconds from its start.
+
+    "start": of the recording, in seconds since 1970. "rate": 0 is as fast as possible. "selected":
+    first and last second to play, or None.
+    """
+    recording = state.playback
+    if recording is None:
+        return {}
+    return {
+        "names": recording.names,
+        "start": recording.start_ns / 1e9,
+        "duration": (recording.end_ns - recording.start_ns) / 1e9,
+        "position": round(recording.position_s, 3),
+        "rate": 0 if math.isinf(recording.rate) else recording.rate,
+        "is_playing": recording.is_playing,
+        "is_seeking": recording.is_seeking,
+        "loop": recording.loop,
+        "selected": recording.selected,
+    }
+
+
+def density(state: State, _: str) -> Mapping[str, Any]:
+    """Counts of all messages in equal parts of the recording."""
+    counts = list(state.recorded.values())
+    return {"counts": np.sum(counts, axis=0).tolist() if counts else []}
+
+
+def recorded(state: State, _: str) -> Mapping[str, Any]:
+    """Counts of messages in equal parts of the recording, by topic."""
+    return state.recorded

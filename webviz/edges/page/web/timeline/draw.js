@@ -1,0 +1,98 @@
+// Draws the timeline on a canvas: when there are messages, the span that is played, and the head.
+
+import { share, ticks } from "../charts/scale.js";
+import { duration } from "../shell/time_text.js";
+
+export const MARGIN = 8;
+const TOP = 4;
+const BAR = 12;
+const PER_TICK = 90;
+
+/** A canvas that fits its place, with a context in pixels of the page: `{context, width, height, color}`. */
+export function fitted(canvas) {
+  const ratio = devicePixelRatio || 1;
+  const { clientWidth: width, clientHeight: height } = canvas;
+  const [w, h] = [Math.round(width * ratio), Math.round(height * ratio)];
+  if (canvas.width !== w || canvas.height !== h) Object.assign(canvas, { width: w, height: h });
+  const context = canvas.getContext("2d");
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  context.clearRect(0, 0, width, height);
+  const style = getComputedStyle(canvas);
+  return { context, width, height, color: (name) => style.getPropertyValue(`--wv-${name}`) };
+}
+
+/**
+ * Draws `{range, whole, counts, selected, position, hover}`: times in seconds, `selected` and `hover`
+ * may be null.
+ */
+export function draw(canvas, { range, whole, counts, selected, position, hover }) {
+  const { context, width, color } = fitted(canvas);
+  const x = (time) => MARGIN + share(time, range) * (width - 2 * MARGIN);
+  context.fillStyle = color("field");
+  context.fillRect(MARGIN, TOP, width - 2 * MARGIN, BAR);
+  context.save();
+  context.beginPath();
+  context.rect(MARGIN, TOP, width - 2 * MARGIN, BAR);
+  context.clip();
+  bars(context, counts, { x, whole, range, top: TOP, height: BAR, color: color("accent") });
+  if (selected) {
+    context.fillStyle = color("back");
+    context.globalAlpha = 0.7;
+    context.fillRect(0, TOP, x(selected[0]), BAR);
+    context.fillRect(x(selected[1]), TOP, width, BAR);
+    context.globalAlpha = 1;
+  }
+  context.restore();
+  scale(context, range, { x, width, color });
+  if (selected) {
+    context.fillStyle = color("warn");
+    for (const time of selected) context.fillRect(x(time) - 1, TOP - 2, 2, BAR + 4);
+  }
+  if (hover !== null) {
+    context.fillStyle = color("quiet");
+    context.fillRect(x(hover) - 0.5, TOP - 2, 1, BAR + 4);
+  }
+  head(context, x(position), color("text"));
+}
+
+/** Draws counts of messages, a column of pixels as strong as the part of it with most messages. */
+export function bars(context, counts, { x, whole, range, top, height, color }) {
+  const most = Math.max(...counts, 0);
+  if (!most) return;
+  context.fillStyle = color;
+  const [from, to] = [Math.floor(x(range[0])), Math.ceil(x(range[1]))];
+  const each = (to - from) / (range[1] - range[0]); // pixels a second
+  const part = (column) => ((range[0] + (column - from) / each) / whole) * counts.length;
+  for (let column = from; column < to; column++) {
+    const first = Math.max(0, Math.floor(part(column)));
+    const last = Math.min(counts.length, Math.max(first + 1, Math.ceil(part(column + 1))));
+    let count = 0;
+    for (let i = first; i < last; i++) count = Math.max(count, counts[i]);
+    if (!count) continue;
+    context.globalAlpha = 0.3 + 0.5 * (count / most);
+    context.fillRect(column, top, 1, height);
+  }
+  context.globalAlpha = 1;
+}
+
+function scale(context, range, { x, width, color }) {
+  context.font = "11px system-ui, sans-serif";
+  context.fillStyle = color("quiet");
+  context.textBaseline = "top";
+  context.textAlign = "center";
+  const length = range[1] - range[0];
+  const digits = Math.min(3, Math.max(0, Math.ceil(-Math.log10(length / 10))));
+  for (const time of ticks(...range, Math.max(2, width / PER_TICK))) {
+    const text = duration(time, digits);
+    const half = context.measureText(text).width / 2;
+    context.fillText(text, Math.min(Math.max(x(time), half), width - half), TOP + BAR + 4);
+  }
+}
+
+function head(context, x, color) {
+  context.fillStyle = color;
+  context.fillRect(x - 1, 0, 2, TOP + BAR + 3);
+  context.beginPath();
+  context.arc(x, TOP + BAR / 2, 5, 0, 2 * Math.PI);
+  context.fill();
+}

@@ -1,0 +1,32 @@
+// Seeks, one at a time: while the scene is on its way to one, only the newest of the others is kept.
+
+import { act } from "../act.js";
+
+/**
+ * Returns `{to(time), wanted()}`: `to` shows a time of the recording, `wanted` is the one that was asked
+ * for last, null once the scene shows it. `changed()` is called when that changes.
+ *
+ * @param {() => void} changed
+ */
+export function seeks(changed) {
+  let underway = false;
+  let wanted = null;
+
+  async function to(time) {
+    wanted = time;
+    changed();
+    if (underway) return;
+    underway = true;
+    let sent = null;
+    while (sent !== wanted) {
+      sent = wanted;
+      const { level } = await act("Seek", { at_s: sent });
+      if (level === "error") break;
+    }
+    underway = false;
+    wanted = null;
+    changed();
+  }
+
+  return { to, wanted: () => wanted };
+}

@@ -1,0 +1,68 @@
+// The topics of a recording, each with the times of its messages below those of the track.
+
+import { rowList } from "../controls/rows.js";
+import { el, set, setText } from "../dom.js";
+import { share } from "../charts/scale.js";
+import { watch } from "../stores.js";
+import { bars, fitted, MARGIN } from "./draw.js";
+
+const ROW = 22;
+
+/**
+ * Returns `{element, redraw(), toggle(), isOpen()}`. `range()` and `whole()` are those of the track; `step` is
+ * `{topic(), choose(topic)}`: of which topic the next message is shown.
+ */
+export function topics({ range, whole, step, toggled }) {
+  let end = null;
+  let items = [];
+  const list = rowList({
+    label: "Topics of the recording", height: ROW, make, update,
+    choose: ({ key }) => {
+      step.choose(key);
+      redraw();
+    },
+  });
+  const element = el("div", { class: "wv-recorded", hidden: true }, list.element);
+
+  function make() {
+    const canvas = el("canvas", { class: "wv-recorded-strip" });
+    const name = el("span", { class: "wv-recorded-name" });
+    return Object.assign(el("div", { class: "wv-recorded-row" }, canvas, name), { parts: { canvas, name } });
+  }
+
+  function update(row, { key, counts }) {
+    const { canvas, name } = row.parts;
+    setText(name, key || "All displayed topics");
+    set(row, { "data-steps": step.topic() === key });
+    requestAnimationFrame(() => paint(canvas, counts)); // once it has a size
+  }
+
+  function paint(canvas, counts) {
+    const { context, width, height, color } = fitted(canvas);
+    const x = (time) => MARGIN + share(time, range()) * (width - 2 * MARGIN);
+    bars(context, counts, { x, whole: whole(), range: range(), top: 2, height: height - 4, color: color("accent") });
+  }
+
+  new ResizeObserver(redraw).observe(element);
+
+  function redraw() {
+    if (end) list.show(items);
+  }
+
+  function toggle() {
+    if (end) {
+      end();
+      end = null;
+    } else {
+      end = watch("recorded", (recorded) => {
+        const names = [...recorded.keys()].sort();
+        items = [{ key: "", counts: [] }, ...names.map((key) => ({ key, counts: recorded.get(key) }))];
+        list.show(items);
+      });
+    }
+    set(element, { hidden: !end });
+    toggled();
+  }
+
+  return { element, redraw, toggle, isOpen: () => end !== null };
+}

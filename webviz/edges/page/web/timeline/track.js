@@ -1,0 +1,144 @@
+// The track of the timeline: a slider over the whole recording that is zoomed by the wheel.
+
+import { why } from "../access.js";
+import { act } from "../act.js";
+import { at } from "../charts/scale.js";
+import { el, set, setText } from "../dom.js";
+import { toast } from "../shell/toasts.js";
+import { duration } from "../shell/time_text.js";
+import { draw, MARGIN } from "./draw.js";
+import { following, zoomed } from "./range.js";
+
+const WHEEL = 1.25;
+const MIN_SPAN_PX = 4;
+
+/**
+ * Returns `{element, range, show(recording), setCounts(counts)}`: `seek` is of `seeks.js`, `recording` the
+ * store "playback", a Map. `redrawn()` is called when the window is another.
+ */
+export function track(seek, redrawn = () => {}) {
+  let recording = null;
+  let counts = [];
+  let range = [0, 1]; // the window, in seconds
+  let length = 1; // of the recording
+  let hover = null;
+  let drag = null; // {pointer, from, isSpan}
+  let frame = 0;
+
+  const canvas = el("canvas", {
+    class: "wv-track", role: "slider", tabindex: 0, "aria-label": "Time of the recording",
+    "aria-valuemin": 0,
+    "aria-description": "Click or drag to seek, Shift+drag to select what is played, wheel to zoom",
+    onpointerdown: press, onpointermove: move, onpointerup: release, onpointercancel: release,
+    onpointerleave: () => point(null), onwheel: wheel, ondblclick: () => setRange([0, length]),
+  });
+  const label = el("span", { class: "wv-track-label wv-number", hidden: true });
+  const element = el("div", { class: "wv-track-place" }, canvas, label);
+  new ResizeObserver(later).observe(canvas);
+
+  const position = () => seek.wanted() ?? recording?.get("position") ?? 0;
+
+  function show(next) {
+    recording = next;
+    if (length !== recording.get("duration")) {
+      length = recording.get("duration");
+      setRange([0, length]);
+    }
+    if (recording.get("is_playing") && !drag) follow();
+    set(canvas, {
+      "aria-valuemax": length, "aria-valuenow": position(), "aria-valuetext": duration(position()),
+    });
+    later();
+  }
+
+  function follow() {
+    const next = following(range, position(), length);
+    if (next[0] !== range[0]) setRange(next);
+  }
+
+  function setRange(next) {
+    range = next;
+    later();
+    redrawn();
+  }
+
+  function later() {
+    frame ||= requestAnimationFrame(() => {
+      frame = 0;
+      if (!recording || !canvas.clientWidth) return;
+      const selected = drag?.isSpan ? drag.span : recording.get("selected");
+      draw(canvas, { range, whole: length, counts, selected, position: position(), hover });
+    });
+  }
+
+  // The time at a pointer.
+  function timeAt({ clientX }) {
+    const { left, width } = canvas.getBoundingClientRect();
+    const share = (clientX - left - MARGIN) / Math.max(1, width - 2 * MARGIN);
+    return Math.min(Math.max(at(share, range), 0), length);
+  }
+
+  function press(event) {
+    if (event.button !== 0 || !recording) return;
+    const reason = why(event.shiftKey ? "SelectSpan" : "Seek");
+    if (reason) return toast(reason, { level: "warn", topic: "access" });
+    canvas.setPointerCapture(event.pointerId);
+    const from = timeAt(event);
+    drag = { pointer: event.pointerId, x: event.clientX, from, isSpan: event.shiftKey, span: null };
+    if (!drag.isSpan) seek.to(from);
+  }
+
+  function move(event) {
+    point(event);
+    if (drag?.pointer !== event.pointerId) return;
+    const time = timeAt(event);
+    if (!drag.isSpan) seek.to(time);
+    else if (Math.abs(event.clientX - drag.x) >= MIN_SPAN_PX) {
+      drag.span = [Math.min(drag.from, time), Math.max(drag.from, time)];
+    }
+    later();
+  }
+
+  function release(event) {
+    if (drag?.pointer !== event.pointerId) return;
+    const { isSpan, span } = drag;
+    drag = null;
+    // A click with Shift selects the whole recording again.
+    if (isSpan) act("SelectSpan", { first_s: span?.[0] ?? null, last_s: span?.[1] ?? null });
+    later();
+  }
+
+  function point(event) {
+    hover = event && recording ? timeAt(event) : null;
+    set(label, { hidden: hover === null });
+    if (hover !== null) {
+      setText(label, duration(hover, range[1] - range[0] < 10 ? 3 : 1));
+      const { left, width } = canvas.getBoundingClientRect();
+      const half = label.offsetWidth / 2;
+      const x = Math.min(Math.max(event.clientX - left, half), width - half);
+      label.style.transform = `translateX(${Math.round(x - half)}px)`;
+    }
+    later();
+  }
+
+  function wheel(event) {
+    if (!recording) return;
+    event.preventDefault();
+    const { left, width } = canvas.getBoundingClientRect();
+    const around = Math.min(Math.max((event.clientX - left - MARGIN) / (width - 2 * MARGIN), 0), 1);
+    const isMove = event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY);
+    const sign = Math.sign(event.deltaY || event.deltaX);
+    setRange(zoomed(range, isMove ? { move: 0.1 * sign } : { around, by: WHEEL ** sign }, length));
+  }
+
+  return {
+    element,
+    range: () => range,
+    show,
+    later,
+    setCounts(next) {
+      counts = next;
+      later();
+    },
+  };
+}

@@ -1,0 +1,87 @@
+// The buttons of a recording: step, rate, loop, and the time to go to.
+
+import { needs } from "../access.js";
+import { act } from "../act.js";
+import { el, set, setText } from "../dom.js";
+import { icon } from "../icons.js";
+import { openMenu } from "../shell/menu.js";
+import { duration } from "../shell/time_text.js";
+import { toast } from "../shell/toasts.js";
+import { parseTime } from "./typed_time.js";
+
+const RATES = [0.1, 0.25, 0.5, 1, 2, 5, 10, 20];
+const FULL = 0; // as fast as possible
+const HELP = "Seconds, 1:02:03.4, or a date with the time of day";
+
+const rateText = (rate) => (rate === FULL ? "max" : `${rate}×`);
+
+/** Returns `{element, show(recording, position)}`; `seek` and `topics` are of `seeks.js` and `topics.js`. */
+export function transport(seek, step, topics) {
+  let recording = null;
+
+  const button = (name, label, tip, onclick) =>
+    el("button", { type: "button", class: "wv-icon", "aria-label": label, "data-tip": tip, onclick }, icon(name));
+  const before = button("step-back", "Previous message", "", () => step.run(false));
+  const after = button("step", "Next message", "", () => step.run(true));
+  const rate = el("button", {
+    type: "button", class: "wv-button wv-rate", "aria-label": "Rate", "data-tip": "How fast to play", onclick: chooseRate,
+  });
+  const loop = button("loop", "Loop", "Start over at the end of what is selected", () =>
+    act("SetLoop", { loop: !recording.get("loop") }));
+  const list = button("list", "Topics", "When each topic has messages", topics.toggle);
+  const field = el("input", {
+    class: "wv-field wv-position wv-number", type: "text", "aria-label": "Go to time", autocomplete: "off",
+    spellcheck: "false", "data-tip": HELP, onchange: go, onblur: () => recording && write(),
+    onfocus: () => field.select(), onkeydown: key,
+  });
+  const length = el("span", { class: "wv-quiet wv-number" });
+  const element = el("div", { class: "wv-transport" },
+    needs("StepMessage", before), needs("StepMessage", after), needs("SetRate", rate), needs("SetLoop", loop),
+    list, needs("Seek", el("span", { class: "wv-go" }, field)), length);
+  let shown = 0;
+
+  function chooseRate() {
+    const { left, top } = rate.getBoundingClientRect();
+    const items = [...RATES, FULL].map((value) => ({
+      label: value === FULL ? "As fast as possible" : rateText(value),
+      checked: recording.get("rate") === value,
+      run: () => act("SetRate", { rate: value }),
+    }));
+    openMenu(left, top, items);
+  }
+
+  function key(event) {
+    if (event.key === "Escape") {
+      write();
+      field.blur();
+    } else if (event.key !== "Enter") return;
+    event.stopPropagation();
+  }
+
+  function go() {
+    const time = parseTime(field.value, recording.get("start"));
+    if (time === null) toast(`${field.value || "Nothing"} is not a time. Type ${HELP.toLowerCase()}.`, { level: "warn" });
+    else seek.to(time);
+    field.blur();
+  }
+
+  const write = () => {
+    const text = duration(shown, 3);
+    if (field.value !== text) field.value = text;
+  };
+
+  function show(next, position) {
+    recording = next;
+    shown = position;
+    if (document.activeElement !== field) write();
+    setText(length, `/ ${duration(recording.get("duration"))}`);
+    setText(rate, rateText(recording.get("rate")));
+    set(loop, { "aria-pressed": String(recording.get("loop")) });
+    set(list, { "aria-pressed": String(topics.isOpen()) });
+    const of = step.topic() ? `of ${step.topic()}` : "of any displayed topic";
+    set(before, { "data-tip": `Previous message ${of} (←)` });
+    set(after, { "data-tip": `Next message ${of} (→)` });
+  }
+
+  return { element, show };
+}
