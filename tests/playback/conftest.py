@@ -22,8 +22,9 @@ TURNS = 10_000
 class Theater:
     """A viewer of a bag that only runs in `turn`."""
 
-    def __init__(self, path: Path, config: str) -> None:
-        self.source = BagSource(path)
+    def __init__(self, paths: Path | list[Path], config: str) -> None:
+        self.paths = paths
+        self.source = BagSource(paths)
         self.scene = RecordingScene()
         self.loop = FrameLoop(parse(config, "the config"), self.source, self.scene, strict=True)
         self.turn()
@@ -66,9 +67,9 @@ def theater(tmp_path: Path) -> Iterator[Callable[..., Theater]]:
     """Open a bag in a viewer; all are closed at the end."""
     made: list[Theater] = []
 
-    def make(bag: Bag | Path, config: str = "displays: []\n") -> Theater:
-        path = bag if isinstance(bag, Path) else bag.write(tmp_path / f"bag{len(made)}")
-        made.append(Theater(path, config))
+    def make(bag: Bag | Path | list[Path], config: str = "displays: []\n") -> Theater:
+        paths = bag.write(tmp_path / f"bag{len(made)}") if isinstance(bag, Bag) else bag
+        made.append(Theater(paths, config))
         return made[-1]
 
     yield make

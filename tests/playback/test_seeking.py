@@ -79,7 +79,7 @@ def recorded() -> Bag:
 
 def test_a_seek_shows_what_a_straight_play_shows(theater: Callable) -> None:
     sought = theater(recorded(), CONFIG)
-    path = sought.source._file.path
+    path = sought.paths
     chance = random.Random(7)
     for _ in range(12):
         at_s = round(chance.uniform(0.0, 6.0), 3)
@@ -99,7 +99,7 @@ def test_a_seek_while_seeking_goes_to_the_last(theater: Callable) -> None:
     answers = [viewer.loop.enqueue(Seek(at_s)) for at_s in (5.0, 1.0, 3.0)]
     viewer.turn_until(lambda: all(answer.done() for answer in answers))
     assert viewer.playback.position_s == 3.0
-    straight = theater(viewer.source._file.path, CONFIG)
+    straight = theater(viewer.paths, CONFIG)
     straight.do(Seek(3.0))
     assert viewer.nodes() == straight.nodes()
 

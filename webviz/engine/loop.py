@@ -66,6 +66,7 @@ class FrameLoop:
         scene: where to draw.
         show: called with the state whenever panels should be updated.
         path: the file of the config, None if it has none.
+        autoplay: play a recording as soon as a browser is connected; else it is paused first.
         may_publish: whether tools may publish, call services and send goals.
         allow_publish: names to which they may, besides those of the config.
         autosave: a file that follows every change, None for no autosave.
@@ -85,6 +86,7 @@ class FrameLoop:
         show: Callable[[State], None] = lambda state: None,
         *,
         path: Path | None = None,
+        autoplay: bool = False,
         may_publish: bool = True,
         allow_publish: Sequence[str] = (),
         autosave: Path | None = None,
@@ -127,7 +129,7 @@ class FrameLoop:
         self._tracer = services.tracer
         transforms = TransformsPart(core, self._robots)
         self._time = TimePart(core, lambda: self._parts.reset(), control)
-        self._playback = PlaybackPart(core, control, self._time.start_over)
+        self._playback = PlaybackPart(core, control, self._time.start_over, autoplay)
         self._owed: list[Callable[[], None]] = []
         displays = self._displays = DisplaysPart(core, services)
         settings = self._settings = SettingsPart(core)

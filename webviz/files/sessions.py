@@ -150,7 +150,7 @@ class Sessions:
             None if the folder cannot be written, or too many viewers show this config; it is
             logged.
         """
-        name = self.standard if config is None else _name_of(config)
+        name = self.standard if config is None else name_of(config)
         try:
             return within(PATIENCE_S, lambda: _claim(name, _folder()))
         except OSError as error:
@@ -180,8 +180,8 @@ def _claim(name: str, folder: Path) -> Claim:
     raise OSError(f"{MAX_VIEWERS} viewers show this config already.")
 
 
-def _name_of(config: Path) -> str:
-    """Tell configs of the same name in different folders apart."""
+def name_of(config: Path) -> str:
+    """Tell files of the same name in different folders apart."""
     full = os.path.realpath(config)
     stem = re.sub(r"[^\w.-]+", "_", config.stem)[:MAX_NAME]
     return f"{stem}-{hashlib.sha256(os.fsencode(full)).hexdigest()[:8]}"

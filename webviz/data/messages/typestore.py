@@ -109,6 +109,15 @@ def type_hash(type_name: str) -> str:
     return _store().hash_rihs01(full_name(type_name))
 
 
+def are_same(type_name: str, text: str, other: str) -> bool:
+    """Return whether two .msg texts define the same type; those that are invalid do not."""
+    try:
+        first, second = (get_types_from_msg(each, full_name(type_name)) for each in (text, other))
+    except TypesysError:
+        return text == other
+    return first == second
+
+
 def add(type_name: str, text: str, fixed: Container[str]) -> None:
     """Register a type from its .msg text, but never change those in `fixed`.
 

@@ -45,7 +45,10 @@ class SqliteRecording:
 
     def __init__(self, path: Path) -> None:
         self.losses = Losses("message", "skipped")
-        self._db = sqlite3.connect(f"{path.absolute().as_uri()}?immutable=1&mode=ro", uri=True)
+        # One thread opens a bag, another one plays it.
+        self._db = sqlite3.connect(
+            f"{path.absolute().as_uri()}?immutable=1&mode=ro", uri=True, check_same_thread=False
+        )
         try:
             self._db.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, MAX_BYTES)
             self._db.execute("PRAGMA trusted_schema = OFF")

@@ -7,6 +7,8 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from webviz.api.errors import Error
+from webviz.api.status import Level, Status
+from webviz.data.words import joined
 from webviz.engine.commands import (
     Command,
     Play,
@@ -24,7 +26,7 @@ from webviz.engine.state import PlaybackState
 MIN_RATE, MAX_RATE = 0.01, 1000.0
 BUCKETS = 500
 """Parts of the span whose messages are counted: about one for each three pixels of a wide page."""
-LIVE = Error("Live topics have no past to play. Start the viewer with --bag to play a recording.")
+LIVE = "Live topics have no past to play. Start the viewer with --bag to play a recording."
 
 
 class PlaybackPart(Part):
@@ -34,14 +36,21 @@ class PlaybackPart(Part):
         core: shared by all parts.
         control: of the source, None if it has no past.
         start_over: discards the received data of all parts.
+        autoplay: play as soon as a browser is connected, so that nobody misses the beginning.
     """
 
     name = "Playback"
 
     def __init__(
-        self, core: Core, control: PlaybackControl | None, start_over: Callable[[], None]
+        self,
+        core: Core,
+        control: PlaybackControl | None,
+        start_over: Callable[[], None],
+        autoplay: bool = False,
     ) -> None:
         super().__init__(core)
+        if control is not None:
+            control.is_ready = autoplay
         self._control = control
         self._start_over = start_over
 
@@ -68,7 +77,11 @@ class PlaybackPart(Part):
         Args:
             is_busy: whether displays have to catch up first.
         """
-        if self._control and self._control.advance(is_busy):
+        if self._control is None:
+            return
+        if self._control.is_ready and self.core.is_watched():
+            self._control.play()
+        if self._control.advance(is_busy):
             self._start_over()
 
     def state(self) -> Mapping[str, Any]:
@@ -77,6 +90,11 @@ class PlaybackPart(Part):
             return {}
         recorded = self._control.playback.histogram(BUCKETS)
         return {"playback": _state_of(self._control), "recorded": recorded}
+
+    def statuses(self) -> Mapping[str, Status]:
+        """Return what is missing, unusual or damaged in the recording."""
+        remarks = self._control.playback.remarks if self._control else ()
+        return {"Recording": Status(Level.WARN, joined(*remarks))} if remarks else {}
 
     # Commands
 
@@ -131,7 +149,7 @@ class PlaybackPart(Part):
 
     def _known(self) -> PlaybackControl:
         if self._control is None:
-            raise LIVE
+            raise Error(LIVE)
         return self._control
 
     def _at_ns(self, seconds: float) -> int:

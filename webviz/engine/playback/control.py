@@ -26,6 +26,8 @@ class PlaybackControl:
         """True if the span starts over at its end."""
         self.selected: tuple[int, int] | None = None
         """The first and the last position to play; None plays all."""
+        self.is_ready = False
+        """True to play as soon as a browser is connected, until somebody plays or pauses."""
         self._is_playing = False
         self._target_ns: int | None = None
         self._stepped_s = 0.0
@@ -62,14 +64,14 @@ class PlaybackControl:
         Returns:
             Whether all received data must be discarded first.
         """
-        self._is_playing = True
+        self._is_playing, self.is_ready = True, False
         self._stepped_s = time.monotonic()
         first_ns, last_ns = self.span_ns
         return not first_ns - 1 <= self.position_ns < last_ns and self.seek(first_ns)
 
     def pause(self) -> None:
         """Stay at the position."""
-        self._is_playing = False
+        self._is_playing = self.is_ready = False
 
     def seek(self, at_ns: int) -> bool:
         """Approach a position; `advance` until `is_seeking` is False.

@@ -34,6 +34,11 @@ class Playable(Protocol):
         """Names of the recordings, for people."""
         ...
 
+    @property
+    def remarks(self) -> Sequence[str]:
+        """Sentences on what is missing, unusual or damaged, for people."""
+        ...
+
     def play(self, until_ns: int) -> None:
         """Deliver everything recorded until a time, or a part of it that the inbox can hold.
 

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import re
 from collections import deque
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 
 from webviz.data.messages import MessageError, register
 from webviz.engine.sources.bag_extras import Extra
-from webviz.engine.sources.bag_file import BagChannel, BagError, BagFile, Recorded
+from webviz.engine.sources.bag_file import BagChannel, BagError, Recorded
+from webviz.engine.sources.bag_files import BagFiles
+from webviz.engine.sources.bag_frames import frames_of, links_of
 from webviz.engine.sources.bag_time import CLOCK, TF, BagTime
 from webviz.engine.sources.graph import ReadOnly
 from webviz.engine.sources.inbox import MAX_BYTES, Inbox, Raw
@@ -28,7 +30,7 @@ TOPIC = re.compile(r"(/[A-Za-z_]\w*)+", re.ASCII)
 
 
 class BagSource:
-    """Messages of an mcap file, a db3 file or a rosbag2 folder, without ROS.
+    """Messages of mcap files, db3 files or rosbag2 folders, merged by time, without ROS.
 
     Time advances with `play` only. Any requested QoS is accepted.
 
@@ -36,23 +38,23 @@ class BagSource:
     simulated time: it follows the recorded /clock, or else the transforms.
 
     Args:
-        path: of the bag.
+        paths: of the bag, or of several.
         extras: messages that the bag lacks, latched from its start on.
         remappings: full topic names by the full names that displays use.
 
     Raises:
-        BagError: the bag cannot be read.
+        BagError: a bag cannot be read.
     """
 
     def __init__(
         self,
-        path: Path,
+        paths: Path | Sequence[Path],
         extras: Sequence[Extra] = (),
         remappings: Mapping[str, str] | None = None,
     ) -> None:
         self.inbox = Inbox()
         self.graph = ReadOnly("A bag is read-only. Connect to a live ROS graph to publish.")
-        self._file = BagFile(path)
+        self._file = BagFiles([paths] if isinstance(paths, Path) else paths)
         self._extras = tuple(extras)
         self._remappings = dict(remappings or {})
         self._time = BagTime(self._file)
@@ -122,8 +124,8 @@ class BagSource:
 
     @property
     def names(self) -> Sequence[str]:
-        """The name of the file or folder."""
-        return (self._file.path.name,)
+        """Names of the files or folders."""
+        return self._file.names
 
     def seek(self, at_ns: int) -> None:
         """Go back to the start."""
@@ -151,6 +153,14 @@ class BagSource:
     def histogram(self, buckets: int) -> Mapping[str, Sequence[int]]:
         """`Playable.histogram`."""
         return {}
+
+    def links(self) -> Sequence[tuple[str, str]]:
+        """Parents and children of the static transforms and of the first ones that move."""
+        return links_of(self._file)
+
+    def frames(self, topics: Collection[str]) -> Sequence[str]:
+        """The frames of the first messages on some topics, each once."""
+        return frames_of(self._file, [c for c in self._file.channels if c.topic in topics])
 
     # The interface of webviz.engine.sources.Source
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from webviz.data.messages import Clock, MessageError, TFMessage, decode
-from webviz.engine.sources.bag_file import BagChannel, BagFile, Recorded
+from webviz.engine.sources.bag_file import BagChannel, Recorded
+from webviz.engine.sources.bag_files import BagFiles
 
 CLOCK = "rosgraph_msgs/msg/Clock"
 TF = "tf2_msgs/msg/TFMessage"
@@ -21,10 +22,10 @@ class BagTime:
     transforms do if they are more than an hour off.
 
     Args:
-        file: the bag.
+        file: the bags.
     """
 
-    def __init__(self, file: BagFile) -> None:
+    def __init__(self, file: BagFiles) -> None:
         self.remark = ""
         """A warning, "" for none."""
         self.clocks: list[BagChannel] = [
@@ -56,7 +57,7 @@ class BagTime:
         """ROS time at a time of recording; with a /clock, its last message."""
         return recorded_ns - self._offset_ns if self._clock_ns is None else self._clock_ns
 
-    def _follow_transforms(self, file: BagFile) -> None:
+    def _follow_transforms(self, file: BagFiles) -> None:
         for recorded in _first(file, "/tf", TF):
             try:
                 message: TFMessage = decode(TF, recorded.cdr)
@@ -75,7 +76,7 @@ class BagTime:
             return
 
 
-def _first(file: BagFile, topic: str, type_name: str) -> Iterator[Recorded]:
+def _first(file: BagFiles, topic: str, type_name: str) -> Iterator[Recorded]:
     channels = [c for c in file.channels if (c.topic, c.type) == (topic, type_name)]
     for recorded, _ in zip(file.messages(channels, file.start_ns), range(MAX_TRIED), strict=False):
         yield recorded

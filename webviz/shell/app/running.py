@@ -28,11 +28,12 @@ from webviz.engine import plugins as plugin_files
 from webviz.engine.commands import Command, Refresh, ShowView, StartWithView
 from webviz.engine.state import State
 from webviz.files import config as config_file
-from webviz.files import opening
 from webviz.files.config import Config
 from webviz.files.sessions import Sessions
 from webviz.shell.app.allow_list import check_names, report_everything
 from webviz.shell.app.link_rate import bytes_per_second
+from webviz.shell.app.reading import read_config
+from webviz.shell.bag_source import bag_source
 from webviz.shell.pictures import files as picture_files
 from webviz.shell.ros_source import ros_source
 
@@ -42,21 +43,15 @@ if TYPE_CHECKING:
 
 log = logging.getLogger("webviz")
 
+BagPaths = str | os.PathLike[str] | Sequence[str | os.PathLike[str]]
+"""A bag, or several to merge by time."""
+
 PATIENCE_S = 30.0
 """For a command in the frame loop; opening a config of hundreds of displays takes seconds."""
 CLOSING_S, ALL_CLOSING_S = 1.5, 2.0
 """For a part to close, and for all: a program that is asked to end has three seconds."""
 LAST_S = 0.1
 """For each part that remains after that."""
-
-
-def read_config(path: Path | None) -> Config:
-    """The config of a file, or the default one.
-
-    Raises:
-        ConfigError: the file cannot be read.
-    """
-    return config_file.standard() if path is None else opening.load(path)
 
 
 class Running:
@@ -71,6 +66,8 @@ class Running:
         allow_hosts: Sequence[str] = (),
         fixed_frame: str = "",
         source: Source | None = None,
+        bag: BagPaths | None = None,
+        autoplay: bool = False,
         ros_args: Sequence[str] = (),
         plugins: Sequence[str | os.PathLike[str]] = (),
         autosave: Path | None = None,
@@ -85,7 +82,7 @@ class Running:
         token: bool = False,
         journal: str | os.PathLike[str] | None = None,
         control: bool = True,
-        read: Callable[[Path | None], Config] = read_config,
+        read: Callable[[Path | None, Source | None], Config] = read_config,
     ) -> None:
         with contextlib.ExitStack() as stack:
             closing = _Closing(stack)
@@ -94,6 +91,10 @@ class Running:
             kept = None if journal is None else JournalFile(Path(journal))
             if kept is not None:
                 closing.add("The journal", kept.close)
+            if bag is not None:
+                if source is not None:
+                    raise Error("Give either `bag` or `source`.")
+                source = bag_source(_paths(bag), ros_args=ros_args)
             if source is not None:
                 closing.add("The source of messages", source.close)
             files = [Path(file) for file in plugins]
@@ -102,7 +103,7 @@ class Running:
                 plugin_files.load(file)
             path = Path(config) if config is not None else None
             # Report errors in files before importing viser, which is slow.
-            shown = read(path) if path is not None else None
+            shown = read(path, None) if path is not None else None
             tls = _tls(certfile, keyfile)
             from webviz.edges.access.announcing import Announcement, reachable
             from webviz.edges.access.starting import access_to, make_missing
@@ -133,7 +134,7 @@ class Running:
                 if path is None and node_control.initial["config_file"]:
                     path = Path(node_control.initial["config_file"])
                 fixed_frame = fixed_frame or node_control.initial["fixed_frame"]
-            shown = shown or read(path)
+            shown = shown or read(path, source)
             if publish:
                 report_everything((*(shown.settings.publish or ()), *allow_publish))
             if fixed_frame:
@@ -148,6 +149,7 @@ class Running:
                 scene,
                 self._show,
                 path=path,
+                autoplay=autoplay,
                 may_publish=publish,
                 allow_publish=allow_publish,
                 autosave=autosave,
@@ -349,6 +351,14 @@ class _Closing:
         thread.join(patience_s)
         if thread.is_alive():
             log.warning("%s did not close within %.1f s.", what, patience_s)
+
+
+def _paths(bag: BagPaths) -> list[Path]:
+    """The files and folders of a bag, or of several."""
+    several = [bag] if isinstance(bag, str | os.PathLike) else bag
+    if not several:
+        raise Error("`bag` is empty. Give a file or folder, or None for the ROS graph.")
+    return [Path(path) for path in several]
 
 
 def _tls(

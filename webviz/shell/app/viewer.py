@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -19,22 +20,28 @@ from webviz.engine.commands import (
     Load,
     Open,
     Pause,
+    Play,
     RemoveView,
     Reset,
     Save,
     SaveView,
+    Seek,
     SetBackground,
     SetFixedFrame,
     SetFrameRate,
+    SetRate,
     ShowView,
     StartWithView,
 )
+from webviz.engine.parts.playback import LIVE
+from webviz.engine.state import PlaybackState
 from webviz.files import config as config_file
 from webviz.files import opening
 from webviz.shell.app.adding import by_topic, check_properties
 from webviz.shell.app.handles import DisplayHandle, NoSuchDisplay
 from webviz.shell.app.running import Running, checked_view
 from webviz.shell.app.tool_handle import ToolHandle
+from webviz.shell.pictures.times import At, position_ns, seconds_from_start
 
 
 class Viewer(Running):
@@ -51,7 +58,11 @@ class Viewer(Running):
         allow_hosts: host names that browsers may use with `host`.
         fixed_frame: overrides that of the config.
         source: of messages, closed with the viewer; None for the ROS graph.
-        ros_args: for the ROS node: `["--ros-args", "-r", "/scan:=/front/scan"]`.
+        bag: an MCAP or db3 file, a rosbag2 folder, or several of them, to play instead of the ROS
+            graph; without a config, its topics are shown. It is paused at its start.
+        autoplay: play the bag as soon as a browser is connected.
+        ros_args: for the ROS node: `["--ros-args", "-r", "/scan:=/front/scan"]`; with a bag,
+            remappings of topics only.
         plugins: Python files with displays, reloaded whenever they are saved.
         autosave: file to which every change is saved.
         sessions: keeps unsaved changes and restores them at the next start, as the program does;
@@ -71,11 +82,11 @@ class Viewer(Running):
         journal: file to which it is appended who published, saved and opened what; 1 MB, and as
             much before that in FILE.1.
         control: whether parameters and services of the ROS node may change the viewer.
-        read: reads a config file; called with None for the default config.
+        read: reads a config file; called with None for the default config of a source.
 
     Raises:
-        Error: the config, a plug-in or the certificate cannot be read, ROS is missing, the port is
-            not available, or `link` is not a rate.
+        Error: the config, the bag, a plug-in or the certificate cannot be read, ROS is missing, the
+            port is not available, or `link` is not a rate.
     """
 
     def __enter__(self) -> Viewer:
@@ -249,12 +260,66 @@ class Viewer(Running):
         self.do(Reset())
 
     def pause(self) -> None:
-        """Pause the page; messages wait meanwhile."""
+        """Pause the page, or the bag; live messages wait meanwhile."""
         self.do(Pause(True))
 
     def resume(self) -> None:
-        """Resume the page."""
+        """Resume the page, or the bag."""
         self.do(Pause(False))
+
+    # Bags
+
+    def play(self, rate: float | None = None) -> None:
+        """Play the bag on from its position, at its end from the start.
+
+        Args:
+            rate: seconds of the bag per second, 0.01 to 1000; infinity is as fast as possible, None
+                is the previous rate, at first 1.
+
+        Raises:
+            Error: the rate is out of range, or topics are live.
+        """
+        if rate is not None:
+            self.do(SetRate(0.0 if math.isinf(rate) and rate > 0 else rate or -1.0))
+        self.do(Play())
+
+    def seek(self, at: At) -> None:
+        """Show the bag at a time; returns when the scene shows it. A bag that plays plays on.
+
+        Args:
+            at: seconds from its start (seconds since 1970 if above 1e9), "start" or "end".
+
+        Raises:
+            Error: the time is outside of the bag, or topics are live.
+        """
+        shown = self._playback
+        name = ", ".join(shown.names)
+        self.do(Seek(seconds_from_start(position_ns(at, shown, name), shown)))
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """Times of the first and the last message of the bag, in seconds since 1970.
+
+        Raises:
+            Error: topics are live.
+        """
+        shown = self._playback
+        return shown.start_ns / 1e9, shown.end_ns / 1e9
+
+    @property
+    def position(self) -> float:
+        """The time of the bag that is shown, in seconds from its start.
+
+        Raises:
+            Error: topics are live.
+        """
+        return self._playback.position_s
+
+    @property
+    def _playback(self) -> PlaybackState:
+        if (shown := self.state.playback) is None:
+            raise Error(LIVE)
+        return shown
 
     # Files
 

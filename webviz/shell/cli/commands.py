@@ -36,7 +36,7 @@ app = App(
     group_parameters=Group("Options", sort_key=1),
     default_parameter=Parameter(negative=(), allow_repeating=True),
 )
-app.default(viewing.view)
+app.default(viewing.view, validator=viewing.check)
 app.command(viewing.demo, help_epilogue=ROS_ARGS_HELP)
 for name, summary in {
     "screenshot": "Save pictures of a config without a screen, live or from a bag.",

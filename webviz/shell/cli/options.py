@@ -14,6 +14,7 @@ from cyclopts import Parameter
 from webviz.api.errors import Error
 
 if TYPE_CHECKING:
+    from webviz.engine.sources import Source
     from webviz.files.config import Config
 
 T = TypeVar("T")
@@ -47,17 +48,16 @@ class ConfigOptions:
     mesh_root: Annotated[Repeatable[Path], Parameter(metavar="FOLDER")] = ()
     """Also load meshes and textures from this folder (default: ROS packages; repeatable)."""
 
-    def read(self, path: Path | None) -> "Config":
-        """The config of a file, or the default one, with the overrides of --set.
+    def read(self, path: Path | None, source: "Source | None" = None) -> "Config":
+        """The config of a file, or the default one of a source, with the overrides of --set.
 
         Raises:
             Error: the file cannot be read, or an override is invalid.
         """
-        from webviz.files import config as config_file
-        from webviz.files import opening
         from webviz.files.config.overrides import override
+        from webviz.shell.app.reading import read_config
 
-        config = config_file.standard() if path is None else opening.load(path)
+        config = read_config(path, source)
         if path is not None:
             report_unsupported(path, config.report)
         return override(config, self.set)

@@ -164,11 +164,11 @@ class _Report:
         when = f"within {timeout:g} s" if first.at_s is None else f"at {first.at_s:g} s of the bag"
         more = f", nor in {self._bad - 1} more pictures" if self._bad > 1 else ""
         print(f"webviz: not all displays are OK {when}{more}:", file=sys.stderr)
-        # Unsupported parts were reported when the config was read.
+        # Unsupported parts were reported when the config was read; the bag is reported afterwards.
         general = {
             key: status
             for key, status in first.shown.general.items()
-            if status.level is not Level.OK and key != "Import"
+            if status.level is not Level.OK and key not in ("Import", "Recording")
         }
         for line in _table(first.statuses | general):
             print(f"  {line}", file=sys.stderr)

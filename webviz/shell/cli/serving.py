@@ -13,12 +13,13 @@ from pathlib import Path
 from webviz.api.registry import display_types
 from webviz.data.messages import type_exists
 from webviz.edges.access.starting import link
+from webviz.engine.sources import Source
 from webviz.files.config import Config
-from webviz.files.sessions import Sessions
+from webviz.files.sessions import Sessions, name_of
 from webviz.shell.app.viewer import Viewer
 from webviz.shell.cli.ending import INTERRUPTED, Stop, say_end
 from webviz.shell.cli.links import show_links
-from webviz.shell.cli.viewing_options import ViewingOptions
+from webviz.shell.cli.viewing_options import BagOptions, ViewingOptions
 
 
 def serve(
@@ -27,6 +28,7 @@ def serve(
     stop: Stop,
     standard: Path | None = None,
     note: str = "",
+    bag: BagOptions = BagOptions(),
 ) -> int:
     """Serve the page until the program is asked to stop.
 
@@ -36,6 +38,7 @@ def serve(
         stop: asks the program to stop.
         standard: config to use if none is given.
         note: printed below the address of the page.
+        bag: to play instead of live topics.
 
     Returns:
         The exit status.
@@ -44,8 +47,8 @@ def serve(
     template = options.template or standard
 
     @functools.cache
-    def read(path: Path | None) -> Config:
-        return options.read(path or template)
+    def read(path: Path | None, source: Source | None = None) -> Config:
+        return options.read(path or template, source)
 
     if (options.display_config or options.template) and not options.plugin:
         # Report errors before imports that take seconds. With plug-ins the viewer reads the file
@@ -62,9 +65,11 @@ def serve(
             port=options.port,
             allow_hosts=options.allow_host,
             fixed_frame=options.fixed_frame,
+            bag=bag.bag or None,
+            autoplay=not bag.paused,
             ros_args=ros,
             plugins=options.plugin,
-            sessions=_sessions(template, not options.no_restore) if options.autosave else None,
+            sessions=_sessions(options, template, bag) if options.autosave else None,
             config_folders=options.config_folder,
             publish=not options.no_publish,
             allow_publish=options.allow_publish,
@@ -119,5 +124,6 @@ def _announce(options: ViewingOptions, viewer: Viewer, note: str) -> None:
         threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
 
 
-def _sessions(template: Path | None, restore: bool) -> Sessions:
-    return Sessions(template.stem if template else "default", restore)
+def _sessions(options: ViewingOptions, template: Path | None, bag: BagOptions) -> Sessions:
+    standard = template.stem if template else name_of(bag.bag[0]) if bag.bag else "default"
+    return Sessions(standard, not options.no_restore)

@@ -6,7 +6,7 @@ from cyclopts import Parameter, validators
 
 from webviz.shell.cli.ending import Stop, until_signal
 from webviz.shell.cli.options import Repeatable, RosArgs
-from webviz.shell.cli.viewing_options import ViewingOptions
+from webviz.shell.cli.viewing_options import BagOptions, ViewingOptions
 from webviz_sim.options import fault_parameter
 
 EXAMPLES = """\
@@ -14,6 +14,7 @@ Examples:
   webviz                          show the usual topics of the ROS graph
   webviz -d lab.yaml -f odom      open a config, in another fixed frame
   webviz -d nav2.rviz             open a config of RViz
+  webviz --bag run.mcap           play a bag, without ROS
   webviz --plugin my_display.py   load your own display, see the README
   webviz demo                     show a simulated robot
   webviz demo --robots 3          show several, each in a namespace of its own
@@ -24,13 +25,24 @@ Run `webviz COMMAND --help` for the options of a command.
 """
 
 
-def view(*, options: ViewingOptions = ViewingOptions(), ros: RosArgs) -> int:
+def check(*, bag: BagOptions = BagOptions(), **_: object) -> None:
+    """Raise ValueError for an invalid combination of arguments."""
+    if bag.paused and not bag.bag:
+        raise ValueError("--paused needs --bag.")
+
+
+def view(
+    *,
+    bag: BagOptions = BagOptions(),
+    options: ViewingOptions = ViewingOptions(),
+    ros: RosArgs,
+) -> int:
     """Serve the page until Ctrl-C or SIGTERM."""
 
     def work(stop: Stop) -> int:
         from webviz.shell.cli.serving import serve
 
-        return serve(options, ros, stop)
+        return serve(options, ros, stop, bag=bag)
 
     return until_signal(work)
 

@@ -4,11 +4,23 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
-from cyclopts import Parameter, validators
+from cyclopts import Group, Parameter, validators
 
 from webviz.shell.cli.options import ConfigOptions, File, Flag, Repeatable
 
 LOCAL = "127.0.0.1"
+BAG = Parameter(group=Group("A bag instead of live topics", sort_key=2))
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class BagOptions:
+    """The bag to play."""
+
+    bag: Annotated[Repeatable[Path], BAG, Parameter(metavar="FILE", consume_multiple=1)] = ()
+    """Play an MCAP or db3 file, or a rosbag2 folder; several are merged by time (repeatable)."""
+    paused: Annotated[Flag, BAG] = False
+    """Stay at the start of the bag, instead of playing once a browser connects."""
 
 
 @Parameter(name="*")

@@ -23,6 +23,7 @@ from webviz.engine.sources.bag import BagSource
 from webviz.engine.sources.bag_extras import Extra
 from webviz.files.config import Config, Settings, nearest
 from webviz.files.opening import load, parse
+from webviz.shell.bag_source import bag_source
 from webviz.shell.pictures.browser import Pixels, check_size, launched
 from webviz.shell.pictures.offline_viewer import OfflineViewer, Readiness
 from webviz.shell.pictures.studio import Studio
@@ -256,7 +257,7 @@ def opened(
         Error: the bag cannot be read, or ROS is missing.
     """
     if bag is not None:
-        source: Source = BagSource(Path(bag), extras, _remappings(ros_args))
+        source: Source = bag_source(Path(bag), extras, ros_args)
     elif extras:
         raise Error("Maps and transforms can only be added to a bag. Give a bag.")
     else:
@@ -280,21 +281,6 @@ def _read(config: Config | str | Path) -> Config:
     if isinstance(config, str) and "\n" in config:
         return parse(config, "the config")
     return load(Path(config))
-
-
-def _remappings(ros_args: Sequence[str]) -> dict[str, str]:
-    """Topics by the names that displays use; other ROS arguments make no sense for a bag."""
-    result = {}
-    rest = [a for a in ros_args if a not in ("--ros-args", "--", "-r", "--remap")]
-    for argument in rest:
-        theirs, mark, ours = argument.partition(":=")
-        if not mark or not theirs.startswith("/"):
-            raise Error(
-                f"{argument!r} is not supported with a bag. The only ROS argument is "
-                "`-r /topic:=/other`."
-            )
-        result[theirs] = ours
-    return result
 
 
 def _is_in_event_loop() -> bool:

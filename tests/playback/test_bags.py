@@ -1,0 +1,189 @@
+"""Bags as a user opens them: several at once, without a config, from Python, with mistakes."""
+
+from __future__ import annotations
+
+import math
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from bags import START_NS, Bag, ns, strings
+from playwright.sync_api import Browser
+from processes import eventually
+from rosbags.rosbag2 import StoragePlugin
+
+import webviz
+from webviz.data.messages import encode
+from webviz.engine.bag_config import config_of
+from webviz.engine.sources.bag import BagSource
+from webviz.shell.cli import main as cli
+from webviz.shell.testing import header
+
+
+def robot() -> Bag:
+    """A robot with two lasers, a camera, and a topic that nobody publishes on."""
+    bag = Bag()
+    for topic, message, frame in (
+        ("/front/scan", "LaserScan", "front"),
+        ("/rear/scan", "LaserScan", "rear"),
+        ("/camera/image_raw", "Image", "camera"),
+        ("/camera/image_raw/compressed", "CompressedImage", "camera"),
+        ("/camera/camera_info", "CameraInfo", "camera"),
+    ):
+        bag.add(topic, f"sensor_msgs/msg/{message}")
+        bag.put(0.5, topic, {"header": header(frame, START_NS)})
+    bag.add("/joint_states", "sensor_msgs/msg/JointState")
+    bag.put(0.5, "/joint_states", {"header": header("", START_NS)})
+    bag.transform(0.0, "base", "front", static=True)
+    bag.transform(0.1, "odom", "base")
+    bag.transform(1.0, "odom", "base")
+    return bag
+
+
+def shown(source: BagSource) -> dict[str, str]:
+    """Names and types of the displays for a bag."""
+    return {each.name: type(each).__name__ for each in config_of(source).displays}  # pyright: ignore[reportAttributeAccessIssue]
+
+
+def test_without_a_config_the_topics_of_a_bag_are_shown(tmp_path: Path) -> None:
+    source = BagSource(robot().write(tmp_path / "run"))
+    assert shown(source) == {
+        "Grid": "Grid",
+        "TF": "TF",
+        "/front/scan": "LaserScan",
+        "/rear/scan": "LaserScan",
+        "Image": "Image",
+    }
+    assert config_of(source).settings.fixed_frame == "odom"
+    source.close()
+
+
+def test_without_transforms_the_fixed_frame_is_that_of_the_data(tmp_path: Path) -> None:
+    bag = Bag()
+    for topic, frame in (("/imu", "imu_link"), ("/odom", "map")):
+        bag.add(topic, "nav_msgs/msg/Odometry")
+        bag.put(0, topic, {"header": header(frame, START_NS)})
+    source = BagSource(bag.write(tmp_path / "run"))
+    assert config_of(source).settings.fixed_frame == "map"
+    source.close()
+
+
+def test_several_bags_are_one(tmp_path: Path, theater: Callable) -> None:
+    first = strings(0, 2).write(tmp_path / "first")
+    second = strings(1, 5).write(tmp_path / "second")
+    viewer = theater([second, first, first], "displays: [{type: Text, topic: /words}]")
+    shown = viewer.playback
+    assert set(shown.names) == {"first", "second"}
+    assert shown.end_ns - shown.start_ns == ns(5)
+    viewer.source.want(viewer.loop._parts.subscriptions())
+    viewer.source.inbox.drain()
+    viewer.source.seek(START_NS)
+    while viewer.source.position_ns < START_NS + ns(3):
+        viewer.source.play(START_NS + ns(3))
+    heard = [raw.cdr for raw in viewer.source.inbox.drain()["/words"]]
+    assert heard == [encode("std_msgs/msg/String", {"data": text}) for text in "012"]
+
+
+def test_types_that_differ_between_bags_are_reported(tmp_path: Path, theater: Callable) -> None:
+    first = strings(0).write(tmp_path / "first")
+    other = Bag()
+    other.add("/words", "std_msgs/msg/Bool")
+    other.put(0, "/words", {"data": True})
+    viewer = theater([first, other.write(tmp_path / "second")])
+    assert viewer.loop.state().statuses["Recording"].text == (
+        "/words differs between the bags, std_msgs/msg/String in first and std_msgs/msg/Bool in "
+        "second: a display reads one type only."
+    )
+
+
+def test_definitions_that_differ_between_bags_are_not_mixed(
+    tmp_path: Path, theater: Callable
+) -> None:
+    paths = []
+    for name, definition in {
+        "first": "int32 a  # apples\n",
+        "second": "\nint32   a\n",
+        "third": "float64 a\n",
+    }.items():
+        bag = Bag()
+        bag.add(f"/{name}", "fruit_of_bags/msg/Basket", definition=definition)
+        bag.put(0, f"/{name}", bytes(16))
+        paths.append(bag.write(tmp_path / name))
+    offers = theater(paths).source.offers()
+    assert [offers[f"/{name}"].problem for name in ("first", "second", "third")] == [
+        "",
+        "",
+        "fruit_of_bags/msg/Basket is not defined in third as it is in first",
+    ]
+
+
+@pytest.mark.parametrize("storage", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
+def test_a_program_plays_a_bag(tmp_path: Path, storage: StoragePlugin) -> None:
+    path = strings(0, 1, 2, 3, 4).write(tmp_path / "run", storage)
+    with webviz.Viewer(bag=path, port=0) as viewer:
+        assert viewer.span == (START_NS / 1e9, START_NS / 1e9 + 4)
+        assert viewer.position == 0.0
+        viewer.add("Text", topic="/words")
+        viewer.seek("end")
+        assert viewer.position == 4.0
+        assert "Recording" not in viewer.statuses  # which would report damage
+        viewer.seek(viewer.span[0] + 1)
+        assert viewer.position == 1.0
+        with pytest.raises(webviz.Error, match=r"7 s is outside of run\. Give 0 to 4 s"):
+            viewer.seek(7)
+        viewer.play(rate=0.01)
+        viewer.pause()
+        assert 1.0 <= viewer.position < 4.0
+        viewer.play(rate=math.inf)
+        assert eventually(lambda: viewer.position == 4.0)
+        with pytest.raises(webviz.Error, match="rate -1 is out of range"):
+            viewer.play(rate=-1)
+
+
+def test_a_bag_needs_no_ros(tmp_path: Path) -> None:
+    path = robot().write(tmp_path / "run")
+    script = (
+        "import sys; sys.modules['rclpy'] = None; import webviz\n"
+        f"with webviz.Viewer(bag={str(path)!r}, port=0) as viewer: print(viewer.fixed_frame)"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    assert (done.stdout, done.stderr) == ("odom\n", "")
+
+
+def test_it_plays_once_a_browser_connects(tmp_path: Path, browser: Browser) -> None:
+    path = strings(0, 1, 2).write(tmp_path / "run")
+    with webviz.Viewer(bag=path, port=0, autoplay=True) as viewer:
+        assert viewer.position == 0.0
+        page = browser.new_page()
+        page.goto(viewer.url)
+        assert eventually(lambda: viewer.position == 2.0)
+        page.close()
+
+
+MISTAKES = [
+    (["--bag", "nowhere.mcap"], 1, "Bag nowhere.mcap not found. Give an MCAP or db3 file"),
+    (["--bag", __file__], 1, "is a text, not a bag."),
+    (["--bag"], 2, "--bag needs FILE."),
+    (["--paused"], 2, "--paused needs --bag."),
+    (["--bag", "{run}", "--ros-args", "-p", "use_sim_time:=true"], 1, "not supported with a bag"),
+]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status", "sentence"), MISTAKES, ids=lambda each: str(each)[:30]
+)
+def test_a_mistake_is_one_sentence(
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    arguments: list[str],
+    status: int,
+    sentence: str,
+) -> None:
+    path = strings(0).write(tmp_path / "run")
+    assert cli([each.format(run=path) for each in arguments]) == status
+    said = capsys.readouterr().err
+    assert said.startswith("webviz: ")
+    assert sentence in said
+    assert said.count("\n") == 1

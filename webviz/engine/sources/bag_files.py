@@ -1,0 +1,103 @@
+"""Bags that are played together, as if they were one."""
+
+from __future__ import annotations
+
+import contextlib
+import heapq
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from pathlib import Path
+
+from webviz.data.messages.typestore import are_same
+from webviz.data.words import counted
+from webviz.engine.sources.bag_file import BagChannel, BagFile, Recorded
+
+
+class BagFiles:
+    """One or several bags, merged by time of recording.
+
+    Args:
+        paths: of files or folders, at least one; each is read once.
+
+    Raises:
+        BagError: one cannot be read.
+    """
+
+    def __init__(self, paths: Sequence[Path]) -> None:
+        with contextlib.ExitStack() as stack:
+            self._files: list[BagFile] = []
+            for path in {path.resolve(): path for path in paths}.values():
+                self._files.append(BagFile(path))
+                stack.callback(self._files[-1].close)
+            self._stack = stack.pop_all()
+        files = self._files
+        self.names = tuple(file.path.name for file in files)
+        self.start_ns = min(file.start_ns for file in files)
+        self.end_ns = max(file.end_ns for file in files)
+        self._redefined: dict[str, str] = {}
+        self.channels = tuple(self._agreeing())
+        self._conflict = self._conflicting_types()
+
+    @property
+    def skipped(self) -> Mapping[str, str]:
+        """Return why the messages of a topic cannot be read, by topic."""
+        within = {topic: why for file in self._files for topic, why in file.skipped.items()}
+        return within | self._redefined
+
+    @property
+    def remarks(self) -> list[str]:
+        """Return sentences on what is missing, unusual or damaged so far."""
+        own = [remark for file in self._files for remark in file.remarks]
+        return [*own, *([self._conflict] if self._conflict else [])]
+
+    def messages(
+        self, channels: Collection[BagChannel], start_ns: int, end_ns: int | None = None
+    ) -> Iterator[Recorded]:
+        """The messages of channels by time of recording, both ends included.
+
+        Raises:
+            BagError: a file can no longer be read.
+        """
+        wanted = frozenset(channels)
+        found = [
+            file.messages(own, start_ns, self.end_ns if end_ns is None else end_ns)
+            for file in self._files
+            if (own := [channel for channel in file.channels if channel in wanted])
+        ]
+        if len(found) == 1:
+            return found[0]
+        return heapq.merge(*found, key=lambda recorded: recorded.stamp_ns)
+
+    def close(self) -> None:
+        """Close all files."""
+        self._stack.close()
+
+    def _agreeing(self) -> Iterator[BagChannel]:
+        """The channels but for those whose type another bag before defined differently.
+
+        A type has one definition at a time; with the wrong one, messages may turn into nonsense.
+        """
+        first: dict[str, tuple[str, str]] = {}
+        for file in self._files:
+            name = file.path.name
+            for channel in file.channels:
+                text = channel.recorded.definition
+                known, where = first.setdefault(channel.type, (text, name)) if text else (text, "")
+                if known == text or are_same(channel.type, known, text):
+                    yield channel
+                else:
+                    why = f"{channel.type} is not defined in {name} as it is in {where}"
+                    self._redefined[channel.topic] = why
+
+    def _conflicting_types(self) -> str:
+        """Return a sentence on topics whose type differs between bags, "" without any."""
+        types: dict[str, dict[str, str]] = {}
+        for file in self._files:
+            for channel in file.channels:
+                types.setdefault(channel.topic, {}).setdefault(channel.type, file.path.name)
+        found = {topic: names for topic, names in types.items() if len(set(names.values())) > 1}
+        if not found:
+            return ""
+        topic, names = next(iter(found.items()))
+        where = " and ".join(f"{type_name} in {name}" for type_name, name in names.items())
+        more = f", and so do {counted(len(found) - 1, 'more topic')}" if len(found) > 1 else ""
+        return f"{topic} differs between the bags, {where}{more}: a display reads one type only."

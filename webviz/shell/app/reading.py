@@ -1,0 +1,27 @@
+"""Reads configs, and makes one where none is given."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from webviz.files import config as config_file
+from webviz.files import opening
+from webviz.files.config import Config
+
+if TYPE_CHECKING:
+    from webviz.engine.sources import Source
+
+
+def read_config(path: Path | None, source: Source | None = None) -> Config:
+    """The config of a file, or the default one: of a bag that of its topics.
+
+    Raises:
+        ConfigError: the file cannot be read.
+    """
+    if path is not None:
+        return opening.load(path)
+    from webviz.engine.bag_config import config_of  # here, as it takes a tenth of a second
+    from webviz.engine.sources.bag import BagSource
+
+    return config_of(source) if isinstance(source, BagSource) else config_file.standard()
