@@ -99,7 +99,7 @@ def test_a_display_is_added_by_topic_changed_saved_and_comes_back(
         option = dialog.get_by_role("option", name="/camera/image_raw Image", exact=True)
         option.click(timeout=60_000)
         dialog.get_by_role("button", name="Add", exact=True).click()
-        canvas = tab.get_by_label("Image Image", exact=True).locator("canvas")
+        canvas = tab.get_by_label("Image /camera/image_raw", exact=True).locator("canvas")
         page.wait_for(lambda: np.abs(canvas.evaluate(MIDDLE) - BRICK).max() < 4, "the image", 60)
 
 

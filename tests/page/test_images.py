@@ -15,6 +15,7 @@ import photos
 import pytest
 from numpy.typing import NDArray
 
+from webviz.api.declared import Topic
 from webviz.api.nodes import Labels, Pane, Points, Pose
 from webviz.api.pictures import Encoded, Packet, Pixels, Sight, Video, Warp
 from webviz.api.status import Level, Status
@@ -44,7 +45,7 @@ def pictures(scene: ViserScene) -> Pictures:
 @pytest.fixture
 def tab(tab: Any, pictures: Pictures) -> Iterator[Any]:
     """The tab with two images."""
-    rows = [Row(name, "Image", Image(name=name), name, {}) for name in ("Color", "Depth")]
+    rows = [row(name) for name in ("Color", "Depth")]
     tab.loop.show(*rows)
     pictures.show("Color", pixels(COLORS, "rgb8"))
     pictures.show("Depth", pixels(DEPTHS, "32FC1", Tone(0.5, 4.0, "Turbo")))
@@ -61,8 +62,14 @@ def pixels(values: NDArray[Any], encoding: str, tone: Tone | None = None, stamp:
     return Pane(Pixels(image, tone or Tone()), stamp * 10**9)
 
 
+def row(id_: str, topic: str = "", name: str = "Image") -> Row:
+    """A display of the images of a topic: its id in lower case unless given."""
+    display = Image(name=name, topic=Topic(topic or f"/{id_.lower()}"))
+    return Row(id_, "Image", display, name, {})
+
+
 def pane(tab: Any, name: str) -> Any:
-    return tab.page.get_by_label(f"Image {name}", exact=True)
+    return tab.page.get_by_label(f"Image /{name.lower()}", exact=True)
 
 
 def shown(tab: Any, name: str, at: tuple[float, float] = (0.5, 0.9)) -> list[int]:
@@ -112,7 +119,7 @@ def test_only_what_is_shown_is_sent_and_only_the_newest(
         send(data, key, browser),
     )[1]
     try:
-        pane(tab, "Depth").get_by_role("button", name="Collapse Depth").click()
+        pane(tab, "Depth").get_by_role("button", name="Collapse /depth").click()
         assert not pictures.is_unseen("Depth")
         tab.wait_for(lambda: "Depth" not in looks(pictures) and pictures.is_unseen("Depth"))
         assert not pictures.is_unseen("Color")
@@ -123,7 +130,7 @@ def test_only_what_is_shown_is_sent_and_only_the_newest(
         tab.wait_for(lambda: near(shown(tab, "Color"), (101, 101, 101), 3))
         assert "Depth" not in sent
         assert sent.count("Color") < 100
-        pane(tab, "Depth").get_by_role("button", name="Expand Depth").click()
+        pane(tab, "Depth").get_by_role("button", name="Expand /depth").click()
         tab.wait_for(lambda: "Depth" in sent)
         assert not pictures.is_unseen("Depth")
     finally:
@@ -157,7 +164,7 @@ def test_a_pane_says_what_its_display_misses_and_goes_with_it(tab: Any) -> None:
     missing = Status(Level.WARN, "No publisher on /camera. Start it.")
     rows = [
         *tab.loop.state.rows,
-        Row("Gone", "Image", Image(name="Gone"), "Gone", {"Topic": missing}),
+        replace(row("Gone"), statuses={"Topic": missing}),
     ]
     tab.loop.show(*rows)
     tab.wait_for(lambda: "No publisher on /camera" in tab.text())
@@ -168,11 +175,98 @@ def test_a_pane_says_what_its_display_misses_and_goes_with_it(tab: Any) -> None:
 def test_a_page_asks_for_as_many_pictures_as_the_server_allows(
     tab: Any, pictures: Pictures
 ) -> None:
-    names = [f"Camera {number}" for number in range(MAX_PANES + 6)]
-    tab.loop.show(*(Row(name, "Image", Image(name=name), name, {}) for name in names))
+    names = [f"Camera{number}" for number in range(MAX_PANES + 6)]
+    tab.loop.show(*map(row, names))
     tab.wait_for(lambda: looks(pictures) == set(names[:MAX_PANES]))
-    tab.loop.show(*(Row(name, "Image", Image(name=name), name, {}) for name in names[10:]))
+    tab.loop.show(*map(row, names[10:]))
     tab.wait_for(lambda: looks(pictures) == set(names[10:]))
+
+
+def test_two_images_of_one_topic_have_their_names_too(tab: Any) -> None:
+    tab.loop.show(row("a", "/front", "Left"), row("b", "/front", "Right"), row("c", "/rear"))
+    titles = ["/front (Left)", "/front (Right)", "/rear"]
+    tab.wait_for(lambda: tab.page.locator(".wv-pane-head b").all_inner_texts() == titles)
+
+
+def width(tab: Any) -> float:
+    """That of the picture "Color" on the screen, in pixels."""
+    return float(pane(tab, "Color").locator("canvas").bounding_box()["width"])
+
+
+def pixel_at(tab: Any, x: float, y: float) -> list[float]:
+    """Column and row of the picture "Color" at a place of the window."""
+    value = pane(tab, "Color").locator(".wv-pane-value")
+    tab.page.mouse.move(0, 0)
+    value.wait_for(state="hidden")
+    tab.page.mouse.move(x, y)
+    value.wait_for()
+    words = value.inner_text().split()
+    return [float(words[1]), float(words[4])]
+
+
+def middle(tab: Any) -> tuple[float, float]:
+    """The middle of the pane of the picture "Color" in the window."""
+    box = pane(tab, "Color").locator(".wv-pane-body").bounding_box()
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+def test_a_picture_is_zoomed_at_the_mouse_and_moved_and_the_page_is_not_zoomed(tab: Any) -> None:
+    whole, (x, y) = width(tab), middle(tab)
+    there = pixel_at(tab, x + 30, y + 20)
+    tab.page.mouse.wheel(0, -1000)
+    tab.wait_for(lambda: width(tab) == pytest.approx(4 * whole))
+    assert pixel_at(tab, x + 30, y + 20) == pytest.approx(there, abs=1)
+    tab.page.mouse.down()
+    tab.page.mouse.move(x, y, steps=3)
+    tab.page.mouse.up()
+    assert pixel_at(tab, x, y) == pytest.approx(there, abs=1)
+    tab.page.keyboard.down("Control")
+    tab.page.mouse.wheel(0, -100)
+    tab.page.keyboard.up("Control")
+    tab.wait_for(lambda: width(tab) == pytest.approx(8 * whole))
+    assert tab.page.evaluate("[devicePixelRatio, visualViewport.scale]") == [1, 1]
+    tab.page.mouse.dblclick(x, y)
+    tab.wait_for(lambda: width(tab) == pytest.approx(whole))
+
+
+def test_a_picture_is_zoomed_by_keys_and_by_two_fingers(tab: Any) -> None:
+    whole, (x, y) = width(tab), middle(tab)
+    there = pixel_at(tab, x, y)
+    pane(tab, "Color").locator("canvas").focus()
+    tab.page.keyboard.press("+")
+    tab.wait_for(lambda: width(tab) == pytest.approx(1.5 * whole))
+    tab.page.keyboard.press("ArrowRight")
+    assert pixel_at(tab, x, y)[0] > there[0]
+    tab.page.keyboard.press("0")
+    tab.wait_for(lambda: width(tab) == pytest.approx(whole))
+    touch = tab.page.context.new_cdp_session(tab.page)
+    touch.send("Emulation.setTouchEmulationEnabled", {"enabled": True, "maxTouchPoints": 2})
+
+    def put(event: str, *apart: float) -> None:
+        points = [{"x": x + each, "y": y, "id": id_} for id_, each in enumerate(apart)]
+        touch.send("Input.dispatchTouchEvent", {"type": event, "touchPoints": points})
+
+    put("touchStart", -20, 20)
+    for apart in (30, 40, 50, 60):
+        put("touchMove", -apart, apart)
+    put("touchEnd")
+    touch.send("Emulation.setTouchEmulationEnabled", {"enabled": False})
+    tab.wait_for(lambda: width(tab) == pytest.approx(3 * whole))
+    assert tab.page.evaluate("visualViewport.scale") == 1
+    button = tab.button("Reset the zoom of /color")
+    assert "3.0" in button.inner_text()
+    button.click()
+    tab.wait_for(lambda: width(tab) == pytest.approx(whole))
+
+
+def test_images_and_scene_have_the_same_share_of_a_narrow_window(tab: Any) -> None:
+    size = tab.page.viewport_size
+    tab.page.evaluate("localStorage.clear()")
+    tab.page.get_by_label("Size of the images").dblclick(position={"x": 2, "y": 300})
+    tab.page.set_viewport_size({"width": 700, "height": 600})
+    root, dock = tab.page.locator("#root"), tab.page.get_by_label("Images", exact=True)
+    tab.wait_for(lambda: abs(root.bounding_box()["width"] - dock.bounding_box()["width"]) < 2)
+    tab.page.set_viewport_size(size)
 
 
 def test_panes_fill_the_window_and_leave_it(tab: Any) -> None:
@@ -182,7 +276,7 @@ def test_panes_fill_the_window_and_leave_it(tab: Any) -> None:
     tab.wait_for(lambda: canvas.bounding_box()["width"] > 800)
     tab.page.keyboard.press("Escape")
     tab.wait_for(lambda: canvas.bounding_box()["width"] == before)
-    button = pane(tab, "Color").get_by_role("button", name="Full size of Color")
+    button = pane(tab, "Color").get_by_role("button", name="Full size of /color")
     button.click()
     tab.wait_for(lambda: canvas.bounding_box()["width"] > 800)
     button.click()
@@ -252,7 +346,7 @@ def test_the_scene_is_over_the_image_where_the_camera_sees_it(
 
     def dots() -> dict[str, Any]:
         """Where each colour is in the pane: column, row, and how many pixels; nothing if none."""
-        return other.page.get_by_label("Image Camera", exact=True).evaluate(FIND)
+        return other.page.get_by_label("Image /camera/image_raw", exact=True).evaluate(FIND)
 
     def expected(index: int) -> Any:
         """The place of a ray by hand: the pane shows 4/3 of the camera's width."""
@@ -290,10 +384,12 @@ def test_the_scene_is_over_the_image_where_the_camera_sees_it(
         other.wait_for(lambda: are_right({"red", "green", "blue"}))
         found = dots()
         x, y = (found["blue"][i] / found["size"][i] for i in range(2))
-        canvas = other.page.get_by_label("Image Camera", exact=True).locator("canvas")
+        canvas = other.page.get_by_label("Image /camera/image_raw", exact=True).locator("canvas")
         box = canvas.bounding_box()
         column, row = map(round, seen[1])
-        value = other.page.get_by_label("Image Camera", exact=True).locator(".wv-pane-value")
+        value = other.page.get_by_label("Image /camera/image_raw", exact=True).locator(
+            ".wv-pane-value"
+        )
 
         def reads() -> bool:
             other.page.mouse.move(box["x"] + x * box["width"], box["y"] + y * box["height"])

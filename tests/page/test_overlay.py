@@ -71,16 +71,19 @@ def test_the_scale_is_that_of_the_picture(tab: Tab) -> None:
     assert pixels["width"] == pytest.approx(across, abs=3.0)
 
 
-def test_the_legend_says_what_colors_stand_for(
+def test_legends_say_what_colors_stand_for_and_of_which_topic(
     tab: Tab, loop: Loop, make_row: Callable[..., Row]
 ) -> None:
     scale = ColorScale("intensity", 2.16949, 97.5, ((255, 0, 0), (0, 0, 255)))
     loop.show(replace(make_row("a", "Scan <b>"), color_scale=scale), make_row("b"))
     legend = tab.page.locator(".wv-legend")
     tab.wait_for(lambda: legend.count() == 1)
-    assert legend.inner_text().split("\n") == ["Scan <b>: intensity", "2.169", "97.5"]
+    assert legend.inner_text().split("\n") == ["/scan", "2.169", "intensity", "97.5"]
     background = tab.page.locator(".wv-legend-bar").evaluate("e => e.style.background")
     assert background == "linear-gradient(to right, rgb(255, 0, 0), rgb(0, 0, 255))"
+    loop.show(*(replace(make_row(one, f"Scan <{one}>"), color_scale=scale) for one in "ab"))
+    titles = legend.locator(":scope > :first-child")
+    tab.wait_for(lambda: titles.all_inner_texts() == ["/scan (Scan <a>)", "/scan (Scan <b>)"])
     loop.show(make_row("a"))
     tab.wait_for(lambda: legend.count() == 0)
 

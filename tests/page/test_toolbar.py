@@ -154,7 +154,9 @@ def test_what_does_not_fit_is_in_a_menu_but_frames_and_tools_stay(
     bar = toolbar(wide)
     playwright.expect(bar.get_by_role("button", name="More")).to_be_hidden()
     wide.loop.show(*[Row("c", "Image", Image(name="c"), "c", {})] * image)
-    playwright.expect(wide.page.get_by_role("region", name="Image c")).to_have_count(image)
+    playwright.expect(
+        wide.page.get_by_role("region", name="Image /camera/image_raw")
+    ).to_have_count(image)
     wide.page.set_viewport_size({"width": width, "height": 700})
     bar.get_by_role("button", name="More").click()
     wide.page.get_by_role("menuitem", name="Full screen").wait_for()

@@ -7,6 +7,7 @@ from typing import Any
 
 from webviz.api.status import Level
 from webviz.edges.page.content.forms import brief, sendable
+from webviz.edges.page.content.titles import titles
 from webviz.edges.page.content.visibility import enabled, hidden_in
 from webviz.engine.state import Row, State
 
@@ -14,11 +15,12 @@ from webviz.engine.state import Row, State
 def panes(state: State, _: str) -> Mapping[str, Any]:
     """Return the captions of panes by the id of their display, and "order": the ids.
 
-    Each has a "name", the first "problem" of the worst, and whether it "has_picture"; one that
-    draws the scene, too, the ids of displays that are "hidden" in it.
+    Each has a "title", the "name" of its display, the first "problem" of the worst, and whether it
+    "has_picture"; one that draws the scene, too, the ids of displays that are "hidden" in it.
     """
     rows = [row for row in enabled(state.rows) if row.display and type(row.display).has_pane]
-    about = {row.id: _about(row) for row in rows}
+    titled = titles(rows)
+    about = {row.id: {"title": titled[row.id], **_about(row)} for row in rows}
     for display, ids in hidden_in(rows, state.rows).items():
         about[display]["hidden"] = ids
     return {"order": [row.id for row in rows], **about}

@@ -5,14 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from webviz.edges.page.content.titles import titles
 from webviz.engine.state import State
 
 
 def legend(state: State, _: str) -> Mapping[str, Any]:
     """Return the range of values of colour scales, by display id; bounds to four digits."""
+    titled = titles(row for row in state.rows if row.color_scale is not None)
     return {
         row.id: {
-            "name": row.name,
+            "title": titled[row.id],
             "label": scale.label,
             "low": float(f"{scale.low:.4g}"),
             "high": float(f"{scale.high:.4g}"),

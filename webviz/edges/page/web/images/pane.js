@@ -9,6 +9,7 @@ import { makeCamera } from "./camera.js";
 import * as frames from "./frames.js";
 import { makePicture } from "./picture.js";
 import { makeReadout } from "./readout.js";
+import { makeZoom } from "./zoom.js";
 
 const READ_MS = 100;
 const RATE_MS = 1000;
@@ -22,7 +23,8 @@ channel.on("PixelValue", (value) => readers.get(value.display)?.(value));
  * the scene, too.
  */
 export function makePane(id, changed, withScene) {
-  const canvas = el("canvas", { class: "wv-pane-picture", role: "img", ondblclick: toggleFull });
+  const canvas = el("canvas", { class: "wv-pane-picture", role: "img", tabindex: 0, ondblclick: onDouble });
+  const zoom = makeZoom(canvas, zoomed);
   const picture = (withScene ? makeCamera : makePicture)(canvas, { drawn, fail });
   const name = el("b");
   const facts = el("span", { class: "wv-quiet" });
@@ -32,12 +34,14 @@ export function makePane(id, changed, withScene) {
   const bounds = [el("span"), el("span")];
   const legend = el("div", { class: "wv-pane-legend", hidden: true }, bounds[0], bar, bounds[1]);
   const fold = el("button", { class: "wv-icon wv-pane-fold", type: "button", onclick: toggle }, icon("chevron"));
+  const unzoom = el("button", { class: "wv-button wv-pane-zoom", type: "button", hidden: true, onclick: zoom.reset });
   const full = el("button", { class: "wv-icon", type: "button", onclick: toggleFull }, icon("fullscreen"));
-  const head = el("header", { class: "wv-pane-head" }, fold, name, facts, full);
+  const head = el("header", { class: "wv-pane-head" }, fold, name, facts, unzoom, full);
   const body = el("div", { class: "wv-pane-body" }, canvas, problem, value, legend);
   const element = el("section", { class: "wv-pane", tabindex: -1 }, head, body);
 
   let title = "";
+  let about = "";
   let isFolded = false;
   let said = "";
   let failed = "";
@@ -63,12 +67,28 @@ export function makePane(id, changed, withScene) {
     changed();
   }
 
+  function onDouble() {
+    if (zoom.zoom() > 1) zoom.reset();
+    else toggleFull();
+  }
+
+  function zoomed() {
+    unzoom.hidden = zoom.zoom() === 1;
+    setText(unzoom, `${zoom.zoom().toFixed(1)}×`);
+    frames.refresh(); // a larger picture has more to show
+  }
+
   function setFull(wanted) {
     element.classList.toggle("wv-pane-full", wanted);
     if (wanted) element.focus(); // for Escape
     mark();
   }
 
+  canvas.addEventListener("keydown", (event) => {
+    if (!zoom.key(event)) return;
+    event.preventDefault();
+    event.stopPropagation(); // viser's camera turns by arrow keys
+  });
   element.addEventListener("keydown", (event) => {
     if (event.key !== "Escape" || !element.classList.contains("wv-pane-full")) return;
     event.stopPropagation();
@@ -83,6 +103,8 @@ export function makePane(id, changed, withScene) {
     set(full, { "aria-pressed": String(isFull), "aria-label": `Full size of ${title}`, "data-tip": isFull ? "Leave full size (Esc)" : "Full size" });
     set(element, { "aria-label": `${readout ? "Text" : "Image"} ${title}` });
     set(canvas, { "aria-label": title });
+    set(unzoom, { "aria-label": `Reset the zoom of ${title}`, "data-tip": "Reset the zoom (double click)" });
+    set(name, { "data-tip": about });
     setText(name, title);
     setText(problem, failed || said);
     problem.hidden = !(failed || said);
@@ -170,14 +192,15 @@ export function makePane(id, changed, withScene) {
     tellRate();
   }
 
-  frames.open(id, { width: () => (isFolded ? 0 : readout ? body.clientWidth : canvas.clientWidth && picture.width()), take });
+  frames.open(id, { width: () => (isFolded ? 0 : readout ? body.clientWidth : canvas.clientWidth && zoom.zoom() * picture.width()), take });
   return {
     element,
     isFolded: () => isFolded,
     update(row) {
-      const wanted = plain(row.name, 100);
+      const wanted = plain(row.title, 200);
       if (wanted !== title) isFolded = recall(`pane.${wanted}`, {}).isFolded ?? false;
       title = wanted;
+      about = [plain(row.name, 100), wanted].join("\n");
       said = plain(row.problem);
       picture.hide?.(row.hidden);
       element.classList.toggle("wv-pane-empty", !row.has_picture);

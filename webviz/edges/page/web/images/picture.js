@@ -28,7 +28,7 @@ export function makePicture(canvas, { drawn, fail }) {
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
     context.drawImage(image, 0, 0);
     size = full ?? [width, height];
-    canvas.style.imageRendering = canvas.clientWidth > SHARP * width ? "pixelated" : "auto";
+    canvas.style.imageRendering = canvas.getBoundingClientRect().width > SHARP * width ? "pixelated" : "auto";
     drawn();
   }
 

@@ -1,6 +1,6 @@
 // Which values colours stand for, of each display that colours by value.
 
-import { el, setChildren, setText } from "../dom.js";
+import { el, set, setChildren, setText } from "../dom.js";
 import { watch } from "../stores.js";
 
 const MAX_CARDS = 4;
@@ -19,8 +19,9 @@ export function build() {
   function add(id) {
     const card = { title: el("div"), bar: el("div", { class: "wv-legend-bar" }) };
     card.low = el("span");
+    card.label = el("span");
     card.high = el("span");
-    const bounds = el("div", { class: "wv-legend-bounds" }, card.low, card.high);
+    const bounds = el("div", { class: "wv-legend-bounds" }, card.low, card.label, card.high);
     card.element = el("div", { class: "wv-card wv-legend" }, card.title, card.bar, bounds);
     cards.set(id, card);
     return card;
@@ -28,8 +29,10 @@ export function build() {
   return list;
 }
 
-function show(card, { name, label, low, high, colors }) {
-  setText(card.title, `${name}: ${label}`);
+function show(card, { title, label, low, high, colors }) {
+  setText(card.title, title);
+  set(card.title, { "data-tip": title });
+  setText(card.label, label);
   setText(card.low, String(low));
   setText(card.high, String(high));
   const stops = colors.map((rgb) => `rgb(${rgb.join()})`).join();

@@ -1,0 +1,97 @@
+// The part of a picture that a pane shows: zoomed by wheel, pinch and keys, moved by a drag.
+
+const MAX_ZOOM = 32;
+const WHEEL_STEP = 0.002; // per pixel of the wheel, as an exponent
+const PINCH_STEP = 0.01; // pinching on a touchpad comes as small turns of the wheel with Ctrl
+const LINE_PX = 16;
+const KEY_STEP = 1.5;
+const MOVE_STEP = 0.1; // of the pane
+const MOVES = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+
+/**
+ * Lets a canvas that fills its parent be zoomed; `changed()` is called whenever it shows another part.
+ * Returns `{zoom(), reset(), key(event)}`; `key` says whether it took a key.
+ *
+ * @param {HTMLCanvasElement} canvas
+ * @param {() => void} changed
+ */
+export function makeZoom(canvas, changed) {
+  const fingers = new Map();
+  let zoom = 1;
+  let [x, y] = [0, 0]; // of the left upper corner, as shares of the pane
+
+  function show(nextZoom, nextX, nextY) {
+    zoom = Math.max(1, Math.min(nextZoom, MAX_ZOOM));
+    [x, y] = [nextX, nextY].map((share) => Math.max(1 - zoom, Math.min(share, 0)));
+    canvas.style.transform = zoom > 1 ? `translate(${100 * x}%, ${100 * y}%) scale(${zoom})` : "";
+    canvas.classList.toggle("wv-pane-zoomed", zoom > 1);
+    changed();
+  }
+
+  // What is at a place stays there.
+  function zoomBy(factor, /** @type {number[]} */ [shareX, shareY] = [0.5, 0.5]) {
+    const next = Math.max(1, Math.min(zoom * factor, MAX_ZOOM));
+    const moved = (share, corner) => share - ((share - corner) * next) / zoom;
+    show(next, moved(shareX, x), moved(shareY, y));
+  }
+
+  /** @returns {[number, number]} */
+  const shareOf = (/** @type {number[]} */ [clientX, clientY]) => {
+    const box = canvas.parentElement.getBoundingClientRect();
+    return [(clientX - box.left) / box.width, (clientY - box.top) / box.height];
+  };
+
+  canvas.addEventListener("wheel", (event) => {
+    if (zoom === 1 && event.deltaY > 0 && !event.ctrlKey) return; // scrolls the panes
+    event.preventDefault(); // with Ctrl, and by a pinch on a touchpad, it would zoom the page
+    const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? 1 : LINE_PX);
+    const step = event.ctrlKey ? PINCH_STEP : WHEEL_STEP;
+    zoomBy(2 ** (-pixels * step), shareOf([event.clientX, event.clientY]));
+  }, { passive: false });
+  // One finger on a picture that is not zoomed scrolls the panes.
+  canvas.addEventListener("touchmove", (event) => {
+    if (event.touches.length > 1 || zoom > 1) event.preventDefault();
+  }, { passive: false });
+
+  canvas.addEventListener("pointerdown", (event) => {
+    if (event.button !== 0) return;
+    fingers.set(event.pointerId, [event.clientX, event.clientY]);
+    canvas.setPointerCapture(event.pointerId);
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    if (!fingers.has(event.pointerId)) return;
+    const before = spread(fingers);
+    fingers.set(event.pointerId, [event.clientX, event.clientY]);
+    const after = spread(fingers);
+    const [from, to] = [shareOf(before.middle), shareOf(after.middle)];
+    show(zoom, x + to[0] - from[0], y + to[1] - from[1]);
+    if (before.size && after.size) zoomBy(after.size / before.size, to);
+  });
+  for (const name of ["pointerup", "pointercancel"]) {
+    canvas.addEventListener(name, (/** @type {PointerEvent} */ event) => fingers.delete(event.pointerId));
+  }
+
+  return {
+    zoom: () => zoom,
+    reset: () => show(1, 0, 0),
+    key(event) {
+      if (event.ctrlKey || event.metaKey || event.altKey) return false;
+      const move = zoom > 1 ? MOVES[event.key] : undefined;
+      if (move) show(zoom, x + MOVE_STEP * move[0], y + MOVE_STEP * move[1]);
+      else if (event.key === "+" || event.key === "=") zoomBy(KEY_STEP);
+      else if (event.key === "-") zoomBy(1 / KEY_STEP);
+      else if (event.key === "0") show(1, 0, 0);
+      else return false;
+      return true;
+    },
+  };
+}
+
+/** The middle of all fingers, and how far the first two are apart. */
+function spread(fingers) {
+  const places = [...fingers.values()];
+  const middle = [0, 1].map((axis) => places.reduce((sum, place) => sum + place[axis], 0) / places.length);
+  const [first, second] = places;
+  const size = second ? Math.hypot(first[0] - second[0], first[1] - second[1]) : 0;
+  return { middle, size };
+}
