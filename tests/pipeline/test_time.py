@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Annotated, Any
 
 from webviz import Context, Display, Input, Keep, Sample, Topic
-from webviz.engine.commands import DuplicateDisplay, Pause
+from webviz.engine.commands import DuplicateDisplay, Pause, Reset
 from webviz.engine.sources import Offer, Publisher
 
 SECOND = 1_000_000_000
@@ -105,6 +105,8 @@ def elapsed_s(b: Any) -> float:
 def test_elapsed_time_restarts_when_time_goes_back(bench: Callable[..., Any]) -> None:
     b = bench(Dot(name="Dot"))
     assert elapsed_s(b) == 0.0
+    b.source.now -= SECOND // 20
+    assert elapsed_s(b) == 0.0, "too little for a reset"
     b.source.now += 20 * SECOND
     assert elapsed_s(b) == 20.0
     b.source.now -= 50 * SECOND
@@ -115,6 +117,9 @@ def test_elapsed_time_restarts_when_time_goes_back(bench: Callable[..., Any]) ->
     b.source.now -= 50 * SECOND
     b.turn()
     b.do(Pause(False))
+    assert elapsed_s(b) == 0.0
+    b.source.now += 5 * SECOND
+    b.do(Reset())
     assert elapsed_s(b) == 0.0
 
 
