@@ -84,6 +84,7 @@ def test_a_cell_is_a_flat_rectangle_around_its_center(shown: Benches) -> None:
     at = shown(GridCells(alpha=0.5), CELLS, cells((1, 0, 0.25), (2, 0, 0.25), size=(0.5, 0.25)))
     node = at.nodes()["cells"]
     assert (node.color, node.opacity, len(node.faces)) == ((25, 255, 0), 0.5, 4)
+    assert node.is_flat
     corners = at.xyz("cells").reshape(2, 4, 3)
     np.testing.assert_allclose(corners.mean(axis=1), [(10, 1, 0.25), (10, 2, 0.25)], atol=1e-6)
     # The width is along x of odom, which is y of map.

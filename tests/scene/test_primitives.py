@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import math
 import struct
 from collections.abc import Iterator
 from dataclasses import replace
@@ -212,15 +213,22 @@ def test_transparent_lines_blend_with_what_is_behind_them(unit: Any, view: Any) 
 def test_a_flat_mesh_has_its_colour_and_covers_lines_in_its_plane(
     opacity: float, line_opacity: float, view: Any
 ) -> None:
+    sheet = Mesh(*square(2.0), COLOR, opacity, is_flat=True)
     line = Lines(floats(((-2, 0, 0), (2, 0, 0))), RED, 8.0, opacity=line_opacity)
     view.scene.upsert("base_link", "line", line)
-    view.scene.upsert("base_link", "sheet", Mesh(*square(2.0), COLOR, opacity, is_flat=True))
-    view.look((0.0, -8.0, 4.0), (0.0, 0.0, 0.0))
+    view.scene.upsert("base_link", "sheet", sheet)
     behind = line_opacity * np.array(RED) + (1 - line_opacity) * np.array(BACKGROUND)
-    assert view.color_at((1.5, 0.0, 0.0)) == near(behind)
-    for place, below in (((0.3, 0.0, 0.0), behind), ((0.3, 0.5, 0.0), np.array(BACKGROUND))):
-        blended = opacity * np.array(COLOR) + (1 - opacity) * below
-        assert np.abs(view.color_at(place) - blended).max() <= 2
+    for tilt, eye in ((0.0, (0.0, -0.01, 10.0)), (0.6, (-6.0, 0.0, 6.0))):
+        wxyz = (math.cos(tilt / 2), math.sin(tilt / 2), 0.0, 0.0)
+        view.scene.set_pose("base_link", Pose(wxyz=wxyz))
+        view.look(eye, (0.0, 0.0, 0.0))
+        assert view.color_at((1.5, 0.0, 0.0)) == near(behind)
+        beside = (0.3, 0.5 * math.cos(tilt), 0.5 * math.sin(tilt))
+        along = ((x, 0.0, 0.0) for x in np.linspace(-0.9, 0.9, 19).tolist())
+        for place in (beside, *along):
+            below = np.array(BACKGROUND) if place is beside else behind
+            blended = opacity * np.array(COLOR) + (1 - opacity) * below
+            assert np.abs(view.color_at(place) - blended).max() <= 2, (tilt, place)
 
 
 def test_the_ends_of_a_line_in_metres_are_square_and_its_joints_mitred(view: Any) -> None:

@@ -16,9 +16,6 @@ const flat = (shader) => {
       gl_Position.z -= isPerspectiveMatrix(projectionMatrix)
         ? 5e-4 * (gl_Position.w - gl_Position.z) : 4e-6;
     #endif`);
-  shader.fragmentShader = shader.fragmentShader.replace("#include <opaque_fragment>", `
-    outgoingLight = diffuseColor.rgb;
-    #include <opaque_fragment>`);
 };
 
 export function install() {
@@ -30,6 +27,9 @@ export function install() {
       object.renderOrder = AFTER_LINES;
       material.depthWrite = !material.transparent;
       if (material.onBeforeCompile === flat) return;
+      // Lines are up to a pixel wider than what they stand for, and so in front of a slope.
+      material.polygonOffset = true;
+      material.polygonOffsetFactor = -1;
       material.onBeforeCompile = flat;
       material.customProgramCacheKey = () => "webviz flat";
       material.needsUpdate = true;
