@@ -10,8 +10,18 @@ import pytest
 from playwright.sync_api import Locator, Position, expect
 
 from tests.page.conftest import Loop, Tab
-from webviz.engine.commands import Pause, Seek, SelectSpan, SetLoop, SetRate, StepMessage
+from webviz.engine.commands import (
+    Pause,
+    RemoveBookmark,
+    SaveBookmark,
+    Seek,
+    SelectSpan,
+    SetLoop,
+    SetRate,
+    StepMessage,
+)
 from webviz.engine.state import ClockPace, PanelTimes, PlaybackState
+from webviz.files.config import Settings
 
 START_S = 1_700_000_000
 COUNTS = [20] * 100 + [0] * 50 + [5] * 350
@@ -160,6 +170,37 @@ def test_buttons_and_keys_step_play_and_loop(loop: Loop, timeline: Tab) -> None:
     timeline.wait_for(lambda: timeline.button("Pause").count())
     page.keyboard.press(" ")
     timeline.wait_for_command(Pause(True))
+
+
+def test_bookmarks_are_added_gone_to_and_removed(loop: Loop, timeline: Tab) -> None:
+    page = timeline.page
+    page.evaluate("document.activeElement.blur()")
+    page.keyboard.press("b")
+    expect(page.get_by_role("dialog")).to_contain_text("Bookmark at 0:00:12.5")
+    page.get_by_label("Name of the bookmark").fill("lost here")
+    page.keyboard.press("Enter")
+    timeline.wait_for_command(SaveBookmark("lost here", 12.5))
+    bookmarks = {"of another recording": START_S + 1000.0, "lost here": START_S + 80.0}
+    loop.show(settings=Settings(bookmarks=bookmarks))
+    timeline.turn()
+    page.locator(".wv-track").click(position=at(timeline, 80.4))
+    timeline.wait_for(lambda: last_seek(timeline) == 80.0)
+    timeline.button("Bookmarks").click()
+    expect(page.get_by_role("menuitem", name="of another recording")).to_have_count(0)
+    page.get_by_role("menuitem", name="Remove").click()
+    page.get_by_role("menuitem", name="lost here").last.click()
+    timeline.wait_for_command(RemoveBookmark("lost here"))
+
+
+def test_a_link_names_a_moment_once(timeline: Tab) -> None:
+    page = timeline.page
+    page.goto(page.url + "&t=1:02.5")
+    timeline.wait_for(lambda: last_seek(timeline) == 62.5)
+    assert "t=" not in page.url
+    page.keyboard.press("Control+k")
+    page.get_by_role("combobox", name="Command").fill("link to this")
+    page.keyboard.press("Enter")
+    expect(page.locator(".wv-toast")).to_contain_text("Copied the link to this moment.")
 
 
 def test_topics_are_listed_and_chosen_for_steps(timeline: Tab) -> None:

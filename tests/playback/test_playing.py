@@ -9,16 +9,20 @@ import pytest
 from bags import START_NS, Bag, ns, strings
 from bench import benches
 
+from webviz.edges.page.content import MAKERS
 from webviz.engine.commands import (
     Command,
     Pause,
     Play,
     Refresh,
+    RemoveBookmark,
+    SaveBookmark,
     Seek,
     SelectSpan,
     SetLoop,
     SetRate,
     StepMessage,
+    Undo,
 )
 from webviz.engine.playback import PlaybackControl
 from webviz.engine.requests import Refused
@@ -178,3 +182,41 @@ def test_the_clock_of_ages_never_goes_back(theater: Callable, bag: Bag) -> None:
         viewer.do(Seek(at_s))
         times.append(clock())
     assert times == sorted(times)
+
+
+def test_bookmarks_name_moments_and_can_be_undone(theater: Callable, bag: Bag) -> None:
+    viewer = theater(bag)
+    viewer.do(Seek(2.0))
+    viewer.do(SaveBookmark("here"))
+    viewer.do(SaveBookmark("later", 3.5))
+    shown = MAKERS["bookmarks"](viewer.loop.state(), "")
+    assert shown == {"all": [["here", 2.0], ["later", 3.5]]}
+    viewer.do(RemoveBookmark("here"))
+    assert MAKERS["bookmarks"](viewer.loop.state(), "") == {"all": [["later", 3.5]]}
+    viewer.do(Undo())
+    assert MAKERS["bookmarks"](viewer.loop.state(), "") == shown
+
+
+def test_bookmarks_are_read_from_a_config_and_those_of_other_recordings_kept(
+    theater: Callable, bag: Bag
+) -> None:
+    config = f"bookmarks: {{a: {(START_NS + ns(1.5)) / 1e9}, b: 12}}\ndisplays: []\n"
+    viewer = theater(bag, config)
+    state = viewer.loop.state()
+    assert MAKERS["bookmarks"](state, "") == {"all": [["a", 1.5]]}
+    assert set(state.settings.bookmarks) == {"a", "b"}
+
+
+@pytest.mark.parametrize(
+    ("command", "reason"),
+    [
+        (SaveBookmark(""), "The name is empty."),
+        (SaveBookmark("a", math.nan), "NaN is not a valid time."),
+        (RemoveBookmark("a"), "Unknown bookmark `a`"),
+    ],
+)
+def test_bookmarks_that_cannot_be(
+    theater: Callable, bag: Bag, command: Command, reason: str
+) -> None:
+    with pytest.raises(Refused, match=reason):
+        theater(bag).do(command)

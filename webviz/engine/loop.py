@@ -129,10 +129,10 @@ class FrameLoop:
         self._tracer = services.tracer
         transforms = TransformsPart(core, self._robots)
         self._time = TimePart(core, lambda: self._parts.reset(), control)
-        self._playback = PlaybackPart(core, control, self._time.start_over, autoplay)
         self._owed: list[Callable[[], None]] = []
         displays = self._displays = DisplaysPart(core, services)
         settings = self._settings = SettingsPart(core)
+        self._playback = PlaybackPart(core, settings, control, self._time.start_over, autoplay)
         views = ViewsPart(core, settings, displays)
         goals = GoalsPart(core)
         self.helms = Helms(gate, source.now_ns)

@@ -27,7 +27,16 @@ from webviz.engine.commands.panel import (
     RemovePanel,
     SetPanelProperty,
 )
-from webviz.engine.commands.playback import Play, Seek, SelectSpan, SetLoop, SetRate, StepMessage
+from webviz.engine.commands.playback import (
+    Play,
+    RemoveBookmark,
+    SaveBookmark,
+    Seek,
+    SelectSpan,
+    SetLoop,
+    SetRate,
+    StepMessage,
+)
 from webviz.engine.commands.selection import Identify, InspectSelections, Pick, Picks, Select
 from webviz.engine.commands.tools import (
     CallService,
@@ -96,6 +105,7 @@ __all__ = [
     "Redo",
     "Refresh",
     "ReloadPlugin",
+    "RemoveBookmark",
     "RemoveDisplay",
     "RemovePanel",
     "RemoveView",
@@ -105,6 +115,7 @@ __all__ = [
     "ResetView",
     "Restore",
     "Save",
+    "SaveBookmark",
     "SaveImage",
     "SaveView",
     "Seek",

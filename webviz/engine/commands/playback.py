@@ -50,6 +50,26 @@ class SelectSpan(Command):
 
 
 @dataclass(frozen=True)
+class SaveBookmark(Command):
+    """Give a moment of the recording a name, in place of a moment of that name.
+
+    Args:
+        name: of the bookmark.
+        at_s: the moment, None for the position.
+    """
+
+    name: str
+    at_s: float | None = None
+
+
+@dataclass(frozen=True)
+class RemoveBookmark(Command):
+    """Remove a bookmark."""
+
+    name: str
+
+
+@dataclass(frozen=True)
 class StepMessage(Command):
     """Pause, and show the recording at the next or previous message of a topic.
 

@@ -8,10 +8,13 @@ from typing import Any
 
 from webviz.api.errors import Error
 from webviz.api.status import Level, Status
+from webviz.data.names import problem_of
 from webviz.data.words import joined
 from webviz.engine.commands import (
     Command,
     Play,
+    RemoveBookmark,
+    SaveBookmark,
     Seek,
     SelectSpan,
     Sender,
@@ -20,8 +23,10 @@ from webviz.engine.commands import (
     StepMessage,
 )
 from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.playback import PlaybackControl
 from webviz.engine.state import PlaybackState
+from webviz.files.config import nearest
 
 MIN_RATE, MAX_RATE = 0.01, 1000.0
 BUCKETS = 500
@@ -34,6 +39,7 @@ class PlaybackPart(Part):
 
     Args:
         core: shared by all parts.
+        settings: has the bookmarks.
         control: of the source, None if it has no past.
         start_over: discards the received data of all parts.
         autoplay: play as soon as a browser is connected, so that nobody misses the beginning.
@@ -44,6 +50,7 @@ class PlaybackPart(Part):
     def __init__(
         self,
         core: Core,
+        settings: SettingsPart,
         control: PlaybackControl | None,
         start_over: Callable[[], None],
         autoplay: bool = False,
@@ -51,6 +58,7 @@ class PlaybackPart(Part):
         super().__init__(core)
         if control is not None:
             control.is_ready = autoplay
+        self._settings = settings
         self._control = control
         self._start_over = start_over
 
@@ -64,6 +72,8 @@ class PlaybackPart(Part):
             SetLoop: self._set_loop,
             SelectSpan: self._select,
             StepMessage: self._step,
+            SaveBookmark: self._save_bookmark,
+            RemoveBookmark: self._remove_bookmark,
         }
 
     @property
@@ -146,6 +156,20 @@ class PlaybackPart(Part):
             raise Error(f"There is no {where} {what}. Step in the other direction.")
         if control.seek(at_ns):
             self._start_over()
+
+    def _save_bookmark(self, command: SaveBookmark, sender: Sender) -> None:
+        control, at_s = self._known(), command.at_s
+        if problem := problem_of(command.name):
+            raise Error(problem)
+        at_ns = control.position_ns if at_s is None else self._at_ns(at_s)
+        bookmarks = {**self._settings.settings.bookmarks, command.name: at_ns / 1e9}
+        self._settings.set("bookmarks", bookmarks)
+
+    def _remove_bookmark(self, command: RemoveBookmark, sender: Sender) -> None:
+        bookmarks = dict(self._settings.settings.bookmarks)
+        if bookmarks.pop(command.name, None) is None:
+            raise Error(f"Unknown bookmark `{command.name}`: {nearest(command.name, bookmarks)}")
+        self._settings.set("bookmarks", bookmarks)
 
     def _known(self) -> PlaybackControl:
         if self._control is None:

@@ -51,6 +51,11 @@ class Settings(msgspec.Struct, forbid_unknown_fields=True):
     ] = ()
     view: Annotated[View, Prop(help="The view new browsers start with.")] = Orbit()
     views: Annotated[dict[str, View], Prop(help="Saved views by name.")] = {}
+    bookmarks: Annotated[
+        dict[str, float],
+        msgspec.Meta(max_length=1000),
+        Prop(help="Moments of recordings by name, as stamps in seconds since 1970."),
+    ] = {}
     rviz: Annotated[
         dict[str, Any], Prop(help="Unsupported parts of a .rviz file, kept for export.")
     ] = {}  # msgspec copies it

@@ -16,7 +16,7 @@ from webviz.edges.page.content.goals import goals, routes
 from webviz.edges.page.content.handles import handles
 from webviz.edges.page.content.history import history
 from webviz.edges.page.content.panes import panes
-from webviz.edges.page.content.playback import density, playback, recorded
+from webviz.edges.page.content.playback import bookmarks, density, playback, recorded
 from webviz.edges.page.content.properties import properties, statuses, topics_of
 from webviz.edges.page.content.scene import legend, watchers
 from webviz.edges.page.content.selection import picking, selected, selection
@@ -30,6 +30,7 @@ from webviz.engine.state import State
 
 MAKERS: Mapping[str, Callable[[State, str], Mapping[str, Any]]] = {
     "between": between,
+    "bookmarks": bookmarks,
     "clock": clock,
     "density": density,
     "displays": displays,

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from webviz.edges.page.content.forms import sendable
 from webviz.engine.state import State
 
 
@@ -31,6 +32,20 @@ def playback(state: State, _: str) -> Mapping[str, Any]:
         "loop": recording.loop,
         "selected": recording.selected,
     }
+
+
+def bookmarks(state: State, _: str) -> Mapping[str, Any]:
+    """The bookmarks of this recording by name, in seconds from its start, in order."""
+    recording = state.playback
+    if recording is None:
+        return {}
+    start_s, end_s = recording.start_ns / 1e9, recording.end_ns / 1e9
+    inside = [
+        [sendable(name), round(at_s - start_s, 6)]
+        for name, at_s in state.settings.bookmarks.items()
+        if start_s <= at_s <= end_s
+    ]
+    return {"all": sorted(inside, key=lambda bookmark: bookmark[1])}
 
 
 def density(state: State, _: str) -> Mapping[str, Any]:

@@ -19,7 +19,12 @@ export function roomy(low, high) {
   return [Math.max(-most, low - margin), Math.min(most, high + margin)];
 }
 
-/** Where between 0 and 1 a value is in a range. */
+/**
+ * Where between 0 and 1 a value is in a range.
+ *
+ * @param {number} value
+ * @param {number[]} range
+ */
 export const share = (value, [low, high]) => (value / 2 - low / 2) / (high / 2 - low / 2);
 
 /**

@@ -22,10 +22,10 @@ export function fitted(canvas) {
 }
 
 /**
- * Draws `{range, whole, counts, selected, position, hover}`: times in seconds, `selected` and `hover`
- * may be null.
+ * Draws `{range, whole, counts, selected, bookmarks, position, hover}`: times in seconds, `selected` and
+ * `hover` may be null, `bookmarks` are pairs of name and time.
  */
-export function draw(canvas, { range, whole, counts, selected, position, hover }) {
+export function draw(canvas, { range, whole, counts, selected, bookmarks, position, hover }) {
   const { context, width, color } = fitted(canvas);
   const x = (time) => MARGIN + share(time, range) * (width - 2 * MARGIN);
   context.fillStyle = color("field");
@@ -48,6 +48,8 @@ export function draw(canvas, { range, whole, counts, selected, position, hover }
     context.fillStyle = color("warn");
     for (const time of selected) context.fillRect(x(time) - 1, TOP - 2, 2, BAR + 4);
   }
+  context.fillStyle = color("warn");
+  for (const [, time] of bookmarks) flag(context, x(time));
   if (hover !== null) {
     context.fillStyle = color("quiet");
     context.fillRect(x(hover) - 0.5, TOP - 2, 1, BAR + 4);
@@ -87,6 +89,14 @@ function scale(context, range, { x, width, color }) {
     const half = context.measureText(text).width / 2;
     context.fillText(text, Math.min(Math.max(x(time), half), width - half), TOP + BAR + 4);
   }
+}
+
+function flag(context, x) {
+  context.beginPath();
+  context.moveTo(x, TOP + BAR);
+  context.lineTo(x - 4, TOP + BAR + 7);
+  context.lineTo(x + 4, TOP + BAR + 7);
+  context.fill();
 }
 
 function head(context, x, color) {

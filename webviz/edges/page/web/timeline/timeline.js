@@ -1,12 +1,16 @@
 // The timeline of a recording: a track over the bar of the time, and buttons within it.
 
 import { act } from "../act.js";
+import { copy } from "../clipboard.js";
 import { isTyping, provide } from "../shell/commands.js";
+import { toast } from "../shell/toasts.js";
 import { watch } from "../stores.js";
+import { bookmarks as bookmarkMenu } from "./bookmarks.js";
 import { seeks } from "./seeks.js";
 import { topics as topicList } from "./topics.js";
 import { track as makeTrack } from "./track.js";
 import { transport as makeTransport } from "./transport.js";
+import { parseTime } from "./typed_time.js";
 
 const JUMP_S = 5;
 
@@ -33,8 +37,9 @@ export function timeline(places) {
   const topics = topicList({
     range: track.range, whole: () => recording.get("duration"), step, toggled: () => show(),
   });
-  const buttons = makeTransport(seek, step, topics);
-  let endCounts = null;
+  const bookmarks = bookmarkMenu(seek, position);
+  const buttons = makeTransport(seek, step, topics, bookmarks);
+  let ends = [];
 
   function show() {
     if (!recording) return;
@@ -47,8 +52,35 @@ export function timeline(places) {
     document.body.classList.toggle("wv-recording", isThere);
     places.track.replaceChildren(...(isThere ? [topics.element, track.element] : []));
     places.buttons.replaceChildren(...(isThere ? [buttons.element] : []));
-    endCounts?.();
-    endCounts = isThere ? watch("density", (density) => track.setCounts(density.get("counts") ?? [])) : null;
+    for (const end of ends.splice(0)) end();
+    if (!isThere) return;
+    ends = [
+      watch("density", (density) => track.setCounts(density.get("counts") ?? [])),
+      watch("bookmarks", (known) => {
+        bookmarks.show(known.get("all") ?? []);
+        track.setBookmarks(known.get("all") ?? []);
+      }),
+    ];
+    begin();
+  }
+
+  // A link may name a moment: once, since people go on from there.
+  function begin() {
+    const address = new URL(location.href);
+    const text = address.searchParams.get("t");
+    if (text === null) return;
+    address.searchParams.delete("t");
+    history.replaceState(history.state, "", address);
+    const time = parseTime(text, recording.get("start"));
+    if (time === null) toast(`The link has no time that can be read: t=${text}.`, { level: "warn" });
+    else seek.to(time);
+  }
+
+  async function copyLink() {
+    const address = new URL(location.pathname, location.href);
+    address.searchParams.set("t", position().toFixed(3));
+    const isCopied = await copy(address.href);
+    toast(isCopied ? "Copied the link to this moment." : `The link to this moment: ${address.href}`);
   }
 
   watch("playback", (values) => {
@@ -73,6 +105,8 @@ export function timeline(places) {
     { name: `${JUMP_S} s back`, key: "Shift+ArrowLeft", needs: "Seek", run: () => jump(-JUMP_S) },
     { name: "Start of the recording", key: "Home", needs: "Seek", run: () => seek.to(0) },
     { name: "End of the recording", key: "End", needs: "Seek", run: () => seek.to(recording.get("duration")) },
+    { name: "Add bookmark…", icon: "flag", key: "b", needs: "SaveBookmark", run: bookmarks.add },
+    { name: "Copy link to this moment", icon: "copy", run: copyLink },
     { name: "Topics of the recording", icon: "list", run: topics.toggle },
   ].map((one) => ({ ...one, group: "Time", isKeyHere: isFree }));
   provide(() => (recording ? commands : []));

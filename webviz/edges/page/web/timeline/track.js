@@ -2,7 +2,7 @@
 
 import { why } from "../access.js";
 import { act } from "../act.js";
-import { at } from "../charts/scale.js";
+import { at, share } from "../charts/scale.js";
 import { el, set, setText } from "../dom.js";
 import { toast } from "../shell/toasts.js";
 import { duration } from "../shell/time_text.js";
@@ -11,14 +11,16 @@ import { following, zoomed } from "./range.js";
 
 const WHEEL = 1.25;
 const MIN_SPAN_PX = 4;
+const SNAP_PX = 5;
 
 /**
- * Returns `{element, range, show(recording), setCounts(counts)}`: `seek` is of `seeks.js`, `recording` the
- * store "playback", a Map. `redrawn()` is called when the window is another.
+ * Returns `{element, range, show(recording), setCounts(counts), setBookmarks(bookmarks)}`: `seek` is of
+ * `seeks.js`, `recording` the store "playback", a Map. `redrawn()` is called when the window is another.
  */
 export function track(seek, redrawn = () => {}) {
   let recording = null;
   let counts = [];
+  let bookmarks = [];
   let range = [0, 1]; // the window, in seconds
   let length = 1; // of the recording
   let hover = null;
@@ -67,15 +69,21 @@ export function track(seek, redrawn = () => {}) {
       frame = 0;
       if (!recording || !canvas.clientWidth) return;
       const selected = drag?.isSpan ? drag.span : recording.get("selected");
-      draw(canvas, { range, whole: length, counts, selected, position: position(), hover });
+      draw(canvas, { range, whole: length, counts, selected, bookmarks, position: position(), hover });
     });
   }
 
   // The time at a pointer.
   function timeAt({ clientX }) {
     const { left, width } = canvas.getBoundingClientRect();
-    const share = (clientX - left - MARGIN) / Math.max(1, width - 2 * MARGIN);
-    return Math.min(Math.max(at(share, range), 0), length);
+    const part = (clientX - left - MARGIN) / Math.max(1, width - 2 * MARGIN);
+    return Math.min(Math.max(at(part, range), 0), length);
+  }
+
+  function bookmarkAt({ clientX }) {
+    const { left, width } = canvas.getBoundingClientRect();
+    const place = (time) => left + MARGIN + share(time, range) * (width - 2 * MARGIN);
+    return bookmarks.find(([, time]) => Math.abs(place(time) - clientX) <= SNAP_PX);
   }
 
   function press(event) {
@@ -83,7 +91,7 @@ export function track(seek, redrawn = () => {}) {
     const reason = why(event.shiftKey ? "SelectSpan" : "Seek");
     if (reason) return toast(reason, { level: "warn", topic: "access" });
     canvas.setPointerCapture(event.pointerId);
-    const from = timeAt(event);
+    const from = bookmarkAt(event)?.[1] ?? timeAt(event);
     drag = { pointer: event.pointerId, x: event.clientX, from, isSpan: event.shiftKey, span: null };
     if (!drag.isSpan) seek.to(from);
   }
@@ -112,7 +120,9 @@ export function track(seek, redrawn = () => {}) {
     hover = event && recording ? timeAt(event) : null;
     set(label, { hidden: hover === null });
     if (hover !== null) {
-      setText(label, duration(hover, range[1] - range[0] < 10 ? 3 : 1));
+      const text = duration(hover, range[1] - range[0] < 10 ? 3 : 1);
+      const bookmark = bookmarkAt(event);
+      setText(label, bookmark ? bookmark[0] : text);
       const { left, width } = canvas.getBoundingClientRect();
       const half = label.offsetWidth / 2;
       const x = Math.min(Math.max(event.clientX - left, half), width - half);
@@ -138,6 +148,10 @@ export function track(seek, redrawn = () => {}) {
     later,
     setCounts(next) {
       counts = next;
+      later();
+    },
+    setBookmarks(next) {
+      bookmarks = next;
       later();
     },
   };

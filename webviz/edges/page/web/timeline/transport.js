@@ -15,8 +15,8 @@ const HELP = "Seconds, 1:02:03.4, or a date with the time of day";
 
 const rateText = (rate) => (rate === FULL ? "max" : `${rate}×`);
 
-/** Returns `{element, show(recording, position)}`; `seek` and `topics` are of `seeks.js` and `topics.js`. */
-export function transport(seek, step, topics) {
+/** Returns `{element, show(recording, position)}`; the others are of the modules of these names. */
+export function transport(seek, step, topics, bookmarks) {
   let recording = null;
 
   const button = (name, label, tip, onclick) =>
@@ -37,7 +37,7 @@ export function transport(seek, step, topics) {
   const length = el("span", { class: "wv-quiet wv-number" });
   const element = el("div", { class: "wv-transport" },
     needs("StepMessage", before), needs("StepMessage", after), needs("SetRate", rate), needs("SetLoop", loop),
-    list, needs("Seek", el("span", { class: "wv-go" }, field)), length);
+    list, bookmarks.element, needs("Seek", el("span", { class: "wv-go" }, field)), length);
   let shown = 0;
 
   function chooseRate() {
