@@ -16,11 +16,11 @@ from webviz import Glb, Instances, Models
 from webviz.data.messages import Marker, MarkerSequence
 from webviz.data.messages.geometry import Vector3
 from webviz.data.messages.markers import ColorRGBA
-from webviz_displays.markers import MarkerArray, assets
+from webviz_displays.markers import MarkerArray, assets, meshes
 from webviz_displays.markers.batch import batch_of
-from webviz_displays.markers.meshes import LoadedMesh
+from webviz_displays.markers.meshes import NO_TINT, LoadedMesh
 from webviz_displays.markers.nodes import Files, nodes_of
-from webviz_urdf import MeshPart, Surface
+from webviz_urdf import MeshContent, MeshPart, Surface
 
 ARRAY = "visualization_msgs/msg/MarkerArray"
 CORNERS = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0)], np.float32)
@@ -35,7 +35,7 @@ def drawn(
     *markers: tuple[tuple[float, ...], bool], part: MeshPart = GREEN, scale: float = 1.0
 ) -> dict[str, Any]:
     """The nodes of markers with a colour, and whether they keep the materials of one file."""
-    mesh = LoadedMesh("file", (part,))
+    mesh = LoadedMesh("file", MeshContent((part,)))
     each = [
         Marker(
             type=Marker.MESH_RESOURCE,
@@ -94,6 +94,17 @@ def test_copies_of_a_painted_mesh_are_one_node_for_each_tint() -> None:
     nodes = drawn((white, True), (red, True), (white, True), part=PAINTED)
     assert all(isinstance(node, Models) for node in nodes.values())
     assert sorted(len(node.positions) for node in nodes.values()) == [1, 2]
+
+
+def test_models_of_ever_new_colours_are_not_kept_for_ever(monkeypatch: pytest.MonkeyPatch) -> None:
+    mesh = LoadedMesh("file", MeshContent((PAINTED,)))
+    first = mesh.model(0, NO_TINT)
+    monkeypatch.setattr(meshes, "MAX_MODELS", 3 * len(first))
+    assert mesh.model(0, NO_TINT) is first
+    for shade in range(1, 100):
+        mesh.model(0, (shade / 100, 1.0, 1.0, 1.0))
+    assert sum(map(len, mesh._models.values())) <= meshes.MAX_MODELS
+    assert mesh.model(0, NO_TINT) is not first
 
 
 # Files
@@ -166,3 +177,17 @@ def test_a_file_that_failed_to_load_is_tried_again(
     made.settle()
     assert "Marker /1" not in made.statuses()
     assert len(made.nodes()) == 1
+
+
+def test_what_came_in_a_message_is_forgotten_with_it(bench: Benches) -> None:
+    made = bench(MarkerArray())
+    for edge in range(1, 6):
+        stl = trimesh.creation.box((edge, 1.0, 1.0)).export(file_type="stl")
+        file = {"filename": "a.stl", "data": stl}
+        one = marker(id=1, type=10, mesh_resource="embedded://a.stl", mesh_file=file)
+        made.send(ARRAY, {"markers": [one]})
+        made.turn()
+        made.settle()
+        made.turn()
+    context = made.runner._painter._state
+    assert len(context.assets._known) <= 2

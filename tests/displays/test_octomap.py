@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import math
 import random
 from collections.abc import Callable
@@ -13,6 +14,7 @@ import numpy as np
 import pytest
 from octrees import OCTOMAP, Key, Node, binary, full, octree, signed
 
+from webviz.data.memory import DECODING
 from webviz_displays.octomap import ColorOccupancyGrid, OccupancyGrid, OccupancyMap
 from webviz_displays.octomap import octree as octree_module
 from webviz_displays.octomap import seen as seen_module
@@ -203,6 +205,42 @@ def test_a_tree_of_too_many_nodes_is_refused(monkeypatch: pytest.MonkeyPatch) ->
     for form in (binary, full):
         with pytest.raises(OctreeFault, match="The tree has more than"):
             read(form(octree(CUBE)))
+
+
+@FORMS
+def test_nodes_are_counted_before_a_tree_is_read(form: Form) -> None:
+    values = form(octree(some_keys(100)))
+    message = SimpleNamespace(**values | {"data": np.array(values["data"], np.int8)})
+    assert octree_module._nodes_in(message) == len(read_octree(message).codes)
+
+
+LARGE = full(octree(some_keys(6000)))
+"""Read in a worker."""
+
+
+def test_a_tree_that_takes_more_memory_than_there_is_is_refused(
+    shown: Callable, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(octree_module, "_NODE_BYTES", DECODING.total)
+    level, text = shown(OccupancyGrid(), LARGE).statuses()["Octree"]
+    assert (level, "to decode; the limit is" in text) == ("ERROR", True), text
+
+
+def test_trees_are_held_in_memory_as_long_as_there_is_some_for_them(shown: Callable) -> None:
+    class Robot:
+        """Something large that is loaded."""
+
+    robot = Robot()
+    DECODING.hold(robot, DECODING.room - DECODING.least_room)
+    at = shown(OccupancyGrid(), LARGE)
+    level, text = at.statuses()["Octree"]
+    assert (level, "0 MB of 450 MB are left. Publish a part" in text) == ("ERROR", True), text
+    del robot
+    gc.collect()
+    at.set("voxel_alpha", 0.5)
+    at.settle()
+    assert at.statuses()["Octree"][0] == "OK"
+    assert at.nodes()
 
 
 def cells(at: Any) -> list[list[int]]:

@@ -15,8 +15,10 @@ from webviz.data.images import (
     RawImage,
     Tone,
     layout_of,
+    raw,
     remarks,
     to_rgb,
+    tone,
     value_range,
     values,
 )
@@ -112,6 +114,27 @@ def test_a_mosaic_is_interpolated_between_its_neighbours() -> None:
     assert tuple(rgb[2, 2]) == (40, (4 + 8 + 3 + 5) / 4, (30 + 50 + 70 + 90) / 4)
     assert tuple(rgb[1, 1]) == ((10 + 20 + 60 + 40 + 2) // 4, (1 + 3 + 2 + 4 + 2) // 4, 30)
     assert tuple(rgb[1, 2]) == ((20 + 40) / 2, 4, (30 + 50) / 2)
+
+
+@pytest.mark.parametrize("encoding", ["bayer_grbg8", "bayer_bggr16", "uyvy", "nv21", "nv24"])
+def test_an_image_has_no_seams_though_it_is_read_in_strips(
+    encoding: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    layout, width, height = layout_of(encoding), 6, 11
+    step = width * layout.pixel_bytes
+    rows = {"nv21": height + (height + 1) // 2, "nv24": 3 * height}.get(layout.order, height)
+    data = np.random.default_rng(4).integers(0, 256, rows * step, np.uint8)
+    image = RawImage.of(message(encoding, data, width, height, step))
+    whole = values(image)
+    monkeypatch.setattr(raw, "_STRIP_ROWS", 2)
+    np.testing.assert_array_equal(values(image), whole)
+
+
+def test_a_range_is_that_of_all_strips(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(tone, "_STRIP_ROWS", 2)
+    depths = np.array([[0, 3], [0, 0], [0, 0], [0, 0], [9, 5]], np.uint16)
+    assert value_range(depths, zero_is_invalid=True) == (3.0, 9.0)
+    assert value_range(depths[1:4], zero_is_invalid=True) is None
 
 
 @pytest.mark.parametrize("encoding", ENCODINGS)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import json
 import os
 import signal
@@ -13,6 +14,7 @@ import psutil
 import pytest
 from processes import command_lines
 
+from webviz.data.memory import DECODING, MemoryBudget
 from webviz_urdf import (
     Loading,
     LoadingStopped,
@@ -121,6 +123,48 @@ def test_a_mesh_that_needs_more_memory_than_loading_may_take_is_missing(start, t
     robot = start(with_mesh(path))[1].result(60)
     assert "exceeds the memory limit" in robot.missing[0].reason
     assert robot.links["last"].visuals
+
+
+def test_a_mesh_that_needs_more_than_usual_is_loaded_with_more(
+    start, tmp_path, slow_dae, monkeypatch
+):
+    monkeypatch.setattr(loading, "USUAL_MEMORY", 30_000_000)
+    assert not start(with_mesh(slow_dae))[1].result(60).missing
+    assert processes() == []  # it would keep what it has taken
+
+
+def test_loading_waits_for_the_memory_that_it_may_take(start, slow_dae, monkeypatch):
+    monkeypatch.setattr(loading, "DECODING", MemoryBudget(400_000_000))
+    begun, slow = start(with_mesh(slow_dae))
+    process = wait_for_mesh(begun)
+    process.suspend()
+    waiting, stopped = start(BOX)
+    waiting.stop()
+    with pytest.raises(LoadingStopped):
+        stopped.result(60)
+    _, last = start(BOX)
+    assert processes() == [process]
+    process.resume()
+    assert not slow.result(60).missing
+    assert last.result(60).name == "r"
+
+
+def test_what_finds_no_memory_beside_other_robots_is_refused(start, monkeypatch):
+    monkeypatch.setattr(loading, "DECODING", MemoryBudget(1_000_000_000, 0))
+    with pytest.raises(
+        RobotDescriptionError,
+        match=r"^The robot takes 0 MB of memory; 0 MB of 0 MB are left\. Simplify",
+    ):
+        start(BOX)[1].result(60)
+
+
+def test_a_robot_gives_its_memory_back(start):
+    before = DECODING.room
+    robot = start(BOX)[1].result(60)
+    assert DECODING.room < before
+    del robot
+    gc.collect()
+    assert DECODING.room >= before
 
 
 def test_a_description_at_which_the_process_hangs_is_refused(start, monkeypatch):

@@ -3,7 +3,15 @@
 import importlib
 from typing import TYPE_CHECKING
 
-from webviz_urdf.glb import MeshContent, MeshPart, Surface, glb_parts, glb_with, write_glb
+from webviz_urdf.glb import (
+    MeshContent,
+    MeshPart,
+    PictureFile,
+    Surface,
+    glb_parts,
+    glb_with,
+    write_glb,
+)
 from webviz_urdf.inertia import inertia_box, mass_sphere
 from webviz_urdf.kinematics import Kinematics, leader_of
 from webviz_urdf.loading import Loading, LoadingStopped, LoadRequest
@@ -38,6 +46,7 @@ __all__ = [
     "MeshPart",
     "Mimic",
     "MissingShape",
+    "PictureFile",
     "Progress",
     "ResolveError",
     "Resolver",

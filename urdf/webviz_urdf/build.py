@@ -18,7 +18,7 @@ from webviz_urdf.part_materials import MaterialApplier
 from webviz_urdf.resolve import ResolveError, Resolver
 from webviz_urdf.robot import Inertial, Link, MissingShape, Progress, Robot, RobotShape
 
-MAX_BYTES = 256 << 20
+MAX_BYTES = 100 << 20
 """Of all shapes of a robot; every browser receives them."""
 
 MAX_SHAPES = 10_000

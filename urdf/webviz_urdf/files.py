@@ -30,7 +30,8 @@ def read_file(path: Path, limit: int) -> bytes:
         # Files of /proc, too, some of which never end or lose what is read.
         if not status.st_size:
             raise OSError(0, "it is empty, or not a file of a disk", str(path))
-        data = file.read(limit + 1)
+        # No more than there is: as many bytes are allocated as are asked for.
+        data = file.read(min(status.st_size, limit) + 1)
     if len(data) > limit:
         raise OSError(0, f"it is larger than {limit / 2**20:g} MB", str(path))
     if data.startswith(LFS):

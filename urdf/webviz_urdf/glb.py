@@ -66,6 +66,17 @@ class MeshContent:
     warnings: tuple[str, ...] = ()
 
 
+@dataclass(frozen=True)
+class PictureFile:
+    """A picture as PNG or JPEG.
+
+    Args:
+        data: the file.
+    """
+
+    data: bytes
+
+
 def write_glb(parts: Sequence[MeshPart]) -> bytes:
     """One mesh of several parts as a binary glTF; a part without a surface is white."""
     writer = _Writer()

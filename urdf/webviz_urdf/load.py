@@ -10,7 +10,7 @@ from webviz_urdf.build import build_robot
 from webviz_urdf.description import parse_description
 from webviz_urdf.expand import expand
 from webviz_urdf.files import read_file
-from webviz_urdf.glb import MeshContent
+from webviz_urdf.glb import MeshContent, PictureFile
 from webviz_urdf.loading import LoadRequest
 from webviz_urdf.meshes import MeshError, parse_mesh, read_mesh
 from webviz_urdf.resolve import ResolveError, Resolver
@@ -63,8 +63,8 @@ def load_file(
     return load_robot(text, resolver, progress, collisions, skip)
 
 
-def load_asset(request: LoadRequest, resolver: Resolver) -> MeshContent | bytes:
-    """Load a mesh, or a picture as PNG or JPEG.
+def load_asset(request: LoadRequest, resolver: Resolver) -> MeshContent | PictureFile:
+    """Load a mesh or a picture.
 
     Raises:
         RobotDescriptionError: it cannot be drawn; one sentence says why.
@@ -78,7 +78,7 @@ def load_asset(request: LoadRequest, resolver: Resolver) -> MeshContent | bytes:
                 return parse_mesh(request.data, path, Resolver(roots=(), ament_prefix_path=""))
             return read_mesh(path, resolver)
         image = parse_image(request.data, path) if request.data else open_image(path)
-        return encode(image)
+        return PictureFile(encode(image))
     except (ResolveError, MeshError, TextureError) as error:
         raise RobotDescriptionError(str(error)) from error
 

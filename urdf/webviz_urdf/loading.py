@@ -5,6 +5,8 @@ from __future__ import annotations
 import atexit
 import contextlib
 import multiprocessing
+import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -12,7 +14,8 @@ import threading
 from dataclasses import dataclass
 from typing import Any
 
-from webviz_urdf.glb import MeshContent
+from webviz.data.memory import DECODING, OverBudgetError
+from webviz_urdf.glb import MeshContent, PictureFile
 from webviz_urdf.resolve import Resolver
 from webviz_urdf.robot import Robot, RobotDescriptionError
 
@@ -25,8 +28,12 @@ START_S = 60.0
 IDLE_S = 60.0
 """Idle time before a process for robots ends; its imports take as long as a robot does."""
 
-MAX_MEMORY = 3 << 30
-"""Bytes of address space of a process; half a gigabyte of it is taken by its imports."""
+USUAL_MEMORY, MAX_MEMORY = 250_000_000, 750_000_000
+"""Bytes of address space that a process may take beyond its imports: at first, then at most. Of 69
+public robots three need more than the first."""
+RESULT_SHARE = 6
+"""One part in so many of that memory may be the result, of which this process has two copies while
+it receives it."""
 
 MAX_FAILURES = 3
 """Shapes that may end the process before loading gives up."""
@@ -57,8 +64,7 @@ class LoadRequest:
     data: bytes = b""
 
 
-Loaded = Robot | MeshContent | bytes
-"""A robot, a mesh, or a picture as PNG or JPEG."""
+Loaded = Robot | MeshContent | PictureFile
 
 
 class LoadingStopped(Exception):
@@ -66,7 +72,11 @@ class LoadingStopped(Exception):
 
 
 class Loading:
-    """Loads one robot or file; `run` blocks, the rest may be called from any thread."""
+    """Loads one robot or file; `run` blocks, the rest may be called from any thread.
+
+    Loading waits until there is memory for it, and so does a second attempt with more; the result
+    counts as loaded until it is garbage (`webviz.data.memory`).
+    """
 
     def __init__(self, request: LoadRequest) -> None:
         self.at = (0, 0, "")
@@ -85,50 +95,87 @@ class Loading:
             RobotDescriptionError: it cannot be drawn; one sentence says why.
             LoadingStopped: `stop` was called.
         """
-        what = self._request.mesh or self._request.picture
+        memory = USUAL_MEMORY
         skip: dict[int, str] = {}
         while True:
-            self._process = process = _take()
             try:
-                robot = self._converse(process, skip)
+                return self._attempt(memory, skip)
+            except MemoryError:
+                most = min(MAX_MEMORY, _memory_within(DECODING.room, self._request))
+                if memory < most:
+                    memory = most
+                    continue
+                reason = f"It exceeds the memory limit of {memory // 1_000_000} MB. Simplify it."
             except _Ended as ended:
-                process.end()
-                if what:
-                    raise RobotDescriptionError(f"Loading {what} failed. {ended}") from None
-                done, total, link = self.at
-                if done in skip or len(skip) == MAX_FAILURES or done == total:
-                    where = f" It stopped at link '{link}'." if link else ""
-                    raise RobotDescriptionError(
-                        f"Loading the robot failed. {ended}{where}"
-                    ) from None
-                skip[done] = str(ended)
-            except RobotDescriptionError:
-                _keep(process)
-                raise
-            except BaseException:
-                process.end()
-                raise
-            else:
-                _keep(process)
-                return robot
+                reason = str(ended)
+            except OverBudgetError as error:
+                name = self._name or "The robot"
+                raise RobotDescriptionError(
+                    f"{name} {error}. Simplify its meshes, or remove other displays with meshes."
+                ) from None
+            self._skip(reason, skip)
 
     def stop(self) -> None:
         """Stop loading: `run` raises `LoadingStopped`."""
         self._stopped.set()
+        DECODING.wake()
         if process := self._process:
             process.kill()
 
-    def _converse(self, process: _Process, skip: dict[int, str]) -> Loaded:
+    @property
+    def _name(self) -> str:
+        """The file that is requested, "" for a robot."""
+        return self._request.mesh or self._request.picture
+
+    def _skip(self, reason: str, skip: dict[int, str]) -> None:
+        """Add the shape at which loading failed to those that are skipped.
+
+        Raises:
+            RobotDescriptionError: there is none, or were too many.
+        """
+        if self._name:
+            raise RobotDescriptionError(f"Loading {self._name} failed. {reason}")
+        done, total, link = self.at
+        if done in skip or len(skip) == MAX_FAILURES or done == total:
+            where = f" It stopped at link '{link}'." if link else ""
+            raise RobotDescriptionError(f"Loading the robot failed. {reason}{where}")
+        skip[done] = reason
+
+    def _attempt(self, memory: int, skip: dict[int, str]) -> Loaded:
+        """Load in a process that may take so much memory.
+
+        Raises:
+            MemoryError: it needs more.
+            _Ended: the process hangs or has ended.
+            OverBudgetError: too much else is loaded.
+        """
+        with DECODING.take(_needed(memory, self._request), self._stopped):
+            self._process = process = _take()
+            is_usable = False
+            try:
+                result, size = self._converse(process, skip, memory)
+                is_usable = memory <= USUAL_MEMORY  # else it keeps what it has taken
+            except RobotDescriptionError:
+                is_usable = True
+                raise
+            finally:
+                _keep(process) if is_usable else process.end()
+        DECODING.hold(result, 2 * size)  # as it is loaded, and as it is drawn
+        return result
+
+    def _converse(self, process: _Process, skip: dict[int, str], memory: int) -> tuple[Loaded, int]:
+        """The answer of a process, and its size in bytes."""
         try:
-            process.connection.send((self._request, self._resolver, skip))
+            process.connection.send((self._request, self._resolver, skip, memory))
             patience = START_S
             while not self._stopped.is_set():
                 if not process.connection.poll(patience):
                     raise _Ended(f"It took longer than {patience:g} s.")
                 patience = DEADLINE_S
-                answer = process.connection.recv()
+                data = process.connection.recv_bytes()
+                answer = pickle.loads(data)
                 if isinstance(answer, Loaded):
-                    return answer
+                    return answer, len(data)
                 if isinstance(answer, Exception):
                     raise answer
                 self.at = answer
@@ -136,6 +183,16 @@ class Loading:
             if not self._stopped.is_set():
                 raise _Ended("It ended the process that loads robots.") from None
         raise LoadingStopped
+
+
+def _needed(memory: int, request: LoadRequest) -> int:
+    """Bytes to take from the budget for a process that may take so many."""
+    return memory + 2 * memory // RESULT_SHARE + 2 * len(request.data)
+
+
+def _memory_within(room: int, request: LoadRequest) -> int:
+    """Bytes that a process may take for `_needed` to be what there is room for."""
+    return (room - 2 * len(request.data)) * RESULT_SHARE // (RESULT_SHARE + 2)
 
 
 _PROGRAM = """
@@ -165,6 +222,8 @@ class _Process:
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL,
                 process_group=0,  # Ctrl-C is for the parent; closing the connection ends it
+                # Its threads would take address space on machines with many cores.
+                env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
             )
 
     def is_alive(self) -> bool:

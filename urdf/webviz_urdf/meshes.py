@@ -42,14 +42,13 @@ def read_mesh(path: Path, resolver: Resolver) -> MeshContent:
 
     Raises:
         MeshError: it cannot be read, has no triangles or too many, or is an archive.
+        MemoryError: it needs more memory than there is.
     """
     _check_format(path)
     try:
         data = read_file(path, MAX_BYTES)
     except OSError as error:
         raise MeshError(f"{path} cannot be read: {error.strerror or error}.") from error
-    except MemoryError as error:
-        raise MeshError(f"{path} exceeds the memory limit. Simplify the mesh.") from error
     return parse_mesh(data, path, resolver)
 
 
@@ -70,10 +69,12 @@ def parse_mesh(data: bytes, path: Path, resolver: Resolver) -> MeshContent:
         parts, broken = _read(data, suffix, textures)
     except OSError as error:
         raise MeshError(f"{path} cannot be read: {error.strerror or error}.") from error
-    except MemoryError as error:
-        raise MeshError(f"{path} exceeds the memory limit. Simplify the mesh.") from error
+    except MemoryError:
+        raise
     except Exception as error:
-        # Third-party parsers raise any exception for a broken file.
+        # Third-party parsers raise any exception for a broken file; lxml also for want of memory.
+        if "memory" in str(error).lower():
+            raise MemoryError from error
         raise MeshError(f"{path} cannot be read as a mesh: {_one_line(error)}.") from error
     if not parts:
         raise MeshError(f"{path} has no triangles.")
@@ -140,9 +141,13 @@ def _parts(data: bytes, suffix: str, textures: TextureFolder) -> list[MeshPart]:
 
 def _part(mesh: trimesh.Trimesh, transform: np.ndarray, unit: float) -> MeshPart:
     """The mesh in the scene's frame, in metres."""
-    vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
-    if not np.isfinite(vertices).all():
+    exact, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
+    if not np.isfinite(exact).all():
         raise ValueError("a vertex is not finite")
+    linear, is_moved = transform[:3, :3], not np.array_equal(transform, np.eye(4))
+    if is_moved:
+        exact = exact @ linear.T + transform[:3, 3]
+    vertices = exact.astype(np.float32) if unit == 1.0 else (exact * unit).astype(np.float32)
     surface, uvs = _surface(mesh)
     colors = _vertex_colors(mesh)
     # trimesh has no public way to ask whether the file gave normals; without, it computes some.
@@ -150,18 +155,17 @@ def _part(mesh: trimesh.Trimesh, transform: np.ndarray, unit: float) -> MeshPart
     if normals is None:
         # Flat facets, as RViz draws a file without normals: every facet has its own corners.
         corners = faces.reshape(-1)
-        vertices, faces = vertices[corners], np.arange(len(corners)).reshape(-1, 3)
+        vertices = vertices[corners]
+        faces = np.arange(len(corners), dtype=np.uint32).reshape(-1, 3)
         uvs = None if uvs is None else uvs[corners]
         colors = None if colors is None else colors[corners]
-    if not np.array_equal(transform, np.eye(4)):
-        linear = transform[:3, :3]
-        vertices = vertices @ linear.T + transform[:3, 3]
+    if is_moved:
         if np.linalg.det(linear) < 0.0:
             faces = faces[:, ::-1]
         if normals is not None:
             normals = normals @ np.linalg.pinv(linear)
     return MeshPart(
-        (vertices * unit).astype(np.float32),
+        vertices,
         np.ascontiguousarray(faces, np.uint32),
         surface or (Surface() if colors is not None else None),
         None if normals is None else _unit(np.asarray(normals, np.float32)),

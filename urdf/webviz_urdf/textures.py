@@ -142,7 +142,6 @@ def encode(image: Image.Image) -> bytes:
     data = io.BytesIO()
     is_jpeg = image.format == "JPEG"
     if max(image.size) > MAX_EDGE:
-        image = image.copy()
         image.thumbnail((MAX_EDGE, MAX_EDGE))
     if is_jpeg:
         image.convert("RGB").save(data, "JPEG", quality=95)

@@ -1,55 +1,114 @@
-"""One budget for the memory that decoding takes, shared by all threads."""
+"""One budget for the memory of decoded data, shared by all threads."""
 
 from __future__ import annotations
 
 import contextlib
 import threading
+import weakref
 from collections.abc import Iterator
 
 
 class OverBudgetError(ValueError):
-    """Something would take more than the whole budget; the text is a clause that says how much."""
+    """Something would take more than there is; the text is a clause that says how much."""
 
 
 class MemoryBudget:
     """Memory that threads take before they allocate it, by what a header claims.
 
+    Work waits for memory that other work gives back. What is loaded keeps its share until it is
+    gone; it may have a part of the total, so that there is always room to work in.
+
     Args:
         total: in bytes.
+        loaded: of it, the bytes that what is loaded may have; half of it by default.
     """
 
-    def __init__(self, total: int) -> None:
+    def __init__(self, total: int, loaded: int | None = None) -> None:
         self.total = total
-        self._free = total
+        self._most_held = total // 2 if loaded is None else loaded
+        self._taken = self._held = 0
         self._changed = threading.Condition()
         self._mine = threading.local()
 
+    @property
+    def room(self) -> int:
+        """Bytes that work may take if there is no other."""
+        return self.total - self._held
+
+    @property
+    def least_room(self) -> int:
+        """Bytes that work gets sooner or later, however much is loaded."""
+        return self.total - self._most_held
+
+    @property
+    def is_scarce(self) -> bool:
+        """Return whether little is left for what is loaded, so that caches should be emptied."""
+        return self._held > self._most_held // 2
+
     @contextlib.contextmanager
-    def take(self, size: int) -> Iterator[None]:
-        """Hold `size` bytes, after waiting until so many are free.
+    def take(self, size: int, stopped: threading.Event | None = None) -> Iterator[None]:
+        """Hold `size` bytes for work, after waiting until so many are free.
 
         A thread that holds some already does not wait for more, or two could wait for each other.
 
+        Args:
+            size: in bytes.
+            stopped: ends waiting; whoever sets it calls `wake`, and the work checks it.
+
         Raises:
-            OverBudgetError: it is more than the total.
+            OverBudgetError: there is not so much even without other work.
         """
-        if size > self.total:
-            needed, limit = f"{size / 1e6:.0f} MB", f"{self.total / 1e6:.0f} MB"
-            raise OverBudgetError(f"takes {needed} to decode; the limit is {limit}")
         held: int = getattr(self._mine, "held", 0)
         with self._changed:
-            if not held:
-                self._changed.wait_for(lambda: self._free >= size)
-            self._free -= size
+            while not (stopped and stopped.is_set()):
+                if size > self.room:
+                    text = f"takes {_mb(size)} to decode; the limit is {_mb(self.room)}"
+                    beside = f" beside {_mb(self._held)} of what is loaded" if self._held else ""
+                    raise OverBudgetError(text + beside)
+                if held or self._taken + size <= self.room:
+                    break
+                self._changed.wait()
+            self._taken += size
         self._mine.held = held + size
         try:
             yield
         finally:
             self._mine.held = held
             with self._changed:
-                self._free += size
+                self._taken -= size
                 self._changed.notify_all()
 
+    def hold(self, owner: object, size: int) -> None:
+        """Hold `size` bytes until `owner` is garbage.
 
-DECODING = MemoryBudget(640_000_000)
-"""Of all images; a browser's largest JPEG, of 8192 x 8192 pixels, takes 540 MB."""
+        Raises:
+            OverBudgetError: too much is held already.
+        """
+        with self._changed:
+            left = self._most_held - self._held
+            if size > left:
+                limit = _mb(self._most_held)
+                raise OverBudgetError(
+                    f"takes {_mb(size)} of memory; {_mb(left)} of {limit} are left"
+                )
+            self._held += size
+        weakref.finalize(owner, self._give_back, size).atexit = False
+
+    def wake(self) -> None:
+        """Let work that was stopped end waiting."""
+        with self._changed:
+            self._changed.notify_all()
+
+    def _give_back(self, size: int) -> None:
+        with self._changed:
+            self._held -= size
+            self._changed.notify_all()
+
+
+def _mb(size: int) -> str:
+    return f"{size / 1e6:.0f} MB"
+
+
+DECODING = MemoryBudget(1_000_000_000, 450_000_000)
+"""Of images, meshes, pictures and octrees. Besides, a viewer takes 450 MB with a simulated robot. A
+browser's largest JPEG, of 8192 x 8192 pixels, takes 540 MB."""

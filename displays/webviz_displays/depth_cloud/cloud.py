@@ -11,11 +11,15 @@ from numpy.typing import NDArray
 
 from webviz.api.pictures import Encoded
 from webviz.api.stills import opened
-from webviz.data.images import CameraModel, ImageError, RawImage, Tone, to_rgb, values
+from webviz.data.images import CameraModel, ImageError, RawImage, Tone, decoding, to_rgb, values
+from webviz.data.memory import DECODING, OverBudgetError
+from webviz.data.words import counted
 from webviz_displays.depth_cloud.hidden import HiddenPoints
 from webviz_displays.image.transports import Decompression
 
 NEAREST_M, FARTHEST_M = 1e-6, 1e6
+_POINT_BYTES = 50
+"""That a point takes on its way, at most: 48 were measured, with colours and hidden points."""
 
 U8 = NDArray[np.uint8]
 Behind = Callable[[NDArray[np.float32], NDArray[np.bool_], U8 | None], HiddenPoints]
@@ -69,6 +73,26 @@ def depth_points(
         )
     count = image.width * image.height
     step = max(1, math.ceil(math.sqrt(count / most))) if most else 1
+    size = -(-image.width // step), -(-image.height // step)
+    with decoding(*size, _POINT_BYTES):
+        points = _points(image, color, model, step, behind)
+    try:
+        DECODING.hold(points.xyz, points.xyz.nbytes + points.ids.nbytes)
+    except OverBudgetError as error:
+        raise ImageError(
+            f"The {counted(len(points.xyz), 'point')} {error}. Lower Decay Time or Max Points."
+        ) from None
+    return points
+
+
+def _points(
+    image: RawImage,
+    color: RawImage | Encoded | Decompression | None,
+    model: CameraModel,
+    step: int,
+    behind: Behind | None,
+) -> DepthPoints:
+    """The points of every `step`-th pixel of an image."""
     numbers = values(image)[::step, ::step]
     depths = numbers.astype(np.float32)
     if image.layout.unit == "mm":
@@ -92,7 +116,7 @@ def depth_points(
         xyz,
         np.concatenate(colors) if colors else None,
         pixels,
-        count,
+        image.width * image.height,
         len(xyz) - len(ids[0]),
         step / model.fx,
         remark,
@@ -119,7 +143,8 @@ def _colors(
         if isinstance(image, Encoded):
             pixels = np.asarray(opened(image))
         else:
-            pixels = to_rgb(values(image), image.layout, Tone(0.0, 65535.0))
+            with decoding(image.width, image.height, image.layout.work_bytes):
+                pixels = to_rgb(values(image), image.layout, Tone(0.0, 65535.0))
     except ImageError as error:
         return None, str(error)
     if pixels.shape[:2] != (depth.height, depth.width):

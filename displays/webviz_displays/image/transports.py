@@ -10,16 +10,30 @@ from numpy.typing import NDArray
 
 from webviz import Sample
 from webviz.api.pictures import Encoded
-from webviz.data.images import RawImage, decode_depth, inspect_compressed, read_png16
+from webviz.data.images import ImageError, RawImage, decode_depth, inspect_compressed, read_png16
+from webviz.data.memory import DECODING, OverBudgetError
 
 RAW, COMPRESSED = "sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"
 
 
 @dataclass(frozen=True)
 class Decompression:
-    """An image that has to be decompressed; `run` raises ImageError."""
+    """An image that has to be decompressed."""
 
-    run: Callable[[], RawImage]
+    start: Callable[[], RawImage]
+
+    def run(self) -> RawImage:
+        """Decompress it; its memory is counted while it lives.
+
+        Raises:
+            ImageError: it is broken, or takes more memory than there is.
+        """
+        image = self.start()
+        try:
+            DECODING.hold(image, image.data.nbytes)
+        except OverBudgetError as error:
+            raise ImageError(f"The image {error}. Remove other displays.") from None
+        return image
 
 
 def read(sample: Sample) -> RawImage | Encoded | Decompression:

@@ -8,12 +8,19 @@ from collections.abc import Set
 import numpy as np
 
 from webviz import Context, Level
+from webviz.data.memory import DECODING
 from webviz.data.messages.markers import Content, Marker
 from webviz_displays.markers.batch import MarkerBatch
 from webviz_displays.markers.faults import Fault
-from webviz_displays.markers.meshes import LoadedMesh, Tint
+from webviz_displays.markers.meshes import LoadedMesh
 from webviz_displays.markers.nodes import Files
-from webviz_urdf import Loading, LoadRequest, MeshContent, RobotDescriptionError
+from webviz_urdf import (
+    Loading,
+    LoadRequest,
+    MeshContent,
+    PictureFile,
+    RobotDescriptionError,
+)
 
 EMBEDDED = "embedded://"
 """Begins the URI of a file that is in the message."""
@@ -29,9 +36,8 @@ class Assets:
     """Meshes and pictures by what was requested."""
 
     def __init__(self) -> None:
-        self._known: dict[LoadRequest, LoadedMesh | bytes | str] = {}
+        self._known: dict[LoadRequest, LoadedMesh | PictureFile | str] = {}
         self._loading: dict[LoadRequest, Loading] = {}
-        self._models: dict[tuple[int, Tint], bytes] = {}
         self._failed: dict[LoadRequest, tuple[float, float]] = {}
         """When files that could not be loaded are tried again, and how long that is after."""
         self._arrived: set[LoadRequest] = set()
@@ -57,11 +63,15 @@ class Assets:
 
         Args:
             ctx: has the workers.
-            used: what markers name; other files are dropped if there are many.
+            used: what markers name. Other files are dropped if there are many, if little memory is
+                left, or if they came in a message.
         """
-        if len(self._known) > MAX_FILES // 2:
-            self._known = {request: v for request, v in self._known.items() if request in used}
-            self._models.clear()
+        is_tight = len(self._known) > MAX_FILES // 2 or DECODING.is_scarce
+        self._known = {
+            request: v
+            for request, v in self._known.items()
+            if request in used or not (is_tight or request.data)
+        }
         self._failed = {request: v for request, v in self._failed.items() if request in used}
         self._loading = {request: v for request, v in self._loading.items() if request in used}
         self._take(ctx)
@@ -88,7 +98,7 @@ class Assets:
                 self._failed.pop(request, None)
             if isinstance(result, MeshContent):
                 name = f"{request.mesh} {len(self._known)}" if request.data else request.mesh
-                result = LoadedMesh(name, result.parts)
+                result = LoadedMesh(name, result)
             if result != self._known.get(request):
                 self._known[request] = result
                 self._arrived.add(request)
@@ -119,10 +129,10 @@ class Assets:
                 elif isinstance(asset, LoadedMesh):
                     meshes[row] = asset
                 elif asset is not None:
-                    pictures[row] = asset
-        return Files(meshes, pictures, self._models), faults, requests
+                    pictures[row] = asset.data
+        return Files(meshes, pictures), faults, requests
 
-    def _asset(self, request: LoadRequest) -> LoadedMesh | bytes | str | None:
+    def _asset(self, request: LoadRequest) -> LoadedMesh | PictureFile | str | None:
         """A mesh, a picture, why there is none, or None while it is being loaded."""
         if request in self._known:
             return self._known[request]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -11,11 +11,14 @@ import numpy as np
 from webviz import Models, Node, Shape
 from webviz_displays.markers.batch import F32, MarkerBatch, opacities, rgb
 from webviz_displays.markers.solids import Solids
-from webviz_urdf import MeshPart, Surface, write_glb
+from webviz_urdf import MeshContent, MeshPart, Surface, write_glb
 
 Tint = tuple[float, float, float, float]
 """RGBA that the materials of a mesh are multiplied by."""
 NO_TINT: Tint = (1.0, 1.0, 1.0, 1.0)
+MAX_MODELS = 64_000_000
+"""Bytes of the models of one mesh that are kept; a publisher may change the colour with each
+message."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,11 +27,17 @@ class LoadedMesh:
 
     Args:
         name: unique among the meshes.
-        parts: at least one.
+        content: of the file; while it lives, its memory is counted.
     """
 
     name: str
-    parts: tuple[MeshPart, ...]
+    content: MeshContent
+    _models: dict[tuple[int, Tint], bytes] = field(default_factory=dict[tuple[int, Tint], bytes])
+
+    @property
+    def parts(self) -> tuple[MeshPart, ...]:
+        """At least one."""
+        return self.content.parts
 
     @cached_property
     def whole(self) -> ColoredPiece:
@@ -51,6 +60,17 @@ class LoadedMesh:
     def colorful(self) -> tuple[MeshPart, ...]:
         """The parts with a texture or vertex colours."""
         return tuple(filter(is_colorful, self.parts))
+
+    def model(self, number: int, tint: Tint) -> bytes:
+        """A part of `colorful` in a tint, as a binary glTF."""
+        key = number, tint
+        if key not in self._models:
+            data = write_glb([_tinted(self.colorful[number], tint)])
+            size = len(data) + sum(map(len, self._models.values()))
+            while self._models and size > MAX_MODELS:
+                size -= len(self._models.pop(next(iter(self._models))))
+            self._models[key] = data
+        return self._models[key]
 
 
 _NO_SURFACE = Surface()
@@ -109,16 +129,8 @@ def mesh_solids(batch: MarkerBatch, meshes: Meshes) -> Iterator[Solids]:
             yield from piece.solids(with_own, colors)
 
 
-def models_of(
-    batch: MarkerBatch, meshes: Meshes, cache: dict[tuple[int, Tint], bytes]
-) -> dict[str, Node]:
-    """Return models for parts with a texture or vertex colours.
-
-    Args:
-        batch: the markers.
-        meshes: those that are loaded.
-        cache: of models, by the id of their part, which must stay alive, and their tint.
-    """
+def models_of(batch: MarkerBatch, meshes: Meshes) -> dict[str, Node]:
+    """Return models for parts with a texture or vertex colours, of the meshes that are loaded."""
     nodes: dict[str, Node] = {}
     for mesh, rows in _by_mesh(meshes).items():
         with_own = rows[batch.own_materials[rows]]
@@ -129,15 +141,12 @@ def models_of(
             by_tint.setdefault(tint_of(batch.colors[row]), []).append(row)
         for tint, some in by_tint.items():
             chosen = batch.only(np.array(some))
-            for number, part in enumerate(mesh.colorful if tint[3] > 0.0 else ()):
-                key = f"model {mesh.name} {number} {tint}"
-                data = cache.get((id(part), tint)) or write_glb([_tinted(part, tint)])
-                cache[id(part), tint] = data
-                nodes[key] = Models(
+            for number in range(len(mesh.colorful) if tint[3] > 0.0 else 0):
+                nodes[f"model {mesh.name} {number} {tint}"] = Models(
                     chosen.positions.astype(np.float32),
                     chosen.wxyzs.astype(np.float32),
                     chosen.scales.astype(np.float32),
-                    data,
+                    mesh.model(number, tint),
                     chosen.ids,
                 )
     return nodes

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from webviz import Node
 from webviz_displays.markers.batch import MarkerBatch
 from webviz_displays.markers.lines import lines_of, points_of, texts_of
-from webviz_displays.markers.meshes import LoadedMesh, Tint, mesh_solids, models_of
+from webviz_displays.markers.meshes import LoadedMesh, mesh_solids, models_of
 from webviz_displays.markers.solids import instances_of, solids_of
 from webviz_displays.markers.triangles import triangles_of
 
@@ -21,12 +21,10 @@ class Files:
     Args:
         meshes: of MESH_RESOURCE; a marker without one is not drawn.
         pictures: PNG or JPEG, of TRIANGLE_LIST.
-        models: cache, see `models_of`.
     """
 
     meshes: Mapping[int, LoadedMesh] = field(default_factory=dict)
     pictures: Mapping[int, bytes] = field(default_factory=dict)
-    models: dict[tuple[int, Tint], bytes] = field(default_factory=dict)
 
 
 def nodes_of(batch: MarkerBatch, files: Files = Files()) -> dict[str, Node]:
@@ -43,5 +41,5 @@ def nodes_of(batch: MarkerBatch, files: Files = Files()) -> dict[str, Node]:
         **points_of(batch),
         **texts_of(batch),
         **triangles_of(batch, files.pictures),
-        **models_of(batch, files.meshes, files.models),
+        **models_of(batch, files.meshes),
     }

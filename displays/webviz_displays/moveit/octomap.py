@@ -12,7 +12,7 @@ from webviz.data.words import counted
 from webviz_displays.moveit.frames import Links, Places
 from webviz_displays.moveit.joints import pose_of
 from webviz_displays.moveit.scene import KnownScene
-from webviz_displays.octomap.octree import LEVELS, OctreeFault, read_octree
+from webviz_displays.octomap.octree import LEVELS, OctreeFault, memory_for, read_octree
 from webviz_displays.octomap.seen import (
     VisibleVoxels,
     VoxelChoice,
@@ -141,8 +141,9 @@ class Octomap:
 def _read(message: Any, choice: VoxelChoice) -> _Read:
     """In a worker: what is to be drawn of a tree."""
     try:
-        tree = read_octree(message)
+        with memory_for(message):
+            tree = read_octree(message)
+            seen = seen_of(tree, choice)
     except OctreeFault as fault:
         return _Read(fault=str(fault))
-    seen = seen_of(tree, choice)
     return _Read(seen, tree.log_odds[seen.voxels.nodes])

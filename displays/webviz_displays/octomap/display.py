@@ -9,7 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Context, Details, Display, Hit, Input, Pose, Prop, Sample, Topic, compose
-from webviz_displays.octomap.octree import LEVELS, SLOW_BYTES, Octree, OctreeFault, read_octree
+from webviz_displays.octomap.octree import (
+    LEVELS,
+    SLOW_BYTES,
+    Octree,
+    OctreeFault,
+    keep_memory,
+    memory_for,
+    read_octree,
+)
 from webviz_displays.octomap.seen import (
     MAX_VOXELS,
     Rendering,
@@ -114,16 +122,14 @@ class OctreeDisplay(Display):
     def draw(self, sample: Sample, ctx: Context) -> None:
         """The voxels that can be seen as boxes, in the frame and at the stamp of the header."""
         state: _State = ctx.state
-        if state.message is not sample.message:
-            _read(state, sample.message)
-        tree = state.tree
-        if tree is None:
-            ctx.error("Octree", state.fault)
-            return
         levels = self.max_octree_depth or LEVELS
         choice = VoxelChoice(self.voxel_rendering, levels, self.min_height, self.max_height)
-        if state.seen is None or state.choice != choice:
-            state.choice, state.seen = choice, seen_of(tree, choice)
+        if state.message is not sample.message or state.seen is None or state.choice != choice:
+            _read(state, sample.message, choice)
+        tree = state.tree
+        if tree is None or state.seen is None:
+            ctx.error("Octree", state.fault)
+            return
         state.drawn = tree, state.seen
         self._report(tree, state.seen, levels, ctx)
         voxels = state.seen.voxels
@@ -228,13 +234,24 @@ class OccupancyGridStamped(OctreeDisplay):
     rviz = "octomap_rviz_plugins/OccupancyGridStamped"
 
 
-def _read(state: _State, message: Any) -> None:
-    state.message, state.tree, state.seen, state.fault = message, None, None, ""
+def _read(state: _State, message: Any, choice: VoxelChoice) -> None:
+    """Read a tree, unless it is known, and what is to be drawn of it."""
+    if state.message is not message:
+        state.message, state.tree = message, None
+    state.choice, state.seen = choice, None
     try:
-        state.tree = tree = read_octree(message)
+        with memory_for(message):
+            if state.tree is None:
+                state.tree, state.span = _tree_of(message)
+            state.seen = seen_of(state.tree, choice)
     except OctreeFault as fault:
         state.fault = str(fault)
-        return
+
+
+def _tree_of(message: Any) -> tuple[Octree, tuple[float, float]]:
+    """The tree of a message, and its lowest and highest z."""
+    tree = read_octree(message)
+    keep_memory(tree)
     leaves = voxels_of(tree, LEVELS)
     edges, heights = leaves.sizes / 2, leaves.centers[:, 2]
-    state.span = float((heights - edges).min()), float((heights + edges).max())
+    return tree, (float((heights - edges).min()), float((heights + edges).max()))

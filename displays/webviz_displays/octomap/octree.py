@@ -9,13 +9,15 @@ record of its own. Child i lies at +x if its bit 0 is set, at +y for bit 1, at +
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import contextlib
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from webviz.data.memory import DECODING, OverBudgetError
 from webviz_displays.shared.geometry import FARTHEST
 
 F32 = NDArray[np.float32]
@@ -26,7 +28,11 @@ Mask = NDArray[np.bool_]
 LEVELS = 16
 """Below the root; the smallest voxels are at this depth."""
 MAX_NODES = 3_000_000
-"""Per tree; they take about 500 MB while they are read and drawn."""
+"""Per tree; they take 600 MB while they are read and drawn."""
+_NODE_BYTES = 210
+"""For each node meanwhile: 204 were measured."""
+_KEPT_BYTES = 40
+"""For each node afterwards, and what is drawn."""
 
 SLOW_BYTES = 20_000
 """A byte is up to four voxels: to read this many, and find what can be seen, takes 20 ms."""
@@ -86,6 +92,49 @@ class _Level(NamedTuple):
     records: I64
     log_odds: F32
     counts: I64
+
+
+@contextlib.contextmanager
+def memory_for(message: Any) -> Iterator[None]:
+    """Hold the memory that reading and drawing a tree takes, after waiting for that of others.
+
+    Raises:
+        OctreeFault: there is not so much.
+    """
+    if len(message.data) < SLOW_BYTES:  # in the frame loop, which must not wait
+        yield
+        return
+    try:
+        with DECODING.take(_nodes_in(message) * _NODE_BYTES):
+            yield
+    except OverBudgetError as error:
+        raise OctreeFault(f"The tree {error}. Publish a part of it, or remove displays.") from None
+
+
+def keep_memory(tree: Octree) -> None:
+    """Count the memory of a tree, and of what is drawn of it, while the tree lives.
+
+    Raises:
+        OctreeFault: there is not so much.
+    """
+    try:
+        DECODING.hold(tree, len(tree.codes) * _KEPT_BYTES)
+    except OverBudgetError as error:
+        raise OctreeFault(f"The tree {error}. Publish a part of it, or remove displays.") from None
+
+
+def _nodes_in(message: Any) -> int:
+    """The nodes of a tree, by the bits of its records; those that are too many are not counted."""
+    if message.binary:
+        records = _records(message.data, np.dtype("<u2"))
+        has_child = (records | records >> 1) & 0x5555
+        count = int(np.unpackbits(has_child.view(np.uint8)).sum(dtype=np.int64))
+    elif message.id in _RECORDS:
+        records = _records(message.data, _RECORDS[message.id])
+        count = int(np.unpackbits(records["children"]).sum(dtype=np.int64))
+    else:
+        return 0
+    return min(count + 1, MAX_NODES)
 
 
 def read_octree(message: Any) -> Octree:

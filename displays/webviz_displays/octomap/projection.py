@@ -13,7 +13,14 @@ from webviz.data import messages
 from webviz_displays.map.display import MapDisplay
 from webviz_displays.map.tiles import GridFault
 from webviz_displays.octomap.display import OCTOMAP
-from webviz_displays.octomap.octree import LEVELS, SLOW_BYTES, Octree, OctreeFault, read_octree
+from webviz_displays.octomap.octree import (
+    LEVELS,
+    SLOW_BYTES,
+    Octree,
+    OctreeFault,
+    memory_for,
+    read_octree,
+)
 from webviz_displays.octomap.voxels import voxels_of
 
 I64 = NDArray[np.int64]
@@ -107,7 +114,8 @@ class ProjectedOctree(MapDisplay):
         if name != "topic":
             return message
         try:
-            return projected(read_octree(message), self.max_octree_depth or LEVELS)
+            with memory_for(message):
+                return projected(read_octree(message), self.max_octree_depth or LEVELS)
         except OctreeFault as fault:
             raise GridFault(str(fault)) from fault
 

@@ -42,6 +42,13 @@ class PixelLayout:
         """Bytes of one pixel in a row of the first plane."""
         return self.dtype.itemsize * self.channels
 
+    @property
+    def work_bytes(self) -> int:
+        """Bytes that a pixel takes on its way to a screen, besides the message: measured."""
+        if self.is_scaled:
+            return 14 * self.channels
+        return 8 if self.dtype.itemsize == 1 else 16
+
 
 def _color(depth: int, channels: int, order: Order) -> PixelLayout:
     return PixelLayout(np.dtype(f"u{depth // 8}"), channels, order)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,9 +13,13 @@ from webviz.data.images.bayer import demosaic
 from webviz.data.images.encodings import PixelLayout, layout_of
 from webviz.data.images.errors import ImageError
 from webviz.data.images.yuv import packed_to_rgb, planes_to_rgb
+from webviz.data.memory import DECODING
 
 MAX_PIXELS = 1 << 26
 """8192 x 8192: what browsers can show."""
+
+_STRIP_ROWS = 128
+"""Even, as colours are shared by two rows."""
 
 _NATIVE_BIG = np.dtype(np.uint16).newbyteorder("=") == np.dtype(">u2")
 
@@ -56,6 +61,12 @@ class RawImage:
         if width * height > MAX_PIXELS:
             raise ImageError(
                 f"{width} x {height} pixels are more than {MAX_PIXELS // 10**6} million."
+            )
+        if width * height * layout.work_bytes > DECODING.least_room:
+            most = DECODING.least_room // layout.work_bytes
+            raise ImageError(
+                f"{width} x {height} pixels of {message.encoding} need more memory than there is. "
+                f"Publish at most {most // 10**6} million."
             )
         row = width * layout.pixel_bytes
         step = int(message.step) or row
@@ -114,18 +125,50 @@ def values(image: RawImage) -> NDArray[Any]:
             image.data, (height, width), (image.step, 1), writeable=False
         )
         rest = image.data[height * image.step :]
-        return planes_to_rgb(first, rest, image.step, layout.order == "nv21")
+        is_nv21 = layout.order == "nv21"
+        colors = image.step // 2 if is_nv21 else 2 * image.step
+        return _in_strips(
+            first.shape,
+            lambda a, b: planes_to_rgb(first[a:b], rest[a * colors :], image.step, is_nv21),
+        )
     pixels = _grid(image, layout)
     match layout.order:
         case "uyvy" | "yuyv":
-            return packed_to_rgb(pixels, layout.order == "uyvy")
+            is_color_first = layout.order == "uyvy"
+            return _in_strips(
+                (height, width), lambda a, b: packed_to_rgb(pixels[a:b], is_color_first)
+            )
         case "bayer":
-            return demosaic(pixels[..., 0], layout.pattern)
+            mosaic = pixels[..., 0]
+            return _in_strips((height, width), lambda a, b: _colors(mosaic, layout.pattern, a, b))
         case "rgb":
             return pixels[..., :3]
         case "bgr":
             return pixels[..., 2::-1]
     return pixels[..., 0] if layout.channels == 1 else pixels
+
+
+def _in_strips(shape: tuple[int, ...], make: Callable[[int, int], NDArray[Any]]) -> NDArray[Any]:
+    """RGB (H, W, 3) made of a few rows at once, since that takes ten times its memory.
+
+    Args:
+        shape: (H, W).
+        make: the pixels from one row to another.
+    """
+    height, width = shape
+    first = make(0, min(_STRIP_ROWS, height))
+    found = np.empty((height, width, 3), first.dtype)
+    found[: len(first)] = first
+    for start in range(_STRIP_ROWS, height, _STRIP_ROWS):
+        stop = min(start + _STRIP_ROWS, height)
+        found[start:stop] = make(start, stop)
+    return found
+
+
+def _colors(mosaic: NDArray[Any], pattern: str, start: int, stop: int) -> NDArray[Any]:
+    """Some rows of a mosaic; `start` is even, as the pattern repeats every two rows."""
+    begin = max(0, start - 2)  # colours depend on neighbours
+    return demosaic(mosaic[begin : stop + 2], pattern)[start - begin : stop - begin]
 
 
 def _grid(image: RawImage, layout: PixelLayout) -> NDArray[Any]:

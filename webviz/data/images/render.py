@@ -6,6 +6,7 @@ import io
 
 from PIL import Image
 
+from webviz.data.images.compressed import decoding
 from webviz.data.images.raw import RawImage, values
 from webviz.data.images.tone import Tone, to_rgb
 
@@ -32,7 +33,15 @@ def render(image: RawImage, tone: Tone, factor: int = 1) -> Image.Image:
         image: of any encoding.
         tone: for measurements.
         factor: by which it is made smaller, 1 or more; of measurements each is one of the image.
+
+    Raises:
+        ImageError: it takes more memory than there is.
     """
+    with decoding(image.width, image.height, image.layout.work_bytes):
+        return _rendered(image, tone, factor)
+
+
+def _rendered(image: RawImage, tone: Tone, factor: int) -> Image.Image:
     if (modes := _DIRECT.get(image.encoding)) is not None:
         size = image.width, image.height
         # The last row may end without its gap.

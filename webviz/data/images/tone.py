@@ -15,6 +15,8 @@ from webviz.data.images.encodings import PixelLayout
 
 U8 = NDArray[np.uint8]
 
+_STRIP_ROWS = 256
+
 
 @dataclass(frozen=True)
 class Tone:
@@ -34,9 +36,16 @@ def value_range(values: NDArray[Any], zero_is_invalid: bool) -> tuple[float, flo
     """The smallest and the largest valid value, None if none is valid.
 
     Args:
-        values: of any shape.
+        values: (H, ...).
         zero_is_invalid: whether 0 stands for no measurement.
     """
+    # In strips, since this is done for each image and takes as much memory again.
+    strips = (values[start : start + _STRIP_ROWS] for start in range(0, len(values), _STRIP_ROWS))
+    ranges = [each for strip in strips if (each := _range(strip, zero_is_invalid))]
+    return (min(low for low, _ in ranges), max(high for _, high in ranges)) if ranges else None
+
+
+def _range(values: NDArray[Any], zero_is_invalid: bool) -> tuple[float, float] | None:
     if not zero_is_invalid and (values.dtype.kind != "f" or values.size):
         with np.errstate(invalid="ignore"):
             low, high = float(values.min()), float(values.max())

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from webviz.api.pictures import Picture, Pixels
-from webviz.data.images import values
+from webviz.data.images import decoding, values
 
 
 def pixel_text(picture: Picture, x: int, y: int) -> str:
@@ -20,7 +20,8 @@ def pixel_text(picture: Picture, x: int, y: int) -> str:
     image, layout = picture.image, picture.image.layout
     if not (0 <= x < image.width and 0 <= y < image.height):
         return ""
-    value = values(image)[y, x]
+    with decoding(image.width, image.height, layout.work_bytes):
+        value = values(image)[y, x]
     if value.ndim:
         return " ".join(f"{each:.4g}" if each.dtype.kind == "f" else str(each) for each in value)
     if not layout.unit:
