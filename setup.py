@@ -73,6 +73,7 @@ setup(
             "LaserScan = webviz_displays.laser_scan:LaserScan",
             "Mag = webviz_displays.imu:Mag",
             "Map = webviz_displays.map:Map",
+            "MapCloud = webviz_displays.map_cloud:MapCloud",
             "MapGraph = webviz_displays.map_graph:MapGraph",
             "Marker = webviz_displays.markers:Marker",
             "MarkerArray = webviz_displays.markers:MarkerArray",

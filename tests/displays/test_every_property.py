@@ -19,6 +19,7 @@ from mapping_scenes import MAPPING_SCENES
 from moveit_scenes import moveit
 from perception_scenes import PERCEPTION_SCENES
 from plain_scenes import PLAIN_SCENES
+from rtabmap_scenes import RTABMAP_SCENES
 
 import webviz_displays
 from webviz import Display, Topic
@@ -274,6 +275,7 @@ SCENES: dict[str, Callable[[Any], None]] = {
     **PLAIN_SCENES,
     **MAPPING_SCENES,
     **PERCEPTION_SCENES,
+    **RTABMAP_SCENES,
 }
 
 PLAYERS = (("MotionPlanning", "planned_path."), ("Trajectory", ""))
@@ -285,6 +287,7 @@ ANIMATED = ("interrupt_display", "loop_animation", "state_display_time", "use_si
 OF_THE_FUTURE = {
     ("DepthCloud", "occlusion_compensation"),
     ("Camera", "median_window"),
+    *(("MapCloud", f"cloud_{each}") for each in ("decimation", "from_scan")),
     ("Image", "median_window"),
     ("ImagePlane", "median_window"),
     ("OccupancyMap", "max_octree_depth"),
@@ -307,6 +310,10 @@ OF_THE_FUTURE = {
 ELSEWHERE = {
     *(("Camera", "visibility"), ("Camera", "undistort")),
     ("DepthCloud", "occlusion_time_out"),
+    *(("MapCloud", f"cloud_{each}") for each in ("min_depth", "max_depth", "voxel_size")),
+    *(("MapCloud", f"filter_{each}") for each in ("floor", "ceiling")),
+    *(("MapCloud", f"node_filtering_{each}") for each in ("radius", "angle")),
+    ("MapCloud", "download_namespace"),
 }
 
 # Entries of properties that hold settings by name: each differs from none in one setting.
@@ -339,6 +346,15 @@ BESIDES: dict[tuple[str, str], dict[str, Any]] = {
             "show_visual_aids",
             "enable_transparency",
             "enabled",
+        )
+    },
+    # Images have no intensities.
+    **{
+        ("MapCloud", name): {"color_transformer": "Intensity", "cloud_from_scan": True}
+        for name in (
+            "autocompute_intensity_bounds",
+            "invert_rainbow",
+            *(f"{end}_{what}" for end in ("min", "max") for what in ("color", "intensity")),
         )
     },
     # Without limits at first.

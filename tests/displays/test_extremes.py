@@ -18,6 +18,7 @@ from mapping_scenes import MAPPING_MESSAGES
 from moveit_scenes import MOVEIT_MESSAGES
 from perception_scenes import PERCEPTION_MESSAGES
 from plain_scenes import PLAIN_MESSAGES
+from rtabmap_scenes import RTABMAP_MESSAGES
 
 from webviz import Display
 from webviz.api.display import inputs_of
@@ -34,6 +35,7 @@ from webviz_displays.imu import Imu, Mag
 from webviz_displays.imu.imu import AccelerationSettings
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Costmap, Map
+from webviz_displays.map_cloud import MapCloud
 from webviz_displays.map_graph import MapGraph
 from webviz_displays.moveit import PlanningScene, RobotState, Trajectory
 from webviz_displays.nvblox import NvbloxMesh, NvbloxVoxelBlockLayer
@@ -97,6 +99,7 @@ MESSAGES: dict[str, Values] = {
     **PLAIN_MESSAGES,
     **MAPPING_MESSAGES,
     **PERCEPTION_MESSAGES,
+    **RTABMAP_MESSAGES,
     **MOVEIT_MESSAGES,
 }
 """A message of each type that draws something."""
@@ -151,6 +154,8 @@ DISPLAYS: list[Callable[[], Display]] = [
     lambda: Trajectory(show_trail=True),
     RobotState,
     ZedOdDisplay,
+    MapCloud,
+    lambda: MapCloud(cloud_from_scan=True),
 ]
 
 MAX_CASES = 128

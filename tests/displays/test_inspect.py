@@ -19,6 +19,7 @@ from moveit_scenes import moveit
 from octrees import OCTOMAP
 from perception_scenes import ZED_OBJECTS, ZED_SCENE
 from robot_arm import ARM, describe, place_arm
+from rtabmap_scenes import MAP_DATA, SCAN, map_data, scanned
 
 from webviz import Context, Details, Display, Frames
 from webviz.api.nodes import Lines, Points
@@ -32,6 +33,7 @@ from webviz_displays.image_plane import ImagePlane
 from webviz_displays.imu import Imu, Mag
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Costmap, Map
+from webviz_displays.map_cloud import MapCloud
 from webviz_displays.map_graph import MapGraph
 from webviz_displays.markers import MarkerArray
 from webviz_displays.moveit import PlanningScene, RobotState, Trajectory
@@ -326,6 +328,16 @@ def surface_of_nvblox(bench: Benches) -> Details:
     return pick(at, "region 0 0 0", None, (0.1, 0.1, 0.1))
 
 
+def point_of_a_map(bench: Benches) -> Details:
+    """The second of the second node; the first has left the graph."""
+    at = bench(MapCloud(cloud_from_scan=True))
+    data = {id: scanned(*SCAN) for id in (3, 5)}
+    for places in ({3: (0.0, 0.0), 5: (1.0, 0.0)}, {5: (1.0, 0.0)}):
+        at.send(MAP_DATA, map_data(places, data), frame="map", topic="/rtabmap/mapData")
+        at.turn()
+    return pick(at, "points", 1)
+
+
 def car_of_a_zed_camera(bench: Benches) -> Details:
     return one_of(bench, ZedOdDisplay(), ZED_OBJECTS, ZED_SCENE, "boxes", 3)
 
@@ -534,6 +546,9 @@ CASES: dict[Callable[[Benches], Details], tuple[str, Mapping[str, Any]]] = {
     link_of_a_graph: ("Link 1 to 3", {"Type": "2, local loop closure"}),
     voxel_of_nvblox: ("Voxel", {"Edge": "0.1 m"}),
     surface_of_nvblox: ("Mesh", {}),
+    point_of_a_map: (
+        "Point of node 5", {"Seen": "500.000 s", "Points of the node": "3", "Intensity": "90.0"}
+    ),
     car_of_a_zed_camera: (
         "3-Vehicle [Car]",
         {"Kind": "Vehicle > Car", "Confidence": "87.5 %", "Velocity": "1.5, 0, 0 m/s",

@@ -10,6 +10,7 @@ from mapping_scenes import MAPPING_MESSAGES
 from moveit_scenes import MOVEIT_MESSAGES, URDF
 from perception_scenes import PERCEPTION_MESSAGES
 from plain_scenes import PLAIN_MESSAGES, ROBOT
+from rtabmap_scenes import RTABMAP_MESSAGES
 
 from webviz import Display, Level, Topic
 from webviz.api.display import inputs, inputs_of
@@ -19,6 +20,7 @@ from webviz_displays.areas import GridCells, Polygon
 from webviz_displays.grid_map import GridMap
 from webviz_displays.imu import Imu, Mag
 from webviz_displays.map import Costmap
+from webviz_displays.map_cloud import MapCloud
 from webviz_displays.map_graph import MapGraph
 from webviz_displays.markers import Marker, MarkerArray
 from webviz_displays.moveit import PlanningScene, RobotState, Trajectory
@@ -50,10 +52,10 @@ CLASSES: tuple[type[Display], ...] = (
     *(FluidPressure, Illuminance, PointCloud, Range, RelativeHumidity, Temperature),
     *(AccelStamped, Effort, TwistStamped, Wrench),
     *(OccupancyGrid, OccupancyMap, GridMap, VoxelGrid, Costmap, Imu, Mag),
-    *(MapGraph, NvbloxMesh, NvbloxVoxelBlockLayer),
+    *(MapCloud, MapGraph, NvbloxMesh, NvbloxVoxelBlockLayer),
     ZedOdDisplay,
 )
-MESSAGES = PLAIN_MESSAGES | MAPPING_MESSAGES | PERCEPTION_MESSAGES
+MESSAGES = PLAIN_MESSAGES | MAPPING_MESSAGES | PERCEPTION_MESSAGES | RTABMAP_MESSAGES
 
 
 def test_each_display_draws_what_is_published_and_says_ok(

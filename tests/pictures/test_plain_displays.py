@@ -9,9 +9,11 @@ from itertools import product
 from typing import Any
 
 import numpy as np
+import photos
 from grid_maps import grid_map
 from octrees import Node, binary, full
 from perception_scenes import ZED_SCENE
+from rtabmap_scenes import map_data, rgbd
 
 from webviz import Display
 from webviz.api.display import inputs_of
@@ -23,6 +25,7 @@ from webviz_displays.grid_map import GridMap
 from webviz_displays.imu import Imu, Mag
 from webviz_displays.imu.imu import AccelerationSettings, BoxSettings
 from webviz_displays.map import Costmap
+from webviz_displays.map_cloud import MapCloud
 from webviz_displays.map_graph import MapGraph
 from webviz_displays.nvblox import NvbloxMesh, NvbloxVoxelBlockLayer
 from webviz_displays.octomap import (
@@ -164,6 +167,12 @@ def loop() -> Values:
     }
 
 
+def visited() -> Values:
+    """The room, seen from two places."""
+    seen = rgbd(*photos.room())
+    return map_data({1: (-1.6, -0.5), 2: (-1.0, 0.6)}, {1: seen, 2: seen})
+
+
 def reconstructed() -> tuple[Values, Values]:
     """The hill as a mesh and as voxels of nvblox, in blocks of 0.4 m."""
     indices, meshes, voxels = [], [], []
@@ -255,6 +264,7 @@ CASES = [
     Case("occupancy_map_stamped", OccupancyMapStamped(), (full(room(), kind="OcTreeStamped"),)),
     Case("grid_map", GridMap(), (grid_map({"elevation": summit}, (11, 11), 0.19, (3, 4)),)),
     Case("voxel_grid", VoxelGrid(show_unknown=True), (obstacles(),)),
+    Case("map_cloud", MapCloud(size=0.02, cloud_decimation=1), (visited(),)),
     Case("map_graph", MapGraph(), (loop(),)),
     Case("nvblox_mesh", NvbloxMesh(), reconstructed()[:1]),
     Case("nvblox_voxel_block_layer", NvbloxVoxelBlockLayer(), reconstructed()[1:]),

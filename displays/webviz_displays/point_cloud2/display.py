@@ -22,13 +22,10 @@ from webviz_displays.point_cloud2.cloud_colors import (
 from webviz_displays.point_cloud2.decimation import Rows, evenly, one_per_voxel
 from webviz_displays.shared.colors import faded
 from webviz_displays.shared.opaque import opaque
-from webviz_displays.shared.points_display import BY_INTENSITY, PointsDisplay
+from webviz_displays.shared.points_display import BY_INTENSITY, DOTS_LIMIT, PointsDisplay
 
 U8 = NDArray[np.uint8]
 F32 = NDArray[np.float32]
-
-DOTS_LIMIT = 50_000
-"""The browser draws the style Points as lines, and slows down with more of them."""
 
 AS_HELD = -1
 """A limit of as many points as browsers draw fast enough."""

@@ -21,6 +21,8 @@ BY_INTENSITY = ("color_transformer", ("Intensity", "Auto"))
 BY_AXIS = ("color_transformer", ("AxisColor", "Auto"))
 """When options of this transformer apply."""
 
+DOTS_LIMIT = 50_000
+"""The browser draws the style Points as lines, and slows down with more of them."""
 SOLIDS_LIMIT = 20_000
 """A browser without a GPU draws this many lit solids once a second."""
 
@@ -92,6 +94,7 @@ class PointStyle(Display):
         ids: NDArray[Any] | None = None,
         size: float | NDArray[np.floating] | None = None,
         thins: bool = False,
+        of: int = 0,
     ) -> None:
         """Draw points in the chosen style.
 
@@ -107,9 +110,11 @@ class PointStyle(Display):
                 many points get it roughly.
             thins: whether browsers may draw only some of them, which are in an order for
                 `Points.thins`; not for the style Points.
+            of: number of all points of the display, if it draws them in several groups.
         """
         size = self.size if size is None else size
-        too_many = thins or len(xyz) > SOLIDS_LIMIT
+        total = of or len(xyz)
+        too_many = thins or total > SOLIDS_LIMIT
         if self.style in _SOLIDS and not too_many:
             wxyzs = None if box_wxyz is None else np.tile(np.asarray(box_wxyz), (len(xyz), 1))
             shape = _SOLIDS[self.style]
@@ -133,7 +138,7 @@ class PointStyle(Display):
             ctx.ok(
                 "Style",
                 f"{self.style} are drawn as {'discs' if outline == 'circle' else 'squares'} that "
-                f"face the camera: the limit is {SOLIDS_LIMIT} solids, got {len(xyz)} points.",
+                f"face the camera: the limit is {SOLIDS_LIMIT} solids, got {total} points.",
             )
         elif self.style != "Flat Squares":
             ctx.ok("Style", f"{self.style} are drawn as flat squares that face the camera.")

@@ -72,6 +72,7 @@ VECTORS = {
     "visualization_msgs/msg/UVCoordinate": ("float32", 2),
     "nav2_msgs/msg/Particle": ("float64", 8),
     "nvblox_msgs/msg/Index3D": ("int32", 3),
+    "rtabmap_msgs/msg/Point3f": ("float32", 3),
     "zed_msgs/msg/Keypoint3D": ("float32", 3),
     "zed_msgs/msg/Keypoint2Df": ("float32", 2),
     "zed_msgs/msg/Keypoint2Di": ("uint32", 2),

@@ -43,6 +43,8 @@ AT_DEFAULT: dict[str, tuple[Any, ...]] = {
     "Mesh Color": ("Color",),
     "ColorMap": ("default",),  # the rainbow
     "Show Trail": (False,),
+    "Download map": (False,),  # buttons of RTAB-Map's MapCloud
+    "Download graph": (False,),
 }
 """By key: RViz's default values, which need no support."""
 
