@@ -20,6 +20,9 @@ from webviz_displays.shared.opaque import opaque
 MAX_LINES = 200_000
 """More lines would make the browser unresponsive."""
 
+GREY = (160, 160, 164)
+"""RViz's; pages with another theme have another."""
+
 # Which axes of the frame are the two of the plane and its normal.
 _PLANES = {"XY": (0, 1, 2), "XZ": (0, 2, 1), "YZ": (1, 2, 0)}
 
@@ -49,7 +52,9 @@ class Grid(Display):
             help="Width of the lines.",
         ),
     ] = 0.03
-    color: Annotated[Color, Prop(help="Colour of the lines.")] = (160, 160, 164)
+    color: Annotated[
+        Color, Prop(help="Colour of the lines; the default is darker on pages with a light theme.")
+    ] = GREY
     alpha: Annotated[Alpha, Prop(help="Opacity of the lines.")] = 0.5
     plane: Annotated[
         Literal["XY", "XZ", "YZ"], Prop(help="Plane of the frame in which the grid lies.")
@@ -74,7 +79,8 @@ class Grid(Display):
         segments = self.cell_size * _unit_grid(plane, normal, self.plane) + np.array(self.offset)
         group = ctx.follow(frame_of(self.reference_frame))
         width, unit = (1.0, "px") if self.line_style == "Lines" else (self.line_width, "m")
-        group.lines("grid", segments, self.color, width, unit, opacity=self.alpha)
+        color = None if self.color == GREY else self.color
+        group.lines("grid", segments, color, width, unit, opacity=self.alpha)
         if (plane, normal) == wanted:
             ctx.ok("Grid", f"{_count(plane, normal)} lines.")
             return

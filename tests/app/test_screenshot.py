@@ -15,6 +15,7 @@ import pytest
 import webviz
 import webviz_urdf
 from webviz.data.messages import encode
+from webviz.edges.scene.schemes import BACKGROUND
 from webviz.shell.pictures.browser import VARIABLE
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.source import HandFedSource
@@ -53,7 +54,7 @@ def test_images_are_beside_the_scene(viewer: webviz.Viewer, source: HandFedSourc
     source.put("/image", photos.RAW, encode(photos.RAW, message))
     pixels = viewer.screenshot(size=SIZE)
     assert np.abs(pixels[120, -48] - np.array((0, 255, 0))).max() < 4  # amid the right 30 %
-    assert np.array_equal(pixels[120, 100], viewer.background)
+    assert np.array_equal(pixels[120, 100], BACKGROUND)
 
 
 def test_a_robot_is_loaded_before_its_picture_is_made(viewer: webviz.Viewer) -> None:
@@ -67,7 +68,7 @@ def test_a_robot_is_loaded_before_its_picture_is_made(viewer: webviz.Viewer) -> 
         package_paths=packages,
     )
     pixels = viewer.screenshot(size=SIZE)
-    assert (pixels != np.array(viewer.background)).any(axis=2).mean() > 0.03
+    assert (pixels != np.array(BACKGROUND)).any(axis=2).mean() > 0.03
     assert "visuals loaded" in robot.statuses["URDF"].text
 
 

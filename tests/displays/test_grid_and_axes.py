@@ -4,6 +4,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from webviz.edges.scene.schemes import SCHEMES
 from webviz_displays.axes import Axes
 from webviz_displays.grid import Grid
 
@@ -22,7 +23,8 @@ def test_the_default_grid_is_the_one_of_rviz(bench: Benches) -> None:
     assert node.segments.shape == (22, 2, 3)  # 11 lines each way
     assert node.segments.min(axis=(0, 1)).tolist() == [-5, -5, 0]
     assert node.segments.max(axis=(0, 1)).tolist() == [5, 5, 0]
-    assert (node.colors, node.opacity) == ((160, 160, 164), 0.5)
+    assert (node.colors, node.opacity) == (None, 0.5)  # the grey of the theme
+    assert SCHEMES["dark"]["grid"] == made.display.color == (160, 160, 164)
     assert (node.width, node.unit) == (1.0, "px")
     assert made.statuses()["Grid"][0] == "OK"
 

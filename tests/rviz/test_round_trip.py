@@ -451,3 +451,11 @@ def test_marks_of_yaml_in_names_survive_the_config_file() -> None:
     config = Config(displays=[make(display_types()["TF"], {"name": "?x", "frames": frames})])
     tf: Any = parse(dump(config), "x").displays[0]
     assert (tf.name, tf.frames) == ("?x", frames)
+
+
+@pytest.mark.parametrize("background", [None, (48, 48, 48), (1, 2, 3)])
+def test_a_background_is_written_unless_it_follows_the_theme(background: Any) -> None:
+    config = Config(settings=config_file.Settings(background=background))
+    text, _ = rviz.write(config)
+    assert ("Background Color" in text) == (background is not None)
+    assert parse(text, "a.rviz").settings.background == background

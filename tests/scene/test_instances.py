@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from webviz.api.nodes import Instances, Pose
-from webviz.edges.scene.server import BACKGROUND
+from webviz.edges.scene.schemes import BACKGROUND
 from webviz.edges.scene.solids import SOLIDS
 
 COLOR = (200, 100, 50)

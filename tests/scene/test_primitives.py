@@ -34,7 +34,7 @@ from webviz.api.nodes import (
 from webviz.edges.scene import set_background
 from webviz.edges.scene.holding import FEWEST_POINTS
 from webviz.edges.scene.points import PART
-from webviz.edges.scene.server import BACKGROUND
+from webviz.edges.scene.schemes import BACKGROUND
 from webviz_urdf.glb import MeshPart, Surface, write_glb
 
 COLOR = (200, 100, 50)

@@ -99,16 +99,15 @@ class Group:
         self,
         key: str,
         segments: ArrayLike,
-        colors: ArrayLike | Rgb,
+        colors: ArrayLike | Rgb | None,
         width: float = 1.0,
         unit: Literal["px", "m"] = "px",
         ids: Ids | None = None,
         opacity: float = 1.0,
     ) -> None:
         """Draw independent segments; see `webviz.api.nodes.Lines`."""
-        self.nodes[key] = nodes.Lines(
-            _f32(segments, 2, 3), _colors(colors), width, unit, ids, opacity
-        )
+        known = None if colors is None else _colors(colors)
+        self.nodes[key] = nodes.Lines(_f32(segments, 2, 3), known, width, unit, ids, opacity)
 
     def strip(
         self,
@@ -159,12 +158,13 @@ class Group:
         texts: tuple[str, ...],
         height: float,
         below: bool = False,
-        colors: ArrayLike | Rgb = (255, 255, 255),
+        colors: ArrayLike | Rgb | None = None,
         ids: Ids | None = None,
     ) -> None:
         """Draw texts; see `webviz.api.nodes.Labels`."""
         xyz = _f32(positions, 3)
-        self.nodes[key] = nodes.Labels(xyz, texts, height, below, _colors(colors), ids)
+        known = None if colors is None else _colors(colors)
+        self.nodes[key] = nodes.Labels(xyz, texts, height, below, known, ids)
 
     def instances(
         self,

@@ -89,7 +89,8 @@ class Lines(_Node):
 
     Args:
         segments: float32 (N, 2, 3), metres; finite.
-        colors: uint8 (N, 2, 3), or one colour for all.
+        colors: uint8 (N, 2, 3), or one colour for all; None is the grey of grids, which contrasts
+            with the theme of each page.
         width: in `unit`.
         unit: "px" is constant on the screen, "m" in the world.
         ids: (N,), such as the index of each in the message; None numbers them from 0.
@@ -97,7 +98,7 @@ class Lines(_Node):
     """
 
     segments: F32
-    colors: U8 | Rgb
+    colors: U8 | Rgb | None
     width: float = 1.0
     unit: Literal["px", "m"] = "px"
     ids: Ids | None = field(default=None, compare=False)
@@ -150,7 +151,8 @@ class Labels(_Node):
         texts: one for each position.
         height: of a line, metres; that of capitals is 0.6 of it, as in RViz.
         below: whether texts are below their positions on the screen, instead of centred.
-        colors: uint8 (N, 3), or one colour for all, drawn in 32 steps per channel.
+        colors: uint8 (N, 3), or one colour for all, drawn in 32 steps per channel; None contrasts
+            with the theme of each page.
         ids: (N,), such as the index of each in the message; None numbers them from 0.
     """
 
@@ -158,7 +160,7 @@ class Labels(_Node):
     texts: tuple[str, ...]
     height: float
     below: bool = False
-    colors: U8 | Rgb = (255, 255, 255)
+    colors: U8 | Rgb | None = None
     ids: Ids | None = field(default=None, compare=False)
 
 

@@ -92,6 +92,6 @@ class Scene(DrawingScene, Protocol):
         """Return the number of points every connected browser draws fast enough."""
         ...
 
-    def set_background(self, rgb: Color) -> None:
-        """Set the background colour."""
+    def set_background(self, rgb: Color | None) -> None:
+        """Set the background colour; None follows the theme of each page."""
         ...

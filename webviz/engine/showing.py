@@ -30,12 +30,12 @@ class Showing:
         self._guard = guard
         self._background: Color | None = None
 
-    def draw(self, runners: Sequence[Runner], frames: Frames, background: Color) -> None:
+    def draw(self, runners: Sequence[Runner], frames: Frames, background: Color | None) -> None:
         """Update the scene and send what changed."""
         guard = self._guard
         if background != self._background:
             crashed = guard("Scene", self._scene.set_background, background) is CRASHED
-            self._background = None if crashed else background
+            self._background = self._background if crashed else background
         targets = guard.attempt("Views", None, self._views.followed)
         followed = (runner.followed() for runner in runners)
         guard("Transforms", frames.prepare, set[str]().union(targets or (), *followed))

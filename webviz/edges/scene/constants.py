@@ -10,6 +10,7 @@ from webviz.edges.scene.holding import FEWEST_POINTS, MAX_POINTS
 from webviz.edges.scene.lines import OPACITY_BIT
 from webviz.edges.scene.names import BLOCK_PREFIX, PART_PREFIX, ROOT, TILE_PREFIX
 from webviz.edges.scene.points import PART
+from webviz.edges.scene.schemes import SCHEMES, TEXT_CODE
 
 DARKEST = 0.3
 """Brightness of a surface seen edge on, as a share of its colour; in RViz it is black."""
@@ -27,6 +28,8 @@ CONSTANTS = {
     "MAX_PANES": MAX_PANES,
     "DARKEST": DARKEST,
     "OPACITY_BIT": OPACITY_BIT,
+    "SCHEMES": SCHEMES,
+    "TEXT_CODE": TEXT_CODE,
     "RAISED": RAISED,
     "EYE": EYE,
     "FIELD_OF_VIEW": FIELD_OF_VIEW,

@@ -8,9 +8,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from viser import LabelHandle
 
-from webviz.api.nodes import U8, Labels
+from webviz.api.nodes import U8, Labels, Rgb
 from webviz.edges.scene.adapter import Adapter
 from webviz.edges.scene.label_budget import MAX_LABELS
+from webviz.edges.scene.schemes import TEXT_CODE
 
 # Line height of RViz's Liberation Sans in font sizes (measured). Browsers use Arial or a font of
 # the same size.
@@ -43,8 +44,7 @@ class LabelsDrawn:
         """Sends changed labels; those whose position is not finite are dropped."""
         anchor = "top-center" if node.below else "center-center"
         texts = node.texts[:MAX_LABELS]
-        colors = np.broadcast_to(np.asarray(node.colors, np.uint8), (len(node.texts), 3))
-        heights = _tinted(node.height / _LINE, colors[:MAX_LABELS])
+        heights = _tinted(node.height / _LINE, _steps(node.colors, len(texts)))
         labels = zip(texts, node.positions[:MAX_LABELS].tolist(), heights, strict=True)
         self._wanted = [
             _Label(_encodable(text), (x, y, z), {"font_scene_height": height, "anchor": anchor})
@@ -110,13 +110,23 @@ class LabelsDrawn:
             self._link.update(name, new.look)
 
 
-def _tinted(height: float, colors: U8) -> list[float]:
-    """A height for each colour (N, 3), whose last bits are that colour.
+def _steps(colors: U8 | Rgb | None, count: int) -> U8:
+    """Colours of so many texts in 32 steps per channel, uint8 (count, 3)."""
+    if colors is None:
+        return np.broadcast_to(np.array(TEXT_CODE, np.uint8), (count, 3))
+    known = np.asarray(colors, np.uint8) >> 3
+    steps = known[:count] if known.ndim > 1 else np.broadcast_to(known, (count, 3))
+    taken = (steps == TEXT_CODE).all(axis=1, keepdims=True)
+    return np.where(taken, np.uint8(31), steps)
+
+
+def _tinted(height: float, steps: U8) -> list[float]:
+    """A height for each colour (N, 3) of 32 steps per channel, whose last bits are that colour.
 
     viser's labels have no colour. Their height reaches the shader as a float32, which labels.js
     makes use of: five bits for each channel, which changes the height by less than 0.2 %.
     """
-    red, green, blue = colors.astype(np.uint32).T >> 3
+    red, green, blue = steps.astype(np.uint32).T
     (bits,) = np.array([height], np.float32).view(np.uint32)
     tinted = (bits & np.uint32(0xFFFF8000)) | red << 10 | green << 5 | blue
     return tinted.astype(np.uint32).view(np.float32).astype(np.float64).tolist()

@@ -5,14 +5,18 @@ from __future__ import annotations
 import numpy as np
 from viser import SceneApi, SceneNodeHandle
 
-from webviz.api.nodes import U8, Arrows, Lines
+from webviz.api.nodes import F32, U8, Arrows, Lines, Rgb
 from webviz.edges.scene.drawn import Props, SingleNode, finite, rgb_array
+from webviz.edges.scene.schemes import SCHEMES
 
 _NOTHING = np.zeros((0, 2, 3), np.float32)
 _BLACK = np.zeros(3, np.uint8)
 
 OPACITY_BIT = 40
 """Binary place of the opacity in the width of lines: far below what float32 resolves."""
+
+_OF_THEME = 256
+"""Added to it for lines in the colour that each page has for grids."""
 
 
 class LinesDrawn(SingleNode[Lines]):
@@ -24,13 +28,14 @@ class LinesDrawn(SingleNode[Lines]):
 
     def props(self, node: Lines) -> tuple[Props, ...]:
         """Segments with colours, then the look; segments that are not finite are dropped."""
-        props = _finite_segments(node)
+        colors = SCHEMES["dark"]["grid"] if node.colors is None else node.colors
+        props = _finite_segments(node.segments, colors)
         if props["colors"].ndim > 1:  # one colour for all is taken as sRGB
             props["colors"] = linear(props["colors"])
         return (
             props,
             {
-                "thickness": _with_opacity(node.width, node.opacity),
+                "thickness": _marked(node.width, node.opacity, node.colors is None),
                 "thickness_units": "screen" if node.unit == "px" else "world",
             },
         )
@@ -45,7 +50,7 @@ class ArrowsDrawn(SingleNode[Arrows]):
 
     def props(self, node: Arrows) -> tuple[Props, ...]:
         """Arrows with colours, then the look; arrows that are not finite are dropped."""
-        props = _finite_segments(node)
+        props = _finite_segments(node.segments, node.colors)
         props["colors"] = linear(props["colors"])
         return (
             props,
@@ -57,12 +62,13 @@ class ArrowsDrawn(SingleNode[Arrows]):
         )
 
 
-def _with_opacity(width: float, opacity: float) -> float:
-    """Return a width whose last bits are an opacity, in steps of 1/255.
+def _marked(width: float, opacity: float, follows_theme: bool) -> float:
+    """Return a width whose last bits are an opacity, in steps of 1/255, and a mark of the theme.
 
     viser's lines are opaque. Their width reaches the page as a double, which lines.js makes use of.
     """
-    return float(np.float32(width)) * (1.0 + round(255 * (1.0 - opacity)) * 2.0**-OPACITY_BIT)
+    mark = round(255 * (1.0 - opacity)) + _OF_THEME * follows_theme
+    return float(np.float32(width)) * (1.0 + mark * 2.0**-OPACITY_BIT)
 
 
 def linear(colors: U8) -> U8:
@@ -79,6 +85,6 @@ def _linear_table() -> U8:
 _LINEAR = _linear_table()
 
 
-def _finite_segments(node: Lines | Arrows) -> Props:
-    segments, colors = finite(node.segments, along=(node.colors,))
+def _finite_segments(segments: F32, colors: U8 | Rgb) -> Props:
+    segments, colors = finite(segments, along=(colors,))
     return {"points": segments, "colors": rgb_array(colors, len(segments))}

@@ -88,8 +88,8 @@ class ViserScene:
         """Return the number of points every connected browser draws fast enough."""
         return self._holding.points()
 
-    def set_background(self, rgb: Rgb) -> None:
-        """Sets the background to one colour."""
+    def set_background(self, rgb: Rgb | None) -> None:
+        """Set the background to one colour; None is that of each page, which follows its theme."""
         set_background(self.link.server, rgb)
 
     def set_pose(self, group: str, pose: Pose) -> None:

@@ -10,12 +10,10 @@ from collections.abc import Iterable
 import viser
 import websockets.asyncio.server as websocket
 
-from webviz.api.nodes import Rgb
 from webviz.edges.access.access import Access
 from webviz.edges.access.proxies import Proxies
 from webviz.edges.page.channel import Channel
 from webviz.edges.page.modules import Modules
-from webviz.edges.scene.adapter.background import set_background
 from webviz.edges.scene.adapter.greeting import greet
 from webviz.edges.scene.connections import ConnectionLimits
 from webviz.edges.scene.constants import CONSTANTS
@@ -24,9 +22,6 @@ from webviz.edges.scene.hosts import HostList
 from webviz.edges.scene.listener import Handshakes, listen
 from webviz.edges.scene.names import ROOT
 from webviz.edges.scene.quiet_server import Server, replaced
-
-BACKGROUND: Rgb = (48, 48, 48)
-"""The default of RViz."""
 
 _opening = threading.Lock()
 
@@ -89,7 +84,6 @@ def open_server(
 
 def _prepare(server: viser.ViserServer) -> None:
     server.gui.configure_theme(dark_mode=True, show_logo=False, show_share_button=False)
-    set_background(server, BACKGROUND)
     # An ambient light shows plain colours, which `shade.js` then shades. viser's lights are too
     # bright without tone mapping, and image-based lighting stalls browsers without a GPU.
     server.scene.configure_environment_map(None)

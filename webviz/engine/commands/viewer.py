@@ -18,9 +18,9 @@ class SetFixedFrame(Command):
 
 @dataclass(frozen=True)
 class SetBackground(Command):
-    """Set the background colour."""
+    """Set the background colour; None follows the theme of each page."""
 
-    color: Color
+    color: Color | None
 
 
 @dataclass(frozen=True)

@@ -141,8 +141,11 @@ def _followed(steps: str, hint: Any, value: Any) -> tuple[Path, Any, Any]:
 
 
 def _plain(hint: Any, value: Any = None) -> Any:
-    """A type without annotations; of several structs the one that a value's tag names."""
+    """A type without annotations and None; of several structs the one that a value's tag names."""
     hint = bare(hint)
+    parts = typing.get_args(hint)
+    if len(parts) == 2 and types.NoneType in parts:
+        hint = bare(parts[parts[0] is types.NoneType])
     structs = _members(hint)
     for each in structs if isinstance(value, Mapping) else ():
         if value.get(each.__struct_config__.tag_field) == each.__struct_config__.tag:

@@ -33,7 +33,13 @@ class Settings(msgspec.Struct, forbid_unknown_fields=True):
 
     version: Annotated[int, Prop(help="Version of the file format.")] = VERSION
     fixed_frame: Annotated[str, Prop(help="Frame in which everything is drawn.")] = "map"
-    background: Annotated[Color, Prop(help="Colour behind the scene.")] = (48, 48, 48)
+    background: Annotated[
+        Color | None,
+        Prop(
+            help="Colour behind the scene; automatic follows the theme of each page, and is RViz's "
+            "dark grey in pictures."
+        ),
+    ] = None
     frame_rate: Annotated[float, Prop(ge=1, le=240, unit="Hz", help="Maximum rate of updates.")] = (
         60.0
     )

@@ -159,7 +159,11 @@ def _bare(settings: Settings) -> Tree:
             "Value": True,
             "Global Options": {
                 "Fixed Frame": settings.fixed_frame,
-                "Background Color": values.write(settings.background, Color),
+                **(
+                    {}
+                    if settings.background is None
+                    else {"Background Color": values.write(settings.background, Color)}
+                ),
                 "Frame Rate": values.write(settings.frame_rate, float),
             },
             "Views": {"Current": views.write(settings.view)},

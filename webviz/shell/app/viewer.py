@@ -206,12 +206,12 @@ class Viewer(Running):
         self.do(SetFixedFrame(frame))
 
     @property
-    def background(self) -> Color:
-        """The background colour."""
+    def background(self) -> Color | None:
+        """The background colour; None follows the theme of each page."""
         return self.state.settings.background
 
     @background.setter
-    def background(self, color: Color) -> None:
+    def background(self, color: Color | None) -> None:
         self.do(SetBackground(color))
 
     @property

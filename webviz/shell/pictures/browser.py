@@ -156,6 +156,7 @@ class Page:
             lambda: browser.new_context(
                 viewport=_size(width, height),
                 device_scale_factor=1,
+                color_scheme="dark",  # as RViz, where nothing else is asked for
                 # On this machine, while the certificate names the address for others.
                 ignore_https_errors=True,
             )

@@ -14,7 +14,7 @@ from webviz.api.nodes import Rgb
 from webviz.api.stills import opened
 from webviz.api.views import View
 from webviz.edges.scene import ViserScene, open_server
-from webviz.edges.scene.server import BACKGROUND
+from webviz.edges.scene.schemes import BACKGROUND
 from webviz.shell.pictures.browser import Page, Pixels
 from webviz.shell.pictures.dock import with_panes
 

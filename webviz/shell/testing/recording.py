@@ -43,8 +43,7 @@ class RecordingScene:
         """Draw everything in another scene as well, from now on."""
         with self.lock:
             self._targets = [target]
-            if self.background:
-                target.set_background(self.background)
+            target.set_background(self.background)
             for group, nodes in self.groups.items():
                 for key, (node, pose) in nodes.items():
                     target.upsert(group, key, node, pose)
@@ -72,8 +71,8 @@ class RecordingScene:
             if (box := bounds(node)) is not None
         )
 
-    def set_background(self, rgb: Rgb) -> None:
-        """Set the background to one colour."""
+    def set_background(self, rgb: Rgb | None) -> None:
+        """Set the background to one colour; None is that of each page, which follows its theme."""
         self.background = rgb
         for target in self._targets:
             target.set_background(rgb)

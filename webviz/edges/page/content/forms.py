@@ -104,7 +104,7 @@ def _kind(each: Property) -> str:
         return "switches"
     if each.choices:
         return "choice"
-    match each.type:
+    match _given(each.type):
         case inspect.BoolType():
             return "bool"
         case inspect.IntType():
@@ -123,6 +123,14 @@ def _kind(each: Property) -> str:
             ):
                 return "color"
     return "list"
+
+
+def _given(type_: inspect.Type) -> inspect.Type:
+    """The type of an optional value that is not None."""
+    if isinstance(type_, inspect.UnionType):
+        types = [one for one in type_.types if not isinstance(one, inspect.NoneType)]
+        return types[0] if len(types) == 1 else type_
+    return type_
 
 
 def _is_float(item: inspect.Type) -> bool:

@@ -13,6 +13,8 @@ declare const constants: {
   MAX_PANES: number;
   DARKEST: number;
   OPACITY_BIT: number;
+  SCHEMES: Record<string, Record<string, Array<number>>>;
+  TEXT_CODE: Array<number>;
   RAISED: number;
   EYE: number;
   FIELD_OF_VIEW: number;

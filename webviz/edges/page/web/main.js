@@ -17,6 +17,7 @@ import * as overlay from "./overlay/overlay.js";
 import * as page from "./page.js";
 import * as pieces from "./scene/pieces.js";
 import * as saveImage from "./scene/save_image.js";
+import * as scheme from "./scene/scheme.js";
 import * as shade from "./scene/shade.js";
 import * as shell from "./shell/shell.js";
 import * as textures from "./scene/textures.js";
@@ -30,7 +31,7 @@ import * as whole from "./scene/whole.js";
 // Before viser's page handles the first messages: it draws with what it has then.
 async function install() {
   await viser.until(viser.hasScene);
-  const ofScene = [batches, textures, tiles, labels, lines, shade, colors, flat, whole, pieces];
+  const ofScene = [scheme, batches, textures, tiles, labels, lines, shade, colors, flat, whole, pieces];
   for (const part of [shell, page, inStep, ...ofScene, contact]) part.install();
   await viser.until(() => viser.hasCamera() && viser.node(constants.ROOT));
   for (const part of [view, mouse, handles, saveImage, overlay, holding, blocks]) part.install();

@@ -30,6 +30,7 @@ const NEEDS = {
   "cameraControl.mouseButtons.left": "the mouse",
   "cameraControl.constructor.ACTION.TRUCK": "the mouse",
   "configuredMaxOrbitDistance": "views from far away",
+  "scene.__r3f.root.getState().gl.setClearColor()": "the background of the theme",
   "backgroundMaterial.uniforms": "the background of views that follow a frame",
   "nodeRefFromName": "nodes of the scene by their names",
   nodePoseData: "texts: picking them, and hiding them in the images of cameras",

@@ -3,24 +3,26 @@
 import { el, set } from "../dom.js";
 import { entry } from "./entry.js";
 
-/** A colour of three bytes; see `control.js`. */
-export function color(_, options) {
+/** A colour of three bytes, or null if that is the default: automatic; see `control.js`. */
+export function color({ default: standard }, options) {
   const { label } = options;
-  const text = el("input", { class: "wv-field", type: "text", "aria-label": `${label}, as text` });
+  const isOptional = standard === null;
+  const text = el("input", {
+    class: "wv-field", type: "text", "aria-label": `${label}, as text`,
+    placeholder: isOptional ? "automatic" : null,
+  });
   const swatch = el("input", { class: "wv-swatch", type: "color", "aria-label": label });
   const field = entry(text, {
     ...options,
-    encode: (rgb) => rgb.join(", "),
-    decode: parse,
+    encode: (rgb) => rgb?.join(", ") ?? "",
+    decode: (typed) => (isOptional && !typed.trim() ? null : parse(typed)),
     after: () => {
       const shown = attempt(text.value);
       if (shown && swatch.value !== shown) swatch.value = shown;
+      set(swatch, { "data-automatic": isOptional && !text.value.trim() });
     },
   });
-  swatch.addEventListener("input", () => {
-    text.value = parse(swatch.value).join(", ");
-    field.edit(parse(swatch.value));
-  });
+  swatch.addEventListener("input", () => field.put(parse(swatch.value)));
   return {
     ...field,
     element: el("div", { class: "wv-color" }, swatch, text),

@@ -70,6 +70,7 @@ function about(property) {
 
 function words({ kind, unit }, value) {
   if (kind === "bool") return value ? "on" : "off";
+  if (value === null) return "automatic";
   if (Array.isArray(value)) return value.length ? value.join(", ") : "none";
   if (typeof value === "object") return Object.keys(value).length ? JSON.stringify(value) : "none";
   if (value === "") return "none";

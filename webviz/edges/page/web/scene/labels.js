@@ -4,8 +4,11 @@
 // letters have a colour and an outline that the same fields give, dark around light letters and light
 // around dark ones: legible on any ground, and covering no more of the scene than they need. The
 // colour is in the last bits of the height, see scene/labels.py. The render orders are those of viser's
-// renderOrders.ts; shaders and uniforms, LabelRenderer.tsx's.
+// renderOrders.ts; shaders and uniforms, LabelRenderer.tsx's. One code of a colour stands for that of
+// the theme.
 
+import constants from "../constants.js";
+import { scheme } from "./scheme.js";
 import * as viser from "../viser_page.js";
 
 const BOXES = 10001;
@@ -13,13 +16,14 @@ const LETTERS = 10002;
 
 // Each letter is drawn in a quad without room for an outline; the atlas has it.
 const widened = (source) =>
-  "uniform float uSdfRadius; varying vec3 vColor;" +
+  "uniform float uSdfRadius; uniform vec3 uTextColor; varying vec3 vColor;" +
   source.replace(
     "vec2 corner = position.xy;",
     `vec2 room = 0.5 * uSdfRadius / aRect.zw;
      vec2 corner = position.xy * (1.0 + 2.0 * room) - room;
      uint bits = floatBitsToUint(aParams.y);
-     vColor = vec3((bits >> 10) & 31u, (bits >> 5) & 31u, bits & 31u) / 31.0;`,
+     uvec3 code = uvec3((bits >> 10) & 31u, (bits >> 5) & 31u, bits & 31u);
+     vColor = code == uvec3(${constants.TEXT_CODE}) ? uTextColor : vec3(code) / 31.0;`,
   );
 
 // The outline is about a pixel wide; that of letters that are large is wider.
@@ -44,6 +48,7 @@ const OUTLINED = `
   }`;
 
 let group = null;
+const ofTheme = { value: [1, 1, 1] };
 
 /** The boxes behind the letters, one of a mesh for each text: where the texts are, and how large. */
 export const boxes = () =>
@@ -54,12 +59,14 @@ export function install() {
     if (!group || !group.parent) {
       scene.traverse((object) => object.renderOrder === BOXES && (group = object.parent));
     }
+    ofTheme.value = scheme().text.map((byte) => byte / 255);
     for (const mesh of group ? group.children : []) {
       if (mesh.renderOrder === BOXES) mesh.visible = false;
       if (mesh.renderOrder !== LETTERS || mesh.webviz) continue;
       mesh.webviz = true;
       mesh.material.vertexShader = widened(mesh.material.vertexShader);
       mesh.material.fragmentShader = OUTLINED;
+      mesh.material.uniforms.uTextColor = ofTheme;
       mesh.material.needsUpdate = true;
     }
   });

@@ -1,0 +1,80 @@
+"""Colours of the scene that follow the theme of each page."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import playwright.sync_api as playwright
+import pytest
+
+from tests.scene.conftest import View
+from webviz.api.nodes import Labels, Lines, Rgb
+from webviz.edges.scene import set_background
+from webviz.edges.scene.schemes import SCHEMES
+
+OWN = (200, 30, 90)
+ACROSS = np.array([[(-3.0, 0.0, 0.0), (3.0, 0.0, 0.0)]], np.float32)
+BESIDE = (-2.0, 2.5, 0.0)
+"""A place of the scene where nothing is."""
+
+
+@pytest.fixture
+def other(view: View, browser: playwright.Browser) -> Iterator[View]:
+    """A second page of the scene, with a light theme."""
+    other = View(browser, view.scene)
+    other.tab.emulate_media(color_scheme="light")
+    yield other
+    other.close()
+    view.wait_for(lambda: len(view.scene.link.server.get_clients()) == 1)
+
+
+def look(view: View, place: tuple[float, float, float], wanted: Rgb) -> None:
+    view.wait_for(
+        lambda: view.draw(1) or np.abs(np.subtract(view.color_at(place), wanted)).max() <= 2,
+        f"{wanted} at {place}",
+    )
+
+
+def test_each_page_has_the_background_and_the_grid_of_its_theme(view: View, other: View) -> None:
+    view.scene.upsert("room", "grid", Lines(ACROSS, None, 0.5, "m"))
+    view.scene.upsert("room", "own", Lines(ACROSS + np.array((0, 2, 0), np.float32), OWN, 0.5, "m"))
+    view.scene.flush()
+    for page, theme in ((view, "dark"), (other, "light")):
+        look(page, BESIDE, SCHEMES[theme]["background"])
+        look(page, (0.0, 0.0, 0.0), SCHEMES[theme]["grid"])
+        look(page, (0.0, 2.0, 0.0), OWN)
+    other.tab.emulate_media(color_scheme="dark")
+    look(other, (0.0, 0.0, 0.0), SCHEMES["dark"]["grid"])
+
+
+def test_a_chosen_background_is_that_of_all_pages_until_it_is_automatic_again(
+    view: View, other: View
+) -> None:
+    server = view.scene.link.server
+    set_background(server, OWN)
+    for page in (view, other):
+        look(page, BESIDE, OWN)
+    set_background(server, None)
+    look(view, BESIDE, SCHEMES["dark"]["background"])
+    look(other, BESIDE, SCHEMES["light"]["background"])
+
+
+def share(view: View, color: Rgb) -> float:
+    """The share of the picture in a colour."""
+    return float((np.abs(view.pixels().astype(int) - color).max(axis=2) <= 2).mean())
+
+
+def test_texts_without_a_colour_contrast_with_the_theme_and_others_keep_theirs(
+    view: View, other: View
+) -> None:
+    at, white = np.zeros((1, 3), np.float32), (255, 255, 255)
+    view.scene.upsert("room", "text", Labels(at, ("HHH",), 6.0))
+    view.scene.flush()
+    for page, theme in ((view, "dark"), (other, "light")):
+        color = SCHEMES[theme]["text"]
+        page.wait_for(lambda page=page, color=color: page.draw(1) or share(page, color) > 0.02)
+    assert share(other, white) == 0
+    view.scene.upsert("room", "text", Labels(at, ("HHH",), 6.0, colors=white))
+    view.scene.flush()
+    other.wait_for(lambda: other.draw(1) or share(other, white) > 0.02)
