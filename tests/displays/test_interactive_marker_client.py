@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from typing import Any
 
@@ -13,7 +13,12 @@ from webviz.api.wire import Heard
 from webviz.data.messages import decode, encode, interfaces
 from webviz.data.transforms import TransformBuffer
 from webviz_displays.interactive_markers import server as known_server
-from webviz_displays.interactive_markers.client import ANSWER_S, MAX_WAITING, Client
+from webviz_displays.interactive_markers.client import (
+    ANSWER_S,
+    MAX_WAITING,
+    SLOW_BYTES,
+    Client,
+)
 from webviz_displays.interactive_markers.completion import Completed, completed
 from webviz_displays.interactive_markers.feedback import (
     MOUSE_DOWN,
@@ -44,6 +49,7 @@ class Server:
         self.endpoints: frozenset[bytes] = frozenset({b"first"})
         self.messages: list[bytes] = []
         self.asked: list[Future[bytes]] = []
+        self.jobs: list[tuple[Future[Any], Callable[[], Any]]] = []
 
     def listen(self, topic: str, type: str, depth: int) -> Heard:
         messages, self.messages = tuple(self.messages), []
@@ -59,10 +65,21 @@ class Server:
 
     def publish(self, topic: str, values: Mapping[str, Any]) -> None: ...
 
+    def run(self, fn: Callable[..., Any], *args: Any) -> Future[Any]:
+        self.jobs.append((job := Future(), lambda: fn(*args)))
+        return job
+
     def wake(self) -> None: ...
 
-    def update(self, number: int, kind: int = CHANGE) -> None:
-        values = {"seq_num": number, "type": kind, "erases": [f"at {number}"]}
+    def work(self) -> None:
+        """Do the first job of the worker."""
+        job, fn = self.jobs.pop(0)
+        if job.set_running_or_notify_cancel():
+            job.set_result(fn())
+
+    def update(self, number: int, kind: int = CHANGE, size: int = 0) -> None:
+        erases = [f"at {number}", *["x" * size] * bool(size)]
+        values = {"seq_num": number, "type": kind, "erases": erases}
         self.messages.append(encode(UPDATE, values))
 
     def answer(self, number: int, *names: str) -> None:
@@ -84,7 +101,7 @@ def client(server: Server) -> Client:
 
 
 def erased(news: Sequence[News]) -> list[str]:
-    return [name for each in news for name in each.erased]
+    return [name for each in news for name in each.erased if not name.startswith("x")]
 
 
 def all_of(news: Sequence[News]) -> list[str]:
@@ -144,6 +161,52 @@ def test_an_answer_that_cannot_be_read_is_asked_for_again(server: Server, client
     client.step(server)
     server.answer(1, "a")
     assert all_of(client.step(server)) == ["a"]
+
+
+def test_large_messages_are_read_in_a_worker_and_all_others_wait_for_them(
+    server: Server, client: Client
+) -> None:
+    server.update(3)
+    server.update(4, KEEP_ALIVE)
+    server.answer(4, "a", "x" * SLOW_BYTES)
+    assert client.step(server) == []
+    assert "Loading the markers" in client.status(0).text
+    server.update(5)
+    assert client.step(server) == []
+    server.work()
+    news = client.step(server)
+    assert all_of(news) == ["a", "x" * 1000]
+    assert erased(news) == ["at 5"]
+
+    server.update(6, size=SLOW_BYTES)
+    server.update(7)
+    assert client.step(server) == []
+    server.update(7, KEEP_ALIVE)
+    server.update(8, size=SLOW_BYTES)
+    server.update(9)
+    assert client.step(server) == []
+    assert len(server.jobs) == 1
+    server.work()
+    assert erased(client.step(server)) == ["at 6", "at 7"]
+    server.work()
+    assert erased(client.step(server)) == ["at 8", "at 9"]
+    assert (client.state, client.sequence, client.gaps) == ("running", 9, 0)
+
+    # What a server that ended has sent is not read any more.
+    server.update(10, size=SLOW_BYTES)
+    client.step(server)
+    server.endpoints = frozenset({b"second"})
+    server.clock_s += 1.0
+    client.step(server)
+    server.work()
+    server.answer(0, "b")
+    assert all_of(client.step(server)) == ["b"]
+    server.update(1, size=SLOW_BYTES)
+    client.step(server)
+    server.jobs.pop(0)[0].cancel()  # as when the display is hidden
+    server.update(2)
+    assert client.step(server) == []
+    assert (client.state, client.gaps) == ("searching", 1)
 
 
 def test_updates_that_cannot_be_read_or_are_too_many_are_reported(

@@ -173,7 +173,7 @@ def test_feedback_of_interactive_markers_has_the_frame_names_of_their_robot(
         for second in (1, 3):
             buffer.set_transform(parent, child, second * S, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
     frames = RobotFrames(Frames(buffer, fixed, 3 * S), NamespacedRobot("robot1"))
-    made = Completed("m", frame, stamp_ns, At(), "", 1.0, (), (), ())
+    made = Completed("m", frame, stamp_ns, At(), "", 1.0, (), (), 0, ())
     values: Any = values_of(POSE_UPDATE, Tracked("m", made), "", frames, "client")
     assert (values["header"]["frame_id"], values["header"]["stamp"]["sec"]) == sent
 

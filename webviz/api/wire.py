@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeVar
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -74,6 +76,17 @@ class Wire(Protocol):
 
     def publish(self, topic: str, values: Mapping[str, Any]) -> None:
         """Publish a message on a topic that is advertised."""
+        ...
+
+    def run(self, fn: Callable[..., T], *args: Any) -> Future[T]:
+        """Run slow work in a thread, such as reading a large message; `talk` is called after it.
+
+        Unlike that of `Context.background`, it goes on if a drawing does not ask for it.
+
+        Args:
+            fn: must not touch the state of the frame loop.
+            args: for `fn`.
+        """
         ...
 
     def wake(self) -> None:

@@ -27,6 +27,8 @@ from webviz_displays.interactive_markers.reading import (
 )
 
 DEPTH = 100
+SLOW_BYTES = 50_000
+"""Larger messages are read in a worker, as they take more than 10 ms."""
 ANSWER_S = 5.0
 """For the server to answer."""
 PAUSE_S = 0.5
@@ -35,7 +37,7 @@ MAX_WAITING = 1000
 """Updates that wait, such as while the server is asked."""
 MAX_WAITING_BYTES = 64_000_000
 
-State = Literal["searching", "asking", "running"]
+State = Literal["searching", "asking", "reading", "running"]
 
 
 @dataclass
@@ -56,11 +58,15 @@ class Client:
     """Number of gaps in the sequence of updates."""
     _heard: Heard = field(default_factory=Heard)
     _answer: Future[bytes] | None = None
+    _reading: Future[ServerMessage] | None = None
+    """The answer or the first update; those after it wait, as their order matters."""
     _next_s: float = 0.0
     _waiting: deque[bytes] = field(default_factory=deque)
     """Updates that are not read yet."""
     _early: int = 0
     """Number of waiting updates that came before the answer, which may include them."""
+    _is_early: bool = False
+    """True if the update that is being read is one of these."""
 
     def step(self, wire: Wire) -> list[News]:
         """Take up what has happened since the last call; what changed, in order.
@@ -81,7 +87,7 @@ class Client:
         if self.state == "searching" and heard.is_ready and wire.clock_s >= self._next_s:
             self._ask(wire.query)
             self._next_s = wire.clock_s + PAUSE_S
-        news = self._take_answer(wire) if self.state == "asking" else []
+        news = self._take_answer(wire) if self.state in ("asking", "reading") else []
         if self.state == "running":
             news += self._follow(wire)
         return news
@@ -98,6 +104,8 @@ class Client:
                 f"{len(publishers)} servers share {self.namespace}: {', '.join(publishers)}. "
                 "Their updates contradict each other. Give each a namespace of its own.",
             )
+        if self.state == "reading":
+            return Status(Level.WARN, f"Loading the markers of {self.namespace}.")
         if self.state == "running" and not self.problem:
             markers = f"{count} marker{'s' * (count != 1)}"
             gaps = f"; asked again after {self.gaps} gaps in the updates" if self.gaps else ""
@@ -107,33 +115,45 @@ class Client:
     def _restart(self) -> None:
         self.state, self._answer = "searching", None
         self._waiting.clear()
+        if self._reading is not None:
+            self._reading.cancel()
+            self._reading = None
 
     def _ask(self, query: Callable[[str, str, float], Future[bytes]]) -> None:
         self.state = "asking"
         self._answer = query(f"{self.namespace}/get_interactive_markers", SERVICE, ANSWER_S)
 
     def _take_answer(self, wire: Wire) -> list[News]:
-        if self._answer is None or not self._answer.done():
-            return []
         try:
-            number, news = read_answer(self._answer.result())
+            if self._answer is not None and self._answer.done():
+                self.state, answer, self._answer = "reading", self._answer, None
+                self._reading = _started(read_answer, answer.result(), wire)
+            message = self._read()
         except (Error, MessageError, CancelledError) as error:
-            self.state, self._answer, self.problem = "searching", None, str(error)
-            self._next_s = wire.clock_s + PAUSE_S
+            self._restart()
+            self.problem, self._next_s = str(error), wire.clock_s + PAUSE_S
             return []
-        self.state, self.problem, self._answer = "running", "", None
-        self.sequence, self._early = number, len(self._waiting)
-        return [news] if news else []
+        if message is None:
+            return []
+        self.state, self.problem = "running", ""
+        self.sequence, self._early = message.number, len(self._waiting)
+        return [message.news] if message.news else []
 
     def _follow(self, wire: Wire) -> list[News]:
-        """Apply the updates that wait, in order."""
+        """Apply the updates that wait, in order, until one is still being read."""
         found: list[News] = []
-        while self._waiting:
-            update = self._read(self._waiting.popleft())
-            is_early, self._early = self._early > 0, max(0, self._early - 1)
-            if update is None or update.news is None:
+        while True:
+            if self._reading is None and self._waiting:
+                self._reading = _started(read_update, self._waiting.popleft(), wire)
+                self._is_early, self._early = self._early > 0, max(0, self._early - 1)
+            try:
+                update = self._read()
+            except (MessageError, CancelledError) as error:  # makes a gap
+                self.problem = joined(f"An update cannot be read: {error}", "Correct the server.")
                 continue
-            if is_early and update.number <= self.sequence:
+            if update is None:
+                return found
+            if update.news is None or (self._is_early and update.number <= self.sequence):
                 continue
             if update.number != self.sequence + 1:
                 self.gaps += 1
@@ -142,16 +162,33 @@ class Client:
                 )
                 self._restart()
                 wire.wake()
-                break
+                return found
             self.sequence += 1
             self.problem = ""
             found.append(update.news)
-        return found
 
-    def _read(self, cdr: bytes) -> ServerMessage | None:
-        """Read an update; one that cannot be read makes a gap."""
-        try:
-            return read_update(cdr)
-        except MessageError as error:
-            self.problem = joined(f"An update cannot be read: {error}", "Correct the server.")
+    def _read(self) -> ServerMessage | None:
+        """Return the message that is being read, once it is.
+
+        Raises:
+            MessageError: it cannot be decoded; one sentence.
+            CancelledError: the display was hidden meanwhile.
+        """
+        if self._reading is None or not self._reading.done():
             return None
+        done, self._reading = self._reading, None
+        return done.result()
+
+
+def _started(
+    read: Callable[[bytes], ServerMessage], cdr: bytes, wire: Wire
+) -> Future[ServerMessage]:
+    """Read a message, a large one in a worker."""
+    if len(cdr) >= SLOW_BYTES:
+        return wire.run(read, cdr)
+    done: Future[ServerMessage] = Future()
+    try:
+        done.set_result(read(cdr))
+    except MessageError as error:
+        done.set_exception(error)
+    return done

@@ -102,7 +102,7 @@ class InteractiveMarkers(Display):
         server.take(news)
         if (values := server.outgoing.next()) is not None:
             wire.publish(topic, values)
-        if server.outgoing:
+        if server.outgoing or news or server.undrawn:
             wire.wake()
 
     def depends(self, ctx: Context) -> object:
@@ -113,7 +113,9 @@ class InteractiveMarkers(Display):
             return state.problem
         frames = ctx.frames
         transforms = frames.buffer.version if server.is_waiting else 0
-        return server, server.version, frames.fixed_frame, transforms, server.assets.version()
+        drawings = server.drawings if server.undrawn else 0
+        files = server.assets.version()
+        return server, server.version, frames.fixed_frame, transforms, files, drawings
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """All markers, each in groups that move with its frame."""
@@ -121,13 +123,7 @@ class InteractiveMarkers(Display):
         if (server := state.server) is None:
             return
         look = MarkerLook(self.show_descriptions, self.show_axes, self.enable_transparency)
-        arrived = server.assets.load(ctx, server.requests())
-        server.is_waiting = False
-        for name, marker in server.markers.items():
-            if (place := marker.place(ctx.frames)) is not None:
-                server.shown[name].draw(marker, place, look, arrived, ctx)
-            server.is_waiting |= place is None or bool(server.shown[name].lost)
-        server.assets.start(ctx)
+        server.draw(look, ctx)
 
     def tick(self, ctx: Context) -> None:
         """Report the connection and the problems of markers."""
@@ -136,7 +132,8 @@ class InteractiveMarkers(Display):
             ctx.warn("Server", state.problem)
             return
         # Explanations contain times, so they are renewed, but not on every turn.
-        moment = server, server.version, server.client.state, state.refusal, ctx.frames.fixed_frame
+        progress = server.client.state, bool(server.undrawn)
+        moment = server, server.version, progress, state.refusal, ctx.frames.fixed_frame
         second = ctx.frames.now_ns // 500_000_000
         if state.reported[0] != (moment, second):
             report(server, state.refusal, ctx)

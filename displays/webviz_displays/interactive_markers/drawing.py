@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Set
 from dataclasses import dataclass, replace
 
@@ -61,33 +62,39 @@ class ShownMarker:
         """Why a shape cannot be drawn wherever it is, a sentence."""
         self.requests: set[LoadRequest] = set()
         """The files that its shapes name."""
+        self.drawn_in = 0
+        """Number of the drawing in which its groups were made."""
         self._assets = assets
         self._of: object = None
+        self._tried: int = 0
+        """Version of the transforms when a lost shape was looked for."""
         self._parts: tuple[CompleteControl, ...] = ()
         self._nodes: list[dict[str, Node]] = []
         self._look: MarkerLook | None = None
         self._pinned: dict[tuple[int, int], Pose] = {}
         self._groups: dict[str, Group] = {}
 
-    def draw(
-        self,
-        marker: Tracked,
-        place: Place,
-        look: MarkerLook,
-        arrived: Set[LoadRequest],
-        ctx: Context,
-    ) -> None:
-        """Add the groups to a context; `arrived` are files that were loaded since the last call."""
+    def forget(self, arrived: Set[LoadRequest]) -> None:
+        """Be made anew if one of its files has been loaded."""
         if not arrived.isdisjoint(self.requests):
             self._of = self._look = None
-        same = marker.version, place, look
-        if self._of != same or self.lost:
-            self._of = same
-            before = set(ctx.groups)
-            self._make(marker, place, look, ctx)
-            self._groups = {key: ctx.groups[key] for key in ctx.groups.keys() - before}
-        else:
-            ctx.groups.update(self._groups)
+
+    def is_current(self, marker: Tracked, place: Place, look: MarkerLook, frames: Frames) -> bool:
+        """Return whether its groups need not be made anew."""
+        is_same = self._of == (marker.version, place, look)
+        return is_same and not (self.lost and self._tried != frames.buffer.version)
+
+    def show(self, ctx: Context) -> None:
+        """Add the groups to a context as they were made."""
+        ctx.groups.update(self._groups)
+
+    def draw(self, marker: Tracked, place: Place, look: MarkerLook, ctx: Context) -> None:
+        """Make the groups anew, and add them to a context."""
+        self._of, self._tried = (marker.version, place, look), ctx.frames.buffer.version
+        before = len(ctx.groups)
+        self._make(marker, place, look, ctx)
+        added = len(ctx.groups) - before
+        self._groups = dict(itertools.islice(reversed(ctx.groups.items()), added))
 
     def _make(self, marker: Tracked, place: Place, look: MarkerLook, ctx: Context) -> None:
         made = marker.made

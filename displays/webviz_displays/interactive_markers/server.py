@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Mapping, Sequence, Set
 from dataclasses import replace
 
-from webviz import Frames
+from webviz import Context, Frames
 from webviz.api.handles import Handle
 from webviz.data.words import shortened
 from webviz_displays.interactive_markers.client import Client
 from webviz_displays.interactive_markers.completion import MAX_NAME, Completed, RefusedMarker
-from webviz_displays.interactive_markers.drawing import ShownMarker
+from webviz_displays.interactive_markers.drawing import MarkerLook, ShownMarker
 from webviz_displays.interactive_markers.feedback import FeedbackQueue
 from webviz_displays.interactive_markers.reading import MAX_MARKERS, News
 from webviz_displays.interactive_markers.tracked import Place, Tracked
 from webviz_displays.markers.assets import Assets
 from webviz_urdf import LoadRequest
 
+DRAWING_S = 0.05
+"""In which new or changed markers are drawn at once; the others follow."""
 MAX_IGNORED = 1000
 """Names of ignored messages that are kept."""
 MAX_BYTES = 256_000_000
@@ -47,6 +50,10 @@ class InteractiveMarkerServer:
         """Why messages were ignored, by the name of the marker; sentences."""
         self.left_out = 0
         """Number of markers and poses beyond a limit, since all markers came."""
+        self.undrawn = 0
+        """Number of markers that the next drawings are for."""
+        self.drawings = 0
+        """Number of drawings so far."""
         self.is_waiting = False
         """True if something is not drawn because of a missing transform."""
         self._by_key: dict[str, Tracked] = {}
@@ -82,6 +89,34 @@ class InteractiveMarkerServer:
             for name in self.ignored.keys() & each.erased:
                 del self.ignored[name]
         self.version += bool(news)
+
+    def draw(self, look: MarkerLook, ctx: Context) -> None:
+        """Draw all markers; many that are new or changed are drawn by several calls."""
+        arrived = self.assets.load(ctx, self.requests())
+        self.drawings += 1
+        self.is_waiting = False
+        stale: list[tuple[Tracked, Place, ShownMarker]] = []
+        for name, marker in self.markers.items():
+            shown, place = self.shown[name], marker.place(ctx.frames)
+            shown.forget(arrived)
+            if place is None:
+                self.is_waiting = True
+            elif shown.is_current(marker, place, look, ctx.frames):
+                shown.show(ctx)
+            else:
+                stale.append((marker, place, shown))
+        stale.sort(key=lambda each: each[2].drawn_in)
+        until, drawn = time.monotonic() + DRAWING_S, 0
+        for marker, place, shown in stale:
+            if drawn and time.monotonic() > until:
+                shown.show(ctx)
+                continue
+            shown.draw(marker, place, look, ctx)
+            shown.drawn_in = self.drawings
+            drawn += 1
+        self.undrawn = len(stale) - drawn
+        self.is_waiting |= any(shown.lost for shown in self.shown.values())
+        self.assets.start(ctx)
 
     def handles(self, frames: Frames, aids: bool, refusal: str) -> Mapping[str, Handle]:
         """Return the handles browsers can drag, by key; the same mapping until one changes."""

@@ -23,6 +23,8 @@ def report(server: InteractiveMarkerServer, refusal: str, ctx: Context) -> None:
         ctx.warn("Markers", f"Ignored {ignored} beyond the limit of {MAX_MARKERS}.")
     if loading := server.assets.loading:
         ctx.warn("Loading", f"Loading {counted(loading, 'file')} of controls.")
+    if server.undrawn:
+        ctx.warn("Drawing", f"Drawing {counted(server.undrawn, 'more marker')}.")
     troubles = _troubles(server, ctx)
     if len(troubles) > MAX_ROWS:
         ctx.warn("Others", f"{len(troubles) - MAX_ROWS} more markers have problems.")

@@ -49,6 +49,9 @@ class HandlesPart(Part):
         super().__init__(core)
         self._displays = displays
         self._holds: dict[tuple[str, str], _Hold] = {}
+        self._found: Mapping[tuple[str, str], tuple[Handle, int | None]] = {}
+        self._found_of: object = None
+        """Inputs of these."""
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
@@ -68,12 +71,16 @@ class HandlesPart(Part):
 
     def state(self) -> Mapping[str, Any]:
         """All handles, with the browsers that hold them."""
-        found: dict[tuple[str, str], tuple[Handle, int | None]] = {}
-        for runner in self._displays.list.active():
-            for key, handle in runner.handles().items():
-                hold = self._holds.get((runner.id, key))
-                found[runner.id, key] = handle, hold.browser if hold else None
-        return {"handles": found}
+        holders = {place: hold.browser for place, hold in self._holds.items()}
+        of = [(runner.id, runner.handles()) for runner in self._displays.list.active()], holders
+        if self._found_of != of:  # quick, as unchanged handles are the same mapping
+            self._found_of = of
+            self._found = {
+                (display, key): (handle, holders.get((display, key)))
+                for display, handles in of[0]
+                for key, handle in handles.items()
+            }
+        return {"handles": self._found}
 
     def _grip(self, command: GripHandle, sender: Sender) -> None:
         grip, place = _checked(command.grip), (command.display, command.grip.handle)

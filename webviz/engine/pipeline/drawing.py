@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol
 
 from webviz.api.context import Context, Group, Placement
@@ -64,6 +64,23 @@ class _Drawn:
     visible: bool | None = None
 
 
+@dataclass
+class _Followers:
+    """Groups that follow one frame in the same way.
+
+    Args:
+        placement: of one of them; the offsets of others differ.
+        groups: with their names.
+        pose: of the frame when all of them were moved last.
+        fixed_frame: of that pose; "" before.
+    """
+
+    placement: Placement
+    groups: list[tuple[str, _Drawn]] = field(default_factory=list)
+    pose: Pose | None = None
+    fixed_frame: str = ""
+
+
 class Drawing:
     """The groups that one display draws, by scope; each call of a hook fills one scope.
 
@@ -79,6 +96,8 @@ class Drawing:
         self._drawn_from: dict[str, tuple[Sequence[Sample], str]] = {}
         """Of each scope: its samples, and the fixed frame."""
         self._past: Past | None = None
+        self._followers: list[_Followers] | None = None
+        """All groups that follow frames; None if they have changed."""
 
     def remember(self, is_wanted: bool) -> None:
         """Keep what is replaced for some seconds, for `find`."""
@@ -100,6 +119,7 @@ class Drawing:
     def replace(self, scope: str, context: Context, samples: Sequence[Sample] = ()) -> None:
         """Make the content of a scope exactly what a context collected from samples."""
         self._keep(scope)
+        self._followers = None
         self._drawn_from[scope] = samples, context.frames.fixed_frame
         before = self._scopes.get(scope, {})
         after: dict[str, _Drawn] = {}
@@ -131,6 +151,7 @@ class Drawing:
     def remove(self, scope: str) -> None:
         """Remove the content of a scope."""
         self._keep(scope)
+        self._followers = None
         self._drawn_from.pop(scope, None)
         for key in self._scopes.pop(scope, {}):
             self._scene.remove_group(self._name(scope, key))
@@ -142,19 +163,18 @@ class Drawing:
 
     def followed(self) -> set[str]:
         """The frames whose poses `move` needs."""
-        return {
-            drawn.group.placement.frame
-            for groups in self._scopes.values()
-            for drawn in groups.values()
-            if drawn.group.placement.frame is not None
-        }
+        return {each.placement.frame for each in self._following() if each.placement.frame}
 
     def move(self, frames: Frames) -> None:
         """Move all groups with the frames that they follow."""
-        for scope, groups in self._scopes.items():
-            for key, drawn in groups.items():
-                if drawn.group.placement.frame is not None:
-                    self._follow(self._name(scope, key), drawn, frames)
+        for each in self._following():
+            pose = _pose(each.placement, frames)
+            is_placed = pose is each.pose and each.fixed_frame == frames.fixed_frame
+            if is_placed and not each.placement.interval_s:
+                continue
+            for name, drawn in each.groups:
+                self._follow(name, drawn, frames)
+            each.pose, each.fixed_frame = pose, frames.fixed_frame
 
     def is_empty(self) -> bool:
         """Return whether nothing of the display is visible."""
@@ -166,12 +186,23 @@ class Drawing:
 
     def lost(self, frames: Frames) -> list[str]:
         """The frames without a pose that hidden groups follow."""
-        placements = [
-            drawn.group.placement for groups in self._scopes.values() for drawn in groups.values()
-        ]
+        placements = [each.placement for each in self._following()]
         return sorted(
             {p.frame for p in placements if p.frame and not p.keep_last and not _pose(p, frames)}
         )
+
+    def _following(self) -> list[_Followers]:
+        if self._followers is None:
+            found: dict[object, _Followers] = {}
+            for scope, groups in self._scopes.items():
+                for key, drawn in groups.items():
+                    p = drawn.group.placement
+                    if p.frame is not None:
+                        way = p.frame, p.when, p.keep_last, p.interval_s
+                        followers = found.setdefault(way, _Followers(p))
+                        followers.groups.append((self._name(scope, key), drawn))
+            self._followers = list(found.values())
+        return self._followers
 
     def _keep(self, scope: str) -> None:
         if self._past is not None and scope in self._scopes:

@@ -36,6 +36,8 @@ class Gripping:
         self._id = id
         self._scene = services.scene
         self._wire = DisplayWire(services, services.gate) if services.gate else None
+        self._framed: tuple[Mapping[str, Handle], set[str]] = self.handles, set()
+        """Handles, and their frames."""
         self._placed: set[str] = set()
         self._unseen = 0
 
@@ -54,6 +56,10 @@ class Gripping:
     def followed(self) -> set[str]:
         """The frames whose poses `talk` needs."""
         return self._placed
+
+    def is_busy(self) -> bool:
+        """Return whether slow work of the protocol is under way."""
+        return self._wire is not None and self._wire.is_busy()
 
     def take(self, batches: Mapping[str, Iterable[Raw]], offers: Mapping[str, Offer]) -> None:
         """Keep the messages of this turn."""
@@ -89,7 +95,10 @@ class Gripping:
             self._wire.close()
 
     def _place(self, frames: Frames) -> None:
-        wanted = {handle.frame for handle in self.handles.values() if handle.frame}
+        if self._framed[0] is not self.handles:
+            found = {handle.frame for handle in self.handles.values() if handle.frame}
+            self._framed = self.handles, found
+        wanted = self._framed[1]
         for frame in wanted:
             if pose := frames.latest(frame):
                 self._scene.set_pose(reference_group(self._id, frame), pose)

@@ -150,7 +150,8 @@ class Runner:
 
     def is_busy(self) -> bool:
         """Return whether the result of slow work is not drawn yet."""
-        return self.display.enabled and bool(self._holder.busy_with or self._painter.is_busy())
+        is_busy = self._holder.busy_with or self._painter.is_busy() or self._gripping.is_busy()
+        return self.display.enabled and bool(is_busy)
 
     def followed(self) -> set[str]:
         """The frames whose poses `draw` needs."""

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Future
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeVar
 
 from webviz.api.declared import Topic
 from webviz.api.wire import Heard
 from webviz.data.messages import encode, interfaces
 from webviz.engine.pipeline.services import Services
 from webviz.engine.sources import Gate, Offer, Outlet, Raw, Subscription
+
+T = TypeVar("T")
 
 LIMIT = 1000
 """Messages of a topic that wait for the display."""
@@ -50,6 +52,7 @@ class DisplayWire:
         self._lines: dict[str, _Line] = {}
         self._outlets: dict[str, Outlet] = {}
         self._named: set[str] = set()
+        self._jobs: list[Future[Any]] = []
 
     # For the display
 
@@ -104,6 +107,12 @@ class DisplayWire:
         outlet = self._outlets[self._services.resolve(topic)]
         self._gate.publish(outlet, encode(outlet.type, values))
 
+    def run(self, fn: Callable[..., T], *args: Any) -> Future[T]:
+        """Run slow work in a thread; see `webviz.api.wire.Wire`."""
+        job = self._services.workers.submit(fn, *args)
+        self._jobs = [each for each in self._jobs if not each.done()] + [job]
+        return job
+
     def wake(self) -> None:
         """Have `talk` called again soon."""
         self._services.wake()
@@ -121,6 +130,10 @@ class DisplayWire:
     def outlets(self) -> list[Outlet]:
         """Return its publishers."""
         return list(self._outlets.values())
+
+    def is_busy(self) -> bool:
+        """Return whether slow work is under way."""
+        return not all(job.done() for job in self._jobs)
 
     def take(self, batches: Mapping[str, Iterable[Raw]], offers: Mapping[str, Offer]) -> None:
         """Keep the messages of this turn; cheap, since they are not read yet."""
@@ -143,9 +156,12 @@ class DisplayWire:
             self._break(line)
 
     def close(self) -> None:
-        """Drop all topics."""
+        """Drop all topics, and work that has not begun."""
         self._lines.clear()
         self._outlets.clear()
+        for job in self._jobs:
+            self._services.workers.cancel(job)
+        self._jobs.clear()
 
     def _break(self, line: _Line) -> None:
         line.waiting.clear()
