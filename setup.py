@@ -123,6 +123,7 @@ setup(
             "Plot = webviz.panels.plot:Plot",
             "RvizVisualToolsGui = webviz.panels.visual_tools:RvizVisualToolsGui",
             "Selector = webviz.panels.selector:Selector",
+            "SlamToolbox = webviz.panels.slam_toolbox:SlamToolbox",
         ],
     },
     # What `ros2 run`, `ros2 launch` and RViz look for. RViz finds the demo robot's meshes in the

@@ -227,6 +227,11 @@ def test_a_config_uses_what_its_tools_displays_and_panels_write() -> None:
     panel = services | actions
     servers = ("controller", "planner", "smoother", "docking")
     selected = ("controller", "planner", "goal_checker", "smoother", "progress_checker")
+    mapping = {
+        *("pause_new_measurements", "toggle_interactive_mode", "clear_changes", "clear_queue"),
+        *("manual_loop_closure", "save_map", "serialize_map", "deserialize_map", "add_submap"),
+        *("merge_submaps", "get_parameters"),
+    }
     assert names == {
         "drive",
         "/navigate_through_poses",
@@ -240,6 +245,8 @@ def test_a_config_uses_what_its_tools_displays_and_panels_write() -> None:
         *(f"/{each}_server/get_parameters" for each in servers),
         *(f"/{each}_selector" for each in selected),
         *("/dock_robot", "/undock_robot", "/rviz_visual_tools_gui"),
+        *(f"/slam_toolbox/{each}" for each in mapping),
+        "rtabmap/republish_node_data",
     }
 
 

@@ -1,4 +1,4 @@
-"""The panels Visual Tools, Selector and Docking: what they send for each button."""
+"""The panels Visual Tools, Selector, Docking and SLAM Toolbox: what they send for each button."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from remembering_graph import RememberingGraph
 
 from webviz.api.errors import Error
 from webviz.api.panel import Panel
-from webviz.data.messages import decode, encode
+from webviz.data.messages import decode, encode, interfaces
 from webviz.edges.page.recorded_ui import RecordedUi
 from webviz.engine.commands import AddPanel, OpenPanels, Refresh, Sender
 from webviz.engine.own_names import own_names
@@ -19,6 +19,7 @@ from webviz.engine.pipeline.guard import Guard
 from webviz.files.config import Config
 from webviz.panels.docking import Docking
 from webviz.panels.selector import Selector
+from webviz.panels.slam_toolbox import INITIAL_POSE, SlamToolbox
 from webviz.panels.visual_tools import RvizVisualToolsGui
 
 PARAMETERS = "rcl_interfaces/srv/GetParameters"
@@ -160,10 +161,95 @@ def test_a_robot_docks_by_id_and_at_a_pose_and_undocks(
     assert (goal.action, goal.values.dock_type) == ("/undock_robot", "simple")
 
 
+@pytest.fixture
+def slam(bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch) -> Bench[SlamToolbox]:
+    monkeypatch.setattr("webviz.panels.slam_toolbox.ASK_S", 0.0)
+    return Bench(bench, SlamToolbox)
+
+
+def asked(b: Bench[SlamToolbox]) -> Any:
+    """Name and decoded request of the newest call that is not for the state."""
+    service, type_, request = next(
+        each for each in reversed(b.graph.requests) if each[1] != PARAMETERS
+    )
+    return service, decode(interfaces.service(type_).request, request)
+
+
+def response(name: str, values: dict[str, Any]) -> bytes:
+    return encode(interfaces.service(f"slam_toolbox/srv/{name}").response, values)
+
+
+def test_the_state_of_slam_toolbox_names_what_its_buttons_do(slam: Bench[SlamToolbox]) -> None:
+    assert "No node offers /slam_toolbox/get_parameters" in slam.said()
+    values = {"values": [{"type": 1, "bool_value": True}, {"type": 1}]}
+    answer = encode(f"{PARAMETERS}_Response", values)
+    slam.graph.responses["/slam_toolbox/get_parameters"] = answer
+    slam.show()
+    assert "'paused'" in slam.said()
+    assert slam.widget("Start editing")
+    slam.graph.responses["/slam_toolbox/pause_new_measurements"] = response(
+        "Pause", {"status": True}
+    )
+    slam.widget("Use new scans").use(None, 1)
+    assert "Done." in slam.said()
+    assert asked(slam)[0] == "/slam_toolbox/pause_new_measurements"
+
+
+@pytest.mark.parametrize(
+    ("button", "service"),
+    [
+        ("Start editing", "toggle_interactive_mode"),
+        ("Clear changes", "clear_changes"),
+        ("Save changes", "manual_loop_closure"),
+        ("Clear queue", "clear_queue"),
+        ("Generate map", "merge_submaps"),
+    ],
+)
+def test_a_button_of_slam_toolbox_calls_its_service(
+    button: str, service: str, slam: Bench[SlamToolbox]
+) -> None:
+    slam.widget(button).use(None, 1)
+    assert asked(slam)[0] == f"/slam_toolbox/{service}"
+    assert f"No node offers /slam_toolbox/{service}" in slam.said()
+
+
+def test_maps_and_pose_graphs_are_saved_and_loaded(slam: Bench[SlamToolbox]) -> None:
+    for button in ("Save map", "Serialize", "Deserialize", "Add submap"):
+        with pytest.raises(Error, match="No file for"):
+            slam.widget(button).use(None, 1)
+    slam.widget("Map").use(" office ", 1)
+    result = response("SaveMap", {"result": 1})
+    slam.graph.responses["/slam_toolbox/save_map"] = result
+    slam.widget("Save map").use(None, 1)
+    assert asked(slam)[1].name.data == "office"
+    assert "Failed: slam_toolbox has no map yet." in slam.said()
+
+    slam.widget("Pose graph").use("/maps/office", 1)
+    slam.widget("Serialize").use(None, 1)
+    assert asked(slam)[1].filename == "/maps/office"
+    slam.widget("Deserialize").use(None, 1)
+    assert asked(slam)[1].match_type == 1
+    pose = {"position": {"x": 1.0, "y": -2.0}, "orientation": {"z": 2.0, "w": 0.0}}
+    message = decode(INITIAL_POSE, encode(INITIAL_POSE, {"pose": {"pose": pose}}))
+    assert slam.panel.subscriptions() == {"/initialpose": INITIAL_POSE}
+    slam.panel.take("/initialpose", message)
+    slam.widget("Deserialize").use(None, 1)
+    request = asked(slam)[1]
+    assert (request.match_type, request.initial_pose.x, request.initial_pose.y) == (2, 1.0, -2.0)
+    assert request.initial_pose.theta == pytest.approx(3.14)
+    slam.widget("yaw (rad)").use("north", 1)
+    with pytest.raises(Error, match="`north` is not a number"):
+        slam.widget("Deserialize").use(None, 1)
+    slam.widget("Submap").use("hall", 1)
+    slam.widget("Add submap").use(None, 1)
+    assert asked(slam)[1].filename == "hall"
+
+
 def test_what_the_panels_send_to_may_be_sent_to() -> None:
     names = own_names(Config(), Guard("", strict=True))
     for name in ("/rviz_visual_tools_gui", "/planner_selector", "/dock_robot", "/undock_robot"):
         assert name in names
     assert "/docking_server/get_parameters" in names
+    assert "/slam_toolbox/save_map" in names
     request = encode(f"{PARAMETERS}_Request", {"names": ["dock_plugins"]})
     assert decode(f"{PARAMETERS}_Request", request).names == ["dock_plugins"]

@@ -1,6 +1,6 @@
 """Definitions of services and actions that tools and panels use, without their packages.
 
-Field names and types are the interfaces of navigation2 and MoveIt in ROS 2 Jazzy.
+Field names and types are the interfaces of navigation2, MoveIt and slam_toolbox in ROS 2 Jazzy.
 """
 
 SERVICES = {
@@ -29,6 +29,35 @@ moveit_msgs/PlanningScene scene""",
     "rcl_interfaces/srv/GetParameters": """string[] names
 ---
 rcl_interfaces/ParameterValue[] values""",
+    "slam_toolbox/srv/Pause": """---
+bool status""",
+    "slam_toolbox/srv/ToggleInteractive": "---",
+    "slam_toolbox/srv/Clear": "---",
+    "slam_toolbox/srv/LoopClosure": "---",
+    "slam_toolbox/srv/ClearQueue": """---
+bool status""",
+    "slam_toolbox/srv/SaveMap": """std_msgs/String name
+---
+uint8 RESULT_SUCCESS=0
+uint8 RESULT_NO_MAP_RECEIEVD=1
+uint8 RESULT_UNDEFINED_FAILURE=255
+uint8 result""",
+    "slam_toolbox/srv/SerializePoseGraph": """string filename
+---
+uint8 RESULT_SUCCESS=0
+uint8 RESULT_FAILED_TO_WRITE_FILE=255
+uint8 result""",
+    "slam_toolbox/srv/DeserializePoseGraph": """int8 UNSET=0
+int8 START_AT_FIRST_NODE=1
+int8 START_AT_GIVEN_POSE=2
+int8 LOCALIZE_AT_POSE=3
+string filename
+int8 match_type
+geometry_msgs/Pose2D initial_pose
+---""",
+    "slam_toolbox/srv/AddSubmap": """string filename
+---""",
+    "slam_toolbox/srv/MergeMaps": "---",
     "nav2_msgs/srv/ManageLifecycleNodes": """uint8 STARTUP=0
 uint8 PAUSE=1
 uint8 RESUME=2

@@ -24,4 +24,9 @@ def counterpart(base: type[P], cls: str) -> type[P] | None:
 @functools.lru_cache(maxsize=8)
 def _classes(types: tuple[type[P], ...]) -> dict[str, type[P]]:
     found = {cls.rviz: cls for cls in types if cls.rviz}
-    return {f"rviz/{name.partition('/')[2]}": cls for name, cls in found.items()} | found
+    own = {
+        name.partition("/")[2]: cls
+        for name, cls in found.items()
+        if name.startswith(("rviz_common/", "rviz_default_plugins/"))
+    }
+    return {f"rviz/{name}": cls for name, cls in own.items()} | found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -68,7 +69,10 @@ def page(paths: Iterable[Path]) -> str:
     for base in (Tool, Panel):
         classes += [cls.rviz for cls in plugin_types(base).values() if cls.rviz]
     classes += [cls.rviz_panel for cls in plugin_types(Tool).values() if cls.rviz_panel]
-    lines += ["", WHY.format(", ".join(f"`{cls.partition('/')[2]}`" for cls in classes))]
+    lines += [
+        "",
+        WHY.format(", ".join(f"`{re.split('/|::', cls, maxsplit=1)[1]}`" for cls in classes)),
+    ]
     missing = Counter(note.what for note in whole.notes if note.reason == NO_DISPLAY)
     if missing:
         rows = [(f"`{cls}`", str(count)) for cls, count in sorted(missing.items())]
