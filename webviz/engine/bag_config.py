@@ -33,6 +33,7 @@ def config_of(bag: BagSource) -> Config:
     topics = {
         topic: tuple(dict.fromkeys(publisher.type for publisher in offer.publishers))
         for topic, offer in bag.offers().items()
+        if bag.has(topic)
     }
     found = sorted(_chosen(picks(topics, types)), key=_place)[:MOST_DISPLAYS]
     names = ["Grid"]

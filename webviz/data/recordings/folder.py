@@ -12,11 +12,13 @@ from ruamel.yaml import YAML
 
 from webviz.data.recordings.opening import is_lfs, open_file
 from webviz.data.recordings.recording import (
+    Counts,
     Losses,
     RecordedChannel,
     RecordedMessage,
     Recording,
     RecordingError,
+    TimeParts,
 )
 from webviz.data.recordings.unpacking import COMPRESSIONS, MAX_BYTES, unpack
 
@@ -76,6 +78,19 @@ class FolderRecording:
                     self._losses.skipped[entry.channel, entry.stamp_ns] = fault
                 else:
                     yield entry._replace(data=data)
+
+    @property
+    def used(self) -> frozenset[RecordedChannel]:
+        """`Recording.used`."""
+        return frozenset(c for part in self._files.values() for c in part.used)
+
+    def histogram(self, parts: TimeParts) -> dict[RecordedChannel, Counts]:
+        """`Recording.histogram`."""
+        found: dict[RecordedChannel, Counts] = {}
+        for file in self._files.values():
+            for channel, counts in file.histogram(parts).items():
+                found[channel] = found[channel] + counts if channel in found else counts
+        return found
 
     def close(self) -> None:
         """Close all files."""

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import struct
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, field
 from typing import BinaryIO
 from zlib import crc32
+
+import numpy as np
+import numpy.typing as npt
 
 from webviz.data.recordings.mcap_records import PREFIX, BrokenRecord, RecordFields
 from webviz.data.recordings.unpacking import COMPRESSIONS, MAX_BYTES, unpack
@@ -13,6 +17,11 @@ from webviz.data.recordings.unpacking import COMPRESSIONS, MAX_BYTES, unpack
 CHUNK_FIELDS = struct.Struct("<QQQII")
 """First and last time, size and checksum when unpacked, length of the compression's name."""
 CRC_OFFSET = 24
+INDEX_FIELDS = struct.Struct("<BQHI")
+"""Prefix, channel, and bytes of the entries of a record that indexes messages."""
+CHANNEL_COUNTS = np.dtype([("channel", "<u2"), ("count", "<u4")])
+ChannelCounts = npt.NDArray[np.void]
+INDEX_ENTRY = np.dtype([("stamp_ns", "<u8"), ("offset", "<u8")])
 
 
 @dataclass(frozen=True)
@@ -26,7 +35,8 @@ class McapChunk:
         crc: of these, 0 if unknown.
         compression: "" for none.
         start_ns, end_ns: claimed times of its messages.
-        channels: which have messages in it; None if unknown.
+        counts: messages of each channel, `CHANNEL_COUNTS`; None if unknown.
+        index: offset and size of the records that index its messages, (0, 0) without any.
         is_cut: whether the file ends within it.
     """
 
@@ -37,7 +47,8 @@ class McapChunk:
     compression: str
     start_ns: int
     end_ns: int
-    channels: frozenset[int] | None = None
+    counts: ChannelCounts | None = field(default=None, compare=False)
+    index: tuple[int, int] = field(default=(0, 0), compare=False)
     is_cut: bool = False
 
 
@@ -70,13 +81,49 @@ def chunk_index_of(fields: RecordFields) -> McapChunk:
     offsets = fields.block()
     if len(offsets) % 10:
         raise BrokenRecord
-    channels = frozenset(number for number, _ in struct.iter_unpack("<HQ", offsets)) or None
-    fields.numbers("Q")
+    (index_size,) = fields.numbers("Q")
     name = fields.block()
     packed_size, size = fields.numbers("QQ")
-    offset += PREFIX.size + CHUNK_FIELDS.size + len(name) + 8
     compression = name.decode(errors="replace")
-    return McapChunk(offset, packed_size, size, 0, compression, start_ns, end_ns, channels)
+    return McapChunk(
+        offset + PREFIX.size + CHUNK_FIELDS.size + len(name) + 8,
+        packed_size,
+        size,
+        0,
+        compression,
+        start_ns,
+        end_ns,
+        *_counts(offsets, index_size),
+    )
+
+
+def counts_of(counts: Iterable[tuple[int, int]]) -> ChannelCounts:
+    """Channels and numbers of messages as an array, which takes less memory than a dictionary."""
+    return np.array(list(counts), CHANNEL_COUNTS)
+
+
+def _counts(offsets: bytes, size: int) -> tuple[ChannelCounts | None, tuple[int, int]]:
+    """The messages of each channel, and where they are indexed.
+
+    The records of the index follow each other and have 16 bytes a message, so that the offsets of
+    these records are enough.
+
+    Args:
+        offsets: of these records by channel.
+        size: of them all.
+    """
+    places = sorted((offset, number) for number, offset in struct.iter_unpack("<HQ", offsets))
+    if not places:
+        return None, (0, 0)
+    first = places[0][0]
+    ends = [*(offset for offset, _ in places[1:]), first + size]
+    counts = [
+        (number, (end - offset - INDEX_FIELDS.size) // INDEX_ENTRY.itemsize)
+        for (offset, number), end in zip(places, ends, strict=True)
+    ]
+    if not all(0 < count < 1 << 32 for _, count in counts):  # its writer left out the index
+        return counts_of((number, 0) for number, _ in counts), (0, 0)
+    return counts_of(counts), (first, size)
 
 
 def header_of(chunk: McapChunk) -> int:

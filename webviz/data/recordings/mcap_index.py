@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import os
 import re
+from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 from typing import BinaryIO
 from zlib import crc32
+
+import numpy as np
 
 from webviz.data.recordings.mcap_chunks import (
     CHUNK_FIELDS,
@@ -16,6 +19,7 @@ from webviz.data.recordings.mcap_chunks import (
     chunk_index_of,
     chunk_of,
     contents_of,
+    counts_of,
     header_of,
 )
 from webviz.data.recordings.mcap_records import (
@@ -147,8 +151,10 @@ class McapIndex:
             return False
         if not checksum and not all(map(self._is_as_summarised, chunks)):
             return False
-        self.chunks = [chunk for chunk in chunks if chunk.channels or chunk.end_ns]
-        return all((chunk.channels or set()) <= self._channels.keys() for chunk in chunks)
+        self.chunks = [c for c in chunks if c.counts is not None or c.end_ns]
+        known = np.zeros(1 << 16, bool)
+        known[list(self._channels)] = True
+        return all(known[c.counts["channel"]].all() for c in chunks if c.counts is not None)
 
     def _summarised(self, summary: bytes) -> tuple[list[McapChunk], int | None]:
         """The chunks, and how many there must be, None if unknown."""
@@ -167,9 +173,7 @@ class McapIndex:
     def _is_as_summarised(self, chunk: McapChunk) -> bool:
         start = header_of(chunk)
         opcode, length = self._prefix(start - PREFIX.size)
-        return opcode == CHUNK and chunk == replace(
-            self._chunk(start, length), channels=chunk.channels
-        )
+        return opcode == CHUNK and chunk == self._chunk(start, length)
 
     def _checksum(self, chunk: McapChunk) -> int:
         data = self._read(header_of(chunk) + CRC_OFFSET, 4)
@@ -234,7 +238,7 @@ class McapIndex:
         data = self._read(start, MESSAGE_FIELDS.size)
         if length < MESSAGE_FIELDS.size:
             raise BrokenRecord
-        _, _, stamp_ns, _ = MESSAGE_FIELDS.unpack(data)
+        number, _, stamp_ns, _ = MESSAGE_FIELDS.unpack(data)
         if stamp_ns > FOREVER_NS or not self._is_followed(start + length):
             raise BrokenRecord
         offset, size = start - PREFIX.size, length + PREFIX.size
@@ -243,20 +247,24 @@ class McapIndex:
         if last and is_region and last.offset + last.size == offset and last.size < REGION:
             size += last.size
             first_ns, last_ns = min(last.start_ns, stamp_ns), max(last.end_ns, stamp_ns)
-            self.chunks[-1] = McapChunk(last.offset, size, size, 0, "", first_ns, last_ns)
+            counts = dict([] if last.counts is None else last.counts.tolist())
+            counts[number] = counts.get(number, 0) + 1
+            own = counts_of(counts.items())
+            self.chunks[-1] = McapChunk(last.offset, size, size, 0, "", first_ns, last_ns, own)
         else:
-            self.chunks.append(McapChunk(offset, size, size, 0, "", stamp_ns, stamp_ns))
+            own = counts_of([(number, 1)])
+            self.chunks.append(McapChunk(offset, size, size, 0, "", stamp_ns, stamp_ns, own))
 
     def _looked_into(self, chunk: McapChunk) -> list[McapChunk]:
         """The chunk with the times of its messages, none if it has none; learns its channels."""
         data, fault = contents_of(chunk, self._file)
-        first_ns, last_ns, numbers = FOREVER_NS, -1, set[int]()
+        first_ns, last_ns, counts = FOREVER_NS, -1, Counter[int]()
         try:
             for opcode, fields in records_of(data):
                 if opcode == MESSAGE:
                     number, _, stamp_ns = fields.numbers("HIQ")
                     first_ns, last_ns = min(first_ns, stamp_ns), max(last_ns, stamp_ns)
-                    numbers.add(number)
+                    counts[number] += 1
                 else:
                     self._learn(opcode, fields)
         except BrokenRecord:
@@ -265,7 +273,8 @@ class McapIndex:
             return [chunk]
         if last_ns < 0:
             return []
-        return [replace(chunk, start_ns=first_ns, end_ns=last_ns, channels=frozenset(numbers))]
+        found = counts_of(counts.items())
+        return [replace(chunk, start_ns=first_ns, end_ns=last_ns, counts=found)]
 
     def _next_record(self, at: int) -> int | None:
         """Where the next plausible record begins that another one follows; None without one."""

@@ -10,11 +10,13 @@ from pathlib import Path
 from webviz.data.recordings.mcap import McapRecording
 from webviz.data.recordings.mcap_records import MAGIC
 from webviz.data.recordings.recording import (
+    Counts,
     Losses,
     RecordedChannel,
     RecordedMessage,
     Recording,
     RecordingError,
+    TimeParts,
 )
 from webviz.data.recordings.sqlite import SqliteRecording
 from webviz.data.recordings.unpacking import unpack_file
@@ -119,6 +121,15 @@ class _Unpacked:
     ) -> Iterator[RecordedMessage]:
         """`Recording.messages`."""
         return self._inner.messages(channels, start_ns, end_ns)
+
+    @property
+    def used(self) -> frozenset[RecordedChannel]:
+        """`Recording.used`."""
+        return self._inner.used
+
+    def histogram(self, parts: TimeParts) -> dict[RecordedChannel, Counts]:
+        """`Recording.histogram`."""
+        return self._inner.histogram(parts)
 
     def close(self) -> None:
         """Close the file and remove it."""

@@ -6,6 +6,9 @@ from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple, Protocol
 
+import numpy as np
+import numpy.typing as npt
+
 
 class RecordingError(Exception):
     """A recording cannot be opened; one sentence with a remedy."""
@@ -44,6 +47,34 @@ class RecordedMessage(NamedTuple):
     data: bytes
 
 
+@dataclass(frozen=True)
+class TimeParts:
+    """Equal parts of a span of time.
+
+    Args:
+        start_ns, end_ns: the span.
+        count: number of parts.
+    """
+
+    start_ns: int
+    end_ns: int
+    count: int
+
+    @property
+    def length_ns(self) -> int:
+        """Duration of a part."""
+        return max(1, -(-(self.end_ns - self.start_ns + 1) // self.count))
+
+    def part_of(self, stamps_ns: npt.NDArray[np.uint64]) -> npt.NDArray[np.int64]:
+        """The numbers of the parts that times lie in; those outside belong to the outermost."""
+        inside = np.clip(stamps_ns.astype(np.int64), self.start_ns, self.end_ns) - self.start_ns
+        return inside // self.length_ns
+
+
+Counts = npt.NDArray[np.int64]
+"""Messages in each part of a span."""
+
+
 class Recording(Protocol):
     """A file or folder of messages."""
 
@@ -60,6 +91,21 @@ class Recording(Protocol):
         self, channels: Collection[RecordedChannel], start_ns: int, end_ns: int
     ) -> Iterator[RecordedMessage]:
         """The messages of some channels by time, both ends included; skips what is damaged."""
+        ...
+
+    @property
+    def used(self) -> frozenset[RecordedChannel]:
+        """The channels that have messages, or may have if that takes long to find out."""
+        ...
+
+    def histogram(self, parts: TimeParts) -> dict[RecordedChannel, Counts]:
+        """Count the messages of each channel by the index, estimated where it has only sums.
+
+        May be called from any thread, before `close`.
+
+        Raises:
+            OSError: the file cannot be read.
+        """
         ...
 
     def close(self) -> None:

@@ -2,23 +2,31 @@
 
 from __future__ import annotations
 
+import contextlib
 import sqlite3
 import struct
+import time
 from collections.abc import Collection, Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from webviz.data.recordings.recording import (
     END_MISSING,
+    Counts,
     Losses,
     RecordedChannel,
     RecordedMessage,
     RecordingError,
     TextAllowance,
+    TimeParts,
 )
 from webviz.data.recordings.unpacking import MAX_BYTES
 
 MAX_TOPICS = 65_536
+PATIENCE_S = 0.3
+"""For finding out which topics have messages, when a file is opened."""
 MAX_MISSES = 10_000
 """Consecutive rows that are missing or damaged, after which a damaged table counts as ended."""
 IN_ONE_PAGE = 400
@@ -45,15 +53,9 @@ class SqliteRecording:
 
     def __init__(self, path: Path) -> None:
         self.losses = Losses("message", "skipped")
-        # One thread opens a bag, another one plays it.
-        self._db = sqlite3.connect(
-            f"{path.absolute().as_uri()}?immutable=1&mode=ro", uri=True, check_same_thread=False
-        )
+        self._path = path
+        self._db = _connected(path)
         try:
-            self._db.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, MAX_BYTES)
-            self._db.execute("PRAGMA trusted_schema = OFF")
-            # Without it SQLite refuses a file that is shorter than its header says.
-            self._db.execute("PRAGMA writable_schema = ON")
             self._is_cut = _is_cut(path)
             self._numbers = self._topics(path)
             self.span_ns = self._span()
@@ -64,6 +66,7 @@ class SqliteRecording:
             self._db.close()
             raise
         self.channels = tuple(dict.fromkeys(self._numbers.values()))
+        self.used = self._used()
 
     def messages(
         self, channels: Collection[RecordedChannel], start_ns: int, end_ns: int
@@ -91,9 +94,35 @@ class SqliteRecording:
             if entry and start_ns <= entry.stamp_ns <= end_ns and entry not in newest:
                 yield entry
 
+    def histogram(self, parts: TimeParts) -> dict[RecordedChannel, Counts]:
+        """`Recording.histogram`, of a damaged table without what it cannot read."""
+        found = {channel: np.zeros(parts.count, np.int64) for channel in self.channels}
+        with contextlib.closing(_connected(self._path)) as db, contextlib.suppress(sqlite3.Error):
+            for number, part, count in db.execute(
+                "SELECT topic_id, (timestamp - ?) / ? AS part, count(*) FROM messages "
+                "WHERE typeof(timestamp) = 'integer' AND timestamp BETWEEN ? AND ? "
+                "GROUP BY topic_id, part",
+                (parts.start_ns, parts.length_ns, parts.start_ns, parts.end_ns),
+            ):
+                if number in self._numbers:
+                    found[self._numbers[number]][part] += count
+        return found
+
     def close(self) -> None:
         """Close the file."""
         self._db.close()
+
+    def _used(self) -> frozenset[RecordedChannel]:
+        """The channels that have messages, all if that takes long to find out."""
+        until = time.monotonic() + PATIENCE_S
+        self._db.set_progress_handler(lambda: time.monotonic() > until, 10_000)
+        try:
+            numbers = self._db.execute("SELECT DISTINCT topic_id FROM messages").fetchall()
+        except sqlite3.Error:
+            return frozenset(self.channels)
+        finally:
+            self._db.set_progress_handler(None, 0)
+        return frozenset(self._numbers[n] for (n,) in numbers if n in self._numbers)
 
     def _topics(self, path: Path) -> dict[int, RecordedChannel]:
         """The channels by the ids of their topics."""
@@ -193,6 +222,21 @@ class SqliteRecording:
             self.losses.skipped[number, stamp_ns] = "it may be cut off"
             return None
         return RecordedMessage(wanted[number], stamp_ns, data)
+
+
+def _connected(path: Path) -> sqlite3.Connection:
+    """A connection for one thread at a time, which need not be the same all the time."""
+    uri = f"{path.absolute().as_uri()}?immutable=1&mode=ro"
+    db = sqlite3.connect(uri, uri=True, check_same_thread=False)
+    try:
+        db.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, MAX_BYTES)
+        db.execute("PRAGMA trusted_schema = OFF")
+        # Without it SQLite refuses a file that is shorter than its header says.
+        db.execute("PRAGMA writable_schema = ON")
+    except sqlite3.Error as error:
+        db.close()
+        raise _damaged(path, str(error)) from error
+    return db
 
 
 def _damaged(path: Path, reason: str) -> RecordingError:

@@ -5,8 +5,10 @@ from __future__ import annotations
 import re
 from collections import deque
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from concurrent.futures import Future
 from pathlib import Path
 
+from webviz.data.disk import in_thread
 from webviz.data.messages import MessageError, register
 from webviz.engine.sources.bag_extras import Extra
 from webviz.engine.sources.bag_file import BagChannel, BagError, Recorded
@@ -26,6 +28,9 @@ STEP_NS = 100_000_000
 """Recording time between two turns of a frame loop without browsers."""
 INBOX_LIMIT = 20_000
 """Messages per topic; all latched messages arrive at once."""
+NONE = "the bag has none"
+"""When the first message of a topic comes."""
+NOT_COUNTED: Mapping[str, Sequence[int]] = {}
 TOPIC = re.compile(r"(/[A-Za-z_]\w*)+", re.ASCII)
 
 
@@ -63,6 +68,7 @@ class BagSource:
         self._problems: dict[str, str] = {}
         self._begins: dict[str, str] = {}
         self._offers = self._all_offers()
+        self._counting: Future[Mapping[str, Sequence[int]]] | None = None
         self._next: Recorded | None = None
         self._upcoming: Iterator[Recorded] = iter(())
 
@@ -151,12 +157,20 @@ class BagSource:
         return stamp_ns
 
     def histogram(self, buckets: int) -> Mapping[str, Sequence[int]]:
-        """`Playable.histogram`."""
-        return {}
+        """`Playable.histogram`; none until a worker has counted."""
+        if self._counting is None:
+            self._counting = in_thread(lambda: self._file.histogram(buckets))
+            self._counting.add_done_callback(lambda _: self.inbox.arrived.set())
+        counted = self._counting
+        return counted.result() if counted.done() and not counted.exception() else NOT_COUNTED
 
     def links(self) -> Sequence[tuple[str, str]]:
         """Parents and children of the static transforms and of the first ones that move."""
         return links_of(self._file)
+
+    def has(self, topic: str) -> bool:
+        """Return whether a topic has messages, or may have if that takes long to find out."""
+        return self._file.is_used(topic) or any(extra.topic == topic for extra in self._extras)
 
     def frames(self, topics: Collection[str]) -> Sequence[str]:
         """The frames of the first messages on some topics, each once."""
@@ -306,10 +320,12 @@ class BagSource:
         """When a topic begins, in words."""
         if any(extra.topic == topic for extra in self._extras):
             return ""
+        if not self._file.is_used(topic):
+            return NONE
         channels = [channel for channel in self._channels() if channel.topic == topic]
         first = next(self._file.messages(channels, self._file.start_ns), None)
         if first is None:
-            return "the bag has none"
+            return NONE
         return f"the bag's first is at {(first.stamp_ns - self.start_ns) / 1e9:.1f} s"
 
 

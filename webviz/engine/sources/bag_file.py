@@ -11,6 +11,7 @@ from webviz.api.errors import Error
 from webviz.data.messages import MessageError, register, type_exists
 from webviz.data.messages.typestore import full_name
 from webviz.data.recordings import RecordedChannel, RecordingError, open_recording
+from webviz.data.recordings.recording import Counts, TimeParts
 from webviz.engine.sources.bag_qos import profiles_of
 from webviz.engine.sources.source import Publisher
 
@@ -78,6 +79,7 @@ class BagFile:
             raise BagError(f"{path} contains no messages. Record it again or choose another bag.")
         self.start_ns, self.end_ns = self._recording.span_ns
         """Stamps of the first and the last message."""
+        self._used = self._recording.used
         self.channels: tuple[BagChannel, ...] = ()
         self.skipped: dict[str, str] = {}
         """Why the messages of a topic cannot be read, by topic."""
@@ -109,6 +111,23 @@ class BagFile:
                 yield Recorded(channel.topic, channel.type, entry.data, entry.stamp_ns)
         except OSError as error:
             raise BagError(self._unreadable(error)) from error
+
+    def is_used(self, channel: BagChannel) -> bool:
+        """Return whether a channel has messages, or may have."""
+        return channel.recorded in self._used
+
+    def histogram(self, parts: TimeParts) -> dict[str, Counts]:
+        """Count the messages of each topic that can be read; see `Recording.histogram`.
+
+        Raises:
+            OSError: the file cannot be read.
+        """
+        found: dict[str, Counts] = {}
+        counts = self._recording.histogram(parts)
+        for channel in self.channels:
+            own = counts[channel.recorded]
+            found[channel.topic] = found[channel.topic] + own if channel.topic in found else own
+        return found
 
     def close(self) -> None:
         """Close the file."""

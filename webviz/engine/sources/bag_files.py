@@ -8,6 +8,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 
 from webviz.data.messages.typestore import are_same
+from webviz.data.recordings.recording import Counts, TimeParts
 from webviz.data.words import counted
 from webviz.engine.sources.bag_file import BagChannel, BagFile, Recorded
 
@@ -35,6 +36,7 @@ class BagFiles:
         self.end_ns = max(file.end_ns for file in files)
         self._redefined: dict[str, str] = {}
         self.channels = tuple(self._agreeing())
+        self._used = {c.topic for file in files for c in file.channels if file.is_used(c)}
         self._conflict = self._conflicting_types()
 
     @property
@@ -66,6 +68,19 @@ class BagFiles:
         if len(found) == 1:
             return found[0]
         return heapq.merge(*found, key=lambda recorded: recorded.stamp_ns)
+
+    def is_used(self, topic: str) -> bool:
+        """Return whether a topic has messages, or may have."""
+        return topic in self._used
+
+    def histogram(self, count: int) -> Mapping[str, Sequence[int]]:
+        """Count the messages of each topic in equal parts of the span, from any thread."""
+        parts = TimeParts(self.start_ns, self.end_ns, count)
+        found: dict[str, Counts] = {}
+        for file in self._files:
+            for topic, own in file.histogram(parts).items():
+                found[topic] = found[topic] + own if topic in found else own
+        return {topic: counts.tolist() for topic, counts in found.items() if counts.any()}
 
     def close(self) -> None:
         """Close all files."""

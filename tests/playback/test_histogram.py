@@ -1,0 +1,101 @@
+"""Counts of messages over time, which the index of a bag has."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from bags import START_NS, Bag, ns, strings
+from rosbags.rosbag2 import CompressionMode, StoragePlugin
+
+from webviz.data.recordings import open_recording
+from webviz.data.recordings.recording import TimeParts
+from webviz.engine.sources.bag import BagSource
+
+PARTS = 50
+
+
+def counted(path: Path) -> tuple[dict[str, list[int]], dict[str, list[int]]]:
+    """The histogram of a bag, and that of all of its messages."""
+    recording = open_recording(path)
+    assert recording.span_ns is not None
+    parts = TimeParts(*recording.span_ns, PARTS)
+    found = {c.topic: each.tolist() for c, each in recording.histogram(parts).items()}
+    truth = Counter(
+        (entry.channel.topic, (entry.stamp_ns - parts.start_ns) // parts.length_ns)
+        for entry in recording.messages(recording.channels, *recording.span_ns)
+    )
+    recording.close()
+    return found, {topic: [truth[topic, part] for part in range(PARTS)] for topic in found}
+
+
+def bag_of(size: int) -> Bag:
+    """Ten seconds of two topics, one of them with a gap, and one without messages."""
+    bag = strings()
+    bag.add("/silent", "std_msgs/msg/String")
+    bag.add("/large", "std_msgs/msg/String")
+    for tenths in range(101):
+        if not 30 < tenths < 60:
+            bag.put(tenths / 10, "/words", {"data": "a"})
+        bag.put(tenths / 10, "/large", {"data": "b" * size})
+    return bag
+
+
+@pytest.mark.parametrize("storage", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
+@pytest.mark.parametrize("compression", [CompressionMode.NONE, CompressionMode.FILE])
+def test_the_index_knows_how_many_messages_come_when(
+    tmp_path: Path, storage: StoragePlugin, compression: CompressionMode
+) -> None:
+    found, truth = counted(bag_of(100).write(tmp_path / "run", storage, compression))
+    assert found == truth
+    assert sum(found["/words"]) == 72
+    assert found["/words"][20] == 0
+    assert not any(found["/silent"])
+
+
+def test_chunks_are_counted_without_reading_their_index(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = bag_of(400_000).write(tmp_path / "run")
+    exact, truth = counted(path)
+    assert exact == truth
+    monkeypatch.setattr("webviz.data.recordings.mcap.MAX_INDEX", 0)
+    spread, _ = counted(path)
+    assert {topic: sum(counts) for topic, counts in spread.items()} == {
+        topic: sum(counts) for topic, counts in truth.items()
+    }
+    assert max(abs(a - b) for a, b in zip(spread["/large"], truth["/large"], strict=True)) <= 1
+
+
+def test_a_file_without_an_index_is_counted_too(tmp_path: Path) -> None:
+    (file,) = bag_of(100).write(tmp_path / "run").glob("*.mcap")
+    cut = tmp_path / "cut.mcap"
+    cut.write_bytes(file.read_bytes()[:-1000])  # without its summary
+    found, _ = counted(cut)
+    assert sum(found["/words"]) == 72
+
+
+def test_a_worker_counts_all_bags(tmp_path: Path, theater: Callable) -> None:
+    paths = [strings(0, 1).write(tmp_path / "a"), strings(9, topic="/more").write(tmp_path / "b")]
+    viewer = theater(paths)
+    viewer.turn_until(lambda: bool(viewer.loop.state().recorded))
+    recorded = viewer.loop.state().recorded
+    assert {topic: sum(counts) for topic, counts in recorded.items()} == {"/words": 2, "/more": 1}
+    assert recorded["/more"][-1] == 1
+    assert viewer.loop.state().recorded is recorded
+
+
+def test_topics_without_messages_are_known(tmp_path: Path) -> None:
+    for storage in (StoragePlugin.MCAP, StoragePlugin.SQLITE3):
+        source = BagSource(bag_of(10).write(tmp_path / storage.name, storage))
+        assert [source.has(topic) for topic in ("/words", "/silent")] == [True, False]
+        source.close()
+
+
+def test_a_span_shorter_than_its_parts_is_counted(tmp_path: Path) -> None:
+    bag = strings(0, 0)
+    found, truth = counted(bag.write(tmp_path / "run"))
+    assert found == truth
+    assert TimeParts(START_NS, START_NS + ns(1e-9), PARTS).length_ns == 1
