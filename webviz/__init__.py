@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from webviz.api.picking import Details, Hit
     from webviz.api.ports import Input, Output
     from webviz.api.sample import Sample
-    from webviz.api.status import Level, Remedy, Status
+    from webviz.api.status import Level, OtherFixedFrame, Remedy, Status
     from webviz.api.tool import Stroke, Tool, ToolContext
     from webviz.engine.state import State
     from webviz.shell.app.viewer import Viewer
@@ -66,6 +66,7 @@ __all__ = [
     "Mesh",
     "Models",
     "Node",
+    "OtherFixedFrame",
     "Output",
     "Pane",
     "Panel",
@@ -121,7 +122,7 @@ _HOMES = {
     "webviz.api.picking": ("Details", "Hit"),
     "webviz.api.ports": ("Input", "Output"),
     "webviz.api.sample": ("Sample",),
-    "webviz.api.status": ("Level", "Remedy", "Status"),
+    "webviz.api.status": ("Level", "OtherFixedFrame", "Remedy", "Status"),
     "webviz.api.tool": ("Stroke", "Tool", "ToolContext"),
     "webviz.engine.state": ("State",),
     "webviz.shell.pictures.capture": ("capture",),

@@ -10,7 +10,7 @@ from typing import Annotated, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Color, Context, Details, Display, Hit, Prop, Sample
+from webviz import Color, Context, Details, Display, Hit, Prop, Remedy, Sample
 from webviz.data.transforms import REACH_M
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.frame_names import FIXED_FRAME, frame_of
@@ -89,6 +89,9 @@ class Grid(Display):
             "Grid",
             f"More than {MAX_LINES} lines are too many for a browser; showing the {cells} "
             "cells in the middle. Choose fewer and larger cells.",
+            Remedy("plane_cell_count", plane, f"Use {plane} cells")
+            if normal == self.normal_cell_count
+            else Remedy("normal_cell_count", normal, f"Use {normal} cells along the normal"),
         )
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:

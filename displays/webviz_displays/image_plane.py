@@ -10,7 +10,7 @@ from typing import Annotated, Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Context, Details, Hit, Image, Pose, Prop, Sample, compose
+from webviz import Context, Details, Hit, Image, Pose, Prop, Remedy, Sample, compose
 from webviz.api.pictures import Encoded, Pixels
 from webviz.data.images import ImageError, values
 from webviz_displays.image.base import ImageDisplay, ImageState
@@ -134,7 +134,11 @@ class ImagePlane(ImageDisplay):
         columns, rows = texture.picture.size
         width, height = self.width, self.width * rows / columns
         if max(width, height) > LONGEST:
-            ctx.error("Image", f"The image is {width:g} m x {height:g} m large. Reduce its width.")
+            ctx.error(
+                "Image",
+                f"The image is {width:g} m x {height:g} m large. Reduce its width.",
+                Remedy("width", 1.0, "Set the width to 1 m"),
+            )
             return
         cells = texture.cells  # row 0 lies along y = 0
         if self.plane != "Optical":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Annotated, Any
 
 import numpy as np
@@ -17,6 +18,7 @@ from webviz import (
     Input,
     Pose,
     Prop,
+    Remedy,
     Rgb,
     Sample,
     Topic,
@@ -25,6 +27,7 @@ from webviz import (
 from webviz_displays.point_cloud2.decimation import evenly
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import FARTHEST
+from webviz_displays.shared.opaque import opaque
 
 MAX_VOXELS = 200_000
 """Boxes drawn at once; each takes 43 bytes to send."""
@@ -98,7 +101,8 @@ class VoxelGrid(Display):
         looks = self._looks()
         is_drawn = [_add(kind, cells[kind], message, *looks[kind], group, ctx) for kind in looks]
         if not any(is_drawn):
-            ctx.warn("Voxels", f"Nothing to draw of {counts}. Show other kinds or raise alpha.")
+            text = f"Nothing to draw of {counts}. Show other kinds or raise alpha."
+            ctx.warn("Voxels", text, self._remedy(cells))
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
         """A voxel."""
@@ -108,6 +112,15 @@ class VoxelGrid(Display):
         return Details(
             f"Voxel {x}, {y}, {z}", {"State": hit.key, f"Center in {hit.sample.frame}": center}
         )
+
+    def _remedy(self, cells: Mapping[str, NDArray[np.bool_]]) -> Remedy | None:
+        """The change that shows the first kind of which there are voxels."""
+        kind = next((each for each in KINDS if cells[each].any()), None)
+        if kind is None:
+            return None
+        if getattr(self, f"{kind}_alpha") == 0:
+            return opaque(f"{kind}_alpha")
+        return Remedy(f"show_{kind}", True, f"Show {kind} voxels")
 
     def _looks(self) -> dict[str, tuple[Rgb, float]]:
         """Colour and opacity of the kinds that are to be seen."""

@@ -12,7 +12,7 @@ import pytest
 from numpy.typing import NDArray
 from remembering_graph import RememberingGraph
 
-from webviz import Display, Frames, Pose, Remedy, Status
+from webviz import Display, Frames, OtherFixedFrame, Pose, Remedy, Status
 from webviz.api.display import inputs
 from webviz.api.nodes import Node
 from webviz.data.messages import encode, interfaces
@@ -157,6 +157,19 @@ class Bench:
         found = self._statuses()[key].remedy
         assert found is None or isinstance(found, Remedy)
         return found
+
+    def fixed_frame_remedy(self, key: str) -> OtherFixedFrame | None:
+        """The fixed frame that would help, according to a status."""
+        found = self._statuses()[key].remedy
+        assert found is None or isinstance(found, OtherFixedFrame)
+        return found
+
+    def press(self, key: str) -> None:
+        """Do what the button of a status does, which must leave nothing to report there."""
+        remedy = self.remedy(key)
+        assert remedy is not None
+        self.set(remedy.path, remedy.value)
+        assert self.statuses().get(key, ("OK", ""))[0] == "OK"
 
     def _statuses(self) -> dict[str, Status]:
         frames = Frames(self.buffer, self.fixed_frame, self.now_ns)

@@ -145,6 +145,10 @@ def test_joints_can_be_switched_off(arm: Benches) -> None:
     assert 2 * len(at.nodes()["rings"].segments) == both
     assert at.statuses()["Efforts"] == ("OK", "Showing 1 joint; 1 switched off.")
     at.set("joints", {"elbow": False, "shoulder": False})
+    assert at.statuses()["Efforts"][0] == "WARN"
+    at.press("Efforts")
+    assert len(at.nodes()["rings"].segments) == both
+    at.set("joints", {"elbow": False, "shoulder": False})
     assert at.nodes() == {}
     assert at.statuses()["Efforts"][0] == "WARN"
 

@@ -129,3 +129,14 @@ def test_axes_have_a_length_and_a_radius(bench: Benches) -> None:
     node = made.nodes()["axes"]
     assert (node.length, node.radius) == (2.0, 0.25)
     assert node.positions.tolist() == [[0, 0, 0]]
+
+
+@pytest.mark.parametrize("cells", [{"plane_cell_count": 10**6}, {"normal_cell_count": 10**6}])
+def test_a_grid_of_too_many_lines_offers_those_that_are_shown(
+    bench: Benches, cells: dict[str, int]
+) -> None:
+    made = grid(bench, **cells)
+    assert made.statuses()["Grid"][0] == "WARN"
+    before = len(made.nodes()["grid"].segments)
+    made.press("Grid")
+    assert len(made.nodes()["grid"].segments) == before

@@ -172,6 +172,17 @@ FAULTS = {
 }
 
 
+def test_a_missing_layer_is_replaced_by_the_most_similar_one(shown: Callable) -> None:
+    layers = {"variance": slope, "elevation_raw": slope}
+    at = shown(GridMap(color_layer="colour"), grid_map(layers))
+    remedy = at.remedy("Grid map")
+    assert (remedy.path, remedy.label) == ("height_layer", "Use elevation_raw")
+    at.set(remedy.path, remedy.value)
+    assert "no layer 'colour'" in at.statuses()["Grid map"][1]
+    at.press("Grid map")
+    assert at.nodes()
+
+
 @pytest.mark.parametrize("case", FAULTS)
 def test_a_map_that_cannot_be_drawn_says_why(shown: Callable, case: str) -> None:
     values, reason = FAULTS[case]

@@ -101,6 +101,7 @@ def test_the_range_is_the_median_of_the_newest_images(bench: Benches) -> None:
     assert (shown(at).tone.low, shown(at).tone.high) == (0.0, 0.5)
     at.set("min_value", 2.0)
     assert "Min Value 2 is not below Max Value 0.5" in at.statuses()["Image"][1]
+    at.press("Image")
 
 
 @pytest.mark.parametrize(

@@ -83,6 +83,8 @@ def test_what_cannot_be_shown_is_said(
     level, text = at.statuses()["Image"]
     assert (level, told in text) == ("ERROR", True), text
     assert at.nodes() == {}
+    if properties:
+        at.press("Image")
 
 
 def test_every_image_lies_where_its_frame_was(bench: Benches) -> None:

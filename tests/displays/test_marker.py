@@ -241,6 +241,8 @@ def test_a_namespace_that_is_off_keeps_its_markers(shown: Benches) -> None:
     bench.set("namespaces", {"a": False, "b": False})
     level, text = bench.statuses()["Markers"]
     assert (level, "2 in namespaces that are switched off (a, b)" in text) == ("WARN", True)
+    bench.press("Markers")
+    assert bench.nodes()
 
 
 def test_namespaces_say_how_many_markers_they_have(shown: Benches) -> None:

@@ -87,6 +87,8 @@ def test_the_ceiling_is_cut_by_blocks(cls: Any, values: dict[str, Any], shown: C
     assert at.nodes() == {}
     sentence = "All blocks are above Ceiling Height. Raise it."
     assert at.statuses()["Blocks"] == ("WARN", sentence)
+    at.press("Blocks")
+    assert set(at.nodes()) == {NEAR, FAR}
 
 
 @pytest.mark.parametrize(

@@ -17,6 +17,7 @@ from octrees import OCTOMAP, Key, Node, binary, full, octree, signed
 from webviz.data.memory import DECODING
 from webviz_displays.octomap import ColorOccupancyGrid, OccupancyGrid, OccupancyMap
 from webviz_displays.octomap import octree as octree_module
+from webviz_displays.octomap import projection as projection_module
 from webviz_displays.octomap import seen as seen_module
 from webviz_displays.octomap.octree import Octree, OctreeFault, read_octree
 from webviz_displays.octomap.voxels import is_exposed, voxels_of
@@ -155,6 +156,22 @@ def test_colors_are_by_height_probability_or_of_the_cells(shown: Callable) -> No
     at.turn()
     assert at.statuses()["Colors"][0] == "WARN"
     assert at.nodes()["voxels"].colors.tolist() == [[0, 102, 255], [204, 255, 0]]
+    at.press("Colors")
+
+
+@pytest.mark.parametrize(
+    "properties",
+    [{"voxel_rendering": "Free Voxels"}, {"min_height": 90.0}, {"max_height": -90.0}],
+)
+def test_the_button_of_voxels_that_are_not_shown_shows_some(
+    shown: Callable, properties: dict[str, Any]
+) -> None:
+    root = Node()
+    root.place((0, 0, 0), log_odds=1.0)
+    at = shown(OccupancyGrid(**properties), full(root, 1.0))
+    assert at.nodes() == {}
+    at.press("Voxels")
+    assert at.nodes()
 
 
 def test_too_many_voxels_are_merged(shown: Callable, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -164,6 +181,22 @@ def test_too_many_voxels_are_merged(shown: Callable, monkeypatch: pytest.MonkeyP
     level, text = at.statuses()["Voxels"]
     assert level == "WARN"
     assert "below depth 15" in text
+    at.press("Voxels")
+    assert at.nodes()["voxels"].scales.tolist() == [[2.0] * 3] * 8
+
+
+def test_a_map_of_too_many_cells_offers_the_depth_that_fits(
+    shown: Callable, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(projection_module, "MAX_CELLS", 4)
+    tree = binary(octree(CUBE), 1.0)
+    at = shown(OccupancyMap(), tree)
+    assert "Lower Max. Octree Depth." in at.statuses()["Map"][1]
+    remedy = at.remedy("Map")
+    at.set(remedy.path, remedy.value)
+    at.send(OCTOMAP, tree, frame="odom")
+    at.turn()
+    assert at.statuses()["Map"][0] == "OK"
 
 
 def chain(length: int) -> dict[str, Any]:

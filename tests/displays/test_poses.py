@@ -173,6 +173,12 @@ def test_solid_particles_have_the_proportions_of_rvizs(shown: Benches) -> None:
     np.testing.assert_allclose(middles, [(0, 0.5, 0), (-0.5, 0, 0), (0, 0, 0.5)], atol=1e-6)
 
 
+def test_lengths_that_are_swapped_are_put_right(shown: Benches) -> None:
+    at = shown(ParticleCloud(min_arrow_length=0.5), PARTICLES, particles(1.0))
+    assert at.statuses()["Length"][0] == "WARN"
+    at.press("Length")
+
+
 def test_weights_that_are_not_finite_count_as_none(shown: Benches) -> None:
     at = shown(ParticleCloud(), PARTICLES, particles(NAN, 1.0))
     assert at.xyz("poses")[0, 1] == pytest.approx((10, 0.02, 0), abs=1e-6)

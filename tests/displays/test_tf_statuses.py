@@ -2,6 +2,7 @@
 
 import pytest
 
+from webviz import OtherFixedFrame
 from webviz_displays.tf import TF
 
 
@@ -13,8 +14,8 @@ def test_a_bad_regular_expression_is_said_and_ignored(bench) -> None:
     assert level == "ERROR"
     assert "'(' is not a valid regular expression" in text
     assert len(at.nodes()["axes"].positions) == 1
-    at.set("filter_whitelist", "odom")
-    assert "Filter (whitelist)" not in at.statuses()
+    at.press("Filter (whitelist)")
+    assert at.display.filter_whitelist == ""
 
 
 @pytest.mark.parametrize("text", ["(a+)+$", r"(\w+)*!", "^(a|aa)*$", "^((a?)+)+$", ".*.*.*.*x"])
@@ -50,6 +51,7 @@ def test_with_everything_switched_off_it_is_not_ok(bench) -> None:
         "WARN",
         "0 of 2 frames shown, 2 switched off or filtered out.",
     )
+    at.press("Frames")
 
 
 def test_frames_of_another_tree_are_named_and_not_drawn(bench) -> None:
@@ -62,6 +64,7 @@ def test_frames_of_another_tree_are_named_and_not_drawn(bench) -> None:
     assert statuses["Frames"] == ("WARN", "2 of 4 frames shown, 2 have no transform to 'map'.")
     assert statuses["camera"][0] == "WARN"
     assert "lens" not in statuses, "it is lost for the same reason"
+    assert at.fixed_frame_remedy("camera") == OtherFixedFrame("camera")
 
 
 def test_lost_frames_are_counted_and_a_few_reasons_told_once_each(bench) -> None:

@@ -133,6 +133,7 @@ def test_the_first_motion_is_drawn_at_once_unless_it_is_to_be_hidden(
     assert at.nodes() == {}
     level, text = at.statuses()["Vectors"]
     assert (level, "Hide Small Values" in text) == ("WARN", True)
+    at.press("Vectors")
 
 
 def test_a_velocity_without_a_header_moves_with_the_reference_frame(bench: Benches) -> None:

@@ -79,6 +79,8 @@ def test_each_kind_of_voxel_has_its_boxes(shown: Callable) -> None:
     at.set("marked_alpha", 0.0)
     assert at.nodes() == {}
     assert at.statuses()["Voxels"][0] == "WARN"
+    at.press("Voxels")
+    assert at.nodes()
 
 
 def test_voxels_inside_others_are_not_sent(shown: Callable) -> None:

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from webviz.api import nodes
 from webviz.api.frames import Frames, is_placeable
 from webviz.api.nodes import Ids, Node, Pose, Rgb, Shape, Solid
-from webviz.api.status import Level, Remedy, Status
+from webviz.api.status import Level, OtherFixedFrame, Remedy, Status
 from webviz.data.transforms.geometry import REACH_M
 
 When = Literal["latest", "now"]
@@ -284,12 +284,12 @@ class Context(Group):
         """Report that all is well."""
         self.statuses[key] = Status(Level.OK, text)
 
-    def warn(self, key: str, text: str, remedy: Remedy | None = None) -> None:
-        """Report a warning; `remedy` is a property that would help, and a button of the page."""
+    def warn(self, key: str, text: str, remedy: Remedy | OtherFixedFrame | None = None) -> None:
+        """Report a warning; `remedy` is a change that would help, and a button of the page."""
         self.statuses[key] = Status(Level.WARN, text, remedy)
 
-    def error(self, key: str, text: str, remedy: Remedy | None = None) -> None:
-        """Report an error; `remedy` is a property that would help, and a button of the page."""
+    def error(self, key: str, text: str, remedy: Remedy | OtherFixedFrame | None = None) -> None:
+        """Report an error; `remedy` is a change that would help, and a button of the page."""
         self.statuses[key] = Status(Level.ERROR, text, remedy)
 
 

@@ -125,12 +125,12 @@ class GridMap(Display):
             is_valid = layers.validity(None if is_flat else self.height_layer)
             heights = np.zeros(layers.shape, np.float32)
             if not is_flat:
-                heights = layers.layer(self.height_layer, "Height Layer")
+                heights = layers.layer(self.height_layer, "height_layer")
             step = math.ceil(math.sqrt(heights.size / MAX_CELLS))
             thinned = np.s_[::step, ::step]
             colors = self._colors(layers, is_valid, ctx)[thinned]
         except GridMapFault as fault:
-            ctx.error("Grid map", str(fault))
+            ctx.error("Grid map", str(fault), fault.remedy)
             return
         points = places(layers.shape, layers.resolution, np.where(is_valid, heights, 0.0))[thinned]
         group = ctx.follow(None, offset=compose(sample.pose, layers.center))
@@ -159,7 +159,7 @@ class GridMap(Display):
         """The colours (rows, columns, 3) of all cells."""
         if self.color_transformer not in ("IntensityLayer", "ColorLayer"):
             return np.broadcast_to(np.array(self.color, np.uint8), (*layers.shape, 3))
-        values = layers.layer(self.color_layer, "Color Layer")
+        values = layers.layer(self.color_layer, "color_layer")
         is_known = np.isfinite(values)
         if self.color_transformer == "ColorLayer":
             packed = np.ascontiguousarray(values).view(np.uint32)

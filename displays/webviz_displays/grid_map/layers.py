@@ -7,6 +7,7 @@ GridMapMath.cpp; grid_map_ros, GridMapMsgHelpers.hpp.)
 
 from __future__ import annotations
 
+import difflib
 from dataclasses import dataclass
 from math import isfinite
 from typing import Any
@@ -14,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Pose
+from webviz import Pose, Remedy
 from webviz.data.rotations import normalized
 from webviz.data.words import listed
 from webviz_displays.shared.geometry import FARTHEST
@@ -29,7 +30,16 @@ NAMED = 20
 
 
 class GridMapFault(ValueError):
-    """A grid map that cannot be drawn; the text says why."""
+    """A grid map that cannot be drawn; the text says why.
+
+    Args:
+        text: a sentence with the cause and a remedy.
+        remedy: a change of the display that would help, None if none would.
+    """
+
+    def __init__(self, text: str, remedy: Remedy | None = None) -> None:
+        super().__init__(text)
+        self.remedy = remedy
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,21 +63,21 @@ class Layers:
         """Of all layers."""
         return self.message.layers
 
-    def layer(self, name: str, purpose: str) -> F32:
+    def layer(self, name: str, path: str = "") -> F32:
         """The values (rows, columns) of a layer, NaN where there is none.
 
         Args:
             name: of the layer.
-            purpose: the property that names it, for what is said.
+            path: of the property that names it, "" if it is in the message.
 
         Raises:
             GridMapFault: there is no such layer, or it contradicts the others.
         """
         if name not in self.names:
+            purpose = path.replace("_", " ").title() or "layer"
             known = listed([f"'{each}'" for each in self.names], NAMED)
-            raise GridMapFault(
-                f"The grid map has no layer '{name}', but {known}. Choose another {purpose}."
-            )
+            text = f"The grid map has no layer '{name}', but {known}. Choose another {purpose}."
+            raise GridMapFault(text, self._other(name, path))
         matrix = _matrix(self.message.data[self.names.index(name)], name)
         if matrix.shape != self.shape:
             raise GridMapFault(
@@ -77,6 +87,11 @@ class Layers:
         start = self.message.outer_start_index, self.message.inner_start_index
         return np.roll(matrix, (-start[0], -start[1]), axis=(0, 1))
 
+    def _other(self, name: str, path: str) -> Remedy | None:
+        """The choice of the layer with the most similar name."""
+        best = difflib.get_close_matches(name, self.names, 1, cutoff=0.0)
+        return Remedy(path, best[0], f"Use {best[0]}") if path and best else None
+
     def validity(self, height_layer: str | None) -> Mask:
         """Return the mask of cells (rows, columns) with a value in all basic layers and the height.
 
@@ -84,10 +99,9 @@ class Layers:
             GridMapFault: see `layer`.
         """
         names = [name for name in self.message.basic_layers if name in self.names]
-        purpose = "layer in basic_layers"
-        found = [self.layer(name, purpose) for name in dict.fromkeys(names)]
+        found = [self.layer(name) for name in dict.fromkeys(names)]
         if height_layer is not None:
-            found.append(self.layer(height_layer, "Height Layer"))
+            found.append(self.layer(height_layer, "height_layer"))
         is_valid = np.ones(self.shape, np.bool_)
         for values in found:
             is_valid &= np.abs(values) < FARTHEST
@@ -98,7 +112,7 @@ class Layers:
         values = {}
         for name in self.names:
             try:
-                values[name] = self.layer(name, "")[row, column]
+                values[name] = self.layer(name)[row, column]
             except GridMapFault:
                 continue
         return values

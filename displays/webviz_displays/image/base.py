@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Annotated, Literal
 
-from webviz import Context, Display, Input, Pane, Prop, Sample, Topic
+from webviz import Context, Display, Input, Pane, Prop, Remedy, Sample, Topic
 from webviz.api.pictures import Encoded, Pixels
 from webviz.data.images import RawImage, Tone, remarks
 from webviz_displays.image import transports
@@ -106,6 +106,8 @@ class ImageDisplay(Display):
             low, high = limits or (low, high)
         elif not low < high:
             ctx.warn(
-                "Image", f"Min Value {low:g} is not below Max Value {high:g}. Correct one of them."
+                "Image",
+                f"Min Value {low:g} is not below Max Value {high:g}. Correct one of them.",
+                Remedy("normalize_range", True, "Use the range of the images"),
             )
         return Tone(low, high, self.color_map)

@@ -10,7 +10,21 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Context, Details, Display, Hit, Image, Input, Pose, Prop, Sample, Topic, compose
+from webviz import (
+    Context,
+    Details,
+    Display,
+    Hit,
+    Image,
+    Input,
+    OtherFixedFrame,
+    Pose,
+    Prop,
+    Remedy,
+    Sample,
+    Topic,
+    compose,
+)
 from webviz.api.evidence import Walls
 from webviz.data.words import counted, joined
 from webviz_displays.map.cells import MEANINGS, cell_details, tile_key
@@ -55,6 +69,7 @@ class Folded:
         grid: the last map that could be drawn, if any.
         stamp_ns: of that map.
         fault: why a newer map could not be drawn.
+        remedy: of that.
         updates: how many changed the grid.
         update_fault: why the last update was refused.
     """
@@ -62,6 +77,7 @@ class Folded:
     grid: TiledGrid | None
     stamp_ns: int = 0
     fault: str = ""
+    remedy: Remedy | None = None
     updates: int = 0
     update_fault: str = ""
 
@@ -159,7 +175,7 @@ class MapDisplay(Display):
                 message = self.as_grid(name, sample.message)
                 return Folded(tiled(message, sample.frame, grid), sample.stamp_ns)
             except GridFault as fault:
-                return replace(state or Folded(None), fault=str(fault))
+                return replace(state or Folded(None), fault=str(fault), remedy=fault.remedy)
         if state is None or grid is None or state.fault:
             return state  # an update means nothing without the map it changes
         try:
@@ -177,7 +193,7 @@ class MapDisplay(Display):
         grid = folded.grid
         ctx.state.grid = grid
         if grid is None:
-            ctx.error("Map", folded.fault)
+            ctx.error("Map", folded.fault, folded.remedy)
             return
         threshold = self.binary_threshold if self.binary_representation else None
         alpha = 1.0 if self.alpha >= OPAQUE else self.alpha
@@ -192,8 +208,9 @@ class MapDisplay(Display):
             if at_stamp := self._pose_at_stamp(grid.frame, folded.stamp_ns, ctx):
                 outer, frame = at_stamp, None
             else:
-                reason = ctx.frames.why_not(grid.frame, folded.stamp_ns)
-                ctx.warn("Transform", joined(reason, "Until then the map follows its frame."))
+                reason = ctx.frames.explain(grid.frame, folded.stamp_ns)
+                text = joined(reason.sentence, "Until then the map follows its frame.")
+                ctx.warn("Transform", text, OtherFixedFrame.of(reason))
         group = ctx.follow(frame, when="now", offset=compose(outer, grid.origin))
         for (row, column), image in images.items():
             corner = (column * grid.resolution, row * grid.resolution, 0.0)
@@ -217,7 +234,7 @@ class MapDisplay(Display):
     def _report(self, folded: Folded, grid: TiledGrid, ctx: Context) -> None:
         size = f"{grid.width} x {grid.height} cells of {grid.resolution:.4g} m"
         if folded.fault:
-            ctx.error("Map", joined(folded.fault, "Keeping the previous map."))
+            ctx.error("Map", joined(folded.fault, "Keeping the previous map."), folded.remedy)
         elif self.alpha == 0:
             ctx.warn(
                 "Map", f"{size}, invisible: alpha is 0. Increase it to show the map.", opaque()

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Pose
+from webviz import Pose, Remedy
 from webviz.data.rotations import normalized
 from webviz_displays.shared.geometry import FARTHEST
 
@@ -31,7 +31,16 @@ Corner = tuple[int, int]
 
 
 class GridFault(ValueError):
-    """A grid or update that cannot be drawn; the text says why."""
+    """A grid or update that cannot be drawn; the text says why.
+
+    Args:
+        text: a sentence with the cause.
+        remedy: a change of the display that would help, None if none would.
+    """
+
+    def __init__(self, text: str, remedy: Remedy | None = None) -> None:
+        super().__init__(text)
+        self.remedy = remedy
 
 
 @dataclass(frozen=True, eq=False)

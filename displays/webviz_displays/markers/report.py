@@ -7,7 +7,7 @@ from collections.abc import Set
 
 import numpy as np
 
-from webviz import Context, Level
+from webviz import Context, Level, OtherFixedFrame, Remedy
 from webviz.data.messages.markers import Marker
 from webviz.data.words import counted, joined, listed
 from webviz_displays.markers.actions import Key, name_of
@@ -106,7 +106,11 @@ def _report_total(store: Store, shown: int, off: Set[str], ctx: Context) -> None
         parts.append(f"{hidden} in namespaces that are switched off ({listed(named_off, NAMED)})")
     if waiting:
         parts.append(f"{waiting} waiting for a transform")
-    (ctx.ok if shown else ctx.warn)("Markers", "; ".join(parts) + ".")
+    text = f"{'; '.join(parts)}."
+    if shown:
+        ctx.ok("Markers", text)
+    else:
+        ctx.warn("Markers", text, Remedy("namespaces", {}, "Show all namespaces") if off else None)
 
 
 def report_nothing(store: Store, ctx: Context) -> None:
@@ -133,9 +137,10 @@ def report_waiting(store: Store, ctx: Context) -> None:
     (frame, stamp_ns), rows = max(store.waiting.items(), key=lambda item: len(item[1]))
     key = store.table.keys[rows[0]]
     first = "" if key is None else f" ({name_of(key)}{', ...' if count > 1 else ''})"
-    reason = ctx.frames.why_not(frame, stamp_ns)
+    reason = ctx.frames.explain(frame, stamp_ns)
     verb = "waits" if count == 1 else "wait"
-    ctx.error("Transform", f"{counted(count, 'marker')}{first} {verb} for a transform. {reason}")
+    text = f"{counted(count, 'marker')}{first} {verb} for a transform. {reason.sentence}"
+    ctx.error("Transform", text, OtherFixedFrame.of(reason))
 
 
 def report_namespaces(store: Store, off: Set[str], ctx: Context) -> None:

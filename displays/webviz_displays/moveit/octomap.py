@@ -7,7 +7,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from webviz import Context, Details, Frames, Hit, Pose, compose
+from webviz import Context, Details, Frames, Hit, Pose, Remedy, compose
 from webviz.data.words import counted
 from webviz_displays.moveit.frames import Links, Places
 from webviz_displays.moveit.joints import pose_of
@@ -23,6 +23,7 @@ from webviz_displays.octomap.seen import (
 from webviz_displays.shared.geometry import FARTHEST, origin_near
 
 KEY = "octomap"
+ALL_VOXELS = Remedy("scene_geometry.voxel_rendering", "All Voxels", "Show all voxels")
 Rendering = Literal["Occupied Voxels", "Free Voxels", "All Voxels", "Disabled"]
 Coloring = Literal["Z-Axis", "Cell Probability"]
 
@@ -99,7 +100,8 @@ class Octomap:
             return
         voxels = seen.voxels
         if not len(voxels.nodes):
-            ctx.warn("Octomap", f"It has no {rendering.lower()}. Choose another Voxel Rendering.")
+            text = f"It has no {rendering.lower()}. Choose another Voxel Rendering."
+            ctx.warn("Octomap", text, None if rendering == "All Voxels" else ALL_VOXELS)
             return
         if found is not None:
             ctx.ok("Octomap", f"Showing {counted(len(voxels.nodes), 'voxel')} of {seen.wanted}.")

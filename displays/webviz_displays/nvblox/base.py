@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Annotated, ClassVar
 
-from webviz import Context, Display, Node, Prop, Sample
+from webviz import Context, Display, Node, Prop, Remedy, Sample
 from webviz.data.words import counted
 from webviz_displays.nvblox.layer import Key, Layer, MapBlock, regions
 from webviz_displays.shared.geometry import FARTHEST
@@ -92,6 +92,8 @@ class NvbloxDisplay(Display):
         elif not layer.blocks:
             ctx.warn("Blocks", "The map is empty.")
         elif not count:
-            ctx.warn("Blocks", "All blocks are above Ceiling Height. Raise it.")
+            top = layer.block_m * (1 + max(z for _, _, z in layer.blocks))
+            remedy = Remedy("ceiling_height", top, f"Raise it to {top:g} m")
+            ctx.warn("Blocks", "All blocks are above Ceiling Height. Raise it.", remedy)
         else:
             ctx.ok("Blocks", f"{shown} of {layer.block_m:g} m.")

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Context, Details, Display, Hit, Input, Pose, Prop, Sample, Topic, compose
+from webviz import Context, Details, Display, Hit, Input, Pose, Prop, Remedy, Sample, Topic, compose
 from webviz_displays.octomap.octree import (
     LEVELS,
     SLOW_BYTES,
@@ -180,6 +180,16 @@ class OctreeDisplay(Display):
         colors, ctx.color_scale = by_height(voxels, *state.span)
         return colors
 
+    def _other_voxels(self, tree: Octree) -> Remedy:
+        """The change that shows voxels: those of the other kind, or of more heights."""
+        heights = voxels_of(tree, LEVELS).centers[:, 2]
+        is_low, is_high = heights < self.min_height, heights > self.max_height
+        if not (is_low | is_high).all():
+            return Remedy("voxel_rendering", "All Voxels", "Show all voxels")
+        if is_high.any():
+            return Remedy("max_height", FARTHEST, "Show all above")
+        return Remedy("min_height", -FARTHEST, "Show all below")
+
     def _report(self, tree: Octree, seen: VisibleVoxels, levels: int, ctx: Context) -> None:
         """Say what the tree is, what of it is drawn, and what is not as chosen."""
         nodes = len(tree.codes)
@@ -189,6 +199,7 @@ class OctreeDisplay(Display):
                 "Colors",
                 "The tree has no colours, so voxels are coloured by height. Publish a full "
                 "ColorOcTree or choose another Voxel Coloring.",
+                Remedy("voxel_coloring", "Z-Axis", "Colour by height"),
             )
         count, noun = len(seen.voxels.nodes), _NOUNS[self.voxel_rendering]
         told = f"Showing {count} {noun}"
@@ -199,6 +210,7 @@ class OctreeDisplay(Display):
                 "Voxels",
                 f"The tree has no {noun} within the heights. Choose another Voxel Rendering or "
                 "other heights.",
+                self._other_voxels(tree),
             )
         elif self.voxel_alpha == 0:
             ctx.warn(
@@ -211,6 +223,7 @@ class OctreeDisplay(Display):
                 "Voxels",
                 f"{told}. More than {MAX_VOXELS} would be seen below depth {seen.depth}, so "
                 "smaller ones are merged. Limit the heights to see them.",
+                Remedy("max_octree_depth", seen.depth, f"Stop at depth {seen.depth}"),
             )
         else:
             ctx.ok("Voxels", f"{told}.")

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from types import SimpleNamespace
 from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Input, Prop, Topic
+from webviz import Input, Prop, Remedy, Topic
 from webviz.data import messages
 from webviz_displays.map.display import MapDisplay
 from webviz_displays.map.tiles import GridFault
@@ -52,9 +53,11 @@ def projected(tree: Octree, depth: int) -> Any:
     lows -= corner
     width, height = (lows + edges[:, None]).max(axis=0).tolist()
     if width * height > MAX_CELLS:
+        fits = depth - math.ceil(math.log(width * height / MAX_CELLS, 4))
         raise GridFault(
             f"The map would have {width} x {height} cells; at most {MAX_CELLS} can be drawn. "
-            "Lower Max. Octree Depth."
+            "Lower Max. Octree Depth.",
+            Remedy("max_octree_depth", fits, f"Stop at depth {fits} from the next octree on"),
         )
     is_occupied = tree.log_odds[voxels.nodes] >= 0
     cells = np.full((height, width), _UNKNOWN, np.int8)

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import numpy as np
 
-from webviz import Context, Details, Display, Hit, Input, Prop, Sample, Topic
+from webviz import Context, Details, Display, Hit, Input, Prop, Remedy, Sample, Topic
 from webviz.data.messages import PoseSequence
 from webviz_displays.poses.pose_set import (
     ArrowAlpha,
@@ -56,7 +56,11 @@ class ParticleCloud(Display):
         low, high = self.min_arrow_length, self.max_arrow_length
         weights = particles[found.ids, _WEIGHT]
         if low > high:
-            ctx.warn("Length", "Min Arrow Length exceeds Max Arrow Length. Swap them.")
+            ctx.warn(
+                "Length",
+                "Min Arrow Length exceeds Max Arrow Length. Swap them.",
+                Remedy("min_arrow_length", high, f"Set Min Arrow Length to {high:g} m"),
+            )
             low, high = high, low
         if not np.isfinite(weights).all():
             ctx.warn("Weight", "Weights are not finite and count as 0. Fix the publisher.")

@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 import msgspec
 
 from webviz import Context, Details, Display, Hit, Input, Prop, Remedy, Sample, Topic
+from webviz.data.transforms import Explanation
 from webviz_displays.robot_model.details import TRAIL, link_details
 from webviz_displays.robot_model.joint_states import ReceivedRobot
 from webviz_displays.robot_model.loading import last_written, load, progress
@@ -191,7 +192,7 @@ class RobotModel(Display):
         pose, frame = model.placing.pose(link, ctx.frames), model.placing.frame(link)
         return link_details(model.full or model.robot, link, pose, frame, ctx.frames)
 
-    def _reasons(self, model: LoadedRobot, lost: list[str], ctx: Context) -> dict[str, str]:
+    def _reasons(self, model: LoadedRobot, lost: list[str], ctx: Context) -> dict[str, Explanation]:
         """Why the first links are lost; the texts contain times and are renewed every second."""
         state: RobotDrawing = ctx.state
         moment = (lost, ctx.frames.now_ns // SECOND)

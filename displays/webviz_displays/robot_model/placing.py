@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from webviz import Context, Frames, Group, Pose, compose
 from webviz.api.frames import is_placeable
-from webviz.data.transforms import distinct
+from webviz.data.transforms import Explanation, distinct
 from webviz_displays.robot_model.joint_states import ReceivedRobot
 from webviz_displays.robot_model.statuses import NAMED, why_lost
 from webviz_urdf import Kinematics, Robot
@@ -41,7 +41,7 @@ class Placing(Protocol):
         """A group that moves with a link; without a pose it stays at the last one."""
         ...
 
-    def reasons(self, robot: Robot, lost: Sequence[str], frames: Frames) -> dict[str, str]:
+    def reasons(self, robot: Robot, lost: Sequence[str], frames: Frames) -> dict[str, Explanation]:
         """Why links have no pose, unless another status says it: one sentence per cause."""
         ...
 
@@ -70,7 +70,7 @@ class ByTransforms:
         """A group in the link's frame."""
         return ctx.follow(self._prefix + link, keep_last=True, interval_s=interval_s)
 
-    def reasons(self, robot: Robot, lost: Sequence[str], frames: Frames) -> dict[str, str]:
+    def reasons(self, robot: Robot, lost: Sequence[str], frames: Frames) -> dict[str, Explanation]:
         """Why the links' frames have no transforms, by the first link with each reason."""
         return distinct(
             lost, lambda link: why_lost(robot, link, frames.explain(self.frame(link))), NAMED
@@ -124,9 +124,9 @@ class ByJoints:
             self._root, offset=self._poses.get(link, Pose()), keep_last=True, key=link
         )
 
-    def reasons(self, robot: Robot, lost: Sequence[str], frames: Frames) -> dict[str, str]:
+    def reasons(self, robot: Robot, lost: Sequence[str], frames: Frames) -> dict[str, Explanation]:
         """Why the root link has no transform."""
-        return {} if frames.latest(self._root) else {robot.root: frames.why_not(self._root)}
+        return {} if frames.latest(self._root) else {robot.root: frames.explain(self._root)}
 
 
 class JointPlacer:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from webviz import Frames
+from webviz.data.transforms import Explanation
 from webviz_displays.robot_model.loading import Loadings, Written
 from webviz_displays.robot_model.parts import Paint
 from webviz_displays.robot_model.placing import JointPlacer, Placing
@@ -57,7 +58,7 @@ class RobotDrawing:
     model: LoadedRobot | None = None
     grey: set[str] | None = None
     paint: Paint = field(default_factory=Paint)
-    reasons: dict[str, str] = field(default_factory=dict)
+    reasons: dict[str, Explanation] = field(default_factory=dict)
     reasons_of: tuple[list[str], int] | None = None
     trails: Trails = field(default_factory=Trails)
     trails_frame: str = ""

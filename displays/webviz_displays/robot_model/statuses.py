@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from webviz import Context, Pose
+from webviz import Context, OtherFixedFrame, Pose
 from webviz.data.transforms import Explanation, Kind
 from webviz.data.words import counted, joined, listed
 from webviz_urdf import Joint, Robot
@@ -68,7 +68,7 @@ def why_lost(robot: Robot, link: str, reason: Explanation) -> Explanation:
 def report_places(
     total: int,
     lost: Sequence[str],
-    reasons: Mapping[str, str],
+    reasons: Mapping[str, Explanation],
     source: str,
     lacks: str,
     ctx: Context,
@@ -92,7 +92,7 @@ def report_places(
         "Links seen before stay in grey at their last pose.",
     )
     for link, reason in reasons.items():
-        ctx.error(f"Link {link}", reason)
+        ctx.error(f"Link {link}", reason.sentence, OtherFixedFrame.of(reason))
 
 
 def report_joints(missing: Sequence[str], total: int, fault: str, ctx: Context) -> None:

@@ -10,8 +10,21 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Context, Details, Display, FramePoses, Group, Hit, Pose, Prop, Sample, Status
-from webviz.data.transforms import distinct
+from webviz import (
+    Context,
+    Details,
+    Display,
+    FramePoses,
+    Group,
+    Hit,
+    OtherFixedFrame,
+    Pose,
+    Prop,
+    Remedy,
+    Sample,
+    Status,
+)
+from webviz.data.transforms import Explanation, distinct
 from webviz_displays.shared.geometry import origin_near
 from webviz_displays.tf.fading import Ages, fade
 from webviz_displays.tf.frame_filter import (
@@ -72,7 +85,7 @@ class _State:
     filter: FrameFilter = field(default_factory=lambda: FrameFilter(None, None, {}, True))
     known: _Known | None = None
     last: _Tick | None = None
-    reasons: dict[str, str] = field(default_factory=dict)
+    reasons: dict[str, Explanation] = field(default_factory=dict)
     reasons_of: tuple[bytes, int] | None = None
 
 
@@ -131,8 +144,8 @@ class TF(Display):
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """Properties or the fixed frame changed: derive everything anew."""
-        whitelist = _pattern("Filter (whitelist)", self.filter_whitelist, ctx)
-        blacklist = _pattern("Filter (blacklist)", self.filter_blacklist, ctx)
+        whitelist = _pattern("whitelist", self.filter_whitelist, ctx)
+        blacklist = _pattern("blacklist", self.filter_blacklist, ctx)
         state: _State = ctx.state
         if state.fixed_frame != ctx.frames.fixed_frame:
             state.fixed_frame, state.ages = ctx.frames.fixed_frame, Ages()
@@ -215,8 +228,13 @@ class TF(Display):
             parts.append(f"{len(lost)} have no transform to '{ctx.frames.fixed_frame}'")
         if old:
             parts.append(f"{old} not updated for more than {self.frame_timeout:g} s")
-        say = ctx.ok if count and not old and not len(lost) else ctx.warn
-        say("Frames", ", ".join(parts) + ".")
+        is_off = not count and not self.all_enabled
+        remedy = Remedy("all_enabled", True, "Show all frames") if is_off else None
+        text = f"{', '.join(parts)}."
+        if count and not old and not len(lost):
+            ctx.ok("Frames", text)
+        else:
+            ctx.warn("Frames", text, remedy)
         # Explanations contain times, so they are renewed, but not on every tick.
         moment = (lost.tobytes(), ctx.frames.now_ns // SECOND)
         state: _State = ctx.state
@@ -225,16 +243,17 @@ class TF(Display):
             state.reasons_of = moment
             state.reasons = distinct(names, ctx.frames.explain, NAMED)
         for name, reason in state.reasons.items():
-            ctx.warn(name, reason)
+            ctx.warn(name, reason.sentence, OtherFixedFrame.of(reason))
         for name in [name for name, is_on in self.frames.items() if is_on][:READ_OUT]:
             if name not in ctx.statuses and (text := readout(ctx.frames, name)):
                 ctx.ok(name, text)
 
 
-def _pattern(key: str, text: str, ctx: Context) -> Pattern | None:
-    """A regular expression, None if it is empty or invalid."""
+def _pattern(which: str, text: str, ctx: Context) -> Pattern | None:
+    """The regular expression of a filter, None if it is empty or invalid."""
     try:
         return compiled(text) if text else None
     except PatternFault as error:
-        ctx.error(key, f"'{text}' is not a valid regular expression ({error}); ignoring it.")
+        problem = f"'{text}' is not a valid regular expression ({error}); ignoring it."
+        ctx.error(f"Filter ({which})", problem, Remedy(f"filter_{which}", "", "Clear the filter"))
         return None

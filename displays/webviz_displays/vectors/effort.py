@@ -11,7 +11,21 @@ import msgspec
 import numpy as np
 
 import webviz_urdf
-from webviz import Context, Details, Display, Frames, Hit, Input, Keep, Pose, Prop, Sample, Topic
+from webviz import (
+    Context,
+    Details,
+    Display,
+    Frames,
+    Hit,
+    Input,
+    Keep,
+    OtherFixedFrame,
+    Pose,
+    Prop,
+    Remedy,
+    Sample,
+    Topic,
+)
 from webviz.data import messages
 from webviz.data.words import counted, listed
 from webviz_displays.shared.colors import Alpha
@@ -173,7 +187,8 @@ class Effort(Display):
         if measured and newest is None:
             waiting = state.waiting[-1]
             lost = next(f for f in waiting.frames if ctx.frames.at(f, waiting.stamp_ns) is None)
-            ctx.error("Transform", ctx.frames.why_not(lost, waiting.stamp_ns))
+            reason = ctx.frames.explain(lost, waiting.stamp_ns)
+            ctx.error("Transform", reason.sentence, OtherFixedFrame.of(reason))
         if newest is None:
             return
         self._report(newest.message, state.efforts, joints, rings[0], ctx)
@@ -241,7 +256,8 @@ class Effort(Display):
                 "No joint of the message turns in the robot description. Check their names.",
             )
         elif hidden == len(turning):
-            ctx.warn("Efforts", "All joints are switched off. Switch some of them on.")
+            text = "All joints are switched off. Switch some of them on."
+            ctx.warn("Efforts", text, Remedy("joints", {}, "Show all joints"))
         for name in list(efforts)[:NAMED]:
             most = joints[name].max_effort
             limit = f" of {most:g} Nm" if most else ", without a largest effort in the URDF"

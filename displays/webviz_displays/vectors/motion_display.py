@@ -7,7 +7,7 @@ from typing import Annotated
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Color, Prop
+from webviz import Color, Prop, Remedy
 from webviz_displays.vectors.vector_display import VectorDisplay, VectorLook
 
 
@@ -43,8 +43,9 @@ class MotionDisplay(VectorDisplay):
         """Zero, or small ones if they are to be hidden."""
         return lengths <= (self.arrow_width if self.hide_small_values else 0.0)
 
-    def why_hidden(self) -> str:
-        """Why neither is drawn."""
+    def why_hidden(self) -> tuple[str, Remedy | None]:
+        """Why neither is drawn, and what would show them."""
         if self.hide_small_values:
-            return "Hide Small Values hides arrows that are not longer than Arrow Width."
+            text = "Hide Small Values hides arrows that are not longer than Arrow Width."
+            return text, Remedy("hide_small_values", False, "Show small values")
         return super().why_hidden()

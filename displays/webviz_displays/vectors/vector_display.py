@@ -8,7 +8,7 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Color, Context, Details, Display, Group, Hit, Pose, Prop, Sample, Topic
+from webviz import Color, Context, Details, Display, Group, Hit, Pose, Prop, Remedy, Sample, Topic
 from webviz.data import messages
 from webviz.data.rotations import matrices
 from webviz.data.words import joined
@@ -116,11 +116,12 @@ class VectorDisplay(Display):
             elif shown:
                 ctx.ok("Vectors", sentence)
             else:
-                ctx.warn("Vectors", joined(sentence, self.why_hidden()))
+                reason, remedy = self.why_hidden()
+                ctx.warn("Vectors", joined(sentence, reason), remedy)
 
-    def why_hidden(self) -> str:
-        """Why no vector is drawn."""
-        return "Both are zero, so there is no arrow."
+    def why_hidden(self) -> tuple[str, Remedy | None]:
+        """Why no vector is drawn, and what would show them."""
+        return "Both are zero, so there is no arrow.", None
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
         """Both vectors in their own frame."""

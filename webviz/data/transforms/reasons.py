@@ -69,20 +69,20 @@ MAX_LISTED = 10
 
 def distinct(
     frames: Sequence[str], explain: Callable[[str], Explanation], most: int
-) -> dict[str, str]:
-    """Why frames have no pose: one sentence per cause, by its first frame.
+) -> dict[str, Explanation]:
+    """Why frames have no pose: one reason per cause, by its first frame.
 
     Args:
         frames: ids.
         explain: the reason of one frame.
-        most: maximum number of sentences.
+        most: maximum number of reasons.
     """
-    found: dict[tuple[Kind, str], tuple[str, str]] = {}
+    found: dict[tuple[Kind, str], tuple[str, Explanation]] = {}
     for frame in frames[:MAX_TRIED]:
         reason = explain(frame)
         if reason.kind in FOR_ALL:
-            return {frame: reason.sentence}
-        found.setdefault((reason.kind, reason.cause or frame), (frame, reason.sentence))
+            return {frame: reason}
+        found.setdefault((reason.kind, reason.cause or frame), (frame, reason))
     return dict(list(found.values())[:most])
 
 
