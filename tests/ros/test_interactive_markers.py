@@ -20,7 +20,7 @@ pytest.importorskip("rclpy", reason="a live viewer needs rclpy")
 from basic_controls import Control, add, basic_controls, box, marker
 from geometry_msgs.msg import Pose
 from marker_server import Feedback, MarkerServer
-from visualization_msgs.msg import InteractiveMarkerPose, InteractiveMarkerUpdate
+from visualization_msgs.msg import InteractiveMarkerPose, InteractiveMarkerUpdate, MenuEntry
 
 NAN = math.nan
 
@@ -173,6 +173,41 @@ def test_faulty_servers_are_reported_and_the_rest_is_shown(
     viewer.wait_for(lambda: any(key.startswith("c0/m5/") for key in viewer.nodes()), "the mesh")
     assert status(viewer, "mesh") == "Locked to frame map."
     assert not any(key.startswith("c0/m6/") for key in viewer.nodes())
+
+
+def test_hostile_updates_leave_a_status_and_the_markers_of_the_server(
+    webviz_viewer: Callable[..., LiveViewer], serve: Callable[..., MarkerServer]
+) -> None:
+    viewer = webviz_viewer(InteractiveMarkers(interactive_markers_namespace="/arm"))
+    round_menu = boxed("menu")
+    round_menu.menu_entries = [MenuEntry(id=1, parent_id=2), MenuEntry(id=2, parent_id=1)]
+    server = serve("/arm", boxed("a"), round_menu)
+    server.markers["a again"] = boxed("a", 3.0)
+    for number in (0, 7, 2**64 - 1):  # before it has been asked
+        server.send(InteractiveMarkerUpdate(seq_num=number, type=1, erases=["a"]))
+    connected(viewer, 2)
+    assert "2 markers of a message have this name" in status(viewer, "a")
+    assert "Menu entry 1 precedes its parent 2" in status(viewer, "menu")
+    assert position(viewer, "m1")[0] == 3.0
+
+    server.send(b"\0\1\0\0\7")
+    viewer.wait_for(lambda: "An update cannot be read" in status(viewer), lambda: status(viewer))
+
+    def breaks(at: int, number: int, gaps: int) -> None:
+        requests, server.sequence = server.requests, at
+        server.send(InteractiveMarkerUpdate(seq_num=number, type=1, erases=["a", "a", "ghost"]))
+        viewer.wait_for(lambda: server.requests > requests, lambda: status(viewer))
+        viewer.wait_for(lambda: f"after {gaps} gap" in status(viewer), lambda: status(viewer))
+        connected(viewer, 2)
+
+    breaks(5, 9, 1)
+    breaks(5, 2, 2)
+    breaks(2**64 - 1, 0, 3)
+    server.sequence = 0
+    server.send(InteractiveMarkerUpdate(seq_num=200, type=1))
+    server.close()  # while it is asked, and another one takes its place
+    serve("/arm", boxed("b"))
+    connected(viewer, 1)
 
 
 def test_feedback_is_that_of_rviz_and_poses_of_the_server_wait_for_the_release(

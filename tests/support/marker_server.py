@@ -117,8 +117,8 @@ class MarkerServer:
             if not lost:
                 self._updates.publish(update)
 
-    def send(self, update: InteractiveMarkerUpdate) -> None:
-        """Send any update, as a faulty server might."""
+    def send(self, update: InteractiveMarkerUpdate | bytes) -> None:
+        """Send any update, also a serialised one, as a faulty server might."""
         self._updates.publish(update)
 
     def close(self) -> None:

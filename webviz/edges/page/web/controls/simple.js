@@ -3,7 +3,6 @@
 import { el, set } from "../dom.js";
 import { icon } from "../icons.js";
 import { entry } from "./entry.js";
-import { MIXED, MIXED_TEXT } from "./mixed.js";
 import { sync } from "./sync.js";
 
 /** A check box; see `control.js`. */
@@ -11,8 +10,7 @@ export function checkbox(_, { label, change, refused }) {
   const input = el("input", { class: "wv-check", type: "checkbox", "aria-label": label });
   const state = sync({
     show(value) {
-      input.indeterminate = value === MIXED;
-      if (input.checked !== (value === true)) input.checked = value === true;
+      if (input.checked !== value) input.checked = value;
     },
     send: change,
     refused,
@@ -29,7 +27,6 @@ export function checkbox(_, { label, change, refused }) {
 /** One of a few values; see `control.js`. */
 export function choice({ choices }, { label, change, refused }) {
   const select = el("select", { class: "wv-field", "aria-label": label });
-  const mixed = el("option", { hidden: true }, MIXED_TEXT);
   let offered = choices;
 
   function offer(values) {
@@ -39,12 +36,6 @@ export function choice({ choices }, { label, change, refused }) {
 
   const state = sync({
     show(value) {
-      mixed.remove();
-      if (value === MIXED) {
-        select.append(mixed);
-        mixed.selected = true;
-        return;
-      }
       // What a newer version of the viewer has may be unknown here.
       if (!offered.includes(value)) offer([...choices, value]);
       select.selectedIndex = offered.indexOf(value);
