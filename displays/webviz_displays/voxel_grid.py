@@ -168,7 +168,7 @@ def _add(
         size = message.resolutions
         group.instances(
             kind, "box", _centers(ids, message), (size.x, size.y, size.z), color,
-            opacity=alpha, ids=ids,
+            opacity=alpha, is_data=True, ids=ids,
         )  # fmt: skip
     return len(ids) > 0
 

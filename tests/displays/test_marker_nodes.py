@@ -101,7 +101,7 @@ def test_an_arrow_strip_is_an_arrow_from_each_point_to_the_next() -> None:
 
 
 @pytest.mark.parametrize(
-    ("type_", "key"), [(Marker.CUBE_LIST, "box"), (Marker.SPHERE_LIST, "sphere data")]
+    ("type_", "key"), [(Marker.CUBE_LIST, "box data"), (Marker.SPHERE_LIST, "sphere data")]
 )
 def test_the_items_of_a_list_are_solids_with_a_colour_each(type_: int, key: str) -> None:
     each = colors((1, 0, 0, 1), (0, 1, 0, 0.5))
@@ -115,7 +115,7 @@ def test_the_items_of_a_list_are_solids_with_a_colour_each(type_: int, key: str)
 
 def test_a_list_has_the_colour_of_the_marker_unless_there_is_one_for_each_point() -> None:
     where = points((0, 0, 0), (1, 0, 0))
-    node = drawn(marker(Marker.CUBE_LIST, points=where, colors=colors((0, 1, 0, 1))))["box"]
+    node = drawn(marker(Marker.CUBE_LIST, points=where, colors=colors((0, 1, 0, 1))))["box data"]
     assert node.colors == (255, 0, 0)
 
 

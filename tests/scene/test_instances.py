@@ -47,6 +47,28 @@ def test_a_ball_of_data_has_its_colour_in_the_middle_and_0_8_of_it_at_the_rim(
         assert is_near(view.color_at((x, y, 0.0)), (163, 81, 41), 8)
 
 
+SIDES = {
+    (1, 0, 0): 0.6,
+    (0, 1, 0): 0.4,
+    (0, 0, 1): 0.9,
+    (-1, 0, 0): 0.6,
+    (0, -1, 0): 1.0,
+    (0, 0, -1): 0.5,
+}
+"""Outward directions and brightness of the sides of RViz's boxes."""
+
+
+@pytest.mark.parametrize("side", SIDES, ids=str)
+def test_each_side_of_a_box_of_data_has_a_brightness_and_dark_edges(side: Any, view: Any) -> None:
+    view.scene.upsert("room", "solids", Instances(ORIGIN, 3 * UNIT, COLOR, "box", is_data=True))
+    outward = np.array(side)
+    view.look(tuple((outward * 8.0 + (0.5, 0.3, 0.4)).tolist()), (0.0, 0.0, 0.0))
+    for share, brightness in ((0.0, SIDES[side]), (0.7, SIDES[side]), (0.98, SIDES[side] / 2)):
+        place = 1.5 * (outward + share * np.roll(outward, 1))
+        color = np.round(brightness * np.array(COLOR))
+        assert is_near(view.color_at(tuple(place.tolist())), tuple(color), 3), share
+
+
 def test_each_solid_has_its_place_extent_turn_and_colour(view: Any) -> None:
     quarter = floats((1, 0, 0, 0), (np.sqrt(0.5), 0, 0, np.sqrt(0.5)))
     centers, sizes = floats((-1, 0, 0), (1.5, 0, 0)), floats((0.4, 2, 0.1), (0.4, 2, 0.1))

@@ -215,7 +215,8 @@ class Instances(_Node):
         shape: of all solids.
         wxyzs: float32 (N, 4), unit quaternions with w first; None means not rotated.
         opacity: 0 to 1, float32 (N,) or one for all.
-        is_data: whether colours are data, which shading must hardly change.
+        is_data: whether spheres and boxes are shaded as the points of RViz's clouds, whose colours
+            are data: spheres hardly, boxes with a fixed brightness of each side.
         ids: (N,), such as the index of each in the message; None numbers them from 0.
     """
 

@@ -44,7 +44,7 @@ class Solids:
         scales: float64 (N, 3), extents.
         colors: float32 (N, 4), RGBA.
         ids: (N,), of the markers that they belong to.
-        is_data: whether shading must hardly change the colours.
+        is_data: whether they are shaded as the points of a cloud.
         mesh: the name of a shape that is no solid.
     """
 
@@ -142,9 +142,8 @@ def _lists(batch: MarkerBatch) -> Iterator[Solids]:
         of = items.rows
         scales = np.abs(batch.scales[of])
         where = items.xyz, batch.wxyzs[of]
-        is_ball = shape == "sphere"  # boxes need their shading to be seen as such
         colors = np.broadcast_to(items.colors, (len(of), 4))
-        yield Solids(shape, *where, scales, colors, batch.ids[of], is_ball)
+        yield Solids(shape, *where, scales, colors, batch.ids[of], is_data=True)
 
 
 def _arrows(batch: MarkerBatch) -> Iterator[Solids]:

@@ -120,6 +120,7 @@ class Octomap:
                 np.repeat(voxels.sizes[:, None], 3, axis=1),
                 colors,
                 opacity=alpha,
+                is_data=True,
             )
 
     def inspect(self, hit: Hit) -> Details | None:

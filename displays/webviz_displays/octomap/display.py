@@ -143,6 +143,7 @@ class OctreeDisplay(Display):
             np.repeat(voxels.sizes[:, None], 3, axis=1),
             self._colors(state, tree, ctx),
             opacity=self.voxel_alpha,
+            is_data=True,
             ids=places_of(tree, voxels),
         )
 

@@ -118,10 +118,8 @@ class PointStyle(Display):
         if self.style in _SOLIDS and not too_many:
             wxyzs = None if box_wxyz is None else np.tile(np.asarray(box_wxyz), (len(xyz), 1))
             shape = _SOLIDS[self.style]
-            # As in RViz the sides of boxes differ, and spheres are little darker at the rim.
-            is_data = shape == "sphere"
             scales = size[:, None] if isinstance(size, np.ndarray) else size
-            group.instances("solids", shape, xyz, scales, colors, wxyzs, self.alpha, is_data, ids)
+            group.instances("solids", shape, xyz, scales, colors, wxyzs, self.alpha, True, ids)
             return
         if self.style == "Points":
             dots = np.stack((xyz - _DOT / 2, xyz + _DOT / 2), axis=1)

@@ -43,7 +43,7 @@ class InstancesDrawn(SingleNode[Instances]):
         solid = SOLIDS[node.shape] if isinstance(node.shape, str) else node.shape
         return (
             {"vertices": solid.vertices, "faces": solid.faces},
-            {"material": "toon3" if node.is_data else "standard"},  # see shade.js
+            {"material": _material(node)},
             {
                 "batched_positions": positions,
                 "batched_wxyzs": wxyzs,
@@ -52,6 +52,13 @@ class InstancesDrawn(SingleNode[Instances]):
             },
             _opacity(opacity),
         )
+
+
+def _material(node: Instances) -> str:
+    """The material of viser's whose name says how the solids are shaded; see shade.js."""
+    if not node.is_data:
+        return "standard"
+    return "toon5" if node.shape == "box" else "toon3"
 
 
 def _opacity(opacity: float | F32) -> Props:

@@ -13,8 +13,9 @@ export function install() {
   viser.beforeRender((gl, scene) => scene.traverse(paint));
 }
 
-function paint({ isMesh, isInstancedMesh, geometry, material }) {
-  if (!isMesh || isInstancedMesh || material.gradientMap?.image.width !== STEPS) return;
+function paint({ isMesh, isInstancedMesh, isInstancedMesh2, geometry, material }) {
+  if (!isMesh || isInstancedMesh || isInstancedMesh2) return;
+  if (material.gradientMap?.image.width !== STEPS) return;
   const { position } = geometry.attributes;
   if (!position) return;
   const version = `${position.version} ${position.array.length}`;
