@@ -14,6 +14,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 from cosmic_ray.work_db import WorkDB, use_db
@@ -32,7 +33,12 @@ TESTS = {
 }
 """The nearest tests of a room."""
 UNION = "core/ReplaceBinaryOperator_BitOr_"
-"""Operators that are not used: nearly all `|` are in type hints, which nothing evaluates."""
+"""Nearly all `|` are in type hints, which nothing evaluates."""
+SAME = {
+    f"core/ReplaceComparisonOperator_{pair}"
+    for pair in ("Eq_Is", "NotEq_IsNot", "Is_Eq", "IsNot_NotEq")
+}
+"""Both hold for None, members of enums, and small numbers."""
 
 
 def main() -> None:
@@ -42,14 +48,19 @@ def main() -> None:
     parser.add_argument("--sample", type=int, default=60, help="faults per room; 0 for all")
     parser.add_argument("--seed", type=int, default=0, help="of the samples")
     parser.add_argument("--tests", default="", help="instead of the nearest ones")
-    parser.add_argument("--timeout", type=float, default=30.0, help="seconds per fault")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="webviz-mutants-") as folder:
         copy = Path(folder) / "checkout"
         copy_of_checkout(copy)
         for room in options.rooms:
             name = room.rstrip("/")
-            attempt(copy, name, options.tests or TESTS[name], options)
+            attempt(copy, name, options.tests or nearest_tests(name), options)
+
+
+def nearest_tests(room: str) -> str:
+    """Return the tests of a room, or of the one that it is in."""
+    holding = [each for each in TESTS if f"{room}/".startswith(f"{each}/")]
+    return TESTS[max(holding, key=len)]
 
 
 def copy_of_checkout(copy: Path) -> None:
@@ -64,18 +75,22 @@ def copy_of_checkout(copy: Path) -> None:
 
 def attempt(copy: Path, room: str, tests: str, options: argparse.Namespace) -> None:
     """Plant faults in a room of a copy, and print what came of it."""
-    run = f"-m pytest -x -q -n 0 -p no:cacheprovider {tests}"
+    run = [sys.executable, "-m", "pytest", "-x", "-q", "-n", "0", "-p", "no:cacheprovider"]
+    run += shlex.split(tests)
+    folders = [copy / name for name in (".", "displays", "urdf", "sim")]
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(map(str, folders))}
+    start = time.monotonic()
+    subprocess.run(run, cwd=copy, env=environment, check=True)  # also compiles all once
+    seconds = time.monotonic() - start
     config, session = copy.parent / "config.toml", copy.parent / f"{room.replace('/', '.')}.sqlite"
     settings = {
         "module-path": room,
-        "timeout": options.timeout,
-        "test-command": f"{shlex.quote(sys.executable)} {run}",
+        "timeout": 10.0 + 2.0 * seconds,
+        "test-command": shlex.join(run),
     }
     # A text or number of JSON is one of TOML, too.
     lines = [f"{key} = {json.dumps(value)}" for key, value in settings.items()]
     config.write_text("\n".join(["[cosmic-ray]", *lines, 'distributor = {name = "local"}', ""]))
-    folders = [copy / name for name in (".", "displays", "urdf", "sim")]
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(map(str, folders))}
 
     def cosmic_ray(*arguments: object) -> None:
         command = [sys.executable, "-m", "cosmic_ray.cli", *map(str, arguments)]
@@ -83,17 +98,16 @@ def attempt(copy: Path, room: str, tests: str, options: argparse.Namespace) -> N
 
     cosmic_ray("init", config, session)
     with use_db(session, WorkDB.Mode.open) as plan:
-        keep_sample(plan, options.sample, options.seed)
-    cosmic_ray("baseline", config)
+        keep_sample(plan, copy, options.sample, options.seed)
     cosmic_ray("exec", config, session)
     with use_db(session, WorkDB.Mode.open) as done:
         report(done, room)
 
 
-def keep_sample(plan: WorkDB, count: int, seed: int) -> None:
+def keep_sample(plan: WorkDB, copy: Path, count: int, seed: int) -> None:
     """Leave `count` faults of a plan to be planted, or all that count if it is 0."""
     items = list(plan.work_items)
-    usable = [item for item in items if not is_of_hint(item)]
+    usable = [item for item in items if not is_pointless(item, copy)]
     if count and count < len(usable):
         usable = random.Random(seed).sample(usable, count)
     kept = {item.job_id for item in usable}
@@ -102,9 +116,13 @@ def keep_sample(plan: WorkDB, count: int, seed: int) -> None:
         plan.set_multiple_results(skipped, WorkResult(WorkerOutcome.SKIPPED))
 
 
-def is_of_hint(item: WorkItem) -> bool:
-    """Return whether a fault is probably in a type hint."""
-    return any(mutation.operator_name.startswith(UNION) for mutation in item.mutations)
+def is_pointless(item: WorkItem, copy: Path) -> bool:
+    """Return whether a fault probably changes nothing that a program does."""
+    (mutation,) = item.mutations
+    line = (copy / mutation.module_path).read_text().splitlines()[mutation.start_pos[0] - 1]
+    is_frozen = line.startswith("@dataclass(") or "(msgspec.Struct," in line
+    name = mutation.operator_name
+    return is_frozen or name in SAME or name.startswith(UNION)
 
 
 def report(done: WorkDB, room: str) -> None:
@@ -114,7 +132,9 @@ def report(done: WorkDB, room: str) -> None:
     for result in left:
         print(result.diff)
     killed = len(results) - len(left)
-    print(f"{room}: {killed} of {len(results)} found, {killed / max(1, len(results)):.0%}")
+    hung = sum(result.output == "timeout" for result in results)
+    share = f"{killed / max(1, len(results)):.0%}"
+    print(f"{room}: {killed} of {len(results)} found, {share}; {hung} of them hung the tests")
 
 
 if __name__ == "__main__":

@@ -253,6 +253,38 @@ def test_a_number_can_be_dragged_sideways(pane: Pane) -> None:
     pane.wait_for_value("count", "1")
 
 
+def test_a_number_can_be_dragged_by_its_label_and_coarser_and_finer(pane: Pane) -> None:
+    label = pane.row("count").locator(".wv-property-label")
+    box = label.bounding_box()
+    assert box
+    x, y = box["x"] + 10, box["y"] + box["height"] / 2
+    mouse = pane.page.mouse
+    mouse.move(x, y)
+    mouse.down()
+    mouse.move(x + 20, y, steps=4)
+    pane.wait_for_set("count", 8)
+    pane.keyboard.down("Shift")
+    mouse.move(x + 40, y, steps=4)
+    pane.wait_for_set("count", 58)
+    pane.keyboard.up("Shift")
+    mouse.up()
+    assert not pane.field("count").evaluate("e => e === document.activeElement")
+    label.click()
+    playwright.expect(pane.field("count")).to_be_focused()
+
+    field = pane.row("offset").locator("input").nth(1)
+    box = field.bounding_box()
+    assert box
+    x, y = box["x"] + 10, box["y"] + 10
+    mouse.move(x, y)
+    mouse.down()
+    pane.keyboard.down("Alt")
+    mouse.move(x + 40, y, steps=4)
+    pane.wait_for_set("offset", [0, 0.51, 0])
+    pane.keyboard.up("Alt")
+    mouse.up()
+
+
 def test_a_slider_sends_while_it_is_dragged(pane: Pane) -> None:
     box = pane.field("alpha").bounding_box()
     assert box

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import itertools
 import threading
 import time
-from collections.abc import Callable, Iterator
-from concurrent.futures import Future
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -13,10 +15,13 @@ from remembering_graph import RememberingGraph
 
 from webviz.api.vehicle import STILL, Velocity
 from webviz.commands import Load, SetToolProperty, Undo
-from webviz.engine.driving import HelmAnswer
+from webviz.engine.driving import HelmAnswer, Helms
 from webviz.engine.driving.helm import PERIOD_S, TAIL
-from webviz.engine.sources import Outlet
+from webviz.engine.driving.helms import GAP_S
+from webviz.engine.sources import Gate, NotConnected, Outlet, Rights
 from webviz.engine.state import Driving
+from webviz.shell.testing.source import HandFedSource
+from webviz.tools.teleop import Teleop
 
 TWIST, ODOMETRY = "geometry_msgs/msg/Twist", "nav_msgs/msg/Odometry"
 CMD_VEL = Outlet("/cmd_vel", TWIST, depth=1)
@@ -42,6 +47,56 @@ class Hand:
         """Send nothing more."""
         self._let_go.set()
         self._thread.join()
+
+
+class Lone:
+    """The velocity controllers of one vehicle, without a viewer."""
+
+    def __init__(self) -> None:
+        self.graph, self.allowed = RememberingGraph(), ["/cmd_vel"]
+        self.made = 0
+        self.fault: Exception | None = None
+        """Raised where a command is made."""
+        self.outcome: Exception | None = None
+        """Of publishing a command."""
+        publish = self.graph.publish
+
+        def publish_or_fail(outlet: Outlet, cdr: bytes) -> Future[int]:
+            if self.outcome is None:
+                return publish(outlet, cdr)
+            failed: Future[int] = Future()
+            failed.set_exception(self.outcome)
+            return failed
+
+        self.graph.publish = publish_or_fail
+        source = HandFedSource(graph=self.graph)  # pyright: ignore[reportArgumentType]
+        self.helms = Helms(Gate(source, Rights(), lambda: tuple(self.allowed)), lambda: 0)
+        self.equip()
+
+    def equip(self) -> None:
+        vehicle = Teleop().vehicle
+
+        def message(velocity: Velocity, now_ns: int) -> Mapping[str, Any]:
+            self.made += 1
+            if self.fault is not None:
+                raise self.fault
+            return vehicle.message(velocity, now_ns)
+
+        self.helms.equip({"tool": (replace(vehicle, message=message), CMD_VEL)})
+
+    def steer(self, share: Velocity) -> HelmAnswer:
+        return self.helms.steer("tool", 1, share, time.monotonic())
+
+    @property
+    def speeds(self) -> list[float]:
+        return [twist.linear.x for _, twist in self.graph.published]
+
+
+@pytest.fixture
+def lone() -> Iterator[Lone]:
+    lone = Lone()
+    yield lone
+    lone.helms.close()
 
 
 @pytest.fixture
@@ -194,12 +249,86 @@ def test_a_command_that_could_not_be_published_in_time_is_not_published_late(
     sent[-1].set_result(1)
 
 
+def test_whoever_closes_a_viewer_waits_until_its_last_commands_are_published(
+    b: Any, hold: Callable[..., Hand], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("webviz.engine.driving.helms.ENDING_S", PATIENCE_S)
+    publish, sent = b.source.graph.publish, list[Future[int]]()
+
+    def publish_slowly(outlet: Outlet, cdr: bytes) -> int:
+        time.sleep(0.1)  # a slow network
+        return publish(outlet, cdr).result()
+
+    def begin(outlet: Outlet, cdr: bytes) -> Future[int]:
+        sent.append(network.submit(publish_slowly, outlet, cdr))
+        return sent[-1]
+
+    hold()
+    until(lambda: speeds(b)[-1:] == [0.5])
+    with ThreadPoolExecutor(1) as network:
+        b.source.graph.publish = begin
+        b.viewer.close()
+        assert sent[-1].done()
+    assert speeds(b)[-1] == 0.0
+
+
+@pytest.mark.parametrize("way", [AHEAD, Velocity(linear=-1.0)], ids=["ahead", "back"])
+def test_only_zeros_pass_a_list_that_was_narrowed(lone: Lone, way: Velocity) -> None:
+    lone.steer(way)
+    until(lambda: lone.speeds)
+    lone.allowed.clear()
+    before = len(lone.speeds)
+    until(lambda: not lone.helms._is_moving())
+    late = lone.speeds[before:]
+    assert sum(speed != 0.0 for speed in late) <= 1  # which was on its way
+    assert late[-TAIL:] == [0.0] * TAIL
+
+
+def test_a_topic_gets_another_type_once_its_vehicle_has_stopped(lone: Lone) -> None:
+    lone.steer(AHEAD)
+    until(lambda: lone.speeds)
+    stamped = Outlet("/cmd_vel", f"{TWIST}Stamped")
+    lone.helms.equip({"tool": (Teleop().vehicle, stamped)})
+    until(lambda: lone.steer(STILL) and lone.helms.outlets())
+    assert lone.helms.stopping() == set()
+    lone.steer(STILL)
+    assert lone.helms.outlets() == {stamped}
+
+
+def test_set_points_that_always_change_are_published_every_20_ms_at_most(lone: Lone) -> None:
+    start = time.monotonic()
+    for number in itertools.count():
+        lone.steer(Velocity(linear=0.5 + 0.1 * (number % 2)))
+        if len(lone.speeds) >= 5:
+            break
+    assert time.monotonic() - start >= 4 * GAP_S
+
+
+def test_a_command_that_fails_is_reported_until_one_succeeds(
+    lone: Lone, caplog: pytest.LogCaptureFixture
+) -> None:
+    def problem() -> str:
+        return lone.steer(AHEAD).problem
+
+    lone.fault = ValueError("no wheels")
+    until(lambda: problem() == "No command could be made: no wheels")
+    until(lambda: lone.made > 3)
+    assert len(caplog.records) == 1
+    lone.fault = None
+    until(lambda: lone.speeds and not problem())
+    lone.outcome = NotConnected("The node is gone.")
+    until(lambda: problem() == "The node is gone.")
+    lone.helms.equip({})
+    lone.equip()
+    assert lone.helms.steer("tool", 2, STILL, None).problem == ""
+
+
 def test_undo_of_a_property_changes_the_limits_of_the_next_moment(
     b: Any, hold: Callable[..., Hand]
 ) -> None:
-    b.do(SetToolProperty("Teleop", "linear", 0.2))
+    b.do(SetToolProperty("Teleop", "linear", 0.123))  # which no step of a ramp to 0.5 meets
     hold()
-    until(lambda: speeds(b)[-1:] == [0.2])
+    until(lambda: speeds(b)[-1:] == [0.123])
     b.do(Undo())
     until(lambda: speeds(b)[-1:] == [0.5])
 
@@ -216,6 +345,17 @@ def test_the_second_driver_learns_who_has_control_also_through_another_tool(
     first.vanish()
     until(lambda: steer(b, other, 8, AHEAD).driver == 8)
     until(lambda: speeds(b)[-1:] == [0.0])
+
+
+def test_vehicles_on_different_topics_have_drivers_of_their_own(
+    b: Any, hold: Callable[..., Hand]
+) -> None:
+    others = "{type: Teleop, name: A, topic: /a}, {type: Teleop, name: Z, topic: /z}"
+    b.do(Load(f"tools: [{{type: Teleop}}, {others}]\n", "x.yaml"))
+    hold(browser=7)
+    until(lambda: speeds(b)[-1:] == [0.5])
+    tools = [button.id for button in b.states[-1].tools if button.name in ("A", "Z")]
+    assert [steer(b, tool, 8, AHEAD).driver for tool in tools] == [8, 8]
 
 
 def test_a_page_learns_why_its_commands_reach_nobody(b: Any, hold: Callable[..., Hand]) -> None:

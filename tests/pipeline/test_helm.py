@@ -18,9 +18,9 @@ AHEAD = Velocity(linear=1.0)
 LIMITS = Velocity(0.5, 0.0, 1.0)
 
 
-def make_helm(deceleration: float = 2.0) -> Helm:
+def make_helm(deceleration: float = 2.0, holding: int | None = None) -> Helm:
     vehicle = Teleop(deceleration=deceleration).vehicle
-    return Helm(vehicle, Outlet("/cmd_vel", "geometry_msgs/msg/Twist"))
+    return Helm(vehicle, Outlet("/cmd_vel", "geometry_msgs/msg/Twist"), holding)
 
 
 def drive(helm: Helm, start: float, seconds: float, held: Velocity | None) -> list[Velocity | None]:
@@ -34,27 +34,60 @@ def drive(helm: Helm, start: float, seconds: float, held: Velocity | None) -> li
     return steps
 
 
-def test_a_drive_ramps_up_brakes_and_ends_with_some_zeros() -> None:
+@pytest.mark.parametrize("way", [1.0, -1.0], ids=["ahead", "back"])
+def test_a_drive_ramps_up_brakes_and_ends_with_some_zeros(way: float) -> None:
     helm = make_helm()
     assert helm.is_at_rest
     # 1 m/s² to 0.5 m/s, and 2 m/s² back: in steps of 0.05 s.
-    up = [step.linear for step in drive(helm, 0.0, 0.6, AHEAD) if step]
+    up = [way * step.linear for step in drive(helm, 0.0, 0.6, Velocity(way)) if step]
     assert up == pytest.approx([*(0.05 * n for n in range(1, 11)), 0.5, 0.5])
     helm.steer(1, STILL, 0.6, 0.6)
-    down = [step.linear for step in drive(helm, 0.6, 1.0, STILL) if step]
+    down = [way * step.linear for step in drive(helm, 0.6, 1.0, STILL) if step]
     assert down[:4] == pytest.approx([0.4, 0.3, 0.2, 0.1])
     assert down[-TAIL:] == [0.0] * TAIL
     assert len(down) <= 4 + 1 + TAIL  # one more where rounding leaves a rest
     assert helm.is_at_rest
 
 
-def test_a_driver_who_falls_silent_stops_the_vehicle_at_once() -> None:
+def test_a_drive_that_ends_within_one_step_ends_with_some_zeros() -> None:
+    helm = make_helm(deceleration=10.0)
+    drive(helm, 0.0, 1.0, Velocity(linear=0.5))
+    steps = drive(helm, 1.0, 1.0, STILL)
+    assert steps == [STILL] * TAIL + [None] * (len(steps) - TAIL)
+
+
+@pytest.mark.parametrize("way", [1.0, -1.0], ids=["ahead", "back"])
+def test_who_slows_down_brakes_and_who_reverses_stands_still_in_between(way: float) -> None:
     helm = make_helm()
-    drive(helm, 0.0, 1.0, AHEAD)
+    drive(helm, 0.0, 1.0, Velocity(way))
+    slower = [way * step.linear for step in drive(helm, 1.0, 0.2, Velocity(0.5 * way)) if step]
+    assert slower == pytest.approx([0.4, 0.3, 0.25, 0.25])
+    reversed_ = [way * step.linear for step in drive(helm, 1.2, 0.25, Velocity(-way)) if step]
+    assert reversed_ == pytest.approx([0.15, 0.05, 0.0, -0.05, -0.1])
+
+
+def test_only_another_set_point_asks_for_a_command_before_its_time() -> None:
+    helm = make_helm()
+    shares = (1.0, 1.0, 0.5, 0.5, 1.0, 0.0, 0.0)
+    asks = [helm.steer(1, Velocity(share), 0.0, 0.01 * n) for n, share in enumerate(shares)]
+    assert asks == [True, False, True, False, True, True, False]
+
+
+def test_halting_what_rests_publishes_nothing() -> None:
+    helm = make_helm()
+    helm.halt()
+    assert helm.is_at_rest
+    assert helm.step(0.0) is None
+
+
+@pytest.mark.parametrize("way", [1.0, -1.0], ids=["ahead", "back"])
+def test_a_driver_who_falls_silent_stops_the_vehicle_at_once(way: float) -> None:
+    helm = make_helm()
+    drive(helm, 0.0, 1.0, Velocity(way))
     steps = drive(helm, 1.0, 1.0, None)
     moving = [step for step in steps if step and step != STILL]
     assert len(moving) * PERIOD_S == pytest.approx(BEAT_S, abs=PERIOD_S)
-    assert set(moving) == {Velocity(linear=0.5)}
+    assert set(moving) == {Velocity(0.5 * way)}
     assert steps[len(moving) :] == [STILL] * TAIL + [None] * (len(steps) - len(moving) - TAIL)
     # A key that is still held counts again, from a standstill.
     helm.steer(1, AHEAD, 3.0, 3.0)
@@ -98,13 +131,35 @@ def test_another_driver_begins_with_what_the_first_had_not_received() -> None:
     assert helm.step(3.0) == Velocity(linear=0.05)
 
 
-def test_who_brakes_for_longer_than_the_release_keeps_control() -> None:
+@pytest.mark.parametrize("way", [1.0, -1.0], ids=["ahead", "back"])
+def test_who_brakes_for_longer_than_the_release_keeps_control(way: float) -> None:
     helm = make_helm(deceleration=0.1)
-    drive(helm, 0.0, 1.0, AHEAD)
+    drive(helm, 0.0, 1.0, Velocity(way))
     drive(helm, 1.0, 2.0, STILL)
     helm.steer(2, AHEAD, 3.0, 3.0)
     assert helm.driver(3.0) == 1
-    assert helm.step(3.0) == pytest.approx((0.295, 0.0, 0.0))
+    assert helm.step(3.0) == pytest.approx((0.295 * way, 0.0, 0.0))
+
+
+def test_a_browser_that_only_looks_takes_no_beats_from_the_next_driver() -> None:
+    helm = make_helm()
+    drive(helm, 0.0, 1.0, AHEAD)
+    drive(helm, 1.0, 2.0, STILL)
+    helm.steer(2, STILL, 5.0, 5.0)
+    helm.steer(1, AHEAD, 4.8, 5.3)  # on a slower link
+    assert helm.driver(5.3) == 1
+    assert helm.step(5.3) == Velocity(linear=0.05)
+
+
+def test_what_is_held_while_the_vehicle_changes_has_to_be_let_go_first() -> None:
+    helm = make_helm(holding=1)
+    for now in (0.0, 0.05):
+        assert not helm.steer(1, AHEAD, now, now)
+    assert helm.is_at_rest
+    assert helm.driver(0.05) is None
+    assert not helm.steer(1, STILL, 0.1, 0.1)
+    assert helm.steer(1, AHEAD, 0.15, 0.15)
+    assert make_helm(holding=1).steer(2, AHEAD, 0.0, 0.0)
 
 
 @pytest.mark.parametrize("share", [math.inf, -math.inf, math.nan])
@@ -113,6 +168,12 @@ def test_a_set_point_that_is_not_finite_counts_as_zero(share: float) -> None:
     assert not helm.steer(1, Velocity(linear=share), 0.0, 0.0)
     assert helm.driver(0.0) is None
     assert helm.is_at_rest
+
+
+@pytest.mark.parametrize("share", [1.5, -1.5, 1e308])
+def test_a_set_point_beyond_a_limit_counts_as_the_limit(share: float) -> None:
+    steps = drive(make_helm(), 0.0, 1.0, Velocity(linear=share))
+    assert steps[-1] == Velocity(linear=math.copysign(LIMITS.linear, share))
 
 
 def test_the_first_driver_keeps_control_until_a_second_after_letting_go() -> None:

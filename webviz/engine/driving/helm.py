@@ -109,7 +109,7 @@ class Helm:
             self.halt()
         if self.is_at_rest:
             return None
-        seconds = min(max(0.0, now - self._stepped), PERIOD_S)
+        seconds = min(now - self._stepped, PERIOD_S)
         self._stepped = now
         vehicle = self.vehicle
         self._velocity = Velocity(

@@ -91,7 +91,7 @@ class Helms:
     def stopping(self) -> set[Outlet]:
         """Where vehicles have still to stop that are gone or go elsewhere."""
         with self._lock:
-            return {helm.outlet for helm in self._leaving if not helm.is_at_rest}
+            return {helm.outlet for helm in self._leaving}
 
     def drivers(self) -> dict[str, int]:
         """The browser that drives, by tool."""

@@ -1,15 +1,18 @@
-"""QoS profiles of bags, in the notations of all versions of rosbag2.
+"""QoS profiles of bags, read in the notations of all versions of rosbag2, written in that of 9.
 
 Recorders other than rosbag2 write only some policies. The messages of such bags are intact.
 """
 
 from __future__ import annotations
 
+import io
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 from ruamel.yaml import YAML
 
-from webviz.engine.sources.source import Durability, Reliability
+from webviz.engine.sources.graph import Durability, Reliability
+from webviz.engine.sources.source import Publisher
 
 MAX_TEXT = 1 << 20
 MAX_PROFILES = 100
@@ -49,3 +52,25 @@ def _profile(given: dict[str, Any]) -> BagProfile:
         "transient_local" if is_latched else "volatile",
         max(0, int(given.get("depth", 0))),
     )
+
+
+def text_of(publishers: Iterable[Publisher]) -> str:
+    """The profiles that publishers offer, as YAML for a bag; what is not known is as rosbag2's."""
+    forever = {"sec": 9223372036, "nsec": 854775807}
+    profiles = [
+        {
+            "history": "unknown",
+            "depth": 0,
+            "reliability": publisher.reliability,
+            "durability": publisher.durability,
+            "deadline": dict(forever),
+            "lifespan": dict(forever),
+            "liveliness": "automatic",
+            "liveliness_lease_duration": dict(forever),
+            "avoid_ros_namespace_conventions": False,
+        }
+        for publisher in publishers
+    ]
+    text = io.StringIO()
+    YAML(typ="safe").dump(profiles, text)
+    return text.getvalue()

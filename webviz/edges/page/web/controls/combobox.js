@@ -3,6 +3,7 @@
 import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
 import { listbox } from "./listbox.js";
+import { MIXED, MIXED_TEXT } from "./mixed.js";
 import { sync } from "./sync.js";
 
 /**
@@ -38,7 +39,7 @@ export function combobox({
   );
 
   const option = (wanted) => options.find((one) => one.value === wanted);
-  const textOf = (wanted) => option(wanted)?.label ?? wanted;
+  const textOf = (wanted) => (wanted === MIXED ? "" : option(wanted)?.label ?? wanted);
   const state = sync({
     show(shown) {
       current = shown;
@@ -54,6 +55,7 @@ export function combobox({
   function write() {
     const text = textOf(current);
     if (input.value !== text) input.value = text;
+    set(input, { placeholder: current === MIXED ? MIXED_TEXT : placeholder });
     setText(note, option(current)?.note ?? "");
     set(note, { "data-level": option(current)?.level });
     set(input, { title: text.length > 24 ? text.slice(0, 1000) : null });

@@ -1,6 +1,7 @@
 // What is typed into a field counts on Enter, or when the field is left; Escape goes back.
 
 import { set } from "../dom.js";
+import { MIXED, MIXED_TEXT } from "./mixed.js";
 import { sync } from "./sync.js";
 
 const MAX_TEXT = 100_000;
@@ -15,6 +16,8 @@ export function entry(field, { change, refused, encode, decode, after = () => {}
   const isLong = field instanceof HTMLTextAreaElement;
   let current;
   let isTyped = false;
+  const { placeholder } = field;
+  const textOf = (value) => (value === MIXED ? "" : encode(value));
 
   set(field, { autocomplete: "off", spellcheck: "false" });
   const state = sync({
@@ -30,8 +33,9 @@ export function entry(field, { change, refused, encode, decode, after = () => {}
   });
 
   function write() {
-    const text = encode(current);
+    const text = textOf(current);
     if (field.value !== text) field.value = text;
+    set(field, { placeholder: current === MIXED ? MIXED_TEXT : placeholder });
     after();
   }
 
@@ -39,7 +43,7 @@ export function entry(field, { change, refused, encode, decode, after = () => {}
     isTyped = false;
     // Half a letter, as some programs leave on the clipboard, cannot be sent.
     const text = field.value.toWellFormed?.() ?? field.value;
-    if (text === encode(current) && !field.getAttribute("aria-invalid")) return state.release();
+    if (text === textOf(current) && !field.getAttribute("aria-invalid")) return state.release();
     try {
       if (text.length > MAX_TEXT) {
         const [most, got] = [MAX_TEXT, text.length].map((n) => n.toLocaleString("en"));

@@ -1,10 +1,11 @@
 // A number: typed with or without its unit, stepped by arrow keys, dragged sideways.
 
 import { el, set } from "../dom.js";
+import { drag } from "./drag.js";
 import { entry } from "./entry.js";
+import { MIXED, MIXED_TEXT } from "./mixed.js";
 import { format, parse, stepOf, within } from "./units.js";
 
-const DRAG_PX = 4; // less is a click
 const STEP_PX = 4;
 const DOUBLE_PX = 70; // for what can only be positive, right doubles and left halves
 
@@ -31,11 +32,12 @@ export function number(property, { label, change, refused, prefix = "" }) {
     },
     after() {
       const text = format(field.value());
-      set(input, { "aria-valuenow": text, "aria-valuetext": `${text} ${property.unit ?? ""}`.trim() });
+      set(input, { "aria-valuenow": text, "aria-valuetext": text ? `${text} ${property.unit ?? ""}`.trim() : MIXED_TEXT });
     },
   });
 
   function step(event) {
+    if (field.value() === MIXED) return;
     const by = { ArrowUp: 1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[event.key];
     const size = stepOf(property, field.value()) * (property.kind !== "int" && event.altKey ? 0.1 : 1);
     field.put(within(property, field.value() + by * size * (event.shiftKey ? 10 : 1), size));
@@ -49,49 +51,23 @@ export function number(property, { label, change, refused, prefix = "" }) {
     event.preventDefault();
     event.stopPropagation();
   });
-  drag(input, {
+  const dragged = {
     begin: () =>
-      field.isTyped() ? null : { value: field.value(), size: stepOf(property, field.value()) },
-    move({ value, size }, by) {
+      field.isTyped() || field.value() === MIXED || input.matches(":disabled")
+        ? null
+        : { value: field.value(), size: stepOf(property, field.value()) },
+    move({ value, size }, by, isFine) {
       field.hold();
       const isScale = property.above === 0 && property.kind !== "int";
-      const moved = isScale ? value * 2 ** (by / DOUBLE_PX) : value + Math.round(by / STEP_PX) * size;
-      field.put(within(property, moved, isScale ? size / 10 : size));
+      const grain = property.kind !== "int" && (isScale || isFine) ? size / 10 : size;
+      const moved = isScale
+        ? value * 2 ** (by / DOUBLE_PX)
+        : value + Math.round(((by / STEP_PX) * size) / grain) * grain;
+      field.put(within(property, moved, grain));
     },
     end: field.release,
-  });
-
-  return { ...field, element };
-}
-
-/** Calls `move(start, pixels)` while a field is dragged sideways; a click selects what is in it. */
-function drag(input, { begin, move, end }) {
-  let from = null;
-
-  input.addEventListener("pointerdown", (event) => {
-    if (event.button !== 0 || document.activeElement === input) return;
-    event.preventDefault(); // it gets the focus when this turns out to be a click
-    const start = begin();
-    if (start) from = { start, x: event.clientX, isDragged: false };
-    input.setPointerCapture(event.pointerId);
-  });
-  input.addEventListener("pointermove", (event) => {
-    if (!from) return;
-    const by = event.clientX - from.x;
-    if (!from.isDragged && Math.abs(by) < DRAG_PX) return;
-    from.isDragged = true;
-    move(from.start, by);
-  });
-  const finish = ({ type }) => {
-    if (!from) return;
-    const { isDragged } = from;
-    from = null;
-    if (isDragged) end();
-    else if (type === "pointerup") {
-      input.focus();
-      input.select();
-    }
   };
-  input.addEventListener("pointerup", finish);
-  input.addEventListener("pointercancel", finish);
+  drag(input, input, dragged);
+
+  return { ...field, element, handle: (label) => drag(label, input, dragged) };
 }

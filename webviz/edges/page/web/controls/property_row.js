@@ -25,7 +25,7 @@ export function row(property, send, { marks = true, command = "" } = {}) {
   };
   const made = control(property, { label, change: (value) => send(path, value), refused: tell });
   const reset = el("button", {
-    type: "button", class: "wv-icon wv-property-reset", title: `Reset to ${words(property, standard)}`,
+    type: "button", class: "wv-icon wv-property-reset", title: standard === undefined ? null : `Reset to ${words(property, standard)}`,
     "aria-label": `Reset ${label}`, hidden: true,
     onclick: () => {
       tell("");
@@ -33,7 +33,11 @@ export function row(property, send, { marks = true, command = "" } = {}) {
       made.focus();
     },
   }, icon("reset", 14));
-  const name = el("span", { class: "wv-property-label", onclick: () => made.focus() }, label);
+  const name = el("span", { class: "wv-property-label" }, label);
+  if (made.handle) {
+    made.handle(name);
+    name.classList.add("wv-property-handle");
+  } else name.addEventListener("click", () => made.focus());
   const element = el(
     "div", { class: "wv-property", "data-kind": kind, "data-path": path, role: "group", "aria-label": label },
     name, holder(command, { class: "wv-property-control" }, made.element), reset, refusal,
@@ -48,7 +52,7 @@ export function row(property, send, { marks = true, command = "" } = {}) {
       made.update(value);
       const isChanged = marks && JSON.stringify(value) !== JSON.stringify(standard);
       set(element, { "data-changed": isChanged });
-      const isOffered = isChanged && !(command && why(command));
+      const isOffered = isChanged && standard !== undefined && !(command && why(command));
       if (reset.hidden === isOffered) reset.hidden = !isOffered;
     },
     live: (known) => made.live?.(known),
@@ -63,7 +67,7 @@ function about(property) {
   const items = { dict: "One entry per line, name: value.", list: "One entry per line." }[property.kind];
   const facts = [
     property.help, property.type, items, range && `Range: ${range}.`,
-    `Default: ${words(property, property.default)}.`,
+    property.default !== undefined && `Default: ${words(property, property.default)}.`,
   ];
   return facts.filter(Boolean).join("\n");
 }

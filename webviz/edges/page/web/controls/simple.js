@@ -3,6 +3,7 @@
 import { el, set } from "../dom.js";
 import { icon } from "../icons.js";
 import { entry } from "./entry.js";
+import { MIXED, MIXED_TEXT } from "./mixed.js";
 import { sync } from "./sync.js";
 
 /** A check box; see `control.js`. */
@@ -10,7 +11,8 @@ export function checkbox(_, { label, change, refused }) {
   const input = el("input", { class: "wv-check", type: "checkbox", "aria-label": label });
   const state = sync({
     show(value) {
-      if (input.checked !== value) input.checked = value;
+      input.indeterminate = value === MIXED;
+      if (input.checked !== (value === true)) input.checked = value === true;
     },
     send: change,
     refused,
@@ -27,6 +29,7 @@ export function checkbox(_, { label, change, refused }) {
 /** One of a few values; see `control.js`. */
 export function choice({ choices }, { label, change, refused }) {
   const select = el("select", { class: "wv-field", "aria-label": label });
+  const mixed = el("option", { hidden: true }, MIXED_TEXT);
   let offered = choices;
 
   function offer(values) {
@@ -36,6 +39,12 @@ export function choice({ choices }, { label, change, refused }) {
 
   const state = sync({
     show(value) {
+      mixed.remove();
+      if (value === MIXED) {
+        select.append(mixed);
+        mixed.selected = true;
+        return;
+      }
       // What a newer version of the viewer has may be unknown here.
       if (!offered.includes(value)) offer([...choices, value]);
       select.selectedIndex = offered.indexOf(value);

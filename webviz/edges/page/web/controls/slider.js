@@ -1,6 +1,7 @@
 // A number between two bounds: a slider, and a field beside it.
 
 import { el, set } from "../dom.js";
+import { MIXED, MIXED_TEXT } from "./mixed.js";
 import { number } from "./number.js";
 import { sync } from "./sync.js";
 import { stepOf } from "./units.js";
@@ -15,7 +16,10 @@ export function slider(property, options) {
   const field = number(property, { ...options, label: `${label}, as a number` });
   const state = sync({
     show(value) {
-      if (Number(range.value) !== value) range.value = value;
+      const isMixed = value === MIXED;
+      set(range, { "data-mixed": isMixed, "aria-valuetext": isMixed ? MIXED_TEXT : null });
+      const place = isMixed ? property.low : value;
+      if (Number(range.value) !== place) range.value = place;
       fill();
       field.update(value);
     },
@@ -31,6 +35,7 @@ export function slider(property, options) {
 
   range.addEventListener("pointerdown", state.hold);
   range.addEventListener("input", () => {
+    set(range, { "data-mixed": false, "aria-valuetext": null });
     fill();
     field.update(Number(range.value));
     state.edit(Number(range.value));
@@ -40,6 +45,7 @@ export function slider(property, options) {
   return {
     element: el("div", { class: "wv-slide" }, range, field.element),
     focus: () => range.focus(),
+    handle: field.handle,
     describe(text) {
       set(range, { title: text });
       field.describe(text);

@@ -6,7 +6,7 @@ import { combobox } from "./combobox.js";
 
 /** A field for the name of a topic; see `control.js`. `live(known)` shows the rate it arrives at. */
 export function topic({ type, default: standard }, { label, change, refused }) {
-  let value = standard;
+  let value = standard ?? "";
   let rate = null;
   let topics = new Map();
 

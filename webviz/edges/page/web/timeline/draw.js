@@ -28,7 +28,7 @@ export function fitted(canvas) {
 export function draw(canvas, { range, whole, counts, selected, bookmarks, position, hover }) {
   const { context, width, color } = fitted(canvas);
   const x = (time) => MARGIN + share(time, range) * (width - 2 * MARGIN);
-  context.fillStyle = color("field");
+  context.fillStyle = color("line");
   context.fillRect(MARGIN, TOP, width - 2 * MARGIN, BAR);
   context.save();
   context.beginPath();

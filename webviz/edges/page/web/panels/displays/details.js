@@ -7,6 +7,7 @@ import { recall, remember } from "../../remember.js";
 import { duplicate, focus } from "./actions.js";
 import { GLOBAL } from "./model.js";
 import { globalOptions, properties } from "./properties.js";
+import { severalProperties } from "./several.js";
 
 const LEAST = 90; // pixels of the tree and of the properties
 const STEP = 24;
@@ -15,7 +16,7 @@ const OPEN_KEY = "displays.details";
 
 /** Builds the border and what is below it; `panel` is what both share with the tree. */
 export function buildDetails(panel) {
-  let shown = null;
+  let shown = [];
   let end = null;
   let isOpen = recall(OPEN_KEY, true);
   const title = el("h2", { class: "wv-details-title" });
@@ -23,8 +24,8 @@ export function buildDetails(panel) {
     el("button", { type: "button", class: "wv-icon", "aria-label": label, "data-tip": label, onclick: run },
       icon(name));
   const tools = [
-    button("focus", "Focus", () => focus(shown)),
-    button("copy", "Duplicate", () => duplicate([shown])),
+    button("focus", "Focus", () => focus(shown[0])),
+    button("copy", "Duplicate", () => duplicate(shown)),
   ];
   const close = button("close", "Close properties", () => setOpen(false));
   const head = el("div", { class: "wv-details-head" }, title, ...tools, close);
@@ -61,29 +62,32 @@ export function buildDetails(panel) {
     update(shown);
   }
 
-  function fill(item) {
+  function fill(ids) {
     end?.();
     end = null;
     body.replaceChildren();
     body.scrollTop = 0;
-    if (item) end = item.id === GLOBAL ? globalOptions(body) : properties(body, item.id);
+    if (ids.length > 1) end = severalProperties(body, ids);
+    else if (ids.length) end = ids[0] === GLOBAL ? globalOptions(body) : properties(body, ids[0]);
   }
 
-  let filledWith = null;
-  function update(item) {
-    shown = item;
-    const wanted = isOpen ? item : null;
-    set(element, { hidden: !wanted });
-    if (wanted?.id !== filledWith) {
-      filledWith = wanted?.id;
-      fill(wanted);
+  let filledWith = "";
+  function update(items) {
+    shown = items;
+    const ids = isOpen ? items.map(({ id }) => id) : [];
+    set(element, { hidden: !ids.length });
+    if (JSON.stringify(ids) !== filledWith) {
+      filledWith = JSON.stringify(ids);
+      fill(ids);
     }
-    if (!wanted) return;
-    setText(title, plain(item.name));
-    set(title, { "data-tip": plain(item.name) });
-    for (const tool of tools) set(tool, { hidden: item.id === GLOBAL });
+    if (!ids.length) return;
+    const names = items.map(({ name }) => plain(name));
+    setText(title, names.length === 1 ? names[0] : `${names.length} displays`);
+    set(title, { "data-tip": names.join("\n") });
+    for (const tool of tools) set(tool, { hidden: ids[0] === GLOBAL });
+    set(tools[0], { hidden: ids[0] === GLOBAL || ids.length > 1 });
   }
 
-  update(null);
-  return { element, update, setOpen, isOpen: () => isOpen, close: () => fill(null) };
+  update([]);
+  return { element, update, setOpen, isOpen: () => isOpen, close: () => fill([]) };
 }

@@ -34,8 +34,8 @@ export const displays = {
     const details = buildDetails(panel);
     const tree = buildTree({
       after: add,
-      changed({ item, search }) {
-        details.update(item);
+      changed({ items, search }) {
+        details.update(items);
         if (field.value !== search) field.value = search;
       },
     });
@@ -53,6 +53,11 @@ export const displays = {
       return [
         { label: "Properties below the tree", checked: details.isOpen(), run: choose(true) },
         { label: "Properties in the tree only", checked: !details.isOpen(), run: choose(false) },
+        null,
+        {
+          label: "Select several", checked: selection.severalAtOnce(),
+          run: () => selection.selectSeveral(!selection.severalAtOnce()),
+        },
         null,
         { label: "Unfold all groups", run: fold(true) },
         { label: "Fold all groups", run: fold(false) },

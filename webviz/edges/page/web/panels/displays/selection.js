@@ -15,6 +15,7 @@ let saved = JSON.stringify([...restored]);
 let successor = null; // what follows displays that this page removes
 let gone = new Set(); // what was selected when it went, until something else is selected
 
+let isSeveral = false; // each click adds or removes, as with Ctrl: fingers have no keys
 let tell = () => {};
 let place = 0; // of the current row, should it go
 
@@ -58,6 +59,10 @@ export function toggle(id) {
   if (!selected.delete(id)) selected.add(id);
   current = anchor = id;
 }
+
+export const severalAtOnce = () => isSeveral;
+/** Whether each click adds a row, or takes it away. */
+export const selectSeveral = (wanted) => (isSeveral = wanted);
 
 /** Selects from where the selection began to a row. */
 export function extend(id, rows) {

@@ -23,8 +23,8 @@ const NOT_FOUND = "No display has this in its name, type or topic.";
 const GUESS = { status: 18, inside: 240 };
 
 /**
- * Builds the tree; `after` follows the last row. `changed({item, search})` is called when
- * something else is shown or selected: `item` is what is selected alone, or null, and `search` what
+ * Builds the tree; `after` follows the last row. `changed({items, search})` is called when
+ * something else is shown or selected: `items` are those whose properties are shown, and `search` what
  * is searched for, which ends when something else is added.
  */
 export function buildTree({ after, changed }) {
@@ -78,9 +78,14 @@ export function buildTree({ after, changed }) {
     const sentence = !model.items.length ? (isKnown ? EMPTY : "") : rows.length ? "" : NOT_FOUND;
     setText(none, sentence);
     set(none, { hidden: sentence === "" });
-    const [alone] = selection.ids().size === 1 ? selection.ids() : [null];
-    changed({ item: alone === GLOBAL ? global : model.byId.get(alone) ?? null, search });
+    changed({ items: editable(), search });
     selection.save([global, ...model.items]);
+  }
+
+  // What is selected alone, or else the displays that can be edited together.
+  function editable() {
+    const chosen = [global, ...model.items].filter(({ id }) => selection.isSelected(id));
+    return chosen.length > 1 ? chosen.filter((item) => item.can_edit && !item.isGroup) : chosen;
   }
 
   function update() {
@@ -170,7 +175,7 @@ export function buildTree({ after, changed }) {
     if (part === "more") return tree.openMenu(item.id, event.clientX, event.clientY);
     if (event.detail > 1) return;
     if (event.shiftKey) selection.extend(item.id, rows);
-    else if (event.ctrlKey || event.metaKey) selection.toggle(item.id);
+    else if (event.ctrlKey || event.metaKey || selection.severalAtOnce()) selection.toggle(item.id);
     else selection.choose(item.id);
     refresh();
     focus();

@@ -1,0 +1,79 @@
+"""`webviz record` as a user starts it, on a real ROS graph."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from program import Program
+from rosbags.rosbag2 import Reader
+
+from webviz.data.recordings import open_recording
+
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+
+
+@pytest.fixture(scope="module", autouse=True)
+def simulator(start: Callable[..., Program]) -> Program:
+    """A simulated robot."""
+    return start("webviz_sim")
+
+
+def topics_of(path: Path) -> set[str]:
+    """Return the topics with messages in what is on the disk."""
+    try:
+        recording = open_recording(path)
+    except Exception:  # nothing is written yet
+        return set()
+    with_messages = {channel.topic for channel in recording.channels}
+    recording.close()
+    return with_messages
+
+
+def wait_for_topics(program: Program, path: Path, topics: set[str]) -> None:
+    for _ in range(3000):
+        if topics <= topics_of(path):
+            return
+        program.process.poll()
+        assert program.process.returncode is None, program.output()
+        signal.sigtimedwait([], 0.05)
+    raise AssertionError(f"{topics_of(path)}: {program.output()}")
+
+
+def test_all_topics_are_recorded_with_what_is_latched(
+    start: Callable[..., Program], tmp_path: Path
+) -> None:
+    path = tmp_path / "run"
+    program = start("webviz", "record", "-o", str(path))
+    wanted = {"/map", "/robot_description", "/tf", "/tf_static", "/odom", "/scan"}
+    wait_for_topics(program, path, wanted)
+    assert program.end() == 0
+    said = program.wait_for(r"recorded (\d+) messages of (\d+) topics in \d+ s, [\d.]+ MB\.")
+    with Reader(path) as bag:
+        assert bag.message_count == int(said[1])
+        assert len(bag.connections) == int(said[2])
+        assert sum(1 for _ in bag.messages()) == bag.message_count
+        assert wanted <= set(bag.topics)
+        assert not any("/_" in topic for topic in bag.topics)
+
+
+def test_a_killed_recording_keeps_what_was_flushed(
+    start: Callable[..., Program], tmp_path: Path
+) -> None:
+    path = tmp_path / "run"
+    program = start("webviz", "record", "-o", str(path), "--topics", "/tf*", "/scan")
+    wait_for_topics(program, path, {"/tf", "/tf_static", "/scan"})
+    program.end(signal.SIGKILL)
+    recording = open_recording(path)
+    assert recording.span_ns is not None
+    read = list(recording.messages(recording.channels, *recording.span_ns))
+    recording.close()
+    assert {message.channel.topic for message in read} == {"/tf", "/tf_static", "/scan"}
+
+
+def test_a_folder_that_cannot_be_written_is_one_sentence(start: Callable[..., Program]) -> None:
+    program = start("webviz", "record", "-o", "/proc/run")
+    assert program.process.wait(timeout=60) == 1
+    assert program.output() == "webviz: /proc/run cannot be written: No such file or directory.\n"

@@ -1,0 +1,7 @@
+// A value that several displays do not share, while their properties are edited together.
+
+/** In place of a value, also of an element of a vector. */
+export const MIXED = Symbol("mixed");
+
+/** What a field says instead of it. */
+export const MIXED_TEXT = "Mixed";

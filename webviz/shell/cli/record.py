@@ -1,0 +1,117 @@
+"""`webviz record`: records topics to a rosbag2 folder of MCAP files."""
+
+import sys
+import time
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import App, Parameter, validators
+
+from webviz.shell.cli.ending import Stop, say_end, until_signal
+from webviz.shell.cli.options import ROS_ARGS_HELP, RosArgs
+
+if TYPE_CHECKING:
+    from webviz.shell.recording import TopicRecorder
+
+EXAMPLES = """\
+Examples:
+  webviz record                                  record all topics until Ctrl-C
+  webviz record -o run --topics /tf* /scan       record some; * matches any characters
+  webviz record --split 1GB --keep 10GB          keep the newest 10 GB, in files of 1 GB
+
+"""
+UNITS = {"kB": 10**3, "MB": 10**6, "GB": 10**9, "TB": 10**12}
+SAY_S = 1.0
+"""Time between two lines of progress."""
+
+app = App("record", help_epilogue=EXAMPLES + ROS_ARGS_HELP)
+
+
+def _bytes(text: str) -> int:
+    """A number of bytes, such as 500MB."""
+    for unit, factor in UNITS.items():
+        if text.endswith(unit):
+            number = float(text.removesuffix(unit))
+            if number * factor >= 1:
+                return round(number * factor)
+    raise ValueError(f"`{text}` is not a size. Write it like 500MB or 10GB.")
+
+
+def _size(type_: object, tokens: object) -> int:
+    """Convert the value of an option of bytes."""
+    (token,) = tokens  # pyright: ignore[reportGeneralTypeIssues]
+    return _bytes(token.value)
+
+
+Size = Annotated[int, Parameter(converter=_size, metavar="SIZE", show_default=False)]
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class RecordOptions:
+    """What is recorded, and where."""
+
+    output: Annotated[Path | None, Parameter(alias="-o", metavar="FOLDER")] = None
+    """New folder of the recording (default: webviz_ with date and time)."""
+    topics: Annotated[
+        tuple[str, ...], Parameter(consume_multiple=True, metavar="TOPIC", show_default=False)
+    ] = ()
+    """Topics to record; * matches any characters (default: all)."""
+    split: Size = 0
+    """Begin a new file at this size, such as 1GB."""
+    split_time: Annotated[
+        float, Parameter(validator=validators.Number(gte=0), metavar="SECONDS", show_default=False)
+    ] = 0.0
+    """Begin a new file after this time."""
+    keep: Size = 0
+    """Delete the oldest files beyond this size in all; files are a tenth of it unless --split."""
+
+
+def _check(*, options: RecordOptions = RecordOptions(), **_: object) -> None:
+    """Raise ValueError for an invalid combination of arguments."""
+    if options.keep and options.split > options.keep:
+        raise ValueError("--keep must be at least --split.")
+
+
+@app.default(validator=_check)
+def record(*, options: RecordOptions = RecordOptions(), ros: RosArgs) -> int:
+    """Record until Ctrl-C or SIGTERM."""
+
+    def work(stop: Stop) -> int:
+        from webviz.api.errors import Error
+        from webviz.data.recordings import RecordingError
+        from webviz.data.recordings.folder_writing import Limits, RecordingFolder
+        from webviz.shell.recording import TopicRecorder, library
+        from webviz.shell.ros_source import ros_source
+
+        name = f"webviz_{datetime.now():%Y_%m_%d-%H_%M_%S}"
+        limits = Limits(options.split or options.keep // 10, options.split_time, options.keep)
+        try:
+            folder = RecordingFolder(options.output or Path(name), library(), limits)
+            with TopicRecorder(ros_source(ros), folder, options.topics) as recorder:
+                _follow(recorder, stop)
+        except RecordingError as error:
+            raise Error(str(error)) from error
+        return 0
+
+    return until_signal(work)
+
+
+def _follow(recorder: "TopicRecorder", stop: Stop) -> None:
+    """Record until the program is asked to end, and say how far it is."""
+    stop.hold()
+    stop.then(recorder.wake)
+    print(f"webviz: recording to {recorder.folder.path} (press Ctrl-C to stop)", file=sys.stderr)
+    said_s = time.monotonic()
+    is_terminal = sys.stderr.isatty()
+    while not stop.is_asked:
+        recorder.turn()
+        for problem in recorder.new_problems():
+            print(f"webviz: {problem}", file=sys.stderr)
+        if is_terminal and time.monotonic() - said_s >= SAY_S:
+            said_s = time.monotonic()
+            print(f"\r{recorder.progress()}\x1b[K", end="", file=sys.stderr, flush=True)
+    recorder.turn()
+    say_end(f"{chr(10) if is_terminal else ''}webviz: {recorder.progress()}.")
