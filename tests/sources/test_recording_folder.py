@@ -14,7 +14,7 @@ from rosbags.rosbag2 import Reader
 
 from webviz.data.messages import definition, encode
 from webviz.data.recordings import RecordedChannel, RecordingError, open_recording
-from webviz.data.recordings.folder_writing import Limits, RecordingFolder
+from webviz.data.recordings.folder_writing import RecordingFolder, RecordingLimits
 from webviz.engine.sources import Publisher
 from webviz.engine.sources.bag_qos import text_of
 
@@ -86,7 +86,7 @@ def test_what_was_flushed_is_read_before_the_recording_ends(folder: RecordingFol
 
 
 def test_files_are_split_and_the_oldest_deleted(tmp_path: Path) -> None:
-    limits = Limits(file_s=10.0, total_bytes=1)
+    limits = RecordingLimits(file_s=10.0, total_bytes=1)
     folder = RecordingFolder(tmp_path / "run", "webviz test", limits)
     put(folder, "/map", 0.0, "a map", latched=True)
     for second in range(25):
@@ -103,7 +103,7 @@ def test_files_are_split_and_the_oldest_deleted(tmp_path: Path) -> None:
 
 
 def test_files_are_split_by_size(tmp_path: Path) -> None:
-    folder = RecordingFolder(tmp_path / "run", "webviz test", Limits(file_bytes=2000))
+    folder = RecordingFolder(tmp_path / "run", "webviz test", RecordingLimits(file_bytes=2000))
     for second in range(100):
         put(folder, "/words", second, f"{second}" * 20)
         folder.flush()

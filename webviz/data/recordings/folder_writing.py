@@ -21,8 +21,8 @@ VERSION = 9
 
 
 @dataclass(frozen=True)
-class Limits:
-    """When a new file begins, and when old ones are deleted.
+class RecordingLimits:
+    """Sizes at which a new file begins, and at which old ones are deleted.
 
     Args:
         file_bytes, file_s: of one file; 0 is no limit.
@@ -60,7 +60,9 @@ class RecordingFolder:
             What was written before can be read.
     """
 
-    def __init__(self, path: Path, library: str, limits: Limits = Limits()) -> None:
+    def __init__(
+        self, path: Path, library: str, limits: RecordingLimits = RecordingLimits()
+    ) -> None:
         self.path = path
         self.deleted = 0
         """Files deleted to stay within the limit."""

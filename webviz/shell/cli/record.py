@@ -82,12 +82,14 @@ def record(*, options: RecordOptions = RecordOptions(), ros: RosArgs) -> int:
     def work(stop: Stop) -> int:
         from webviz.api.errors import Error
         from webviz.data.recordings import RecordingError
-        from webviz.data.recordings.folder_writing import Limits, RecordingFolder
+        from webviz.data.recordings.folder_writing import RecordingFolder, RecordingLimits
         from webviz.shell.recording import TopicRecorder, library
         from webviz.shell.ros_source import ros_source
 
         name = f"webviz_{datetime.now():%Y_%m_%d-%H_%M_%S}"
-        limits = Limits(options.split or options.keep // 10, options.split_time, options.keep)
+        limits = RecordingLimits(
+            options.split or options.keep // 10, options.split_time, options.keep
+        )
         try:
             folder = RecordingFolder(options.output or Path(name), library(), limits)
             with TopicRecorder(ros_source(ros), folder, options.topics) as recorder:
