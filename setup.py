@@ -53,6 +53,8 @@ setup(
         "pytest11": ["webviz = webviz.shell.pytest_plugin"],
         "webviz.displays": [
             "AccelStamped = webviz_displays.vectors:AccelStamped",
+            "AutowarePath = webviz_displays.autoware:AutowarePath",
+            "AutowareTrajectory = webviz_displays.autoware:AutowareTrajectory",
             "Axes = webviz_displays.axes:Axes",
             "Camera = webviz_displays.camera:Camera",
             "CameraInfo = webviz_displays.camera_info:CameraInfo",
@@ -94,6 +96,7 @@ setup(
             "Polygon = webviz_displays.areas:Polygon",
             "Pose = webviz_displays.poses:Pose",
             "PoseArray = webviz_displays.poses:PoseArray",
+            "PoseHistory = webviz_displays.autoware:PoseHistory",
             "PoseWithCovariance = webviz_displays.poses:PoseWithCovariance",
             "Range = webviz_displays.sensors:Range",
             "RelativeHumidity = webviz_displays.sensors:RelativeHumidity",

@@ -14,6 +14,7 @@ import numpy as np
 import photos
 import pytest
 import trimesh
+from autoware_scenes import AUTOWARE_SCENES
 from clouds import CLOUD, xyz_cloud
 from mapping_scenes import MAPPING_SCENES
 from moveit_scenes import moveit
@@ -275,6 +276,7 @@ SCENES: dict[str, Callable[[Any], None]] = {
     **PLAIN_SCENES,
     **MAPPING_SCENES,
     **PERCEPTION_SCENES,
+    **AUTOWARE_SCENES,
     **RTABMAP_SCENES,
 }
 
@@ -299,6 +301,7 @@ OF_THE_FUTURE = {
     *((name, "move_group_namespace") for name in ("MotionPlanning", "PlanningScene")),
     *((name, "scene_geometry.scene_display_time") for name in ("MotionPlanning", "PlanningScene")),
     ("Path", "buffer_length"),
+    ("PoseHistory", "buffer_size"),
     ("Range", "buffer_length"),
     ("RobotModel", "update_interval"),
     ("TF", "update_interval"),

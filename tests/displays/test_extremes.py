@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import photos
 import pytest
+from autoware_scenes import AUTOWARE_MESSAGES
 from clouds import CLOUD, xyz_cloud
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -29,6 +30,8 @@ from webviz.data.messages.typestore import MessageField, fields
 from webviz.engine.pipeline.runner import NOTHING_TO_DRAW
 from webviz.shell.testing.messages import header
 from webviz_displays.areas import GridCells, Polygon
+from webviz_displays.autoware import AutowarePath, AutowareTrajectory, PoseHistory
+from webviz_displays.autoware.look import FootprintView
 from webviz_displays.grid_map import GridMap
 from webviz_displays.image_plane import ImagePlane
 from webviz_displays.imu import Imu, Mag
@@ -99,6 +102,7 @@ MESSAGES: dict[str, Values] = {
     **PLAIN_MESSAGES,
     **MAPPING_MESSAGES,
     **PERCEPTION_MESSAGES,
+    **AUTOWARE_MESSAGES,
     **RTABMAP_MESSAGES,
     **MOVEIT_MESSAGES,
 }
@@ -154,6 +158,9 @@ DISPLAYS: list[Callable[[], Display]] = [
     lambda: Trajectory(show_trail=True),
     RobotState,
     ZedOdDisplay,
+    AutowarePath,
+    lambda: AutowareTrajectory(view_footprint=FootprintView(value=True)),
+    PoseHistory,
     MapCloud,
     lambda: MapCloud(cloud_from_scan=True),
 ]

@@ -12,6 +12,8 @@ import numpy as np
 import photos
 import PIL.Image
 import pytest
+from autoware_scenes import PASSED, TIMED, TRAJECTORY
+from autoware_scenes import POSE as POSE_STAMPED
 from clouds import CLOUD, FLOAT32, UINT32, XYZ, cloud
 from grid_maps import GRID_MAP, grid_map
 from mapping_scenes import COSTMAP, FIELD, GRAPH, IMU, MESH, VOXEL_GRID, VOXELS, hill
@@ -26,6 +28,7 @@ from webviz.api.nodes import Lines, Points
 from webviz.engine.commands import Picks
 from webviz.engine.pipeline.details import details_tree
 from webviz_displays.areas import GridCells, Polygon
+from webviz_displays.autoware import AutowareTrajectory, PoseHistory
 from webviz_displays.axes import Axes
 from webviz_displays.grid import Grid
 from webviz_displays.grid_map import GridMap
@@ -338,6 +341,18 @@ def point_of_a_map(bench: Benches) -> Details:
     return pick(at, "points", 1)
 
 
+def point_of_a_trajectory(bench: Benches) -> Details:
+    return one_of(bench, AutowareTrajectory(), TRAJECTORY, TIMED, "velocity line", 2)
+
+
+def pose_of_a_history(bench: Benches) -> Details:
+    at = bench(PoseHistory())
+    for values in PASSED:
+        at.send(POSE_STAMPED, values, frame="map")
+        at.turn(0.1)
+    return pick(at, "line", 1)
+
+
 def car_of_a_zed_camera(bench: Benches) -> Details:
     return one_of(bench, ZedOdDisplay(), ZED_OBJECTS, ZED_SCENE, "boxes", 3)
 
@@ -549,6 +564,12 @@ CASES: dict[Callable[[Benches], Details], tuple[str, Mapping[str, Any]]] = {
     point_of_a_map: (
         "Point of node 5", {"Seen": "500.000 s", "Points of the node": "3", "Intensity": "90.0"}
     ),
+    point_of_a_trajectory: (
+        "Point 2 of 4",
+        {"Velocity": "2 m/s", "Lateral velocity": "0.25 m/s", "Heading rate": "0.125 rad/s",
+         "Time": "0.5 s", "Acceleration": "0.5 m/s²", "Front wheels": "0 rad"},
+    ),
+    pose_of_a_history: ("Pose 1", {}),
     car_of_a_zed_camera: (
         "3-Vehicle [Car]",
         {"Kind": "Vehicle > Car", "Confidence": "87.5 %", "Velocity": "1.5, 0, 0 m/s",

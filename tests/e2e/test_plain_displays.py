@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
+from autoware_scenes import AUTOWARE_MESSAGES
 from mapping_scenes import MAPPING_MESSAGES
 from moveit_scenes import MOVEIT_MESSAGES, URDF
 from perception_scenes import PERCEPTION_MESSAGES
@@ -17,6 +18,7 @@ from webviz.api.display import inputs, inputs_of
 from webviz.data.messages import encode
 from webviz.shell.testing import LiveViewer
 from webviz_displays.areas import GridCells, Polygon
+from webviz_displays.autoware import AutowarePath, AutowareTrajectory
 from webviz_displays.grid_map import GridMap
 from webviz_displays.imu import Imu, Mag
 from webviz_displays.map import Costmap
@@ -53,9 +55,11 @@ CLASSES: tuple[type[Display], ...] = (
     *(AccelStamped, Effort, TwistStamped, Wrench),
     *(OccupancyGrid, OccupancyMap, GridMap, VoxelGrid, Costmap, Imu, Mag),
     *(MapCloud, MapGraph, NvbloxMesh, NvbloxVoxelBlockLayer),
-    ZedOdDisplay,
+    *(ZedOdDisplay, AutowarePath, AutowareTrajectory),
 )
-MESSAGES = PLAIN_MESSAGES | MAPPING_MESSAGES | PERCEPTION_MESSAGES | RTABMAP_MESSAGES
+MESSAGES = (
+    PLAIN_MESSAGES | MAPPING_MESSAGES | AUTOWARE_MESSAGES | PERCEPTION_MESSAGES | RTABMAP_MESSAGES
+)
 
 
 def test_each_display_draws_what_is_published_and_says_ok(

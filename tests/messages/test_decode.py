@@ -206,7 +206,8 @@ def _path(store, frame_ids):
         )
         for number, frame_id in enumerate(frame_ids)
     ]
-    return types["Path"](types["Header"](types["Time"](1, 2), "map"), poses)
+    path = store.types["nav_msgs/msg/Path"]
+    return path(types["Header"](types["Time"](1, 2), "map"), poses)
 
 
 def test_large_arrays_are_read_only_views_of_the_received_bytes(rosbags_store, random_message):

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import photos
+from autoware_scenes import pose_at
 from grid_maps import grid_map
 from octrees import Node, binary, full
 from perception_scenes import ZED_SCENE
@@ -20,6 +21,8 @@ from webviz.api.display import inputs_of
 from webviz.api.views import Orbit
 from webviz.shell.testing import Stage, turned
 from webviz_displays.areas import GridCells, Polygon
+from webviz_displays.autoware import AutowarePath, AutowareTrajectory, PoseHistory
+from webviz_displays.autoware.look import FootprintView, LaneView, TextView
 from webviz_displays.grid import Grid
 from webviz_displays.grid_map import GridMap
 from webviz_displays.imu import Imu, Mag
@@ -167,6 +170,23 @@ def loop() -> Values:
     }
 
 
+def curve() -> Values:
+    """A path around a bend, slower in its middle, between the bounds of a road."""
+    points = []
+    for number in range(31):
+        angle = math.pi * number / 40
+        x, y = 1.8 * math.sin(angle) - 1.0, 1.2 - 1.8 * math.cos(angle)
+        speed = 3.0 - 2.6 * math.sin(math.pi * number / 30)
+        points.append({"pose": pose_at(x, y, 0.0, angle), "longitudinal_velocity_mps": speed})
+    bounds = {
+        f"{side}_bound": [
+            vector(r * math.sin(a / 20) - 1.0, 1.2 - r * math.cos(a / 20), 0.0) for a in range(46)
+        ]
+        for side, r in (("left", 1.4), ("right", 2.2))
+    }
+    return {"points": points, **bounds}
+
+
 def visited() -> Values:
     """The room, seen from two places."""
     seen = rgbd(*photos.room())
@@ -269,6 +289,29 @@ CASES = [
     Case("nvblox_mesh", NvbloxMesh(), reconstructed()[:1]),
     Case("nvblox_voxel_block_layer", NvbloxVoxelBlockLayer(), reconstructed()[1:]),
     Case("costmap", Costmap(), (inflated(),)),
+    Case(
+        "autoware_path",
+        AutowarePath(
+            view_path=LaneView(constant_width=True, width=0.5, alpha=0.6, fade_out_distance=0.6)
+        ),
+        (curve(),),
+    ),
+    Case(
+        "autoware_trajectory",
+        AutowareTrajectory(
+            view_path=LaneView(value=False),
+            view_footprint=FootprintView(
+                value=True, vehicle_length=0.4, vehicle_width=0.25, rear_overhang=0.1
+            ),
+            view_text_velocity=TextView(value=True, scale=0.12),
+        ),
+        ({"points": curve()["points"][::5]},),
+    ),
+    Case(
+        "pose_history",
+        PoseHistory(),
+        tuple({"pose": each["pose"]} for each in curve()["points"]),
+    ),
     Case("zed_od_display", ZedOdDisplay(), (ZED_SCENE,)),
     Case("imu", Imu(box_properties=BOX, acceleration_properties=ACCELERATION), (TILTED,)),
     Case("mag", Mag(scale=0.6), ({"magnetic_field": vector(2e-5, 1e-5, -4e-5)},)),

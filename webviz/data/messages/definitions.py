@@ -1,7 +1,7 @@
 """Definitions of common messages that rosbags does not include.
 
 Field names and types are those of navigation_msgs, navigation2, octomap_msgs, grid_map,
-moveit_msgs, nvblox_msgs, rtabmap_msgs, zed_msgs, object_recognition_msgs, vision_msgs,
+moveit_msgs, nvblox_msgs, rtabmap_msgs, zed_msgs, Autoware, object_recognition_msgs, vision_msgs,
 foxglove_msgs and ffmpeg_image_transport_msgs in ROS 2 Jazzy, in the order of the wire.
 """
 
@@ -230,6 +230,29 @@ DEFINITIONS = {
     "zed_msgs/msg/ObjectsStamped": """
         std_msgs/Header header
         zed_msgs/Object[] objects""",
+    "autoware_planning_msgs/msg/PathPoint": """
+        geometry_msgs/Pose pose
+        float32 longitudinal_velocity_mps
+        float32 lateral_velocity_mps
+        float32 heading_rate_rps
+        bool is_final""",
+    "autoware_planning_msgs/msg/Path": """
+        std_msgs/Header header
+        autoware_planning_msgs/PathPoint[] points
+        geometry_msgs/Point[] left_bound
+        geometry_msgs/Point[] right_bound""",
+    "autoware_planning_msgs/msg/TrajectoryPoint": """
+        builtin_interfaces/Duration time_from_start
+        geometry_msgs/Pose pose
+        float32 longitudinal_velocity_mps
+        float32 lateral_velocity_mps
+        float32 acceleration_mps2
+        float32 heading_rate_rps
+        float32 front_wheel_angle_rad
+        float32 rear_wheel_angle_rad""",
+    "autoware_planning_msgs/msg/Trajectory": """
+        std_msgs/Header header
+        autoware_planning_msgs/TrajectoryPoint[] points""",
     "foxglove_msgs/msg/CompressedVideo": """
         builtin_interfaces/Time timestamp
         string frame_id

@@ -1,0 +1,6 @@
+"""Paths, trajectories, objects and poses of Autoware."""
+
+from webviz_displays.autoware.path import AutowarePath, AutowareTrajectory
+from webviz_displays.autoware.pose_history import PoseHistory
+
+__all__ = ["AutowarePath", "AutowareTrajectory", "PoseHistory"]
