@@ -17,7 +17,6 @@ from webviz.api.vehicle import STILL, Velocity
 from webviz.commands import Load, SetToolProperty, Undo
 from webviz.engine.driving import HelmAnswer, Helms
 from webviz.engine.driving.helm import PERIOD_S, TAIL
-from webviz.engine.driving.helms import GAP_S
 from webviz.engine.sources import Gate, NotConnected, Outlet, Rights
 from webviz.engine.state import Driving
 from webviz.shell.testing.source import HandFedSource
@@ -295,13 +294,26 @@ def test_a_topic_gets_another_type_once_its_vehicle_has_stopped(lone: Lone) -> N
     assert lone.helms.outlets() == {stamped}
 
 
-def test_set_points_that_always_change_are_published_every_20_ms_at_most(lone: Lone) -> None:
+@pytest.mark.parametrize(
+    ("change", "seconds"), [(0.1, 0.02), (0.0, 0.05)], ids=["changing", "steady"]
+)
+def test_commands_keep_a_distance_in_time(lone: Lone, change: float, seconds: float) -> None:
     start = time.monotonic()
     for number in itertools.count():
-        lone.steer(Velocity(linear=0.5 + 0.1 * (number % 2)))
-        if len(lone.speeds) >= 5:
+        lone.steer(Velocity(linear=0.5 + change * (number % 2)))
+        if len(lone.speeds) >= 6:
             break
-    assert time.monotonic() - start >= 4 * GAP_S
+    assert time.monotonic() - start >= 5 * seconds
+
+
+def test_the_zeros_of_the_end_do_not_wait_for_their_turn(
+    lone: Lone, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("webviz.engine.driving.helms.PERIOD_S", 3600.0)
+    lone.steer(AHEAD)
+    until(lambda: lone.speeds)
+    lone.helms.stop()
+    until(lambda: lone.speeds[-TAIL:] == [0.0] * TAIL)
 
 
 def test_a_command_that_fails_is_reported_until_one_succeeds(

@@ -60,10 +60,27 @@ def test_a_drive_that_ends_within_one_step_ends_with_some_zeros() -> None:
 def test_who_slows_down_brakes_and_who_reverses_stands_still_in_between(way: float) -> None:
     helm = make_helm()
     drive(helm, 0.0, 1.0, Velocity(way))
-    slower = [way * step.linear for step in drive(helm, 1.0, 0.2, Velocity(0.5 * way)) if step]
-    assert slower == pytest.approx([0.4, 0.3, 0.25, 0.25])
-    reversed_ = [way * step.linear for step in drive(helm, 1.2, 0.25, Velocity(-way)) if step]
-    assert reversed_ == pytest.approx([0.15, 0.05, 0.0, -0.05, -0.1])
+
+    def speeds(start: float, share: float) -> list[float]:
+        steps = drive(helm, start, 0.25, Velocity(share * way))
+        return [way * step.linear for step in steps if step]
+
+    assert speeds(1.0, 0.5) == pytest.approx([0.4, 0.3, 0.25, 0.25, 0.25])
+    assert speeds(1.25, -1.0) == pytest.approx([0.15, 0.05, 0.0, -0.05, -0.1])
+    assert speeds(1.5, 0.05) == pytest.approx([0.0, 0.025, 0.025, 0.025, 0.025])
+    assert speeds(1.75, -0.04) == pytest.approx([0.0, -0.02, -0.02, -0.02, -0.02])
+
+
+@pytest.mark.parametrize("way", [1.0, -1.0], ids=["ahead", "back"])
+def test_a_driver_who_falls_silent_before_the_first_command_moves_nothing(way: float) -> None:
+    helm = make_helm()
+    helm.steer(1, Velocity(way), 0.0, 0.0)
+    assert [helm.step(BEAT_S + 0.05 * n) for n in range(TAIL + 1)] == [STILL] * TAIL + [None]
+
+
+def test_an_axis_that_is_off_has_no_negative_zero() -> None:
+    steps = drive(make_helm(), 0.0, 0.2, Velocity(1.0, -1.0, -0.0))
+    assert {math.copysign(1.0, value) for step in steps if step for value in step} == {1.0}
 
 
 def test_only_another_set_point_asks_for_a_command_before_its_time() -> None:
@@ -101,7 +118,8 @@ def test_a_driver_who_sends_but_receives_nothing_new_loses_control(held: Velocit
     seen = 19 * PERIOD_S
     steps: list[Velocity | None] = []
     for now in (seen + 0.005 + 0.01 * index for index in range(60)):
-        helm.steer(1, held, seen, now)
+        is_new = helm.steer(1, held, seen, now)
+        assert not is_new or now < seen + BEAT_S
         steps.append(helm.step(now))
         assert now < seen + BEAT_S or steps[-1] in (STILL, None)
     assert steps[round(BEAT_S / 0.01) - 1] not in (STILL, None)
@@ -181,7 +199,7 @@ def test_the_first_driver_keeps_control_until_a_second_after_letting_go() -> Non
     helm.steer(1, STILL, 0.0, 0.0)
     assert helm.driver(0.0) is None
     drive(helm, 0.0, 1.0, AHEAD)
-    helm.steer(2, Velocity(linear=-1.0), 1.0, 1.0)
+    assert not helm.steer(2, Velocity(linear=-1.0), 1.0, 1.0)
     assert helm.driver(1.0) == 1
     assert helm.step(1.0) == Velocity(linear=0.5)
     drive(helm, 1.05, 0.9, STILL)

@@ -159,7 +159,7 @@ class Helms:
     def _run(self) -> None:
         published = 0.0
         while (is_moving := self._is_moving()) or not self._has_ended:
-            due = published + GAP_S if self._has_ended else self._due(published + PERIOD_S)
+            due = 0.0 if self._has_ended else self._due(published + PERIOD_S)
             rest = due - time.monotonic() if is_moving else None
             if rest is None or rest > 0.0:
                 self._woken.wait(rest)
