@@ -20,7 +20,7 @@ from webviz_displays.interactive_markers.reading import UPDATE, read_update
 
 MARKER = "visualization_msgs/msg/InteractiveMarker"
 NAN = math.nan
-MENU, MOVE_AXIS, ROTATE_AXIS = 1, 3, 5
+MENU, MOVE_AXIS, ROTATE_AXIS, MOVE_ROTATE = 1, 3, 5, 6
 
 
 def made(**values: Any) -> Completed | RefusedMarker:
@@ -54,6 +54,15 @@ def test_controls_without_markers_get_handles_in_the_size_and_colour_of_ros() ->
     np.testing.assert_allclose(
         content.colors[[0, 2]], [(0, 0, 0.6, 0.5), (0, 0, 1, 0.5)], atol=1e-6
     )
+
+    ring = part(interaction_mode=MOVE_ROTATE, orientation=up).shapes.contents[0]
+    wanted = [(0, 0, 0.6, 0.5)] * 2 + [(0, 0, 1, 0.5)] * 2
+    np.testing.assert_allclose(ring.colors[:8], wanted * 2, atol=1e-6)
+    corners = ring.points.reshape(-1, 3, 3)
+    angles = np.rad2deg(np.arctan2(corners[..., 2], corners[..., 1])).round(3) % 360
+    assert angles[:4].tolist() == [[0, 10, 10], [10, 10, 20], [0, 10, 0], [10, 20, 20]]
+    radii = np.hypot(corners[..., 1], corners[..., 2]).round(6)
+    assert (radii == 0.65).sum(axis=1)[:4].tolist() == [1, 1, 2, 2]
 
     title = part(interaction_mode=MENU, description="Options")
     assert (title.control.facing, title.shapes.contents[0].text) == ("view_facing", "Options")

@@ -89,21 +89,19 @@ def _color(wxyz: Wxyz) -> ColorRGBA:
 
 
 def _ring(mode: Mode) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The corners of the triangles of a ring, (6 n, 3), and a shade for each triangle, (2 n,)."""
+    """The corners of the triangles of a ring, (3 n, 3), and a shade for each triangle, (n,)."""
     angle = np.arange(RING_STEPS) * (2.0 * np.pi / RING_STEPS)
     circle = np.column_stack((np.zeros(RING_STEPS), np.cos(angle), np.sin(angle)))
     inner, outer = RING[0] * circle, RING[1] * circle
-    here, next_, after = (np.roll(np.arange(RING_STEPS), -step) for step in range(3))
+    a, b, c = (np.roll(np.arange(RING_STEPS), -step) for step in range(3))
     if mode == "move_plane":
-        first = inner[here], outer[here], inner[next_]
-        second = inner[next_], outer[here], outer[next_]
-    else:  # teeth that point outwards, with others between them
-        first = inner[here], outer[next_], inner[next_]
-        second = inner[next_], outer[next_], outer[after]
-    points = np.stack((*first, *second), axis=1).reshape(-1, 3)
-    shades = np.ones((RING_STEPS, 2))
-    if mode == "rotate_axis":
-        shades[::2] = DARK
-    elif mode == "move_rotate":
-        shades[:, 0] = DARK
-    return points, shades.reshape(-1)
+        triangles = (inner[a], outer[a], inner[b]), (inner[b], outer[a], outer[b])
+    elif mode == "rotate_axis":  # teeth that point outwards, with others between them
+        triangles = (inner[a], outer[b], inner[b]), (inner[b], outer[b], outer[c])
+    else:  # teeth of two steps
+        a, b, c = a[::2], b[::2], c[::2]
+        teeth = (inner[a], outer[b], inner[b]), (inner[b], outer[b], inner[c])
+        triangles = *teeth, (outer[a], outer[b], inner[a]), (outer[b], outer[c], inner[c])
+    points = np.array(triangles).transpose(2, 0, 1, 3).reshape(-1, 3)
+    shades = (1.0,) if mode == "move_plane" else (DARK, DARK, 1.0, 1.0)
+    return points, np.resize(shades, len(points) // 3)
