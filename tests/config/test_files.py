@@ -45,6 +45,10 @@ def test_a_missing_file_is_an_error_that_names_it(tmp_path: Path) -> None:
     ("data", "sentence"),
     [
         (b"\x89PNG\r\n\x1a\n\x00\xff", "is not UTF-8 text: not a config file."),
+        (
+            b"version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 9\n",
+            "is a Git LFS pointer: run `git lfs pull`.",
+        ),
         ("version: 1".encode("utf-16"), "is not UTF-8 text: it is UTF-16, save it as UTF-8."),
         (b"version: 1\x00", "is not valid YAML"),
         (b"# " * (2 << 20), "is not a config file: it is larger than 2 MB."),

@@ -10,7 +10,8 @@ from typing import Any
 
 from ruamel.yaml import YAML
 
-from webviz.data.recordings.opening import is_lfs, open_file
+from webviz.data.lfs import is_lfs
+from webviz.data.recordings.opening import open_file
 from webviz.data.recordings.recording import (
     Counts,
     Losses,

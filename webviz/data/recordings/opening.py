@@ -7,6 +7,7 @@ import tempfile
 from collections.abc import Callable, Collection, Iterator
 from pathlib import Path
 
+from webviz.data.lfs import is_lfs
 from webviz.data.recordings.mcap import McapRecording
 from webviz.data.recordings.mcap_records import MAGIC
 from webviz.data.recordings.recording import (
@@ -40,11 +41,6 @@ def open_file(path: Path) -> Recording:
     """
     kind = _kind(path)
     return CONTAINERS[kind](path) if kind in CONTAINERS else _Unpacked(path, kind)
-
-
-def is_lfs(head: bytes) -> bool:
-    """Return whether the first bytes of a file are those of a pointer of Git LFS."""
-    return head.startswith(b"version https://git-lfs.github.com/spec/")
 
 
 def _kind(path: Path) -> str:

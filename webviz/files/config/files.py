@@ -9,6 +9,7 @@ import stat
 from pathlib import Path
 
 from webviz.data.disk import within
+from webviz.data.lfs import is_lfs
 from webviz.files.config.errors import ConfigError
 
 MAX_BYTES = 2 << 20
@@ -31,6 +32,8 @@ def read_text(path: Path) -> str:
     except OSError as error:
         raise ConfigError(f"Cannot read {path}: {error.strerror or error}.") from error
     refuse_too_large(len(data), str(path))
+    if is_lfs(data):
+        raise ConfigError(f"{path} is a Git LFS pointer: run `git lfs pull`.")
     try:
         return data.decode("utf-8-sig")  # editors on Windows write a byte order mark
     except UnicodeDecodeError as error:

@@ -68,7 +68,6 @@ def _read_item(entry: Any, report: Report, kept: Kept, place: Location) -> Item:
     inner = tree.pop("Displays", []) if isinstance(display, DisplayGroup) else []
     written = bare(display)
     rest = difference({k: v for k, v in tree.items() if k not in ("Class", "Name")}, written)
-    topics.keep_automatic(tree, written, rest, properties(found))
     kept.entries.append({"Class": found.rviz, "Name": display.name, **rest})
     if not isinstance(display, DisplayGroup):
         return display
@@ -179,4 +178,5 @@ def _write(display: Display, kept: Kept) -> Tree:
         return to_values(display_from(cls, tree, Reading()))
 
     kept_tree = kept.take(cls.rviz, display.name)
-    return restored(bare(display), kept_tree, to_values(display), meaning)
+    tree = restored(bare(display), kept_tree, to_values(display), meaning)
+    return topics.without_idle_marks(tree, properties(cls))

@@ -32,6 +32,9 @@ when saving.
   `Hide Small Values` hides them.
 - RViz's default QoS becomes `auto`, because RViz writes it whether chosen or not; other values are
   explicit choices. A robot's description is always subscribed with transient local, as in RViz.
+- RViz has no automatic QoS. It gets best effort for sensors, which hears every publisher, and
+  transient local for maps; `Automatic QoS: true` beside it makes it automatic again here. RViz
+  ignores that key, and drops it when it saves the file.
 - Out-of-range values are clamped and reported with their line.
 - Classes, topics and QoS of ROS 1's RViz are accepted, and written as those of ROS 2.
 - Displays of RViz plug-ins are kept, and shown once a webviz plug-in names their class.

@@ -2,8 +2,9 @@
 
 RViz writes Reliable, Volatile and a depth of 5 into every file, chosen or not.
 Taken literally they would lose the laser scans of a best-effort publisher. RViz's defaults
-therefore become `auto`, and all other values are explicit choices. A robot's description is
-always subscribed with transient local, as in RViz.
+therefore become `auto`, and all other values are explicit choices. Where `auto` is written, RViz
+gets what hears the usual publishers, and a mark says that it was not chosen. A robot's description
+is always subscribed with transient local, as in RViz.
 """
 
 from __future__ import annotations
@@ -15,15 +16,17 @@ from webviz.api.declared import Topic
 from webviz.api.ports import Input, Output
 from webviz.files.rviz import values
 from webviz.files.rviz.properties import RvizProperty
-from webviz.files.rviz.tree import Path, Tree, child, put
+from webviz.files.rviz.tree import Path, Tree, child
 from webviz.files.rviz.values import Unfit
 
 DEPTH = 5
 ROS_1_QUEUE_SIZE = 10
 RELIABILITY = {"reliable": "Reliable", "best_effort": "Best Effort"}
 DURABILITY = {"volatile": "Volatile", "transient_local": "Transient Local"}
-RELIABLE = "Reliability Policy"
-POLICIES = ("Depth", "Filter size", "History Policy", RELIABLE, "Durability Policy")
+RELIABLE, DURABLE = "Reliability Policy", "Durability Policy"
+POLICIES = ("Depth", "Filter size", "History Policy", RELIABLE, DURABLE)
+AUTOMATIC = "Automatic QoS"
+"""Of webviz alone: the policy that suits the type of a topic stands for `auto`. RViz ignores it."""
 TOPIC = "Topic"
 OLD_KEYS = ("Image Topic", "Marker Topic", "Octomap Topic")
 """ROS 1's keys for `TOPIC`."""
@@ -70,7 +73,19 @@ def read(tree: Tree, place: RvizProperty, faults: list[tuple[Path, str]]) -> tup
             result |= _policy(field, value, place.port)
         except Unfit as error:
             faults.append((path, str(error)))
+    if isinstance(raw, Mapping) and raw.get(AUTOMATIC) is True and isinstance(place.port, Input):
+        used.add((*above, key, AUTOMATIC))
+        for policy in _suited(place.port):
+            result.pop(policy, None)
     return result, used
+
+
+def _suited(input: Input) -> dict[str, str]:
+    """The policies that hear the usual publishers of a type where RViz's defaults do not."""
+    if input.type.startswith("sensor_msgs/"):
+        return {"reliability": "Best Effort"}  # which hears all publishers
+    is_map = input.type == "nav_msgs/msg/OccupancyGrid" and not input.latched
+    return {"durability": "Transient Local"} if is_map else {}
 
 
 def _with_transport(name: str, hint: Any) -> str:
@@ -90,22 +105,20 @@ def complete(display: dict[str, Any], topics: list[RvizProperty]) -> None:
             topic["name"] = ""
 
 
-def keep_automatic(tree: Tree, written: Tree, rest: Tree, places: Iterable[RvizProperty]) -> None:
-    """Keep the QoS of topics automatic whose file has no place for it, such as one of ROS 1.
-
-    What `write` chooses for them in new files would be an explicit choice on reading.
+def without_idle_marks(tree: Tree, places: Iterable[RvizProperty]) -> Tree:
+    """A display's tree without `AUTOMATIC` where its file has RViz's default, which is automatic.
 
     Args:
-        tree: of the display in the file.
-        written: the same display without the file.
-        rest: the parts of the file that are kept; gains RViz's default.
+        tree: of the display, not changed.
         places: the properties of the display.
     """
     for place in places:
-        own = child(written, *place.path)
-        is_named = child(tree, *place.path[:-1]).get(place.path[-1]) is not None
-        if isinstance(place.port, Input) and not is_named and own.get(RELIABLE) == "Best Effort":
-            put(rest, (*place.path, RELIABLE), "Reliable")
+        own = child(tree, *place.path)
+        is_chosen = (own.get(RELIABLE), own.get(DURABLE)) != ("Reliable", "Volatile")
+        if AUTOMATIC in own and not is_chosen:
+            (key,) = place.path
+            tree = {**tree, key: {k: value for k, value in own.items() if k != AUTOMATIC}}
+    return tree
 
 
 def write(topic: Topic, port: Input | Output, first: Topic) -> Tree | str:
@@ -118,15 +131,17 @@ def write(topic: Topic, port: Input | Output, first: Topic) -> Tree | str:
 
 
 def _write_input(topic: Topic, input: Input, first: Topic) -> Tree:
-    # `auto` becomes the QoS that matches the usual publishers where RViz's defaults do not. A topic
-    # that is not named has no publishers, and its QoS would be an explicit choice on reading.
-    is_sensor = bool(topic.name) and input.type.startswith("sensor_msgs/")
-    reliability = "Best Effort" if is_sensor else "Reliable"
-    is_latched = input.latched or input.type == "nav_msgs/msg/OccupancyGrid"
-    durability = "Transient Local" if is_latched else "Volatile"
-    tree = _written(topic, reliability, durability)
+    # A topic that is not named has no publishers.
+    suited = _suited(input) if topic.name else {}
+    tree = _written(
+        topic,
+        suited.get("reliability", "Reliable"),
+        suited.get("durability", "Volatile"),
+    )
+    if any(getattr(topic, policy) == "auto" for policy in suited):
+        tree[AUTOMATIC] = True
     if input.latched:
-        tree["Durability Policy"] = durability
+        tree[DURABLE] = "Transient Local"
     if not topic.name and input.suffix and first.name:
         tree["Value"] = first.name + input.suffix
     if not input.latched and not input.suffix:
@@ -140,8 +155,8 @@ def _written(topic: Topic, reliability: str, durability: str) -> Tree:
         "Value": topic.name,
         "Depth": topic.depth or DEPTH,
         "History Policy": "Keep Last",
-        "Reliability Policy": RELIABILITY.get(topic.reliability, reliability),
-        "Durability Policy": DURABILITY.get(topic.durability, durability),
+        RELIABLE: RELIABILITY.get(topic.reliability, reliability),
+        DURABLE: DURABILITY.get(topic.durability, durability),
     }
 
 
