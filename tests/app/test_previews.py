@@ -41,7 +41,7 @@ TOLERANCE = 0.001
 
 @pytest.fixture(scope="module")
 def viewer() -> Iterator[webviz.Viewer]:
-    def read(_: object) -> Config:
+    def read(*_: object) -> Config:
         return parse(CONFIG, "x.yaml")
 
     source = HandFedSource(graph=RememberingGraph())  # pyright: ignore[reportArgumentType]

@@ -32,7 +32,7 @@ def source() -> HandFedSource:
 
 @pytest.fixture(scope="module")
 def viewer(source: HandFedSource) -> Iterator[webviz.Viewer]:
-    def read(_: object) -> Config:
+    def read(*_: object) -> Config:
         return parse(CONFIG, "x.yaml")
 
     with webviz.Viewer(port=0, source=source, read=read) as viewer:

@@ -47,7 +47,7 @@ def server(ros_env: dict[str, str]) -> Iterator[MarkerServer]:
 
 @pytest.fixture(scope="module")
 def viewer(ros_env: dict[str, str]) -> Iterator[webviz.Viewer]:
-    def read(_: object) -> Config:
+    def read(*_: object) -> Config:
         return parse(CONFIG, "x.yaml")
 
     source = RosSource(domain_id=int(ros_env["ROS_DOMAIN_ID"]))

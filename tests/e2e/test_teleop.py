@@ -93,7 +93,7 @@ def nothing_heard(robot: Robot) -> None:
 
 @pytest.fixture(scope="module")
 def viewer(robot: Robot) -> Iterator[webviz.Viewer]:
-    def read(_: object) -> Config:
+    def read(*_: object) -> Config:
         return parse("displays: []\n", "x.yaml")
 
     with webviz.Viewer(port=0, read=read) as viewer:
