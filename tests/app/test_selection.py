@@ -53,7 +53,7 @@ def source() -> HandFedSource:
 
 @pytest.fixture(scope="module")
 def viewer(source: HandFedSource) -> Iterator[webviz.Viewer]:
-    def read(_: object) -> Config:
+    def read(*_: object) -> Config:
         return parse(CONFIG, "x.yaml")
 
     with webviz.Viewer(port=0, source=source, read=read) as viewer:
@@ -232,6 +232,13 @@ def test_boxes_select_and_keys_add_and_remove(
     tab = page.tab
     box(page, (-1.5, -1.5), (0.5, 0.5))
     wait_for_titles(page, ["Point 0", "Point 1", "Point 3", "Point 4"])
+    rows = tab.locator(".wv-selection .wv-row").all_inner_texts()
+    assert [row.split("\n") for row in rows[:4]] == [
+        ["Cloud", "4 selected"],
+        ["Position in map x", "-1 to 0, mean -0.5 m"],
+        ["Position in map y", "-1 to 0, mean -0.5 m"],
+        ["Position in map z", "0 to 0, mean 0 m"],
+    ]
     box(page, (0.5, 0.5), (1.5, 1.5), "Shift")
     wait_for_titles(page, ["Point 0", "Point 1", "Point 3", "Point 4", "Point 8"])
     tab.keyboard.down("Control")

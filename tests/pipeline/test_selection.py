@@ -190,6 +190,23 @@ def test_a_selection_has_a_limit(shown: Any) -> None:
     assert (info["count"], info["total"]) == (1000, 50_000)
 
 
+def test_statistics_are_of_the_numbers_of_each_display(shown: Any) -> None:
+    first, second = (Picks(DOTS, "dots", dot(1.0, number, number).items) for number in (0, 1))
+    shown.do(Select((first,), total=1), PAGE)
+    assert "displays" not in shown.states[-1].selections[1]["/info"]
+    pose(shown, 4.0)
+    third = dot(4.0, 1, 2)
+    shown.do(Select((second, third), keep=(0,), total=3), PAGE)
+    (display,) = shown.states[-1].selections[1]["/info"]["displays"]
+    assert (display["name"], display["count"]) == ("Pair", 3)
+    assert [tuple(each.values()) for each in display["ranges"]] == [
+        ("Position in map x", "m", 1.0, 4.0, 2.0),
+        ("Position in map y", "m", 0.0, 1.0, pytest.approx(2 / 3)),
+        ("Position in map z", "m", 0.0, 0.0, 0.0),
+        ("x", "", 1.0, 4.0, 2.0),
+    ]
+
+
 def test_only_so_many_replaced_messages_are_held(shown: Any) -> None:
     """A program could otherwise hold every cloud that ever came."""
     for number in range(30):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from webviz.api.errors import Error
@@ -15,6 +15,7 @@ from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.pipeline import Runner
 from webviz.engine.pipeline.details import details_tree, first_line
 from webviz.engine.pipeline.picking import Found
+from webviz.engine.pipeline.statistics import Statistics
 
 MAX_SELECTED = 1000
 """Things that one browser selects."""
@@ -160,6 +161,7 @@ class SelectionPart(Part):
         """Of each thing, by id, what a page shows; "/info" is about the selection as a whole."""
         told: dict[str, Any] = {}
         known: dict[tuple[str, str], list[Any]] = {}
+        counted: dict[str, Statistics] = {}
         for id, selected in selection.things.items():
             runner, found = selected.runner, selected.found
             details = self._details(selected)
@@ -176,8 +178,20 @@ class SelectionPart(Part):
             fields = own | {k: v for k, v in self._whereabouts(found).items() if k not in own}
             each = {"title": title, "tree": {"fields": fields}, "note": note}
             told[str(id)] = {"display": runner.id, "name": runner.display.name, **each}
-        info = {"total": max(selection.total, len(selection.things)), "live": MAX_LIVE}
-        return {**told, "/info": info | {"count": len(selection.things)}}
+            statistics = counted.setdefault(runner.id, Statistics(runner.display.name))
+            where = found.position(self.core.frames) if found.hit.id is not None else None
+            statistics.add(details.values if details else {}, where)
+        info: dict[str, Any] = {
+            "total": max(selection.total, len(selection.things)),
+            "live": MAX_LIVE,
+        }
+        info["count"] = len(selection.things)
+        if sum(each.count for each in counted.values()) > 1:
+            info["displays"] = [
+                {"name": each.name, "count": each.count, "ranges": list(map(asdict, each.ranges()))}
+                for each in counted.values()
+            ]
+        return {**told, "/info": info}
 
     def _whereabouts(self, found: Found) -> dict[str, str]:
         """Return the details known of anything that is drawn."""

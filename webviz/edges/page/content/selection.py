@@ -13,7 +13,8 @@ def selection(state: State, browser: str) -> Mapping[str, Any]:
 
     A thing has the id and the "name" of its "display", a "title", a "tree" of values, and a "note".
     "/info" has their "total" before any limit, the "count" of those selected, and how many are
-    kept "live" at most.
+    kept "live" at most; of several things also, for each of their "displays", its "name", the
+    "count", and of numbers the "ranges": "name", "unit", "low", "high" and "mean".
     """
     return _of(browser, state.selections)
 

@@ -11,6 +11,7 @@ import { select } from "../tools/registry.js";
 import * as tool from "../tools/select.js";
 import * as selection from "../tools/selection.js";
 import { rowsOf, textOf } from "./message_tree.js";
+import { statisticsRows, statisticsText } from "./statistics.js";
 import { showFrame } from "./transforms.js";
 
 const ROW_PX = 24;
@@ -47,9 +48,11 @@ export const selectionPanel = {
 
     function show() {
       const ids = idsOf(values);
-      const rows = ids.flatMap((id) => rowsOfThing(id, values.get(id), ids.length === 1));
-      list.show(rows);
-      const { total = 0, count: held = 0, live = 0 } = values.get("/info") ?? {};
+      const { total = 0, count: held = 0, live = 0, displays = [] } = values.get("/info") ?? {};
+      list.show([
+        ...statisticsRows(displays, folds),
+        ...ids.flatMap((id) => rowsOfThing(id, values.get(id), ids.length === 1)),
+      ]);
       setText(count, held ? `${held} selected` : "");
       set(empty, { hidden: held > 0 });
       for (const one of [look, copyAll, clear]) set(one, { disabled: held === 0 });
@@ -91,14 +94,14 @@ export const selectionPanel = {
         }, icon("tree", 14)));
     }
 
-    function updateRow(row, { name, value, depth, isOpen, isThing = false, remark = "" }) {
+    function updateRow(row, { name, value, depth, isOpen, isThing = false, isStatistics = false, remark = "" }) {
       const [fold, label, text, link] = row.children;
       set(fold, { "data-open": isOpen ? "" : null, "data-none": isOpen === null ? "" : null });
       setText(label, name);
       setText(text, isThing && remark ? `${value} · replaced` : value);
       set(row, {
         "aria-level": depth + 1, "aria-expanded": isOpen === null ? null : String(isOpen),
-        "data-thing": isThing,
+        "data-thing": isThing, "data-statistics": isStatistics,
         "data-tip": remark || (isOpen === null ? `${value}\nClick to copy` : null),
       });
       const frame = FRAMES.has(name) && frames.has(value) ? value : null;
@@ -138,7 +141,7 @@ const idsOf = (values) =>
   [...values.keys()].filter((id) => id !== "/info").sort((a, b) => Number(a) - Number(b));
 
 const textOfAll = (values) =>
-  idsOf(values).map((id) => {
+  statisticsText(values.get("/info")?.displays ?? []) + idsOf(values).map((id) => {
     const { title, name, tree, note } = values.get(id);
     const head = [`${title} (${name})`, note].filter(Boolean).join(": ");
     return `${head}\n${textOf(tree, "  ")}\n`;

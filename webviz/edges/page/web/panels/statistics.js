@@ -1,0 +1,27 @@
+// How many things of each display are selected, and over what their values extend.
+
+const DIGITS = 5;
+
+/** Rows of the panel "Selection" for what the server has told of displays; `folds` as there. */
+export function statisticsRows(displays, folds) {
+  return displays.flatMap(({ name, count, ranges }, index) => {
+    const key = `statistics ${index}`;
+    const isOpen = ranges.length ? folds.get(key) ?? true : null;
+    const row = { key, depth: 0, name, value: `${count} selected`, isOpen, isStatistics: true };
+    const rows = ranges.map((range) => ({
+      key: `${key}/${range.name}`, depth: 1, name: range.name, value: words(range), isOpen: null,
+    }));
+    return isOpen ? [row, ...rows] : [row];
+  });
+}
+
+/** The same as text. */
+export const statisticsText = (displays) =>
+  displays.map(({ name, count, ranges }) =>
+    [`${name}: ${count} selected`, ...ranges.map((range) => `  ${range.name}: ${words(range)}`), ""].join("\n"),
+  ).join("");
+
+function words({ unit, low, high, mean }) {
+  const [from, to, middle] = [low, high, mean].map((value) => String(Number(value.toPrecision(DIGITS))));
+  return `${from} to ${to}, mean ${middle}${unit && ` ${unit}`}`;
+}

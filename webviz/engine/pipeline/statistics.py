@@ -1,0 +1,95 @@
+"""Statistics of the items that a browser has selected, of each display."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from webviz.engine.pipeline.baking import Position
+
+MAX_NAMES = 20
+"""Values of one display of which there are statistics."""
+
+
+@dataclass(frozen=True)
+class Range:
+    """The extent of one value over several items.
+
+    Args:
+        name: of the value, such as "intensity".
+        unit: "" if unknown.
+        low, high, mean: of the finite ones.
+    """
+
+    name: str
+    unit: str
+    low: float
+    high: float
+    mean: float
+
+
+@dataclass
+class Statistics:
+    """What the selected items of one display have in common.
+
+    Args:
+        name: of the display.
+        count: of its items.
+    """
+
+    name: str
+    count: int = 0
+    _values: dict[tuple[str, str], list[float]] = field(default_factory=dict)
+
+    def add(self, values: Mapping[str, object], position: tuple[str, Position] | None) -> None:
+        """Add an item.
+
+        Args:
+            values: that the display has told of it; texts are left out.
+            position: of the item in metres, and in which frame.
+        """
+        self.count += 1
+        told: dict[str, tuple[float, str]] = {}
+        if position is not None:
+            frame, xyz = position
+            told = {f"Position in {frame} {a}": (v, "m") for a, v in zip("xyz", xyz, strict=True)}
+        for name, value in _numbers(values):
+            told.setdefault(name, (value, ""))
+        for name, (value, unit) in told.items():
+            self._values.setdefault((name, unit), []).append(value)
+
+    def ranges(self) -> list[Range]:
+        """Return the extents, but for numbers that are the same for all items."""
+        found: list[Range] = []
+        for (name, unit), all_values in self._values.items():
+            values = [value for value in all_values if math.isfinite(value)]
+            is_told = len(values) > 1 and (unit or min(values) < max(values))
+            if is_told and len(found) < MAX_NAMES:
+                mean = math.fsum(value / len(values) for value in values)
+                found.append(Range(name, unit, min(values), max(values), mean))
+        return found
+
+
+def _numbers(values: Mapping[str, object], above: str = "") -> Iterator[tuple[str, float]]:
+    """All numbers by their names; those within a mapping are called as it and themselves."""
+    for name, value in values.items():
+        own = f"{above} {name}".strip()
+        if isinstance(value, Mapping):
+            inner: Mapping[str, object] = value
+            yield from _numbers(inner, own)
+        elif isinstance(value, bool | np.bool_):
+            continue
+        elif isinstance(value, int | float | np.integer | np.floating):
+            yield own, _real(value)
+
+
+def _real(value: float | np.integer[Any] | np.floating[Any]) -> float:
+    """Return an integer beyond all floats as infinite."""
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf
