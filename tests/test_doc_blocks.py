@@ -7,8 +7,10 @@ from __future__ import annotations
 
 import ast
 import importlib
+import re
 import shlex
 import subprocess
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -17,6 +19,7 @@ from doc_blocks import CONFIG, ROOT, Block, blocks
 from webviz.files import opening
 from webviz.shell.cli.commands import app, split_ros_arguments
 from webviz.shell.cli.options import ConfigOptions
+from webviz_sim.world import load_world
 
 
 def commands(program: str) -> list[tuple[str, str]]:
@@ -63,6 +66,30 @@ def test_every_config_is_read_without_a_complaint(block: Block, tmp_path: Path) 
     file = tmp_path / "lab.yaml"
     file.write_text(block.text if "version:" in block.text else f"version: 1\n{block.text}")
     assert opening.load(file).report == []
+
+
+@pytest.mark.parametrize(("place", "arguments"), commands("python"))
+def test_every_script_that_a_command_runs_exists(place: str, arguments: str) -> None:
+    script, _, _ = arguments.partition(" ")
+    assert script == "-m" or (ROOT / script).is_file()
+
+
+@pytest.mark.parametrize("block", blocks("xml"), ids=str)
+def test_a_plan_is_a_world(block: Block, tmp_path: Path) -> None:
+    file = tmp_path / "plan.svg"
+    file.write_text(block.text)
+    world = load_world(file)
+    assert (world.cells == 100).any()
+    assert (world.cells == 0).any()
+
+
+@pytest.mark.parametrize("block", blocks("toml"), ids=str)
+def test_an_entry_point_names_a_group_and_a_class(block: Block) -> None:
+    known = set(re.findall(r'"(webviz\.\w+)": \[', (ROOT / "setup.py").read_text()))
+    (groups,) = (each["entry-points"] for each in tomllib.loads(block.text).values())
+    assert groups.keys() <= known
+    for name, target in [pair for group in groups.values() for pair in group.items()]:
+        assert target.rpartition(":")[2] == name
 
 
 @pytest.mark.parametrize("block", blocks("python"), ids=str)

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from bags import Bag
 from doc_blocks import CONFIG, Block, blocks
 from program import Program
 
@@ -17,14 +18,25 @@ PROGRAMS = [each for each in blocks("python") if "webviz.Viewer(" in each.text]
 TESTS = [each for each in blocks("python") if "\ndef test_" in each.text]
 
 
+def recorded() -> Bag:
+    """A run of 20 s."""
+    bag = Bag()
+    for at_s in range(21):
+        bag.transform(at_s, "map", "odom")
+    return bag
+
+
 @pytest.mark.parametrize("block", PROGRAMS, ids=str)
 def test_a_program_shows_its_page_until_ctrl_c(
     block: Block, tmp_path: Path, ros_env: dict[str, str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path("lab.yaml").write_text(CONFIG.text)
+    if "run.mcap" in block.text:
+        recorded().write(tmp_path / "run")
+        next(Path("run").glob("*.mcap")).rename("run.mcap")
     # The default port may be taken.
-    shown = block.text.replace('("lab.yaml")', '("lab.yaml", port=0)')
+    shown = block.text.replace('Viewer("lab.yaml"', 'Viewer("lab.yaml", port=0')
     lines = shown.replace("viewer.wait()", "print(viewer.url, flush=True)\n    viewer.wait()")
     program = Program([sys.executable, "-c", lines], ros_env, tmp_path / "output.txt")
     program.url()

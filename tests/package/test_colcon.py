@@ -52,6 +52,12 @@ def test_colcon_builds_a_package_that_runs(tmp_path: Path, options: list[str]) -
     shown = run(["sh", "-c", source + programs])
     assert "usage: webviz-sim" in shown
 
+    test = [*build[:-1], "test", "--return-code-on-test-failure"]
+    one = ["--pytest-args", "tests/test_rotations.py"]
+    outcome = run([*test, "--paths", str(ROOT), *folders, *one])
+    assert "Finished <<< webviz" in outcome, outcome
+    assert 'failures="0"' in (tmp_path / "build/webviz/pytest.xml").read_text()
+
 
 def test_both_packages_have_one_version() -> None:
     files = (ROOT / "package.xml", ROOT / "ros/webviz_urdf/package.xml")

@@ -7,6 +7,7 @@ import json
 import re
 import subprocess
 import sys
+import tarfile
 import tomllib
 from importlib import metadata
 from pathlib import Path
@@ -105,3 +106,25 @@ def test_the_licences_of_visers_page_are_listed() -> None:
     copies = [each.name for each in (CLIENT / "src/vendor").iterdir()]
     assert all(f"/{name} (MIT)" in section for name in copies), copies
     assert listed == {name: lock[f"node_modules/{name}"]["license"] for name in wanted}
+
+
+def test_a_source_distribution_has_all_that_a_wheel_needs_and_no_tests(tmp_path: Path) -> None:
+    files()  # skips without a clone
+    clone, made = tmp_path / "clone", tmp_path / "made"
+    clone.mkdir()
+    tree = subprocess.run(
+        ["git", "ls-files", "-z", "--", ".", ":!tests"], cwd=ROOT, capture_output=True, check=True
+    )
+    for name in tree.stdout.decode().split("\0")[:-1]:
+        (clone / name).parent.mkdir(parents=True, exist_ok=True)
+        (clone / name).symlink_to(ROOT / name)
+    (clone / "tests").mkdir()
+    (clone / "tests/test_none.py").touch()
+    command = [sys.executable, "setup.py", "-q", "sdist", "--formats=tar", "-d", str(made)]
+    outcome = subprocess.run(command, cwd=clone, capture_output=True, text=True)
+    assert outcome.returncode == 0, outcome.stderr
+    with tarfile.open(next(made.iterdir())) as archive:
+        inside = {name.partition("/")[2] for name in archive.getnames()}
+    about = {"LICENSE", "THIRD_PARTY.md", "README.md", "package.xml", "setup.py", "pyproject.toml"}
+    assert {*map(str, files()), *about} <= inside
+    assert [name for name in inside if name.startswith("tests")] == []

@@ -75,7 +75,7 @@ def _options(arguments: ArgumentCollection, known: set[str]) -> Iterator[tuple[s
             has_default = each.parameter.show_default is None and value not in (None, "")
             is_given = isinstance(value, int | float | str) and not isinstance(value, bool)
             default = f"`{value}`" if has_default and is_given else ""
-            yield shown, default, (each.parameter.help or "").replace("|", "\\|")
+            yield shown, default, " ".join((each.parameter.help or "").split()).replace("|", "\\|")
 
 
 def _shares(arguments: ArgumentCollection) -> bool:
