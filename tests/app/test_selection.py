@@ -235,9 +235,9 @@ def test_boxes_select_and_keys_add_and_remove(
     rows = tab.locator(".wv-selection .wv-row").all_inner_texts()
     assert [row.split("\n") for row in rows[:4]] == [
         ["Cloud", "4 selected"],
-        ["Position in map x", "-1 to 0, mean -0.5 m"],
-        ["Position in map y", "-1 to 0, mean -0.5 m"],
-        ["Position in map z", "0 to 0, mean 0 m"],
+        ["x in map", "-1 to 0, mean -0.5 m"],
+        ["y in map", "-1 to 0, mean -0.5 m"],
+        ["z in map", "0 to 0, mean 0 m"],
     ]
     box(page, (0.5, 0.5), (1.5, 1.5), "Shift")
     wait_for_titles(page, ["Point 0", "Point 1", "Point 3", "Point 4", "Point 8"])

@@ -200,9 +200,9 @@ def test_statistics_are_of_the_numbers_of_each_display(shown: Any) -> None:
     (display,) = shown.states[-1].selections[1]["/info"]["displays"]
     assert (display["name"], display["count"]) == ("Pair", 3)
     assert [tuple(each.values()) for each in display["ranges"]] == [
-        ("Position in map x", "m", 1.0, 4.0, 2.0),
-        ("Position in map y", "m", 0.0, 1.0, pytest.approx(2 / 3)),
-        ("Position in map z", "m", 0.0, 0.0, 0.0),
+        ("x in map", "m", 1.0, 4.0, 2.0),
+        ("y in map", "m", 0.0, 1.0, pytest.approx(2 / 3)),
+        ("z in map", "m", 0.0, 0.0, 0.0),
         ("x", "", 1.0, 4.0, 2.0),
     ]
 

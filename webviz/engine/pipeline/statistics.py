@@ -34,7 +34,7 @@ class Range:
 
 @dataclass
 class Statistics:
-    """What the selected items of one display have in common.
+    """Count and extents of the selected items of one display.
 
     Args:
         name: of the display.
@@ -56,7 +56,7 @@ class Statistics:
         told: dict[str, tuple[float, str]] = {}
         if position is not None:
             frame, xyz = position
-            told = {f"Position in {frame} {a}": (v, "m") for a, v in zip("xyz", xyz, strict=True)}
+            told = {f"{a} in {frame}": (v, "m") for a, v in zip("xyz", xyz, strict=True)}
         for name, value in _numbers(values):
             told.setdefault(name, (value, ""))
         for name, (value, unit) in told.items():
@@ -75,9 +75,10 @@ class Statistics:
 
 
 def _numbers(values: Mapping[str, object], above: str = "") -> Iterator[tuple[str, float]]:
-    """All numbers by their names; those within a mapping are called as it and themselves."""
+    """All numbers by their names, such as "x in map" for the x of a "Position in map"."""
     for name, value in values.items():
-        own = f"{above} {name}".strip()
+        place = above.removeprefix("Position ")
+        own = f"{name} {place}" if place != above else f"{above} {name}".strip()
         if isinstance(value, Mapping):
             inner: Mapping[str, object] = value
             yield from _numbers(inner, own)

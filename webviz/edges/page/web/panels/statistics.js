@@ -1,6 +1,7 @@
 // How many things of each display are selected, and over what their values extend.
 
-const DIGITS = 5;
+const DIGITS = 3; // of how far values extend
+const MAX_DECIMALS = 9;
 
 /** Rows of the panel "Selection" for what the server has told of displays; `folds` as there. */
 export function statisticsRows(displays, folds) {
@@ -21,7 +22,13 @@ export const statisticsText = (displays) =>
     [`${name}: ${count} selected`, ...ranges.map((range) => `  ${range.name}: ${words(range)}`), ""].join("\n"),
   ).join("");
 
+/** A value among others that extend so far: positions far away must not lose what tells them apart. */
+function rounded(value, extent) {
+  const decimals = extent > 0 ? DIGITS - 1 - Math.floor(Math.log10(extent)) : 0;
+  return String(Number(value.toFixed(Math.max(0, Math.min(decimals, MAX_DECIMALS)))));
+}
+
 function words({ unit, low, high, mean }) {
-  const [from, to, middle] = [low, high, mean].map((value) => String(Number(value.toPrecision(DIGITS))));
+  const [from, to, middle] = [low, high, mean].map((value) => rounded(value, high - low || Math.abs(mean)));
   return `${from} to ${to}, mean ${middle}${unit && ` ${unit}`}`;
 }
