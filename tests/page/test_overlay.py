@@ -40,6 +40,20 @@ def test_the_keyboard_reaches_the_axes(tab: Tab) -> None:
     tab.wait_for(lambda: tab.page.evaluate(AXES)[1][2] < -0.999)
 
 
+def test_the_axes_are_as_before_when_a_lost_connection_is_back(tab: Tab, server: Server) -> None:
+    tab.page.get_by_role("button", name="Look from -Y", exact=True).dispatch_event("click")
+    tab.wait_for(lambda: tab.page.evaluate(AXES)[1][2] < -0.999)
+    up = tab.page.locator(".wv-gizmo [data-axis=z][data-side=front] line")
+    tab.wait_for(lambda: float(up.get_attribute("y2") or 0.0) < -25)
+    before = tab.page.evaluate("webviz.browser")
+    for connection in tuple(server._websock_server._live_connections.values()):
+        server.get_event_loop().call_soon_threadsafe(connection.transport.abort)
+    tab.wait_for(lambda: tab.page.evaluate("webviz.browser") not in (None, before))
+    tab.page.get_by_role("button", name="Look from X", exact=True).dispatch_event("click")
+    tab.wait_for(lambda: tab.page.evaluate(AXES)[0][2] > 0.999)
+    tab.wait_for(lambda: float(up.get_attribute("y2") or 0.0) < -25)
+
+
 def test_lengths_are_round_and_in_the_unit_that_suits_them(tab: Tab) -> None:
     of = """async (meters) => {
       const { rounded, inWords } = await import('/webviz/overlay/scale_bar.js');
