@@ -212,9 +212,9 @@ def test_points_are_as_large_as_neighbours_are_apart(bench: Benches) -> None:
     # The focal length is 16 px, hence 2/16 m at 1 m.
     near, far = sorted(at.nodes().values(), key=lambda node: node.size)
     assert (len(near.xyz), len(far.xyz)) == (191, 1)
-    assert 2 / 16 <= near.size <= 1.3 * 2 / 16
-    # Beyond six steps of 1.3 all have the size of the last.
-    assert far.size == pytest.approx(near.size * 1.3**6)
+    assert 2 / 16 <= near.size <= 1.15 * 2 / 16
+    # Beyond ten steps of 1.15 all have the size of the last.
+    assert far.size == pytest.approx(near.size * 1.15**10)
     at.set("style", "Boxes")
     np.testing.assert_allclose(at.nodes()["solids"].scales[:2, 0], (8 * 2 / 16, 2 / 16))
 

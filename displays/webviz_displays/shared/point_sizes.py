@@ -9,10 +9,10 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-RATIO = 1.3
+RATIO = 1.15
 """Between the sizes of neighbouring clouds; sizes are rounded up, as gaps would let a wall shine
 through."""
-REACH = 6
+REACH = 10
 """Clouds of smaller and of larger points than the median; those beyond join the last ones."""
 LEAST_M, MAX_M = 1e-6, 1e6
 
