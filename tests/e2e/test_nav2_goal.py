@@ -34,10 +34,15 @@ displays: [{type: Grid}]
 
 
 @pytest.fixture(scope="module")
-def robot(start: Callable[..., Program]) -> Program:
-    """The robot stands in the corridor, with room ahead, and is slow."""
+def start_robot(start: Callable[..., Program]) -> Callable[[], Program]:
+    """Start a robot that stands in the corridor, with room ahead, and is slow."""
     pose, speed = "start_pose:=[-1.0, 0.0, 0.0]", "tour_speed:=0.05"
-    return start("webviz_sim", "--ros-args", "-p", "tour:=false", "-p", pose, "-p", speed)
+    return lambda: start("webviz_sim", "--ros-args", "-p", "tour:=false", "-p", pose, "-p", speed)
+
+
+@pytest.fixture(scope="module")
+def robot(start_robot: Callable[[], Program]) -> Program:
+    return start_robot()
 
 
 @pytest.fixture(scope="module")
@@ -113,7 +118,8 @@ def test_all_pages_follow_a_goal_and_any_of_them_cancels_it(page: Page, pages: l
     button(pages[1], "Cancel").click()
     for each in pages:
         until(each, "Cancelled.")
-        assert each.tab.locator("[data-webviz=routes] .wv-pose-arrow").count() == 0
+        arrows = each.tab.locator("[data-webviz=routes] .wv-pose-arrow")
+        each.wait_for(lambda arrows=arrows: arrows.count() == 0, "no route")
 
 
 def test_a_goal_is_reached_or_aborted_with_nav2s_error_until_a_page_dismisses_it(
@@ -199,7 +205,7 @@ def test_numbers_of_the_robot_are_plotted_and_read(page: Page, viewer: webviz.Vi
     value = page.tab.locator(".wv-chart-value")
     page.wait_for(lambda: value.all_inner_texts() == ["0"], "the value of the curve")
     shown = viewer.add("Text", topic="/odom", fields=["child_frame_id"])
-    pane = page.tab.get_by_label("Text Text", exact=True)
+    pane = page.tab.get_by_label("Text /odom", exact=True)
     page.wait_for(lambda: pane.count() and "'base_link'" in pane.inner_text(), "the text")
     shown.remove()
     page.wait_for(lambda: not pane.count(), "room for the scene")
@@ -217,3 +223,33 @@ def test_a_server_that_ends_during_a_goal_and_one_that_is_not_there_are_named(
         webviz.Error, match=r"No node offers /navigate_to_pose\. Start Nav2's bt_nav"
     ):
         viewer.tool("Nav2 Goal").send(0.0, 0.0)
+
+
+def test_a_goal_of_a_server_that_is_killed_while_it_cancels_ends_and_the_next_is_cancelled(
+    pages: list[Page], robot: Program, start_robot: Callable[[], Program], viewer: webviz.Viewer
+) -> None:
+    robot.end()
+    robot, page = start_robot(), pages[0]
+    page.wait_for(lambda: "/odom" in viewer.topics, "the robot", 60)
+    drag(page, FAR, 0.0)
+    until(page, "Distance left")
+    robot.process.send_signal(signal.SIGSTOP)
+    button(page, "Cancel").click()
+    page.wait_for(button(page, "Cancel").is_disabled, "the request to cancel")
+    robot.end(signal.SIGKILL)
+    start_robot()
+    # Cancel works again, as nobody answered; the server that runs now does not know the goal.
+    ended = "does not know this goal any more. Send it again.", "has ended. Start Nav2's bt_nav"
+    cancel = page.tab.locator(".wv-goal .wv-button:enabled:visible")
+
+    def is_over() -> bool:
+        cancel.evaluate_all("(all) => all.forEach((one) => one.click())")
+        return any(text in card(page) for text in ended)
+
+    page.wait_for(is_over, "the end of the goal", 60)
+    button(page, "Dismiss").click()
+    page.wait_for(lambda: card(page) == "", "no card")
+    drag(page, FAR, 0.0)
+    until(page, "Distance left")
+    button(page, "Cancel").click()
+    until(page, "Cancelled.")
