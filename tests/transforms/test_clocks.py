@@ -57,6 +57,11 @@ def test_simulated_time_is_recognised_and_not_counted_in_years(buffer: Transform
     )
 
 
+def test_simulated_time_may_be_behind_simulated_time(buffer: TransformBuffer) -> None:
+    hear(buffer, "odom", -4000.0, 5000 * S)
+    assert "stamped 67 min behind the time of this computer" in clock_problem(buffer, 5000 * S)
+
+
 def test_who_fell_silent_is_not_blamed_any_more(buffer: TransformBuffer) -> None:
     hear(buffer, "odom", 2.0)
     assert clock_problem(buffer, NOW + 5 * S)

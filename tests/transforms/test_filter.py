@@ -95,6 +95,9 @@ def test_a_message_with_a_duration_waits_for_its_end_too(
     put("map", "laser", 1.1)
     messages.add("scan", "laser", S, duration_ns=S // 5)
     assert messages.ready(buffer, "map") == []
+    explanation = messages.explanation(buffer, "map")
+    assert explanation is not None
+    assert explanation.kind == Kind.AHEAD
     put("map", "laser", 1.2)
     assert messages.ready(buffer, "map") == ["scan"]
 

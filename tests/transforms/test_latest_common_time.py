@@ -32,6 +32,17 @@ def test_the_latest_common_time_is_the_oldest_of_the_newest_stamps(
     assert buffer.latest_common_time("laser", "other") == 200_000_000
 
 
+def test_the_latest_common_time_is_known_across_a_thousand_links(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    put("map", "f0", 1.0)
+    put("map", "other", 1.0)
+    for number in range(999):
+        put(f"f{number}", f"f{number + 1}", 1.0)
+    for target, source in (("other", "f999"), ("f999", "other")):
+        assert buffer.latest_common_time(target, source) == S
+
+
 def test_links_above_the_common_ancestor_do_not_count_for_the_common_time(
     buffer: TransformBuffer, put: Put
 ) -> None:
