@@ -120,6 +120,14 @@ def test_a_definition_that_cannot_be_used_changes_nothing(text, reason):
     assert not type_exists("test_msgs/msg/Other")
 
 
+def test_a_type_that_is_registered_anew_is_decoded_as_it_is_now() -> None:
+    name = "changing_msgs/msg/Widening"
+    cdr = b"\0\1\0\0" + bytes([1, 2, 0, 0])
+    for kind, value in (("uint8", 1), ("uint16", 513)):
+        register(name, f"{kind} number\n")
+        assert decode(name, cdr).number == value
+
+
 def test_a_type_that_loses_its_header_has_none_from_then_on() -> None:
     with_header = "std_msgs/Header header\nint32 number\n"
     name = "changing_msgs/msg/Changing"

@@ -10,7 +10,7 @@ import pytest
 
 from webviz import Points
 from webviz.engine.pipeline import past
-from webviz.engine.pipeline.past import KEPT_S, Past
+from webviz.engine.pipeline.past import KEPT_S, MAX_SHOTS, Past
 from webviz.engine.pipeline.picking import Shot
 
 
@@ -42,6 +42,14 @@ def test_the_oldest_go_when_there_are_too_many_bytes(monkeypatch: pytest.MonkeyP
     assert list(kept.of("a")) == []
     kept.keep("a", shot())  # the bytes of what is gone count no more
     assert len(list(kept.of("a"))) == 1
+
+
+def test_the_oldest_go_when_there_are_too_many() -> None:
+    kept = Past(lambda: 0.0)
+    shots = [shot() for _ in range(MAX_SHOTS + 1)]
+    for each in shots:
+        kept.keep("a", each)
+    assert [id(each) for each in kept.of("a")] == [id(each) for each in reversed(shots[1:])]
 
 
 def test_what_is_older_than_some_seconds_is_gone() -> None:

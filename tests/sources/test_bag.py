@@ -66,6 +66,23 @@ def test_many_messages_come_in_parts_and_none_is_lost(tmp_path, opened):
     assert [float(text) for part in heard for text in part] == pytest.approx(seconds)
 
 
+def test_large_messages_come_in_parts_too(tmp_path, opened, monkeypatch):
+    monkeypatch.setattr("webviz.engine.sources.bag.MAX_BATCH_BYTES", 10)  # less than one has
+    bag = opened(strings(0, 1, 2).write(tmp_path / "bag"))
+    bag.want("/words")
+    for text in ("0", "1", "2"):
+        bag.source.play(bag.source.end_ns)
+        assert bag.heard() == [text]
+
+
+def test_playing_to_a_time_that_is_over_changes_nothing(tmp_path, opened):
+    bag = opened(strings(0, 1, 2).write(tmp_path / "bag"))
+    bag.want("/words")
+    bag.play(1.5)
+    bag.source.play(bag.source.start_ns)
+    assert bag.source.position_ns == START_NS + ns(1.5)
+
+
 def test_a_bag_of_days_is_played_in_as_many_steps_as_it_has_messages(tmp_path, opened):
     day_s = 86_400.0
     bag = opened(strings(0, day_s, day_s + 0.01, 3 * day_s, 6.4 * day_s).write(tmp_path / "bag"))
@@ -115,6 +132,18 @@ def test_what_was_latched_is_repeated_for_who_comes_late(tmp_path, opened):
     assert bag.heard() == ["1", "2"]
     bag.play(9)
     assert bag.heard() == ["9"]
+
+
+def test_of_what_was_latched_no_more_is_repeated_than_fits(tmp_path, opened, monkeypatch):
+    monkeypatch.setattr("webviz.engine.sources.bag.MAX_BYTES", 20)  # each has 10
+    bag = opened(strings(0, 1, 2, 3, latched=True, depth=3).write(tmp_path / "bag"))
+    bag.play(3)
+    bag.want("/words")
+    assert bag.heard() == ["2", "3"]
+    monkeypatch.setattr("webviz.engine.sources.bag.MAX_BYTES", 1)
+    bag.want()
+    bag.want("/words")
+    assert bag.heard() == ["3"]
 
 
 def test_all_static_transforms_are_repeated_for_nobody_knows_who_published_them(tmp_path, opened):
@@ -197,18 +226,21 @@ def test_a_recorded_clock_is_the_time(tmp_path, opened):
     assert bag.source.now_ns() == ns(12)
     received = [raw.received_ns for raw in bag.source.inbox.drain()["/words"]]
     assert received == [ns(10), ns(10), ns(12)]
+    bag.source.seek(bag.source.start_ns)
+    assert bag.source.now_ns() == ns(10)
 
 
-def test_transforms_in_the_time_of_a_simulator_set_the_time(tmp_path, opened):
+@pytest.mark.parametrize("offset_s", [100, START_NS // ns(1) + 2 * 3600])
+def test_transforms_of_another_time_set_the_time(tmp_path, opened, offset_s):
     recorded = Bag()
     recorded.add("/tf", TF)
     for at_s in (1, 2):
-        recorded.put(at_s, "/tf", {"transforms": [stamped("map", "base", ns(100 + at_s))]})
+        recorded.put(at_s, "/tf", {"transforms": [stamped("map", "base", ns(offset_s + at_s))]})
     bag = opened(recorded.write(tmp_path / "bag"))
     bag.play(0.5)
-    assert bag.source.now_ns() == ns(101.5)
+    assert bag.source.now_ns() == ns(offset_s) + ns(1.5)
     (remark,) = bag.source.remarks
-    assert "The transforms begin at 101.0 s" in remark
+    assert f"The transforms begin at {offset_s + 1}.0 s" in remark
 
 
 def test_topics_are_named_and_remapped_as_for_a_node(tmp_path, opened):
