@@ -76,6 +76,14 @@ def test_every_link_leads_to_a_file_and_a_heading(path: Path) -> None:
             assert anchor in anchors(target.read_text(encoding="utf-8")), f"no heading {link}"
 
 
+def test_every_file_that_guides_name_exists() -> None:
+    named = re.findall(r"`([\w./-]+)`", "".join(path.read_text("utf-8") for path in GUIDES))
+    known = {each.name for each in docs.ROOT.iterdir() if each.is_dir()}
+    files = [each for each in named if each.split("/")[0] in known and "/" in each]
+    assert [each for each in files if not (docs.ROOT / each).exists()] == []
+    assert [each for each in named if re.fullmatch(r"webviz(\.\w+)+\.py", each)] == []
+
+
 def test_every_promise_is_held_by_tests_that_exist() -> None:
     promised = (docs.ROOT / "SECURITY.md").read_text(encoding="utf-8")
     bullets = re.findall(r"^- (.+(?:\n  .+)*)", promised, re.MULTILINE)

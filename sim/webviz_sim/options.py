@@ -128,11 +128,11 @@ def fault_parameter(text: str) -> str:
     option = OPTIONS.get(FAULT + name)
     if option is None:
         known = ", ".join(key.removeprefix(FAULT) for key in OPTIONS if key.startswith(FAULT))
-        raise ValueError(f"unknown fault '{name}'; choose one of {known}")
+        raise ValueError(f"Unknown fault '{name}'. Choose one of {known}.")
     try:
         number = float(value or 1.0)
     except ValueError:
-        raise ValueError(f"{name} must be a number, not '{value}'") from None
+        raise ValueError(f"{name} must be a number, not '{value}'.") from None
     if reason := option.refusal(name, number):
         raise ValueError(reason.removesuffix("."))
     return f"{FAULT}{name}:={number!r}"

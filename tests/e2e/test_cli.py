@@ -152,7 +152,7 @@ def test_a_simulator_that_dies_ends_the_demo_with_a_reason(start: Callable[..., 
 
 def test_a_demo_with_an_unknown_fault_does_not_start(capsys: pytest.CaptureFixture[str]) -> None:
     assert cli(["demo", "--fault", "foo=1"]) == 2
-    assert "unknown fault 'foo'; choose one of laser_yaw" in capsys.readouterr().err
+    assert "Unknown fault 'foo'. Choose one of laser_yaw" in capsys.readouterr().err
 
 
 def test_installing_brings_what_pictures_need_and_says_if_a_browser_is_missing() -> None:

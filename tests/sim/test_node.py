@@ -418,7 +418,7 @@ def test_a_params_file_sets_parameters(robot, tmp_path):
         (["--ros-args", "-p", "start_pose:=[1.0]"], 1, "start_pose must be [x, y, yaw] or []"),
         (["--ros-args", "--nonsense"], 1, "ROS does not start (UnknownROSArgsError)"),
         (["--nonsense"], 2, "unrecognized arguments: --nonsense"),
-        (["--fault", "foo=1"], 2, "unknown fault 'foo'; choose one of laser_yaw, misplaced"),
+        (["--fault", "foo=1"], 2, "Unknown fault 'foo'. Choose one of laser_yaw, misplaced"),
         (["--fault", "clock=late"], 2, "clock must be a number, not 'late'"),
         (["--fault", "laser_yaw=9"], 2, "laser_yaw must be between -3.14159 and 3.14159"),
     ],
