@@ -255,6 +255,82 @@ def test_scans_and_thinned_clouds_go_on_beside_a_map() -> None:
     assert reduced(queue.pace) == "Slow link, 8 Mbit/s: clouds show every 8th point"
 
 
+def image(name: str, size: int, value: int = 0) -> wire.SceneNodeUpdateMessage:
+    return wire.SceneNodeUpdateMessage(name, {"png": bytes([value]) * size})
+
+
+def named(sent: list[Any]) -> list[tuple[str, int]]:
+    """The images that are complete, and their values."""
+    return [(name, int(values["png"][0])) for name, values in completed(sent)]
+
+
+def test_pieces_of_four_messages_are_under_way_at_most() -> None:
+    queue = Queue(SLOW)
+    names = [f"/{number}" for number in range(6)]
+    for name in names:
+        queue.push(image(name, 400_000))
+    sent = taken(queue)
+    assert sorted(name for name, _ in named(sent)) == names
+    begun = [(index, piece) for index, piece in enumerate(sent) if piece.start == 0]
+    over = [index for index, piece in enumerate(sent) if piece.update]
+    under_way = [
+        sum(each <= index for each, _ in begun) - sum(each < index for each in over)
+        for index, _ in begun
+    ]
+    assert max(under_way) == 4
+    assert {piece.slot for _, piece in begun} == {0, 1, 2, 3}
+
+
+def test_messages_in_pieces_take_turns() -> None:
+    queue = Queue(SLOW)
+    for name in ("/a", "/b"):
+        queue.push(image(name, 400_000))
+    slots = [piece.slot for piece in taken(queue)]
+    assert slots[:8] in ([0, 1] * 4, [1, 0] * 4)
+
+
+def test_a_message_in_pieces_is_sent_to_its_end_then_the_newest() -> None:
+    queue = Queue(SLOW)
+    sent = []
+    for version in range(6):
+        queue.push(image("/map", 1_000_000, version))
+        sent += taken(queue, 0.01)
+    sent += taken(queue)
+    assert named(sent) == [("/map", 0), ("/map", 5)]
+
+
+def test_the_question_whether_all_arrived_follows_the_last_piece() -> None:
+    queue = Queue(SLOW)
+    queue.push(image("/map", 400_000))
+    sent = taken(queue, 0.05)
+    queue.push(AcknowledgementRequest("1"))
+    sent += taken(queue)
+    assert isinstance(sent[-1], AcknowledgementRequest)
+    assert sent[-2].update is not None
+
+
+def test_a_thinned_cloud_is_not_sent_whole_once_there_is_a_newer_one() -> None:
+    queue = Queue(SLOW)
+    queue.push(wire.SceneNodeUpdateMessage("/lidar", cloud(100_000)))
+    sent: list[Any] = []
+    while not (sent and isinstance(sent[-1], Piece)):
+        sent += taken(queue, 0.01)  # thinned, then the first piece of the whole
+    queue.push(wire.SceneNodeUpdateMessage("/lidar", cloud(90_000)))
+    sent += taken(queue, 0.5)
+    assert [len(values["points"]) // 3 for _, values in completed(sent)][:2] == [12_500, 11_250]
+
+
+def test_neither_pieces_nor_scans_wait_for_the_others_to_end() -> None:
+    queue = Queue(SLOW)
+    queue.push(image("/map", 400_000))
+    sent: list[Any] = []
+    while not any(isinstance(each, Piece) and each.update for each in sent):
+        queue.push(wire.SceneNodeUpdateMessage("/scan", {"points": np.zeros((2600, 3), "f4")}))
+        sent += taken(queue, 0.01)
+        assert queue.now < 110.0
+    assert sum(not isinstance(each, Piece) for each in sent) >= 5
+
+
 def test_pieces_of_a_node_that_was_removed_are_not_sent() -> None:
     queue = Queue(SLOW)
     queue.push(wire.SceneNodeUpdateMessage("/map", {"png": bytes(2_000_000)}))
