@@ -10,6 +10,7 @@ import pytest
 from webviz import Context, Display, Input, Keep, Sample, Sync, Topic
 from webviz.api.display import inputs_of
 from webviz.engine.commands import Reset, SetFixedFrame
+from webviz.engine.pipeline import synchronizer
 
 SECOND = 1_000_000_000
 T = 100 * SECOND
@@ -134,7 +135,24 @@ def test_a_slop_lets_messages_of_nearby_stamps_meet(bench: Callable[..., Any]) -
     b.pose("/right", "base", T + SECOND + SECOND // 20, 20.0)
     b.turn()
     assert lines(b) == [[2.0, 20.0]]
-    text = "1 set of 2 messages with stamps within 0.1 s; 1 unmatched messages dropped."
+    text = "1 set of 2 messages with stamps within 0.1 s; 1 unmatched message dropped."
+    assert b.statuses()["Sync"] == ("OK", text)
+
+
+def test_what_waits_for_its_partner_is_bounded_in_bytes(
+    bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(synchronizer, "MAX_BYTES", 150)
+    b = bench(Pair(name="Pair"))
+    b.transform("map", "base", T, static=True)
+    for number in range(3):
+        b.pose("/left", "base", T + number * SECOND, float(number))
+    b.turn()
+    for number in range(3):
+        b.pose("/right", "base", T + number * SECOND, 10.0 * number)
+    b.turn()
+    assert lines(b) == [[2.0, 20.0]]
+    text = "1 set of 2 messages with equal stamps; 4 unmatched messages dropped."
     assert b.statuses()["Sync"] == ("OK", text)
 
 

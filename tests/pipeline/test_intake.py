@@ -10,6 +10,7 @@ import pytest
 
 from webviz import Context, Display, Input, Sample, Topic
 from webviz.api.status import OtherFixedFrame, Remedy
+from webviz.data.transforms import filter as transform_filter
 from webviz.engine.commands import SetFixedFrame, SetProperty
 from webviz.engine.sources import Offer, Publisher, Raw
 from webviz.shell.testing.messages import header
@@ -178,6 +179,20 @@ def test_a_missing_transform_is_explained_after_a_second_and_forgotten_when_it_c
     assert text.startswith('Frame "base" does not exist: no transform to it has arrived.')
     b.transform("map", "base", T, static=True)
     assert b.statuses()["Transform"] == ("OK", "Transform OK")
+
+
+def test_messages_that_wait_for_a_transform_are_bounded_in_bytes(
+    bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(transform_filter, "MAX_BYTES", 150)
+    b = bench(Dot(name="Dot"))
+    for number in range(3):
+        b.pose("/pose", "base", T + number, float(number))
+    b.turn()
+    b.clock += 1.5
+    b.turn()
+    level, text = b.statuses()["Transform"]
+    assert (level, text.endswith("2 messages were given up.")) == ("ERROR", True), text
 
 
 def test_of_two_trees_the_other_is_offered_as_fixed_frame(bench: Callable[..., Any]) -> None:

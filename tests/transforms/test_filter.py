@@ -5,6 +5,7 @@ from collections.abc import Callable
 import pytest
 
 from webviz.data.transforms import Kind, MessageFilter, TransformBuffer
+from webviz.data.transforms import filter as filter_module
 
 S = 1_000_000_000
 Put = Callable[..., bool]
@@ -134,6 +135,26 @@ def test_when_the_queue_is_full_the_oldest_is_given_up(buffer: TransformBuffer, 
     assert messages.drops == {Kind.QUEUE_FULL: 2}
     put("map", "laser", 1.0)
     assert messages.ready(buffer, "map") == [2, 3, 4]
+
+
+def test_when_too_many_bytes_wait_the_oldest_is_given_up_and_the_cause_said(
+    buffer: TransformBuffer, put: Put, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(filter_module, "MAX_BYTES", 100)
+    messages: MessageFilter[int] = MessageFilter(10)
+    put("map", "laser", 1.0)
+    for i in range(5):
+        messages.add(i, "laser", 2 * S, 2 * S, size=40)
+    assert messages.ready(buffer, "map", 2 * S) == []
+    assert messages.drops == {Kind.QUEUE_FULL: 3}
+    explanation = messages.explanation(buffer, "map", 2 * S)
+    assert explanation is not None
+    assert "of messages wait before their transforms arrive: speed up" in explanation.sentence
+    assert "3 messages were given up." in explanation.sentence
+    messages.add(5, "laser", 2 * S, 2 * S, size=1000)
+    assert messages.ready(buffer, "map", 2 * S) == []
+    put("map", "laser", 2.0)
+    assert messages.ready(buffer, "map", 2 * S) == [5]
 
 
 def test_with_transforms_that_come_late_newer_messages_displace_nothing(

@@ -17,6 +17,9 @@ from webviz.data.words import joined
 
 P = TypeVar("P")
 
+MAX_BYTES = 64 << 20
+"""Of the messages that wait; the newest waits, however large."""
+
 
 @dataclass(frozen=True, slots=True)
 class _Waiting(Generic[P]):
@@ -24,6 +27,7 @@ class _Waiting(Generic[P]):
     frame: str
     stamp_ns: int
     duration_ns: int
+    size: int
 
     def stamps(self) -> tuple[int, ...]:
         """The times at which a transform is needed."""
@@ -35,8 +39,9 @@ class _Waiting(Generic[P]):
 class MessageFilter(Generic[P]):
     """Holds messages back until the fixed frame can be reached from their frame at their stamp.
 
-    Only messages that must wait enter the queue; when it is full, the oldest is dropped. A newer
-    message never replaces one that became ready. A zero stamp requests the latest transform.
+    Only messages that must wait enter the queue; when it is full, of messages or of bytes, the
+    oldest is dropped. A newer message never replaces one that became ready. A zero stamp requests
+    the latest transform.
 
     Args:
         queue_size: maximum number of waiting messages (RViz's Filter size).
@@ -49,6 +54,8 @@ class MessageFilter(Generic[P]):
         self._drops: Counter[Kind] = Counter()
         self._given_up: _Waiting[P] | None = None
         self._lost = 0
+        self._is_heavy = False
+        """Whether messages were given up for their bytes rather than their number."""
         self._tried: tuple[int, str] | None = None
 
     @property
@@ -65,7 +72,13 @@ class MessageFilter(Generic[P]):
         return len(self._queue) + len(self._new)
 
     def add(
-        self, payload: P, frame: str, stamp_ns: int, now_ns: int = 0, duration_ns: int = 0
+        self,
+        payload: P,
+        frame: str,
+        stamp_ns: int,
+        now_ns: int = 0,
+        duration_ns: int = 0,
+        size: int = 0,
     ) -> None:
         """Add a message, which `ready` will try.
 
@@ -75,9 +88,10 @@ class MessageFilter(Generic[P]):
             stamp_ns: its time; 0 means the latest.
             now_ns: the current ROS time; 0 if unknown.
             duration_ns: the transform must also exist this long after the stamp (of a scan).
+            size: in bytes.
         """
         frame = frame.removeprefix("/")
-        self._new.append(_Waiting(payload, frame, stamp_ns, duration_ns))
+        self._new.append(_Waiting(payload, frame, stamp_ns, duration_ns, size))
 
     def ready(self, buffer: TransformBuffer, fixed_frame: str, now_ns: int = 0) -> list[P]:
         """The messages that became transformable, in order of arrival."""
@@ -101,9 +115,13 @@ class MessageFilter(Generic[P]):
                 self._queue.append(message)
         self._new.clear()
         if done:
-            self._given_up, self._lost = None, 0
-        while len(self._queue) > self._queue_size:
-            self._give_up(self._queue.popleft(), Kind.QUEUE_FULL)
+            self._given_up, self._lost, self._is_heavy = None, 0, False
+        size = sum(message.size for message in self._queue)
+        while len(self._queue) > self._queue_size or (len(self._queue) > 1 and size > MAX_BYTES):
+            self._is_heavy = len(self._queue) <= self._queue_size
+            oldest = self._queue.popleft()
+            size -= oldest.size
+            self._give_up(oldest, Kind.QUEUE_FULL)
         return done
 
     def explanation(
@@ -131,6 +149,7 @@ class MessageFilter(Generic[P]):
         self._queue.clear()
         self._drops.clear()
         self._given_up, self._lost, self._tried = None, 0, None
+        self._is_heavy = False
 
     def _give_up(self, message: _Waiting[P], kind: Kind) -> None:
         self._drops[kind] += 1
@@ -139,6 +158,12 @@ class MessageFilter(Generic[P]):
 
     def _queue_full(self, buffer: TransformBuffer, fixed_frame: str, now_ns: int) -> Explanation:
         """Transforms arrive, but later than the queue can wait."""
+        if self._is_heavy:
+            return Explanation(
+                Kind.QUEUE_FULL,
+                f"{MAX_BYTES >> 20} MB of messages wait before their transforms arrive: speed up "
+                "what publishes them, or send smaller messages.",
+            )
         text = f"The queue of {self._queue_size} messages is full before their transforms arrive"
         remedy, size = "raise the filter size", 0
         if len(self._queue) > 1:

@@ -9,6 +9,7 @@ from webviz.api.display import Display, Sync, inputs_of, overrides
 from webviz.api.frames import Frames
 from webviz.api.status import Level, Status
 from webviz.data.transforms.reasons import in_words
+from webviz.data.words import counted
 from webviz.engine.pipeline.guard import Guard
 from webviz.engine.pipeline.intake import PATIENCE_S, Arrival, Intake, intakes_of
 from webviz.engine.pipeline.synchronizer import Gap, Synchronizer
@@ -149,7 +150,8 @@ class Inputs:
             return None
         if self._synchronizer is not None and self._synchronizer.inputs == tuple(part):
             return self._synchronizer
-        return Synchronizer(part, round(sync.slop * 1e9), sync.queue_size)
+        slop_ns = round(sync.slop * 1e9)
+        return Synchronizer(part, slop_ns, sync.queue_size, lambda arrival: len(arrival.raw.cdr))
 
     def _sync_status(self, clock: float) -> Status | None:
         """Return the status on the input others wait for, unless it waits for transforms itself."""
@@ -166,9 +168,8 @@ class Inputs:
         sets = f"{synchronizer.sets} set{'s' if synchronizer.sets > 1 else ''}"
         text = f"{sets} of {len(synchronizer.inputs)} messages with {stamps}"
         lost = synchronizer.dropped
-        return Status(
-            Level.OK, f"{text}; {lost} unmatched messages dropped." if lost else f"{text}."
-        )
+        dropped = f"; {counted(lost, 'unmatched message')} dropped" if lost else ""
+        return Status(Level.OK, f"{text}{dropped}.")
 
     def _waiting_for(self, gap: Gap, sync: Sync) -> str:
         wanted, given = self._title(gap.missing), self._title(gap.present)

@@ -153,7 +153,8 @@ class Intake:
                 arrivals.append(arrival)
                 continue
             self._newest = arrival.number
-            self._filter.add(arrival, arrival.frame, stamp_ns, frames.now_ns, lasts_ns)
+            size = len(raw.cdr)
+            self._filter.add(arrival, arrival.frame, stamp_ns, frames.now_ns, lasts_ns, size)
         placed = self._filter.ready(frames.buffer, frames.fixed_frame, frames.now_ns)
         arrivals += placed
         if placed:

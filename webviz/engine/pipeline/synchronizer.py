@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 P = TypeVar("P")
+
+MAX_BYTES = 64 << 20
+"""Of the messages of an input that wait; the newest waits, however large."""
 
 
 @dataclass(frozen=True)
@@ -38,9 +41,16 @@ class Synchronizer(Generic[P]):
         inputs: names, at least two.
         slop_ns: 0 requires equal stamps.
         queue_size: waiting messages per input.
+        size_of: bytes of a message.
     """
 
-    def __init__(self, inputs: Sequence[str], slop_ns: int = 0, queue_size: int = 10) -> None:
+    def __init__(
+        self,
+        inputs: Sequence[str],
+        slop_ns: int = 0,
+        queue_size: int = 10,
+        size_of: Callable[[P], int] = lambda _: 0,
+    ) -> None:
         self.inputs = tuple(inputs)
         self.sets = 0
         """Number of sets formed."""
@@ -48,6 +58,7 @@ class Synchronizer(Generic[P]):
         """Number of messages that were in no set."""
         self._slop_ns = slop_ns
         self._queue_size = queue_size
+        self._size_of = size_of
         self._queues: dict[str, dict[int, P]] = {name: {} for name in self.inputs}
         self._last: dict[str, int] = {}
 
@@ -63,8 +74,9 @@ class Synchronizer(Generic[P]):
         queue[stamp_ns] = payload
         stamps = self._nearest(name, stamp_ns)
         if stamps is None:
-            if len(queue) > self._queue_size:
-                del queue[next(iter(queue))]
+            size = sum(map(self._size_of, queue.values()))
+            while len(queue) > self._queue_size or (len(queue) > 1 and size > MAX_BYTES):
+                size -= self._size_of(queue.pop(next(iter(queue))))
                 self.dropped += 1
             return None
         self._last = stamps

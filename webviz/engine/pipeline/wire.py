@@ -18,6 +18,8 @@ T = TypeVar("T")
 
 LIMIT = 1000
 """Messages of a topic that wait for the display."""
+MAX_BYTES = 64 << 20
+"""Of these messages; the newest is kept, however large, if it is the only one."""
 
 
 @dataclass
@@ -141,7 +143,8 @@ class DisplayWire:
         for name, line in self._lines.items():
             if name in batches and line.is_open:
                 line.waiting.extend(raw.cdr for raw in batches[name])
-                if len(line.waiting) > LIMIT:
+                size = sum(map(len, line.waiting))
+                if len(line.waiting) > LIMIT or (len(line.waiting) > 1 and size > MAX_BYTES):
                     self._break(line)
 
     def forget_unnamed(self) -> None:
