@@ -11,7 +11,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from webviz.data.messages import DecodeError, UnknownTypeError, decode, peek_header
+from webviz.data.messages import DecodeError, UnknownTypeError, decode, encode, peek_header
+from webviz.data.messages import cdr as cdr_module
 
 TYPES = [
     "geometry_msgs/msg/PoseArray",
@@ -149,3 +150,20 @@ def test_an_unknown_type_is_named_in_one_sentence(name):
     for read in (decode, peek_header):
         with pytest.raises(UnknownTypeError, match=re.escape(name) or "''"):
             read(name, b"\x00\x01\x00\x00\x00\x00\x00\x00")
+
+
+def test_strings_of_a_message_have_a_limit_together(monkeypatch):
+    monkeypatch.setattr(cdr_module, "MAX_TEXT", 2 << 20)
+    name, one = "sensor_msgs/msg/JointState", "x" * (1 << 20)
+    assert len(decode(name, encode(name, {"name": [one, "y"]})).name[0]) == 1 << 20
+    with pytest.raises(DecodeError, match=r"^This .* its strings have more than 2 MB\.$"):
+        decode(name, encode(name, {"name": [one, one]}))
+
+
+def test_what_becomes_objects_has_a_limit(monkeypatch):
+    monkeypatch.setattr(cdr_module, "MAX_ELEMENTS", 3)
+    name = "sensor_msgs/msg/JointState"
+    numbers = [0.0] * 100
+    assert len(decode(name, encode(name, {"name": ["a"] * 3, "position": numbers})).position) == 100
+    with pytest.raises(DecodeError, match=r"its sequences have more than 3 elements\.$"):
+        decode(name, encode(name, {"name": ["a"] * 4}))

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import gc
 import threading
 import time
+import weakref
 from collections.abc import Callable, Sequence
 from typing import Annotated, Any
 
@@ -167,6 +169,22 @@ def test_a_new_fixed_frame_moves_what_is_drawn_and_loses_nothing(
     b.turn()
     assert at(b) == [-95.0, 2.0]
     assert b.scene.upserts > drawn
+
+
+def test_what_was_drawn_leaves_memory_when_it_is_replaced(bench: Callable[..., Any]) -> None:
+    b = bench(Dot(name="Dot"))
+    b.transform("map", "base", T, static=True)
+    gc.collect()
+    gc.disable()  # it may come late, and large messages often
+    try:
+        b.pose("/pose", "base", T, 1.0)
+        b.turn()
+        drawn = [weakref.ref(node.xyz) for _, _, node in b.scene.visible()]
+        b.pose("/pose", "base", T, 2.0)
+        b.turn()
+        assert [each() is None for each in drawn] == [True]
+    finally:
+        gc.enable()
 
 
 def test_history_is_bounded_by_count(bench: Callable[..., Any]) -> None:

@@ -23,6 +23,7 @@ from webviz.api.frames import Frames
 from webviz.api.status import Level
 from webviz.data.messages import decode
 from webviz.data.transforms import TransformBuffer
+from webviz.edges.ros import node
 from webviz.edges.ros.node import RosSource
 from webviz.engine.pipeline.guard import Guard
 from webviz.engine.pipeline.inputs import Inputs
@@ -219,6 +220,27 @@ def test_an_unknown_type_is_reported(listen: Callable[..., RosSource]) -> None:
         lambda: o if (o := source.offers().get("/x")) and o.problem else None, "the problem"
     )
     assert "no_such_msgs/msg/Thing" in offer.problem
+
+
+def test_a_message_that_is_too_large_is_a_problem_until_a_smaller_one_comes(
+    talker: Node, listen: Callable[..., RosSource], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(node, "MAX_MESSAGE", 1 << 20)
+    publisher = talker.create_publisher(String, "/words", 5)
+    source = listen()
+    want(source)
+    until(lambda: requested(source) == ("reliable", "volatile"), "the subscription adapts")
+    until(lambda: publisher.get_subscription_count() == 1, "subscribed")
+
+    def problem_after(text: str) -> str:
+        publisher.publish(String(data=text))
+        return source.offers()["/words"].problem
+
+    said = "a message of 3 MB is above the limit of 1 MB; publish smaller ones"
+    until(lambda: problem_after("x" * (3 << 20)) == said, "the problem")
+    assert heard(source) == []
+    until(lambda: not problem_after("short"), "no problem")
+    assert "short" in heard(source)
 
 
 def test_names_are_resolved_and_remapped_those_that_may_be_published_too(

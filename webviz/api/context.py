@@ -247,7 +247,9 @@ class Context(Group):
         self.frames = frames
         self.background = background
         self.state = state
-        self.groups: dict[str, Group] = {"": self}
+        self.groups: dict[str, Group] = {}
+        """Made by `follow`. The context is not among them: what refers to itself stays in memory,
+        with all that it draws, until the garbage collector looks for cycles."""
         self.statuses: dict[str, Status] = {}
         self.color_scale: ColorScale | None = None
         """For the legend in the scene; set it to say which values colours stand for."""

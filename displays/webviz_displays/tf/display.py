@@ -173,7 +173,7 @@ class TF(Display):
         self._draw(shown, poses, known.parents, ages, ctx)
         self._report(known.selected, shown, poses, ctx)
         ctx.ok("Tree", f"{known.tree}.")
-        groups = {key: group for key, group in ctx.groups.items() if group is not ctx}
+        groups = dict(ctx.groups)
         state.last = _Tick(now_ns, groups, dict(ctx.statuses))
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:

@@ -17,6 +17,12 @@ from webviz.data.messages.errors import MessageError
 ENCAPSULATION_SIZE = 4
 LITTLE_ENDIAN = b"\0\1\0\0"
 """The encapsulation of plain CDR in this byte order."""
+MAX_TEXT = 16 << 20
+"""Bytes of the long strings of a message; decoded, a string may take four times as many."""
+LONG_STRING = 4096
+"""Bytes of a string that counts."""
+MAX_ELEMENTS = 2_000_000
+"""Of the sequences of a message that are not read as arrays."""
 _BOOL = np.dtype(np.bool_)
 _ORDERS = {0: ">", 1: "<"}
 _NATIVE = "<" if sys.byteorder == "little" else ">"
@@ -28,6 +34,10 @@ class CdrError(MessageError):
     """Malformed bytes at `Reader.pos`."""
 
 
+class TooLargeError(MessageError):
+    """A message of which too many objects would be made; the text is a clause that says which."""
+
+
 class Reader:
     """A cursor over one encapsulated message.
 
@@ -37,7 +47,7 @@ class Reader:
         order: Byte order of the message in `struct` notation, "<" or ">".
     """
 
-    __slots__ = ("_uint32", "data", "order", "pos", "size")
+    __slots__ = ("_elements", "_text", "_uint32", "data", "order", "pos", "size")
 
     def __init__(self, data: bytes | bytearray | memoryview) -> None:
         self.data = data if isinstance(data, bytes) else memoryview(data).cast("B").toreadonly()
@@ -53,6 +63,7 @@ class Reader:
             )
         self.order = _ORDERS[representation]
         self._uint32 = _UINT32[self.order]
+        self._elements = self._text = 0
         self.pos = ENCAPSULATION_SIZE
 
     def align(self, size: int) -> None:
@@ -64,6 +75,19 @@ class Reader:
         pos = (self.pos + 3) & ~3
         (count,) = self._uint32(self.data, pos)
         self.pos = pos + 4
+        return count
+
+    def elements(self) -> int:
+        """Read the number of elements of a sequence, each of which becomes an object.
+
+        An object takes fifty times the memory of an element of a few bytes.
+        """
+        count = self.count()
+        if count > self.size - self.pos:  # each has a byte at least
+            raise CdrError(f"{count} elements are longer than the rest of the message")
+        self._elements += count
+        if self._elements > MAX_ELEMENTS:
+            raise TooLargeError(f"its sequences have more than {MAX_ELEMENTS} elements")
         return count
 
     def stamp(self) -> int:
@@ -88,6 +112,10 @@ class Reader:
         if self.data[end - 1]:
             self.pos = pos
             raise CdrError(f"a string of {length} bytes does not end in NUL")
+        if length > LONG_STRING:
+            self._text += length
+            if self._text > MAX_TEXT:
+                raise TooLargeError(f"its strings have more than {MAX_TEXT >> 20} MB")
         self.pos = end
         return str(self.data[start : end - 1], "utf-8", "replace")
 

@@ -8,7 +8,7 @@ from functools import cache
 from typing import Any, TypeVar
 
 from webviz.data.messages import typestore
-from webviz.data.messages.cdr import CdrError, Reader
+from webviz.data.messages.cdr import CdrError, Reader, TooLargeError
 from webviz.data.messages.classes import WRITTEN, message_class
 from webviz.data.messages.decoders import decoder
 from webviz.data.messages.encoders import encoder
@@ -92,6 +92,8 @@ def _read(type_name: str, cdr: Bytes, read: Callable[[Reader], T]) -> T:
             return read(reader)
         except CdrError as error:
             problem, pos = str(error), reader.pos
+        except TooLargeError as error:
+            raise DecodeError(f"This {type_name} is too large: {error}.") from None
         except struct.error:
             problem, pos = "it ends in the middle of a value", reader.pos
     raise DecodeError(f"Not a {type_name}: {problem} (at byte {pos} of {len(cdr)}).")

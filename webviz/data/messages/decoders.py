@@ -119,7 +119,7 @@ def _reader_of(field: MessageField, order: str) -> Read:
         return one
     if size:
         return lambda reader: [one(reader) for _ in range(size)]
-    return lambda reader: [one(reader) for _ in range(reader.count())]
+    return lambda reader: [one(reader) for _ in range(reader.elements())]
 
 
 def _array_of(base: str, width: int, size: int) -> Read:

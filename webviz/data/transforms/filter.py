@@ -55,7 +55,7 @@ class MessageFilter(Generic[P]):
         self._given_up: _Waiting[P] | None = None
         self._lost = 0
         self._is_heavy = False
-        """Whether messages were given up for their bytes rather than their number."""
+        """True if messages were given up for their bytes rather than their number."""
         self._tried: tuple[int, str] | None = None
 
     @property

@@ -30,6 +30,7 @@ from webviz.edges.ros.heap import Heap
 from webviz.edges.ros.shared_memory import remove_abandoned
 from webviz.edges.ros.types import learn, message_class
 from webviz.engine.sources import Inbox, Offer, Publisher, Raw, Subscription
+from webviz.engine.sources.inbox import MAX_TOTAL
 
 REST_S = 0.25
 """Time to wait before looking at the publishers of subscribed topics. Finite, because the
@@ -38,6 +39,8 @@ PENDING_S = 0.05
 """The same while calls are pending."""
 GRAPH_POLL_S = 2.0
 INBOX_LIMIT = 1000
+MAX_MESSAGE = MAX_TOTAL
+"""Bytes, the same as of a bag."""
 TF_TYPE = "tf2_msgs/msg/TFMessage"
 ANY_JUMP = JumpThreshold(
     min_forward=Duration(nanoseconds=1),
@@ -257,7 +260,14 @@ class RosSource:
         self._clock_messages += 1
 
     def _arrive(self, topic: str, cdr: bytes) -> None:
+        if len(cdr) > MAX_MESSAGE:
+            self._problems[topic] = (
+                f"a message of {len(cdr) / 2**20:.0f} MB is above the limit of "
+                f"{MAX_MESSAGE >> 20} MB; publish smaller ones"
+            )
+            return
         self._heap.note(len(cdr))
+        self._problems.pop(topic, None)
         self.inbox.put(topic, Raw(cdr, self.now_ns()))
 
 

@@ -81,6 +81,11 @@ class _Followers:
     fixed_frame: str = ""
 
 
+def groups_of(context: Context) -> dict[str, Group]:
+    """The context itself by "", and its groups that follow frames by their keys."""
+    return {"": context, **context.groups}
+
+
 class Drawing:
     """The groups that one display draws, by scope; each call of a hook fills one scope.
 
@@ -123,7 +128,7 @@ class Drawing:
         self._drawn_from[scope] = samples, context.frames.fixed_frame
         before = self._scopes.get(scope, {})
         after: dict[str, _Drawn] = {}
-        for key, group in context.groups.items():
+        for key, group in groups_of(context).items():
             if not group.nodes:
                 continue
             name, drawn = self._name(scope, key), before.get(key)

@@ -128,13 +128,17 @@ class Intake:
         self._follow(offer)
         if offer and offer.type not in ("", self.type):
             raws = ()  # another display reads the topic as another type
-        is_latched = bool(offer and offer.requested and offer.requested[1] == "transient_local")
+        is_latched = bool(
+            offer
+            and offer.requested
+            and offer.requested[1] == "transient_local"
+            and not self.spec.every
+        )
         for raw in raws:
             last = reception.last
-            is_again = last is not None and raw.cdr == last.cdr
-            if is_latched and is_again and not self.spec.every:
+            if is_latched and last and raw.cdr == last.cdr:
                 continue  # delivered again, by a second publisher or a new subscription
-            reception.note(raw, clock)
+            reception.note(raw, clock, is_latched)
             message, lasts_ns = None, 0
             try:
                 header = peek_header(self.type, raw.cdr)

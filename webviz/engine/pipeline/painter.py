@@ -18,7 +18,7 @@ from webviz.api.status import Status
 from webviz.engine.commands import Picks
 from webviz.engine.pipeline.background import Tasks, Workers, is_slow
 from webviz.engine.pipeline.baking import bake
-from webviz.engine.pipeline.drawing import Drawing, DrawingScene
+from webviz.engine.pipeline.drawing import Drawing, DrawingScene, groups_of
 from webviz.engine.pipeline.guard import CRASHED, Guard
 from webviz.engine.pipeline.history import Held, Histories, History, held_samples
 from webviz.engine.pipeline.picking import Found
@@ -251,7 +251,7 @@ class Painter:
 
         def draw() -> None:
             display.draw(held.sample, context)
-            for key, group in context.groups.items():
+            for key, group in groups_of(context).items():
                 bake(group, origins.get(key, (0.0, 0.0, 0.0)))
 
         self._draw_job = _DrawJob(name, held, look, context, self._workers.submit(draw))

@@ -8,6 +8,7 @@ import itertools
 import time
 from collections import deque
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from webviz.api.declared import Topic
 from webviz.api.ports import ANY, Input
@@ -47,9 +48,12 @@ class Reception:
         self._times: deque[float] = deque(maxlen=50)
         self._others: tuple[Mapping[str, Offer], str] = {}, ""
 
-    def note(self, raw: Raw, clock: float) -> None:
-        """Count a message, which may have waited since it arrived, such as while paused."""
-        self.last = raw
+    def note(self, raw: Raw, clock: float, is_latched: bool) -> None:
+        """Count a message, which may have waited since it arrived, such as while paused.
+
+        The bytes of a latched one are kept, to notice when it is delivered again.
+        """
+        self.last = raw if is_latched else replace(raw, cdr=b"")
         self.count += 1
         self._times.append(clock - (time.monotonic() - raw.arrived_s))
 
