@@ -148,7 +148,7 @@ def test_keys_open_dialogs(tab: Tab, keys: str, title: str) -> None:
 def test_the_dialog_of_keys_has_those_of_all_commands(tab: Tab) -> None:
     tab.page.keyboard.press("?")
     text = tab.page.get_by_role("dialog").inner_text()
-    for name in ("Save as", "Undo", "Add display", "Zero view", "Look at what is under the mouse"):
+    for name in ("Save as", "Undo", "Add display", "Zero view", "Show all of it", "Walk"):
         assert name in text
     tab.page.keyboard.press("Escape")
 

@@ -30,6 +30,13 @@ const TREE = [
   ["Actions", ["Shift+F10"]],
 ];
 
+// What an image listens to while it has the focus, see images/zoom.js.
+const IMAGE = [
+  ["Zoom", ["Wheel", "+", "-"]],
+  ["Move", ["Drag", "←", "↑", "→", "↓"]],
+  ["Show all of it", ["0"]],
+];
+
 // See tools/teleop_keys.js.
 const TELEOP = [
   ["Drive", ["W", "A", "S", "D"]],
@@ -47,7 +54,8 @@ export function openKeys() {
       [one.name.replace("…", ""), keysOf(one).map(keyText)],
     ]);
   }
-  for (const [name, keys] of Object.entries({ "Tree of displays": TREE, "While driving": TELEOP })) {
+  const further = { "Tree of displays": TREE, "Image": IMAGE, "While driving": TELEOP };
+  for (const [name, keys] of Object.entries(further)) {
     groups.set(name, keys.map(([does, all]) => [does, [...all].map(keyText)]));
   }
   groups.set("Scene", SCENE);
