@@ -15,7 +15,6 @@ from webviz.engine.sources import Subscription
 from webviz.engine.sources.bag import BagSource
 from webviz.files import opening
 from webviz_urdf import Resolver, load_robot
-from webviz_urdf.loading import MAX_MEMORY
 from webviz_urdf.robot import RobotDescriptionError
 from webviz_urdf.textures import TextureError, open_image
 
@@ -23,6 +22,8 @@ MESH = (
     "<robot name='r'><link name='a'><visual><geometry><mesh filename='{}'/></geometry></visual>"
     "</link></robot>"
 )
+MAX_MEMORY = 3 << 30
+"""Bytes of address space, half a gigabyte of which is taken by imports."""
 MAX_STEPS = 1000
 """Of a bag that claims to be long."""
 

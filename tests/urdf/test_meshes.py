@@ -312,9 +312,10 @@ def test_a_texture_outside_of_packages_and_mesh_roots_is_refused_with_the_remedy
     assert f"Start webviz with --mesh-root {tmp_path} to allow it." in robot.warnings[0]
 
 
-def test_a_mesh_with_corners_at_infinity_is_missing(tmp_path, one_mesh):
+@pytest.mark.parametrize("x", ["nan", "1e300"])
+def test_a_mesh_with_corners_at_infinity_is_missing(tmp_path, one_mesh, x):
     path = tmp_path / "a.obj"
-    path.write_text("v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    path.write_text(f"v {x} 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     (missing,) = one_mesh(path).missing
     assert "not finite" in missing.reason
 

@@ -142,12 +142,13 @@ def _parts(data: bytes, suffix: str, textures: TextureFolder) -> list[MeshPart]:
 def _part(mesh: trimesh.Trimesh, transform: np.ndarray, unit: float) -> MeshPart:
     """The mesh in the scene's frame, in metres."""
     exact, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
-    if not np.isfinite(exact).all():
-        raise ValueError("a vertex is not finite")
     linear, is_moved = transform[:3, :3], not np.array_equal(transform, np.eye(4))
-    if is_moved:
-        exact = exact @ linear.T + transform[:3, 3]
-    vertices = exact.astype(np.float32) if unit == 1.0 else (exact * unit).astype(np.float32)
+    with np.errstate(over="ignore", invalid="ignore"):
+        if is_moved:
+            exact = exact @ linear.T + transform[:3, 3]
+        vertices = exact.astype(np.float32) if unit == 1.0 else (exact * unit).astype(np.float32)
+    if not np.isfinite(vertices).all():
+        raise ValueError("a vertex is not finite, or too far away")
     surface, uvs = _surface(mesh)
     colors = _vertex_colors(mesh)
     # trimesh has no public way to ask whether the file gave normals; without, it computes some.
