@@ -193,6 +193,15 @@ def test_an_invalid_scan_is_named(scan: dict[str, Any], shown: Callable) -> None
     assert at.statuses()["Nodes"][1].startswith("Node 1 is left out: ")
 
 
+def test_colours_that_the_data_lack_are_chosen_by_the_data(shown: Callable) -> None:
+    at = shown(map_data(HERE, {1: rgbd(RED, FAR)}), color_transformer="Intensity")
+    assert at.statuses()["Colors"][0] == "WARN"
+    at.press("Colors")
+    at = shown(map_data(HERE, {1: scanned(*SCAN)}), cloud_from_scan=True, color_transformer="RGB8")
+    assert at.statuses()["Colors"][0] == "WARN"
+    at.press("Colors")
+
+
 def test_nodes_without_the_wanted_data_are_named(shown: Callable) -> None:
     at = shown(map_data(HERE, {1: rgbd(RED, FAR)}), cloud_from_scan=True)
     sentence = "The nodes have no laser scans. Change Cloud from scan."

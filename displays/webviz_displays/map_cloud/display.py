@@ -17,6 +17,7 @@ from webviz import (
     Keep,
     Pose,
     Prop,
+    Remedy,
     Rgb,
     Sample,
     Topic,
@@ -41,6 +42,8 @@ AGAIN_S = 10.0
 
 CloudMetres = Annotated[float, Prop(ge=0, le=999, unit="m")]
 CloudHeight = Annotated[float, Prop(ge=-999, le=999, unit="m")]
+
+BY_DATA = Remedy("color_transformer", "Auto", "Choose by the data")
 
 
 @dataclass
@@ -272,14 +275,14 @@ class MapCloud(PointsDisplay):
                 if self.channel_name != "intensity":
                     return self.intensity_colors(xyz[:, "xyz".index(self.channel_name)], ctx)
                 if colored and not self.cloud_from_scan:
-                    ctx.warn("Colors", "Depth images have no intensities. Choose RGB8.")
+                    ctx.warn("Colors", "Depth images have no intensities. Choose RGB8.", BY_DATA)
                 values = [_intensities(cloud) for cloud in clouds]
                 return self.intensity_colors(np.concatenate(values), ctx)
             case "FlatColor":
                 return self.color
             case _:
                 text = "Scans have no colours. The points are white; choose Intensity."
-                ctx.warn("Colors", text)
+                ctx.warn("Colors", text, BY_DATA)
                 return 255, 255, 255
 
     def _report(self, known: KnownMap, nodes: int, shown: int, state: _State, ctx: Context) -> None:
@@ -301,8 +304,10 @@ class MapCloud(PointsDisplay):
         if known.problem:
             ctx.error("Points", joined(known.problem, "Fix the publisher."))
         elif not shown and known.received and not known.clouds and not known.faults:
-            sort = "laser scans" if self.cloud_from_scan else "depth images"
-            ctx.warn("Points", f"The nodes have no {sort}. Change Cloud from scan.")
+            sorts = ["depth images", "laser scans"]
+            text = f"The nodes have no {sorts[self.cloud_from_scan]}. Change Cloud from scan."
+            other = not self.cloud_from_scan
+            ctx.warn("Points", text, Remedy("cloud_from_scan", other, f"Show {sorts[other]}"))
         elif not shown:
             ctx.warn("Points", f"{count}: nothing to draw.")
         elif self.alpha == 0:
