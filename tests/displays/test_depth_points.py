@@ -21,3 +21,4 @@ def test_points_carry_the_pixel_of_the_whole_image(most: int, ids: list[int]) ->
     # x is as many metres as columns, and y as rows: 2 m away at a focal length of 2 pixels.
     rows, columns = np.divmod(points.ids, WIDTH)
     np.testing.assert_allclose(points.xyz[:, :2], np.column_stack((columns, rows)), atol=1e-6)
+    assert 2.0 * points.spacing == pytest.approx(columns[1] - columns[0])

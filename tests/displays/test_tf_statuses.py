@@ -3,6 +3,7 @@
 import pytest
 
 from webviz import OtherFixedFrame
+from webviz.shell.testing import SECOND
 from webviz_displays.tf import TF
 
 
@@ -141,3 +142,16 @@ def test_a_frame_that_is_lost_within_the_same_second_is_named(bench) -> None:
     at.transform("arm", "gripper")
     at.turn()
     assert "arm" in at.statuses()
+
+
+def test_the_reason_why_a_frame_is_lost_is_that_of_now(bench) -> None:
+    at = bench(TF())
+    start_ns = at.now_ns
+    for seconds in (0, 1):
+        at.transform("map", "odom", stamp_ns=start_ns + seconds * SECOND)
+        at.transform("odom", "base", stamp_ns=start_ns + (seconds + 5) * SECOND)
+    at.turn()
+    assert "Requested time 101.0" in at.statuses()["base"][1]
+    at.transform("map", "odom", stamp_ns=start_ns + 2 * SECOND)
+    at.turn(1.0)
+    assert "Requested time 102.0" in at.statuses()["base"][1]

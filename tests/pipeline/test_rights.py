@@ -161,6 +161,12 @@ def test_a_tool_is_refused_if_all_that_it_uses_is(make: Callable[..., Any]) -> N
     assert refusal("/navigate_to_pose") == ""
 
 
+def test_a_tool_without_a_valid_topic_is_not_refused(make: Callable[..., Any]) -> None:
+    b = make(publish=())
+    b.do(SetToolProperty("Publish Point", "topic.name", ""))
+    assert set(refusals(b)) == {"2D Pose Estimate", "2D Goal Pose"}
+
+
 def test_a_config_that_is_opened_later_narrows_the_list_and_never_widens_it(
     make: Callable[..., Any],
 ) -> None:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 Rows = NDArray[np.intp]
 
 _CELLS = 1 << 21
-"""Voxels along each axis until their numbers wrap: three such numbers fit 63 bits."""
+"""Voxels along each axis until their numbers repeat: three such numbers fit 63 bits."""
 
 _SPREAD = 0x9E3779B97F4A7C15
 """2^64 divided by the golden ratio, which scatters numbers (Knuth, TAOCP 3, section 6.4)."""
@@ -44,7 +44,7 @@ def one_per_voxel(xyz: NDArray[np.float32], size: float) -> Rows:
     numbers = np.zeros(len(xyz), np.int64)
     for axis in range(3):
         numbers *= _CELLS
-        numbers += np.floor(xyz[:, axis] / size).astype(np.int64) & (_CELLS - 1)
+        numbers += np.floor(xyz[:, axis] / size).astype(np.int64)
     # Sorting a million numbers takes longer than the rest of a display, hence a hash table.
     # The last writer owns a slot; points of other voxels retry in a new table.
     bits = max(len(xyz), 2).bit_length()

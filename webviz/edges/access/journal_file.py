@@ -81,6 +81,5 @@ class JournalFile:
         if not stat.S_ISREG(status.st_mode) or status.st_uid != os.geteuid():
             os.close(descriptor)
             raise Error(f"{self._path} is not a file of this user. Choose another journal.")
-        if stat.S_IMODE(status.st_mode) & 0o077:
-            os.fchmod(descriptor, 0o600)
+        os.fchmod(descriptor, 0o600)
         return descriptor
