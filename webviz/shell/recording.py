@@ -2,30 +2,21 @@
 
 from __future__ import annotations
 
-import importlib.metadata
 import re
 import time
 from collections.abc import Mapping, Sequence
 from typing import Self
 
 from webviz.api.declared import Topic
-from webviz.data.messages import UnknownTypeError, definition
-from webviz.data.recordings import RecordedChannel
 from webviz.data.recordings.folder_writing import RecordingFolder
 from webviz.data.words import counted
-from webviz.engine.sources import Offer, Publisher, Raw, Source, Subscription
-from webviz.engine.sources.bag_qos import text_of
+from webviz.engine.recording import Channels
+from webviz.engine.recording.recorder import FLUSH_S
+from webviz.engine.sources import Offer, Raw, Source, Subscription
 
-FLUSH_S = 1.0
-"""What is lost at most if the program is killed."""
 REST_S = 0.1
 DEPTH = 100
 """Of the queues of subscriptions: messages that arrive while a file is written."""
-
-
-def library() -> str:
-    """The name of the program, for the header of its recordings."""
-    return f"webviz {importlib.metadata.version('webviz')}"
 
 
 class TopicRecorder:
@@ -41,7 +32,7 @@ class TopicRecorder:
         self.folder = folder
         self._source = source
         self._patterns = [_pattern(source, text) for text in patterns]
-        self._channels: dict[str, RecordedChannel] = {}
+        self._channels = Channels(source.offers)
         self._offers: Mapping[str, Offer] = {}
         self._subscriptions: dict[str, Subscription] = {}
         self._problems: dict[str, str] = {}
@@ -119,25 +110,13 @@ class TopicRecorder:
         return "/_" not in topic  # hidden, such as those of actions
 
     def _write(self, topic: str, messages: Sequence[Raw]) -> None:
-        publishers = self._offers[topic].publishers if topic in self._offers else ()
-        channel = self._channels.get(topic)
-        if channel is None:
-            subscription = self._subscriptions.get(topic)
-            if subscription is None:  # its last publisher has gone
-                return
-            channel = self._channels[topic] = channel_of(topic, subscription.type, publishers)
-        latched = any(each.durability == "transient_local" for each in publishers)
+        subscription = self._subscriptions.get(topic)
+        channel = self._channels.find(topic, subscription.type if subscription else "")
+        if channel is None:  # its last publisher went before its first message was read
+            return
+        latched = self._channels.is_latched(topic)
         for raw in messages:
             self.folder.add(channel, raw.received_ns, raw.cdr, latched)
-
-
-def channel_of(topic: str, type_: str, publishers: Sequence[Publisher]) -> RecordedChannel:
-    """The channel of a topic that is subscribed to."""
-    try:
-        text = definition(type_)
-    except UnknownTypeError:
-        text = ""
-    return RecordedChannel(topic, type_, "cdr", text, text_of(publishers))
 
 
 def _pattern(source: Source, text: str) -> re.Pattern[str]:

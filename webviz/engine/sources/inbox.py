@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 import time
 from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 MAX_BYTES = 64 << 20
@@ -50,6 +51,8 @@ class Inbox:
         self._max_total = max_total
         self._total = 0
         self._held_drops: int | None = None
+        self.readers: tuple[Callable[[str, Raw], object], ...] = ()
+        """Called with each message by the thread that puts it, whatever is dropped later."""
         self.arrived = threading.Event()
         """Set by every arrival, and to wake the frame loop for other reasons."""
 
@@ -81,6 +84,8 @@ class Inbox:
                 self._drop_oldest(topic)
             while self._total > self._max_total and self._total > len(raw.cdr):
                 self._drop_oldest(max(self._bytes, key=self._bytes.__getitem__))
+        for read in self.readers:
+            read(topic, raw)
         self.arrived.set()
 
     def drain(self) -> dict[str, deque[Raw]]:

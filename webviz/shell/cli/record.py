@@ -83,7 +83,8 @@ def record(*, options: RecordOptions = RecordOptions(), ros: RosArgs) -> int:
         from webviz.api.errors import Error
         from webviz.data.recordings import RecordingError
         from webviz.data.recordings.folder_writing import RecordingFolder, RecordingLimits
-        from webviz.shell.recording import TopicRecorder, library
+        from webviz.engine.recording import library
+        from webviz.shell.recording import TopicRecorder
         from webviz.shell.ros_source import ros_source
 
         name = f"webviz_{datetime.now():%Y_%m_%d-%H_%M_%S}"

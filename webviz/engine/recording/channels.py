@@ -1,0 +1,67 @@
+"""Channels of recordings, of the topics of a source."""
+
+from __future__ import annotations
+
+import importlib.metadata
+from collections.abc import Callable, Iterator, Mapping, Sequence
+
+from webviz.data.messages import UnknownTypeError, definition
+from webviz.data.recordings import RecordedChannel
+from webviz.engine.sources.bag_qos import text_of
+from webviz.engine.sources.source import Offer, Publisher
+
+
+def library() -> str:
+    """The name of the program, for the header of its recordings."""
+    return f"webviz {importlib.metadata.version('webviz')}"
+
+
+class Channels:
+    """The channel of each topic, with the QoS that its publishers offered at first.
+
+    Args:
+        offers: publishers and QoS by topic, as they are now; called from any thread.
+    """
+
+    def __init__(self, offers: Callable[[], Mapping[str, Offer]]) -> None:
+        self._offers = offers
+        self._known: dict[str, RecordedChannel] = {}
+
+    def __len__(self) -> int:
+        return len(self._known)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(tuple(self._known))
+
+    def find(self, topic: str, type_: str = "") -> RecordedChannel | None:
+        """The channel of a topic.
+
+        Args:
+            topic: full name.
+            type_: of the subscription, "" if the source knows it.
+
+        Returns:
+            None if nobody knows the type of its messages yet.
+        """
+        channel = self._known.get(topic)
+        if channel is None:
+            offer = self._offers().get(topic)
+            type_ = type_ or (offer.type if offer else "")
+            if not type_:
+                return None
+            channel = self._known[topic] = _channel(topic, type_, offer.publishers if offer else ())
+        return channel
+
+    def is_latched(self, topic: str) -> bool:
+        """Return whether late subscribers receive the newest message of a topic."""
+        offer = self._offers().get(topic)
+        publishers = offer.publishers if offer else ()
+        return any(each.durability == "transient_local" for each in publishers)
+
+
+def _channel(topic: str, type_: str, publishers: Sequence[Publisher]) -> RecordedChannel:
+    try:
+        text = definition(type_)
+    except UnknownTypeError:
+        text = ""
+    return RecordedChannel(topic, type_, "cdr", text, text_of(publishers))
