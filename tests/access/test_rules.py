@@ -49,7 +49,7 @@ WATCHING = {
     "ShowView",
     "WriteDisplays",
 }
-OWNING = {"Load", "Open", "Save"}
+OWNING = {"Load", "Open", "Save", "SaveMemory", "StartRecording", "StopRecording"}
 
 
 def every_command() -> set[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from playwright.sync_api import Locator, Position, expect
@@ -14,14 +15,19 @@ from webviz.engine.commands import (
     Pause,
     RemoveBookmark,
     SaveBookmark,
+    SaveMemory,
     Seek,
     SelectSpan,
     SetLoop,
     SetRate,
+    StartRecording,
     StepMessage,
+    StopRecording,
 )
-from webviz.engine.state import ClockPace, PanelTimes, PlaybackState
+from webviz.engine.recording_state import MemoryState, PlaybackState, RecordingState
+from webviz.engine.state import ClockPace, PanelTimes
 from webviz.files.config import Settings
+from webviz.files.config.model import MemorySettings
 
 START_S = 1_700_000_000
 COUNTS = [20] * 100 + [0] * 50 + [5] * 350
@@ -255,3 +261,24 @@ def test_a_phone_has_track_and_buttons_within_its_width(
     box = phone.page.get_by_label("Go to time").bounding_box()
     assert box
     assert box["x"] + box["width"] <= 390
+
+
+def test_live_topics_are_recorded_and_their_last_minute_saved(loop: Loop, tab: Tab) -> None:
+    loop.show(memory=MemoryState(42.7, 12_400_000))
+    tab.wait_for(lambda: tab.button("Record").count())
+    tab.button("Record").click()
+    tab.wait_for_command(StartRecording())
+    recording = RecordingState(
+        path=Path("/home/robot/run"), seconds=65.2, messages=10, size=1_234_567, dropped=0
+    )
+    loop.show(recording=recording)
+    tab.wait_for(lambda: tab.button("Stop recording").count())
+    assert tab.button("Stop recording").inner_text() == "0:01:05 · 1.2 MB"
+    tab.button("Stop recording").click()
+    tab.wait_for_command(StopRecording())
+    tab.page.get_by_role("button", name="Save last 42 s").click()
+    tab.wait_for_command(SaveMemory())
+    loop.show(settings=Settings(memory=MemorySettings(seconds=0.0)))
+    tab.wait_for(lambda: tab.page.get_by_role("button", name="Save last").count() == 0)
+    loop.show(memory=None, playback=RECORDING)
+    tab.wait_for(lambda: tab.button("Stop recording").count() == 0)

@@ -17,10 +17,12 @@ from webviz.engine.commands import (
     Refresh,
     RemoveBookmark,
     SaveBookmark,
+    SaveMemory,
     Seek,
     SelectSpan,
     SetLoop,
     SetRate,
+    StartRecording,
     StepMessage,
     Undo,
 )
@@ -220,3 +222,11 @@ def test_bookmarks_that_cannot_be(
 ) -> None:
     with pytest.raises(Refused, match=reason):
         theater(bag).do(command)
+
+
+@pytest.mark.parametrize("command", [StartRecording(), SaveMemory()])
+def test_a_bag_is_not_recorded_again(theater: Callable, bag: Bag, command: Command) -> None:
+    viewer = theater(bag)
+    with pytest.raises(Refused, match=r"A bag is a recording already\."):
+        viewer.do(command)
+    assert viewer.loop.state().memory is None

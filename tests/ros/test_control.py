@@ -302,6 +302,28 @@ def test_without_a_file_the_services_say_what_to_do(
         assert "config_file" in answer.message or "Save it on the page" in answer.message
 
 
+def test_services_record_and_save_the_last_seconds(
+    open_viewer: Callable[..., webviz.Viewer],
+    client: Client,
+    config: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(config.parent)
+    viewer = open_viewer(config)
+    answer = client.call("/webviz/start_recording")
+    assert answer.success, answer.message
+    recording = viewer.state.recording
+    assert recording is not None
+    assert answer.message == f"Recording to {recording.path.name}."
+    answer = client.call("/webviz/stop_recording")
+    assert answer.success, answer.message
+    answer = client.call("/webviz/stop_recording")
+    assert (answer.success, answer.message) == (False, "Nothing is being recorded.")
+    answer = client.call("/webviz/save_last")
+    assert not answer.success
+    assert answer.message.startswith("Nothing is remembered.")
+
+
 @pytest.mark.parametrize(("name", "type"), [("reset", Trigger), ("reset_time", Empty)])
 def test_a_reset_forgets_messages(
     open_viewer: Callable[..., webviz.Viewer], client: Client, name: str, type: Any

@@ -25,7 +25,9 @@ from webviz.engine.parts.goals import GoalsPart
 from webviz.engine.parts.handles import HandlesPart
 from webviz.engine.parts.history import HistoryPart
 from webviz.engine.parts.panels import PanelsPart
+from webviz.engine.parts.playback import PlaybackPart
 from webviz.engine.parts.plugins import PluginsPart
+from webviz.engine.parts.recording import RecordingPart
 from webviz.engine.parts.selection import SelectionPart
 from webviz.engine.parts.session import SessionPart
 from webviz.engine.parts.settings import SettingsPart
@@ -131,6 +133,7 @@ class FrameLoop:
         self._owed: list[Callable[[], None]] = []
         displays = self._displays = DisplaysPart(core, services)
         settings = self._settings = SettingsPart(core)
+        self._playback = PlaybackPart(core, settings, control, self._time.start_over, autoplay)
         views = ViewsPart(core, settings, displays)
         goals = GoalsPart(core)
         self.helms = Helms(gate, source.now_ns)
@@ -156,6 +159,7 @@ class FrameLoop:
             files,
             history,
             TopicsPart(core),
+            RecordingPart(core, settings, control is None),
             SelectionPart(core, displays),
             HandlesPart(core, displays),
             PluginsPart(core, displays, [tools.list, panels.list], settings),

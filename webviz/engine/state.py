@@ -15,6 +15,7 @@ from webviz.api.tool import Gesture, Tool
 from webviz.api.views import View
 from webviz.data.messages.tree import Tree
 from webviz.data.transforms import Diagnosis
+from webviz.engine.recording_state import MemoryState, PlaybackState, RecordingState
 from webviz.engine.sources import Offer
 from webviz.files.config import Settings
 
@@ -279,32 +280,6 @@ class UndoHistory:
 
 
 @dataclass(frozen=True, kw_only=True)
-class PlaybackState:
-    """The recording that is played; see `webviz.engine.playback`.
-
-    Args:
-        names: of the recordings.
-        start_ns, end_ns: times of recording of the first and the last message, since 1970.
-        position_s: what is shown, in seconds from the start.
-        rate: seconds of the recording per second; infinity is as fast as possible.
-        is_playing: whether the position moves on.
-        is_seeking: whether the position is being approached; the scene still shows another one.
-        loop: whether the span starts over at its end.
-        selected: the first and the last second to play, None for all.
-    """
-
-    names: tuple[str, ...]
-    start_ns: int
-    end_ns: int
-    position_s: float
-    rate: float
-    is_playing: bool
-    is_seeking: bool
-    loop: bool
-    selected: tuple[float, float] | None
-
-
-@dataclass(frozen=True, kw_only=True)
 class State:
     """A viewer at one moment; each part fills in the fields that it owns.
 
@@ -332,6 +307,8 @@ class State:
         history: what can be undone and redone.
         playback: the recording that is played, None for live topics.
         recorded: counts of its messages in equal parts of its span, by topic.
+        memory: what is remembered of live topics, None for a recording.
+        recording: the one that goes on, None for none.
         selected: ids of what each browser has selected, each with that of its display, and
             whether it moves.
         selections: what is known of it, for the browsers that show it.
@@ -360,6 +337,8 @@ class State:
     history: UndoHistory = UndoHistory()
     playback: PlaybackState | None = None
     recorded: Mapping[str, Sequence[int]] = field(default_factory=dict)
+    memory: MemoryState | None = None
+    recording: RecordingState | None = None
     selected: Mapping[int, Mapping[int, tuple[str, bool]]] = field(default_factory=dict)
     selections: Mapping[int, Mapping[str, Any]] = field(default_factory=dict)
     more: Mapping[str, Any] = field(default_factory=dict)

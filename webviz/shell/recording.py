@@ -77,7 +77,7 @@ class TopicRecorder:
         return new
 
     def progress(self) -> str:
-        """How much was recorded."""
+        """The amount that was recorded, in words."""
         megabytes = self.folder.size / 1e6
         seconds = time.monotonic() - self._began_s
         messages = counted(self.folder.messages, "message")

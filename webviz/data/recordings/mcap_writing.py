@@ -6,8 +6,6 @@ import contextlib
 from pathlib import Path
 from typing import BinaryIO, cast
 
-from mcap.writer import CompressionType, Writer
-
 from webviz.data.recordings.recording import RecordedChannel
 
 CHUNK_BYTES = 1 << 20
@@ -33,6 +31,8 @@ class McapFile:
         """Stamps of the first and the last message."""
         self._numbers: dict[RecordedChannel, int] = {}
         self._schemas: dict[tuple[str, str], int] = {}
+        from mcap.writer import CompressionType, Writer  # here, as it takes 0.1 s
+
         self._stream = _Stream(path)
         self._writer = Writer(cast(BinaryIO, self._stream), CHUNK_BYTES, CompressionType.ZSTD)
         self._writer.start("ros2", library)

@@ -56,6 +56,9 @@ COMMANDS: Mapping[type[Command], Role] = {
     commands.Load: Role.OWNER,
     commands.Open: Role.OWNER,
     commands.Save: Role.OWNER,
+    commands.SaveMemory: Role.OWNER,
+    commands.StartRecording: Role.OWNER,
+    commands.StopRecording: Role.OWNER,
 }
 """Of the commands that pages may send; see `webviz.edges.page.acts`."""
 

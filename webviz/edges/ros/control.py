@@ -19,9 +19,12 @@ from webviz.engine.commands import (
     Open,
     Reset,
     Save,
+    SaveMemory,
     SetFixedFrame,
     ShowView,
+    StartRecording,
     StartWithView,
+    StopRecording,
 )
 from webviz.engine.state import State
 from webviz.files.config.files import SUFFIXES
@@ -35,8 +38,8 @@ PARAMETERS = {
     VIEW: "Saved view in which browsers start. Set it to move all cameras.",
 }
 NO_SERVICES = (
-    "The services ~/load_config, ~/save_config, ~/reset, ~/reset_time and ~/screenshot are "
-    "unavailable because std_srvs is missing. Install ros-jazzy-std-srvs."
+    "The viewer's services, such as ~/load_config and ~/screenshot, are unavailable because "
+    "std_srvs is missing. Install ros-jazzy-std-srvs."
 )
 NO_CONTROL = "This viewer was started with --no-control. Restart it without this option."
 MAX_REQUESTS = 4
@@ -222,6 +225,15 @@ class ControlNode:
         def screenshot() -> str:
             return f"Saved {viewer.save_screenshot()}."
 
+        def save_last() -> str:
+            return viewer.do(SaveMemory())
+
+        def start_recording() -> str:
+            return viewer.do(StartRecording())
+
+        def stop_recording() -> str:
+            return viewer.do(StopRecording())
+
         return [
             _Service(self._node, type, name, work, self._pool, self._wake)
             for name, type, work in (
@@ -230,6 +242,9 @@ class ControlNode:
                 ("~/reset", Trigger, reset),
                 ("~/reset_time", Empty, reset),  # RViz's
                 ("~/screenshot", Trigger, screenshot),
+                ("~/save_last", Trigger, save_last),
+                ("~/start_recording", Trigger, start_recording),
+                ("~/stop_recording", Trigger, stop_recording),
             )
         ]
 

@@ -37,6 +37,7 @@ from webviz.engine.commands.playback import (
     SetRate,
     StepMessage,
 )
+from webviz.engine.commands.recording import SaveMemory, StartRecording, StopRecording
 from webviz.engine.commands.selection import Identify, InspectSelections, Pick, Picks, Select
 from webviz.engine.commands.tools import (
     CallService,
@@ -117,6 +118,7 @@ __all__ = [
     "Save",
     "SaveBookmark",
     "SaveImage",
+    "SaveMemory",
     "SaveView",
     "Seek",
     "Select",
@@ -132,8 +134,10 @@ __all__ = [
     "SetRate",
     "SetToolProperty",
     "ShowView",
+    "StartRecording",
     "StartWithView",
     "StepMessage",
+    "StopRecording",
     "TraceDisplay",
     "Undo",
     "UseTool",

@@ -25,7 +25,7 @@ from webviz.engine.commands import (
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.playback import PlaybackControl
-from webviz.engine.state import PlaybackState
+from webviz.engine.recording_state import PlaybackState
 from webviz.files.config import nearest
 
 MIN_RATE, MAX_RATE = 0.01, 1000.0

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import importlib.metadata
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from datetime import datetime
 
 from webviz.data.messages import UnknownTypeError, definition
 from webviz.data.recordings import RecordedChannel
@@ -13,7 +13,14 @@ from webviz.engine.sources.source import Offer, Publisher
 
 def library() -> str:
     """The name of the program, for the header of its recordings."""
+    import importlib.metadata  # here, as it is slow
+
     return f"webviz {importlib.metadata.version('webviz')}"
+
+
+def new_name() -> str:
+    """The name of a recording that begins now."""
+    return f"webviz_{datetime.now():%Y_%m_%d-%H_%M_%S}"
 
 
 class Channels:
@@ -46,10 +53,11 @@ class Channels:
         channel = self._known.get(topic)
         if channel is None:
             offer = self._offers().get(topic)
-            type_ = type_ or (offer.type if offer else "")
+            publishers = offer.publishers if offer else ()
+            type_ = type_ or (offer.type if offer else "") or _type_of(publishers)
             if not type_:
                 return None
-            channel = self._known[topic] = _channel(topic, type_, offer.publishers if offer else ())
+            channel = self._known[topic] = _channel(topic, type_, publishers)
         return channel
 
     def is_latched(self, topic: str) -> bool:
@@ -57,6 +65,12 @@ class Channels:
         offer = self._offers().get(topic)
         publishers = offer.publishers if offer else ()
         return any(each.durability == "transient_local" for each in publishers)
+
+
+def _type_of(publishers: Sequence[Publisher]) -> str:
+    """The type that all publishers agree on, "" if they do not."""
+    types = {publisher.type for publisher in publishers}
+    return types.pop() if len(types) == 1 else ""
 
 
 def _channel(topic: str, type_: str, publishers: Sequence[Publisher]) -> RecordedChannel:

@@ -10,15 +10,15 @@ from pathlib import Path
 from webviz.data.recordings import RecordingError
 from webviz.data.recordings.folder_writing import RecordingFolder
 from webviz.engine.recording.channels import Channels
-from webviz.engine.recording.memory import Remembered
+from webviz.engine.recording.recent import Remembered
 from webviz.engine.sources.inbox import Raw
 
 MAX_BYTES = 256 << 20
 """Of messages that wait for the disk."""
 FLUSH_S = 1.0
-"""What is lost at most if the program is killed."""
+"""Time between two writes: what is lost at most if the program is killed."""
 UNKNOWN_S = 5.0
-"""How long the type of a topic may be unknown before its messages are given up."""
+"""Time that the type of a topic may be unknown before its messages are given up."""
 
 
 class Recorder:
@@ -42,7 +42,7 @@ class Recorder:
         self.dropped = 0
         """Messages that the disk was too slow for, or whose type nobody knew."""
         self.problem = ""
-        """Why the recording ended by itself, in a sentence."""
+        """Cause of an end by itself, in a sentence; "" while there is none."""
         self._thread = threading.Thread(target=self._run, name="webviz-recorder", daemon=True)
         self._thread.start()
 

@@ -28,6 +28,13 @@ Name = Annotated[str, msgspec.Meta(max_length=256, pattern=f"^(~?/)?{_WORD}(/{_W
 """Of a topic, service or action; `*` stands for any characters."""
 
 
+class MemorySettings(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """The raw messages of live topics that are kept in memory, whichever bound is met first."""
+
+    seconds: Annotated[float, Prop(ge=0, le=3600, unit="s", help="0 keeps nothing.")] = 60.0
+    megabytes: Annotated[float, Prop(ge=0, le=65536, unit="MB", help="Of all messages.")] = 512.0
+
+
 class Settings(msgspec.Struct, forbid_unknown_fields=True):
     """A config file without its displays."""
 
@@ -57,6 +64,9 @@ class Settings(msgspec.Struct, forbid_unknown_fields=True):
     ] = ()
     view: Annotated[View, Prop(help="The view new browsers start with.")] = Orbit()
     views: Annotated[dict[str, View], Prop(help="Saved views by name.")] = {}
+    memory: Annotated[MemorySettings, Prop(help="What can be saved of the last minutes.")] = (
+        MemorySettings()
+    )
     bookmarks: Annotated[
         dict[str, float],
         msgspec.Meta(max_length=1000),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -19,32 +18,26 @@ from webviz.engine.commands import (
     Export,
     Load,
     Open,
-    Pause,
-    Play,
     RemoveView,
     Reset,
     Save,
     SaveView,
-    Seek,
     SetBackground,
     SetFixedFrame,
     SetFrameRate,
-    SetRate,
     ShowView,
     StartWithView,
 )
-from webviz.engine.parts.playback import LIVE
-from webviz.engine.state import PlaybackState
 from webviz.files import config as config_file
 from webviz.files import opening
 from webviz.shell.app.adding import by_topic, check_properties
 from webviz.shell.app.handles import DisplayHandle, NoSuchDisplay
 from webviz.shell.app.running import Running, checked_view
+from webviz.shell.app.time_controls import TimeControls
 from webviz.shell.app.tool_handle import ToolHandle
-from webviz.shell.pictures.times import At, position_ns, seconds_from_start
 
 
-class Viewer(Running):
+class Viewer(Running, TimeControls):
     """A running viewer with its page at `url`; end it with `close` or a `with` block.
 
     Methods return when the change is drawn and shown on the page. They may be called from any
@@ -258,68 +251,6 @@ class Viewer(Running):
     def reset(self) -> None:
         """Discard transforms and messages, like RViz's Reset."""
         self.do(Reset())
-
-    def pause(self) -> None:
-        """Pause the page, or the bag; live messages wait meanwhile."""
-        self.do(Pause(True))
-
-    def resume(self) -> None:
-        """Resume the page, or the bag."""
-        self.do(Pause(False))
-
-    # Bags
-
-    def play(self, rate: float | None = None) -> None:
-        """Play the bag on from its position, at its end from the start.
-
-        Args:
-            rate: seconds of the bag per second, 0.01 to 1000; infinity is as fast as possible, None
-                is the previous rate, at first 1.
-
-        Raises:
-            Error: the rate is out of range, or topics are live.
-        """
-        if rate is not None:
-            self.do(SetRate(0.0 if math.isinf(rate) and rate > 0 else rate or -1.0))
-        self.do(Play())
-
-    def seek(self, at: At) -> None:
-        """Show the bag at a time; returns when the scene shows it. A bag that plays plays on.
-
-        Args:
-            at: seconds from its start (seconds since 1970 if above 1e9), "start" or "end".
-
-        Raises:
-            Error: the time is outside of the bag, or topics are live.
-        """
-        shown = self._playback
-        name = ", ".join(shown.names)
-        self.do(Seek(seconds_from_start(position_ns(at, shown, name), shown)))
-
-    @property
-    def span(self) -> tuple[float, float]:
-        """Times of the first and the last message of the bag, in seconds since 1970.
-
-        Raises:
-            Error: topics are live.
-        """
-        shown = self._playback
-        return shown.start_ns / 1e9, shown.end_ns / 1e9
-
-    @property
-    def position(self) -> float:
-        """The time of the bag that is shown, in seconds from its start.
-
-        Raises:
-            Error: topics are live.
-        """
-        return self._playback.position_s
-
-    @property
-    def _playback(self) -> PlaybackState:
-        if (shown := self.state.playback) is None:
-            raise Error(LIVE)
-        return shown
 
     # Files
 

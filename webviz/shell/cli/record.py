@@ -3,7 +3,6 @@
 import sys
 import time
 from dataclasses import dataclass
-from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -51,7 +50,7 @@ Size = Annotated[int, Parameter(converter=_size, metavar="SIZE", show_default=Fa
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
 class RecordOptions:
-    """What is recorded, and where."""
+    """Topics to record, and the folder."""
 
     output: Annotated[Path | None, Parameter(alias="-o", metavar="FOLDER")] = None
     """New folder of the recording (default: webviz_ with date and time)."""
@@ -83,16 +82,15 @@ def record(*, options: RecordOptions = RecordOptions(), ros: RosArgs) -> int:
         from webviz.api.errors import Error
         from webviz.data.recordings import RecordingError
         from webviz.data.recordings.folder_writing import RecordingFolder, RecordingLimits
-        from webviz.engine.recording import library
+        from webviz.engine.recording import library, new_name
         from webviz.shell.recording import TopicRecorder
         from webviz.shell.ros_source import ros_source
 
-        name = f"webviz_{datetime.now():%Y_%m_%d-%H_%M_%S}"
         limits = RecordingLimits(
             options.split or options.keep // 10, options.split_time, options.keep
         )
         try:
-            folder = RecordingFolder(options.output or Path(name), library(), limits)
+            folder = RecordingFolder(options.output or Path(new_name()), library(), limits)
             with TopicRecorder(ros_source(ros), folder, options.topics) as recorder:
                 _follow(recorder, stop)
         except RecordingError as error:

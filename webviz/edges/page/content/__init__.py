@@ -18,6 +18,7 @@ from webviz.edges.page.content.history import history
 from webviz.edges.page.content.panes import panes
 from webviz.edges.page.content.playback import bookmarks, density, playback, recorded
 from webviz.edges.page.content.properties import properties, statuses, topics_of
+from webviz.edges.page.content.recording import recording
 from webviz.edges.page.content.scene import legend, watchers
 from webviz.edges.page.content.selection import picking, selected, selection
 from webviz.edges.page.content.tools import driving, tool
@@ -49,6 +50,7 @@ MAKERS: Mapping[str, Callable[[State, str], Mapping[str, Any]]] = {
     "properties": properties,
     "rate": rate,
     "recorded": recorded,
+    "recording": recording,
     "routes": routes,
     "selected": selected,
     "selection": selection,

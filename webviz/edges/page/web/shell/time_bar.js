@@ -6,6 +6,7 @@ import { rosNow, wallNow, watchTime } from "../clock.js";
 import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
 import { recall, remember } from "../remember.js";
+import { record } from "../timeline/record.js";
 import { timeline } from "../timeline/timeline.js";
 import { command, provide } from "./commands.js";
 import { duration, timeOfDay } from "./time_text.js";
@@ -35,9 +36,9 @@ export function build(place) {
   const buttons = el("div", { class: "wv-transport-place" });
   place.append(
     track, needs("Pause", pause), needs("Reset", reset), buttons, ros, badge, elapsed.element,
-    el("div", { class: "wv-space" }), wall.element, wallElapsed.element,
+    el("div", { class: "wv-space" }), record(), wall.element, wallElapsed.element,
   );
-  const recording = timeline({ track, buttons });
+  const recording = timeline({ track, buttons, toggle });
   place.setAttribute("aria-label", "Time");
 
   function toggle() {

@@ -15,9 +15,10 @@ import { parseTime } from "./typed_time.js";
 const JUMP_S = 5;
 
 /**
- * Puts a track and buttons into elements while a recording is played. Returns `isThere()`.
+ * Puts a track and buttons into elements while a recording is played; `toggle` plays or pauses it.
+ * Returns `isThere()`.
  *
- * @param {{ track: Element, buttons: Element }} places
+ * @param {{ track: Element, buttons: Element, toggle: () => unknown }} places
  */
 export function timeline(places) {
   let recording = null;
@@ -95,10 +96,9 @@ export function timeline(places) {
     const focused = document.activeElement;
     return !isTyping({ target: focused }) && !focused?.closest("button, [role=option], [role=treeitem], .wv-rows");
   };
-  const toggle = () => act("Pause", { paused: recording.get("is_playing") });
   const jump = (seconds) => seek.to(Math.max(0, Math.min(position() + seconds, recording.get("duration"))));
   const commands = [
-    { name: "Play or pause the recording", icon: "play", key: " ", needs: "Pause", run: toggle },
+    { name: "Play or pause the recording", icon: "play", key: " ", needs: "Pause", run: places.toggle },
     { name: "Next message", icon: "step", key: "ArrowRight", needs: "StepMessage", run: () => step.run(true) },
     { name: "Previous message", icon: "step-back", key: "ArrowLeft", needs: "StepMessage", run: () => step.run(false) },
     { name: `${JUMP_S} s on`, key: "Shift+ArrowRight", needs: "Seek", run: () => jump(JUMP_S) },

@@ -26,7 +26,7 @@ class Remembered(NamedTuple):
     messages: list[tuple[str, Raw]]
 
 
-class Memory:
+class RecentMessages:
     """Keeps raw messages of all topics for some seconds, as far as they fit; for any thread.
 
     The newest message of a latched topic is kept beyond that: without the map, the robot and static
@@ -34,7 +34,7 @@ class Memory:
 
     Args:
         is_latched: whether late subscribers receive the newest message of a topic.
-        seconds, max_bytes: whichever is reached first; 0 s keeps nothing.
+        seconds, max_bytes: whichever is reached first.
     """
 
     def __init__(
@@ -50,8 +50,6 @@ class Memory:
 
     def put(self, topic: str, raw: Raw) -> None:
         """Add a message, and forget the oldest that do not fit any more."""
-        if self.seconds <= 0:
-            return
         with self._lock:
             self._messages.append((topic, raw))
             self._bytes += len(raw.cdr) + OVERHEAD
@@ -87,7 +85,7 @@ class Memory:
         begin_s = now_s - self.seconds
         while self._messages:
             topic, raw = self._messages[0]
-            if raw.arrived_s >= begin_s and self._bytes <= self.max_bytes:
+            if raw.arrived_s > begin_s and self._bytes <= self.max_bytes:
                 return
             self._messages.popleft()
             self._bytes -= len(raw.cdr) + OVERHEAD

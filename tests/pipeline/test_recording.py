@@ -1,0 +1,156 @@
+"""The last minutes in memory, and recordings of live topics."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from bench import Bench, benches
+
+from webviz.data.messages import decode, encode
+from webviz.data.recordings import open_recording
+from webviz.engine.commands import SaveMemory, Sender, StartRecording, StopRecording
+from webviz.engine.recording import RecentMessages
+from webviz.engine.sources import Offer, Publisher, Raw
+from webviz.files.config import Settings
+from webviz.files.config.model import MemorySettings
+from webviz_displays.path import Path as PathDisplay
+from webviz_displays.robot_model import RobotModel
+
+STRING, PATH = "std_msgs/msg/String", "nav_msgs/msg/Path"
+PAGE = Sender(1)
+
+
+def raw(at_s: float, size: int = 10) -> Raw:
+    return Raw(bytes(size), round(at_s * 1e9), at_s)
+
+
+def contents(path: Path) -> list[tuple[str, int]]:
+    """Return topics and stamps of a recording."""
+    recording = open_recording(path)
+    assert recording.span_ns is not None
+    found = list(recording.messages(recording.channels, *recording.span_ns))
+    recording.close()
+    return [(message.channel.topic, message.stamp_ns) for message in found]
+
+
+@pytest.fixture
+def bench(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Bench]:
+    """A viewer of a path and of a robot, whose description is latched."""
+    monkeypatch.chdir(tmp_path)
+    with benches() as make:
+        bench = make(PathDisplay(), RobotModel())
+        latched = Publisher("/robot_state_publisher", STRING, "reliable", "transient_local")
+        bench.source.known["/robot_description"] = Offer((latched,))
+        yield bench
+
+
+def publish(bench: Bench) -> None:
+    bench.source.now += 1_000_000_000
+    bench.publish("/path", PATH, {"header": {"frame_id": "map"}})
+
+
+def test_a_memory_forgets_what_is_old_and_what_does_not_fit() -> None:
+    memory = RecentMessages(lambda topic: False, seconds=10.0, max_bytes=3000)
+    for second in range(20):
+        memory.put("/a", raw(second))
+    assert [m.received_ns // 10**9 for _, m in memory.last(1e9).messages] == list(range(10, 20))
+    memory.put("/big", raw(20, size=2500))
+    assert [(t, m.received_ns // 10**9) for t, m in memory.last(1e9).messages] == [
+        ("/a", 19),
+        ("/big", 20),
+    ]
+
+
+def test_the_newest_latched_message_is_not_forgotten() -> None:
+    memory = RecentMessages(lambda topic: topic == "/map", seconds=10.0, max_bytes=10**6)
+    memory.put("/map", raw(0))
+    memory.put("/map", raw(1))
+    memory.put("/scan", raw(2))
+    memory.put("/scan", raw(100))
+    past = memory.last(1e9)
+    assert {topic: m.received_ns // 10**9 for topic, m in past.latched.items()} == {"/map": 1}
+    assert [topic for topic, _ in past.messages] == ["/scan"]
+
+
+def test_the_last_seconds_are_saved_with_what_is_latched(bench: Bench) -> None:
+    bench.publish("/robot_description", STRING, {"data": "<robot/>"})
+    publish(bench)
+    publish(bench)
+    answer = bench.ask(SaveMemory(path="all"))
+    assert answer == "Saved the last 2 s to all."
+    assert [topic for topic, _ in contents(Path("all"))] == ["/robot_description", "/path", "/path"]
+
+
+def test_a_recording_begins_with_what_is_latched_and_ends_on_request(bench: Bench) -> None:
+    bench.publish("/robot_description", STRING, {"data": "<robot/>"})
+    publish(bench)
+    assert bench.ask(StartRecording()).startswith("Recording to webviz_")
+    publish(bench)
+    publish(bench)
+    state = bench.do(StartRecording("other")).recording
+    assert state is not None, "the second is refused"
+    assert bench.ask(StopRecording()) == f"Recorded 3 messages to {state.path.name}."
+    stamps = [stamp_ns // 10**9 for _, stamp_ns in contents(state.path)]
+    assert [topic for topic, _ in contents(state.path)] == ["/robot_description", "/path", "/path"]
+    assert stamps[-2:] == [102, 103]
+    assert not Path("other").exists()
+    assert bench.refused(StopRecording()) == "Nothing is being recorded."
+
+
+def test_messages_keep_their_bytes_and_type(bench: Bench) -> None:
+    cdr = encode(PATH, {"header": {"frame_id": "map"}})
+    bench.source.put("/path", PATH, cdr)
+    bench.do(SaveMemory(path="run"))
+    recording = open_recording(Path("run"))
+    (channel,) = recording.channels
+    (message,) = recording.messages([channel], 0, 2**62)
+    recording.close()
+    assert (channel.type, message.data) == (PATH, cdr)
+    assert decode(PATH, message.data).header.frame_id == "map"
+
+
+def test_a_full_disk_ends_a_recording_with_a_status(bench: Bench) -> None:
+    bench.do(StartRecording("run"))
+    for file in Path("run").iterdir():
+        file.unlink()
+    Path("run").rmdir()
+    publish(bench)
+    bench.ask(SaveMemory(path="other"))
+    while not (status := bench.do(SaveMemory(path="x")).statuses.get("Recording")):
+        pass
+    assert status.text.startswith(f"{Path('run').absolute()} cannot be written: No such file")
+    assert status.text.endswith("The recording has ended.")
+    bench.do(StartRecording("again"))
+    assert bench.ask(StopRecording()) == "Recorded 0 messages to again."
+
+
+def test_settings_bound_the_memory(bench: Bench) -> None:
+    publish(bench)
+    bench.viewer._settings.settings = Settings(memory=MemorySettings(seconds=0.0))
+    bench.do(StopRecording())
+    publish(bench)
+    assert "raise memory.seconds in the config" in bench.refused(SaveMemory())
+
+
+@pytest.mark.parametrize(
+    ("command", "reason"),
+    [
+        (SaveMemory(), "Nothing is remembered."),
+        (SaveMemory(-1.0), "The last -1 s are nothing."),
+        (SaveMemory(float("nan")), "The last nan s are nothing."),
+        (StartRecording("."), "is not empty. Give the name of a new folder."),
+    ],
+)
+def test_what_cannot_be_recorded_is_refused(
+    bench: Bench, command: SaveMemory | StartRecording, reason: str
+) -> None:
+    Path("file").touch()
+    assert reason in bench.refused(command)
+
+
+def test_a_page_cannot_choose_the_folder(bench: Bench) -> None:
+    answer = bench.viewer.enqueue(StartRecording("/etc/run"), PAGE)
+    bench.until_done(answer)
+    assert str(answer.exception()) == "A page cannot choose the folder of a recording."

@@ -1,0 +1,64 @@
+// Buttons for live topics: record them, and save the last minute.
+
+import { needs } from "../access.js";
+import { act } from "../act.js";
+import { el, set, setText } from "../dom.js";
+import { icon } from "../icons.js";
+import { provide } from "../shell/commands.js";
+import { duration } from "../shell/time_text.js";
+import { watch } from "../stores.js";
+
+/** The buttons; hidden for a bag. */
+export function record() {
+  let recording = null;
+  let isLive = false;
+  let isRemembering = false;
+  let seconds = 0;
+
+  const start = el("button", { type: "button", class: "wv-button wv-record", onclick: toggle });
+  const label = el("span", { class: "wv-number" });
+  start.append(icon("record", 12), label);
+  const save = el("button", { type: "button", class: "wv-button wv-save-last", onclick: saveLast }, icon("save", 14));
+  const span = el("span", { class: "wv-number" });
+  save.append(span);
+  const element = el("div", { class: "wv-recorder", hidden: true }, needs("StartRecording", start), needs("SaveMemory", save));
+
+  function toggle() {
+    return act(recording ? "StopRecording" : "StartRecording");
+  }
+
+  function saveLast() {
+    return act("SaveMemory");
+  }
+
+  watch("recording", (values) => {
+    isLive = values.has("remembered");
+    element.hidden = !isLive;
+    if (!isLive) return;
+    recording = values.get("recording");
+    isRemembering = values.get("is_remembering");
+    const [remembered, megabytes] = values.get("remembered");
+    seconds = remembered;
+    set(start, {
+      "data-recording": recording !== null,
+      "aria-label": recording ? "Stop recording" : "Record",
+      "data-tip": recording
+        ? `Recording to ${recording.name}, ${recording.megabytes} MB. Click to stop.`
+        : "Record all topics that are displayed, in the working folder of webviz",
+    });
+    setText(label, recording ? `${duration(recording.seconds, 0)} · ${recording.megabytes} MB` : "Record");
+    save.hidden = !isRemembering;
+    setText(span, `Save last ${seconds} s`);
+    set(save, { "data-tip": `Save what is remembered of the displayed topics: ${seconds} s, ${megabytes} MB` });
+  });
+
+  provide(() => {
+    if (!isLive) return [];
+    const group = "Time";
+    const name = recording ? "Stop recording" : "Record";
+    const commands = [{ name, icon: "record", group, needs: "StartRecording", run: toggle }];
+    if (isRemembering) commands.push({ name: `Save the last ${seconds} s`, icon: "save", group, needs: "SaveMemory", run: saveLast });
+    return commands;
+  });
+  return element;
+}

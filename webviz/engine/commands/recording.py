@@ -1,0 +1,37 @@
+"""Commands that record live topics to files."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from webviz.engine.commands.files import FileCommand
+
+
+@dataclass(frozen=True)
+class StartRecording(FileCommand):
+    """Record all topics that are subscribed to, until `StopRecording`.
+
+    Args:
+        path: of a new folder; "" is one in the working folder, named by date and time. Browsers
+            cannot choose it.
+    """
+
+    path: str = ""
+
+
+@dataclass(frozen=True)
+class StopRecording(FileCommand):
+    """Complete the recording."""
+
+
+@dataclass(frozen=True)
+class SaveMemory(FileCommand):
+    """Write the last seconds of what was subscribed to, with the latched messages before them.
+
+    Args:
+        seconds: as far as they are remembered; None is everything.
+        path: as that of `StartRecording`.
+    """
+
+    seconds: float | None = None
+    path: str = ""

@@ -1,0 +1,175 @@
+"""The last minutes of live topics, and their recording to files."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from webviz.api.errors import Error
+from webviz.api.status import Level, Status
+from webviz.data.recordings import RecordingError
+from webviz.data.recordings.folder_writing import RecordingFolder
+from webviz.data.words import counted, joined
+from webviz.engine.commands import Command, SaveMemory, Sender, StartRecording, StopRecording
+from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.parts.settings import SettingsPart
+from webviz.engine.recording import Channels, RecentMessages, Recorder, library, new_name
+from webviz.engine.recording_state import MemoryState, RecordingState
+from webviz.engine.requests import Job
+
+MEGABYTE = 1_000_000
+FROM_BAG = "A bag is a recording already. Copy its files."
+
+
+class RecordingPart(Part):
+    """Remembers what arrives, and writes it to files.
+
+    Args:
+        core: shared by all parts.
+        settings: bound what is remembered.
+        is_live: whether the source is live; a bag is neither remembered nor recorded.
+    """
+
+    name = "Recording"
+
+    def __init__(self, core: Core, settings: SettingsPart, is_live: bool) -> None:
+        super().__init__(core)
+        self._settings = settings
+        self._is_live = is_live
+        self._channels = Channels(core.source.offers)
+        self._memory = RecentMessages(self._channels.is_latched)
+        self._recorder: Recorder | None = None
+        self._problem = ""
+        self._read()
+
+    @property
+    def handles(self) -> Mapping[type[Command], Handler]:
+        """The handler of each command."""
+        return {
+            StartRecording: self._start,
+            StopRecording: self._stop,
+            SaveMemory: self._save,
+        }
+
+    def reset(self) -> None:
+        """Keep what is remembered: time may start over for good reasons."""
+
+    def keep_up(self, commanded: bool) -> None:
+        """Follow the settings, and notice that a recording has ended by itself."""
+        bounds = self._settings.settings.memory
+        if self._is_live:
+            self._memory.seconds = bounds.seconds
+            self._memory.max_bytes = round(bounds.megabytes * MEGABYTE)
+        if self._recorder is not None and self._recorder.problem:
+            self._problem = joined(self._recorder.problem, "The recording has ended.")
+            self._recorder = None
+            self._read()
+
+    def state(self) -> Mapping[str, Any]:
+        """The memory and the recording."""
+        if not self._is_live:
+            return {}
+        seconds, size = self._memory.size()
+        recorder = self._recorder
+        recording = recorder and RecordingState(
+            path=recorder.path,
+            seconds=recorder.seconds,
+            messages=recorder.messages,
+            size=recorder.bytes_written,
+            dropped=recorder.dropped,
+        )
+        return {"memory": MemoryState(seconds, size), "recording": recording}
+
+    def statuses(self) -> Mapping[str, Status]:
+        """Messages that are missing in the recording."""
+        if self._problem:
+            return {"Recording": Status(Level.ERROR, self._problem)}
+        if self._recorder is not None and self._recorder.dropped:
+            lost = counted(self._recorder.dropped, "message")
+            text = f"{lost} dropped, since the disk is too slow. Show fewer topics."
+            return {"Recording": Status(Level.WARN, text)}
+        return {}
+
+    def close(self) -> None:
+        """Complete the recording."""
+        self.core.source.inbox.readers = ()
+        if self._recorder is not None:
+            self._recorder.close()
+
+    def _read(self) -> None:
+        """Read along with the inbox."""
+        if self._is_live:
+            recorder = self._recorder
+            readers = (self._memory.put, *((recorder.put,) if recorder else ()))
+            self.core.source.inbox.readers = readers
+
+    # Commands
+
+    def _start(self, command: StartRecording, sender: Sender) -> Job[RecordingFolder]:
+        path = self._new_path(command.path, sender)
+        if self._recorder is not None:
+            raise Error(f"{self._recorder.path.name} is being recorded already. Stop it first.")
+
+        def then(folder: RecordingFolder) -> str:
+            self._recorder = Recorder(folder, self._channels, self._memory.last(0.0))
+            self._problem = ""
+            self._read()
+            return f"Recording to {path.name}."
+
+        return Job(lambda: _new(path), then)
+
+    def _stop(self, command: StopRecording, sender: Sender) -> Job[None]:
+        recorder = self._recorder
+        if recorder is None:
+            raise Error("Nothing is being recorded.")
+        self._recorder = None
+        self._read()
+
+        def then(_: None) -> str:
+            if recorder.problem:
+                raise Error(recorder.problem)
+            return f"Recorded {counted(recorder.messages, 'message')} to {recorder.path.name}."
+
+        return Job(recorder.close, then)
+
+    def _save(self, command: SaveMemory, sender: Sender) -> Job[Recorder]:
+        path = self._new_path(command.path, sender)
+        seconds = math.inf if command.seconds is None else command.seconds
+        if not seconds > 0:
+            raise Error(f"The last {seconds:g} s are nothing. Give a positive number.")
+        past = self._memory.last(seconds)
+        if not past.messages:
+            raise Error(
+                "Nothing is remembered. Show a topic, or raise memory.seconds in the config."
+            )
+
+        def work() -> Recorder:
+            recorder = Recorder(_new(path), self._channels, past)
+            recorder.close()
+            return recorder
+
+        def then(recorder: Recorder) -> str:
+            if recorder.problem:
+                raise Error(recorder.problem)
+            messages = past.messages
+            first_ns = messages[0][1].received_ns if messages else 0
+            last_ns = messages[-1][1].received_ns if messages else 0
+            return f"Saved the last {(last_ns - first_ns) / 1e9:.0f} s to {recorder.path.name}."
+
+        return Job(work, then)
+
+    def _new_path(self, path: str, sender: Sender) -> Path:
+        if not self._is_live:
+            raise Error(FROM_BAG)
+        if path and sender.browser is not None:
+            raise Error("A page cannot choose the folder of a recording.")
+        return Path(path) if path else Path(new_name())
+
+
+def _new(path: Path) -> RecordingFolder:
+    try:
+        return RecordingFolder(path.absolute(), library())
+    except RecordingError as error:
+        raise Error(str(error)) from error

@@ -1,0 +1,64 @@
+"""The state of recordings for panels: of the one that is played, and of those that are made."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlaybackState:
+    """The recording that is played; see `webviz.engine.playback`.
+
+    Args:
+        names: of the recordings.
+        start_ns, end_ns: times of recording of the first and the last message, since 1970.
+        position_s: what is shown, in seconds from the start.
+        rate: seconds of the recording per second; infinity is as fast as possible.
+        is_playing: whether the position moves on.
+        is_seeking: whether the position is being approached; the scene still shows another one.
+        loop: whether the span starts over at its end.
+        selected: the first and the last second to play, None for all.
+    """
+
+    names: tuple[str, ...]
+    start_ns: int
+    end_ns: int
+    position_s: float
+    rate: float
+    is_playing: bool
+    is_seeking: bool
+    loop: bool
+    selected: tuple[float, float] | None
+
+
+@dataclass(frozen=True)
+class MemoryState:
+    """The memory of live topics.
+
+    Args:
+        seconds: since the oldest message.
+        size: bytes of all messages.
+    """
+
+    seconds: float
+    size: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class RecordingState:
+    """A recording of live topics that goes on.
+
+    Args:
+        path: of its folder.
+        seconds: since it began.
+        messages: that were written.
+        size: bytes of its files.
+        dropped: messages that the disk was too slow for.
+    """
+
+    path: Path
+    seconds: float
+    messages: int
+    size: int
+    dropped: int

@@ -1,0 +1,143 @@
+"""The part of `webviz.Viewer` that is about time: bags, and recordings of live topics."""
+
+from __future__ import annotations
+
+import math
+import os
+from abc import ABC, abstractmethod
+from pathlib import Path
+
+from webviz.api.errors import Error
+from webviz.engine.commands import (
+    Command,
+    Pause,
+    Play,
+    SaveMemory,
+    Seek,
+    SetRate,
+    StartRecording,
+    StopRecording,
+)
+from webviz.engine.parts.playback import LIVE
+from webviz.engine.recording import new_name
+from webviz.engine.recording_state import PlaybackState
+from webviz.engine.state import State
+from webviz.shell.pictures.times import At, position_ns, seconds_from_start
+
+
+class TimeControls(ABC):
+    """Pauses, plays and records."""
+
+    @property
+    @abstractmethod
+    def state(self) -> State:
+        """A snapshot of everything that a panel could show."""
+
+    @abstractmethod
+    def do(self, command: Command) -> str:
+        """Run a command, wait for it, and return its message."""
+
+    def pause(self) -> None:
+        """Pause the page, or the bag; live messages wait meanwhile."""
+        self.do(Pause(True))
+
+    def resume(self) -> None:
+        """Resume the page, or the bag."""
+        self.do(Pause(False))
+
+    # Recording
+
+    def record(self, folder: str | os.PathLike[str] = "") -> Path:
+        """Record all topics that are subscribed to, until `stop_recording`.
+
+        Args:
+            folder: a new one, by default in the working folder and named by date and time.
+
+        Returns:
+            The folder.
+
+        Raises:
+            Error: it cannot be written, a recording goes on, or a bag is played.
+        """
+        path = Path(folder or new_name()).absolute()
+        self.do(StartRecording(str(path)))
+        return path
+
+    def stop_recording(self) -> None:
+        """Complete the recording.
+
+        Raises:
+            Error: nothing is being recorded, or it could not be written.
+        """
+        self.do(StopRecording())
+
+    def save_last(self, seconds: float | None = None, folder: str | os.PathLike[str] = "") -> Path:
+        """Write what is remembered, with the newest latched messages before it, to a new folder.
+
+        Args:
+            seconds: as far as they are remembered, None is everything; see `memory` in the config.
+            folder: as in `record`.
+
+        Returns:
+            The folder.
+
+        Raises:
+            Error: nothing is remembered, or the folder cannot be written.
+        """
+        path = Path(folder or new_name()).absolute()
+        self.do(SaveMemory(seconds, str(path)))
+        return path
+
+    # Bags
+
+    def play(self, rate: float | None = None) -> None:
+        """Play the bag on from its position, at its end from the start.
+
+        Args:
+            rate: seconds of the bag per second, 0.01 to 1000; infinity is as fast as possible, None
+                is the previous rate, at first 1.
+
+        Raises:
+            Error: the rate is out of range, or topics are live.
+        """
+        if rate is not None:
+            self.do(SetRate(0.0 if math.isinf(rate) and rate > 0 else rate or -1.0))
+        self.do(Play())
+
+    def seek(self, at: At) -> None:
+        """Show the bag at a time; returns when the scene shows it. A bag that plays plays on.
+
+        Args:
+            at: seconds from its start (seconds since 1970 if above 1e9), "start" or "end".
+
+        Raises:
+            Error: the time is outside of the bag, or topics are live.
+        """
+        shown = self._playback
+        name = ", ".join(shown.names)
+        self.do(Seek(seconds_from_start(position_ns(at, shown, name), shown)))
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """Times of the first and the last message of the bag, in seconds since 1970.
+
+        Raises:
+            Error: topics are live.
+        """
+        shown = self._playback
+        return shown.start_ns / 1e9, shown.end_ns / 1e9
+
+    @property
+    def position(self) -> float:
+        """The time of the bag that is shown, in seconds from its start.
+
+        Raises:
+            Error: topics are live.
+        """
+        return self._playback.position_s
+
+    @property
+    def _playback(self) -> PlaybackState:
+        if (shown := self.state.playback) is None:
+            raise Error(LIVE)
+        return shown
