@@ -30,8 +30,16 @@ from webviz.data.messages.typestore import MessageField, fields
 from webviz.engine.pipeline.runner import NOTHING_TO_DRAW
 from webviz.shell.testing.messages import header
 from webviz_displays.areas import GridCells, Polygon
-from webviz_displays.autoware import AutowarePath, AutowareTrajectory, PoseHistory
+from webviz_displays.autoware import (
+    AutowarePath,
+    AutowareTrajectory,
+    DetectedObjects,
+    PoseHistory,
+    PredictedObjects,
+    TrackedObjects,
+)
 from webviz_displays.autoware.look import FootprintView
+from webviz_displays.autoware.objects_look import ShapeView
 from webviz_displays.grid_map import GridMap
 from webviz_displays.image_plane import ImagePlane
 from webviz_displays.imu import Imu, Mag
@@ -159,6 +167,10 @@ DISPLAYS: list[Callable[[], Display]] = [
     RobotState,
     ZedOdDisplay,
     AutowarePath,
+    DetectedObjects,
+    TrackedObjects,
+    PredictedObjects,
+    lambda: DetectedObjects(shape=ShapeView(shape_type="Fill")),
     lambda: AutowareTrajectory(view_footprint=FootprintView(value=True)),
     PoseHistory,
     MapCloud,

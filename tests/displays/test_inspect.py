@@ -12,7 +12,7 @@ import numpy as np
 import photos
 import PIL.Image
 import pytest
-from autoware_scenes import PASSED, TIMED, TRAJECTORY
+from autoware_scenes import FOLLOWED, PASSED, TIMED, TRACKED, TRAJECTORY
 from autoware_scenes import POSE as POSE_STAMPED
 from clouds import CLOUD, FLOAT32, UINT32, XYZ, cloud
 from grid_maps import GRID_MAP, grid_map
@@ -28,7 +28,7 @@ from webviz.api.nodes import Lines, Points
 from webviz.engine.commands import Picks
 from webviz.engine.pipeline.details import details_tree
 from webviz_displays.areas import GridCells, Polygon
-from webviz_displays.autoware import AutowareTrajectory, PoseHistory
+from webviz_displays.autoware import AutowareTrajectory, PoseHistory, TrackedObjects
 from webviz_displays.axes import Axes
 from webviz_displays.grid import Grid
 from webviz_displays.grid_map import GridMap
@@ -353,6 +353,10 @@ def pose_of_a_history(bench: Benches) -> Details:
     return pick(at, "line", 1)
 
 
+def pedestrian_of_autoware(bench: Benches) -> Details:
+    return one_of(bench, TrackedObjects(), TRACKED, FOLLOWED, "shapes", 30)
+
+
 def car_of_a_zed_camera(bench: Benches) -> Details:
     return one_of(bench, ZedOdDisplay(), ZED_OBJECTS, ZED_SCENE, "boxes", 3)
 
@@ -570,6 +574,10 @@ CASES: dict[Callable[[Benches], Details], tuple[str, Mapping[str, Any]]] = {
          "Time": "0.5 s", "Acceleration": "0.5 m/s²", "Front wheels": "0 rad"},
     ),
     pose_of_a_history: ("Pose 1", {}),
+    pedestrian_of_autoware: (
+        "PEDESTRIAN 1111",
+        {"Probability": "75 %", "Size": "0.5 x 0.5 x 1 m", "Speed": "2.00 m/s", "Id": "11" * 16},
+    ),
     car_of_a_zed_camera: (
         "3-Vehicle [Car]",
         {"Kind": "Vehicle > Car", "Confidence": "87.5 %", "Velocity": "1.5, 0, 0 m/s",

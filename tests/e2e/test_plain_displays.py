@@ -18,7 +18,13 @@ from webviz.api.display import inputs, inputs_of
 from webviz.data.messages import encode
 from webviz.shell.testing import LiveViewer
 from webviz_displays.areas import GridCells, Polygon
-from webviz_displays.autoware import AutowarePath, AutowareTrajectory
+from webviz_displays.autoware import (
+    AutowarePath,
+    AutowareTrajectory,
+    DetectedObjects,
+    PredictedObjects,
+    TrackedObjects,
+)
 from webviz_displays.grid_map import GridMap
 from webviz_displays.imu import Imu, Mag
 from webviz_displays.map import Costmap
@@ -56,6 +62,7 @@ CLASSES: tuple[type[Display], ...] = (
     *(OccupancyGrid, OccupancyMap, GridMap, VoxelGrid, Costmap, Imu, Mag),
     *(MapCloud, MapGraph, NvbloxMesh, NvbloxVoxelBlockLayer),
     *(ZedOdDisplay, AutowarePath, AutowareTrajectory),
+    *(DetectedObjects, TrackedObjects, PredictedObjects),
 )
 MESSAGES = (
     PLAIN_MESSAGES | MAPPING_MESSAGES | AUTOWARE_MESSAGES | PERCEPTION_MESSAGES | RTABMAP_MESSAGES

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import photos
-from autoware_scenes import pose_at
+from autoware_scenes import expected, followed, pose_at, thing, unaccelerated
 from grid_maps import grid_map
 from octrees import Node, binary, full
 from perception_scenes import ZED_SCENE
@@ -21,8 +21,16 @@ from webviz.api.display import inputs_of
 from webviz.api.views import Orbit
 from webviz.shell.testing import Stage, turned
 from webviz_displays.areas import GridCells, Polygon
-from webviz_displays.autoware import AutowarePath, AutowareTrajectory, PoseHistory
+from webviz_displays.autoware import (
+    AutowarePath,
+    AutowareTrajectory,
+    DetectedObjects,
+    PoseHistory,
+    PredictedObjects,
+    TrackedObjects,
+)
 from webviz_displays.autoware.look import FootprintView, LaneView, TextView
+from webviz_displays.autoware.objects_look import ClassColors, ShapeView
 from webviz_displays.grid import Grid
 from webviz_displays.grid_map import GridMap
 from webviz_displays.imu import Imu, Mag
@@ -187,6 +195,14 @@ def curve() -> Values:
     return {"points": points, **bounds}
 
 
+TRAFFIC = (
+    thing(1, pose_at(-0.6, 0.3, 0.25, 0.3), 1.2, 0.6, 0.5),
+    thing(7, pose_at(0.5, -0.9, 0.3), 0.3, 0.3, 0.6, kind=1),
+    thing(0, pose_at(-1.2, -1.0, 0.2), 0.5, 0.5, 0.4, kind=2),
+)
+"""A car, a pedestrian and something else."""
+
+
 def visited() -> Values:
     """The room, seen from two places."""
     seen = rgbd(*photos.room())
@@ -306,6 +322,21 @@ CASES = [
             view_text_velocity=TextView(value=True, scale=0.12),
         ),
         ({"points": curve()["points"][::5]},),
+    ),
+    Case(
+        "detected_objects",
+        DetectedObjects(shape=ShapeView(shape_type="Fill"), color=(255, 138, 128)),
+        ({"objects": list(map(unaccelerated, TRAFFIC))},),
+    ),
+    Case(
+        "tracked_objects",
+        TrackedObjects(per_class_color=ClassColors(value=True)),
+        ({"objects": [followed(each, number) for number, each in enumerate(TRAFFIC)]},),
+    ),
+    Case(
+        "predicted_objects",
+        PredictedObjects(per_class_color=ClassColors(value=True)),
+        ({"objects": [expected(each, number) for number, each in enumerate(TRAFFIC[:2])]},),
     ),
     Case(
         "pose_history",

@@ -1,11 +1,14 @@
 """Definitions of common messages that rosbags does not include.
 
 Field names and types are those of navigation_msgs, navigation2, octomap_msgs, grid_map,
-moveit_msgs, nvblox_msgs, rtabmap_msgs, zed_msgs, Autoware, object_recognition_msgs, vision_msgs,
+moveit_msgs, nvblox_msgs, rtabmap_msgs, object_recognition_msgs, vision_msgs,
 foxglove_msgs and ffmpeg_image_transport_msgs in ROS 2 Jazzy, in the order of the wire.
 """
 
+from webviz.data.messages.perception_definitions import PERCEPTION
+
 DEFINITIONS = {
+    **PERCEPTION,
     "map_msgs/msg/OccupancyGridUpdate": """
         std_msgs/Header header
         int32 x
@@ -190,69 +193,6 @@ DEFINITIONS = {
         nvblox_msgs/VoxelBlock[] blocks
         bool clear
         int32 layer_type""",
-    "zed_msgs/msg/Keypoint3D": """
-        float32[3] kp""",
-    "zed_msgs/msg/Keypoint2Df": """
-        float32[2] kp""",
-    "zed_msgs/msg/Keypoint2Di": """
-        uint32[2] kp""",
-    "zed_msgs/msg/BoundingBox3D": """
-        zed_msgs/Keypoint3D[8] corners""",
-    "zed_msgs/msg/BoundingBox2Df": """
-        zed_msgs/Keypoint2Df[4] corners""",
-    "zed_msgs/msg/BoundingBox2Di": """
-        zed_msgs/Keypoint2Di[4] corners""",
-    "zed_msgs/msg/Skeleton3D": """
-        zed_msgs/Keypoint3D[70] keypoints""",
-    "zed_msgs/msg/Skeleton2D": """
-        zed_msgs/Keypoint2Df[70] keypoints""",
-    "zed_msgs/msg/Object": """
-        string label
-        int16 label_id
-        string sublabel
-        float32 confidence
-        float32[3] position
-        float32[6] position_covariance
-        float32[3] velocity
-        bool tracking_available
-        int8 tracking_state
-        int8 action_state
-        zed_msgs/BoundingBox2Di bounding_box_2d
-        zed_msgs/BoundingBox3D bounding_box_3d
-        float32[3] dimensions_3d
-        bool skeleton_available
-        int8 body_format
-        zed_msgs/BoundingBox2Df head_bounding_box_2d
-        zed_msgs/BoundingBox3D head_bounding_box_3d
-        float32[3] head_position
-        zed_msgs/Skeleton2D skeleton_2d
-        zed_msgs/Skeleton3D skeleton_3d""",
-    "zed_msgs/msg/ObjectsStamped": """
-        std_msgs/Header header
-        zed_msgs/Object[] objects""",
-    "autoware_planning_msgs/msg/PathPoint": """
-        geometry_msgs/Pose pose
-        float32 longitudinal_velocity_mps
-        float32 lateral_velocity_mps
-        float32 heading_rate_rps
-        bool is_final""",
-    "autoware_planning_msgs/msg/Path": """
-        std_msgs/Header header
-        autoware_planning_msgs/PathPoint[] points
-        geometry_msgs/Point[] left_bound
-        geometry_msgs/Point[] right_bound""",
-    "autoware_planning_msgs/msg/TrajectoryPoint": """
-        builtin_interfaces/Duration time_from_start
-        geometry_msgs/Pose pose
-        float32 longitudinal_velocity_mps
-        float32 lateral_velocity_mps
-        float32 acceleration_mps2
-        float32 heading_rate_rps
-        float32 front_wheel_angle_rad
-        float32 rear_wheel_angle_rad""",
-    "autoware_planning_msgs/msg/Trajectory": """
-        std_msgs/Header header
-        autoware_planning_msgs/TrajectoryPoint[] points""",
     "foxglove_msgs/msg/CompressedVideo": """
         builtin_interfaces/Time timestamp
         string frame_id

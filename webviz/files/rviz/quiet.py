@@ -43,6 +43,8 @@ AT_DEFAULT: dict[str, tuple[Any, ...]] = {
     "Mesh Color": ("Color",),
     "ColorMap": ("default",),  # the rainbow
     "Show Trail": (False,),
+    "Mesh": (False,),
+    "Signal Lights": (False,),
     "Download map": (False,),  # buttons of RTAB-Map's MapCloud
     "Download graph": (False,),
 }
@@ -60,23 +62,32 @@ IGNORED_BY_RVIZ2 = (("Queue Size",), ("Unreliable",), ("Transport Hint",))
 """Keys of ROS 1 that files keep beside the topics of ROS 2, which have the values in use."""
 
 
+OBJECTS = "autoware_perception_rviz_plugin"
 IGNORED_BY_PLUGINS = {
     ("Namespaces", "nvblox_rviz_plugin/NvbloxVoxelBlockLayer"),
     ("Hide Small Values", "rviz/WrenchStamped"),
     ("Hide Small Values", "rviz_default_plugins/Wrench"),
+    ("Path", f"{OBJECTS}/DetectedObjects"),
+    ("Path", f"{OBJECTS}/TrackedObjects"),
+    ("Text/UUID", f"{OBJECTS}/DetectedObjects"),
+    ("Text/Acceleration", f"{OBJECTS}/DetectedObjects"),
 }
 """Keys that files have from ROS 1 or other displays, with the class that ignores them in RViz2."""
 
 
 def is_without_effect(path: Path, tree: Tree) -> bool:
     """Return whether the value at a path of a display has no effect on what RViz shows."""
-    if any(key in ALWAYS for key in path):
+    first, last, cls = path[0], path[len(path) - 1], str(tree.get("Class"))
+    if any(key in ALWAYS for key in path) or path in IGNORED_BY_RVIZ2:
         return True
-    if path in IGNORED_BY_RVIZ2 or (path[0], str(tree.get("Class"))) in IGNORED_BY_PLUGINS:
+    if any(("/".join(path[:end]), cls) in IGNORED_BY_PLUGINS for end in (1, 2)):
         return True
-    if path[0] in HIDDEN_OF_SCALARS and str(tree.get("Class")).rpartition("/")[2] in SCALARS:
+    if first in HIDDEN_OF_SCALARS and cls.rpartition("/")[2] in SCALARS:
         return True
     value: Any = tree
     for key in path:
         value = value.get(key) if isinstance(value, dict) else None
-    return value == {} or any(value == each for each in AT_DEFAULT.get(path[-1], ()))
+    if first == "Namespaces" and value is True:  # as all are
+        return True
+    name = path[len(path) - 2] if last == "Value" and len(path) > 1 else last
+    return value == {} or any(value == each for each in AT_DEFAULT.get(name, ()))
