@@ -29,7 +29,8 @@ single precision. What RViz's format cannot hold, such as robots and the panel P
 when saving.
 
 - Missing keys have RViz2's default: a display without `Enabled` is off, and a TwistStamped without
-  `Hide Small Values` hides them.
+  `Hide Small Values` hides them. Without `Background Color`, though, the scene follows the theme of
+  each page.
 - RViz's default QoS becomes `auto`, because RViz writes it whether chosen or not; other values are
   explicit choices. A robot's description is always subscribed with transient local, as in RViz.
 - RViz has no automatic QoS. It gets best effort for sensors, which hears every publisher, and
