@@ -45,6 +45,8 @@ def test_a_link_of_another_site_is_opened_again_by_this_one(
     assert "Location" not in response.headers
     assert house.tokens[Role.WATCHER].cookie not in response.headers["Set-Cookie"]
     assert "HttpOnly; SameSite=Strict" in response.headers["Set-Cookie"]
+    with_view = f"{link(house, Role.WATCHER)}&a=1"  # not sent on yet, whatever else it carries
+    assert house.ask(with_view, **headers).status == 200
     assert given(house, Role.WATCHER, **headers) == house.cookie(Role.WATCHER)
 
 

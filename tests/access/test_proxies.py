@@ -33,6 +33,8 @@ def test_a_trusted_proxy_says_who_asks_and_how(peer: str) -> None:
 def test_what_anybody_else_says_is_ignored(peer: str) -> None:
     assert caller(peer) == Caller(peer, ("127.0.0.1:8080",), False)
     assert caller("127.0.0.1", Proxies()).address == "127.0.0.1"
+    assert caller("::ffff:192.0.2.1").address == "192.0.2.1"
+    assert caller("").address == ""  # of a socket that is gone
 
 
 @pytest.mark.parametrize(

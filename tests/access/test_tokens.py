@@ -184,10 +184,18 @@ def test_two_tokens_of_one_name_are_refused(path: Path) -> None:
         token_file.read(path)
 
 
-def test_there_are_not_too_many_tokens(path: Path) -> None:
+def test_there_are_not_too_many_tokens(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    tokens = [token(str(n)) for n in range(MAX_TOKENS + 2)]
     with pytest.raises(TokenError, match=f"There are {MAX_TOKENS} tokens, which is the limit"):
-        token_file.modify(path, lambda _: [token(str(n)) for n in range(MAX_TOKENS + 1)])
+        token_file.modify(path, lambda _: tokens)
     assert not path.exists()
+    token_file.modify(path, lambda _: tokens[:MAX_TOKENS])
+    assert len(token_file.read(path)) == MAX_TOKENS
+    with monkeypatch.context() as patch:
+        patch.setattr(token_file, "MAX_TOKENS", len(tokens))
+        token_file.modify(path, lambda _: tokens)
+    with pytest.raises(TokenError, match=f"or more than {MAX_TOKENS}"):
+        token_file.read(path)
 
 
 def test_programs_that_change_the_file_at_once_lose_nothing(path: Path) -> None:
