@@ -53,9 +53,6 @@ class RecordingPart(Part):
             SaveMemory: self._save,
         }
 
-    def reset(self) -> None:
-        """Keep what is remembered: time may start over for good reasons."""
-
     def keep_up(self, commanded: bool) -> None:
         """Follow the settings, and notice that a recording has ended by itself."""
         bounds = self._settings.settings.memory
