@@ -178,8 +178,10 @@ def test_alpha_fades_points(lab: Benches) -> None:
 # Styles
 
 
-@pytest.mark.parametrize(("style", "shape"), [("Spheres", "sphere"), ("Boxes", "box")])
-def test_spheres_and_boxes_are_solids_and_really_transparent(
+@pytest.mark.parametrize(
+    ("style", "shape"), [("Spheres", "sphere"), ("Boxes", "box"), ("Tiles", "square")]
+)
+def test_spheres_boxes_and_tiles_are_really_transparent(
     lab: Benches, style: str, shape: str
 ) -> None:
     bench = lab(
@@ -224,9 +226,9 @@ def test_points_are_as_wide_on_the_screen_as_asked(lab: Benches) -> None:
 
 
 def test_a_style_that_viser_has_not_is_named(lab: Benches) -> None:
-    bench = lab(scan([1]), style="Tiles")
+    bench = lab(scan([1]), style="Squares")
     assert isinstance(bench.nodes()["points"], Points)
-    assert bench.statuses()["Style"][1].startswith("Tiles are drawn as")
+    assert bench.statuses()["Style"][1].startswith("Squares are drawn as")
 
 
 # Time

@@ -69,6 +69,16 @@ def test_each_side_of_a_box_of_data_has_a_brightness_and_dark_edges(side: Any, v
         assert is_near(view.color_at(tuple(place.tolist())), tuple(color), 3), share
 
 
+@pytest.mark.parametrize("eye", [(3.0, 2.0, 8.0), (6.0, 0.0, -3.0)], ids=["above", "below"])
+def test_a_square_of_data_has_its_colour_from_both_sides_at_any_slant(eye: Any, view: Any) -> None:
+    view.scene.upsert("room", "tiles", Instances(ORIGIN, 3 * UNIT, COLOR, "square", is_data=True))
+    view.look(eye, (0.0, 0.0, 0.0))
+    for x, y in ((0.0, 0.0), (1.4, 1.4), (-1.4, 0.5)):
+        assert is_near(view.color_at((x, y, 0.0)), COLOR, 1)
+    for outside in ((1.7, 0.0, 0.0), (0.0, -1.7, 0.0)):
+        assert view.color_at(outside) == BACKGROUND
+
+
 def test_each_solid_has_its_place_extent_turn_and_colour(view: Any) -> None:
     quarter = floats((1, 0, 0, 0), (np.sqrt(0.5), 0, 0, np.sqrt(0.5)))
     centers, sizes = floats((-1, 0, 0), (1.5, 0, 0)), floats((0.4, 2, 0.1), (0.4, 2, 0.1))

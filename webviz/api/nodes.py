@@ -20,7 +20,8 @@ U8 = NDArray[np.uint8]
 Ids = NDArray[Any]
 """Ids of the items of a node when selected: the `Hit.id` of `Display.inspect`."""
 Rgb = tuple[int, int, int]
-Solid = Literal["box", "sphere", "cylinder", "cone"]
+Solid = Literal["box", "sphere", "cylinder", "cone", "square"]
+"""Of size 1 around the origin; the square has no height."""
 
 POINTS_HELD = 400_000
 """Number of points a browser draws fast enough, until it has measured it."""
@@ -215,8 +216,8 @@ class Instances(_Node):
         shape: of all solids.
         wxyzs: float32 (N, 4), unit quaternions with w first; None means not rotated.
         opacity: 0 to 1, float32 (N,) or one for all.
-        is_data: whether spheres and boxes are shaded as the points of RViz's clouds, whose colours
-            are data: spheres hardly, boxes with a fixed brightness of each side.
+        is_data: whether they are shaded as the points of RViz's clouds, whose colours are data:
+            spheres hardly, boxes with a fixed brightness of each side, squares not at all.
         ids: (N,), such as the index of each in the message; None numbers them from 0.
     """
 

@@ -8,7 +8,7 @@ import msgspec
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from webviz import Color, ColorScale, Context, Display, Group, Keep, Pose, Prop, Rgb, Topic
+from webviz import Color, ColorScale, Context, Display, Group, Keep, Pose, Prop, Rgb, Solid, Topic
 from webviz_displays.shared.colors import RAINBOW, Alpha, bounds, faded, faded_color, ramp
 from webviz_displays.shared.geometry import Metres, coordinate
 from webviz_displays.shared.point_sizes import by_size
@@ -26,7 +26,7 @@ DOTS_LIMIT = 50_000
 SOLIDS_LIMIT = 20_000
 """A browser without a GPU draws this many lit solids once a second."""
 
-_SOLIDS: dict[str, Literal["box", "sphere"]] = {"Boxes": "box", "Spheres": "sphere"}
+_SOLIDS: dict[str, Solid] = {"Boxes": "box", "Spheres": "sphere", "Tiles": "square"}
 
 _AXES = ("X", "Y", "Z")
 _LEAST_SPAN = 1e-3
@@ -55,7 +55,7 @@ class PointStyle(Display):
     topic: Annotated[Topic, Prop(help="Topic of the points.")] = Topic()
     style: Annotated[
         Literal["Points", "Squares", "Flat Squares", "Spheres", "Boxes", "Tiles"],
-        Prop(help="Shape of each point; Squares and Tiles face the camera here."),
+        Prop(help="Shape of each point; Squares face the camera, Tiles lie along x and y."),
     ] = "Flat Squares"
     size: Annotated[Metres, Prop(rviz="Size (m)", help="Edge or diameter of each point.")] = 0.01
     size_pixels: Annotated[
@@ -71,8 +71,8 @@ class PointStyle(Display):
     alpha: Annotated[
         Alpha,
         Prop(
-            help="Opacity of Spheres and Boxes; flat styles stay opaque in the browser and fade "
-            "towards dark grey."
+            help="Opacity of Spheres, Boxes and Tiles; other styles stay opaque in the browser and "
+            "fade towards dark grey."
         ),
     ] = 1.0
     selectable: Annotated[bool, Prop(help="Let the tool Select pick points.")] = True
@@ -103,8 +103,8 @@ class PointStyle(Display):
             colors: (N, 3) or one for all.
             group: where to draw.
             ctx: collects statuses.
-            box_wxyz: quaternion (4,) that turns boxes in the coordinates of the group; None leaves
-                their sides along its axes.
+            box_wxyz: quaternion (4,) that turns boxes and tiles in the coordinates of the group;
+                None leaves their sides along its axes.
             ids: (N,), index of each in the message; None if all are drawn.
             size: edge or diameter in metres, of all or (N,); None is the property. Flat styles of
                 many points get it roughly.

@@ -58,7 +58,7 @@ def _material(node: Instances) -> str:
     """The material of viser's whose name says how the solids are shaded; see shade.js."""
     if not node.is_data:
         return "standard"
-    return "toon5" if node.shape == "box" else "toon3"
+    return "toon5" if node.shape in ("box", "square") else "toon3"
 
 
 def _opacity(opacity: float | F32) -> Props:

@@ -1,4 +1,4 @@
-"""Triangle meshes of a box, sphere, cylinder and cone, of size 1 around the origin.
+"""Triangle meshes of a box, sphere, cylinder, cone and square, of size 1 around the origin.
 
 Browsers average normals at shared vertices, so sharp edges have separate vertices for each side.
 """
@@ -66,6 +66,14 @@ def _box() -> Solid:
     return _joined(*sides)
 
 
+def _square() -> Solid:
+    """Seen from above and from below."""
+    corners = np.array(((-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)), np.float32)
+    corners *= np.float32(0.5)
+    faces = np.array(((0, 1, 2), (0, 2, 3)), np.uint32)
+    return _joined(Solid(corners, faces), Solid(corners, faces[:, ::-1]))
+
+
 def _sphere(rings: int, corners: int) -> Solid:
     polar = np.linspace(0.0, np.pi, rings + 1)
     return _turned(0.5 * np.stack((np.sin(polar), -np.cos(polar)), axis=1), corners)
@@ -81,4 +89,5 @@ SOLIDS = {
     "sphere": _sphere(8, 16),
     "cylinder": _edged(((0.0, -0.5), (0.5, -0.5), (0.5, 0.5), (0.0, 0.5)), 20),
     "cone": _edged(((0.0, -0.5), (0.5, -0.5), (0.0, 0.5)), 20),
+    "square": _square(),
 }

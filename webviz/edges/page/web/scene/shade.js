@@ -5,8 +5,8 @@
 // three.js add up in linear light, which leaves a ball that is lit from the camera as flat as a
 // disc. Solids whose colours are data look like the points of RViz's clouds, wherever one stands:
 // spheres are hardly darker at the rim, and each side of a box has a brightness of its own, and darker
-// edges. Of viser's toon materials nothing but the shader is left, and the number of steps: three for
-// spheres, five for boxes, see scene/instances.py.
+// edges; squares have their exact colour. Of viser's toon materials nothing but the shader is left, and
+// the number of steps: three for spheres, five for boxes and squares, see scene/instances.py.
 
 import constants from "../constants.js";
 import * as viser from "../viser_page.js";
@@ -42,6 +42,8 @@ function asData(shader) {
         return color * (0.8 + 0.2 * facing * facing);
       }
       vec3 onBox(vec3 color) {
+        bool isSquare = dot(vPlace, vSide) < 0.25;
+        if (isSquare) return color;
         vec3 ahead = vec3(0.6, 0.4, 0.9);
         vec3 behind = vec3(0.6, 1.0, 0.5);
         color *= dot(max(vSide, 0.0), ahead) + dot(max(-vSide, 0.0), behind);
