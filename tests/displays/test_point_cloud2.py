@@ -321,6 +321,7 @@ def test_without_the_field_points_are_white_and_the_fields_there_are_are_named(
     bench = lab(xyz_cloud(THREE, {"t": [1, 2, 3]}), color_transformer=transformer)
     assert bench.nodes()["points"].colors == (255, 255, 255)
     assert bench.statuses()["Colors"] == ("WARN", f"{words} The points are white.")
+    bench.press("Colors")
 
 
 def test_of_very_many_fields_the_first_are_named(lab: Benches) -> None:

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Context, Details, Hit, Input, Pose, Prop, Rgb, Sample, Topic, compose
+from webviz import Context, Details, Hit, Input, Pose, Prop, Remedy, Rgb, Sample, Topic, compose
 from webviz.api.nodes import POINTS_HELD
 from webviz.data.words import joined
 from webviz_displays.point_cloud2.blocks import in_blocks
@@ -35,6 +35,7 @@ REST_NS = 3_000_000_000
 measured how many points they hold."""
 
 WHITE = (255, 255, 255)
+BY_FIELDS = Remedy("color_transformer", "Auto", "Choose by the fields")
 
 
 @dataclass
@@ -148,7 +149,9 @@ class CloudDisplay(PointsDisplay):
         try:
             colors, opacities = self._colors(cloud, rows, xyz, own, fixed, ctx)
         except CloudError as error:
-            ctx.warn("Colors", joined(str(error), "The points are white."))
+            text = joined(str(error), "The points are white.")
+            # What the fields give by themselves, unless they are what is wrong.
+            ctx.warn("Colors", text, None if self.color_transformer == "Auto" else BY_FIELDS)
             colors, opacities = WHITE, None
         if opacities is not None and opacities.min(initial=255) < 255:
             seen = opacities > 0
