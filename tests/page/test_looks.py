@@ -13,7 +13,7 @@ from tests.page.conftest import Tab, open_page
 from webviz.edges.page.messages import Shell
 from webviz.edges.scene.server import Server
 from webviz.engine.sources import Offer, Publisher
-from webviz.engine.state import State
+from webviz.engine.state import Row, State
 
 SURFACES = ("back", "raised", "field", "chosen", "hover")
 LETTERS = ("text", "quiet", "accent", "ok", "warn", "error")
@@ -179,3 +179,33 @@ def test_nothing_is_seen_before_the_page_is_ours(
     page.get_by_role("tablist").first.wait_for()
     assert page.evaluate("[...window.seen]") == []
     page.context.close()
+
+
+EDGES = """() => {
+  const boxes = (selector, range) => [...document.querySelectorAll(selector)]
+    .filter((element) => element.checkVisibility())
+    .map((element) => element.getBoundingClientRect());
+  const left = ".wv-tree-search input, .wv-tree-fold svg, .wv-tree-add, .wv-details-title, " +
+    ".wv-form > .wv-property > .wv-property-label, .wv-form > * > .wv-section-head svg:first-child";
+  const right = ".wv-head > :last-child, .wv-tree-filter > .wv-icon, .wv-tree-dot, " +
+    ".wv-details-head > :last-child, .wv-property-reset";
+  return [
+    boxes(left).map((box) => Math.round(box.left)),
+    boxes(right).map((box) => Math.round((box.left + box.right) / 2)),
+  ];
+}"""
+
+
+def test_filter_dots_and_buttons_stand_below_each_other(
+    tab: Tab, make_row: Callable[..., Row]
+) -> None:
+    tab.loop.show(make_row("a", size=0.5), make_row("b"))
+    row = tab.page.get_by_role("treeitem", name="a", exact=True)
+    tab.wait_for(lambda: row.count() == 1)
+    row.click()
+    tab.wait_for(lambda: tab.button("Reset Size").is_visible())
+    left, right = tab.page.evaluate(EDGES)
+    assert len(left) > 10
+    assert len(right) > 5
+    assert len(set(left)) == 1
+    assert len(set(right)) == 1

@@ -12,6 +12,7 @@ const FIT_MS = 1000;
 const narrow = matchMedia("(max-width: 640px)");
 
 export function install() {
+  document.documentElement.style.setProperty("--wv-scrollbar", `${scrollbarWidth()}px`);
   fold(narrow.matches || recall("folded", false));
   narrow.addEventListener("change", () => fold(narrow.matches || recall("folded", false)));
   setWidth(recall("width", 320));
@@ -24,6 +25,15 @@ export function install() {
 function fit() {
   const isLate = viser.canvas().clientWidth !== document.getElementById("root").clientWidth;
   if (isLate) window.dispatchEvent(new Event("resize"));
+}
+
+// A thin one: nothing where it lies over what it scrolls, as on phones.
+function scrollbarWidth() {
+  const probe = el("div", { style: "position: absolute; width: 50px; overflow: auto; scrollbar-gutter: stable" });
+  document.getElementById("webviz").append(probe);
+  const width = probe.offsetWidth - probe.clientWidth;
+  probe.remove();
+  return width;
 }
 
 const isFolded = () => document.body.classList.contains("wv-folded");
