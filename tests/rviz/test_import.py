@@ -441,6 +441,16 @@ def test_panels_and_tools_are_told_once() -> None:
     )
 
 
+def test_the_tool_of_rviz_visual_tools_keys_opens_its_panel_and_stays_a_tool() -> None:
+    text = "Visualization Manager: {Tools: [{Class: rviz_visual_tools/KeyTool}]}"
+    config, report = rviz.read(text, "x.rviz")
+    assert report.is_complete
+    assert [type(each).__name__ for each in config.panels].count("RvizVisualToolsGui") == 1
+    again, _ = rviz.write(config)
+    assert "KeyTool" in again
+    assert "RvizVisualToolsGui" not in again
+
+
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [

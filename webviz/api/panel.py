@@ -179,6 +179,8 @@ class Panel(Declared, kw_only=True, dict=True):
     place: ClassVar[int] = 100
     """Tabs with a lower number come first; those with the same one are sorted by name."""
 
+    rviz_tool: ClassVar[str] = ""
+    """The class of a tool that does the same in RViz; files with that tool open the panel."""
     on_request: ClassVar[bool] = False
     """True if it is shown only if the config or somebody adds it."""
 

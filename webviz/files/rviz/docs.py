@@ -72,6 +72,7 @@ def page(paths: Iterable[Path]) -> str:
     classes = [*SUPPORTED["Panels"], *SUPPORTED["Tools"]]
     for base in (Tool, Panel):
         classes += [cls.rviz for cls in plugin_types(base).values() if cls.rviz]
+    classes += [cls.rviz_tool for cls in plugin_types(Panel).values() if cls.rviz_tool]
     classes += [cls.rviz_panel for cls in plugin_types(Tool).values() if cls.rviz_panel]
     lines += [
         "",

@@ -80,7 +80,7 @@ def read(text: str, where: str) -> tuple[Config, Report]:
     if displays := _worth_keeping(kept.entries):
         rest[MANAGER] = {**rest.get(MANAGER, {}), "Displays": displays}
     settings.rviz = rest
-    panels = read_panels(document.get("Panels"), report)
+    panels = read_panels(document.get("Panels"), manager.get("Tools"), report)
     return Config(settings, items, tools, panels, report=report.sentences()), report
 
 
@@ -116,8 +116,9 @@ def write(config: Config) -> tuple[str, Report]:
     )
     tree = restored(tree, rest, own, lambda tree: _settings(tree[MANAGER], Report()))
     tree[MANAGER]["Displays"] = write_items(config.displays, report, kept)
-    tree["Panels"] = panels = write_panels(config.panels, tree.get("Panels"), report)
-    tools = write_tools(config.tools, child(rest, MANAGER).get("Tools"), panels, report)
+    kept_tools = child(rest, MANAGER).get("Tools")
+    tree["Panels"] = panels = write_panels(config.panels, tree.get("Panels"), kept_tools, report)
+    tools = write_tools(config.tools, kept_tools, panels, report)
     if tools is not None:
         tree[MANAGER]["Tools"] = tools
     return write_tree(tree), report

@@ -7,6 +7,7 @@ from typing import Any
 
 from webviz.api.declared import make, to_values
 from webviz.api.panel import Panel
+from webviz.api.registry import plugin_types
 from webviz.files.config import PanelItem, all_panels
 from webviz.files.rviz import values
 from webviz.files.rviz.classes import counterpart
@@ -17,8 +18,14 @@ from webviz.files.rviz.structs import Reading, struct_tree
 from webviz.files.rviz.tree import Tree
 
 
-def read_panels(entries: Any, report: Report) -> list[PanelItem]:
-    """The panels that every config has, and those in RViz's list that are plug-ins here."""
+def read_panels(entries: Any, tools: Any, report: Report) -> list[PanelItem]:
+    """The panels that every config has, and those in RViz's list that are plug-ins here.
+
+    Args:
+        entries: RViz's list.
+        tools: of the same file; those that do what a panel does open it.
+        report: receives invalid values.
+    """
     found: list[PanelItem] = all_panels()
     for entry in entries if isinstance(entries, list) else []:
         cls = _counterpart(entry)
@@ -29,15 +36,28 @@ def read_panels(entries: Any, report: Report) -> list[PanelItem]:
         for path, reason in reading.faults:
             report.count("properties", 0, 1)
             report.note(values.text(entry.get("Name", "?")), "/".join(path), reason)
+    for cls in _of_tools(tools):
+        if not any(type(each) is cls for each in found):
+            found.append(make(cls, {}))
     return found
 
 
-def write_panels(panels: list[PanelItem], kept: Any, report: Report) -> list[Any] | None:
+def _of_tools(tools: Any) -> list[type[Panel]]:
+    """The panels that do what tools of RViz's list do."""
+    entries = tools if isinstance(tools, list) else []
+    names = {values.text(each.get("Class")) for each in entries if isinstance(each, Mapping)}
+    return [cls for cls in plugin_types(Panel).values() if cls.rviz_tool in names]
+
+
+def write_panels(
+    panels: list[PanelItem], kept: Any, tools: Any, report: Report
+) -> list[Any] | None:
     """Panels as RViz's list, None if it is empty.
 
     Args:
         panels: of a config; those that every config has are not written.
         kept: the list of the file that they come from.
+        tools: of that file; panels that it has as tools are not written, unless they were changed.
         report: receives those that RViz does not have.
     """
     everywhere = {type(each) for each in all_panels()}
@@ -53,7 +73,10 @@ def write_panels(panels: list[PanelItem], kept: Any, report: Report) -> list[Any
         elif panel := by_class.get(cls):
             written.append({k: v for k, v in entry.items() if k not in keys(cls)} | _changed(panel))
             waiting = [each for each in waiting if each is not panel]
+    as_tools = _of_tools(tools)
     for panel in waiting:
+        if type(panel) in as_tools and not _changed(panel):
+            continue
         written.append({"Class": type(panel).rviz, "Name": panel.name} | _changed(panel))
     return written or None
 

@@ -28,6 +28,14 @@ SUPPORTED = {
 }
 """RViz's panels that are tabs here, and the tools that every page has."""
 
+REASONS = {
+    "nav2_rviz_plugins/Route Tool": "unsupported, because it edits files on RViz's computer",
+    "rviz_plugins::SimulatedClockPanel": "unsupported, because it sets the time of the whole graph",
+    "AutowareScreenCapturePanel": "unsupported; save pictures with `webviz screenshot`",
+    "AutowareDateTimePanel": "unsupported; the time bar shows ROS time",
+}
+"""Why panels are unsupported, and what to use instead, if there is more to say."""
+
 KEPT = "kept for export"
 
 _TF = "rviz_default_plugins/TF"
@@ -45,7 +53,7 @@ def note_rest(document: Tree, report: Report) -> None:
             report.count(kind.lower(), supported, 1)
             if not supported:
                 name = cls.removeprefix("rviz_common/").removeprefix("rviz_default_plugins/")
-                report.note("Panels and tools", name, f"unsupported; {KEPT}")
+                report.note("Panels and tools", name, f"{REASONS.get(cls, 'unsupported')}; {KEPT}")
     transformer: Any = child(document, MANAGER, "Transformation", "Current").get("Class", _TF)
     if transformer != _TF:
         report.count("properties", 0, 1)
@@ -55,6 +63,8 @@ def note_rest(document: Tree, report: Report) -> None:
 def is_supported(kind: str, cls: str) -> bool:
     """Return whether a class of "Panels" or "Tools" is supported, also by its name in ROS 1."""
     if counterpart(Tool if kind == "Tools" else Panel, cls):
+        return True
+    if kind == "Tools" and any(cls == each.rviz_tool for each in plugin_types(Panel).values()):
         return True
     if kind == "Panels" and any(cls == tool.rviz_panel for tool in plugin_types(Tool).values()):
         return True
