@@ -54,7 +54,7 @@ def changed(config: Config, *assignments: str) -> Any:
     [
         ("fixed_frame=odom", ("fixed_frame",), "odom"),
         ("background=[0, 0, 0]", ("background",), (0, 0, 0)),
-        ("background[1]=9", ("background",), (48, 9, 48)),
+        ("background=[48, 9, 48]", ("background",), (48, 9, 48)),
         ("frame_rate=10", ("frame_rate",), 10.0),
         ("view.distance=5", ("view", "distance"), 5.0),
         ("view={distance: 5}", ("view", "yaw"), 0.5),
@@ -134,7 +134,7 @@ def test_a_value_can_make_a_display_readable(config: Config) -> None:
         ("displays.Scan=1", "write it as displays.Scan.size=0.1 or view.distance=5."),
         ("displays=[]", "write it as "),
         ("fixed_fram=map", "unknown key, did you mean `fixed_frame`?"),
-        ("version=2", "unknown key, known are: background, displays, "),
+        ("version=2", "unknown key, known are: background, bookmarks, displays, "),
         ("view.distance=-1", "expected > 0, got -1."),
         ("view.distanc=1", "unknown key, did you mean `distance`?"),
         (
