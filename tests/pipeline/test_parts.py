@@ -99,6 +99,7 @@ PARTS += [
     "Panels",
     "Playback",
     "Plugins",
+    "Recording",
     "Selection",
     "Settings",
     "Time",

@@ -97,7 +97,7 @@ class PlaybackPart(Part):
     def state(self) -> Mapping[str, Any]:
         """The state of the control, and what is recorded when."""
         if self._control is None:
-            return {}
+            return {"playback": None, "recorded": {}}
         recorded = self._control.playback.histogram(BUCKETS)
         return {"playback": _state_of(self._control), "recorded": recorded}
 

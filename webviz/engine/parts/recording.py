@@ -67,7 +67,7 @@ class RecordingPart(Part):
     def state(self) -> Mapping[str, Any]:
         """The memory and the recording."""
         if not self._is_live:
-            return {}
+            return {"memory": None, "recording": None}
         seconds, size = self._memory.size()
         recorder = self._recorder
         recording = recorder and RecordingState(
