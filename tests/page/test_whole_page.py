@@ -8,6 +8,7 @@ from __future__ import annotations
 import io
 import math
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -25,8 +26,10 @@ from webviz.api.status import Level, Status
 from webviz.api.views import Orbit
 from webviz.edges.scene import ViserScene, open_server
 from webviz.edges.scene.server import Server
+from webviz.engine.recording_state import PlaybackState
 from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import ClockPace, ConfigFile, PanelTimes, Row, State, ToolButton, Traffic
+from webviz.files.config import Settings
 from webviz.shell.pictures.browser import Pixels
 from webviz.shell.testing import share_of_difference
 from webviz.shell.testing.pictures import Album
@@ -72,6 +75,27 @@ TOOLS = (
     ToolButton("goal", "2D Goal Pose", "Send the robot to a pose.", "g", "pose"),
     ToolButton("point", "Publish Point", "Publish a point.", "u", "point"),
 )
+
+BAG: dict[str, Any] = {
+    "playback": PlaybackState(
+        names=("run.mcap",),
+        start_ns=START_NS,
+        end_ns=START_NS + 100 * 10**9,
+        position_s=37.25,
+        rate=2.0,
+        is_playing=True,
+        is_seeking=False,
+        loop=True,
+        selected=(10.0, 80.0),
+    ),
+    "recorded": {
+        "/map": [1] + [0] * 499,
+        "/odom": [20] * 500,
+        "/scan": [10] * 200 + [0] * 50 + [4] * 250,
+    },
+    "settings": Settings(bookmarks={"lost": START_NS / 1e9 + 55.0}),
+}
+"""A bag that is played."""
 
 
 def rows(scan: dict[str, Status] | None = None) -> tuple[Row, ...]:
@@ -219,6 +243,14 @@ def test_the_page_is_as_in_its_pictures_and_a_missing_row_or_another_color_shows
     tab.page.mouse.move(900, 300)
     tab.page.mouse.move(5, 795)
     album.check("error", capture(tab), tolerance=TOLERANCE)
+
+    show(tab)
+    tab.loop.state = replace(tab.loop.state, **BAG)
+    tab.wait_for(lambda: tab.button("Topics").count() == 1)
+    tab.button("Topics").click()
+    tab.wait_for(lambda: tab.page.get_by_role("option", name="/scan").count() == 1)
+    tab.page.mouse.move(5, 5)
+    album.check("timeline", capture(tab), tolerance=TOLERANCE)
 
 
 def test_on_a_phone_the_scene_is_free_until_the_side_lies_over_it(
