@@ -12,6 +12,7 @@ from webviz.api.display import Display
 from webviz.files import rviz
 from webviz.files.config import Branch, Config, ConfigError, Unreadable, dump
 from webviz.files.opening import parse
+from webviz_displays.autoware import PredictedObjects
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Map
 from webviz_displays.odometry import Odometry
@@ -439,6 +440,39 @@ def test_panels_and_tools_are_told_once() -> None:
     assert sentences == (
         "Panels and tools: my_package/Lamp, my_package/Brush, Other: unsupported; kept for export."
     )
+
+
+def test_autowares_objects_from_before_the_groups_are_read_and_come_back() -> None:
+    text = textwrap.dedent(
+        """\
+        Visualization Manager:
+          Displays:
+            - Class: autoware_perception_rviz_plugin/PredictedObjects
+              CAR: {Alpha: 0.5, Color: 1; 2; 3}
+              BUS: {Alpha: 0.5, Color: 4; 5; 6}
+              Confidence Interval: 70%
+              Display Label: false
+              Display Predicted Paths: false
+              Display Yaw Rate Covariance: true
+              Line Width: 0.1
+              Namespaces: {label: true}
+              Object Fill Type: skeleton
+              Polygon Type: 2d
+              Visualization Type: Simple
+        """
+    )
+    config, report = rviz.read(text, "x.rviz")
+    again, _ = rviz.write(config)
+    assert report.is_complete
+    for each in (text, again):
+        (shown,) = rviz.read(each, "x.rviz")[0].displays
+        assert isinstance(shown, PredictedObjects)
+        colors = shown.per_class_color
+        assert (colors.value, colors.car, colors.bus) == (True, (1, 2, 3), (4, 5, 6))
+        assert (shown.alpha, shown.shape.shape_type) == (0.5, "Skeleton 2D")
+        assert (shown.text.label, shown.text.uuid) == (False, True)
+        assert (shown.path.predicted_path, shown.path.path_resolution) == (False, "Simple")
+        assert (shown.covariance.yaw_rate, shown.covariance.confidence_interval) == (True, "70%")
 
 
 def test_the_tool_of_rviz_visual_tools_keys_opens_its_panel_and_stays_a_tool() -> None:

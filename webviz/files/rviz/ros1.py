@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from webviz.files.rviz import values
+from webviz.files.rviz import autoware, values
 from webviz.files.rviz.tree import Tree
 from webviz.files.rviz.values import Unfit
 
@@ -50,4 +50,4 @@ def modern(tree: Tree, keys: frozenset[str]) -> Tree:
     result = {key: value for key, value in tree.items() if key not in renamed}
     for key, new in renamed.items():
         result.setdefault(new, RENAMED[key][1](tree[key]))
-    return result
+    return autoware.grouped(result) if autoware.COLORS in keys else result
