@@ -16,6 +16,7 @@ from rosbags.typesys import Stores, get_typestore
 from webviz.data.messages import decode, encode, message_class, peek_header
 from webviz.data.messages.classes import WRITTEN, attribute
 from webviz.data.messages.definitions import DEFINITIONS
+from webviz.data.messages.markers import NOTHING, Marker
 from webviz.data.messages.typestore import constants, fields
 
 BAGS = Path(__file__).parents[2] / "../shared/data/bags"
@@ -262,3 +263,13 @@ def test_bytes_may_come_in_any_kind_of_buffer_and_arrays_are_read_only(kind):
     message = decode("std_msgs/msg/Float32MultiArray", kind(cdr))
     assert message.data.tolist() == [1.0, 2.0]
     assert not message.data.flags.writeable
+
+
+def test_markers_of_texts_make_no_empty_lists_of_their_own():
+    """As there may be many thousands of them in a message."""
+    name = "visualization_msgs/msg/MarkerArray"
+    texts = [{"type": Marker.TEXT_VIEW_FACING, "text": text} for text in ("a", "bc")]
+    for content in decode(name, encode(name, {"markers": texts})).markers.contents:
+        assert content.points is NOTHING.points
+        assert content.colors is NOTHING.colors
+        assert content.uv_coordinates is NOTHING.uv_coordinates

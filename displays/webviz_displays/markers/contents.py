@@ -40,7 +40,7 @@ def size_of(content: Content) -> int:
 
 def detached(content: Content) -> Content:
     """A copy that does not keep the message alive, of which it may be a small part."""
-    if content is NOTHING:
+    if not (len(content.points) or len(content.colors) or len(content.uv_coordinates)):
         return content
     values: dict[str, Any] = {name: getattr(content, name) for name in Content.__struct_fields__}
     for name in ("points", "colors", "uv_coordinates"):

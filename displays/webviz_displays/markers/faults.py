@@ -73,8 +73,11 @@ def faults_of(batch: MarkerBatch) -> Iterator[Fault]:
     types, scales, alphas = batch.types, batch.scales, batch.colors[:, 3]
     is_known = (types >= 0) & (types < len(TYPES))
     can_fail = (~is_known) | (alphas <= 0.0) | (scales == 0.0).any(axis=1)
+    is_text = (types == Marker.TEXT_VIEW_FACING) & ~can_fail & (scales[:, 2] > 0.0)
     for row in np.flatnonzero(can_fail | _HAS_CONTENT[np.where(is_known, types, 0)]).tolist():
         content = batch.contents[row]
+        if is_text[row] and content.text.strip():
+            continue  # quickly, as there may be many
         color = batch.colors[row]
         if fault := _fault(int(types[row]), content, scales[row].tolist(), color):
             yield row, *fault

@@ -32,6 +32,7 @@ _UV, _TEXT, _MESH, _FILE, _FILE_DATA = 8, 9, 10, 11, 12
 
 _FLOAT64, _FLOAT32, _UINT8 = np.dtype(np.float64), np.dtype(np.float32), np.dtype(np.uint8)
 _EMPTY_STRINGS = (0, 1)
+_NO_BYTES = NO_FILE.data
 _UINT = {order: Struct(order + "I").unpack_from for order in "<>"}
 
 
@@ -238,7 +239,9 @@ def _content(reader: Reader, layout: _Layout, start: int) -> Content:
         reader.pos = start + places[place]
         return reader.string()
 
-    def array(place: int, dtype: Any, width: int) -> Any:
+    def array(place: int, dtype: Any, width: int, empty: Any = _NO_BYTES) -> Any:
+        if not counts[place]:
+            return empty  # most are
         reader.pos = start + places[place] + 4
         numbers = reader.array(dtype, width * counts[place])
         return numbers if width == 1 else numbers.reshape(-1, width)
@@ -257,11 +260,11 @@ def _content(reader: Reader, layout: _Layout, start: int) -> Content:
     if counts[_FILE_DATA] or filename:
         file = MeshFile(filename, array(_FILE_DATA, _UINT8, 1))
     return Content(
-        array(_POINTS, _FLOAT64, 3),
-        array(_COLORS, _FLOAT32, 4),
+        array(_POINTS, _FLOAT64, 3, NOTHING.points),
+        array(_COLORS, _FLOAT32, 4, NOTHING.colors),
         string(_RESOURCE),
         texture,
-        array(_UV, _FLOAT32, 2),
+        array(_UV, _FLOAT32, 2, NOTHING.uv_coordinates),
         string(_TEXT),
         string(_MESH),
         file,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -38,21 +37,23 @@ class LabelsDrawn:
         self._frame = link.server.scene.add_frame(name, show_axes=False)
         self._labels: list[LabelHandle] = []
         self._sent: list[_Label] = []
-        self._wanted: list[_Label] = []
+        self._wanted: list[tuple[str, list[float], float]] = []
+        """Texts, their positions, and heights; most of very many are never sent."""
+        self._anchor = ""
 
     def draw(self, node: Labels) -> None:
         """Sends changed labels; those whose position is not finite are dropped."""
         anchor = "top-center" if node.below else "center-center"
         texts = node.texts[:MAX_LABELS]
         heights = _tinted(node.height / _LINE, _steps(node.colors, len(texts)))
-        labels = zip(texts, node.positions[:MAX_LABELS].tolist(), heights, strict=True)
-        self._wanted = [
-            _Label(_encodable(text), (x, y, z), {"font_scene_height": height, "anchor": anchor})
-            for text, (x, y, z), height in labels
-            if math.isfinite(x + y + z)
-        ]
+        positions = node.positions[:MAX_LABELS]
+        labels = list(zip(texts, positions.tolist(), heights, strict=True))
+        finite = np.flatnonzero(np.isfinite(positions).all(axis=1))
+        self._wanted = [labels[index] for index in finite.tolist()]
+        self._anchor = anchor
         budget = self._link.label_budget
-        for index, (old, new) in enumerate(zip(self._sent, self._wanted, strict=False)):
+        for index, old in enumerate(self._sent[: len(self._wanted)]):
+            new = self._label(index)
             if not budget.change(old.text, new.text):
                 self._remove_from(index)
                 break
@@ -78,12 +79,17 @@ class LabelsDrawn:
         budget = self._link.label_budget
         budget.leave(self._name)
         for index in range(len(self._labels), len(self._wanted)):
-            new = self._wanted[index]
+            new = self._label(index)
             if not budget.take(new.text):
                 budget.wait(self._name, self._add_more)
                 return
             self._add(index, new)
             self._sent.append(new)
+
+    def _label(self, index: int) -> _Label:
+        text, (x, y, z), height = self._wanted[index]
+        look = {"font_scene_height": height, "anchor": self._anchor}
+        return _Label(_encodable(text), (x, y, z), look)
 
     def _remove_from(self, index: int) -> None:
         for label, sent in zip(self._labels[index:], self._sent[index:], strict=True):
