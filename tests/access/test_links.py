@@ -56,6 +56,16 @@ def test_links_are_for_the_viewers_that_run(tmp_path: Path) -> None:
     assert announced(tmp_path / "viewers") == []
 
 
+def test_viewers_of_one_user_find_each_other(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
+    viewer = Announcement("http://robot:80", 80)
+    assert announced() == ["http://robot:80"]
+    viewer.close()
+    assert announced() == []
+
+
 KILLED = """
 import os, signal, sys
 from pathlib import Path

@@ -1,0 +1,68 @@
+"""One subscription for all readers of a topic."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from webviz.api.declared import Topic
+from webviz.engine.sources import Subscription
+from webviz.engine.sources.source import merged
+
+TYPE, OTHER = "std_msgs/msg/String", "std_msgs/msg/Bool"
+
+
+def shared(*wishes: Subscription) -> Subscription:
+    """The subscription of readers, in this order."""
+    return merged({"/a": wish} for wish in wishes)["/a"]
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "expected"),
+    [
+        ("auto", "auto", "auto"),
+        ("reliable", "reliable", "reliable"),
+        ("best_effort", "best_effort", "best_effort"),
+        ("auto", "best_effort", "best_effort"),
+        ("auto", "reliable", "auto"),
+        ("reliable", "best_effort", "auto"),
+    ],
+)
+def test_readers_share_a_reliability_that_serves_all(
+    first: Any, second: Any, expected: str
+) -> None:
+    wishes = [Subscription(TYPE, Topic("/a", reliability=each)) for each in (first, second)]
+    for order in (wishes, wishes[::-1]):
+        assert shared(*order).topic.reliability == expected
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "expected"),
+    [
+        (("auto", True), ("auto", True), ("auto", True)),
+        (("volatile", False), ("volatile", False), ("volatile", False)),
+        (("auto", True), ("auto", False), ("auto", False)),
+        (("volatile", False), ("transient_local", False), ("auto", False)),
+        (("volatile", True), ("auto", True), ("auto", False)),
+    ],
+)
+def test_readers_that_disagree_on_durability_follow_the_publishers(
+    first: Any, second: Any, expected: tuple[str, bool]
+) -> None:
+    wishes = [
+        Subscription(TYPE, Topic("/a", durability=durability), latched=latched)
+        for durability, latched in (first, second)
+    ]
+    for order in (wishes, wishes[::-1]):
+        found = shared(*order)
+        assert (found.topic.durability, found.latched) == expected
+
+
+def test_the_first_reader_decides_on_the_type_and_whoever_asks_last_counts() -> None:
+    wishes = [
+        Subscription(TYPE, Topic("/a", reliability="reliable"), asked=1),
+        Subscription(OTHER, Topic("/a", reliability="best_effort"), latched=True, asked=3),
+        Subscription(TYPE, Topic("/a", reliability="reliable"), asked=2),
+    ]
+    assert shared(*wishes) == Subscription(TYPE, Topic("/a", reliability="reliable"), asked=3)
