@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from webviz.api.display import Display, Keep, Sync
     from webviz.api.errors import Error
     from webviz.api.frames import FramePoses, Frames, compose
+    from webviz.api.lookback import Lookback
     from webviz.api.nodes import (
         Arrows,
         Axes,
@@ -63,6 +64,7 @@ __all__ = [
     "Labels",
     "Level",
     "Lines",
+    "Lookback",
     "Mesh",
     "Models",
     "Node",
@@ -100,6 +102,7 @@ _HOMES = {
     "webviz.api.display": ("Display", "Keep", "Sync"),
     "webviz.api.errors": ("Error",),
     "webviz.api.frames": ("FramePoses", "Frames", "compose"),
+    "webviz.api.lookback": ("Lookback",),
     "webviz.api.nodes": (
         "Arrows",
         "Axes",

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 import pytest
 
-from webviz import Context, Display, Hit, Input, Keep, Sample, Topic
+from webviz import Context, Display, Hit, Input, Keep, Lookback, Sample, Topic
 from webviz.api.handles import Control, Grip, Handle
 from webviz.api.status import Level
 from webviz.api.wire import Wire
@@ -58,6 +58,10 @@ class Faulty(Display):
     def history(self) -> Keep:
         self._raise_in("history")
         return Keep()
+
+    def lookback(self, name: str) -> Lookback:
+        self._raise_in("lookback")
+        return Lookback()
 
     def listens(self, name: str) -> bool:
         self._raise_in("listens")

@@ -26,6 +26,7 @@ import msgspec
 from webviz.api.declared import Declared, Topic
 from webviz.api.evidence import Evidence
 from webviz.api.handles import Grip, Handle
+from webviz.api.lookback import Lookback
 from webviz.api.picking import Details, Hit, noun_of
 from webviz.api.ports import Input, Namespace
 from webviz.api.properties import properties_of
@@ -124,6 +125,17 @@ class Display(Declared, kw_only=True):
         By default as many as a property `history_length` says, else the newest.
         """
         return Keep(count=getattr(self, "history_length", 1))
+
+    def lookback(self, name: str) -> Lookback:
+        """Return which past messages of the input `name` make up what is shown.
+
+        A seek in a recording reads these instead of all from the beginning. By default those that
+        `history` holds; all if `fold` or `accept` is overridden.
+        """
+        if overrides(self, "fold") or overrides(self, "accept"):
+            return Lookback()
+        keep = self.history()
+        return Lookback(keep.count, keep.seconds)
 
     def listens(self, name: str) -> bool:
         """Return whether to subscribe to the input `name`, given the properties.

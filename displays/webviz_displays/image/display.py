@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from webviz import Context, Input, Pane, Prop, Sample, Topic
+from webviz import Context, Input, Lookback, Pane, Prop, Sample, Topic
 from webviz.api.pictures import Picture, Video
 from webviz.data.images import ImageError
 from webviz_displays.image import transports, video
@@ -30,6 +30,10 @@ class Image(ImageDisplay):
     def waits(self, name: str) -> bool:
         """A pane needs no transform."""
         return False
+
+    def lookback(self, name: str) -> Lookback:
+        """The newest message, or all packets of a video since its last key frame."""
+        return Lookback(starts_over=video.stands_alone)
 
     def fold(self, name: str, sample: Sample, state: Any) -> Any:
         """The newest message, or all packets of a video since its last key frame."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -96,6 +97,19 @@ def codec_of(name: str) -> str:
             f"Unsupported video codec {name[:40]!a}: browsers decode h264, h265, vp9 and av1."
         )
     return known
+
+
+def stands_alone(message: Any, type_name: str) -> bool:
+    """Return whether an image or packet can be shown without those before it."""
+    if type_name not in TYPES:
+        return True
+    is_foxglove = type_name == FOXGLOVE
+    try:
+        codec = codec_of(message.format if is_foxglove else message.encoding)
+    except ImageError:
+        return True
+    flags = None if is_foxglove else int(message.flags)
+    return is_key(codec, np.asarray(message.data, np.uint8), flags)
 
 
 def is_key(codec: str, data: NDArray[np.uint8], flags: int | None) -> bool:

@@ -17,6 +17,7 @@ from webviz import (
     Hit,
     Image,
     Input,
+    Lookback,
     OtherFixedFrame,
     Pose,
     Prop,
@@ -166,6 +167,10 @@ class MapDisplay(Display):
     def waits(self, name: str) -> bool:
         """A map that follows its frame needs no transform at its stamp, often long ago."""
         return self.use_timestamp and name == "topic"
+
+    def lookback(self, name: str) -> Lookback:
+        """The newest map, and its updates."""
+        return Lookback(count=1) if name == "topic" else Lookback(since="topic")
 
     def fold(self, name: str, sample: Sample, state: Folded | None) -> Folded | None:
         """Take a new map, or update the current one."""

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
-from webviz.data.messages.markers import Marker, MarkerSequence
+from webviz.data.messages.markers import Marker, MarkerArray, MarkerSequence
 
 Key = tuple[str, int]
 """Namespace and id: what a marker is known by."""
@@ -49,6 +50,15 @@ class Effect:
             gone = [key for key in self.deleted if key in known]
         added = self.added
         return [key for key in gone if key[1] not in added.get(key[0], ())]
+
+
+def deletes_all(message: Any, _: str) -> bool:
+    """Return whether a Marker or MarkerArray deletes all markers before it."""
+    if isinstance(message, MarkerArray):
+        markers = message.markers
+        deleted = np.flatnonzero(markers.actions == Marker.DELETEALL).tolist()
+        return any(not markers.namespaces[i] for i in deleted)
+    return message.action == Marker.DELETEALL and not message.ns
 
 
 def effect_of(markers: MarkerSequence) -> Effect:

@@ -9,8 +9,9 @@ from typing import Annotated
 
 import msgspec
 
-from webviz import Context, Details, Display, Hit, Input, Prop, Sample, Status, Topic
+from webviz import Context, Details, Display, Hit, Input, Lookback, Prop, Sample, Status, Topic
 from webviz.data import messages
+from webviz_displays.markers.actions import deletes_all
 from webviz_displays.markers.assets import Assets
 from webviz_displays.markers.blocks import Blocks
 from webviz_displays.markers.details import marker_details, serial_of
@@ -63,6 +64,10 @@ class Markers(Display):
     def waits(self, name: str) -> bool:
         """Each marker waits for the transform at its own stamp, so messages need not."""
         return False
+
+    def lookback(self, name: str) -> Lookback:
+        """All messages since one that deletes all markers."""
+        return Lookback(starts_over=deletes_all)
 
     def fold(self, name: str, sample: Sample, state: Store | None) -> Store:
         """Take the markers of a message, in order; they are changed in place."""

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from webviz import Context, Details, Display, Hit, Input, Pose, Prop, Rgb, Sample, Topic
+from webviz import Context, Details, Display, Hit, Input, Lookback, Pose, Prop, Rgb, Sample, Topic
 from webviz.api.wire import Wire
 from webviz_displays.moveit.asking import Asking
 from webviz_displays.moveit.bodies import SLOW_BYTES
@@ -28,6 +28,7 @@ from webviz_displays.moveit.properties import (
     TrajectoryTopic,
 )
 from webviz_displays.moveit.robots import PosedRobot, RobotLook, Robots
+from webviz_displays.moveit.scene import SINCE_WHOLE
 from webviz_displays.moveit.world import DrawnWorld, look_of
 from webviz_displays.shared.geometry import LONGEST
 
@@ -108,6 +109,10 @@ class MotionPlanning(Display):
     def waits(self, name: str) -> bool:
         """Neither scenes nor paths wait for transforms."""
         return False
+
+    def lookback(self, name: str) -> Lookback:
+        """All changes since a whole scene, and the newest of everything else."""
+        return SINCE_WHOLE if name == "planning_scene_topic" else Lookback(count=1)
 
     def fold(self, name: str, sample: Sample, state: Plans | None) -> Plans:
         """Apply each change to the scene, and remember the newest plan."""

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Annotated
 
-from webviz import Context, Details, Display, Hit, Prop, Sample, Topic
+from webviz import Context, Details, Display, Hit, Lookback, Prop, Sample, Topic
 from webviz.api.wire import Wire
 from webviz.data.words import joined
 from webviz_displays.moveit.asking import Asking
@@ -20,7 +20,7 @@ from webviz_displays.moveit.properties import (
     SceneRobot,
 )
 from webviz_displays.moveit.robots import Robots
-from webviz_displays.moveit.scene import KnownScene, updated
+from webviz_displays.moveit.scene import SINCE_WHOLE, KnownScene, updated
 from webviz_displays.moveit.world import DrawnWorld, look_of
 
 
@@ -87,6 +87,10 @@ class PlanningScene(Display):
     def waits(self, name: str) -> bool:
         """Scenes have no stamp."""
         return False
+
+    def lookback(self, name: str) -> Lookback:
+        """The newest description, and all changes since a whole scene."""
+        return Lookback(count=1) if name == "robot_description" else SINCE_WHOLE
 
     def fold(
         self, name: str, sample: Sample, state: ReceivedPlanningScene | None

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import msgspec
 
-from webviz import Context, Details, Display, Hit, Input, Prop, Rgb, Sample, Topic
+from webviz import Context, Details, Display, Hit, Input, Lookback, Prop, Rgb, Sample, Topic
 from webviz.data.words import joined
 from webviz_displays.moveit.bodies import SLOW_BYTES, named
 from webviz_displays.moveit.drawing import HeldObjects, opacity_of, rgb_of, with_alpha
@@ -83,6 +83,10 @@ class RobotState(Display):
     def waits(self, name: str) -> bool:
         """States have no stamp that matters."""
         return False
+
+    def lookback(self, name: str) -> Lookback:
+        """The newest description; all states, since they may tell changes only."""
+        return Lookback(count=int(name == "robot_description"))
 
     def fold(
         self, name: str, sample: Sample, state: ReceivedRobotState | None

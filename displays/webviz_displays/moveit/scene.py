@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from webviz import Pose
+from webviz import Lookback, Pose
 from webviz_displays.moveit.bodies import Body, body_of, named
 from webviz_displays.moveit.joints import JointValues, joints_of, pose_of
 
@@ -82,6 +82,10 @@ class KnownScene:
             octomap=base.octomap if self.octomap is None else self.octomap,
             transforms={**base.transforms, **self.transforms},
         )
+
+
+SINCE_WHOLE = Lookback(starts_over=lambda message, _: not message.is_diff)
+"""Of scenes: all changes since the last whole one."""
 
 
 def updated(scene: KnownScene, message: Any) -> KnownScene:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Annotated, ClassVar
 
-from webviz import Context, Display, Node, Prop, Remedy, Sample
+from webviz import Context, Display, Lookback, Node, Prop, Remedy, Sample
 from webviz.data.words import counted
 from webviz_displays.nvblox.layer import Key, Layer, MapBlock, regions
 from webviz_displays.shared.geometry import FARTHEST
@@ -40,6 +40,10 @@ class NvbloxDisplay(Display):
     def new_state(self) -> _State:
         """Nothing drawn."""
         return _State()
+
+    def lookback(self, name: str) -> Lookback:
+        """All messages since one that clears the map."""
+        return Lookback(starts_over=lambda message, _: bool(message.clear))
 
     def fold(self, name: str, sample: Sample, state: Layer | None) -> Layer:
         """Take the blocks of a message."""

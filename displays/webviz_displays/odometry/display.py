@@ -8,7 +8,7 @@ from typing import Annotated
 
 import numpy as np
 
-from webviz import Context, Details, Display, Hit, Input, Keep, Pose, Prop, Sample, Topic
+from webviz import Context, Details, Display, Hit, Input, Keep, Lookback, Pose, Prop, Sample, Topic
 from webviz.data import messages
 from webviz.data.words import counted
 from webviz_displays.odometry.covariance_marks import MAX_COVARIANCES, draw_covariances
@@ -18,6 +18,9 @@ from webviz_displays.shared.geometry import origin_near
 from webviz_displays.shared.pose_history import GrowingTrail
 from webviz_displays.shared.pose_marks import draw_poses
 from webviz_displays.shared.pose_properties import Covariance, PoseShape
+
+LOOKBACK_S = 30.0
+"""After a seek in a recording the trail begins here: which poses are kept depends on all before."""
 
 
 class Odometry(Display):
@@ -45,6 +48,10 @@ class Odometry(Display):
     def history(self) -> Keep:
         """The newest poses that were accepted."""
         return Keep(count=self.keep)
+
+    def lookback(self, name: str) -> Lookback:
+        """The messages of some time: each pose that is kept depends on all before it."""
+        return Lookback(seconds=LOOKBACK_S)
 
     def accept(self, new: Sample, kept: Sequence[Sample]) -> bool | str:
         """Return whether the robot moved by one of the tolerances, or why the pose is invalid.

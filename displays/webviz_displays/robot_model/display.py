@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 import msgspec
 
-from webviz import Context, Details, Display, Hit, Input, Prop, Remedy, Sample, Topic
+from webviz import Context, Details, Display, Hit, Input, Lookback, Prop, Remedy, Sample, Topic
 from webviz.data.transforms import Explanation
 from webviz_displays.robot_model.details import TRAIL, link_details
 from webviz_displays.robot_model.joint_states import ReceivedRobot
@@ -121,6 +121,10 @@ class RobotModel(Display):
     def waits(self, name: str) -> bool:
         """Positions of joints need no transform."""
         return False
+
+    def lookback(self, name: str) -> Lookback:
+        """The newest description; all joint states, as each may have some of the joints."""
+        return Lookback(count=int(name != "joint_states_topic"))
 
     def fold(self, name: str, sample: Sample, state: ReceivedRobot | None) -> ReceivedRobot:
         """Remember the description, and of each joint its newest position."""

@@ -54,6 +54,7 @@ class _Known:
     version: tuple[object, int]
     selected: NDArray[np.bool_]
     parents: NDArray[np.int64]
+    order: NDArray[np.int64]
     tree: str
 
 
@@ -170,7 +171,8 @@ class TF(Display):
         ages = state.ages.update(poses.stamps_ns, now_ns)
         is_young = ages <= self.frame_timeout
         shown = known.selected & poses.ok & is_young
-        self._draw(shown, poses, known.parents, ages, ctx)
+        # By name, as the order in which frames came depends on when somebody began to listen.
+        self._draw(known.order[shown[known.order]], poses, known.parents, ages, ctx)
         self._report(known.selected, shown, poses, ctx)
         ctx.ok("Tree", f"{known.tree}.")
         groups = dict(ctx.groups)
@@ -186,18 +188,18 @@ class TF(Display):
         if state.known is None or state.known.version != version:
             selected = state.filter.select(names)
             parents = parent_indices(ctx.frames, names)
-            state.known = _Known(version, selected, parents, outline(names, parents))
+            order = np.argsort(np.array(names))
+            state.known = _Known(version, selected, parents, order, outline(names, parents))
         return state.known
 
     def _draw(
         self,
-        shown: NDArray[np.bool_],
+        rows: NDArray[np.int64],
         poses: FramePoses,
         parents: NDArray[np.int64],
         ages: NDArray[np.float64],
         ctx: Context,
     ) -> None:
-        rows = np.flatnonzero(shown)
         if not len(rows):
             return
         near = origin_near([poses.positions[rows].mean(axis=0)])

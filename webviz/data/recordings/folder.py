@@ -70,15 +70,26 @@ class FolderRecording:
     ) -> Iterator[RecordedMessage]:
         """`Recording.messages`."""
         for part in self._files.values():
-            for entry in part.messages(channels, start_ns, end_ns):
-                if not self._compression:
-                    yield entry
-                    continue
-                data, fault = unpack(entry.data, self._compression, MAX_BYTES)
-                if fault:
-                    self._losses.skipped[entry.channel, entry.stamp_ns] = fault
-                else:
-                    yield entry._replace(data=data)
+            yield from self._unpacked(part.messages(channels, start_ns, end_ns))
+
+    def newest(
+        self, channels: Collection[RecordedChannel], end_ns: int
+    ) -> Iterator[RecordedMessage]:
+        """`Recording.newest`."""
+        for part in reversed(self._files.values()):
+            yield from self._unpacked(part.newest(channels, end_ns))
+
+    def _unpacked(self, entries: Iterator[RecordedMessage]) -> Iterator[RecordedMessage]:
+        """Unpack messages that are compressed one by one."""
+        for entry in entries:
+            if not self._compression:
+                yield entry
+                continue
+            data, fault = unpack(entry.data, self._compression, MAX_BYTES)
+            if fault:
+                self._losses.skipped[entry.channel, entry.stamp_ns] = fault
+            else:
+                yield entry._replace(data=data)
 
     @property
     def used(self) -> frozenset[RecordedChannel]:

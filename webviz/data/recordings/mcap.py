@@ -6,7 +6,8 @@ import heapq
 import struct
 from array import array
 from collections import deque
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -34,6 +35,8 @@ from webviz.data.recordings.unpacking import MAX_BYTES
 MAX_INDEX = 64 << 20
 """Bytes of the index of messages that a histogram reads, 16 for each message. Real recorders close
 chunks so often that most lie within one part of the span."""
+MAX_REMEMBERED = 32 << 20
+"""Bytes of unpacked chunks that are kept."""
 MAX_OPEN = 2 * MAX_BYTES
 """Bytes of unpacked chunks at a time. Of more chunks that overlap, the messages come late."""
 
@@ -61,6 +64,9 @@ class McapRecording:
         self._numbers = index.channels()
         self.channels = tuple(dict.fromkeys(self._numbers.values()))
         self._chunks = sorted(index.chunks, key=lambda chunk: chunk.start_ns)
+        self._from_end = sorted(self._chunks, key=lambda chunk: -chunk.end_ns)
+        self._contents: dict[int, _Content] = {}
+        """The last chunks by their offset, the newest at the end."""
         self.span_ns = None
         if self._chunks:
             self.span_ns = (
@@ -72,38 +78,13 @@ class McapRecording:
         self, channels: Collection[RecordedChannel], start_ns: int, end_ns: int
     ) -> Iterator[RecordedMessage]:
         """`Recording.messages`."""
-        wanted = {number: each for number, each in self._numbers.items() if each in channels}
-        is_wanted = np.zeros(1 << 16, bool)
-        is_wanted[list(wanted)] = True
-        pending = deque(
-            chunk
-            for chunk in self._chunks
-            if chunk.start_ns <= end_ns
-            and start_ns <= chunk.end_ns
-            and (chunk.counts is None or is_wanted[chunk.counts["channel"]].any())
-        )
-        opened: list[tuple[int, int, RecordedMessage, Iterator[RecordedMessage], int]] = []
-        size = 0
-        while pending or opened:
-            while pending and (not opened or pending[0].start_ns <= opened[0][0]):
-                if opened and size + pending[0].size > MAX_OPEN:
-                    break
-                chunk = pending.popleft()
-                entries = self._entries(chunk, wanted, start_ns, end_ns)
-                if entry := next(entries, None):
-                    size += chunk.size
-                    place = (entry.stamp_ns, chunk.offset, entry, entries, chunk.size)
-                    heapq.heappush(opened, place)
-            if not opened:
-                continue
-            _, offset, entry, entries, own_size = opened[0]
-            yield entry
-            if following := next(entries, None):
-                place = (following.stamp_ns, offset, following, entries, own_size)
-                heapq.heapreplace(opened, place)
-            else:
-                heapq.heappop(opened)
-                size -= own_size
+        return self._read(channels, start_ns, end_ns)
+
+    def newest(
+        self, channels: Collection[RecordedChannel], end_ns: int
+    ) -> Iterator[RecordedMessage]:
+        """`Recording.newest`."""
+        return self._read(channels, 0, end_ns, is_backwards=True)
 
     @property
     def used(self) -> frozenset[RecordedChannel]:
@@ -145,12 +126,85 @@ class McapRecording:
         """Close the file."""
         self._file.close()
 
-    def _entries(
-        self, chunk: McapChunk, wanted: dict[int, RecordedChannel], start_ns: int, end_ns: int
+    def _read(
+        self,
+        channels: Collection[RecordedChannel],
+        start_ns: int,
+        end_ns: int,
+        is_backwards: bool = False,
     ) -> Iterator[RecordedMessage]:
-        """The wanted messages of a chunk by time."""
+        """The messages of some channels within a span, by time or against it."""
+        sign = -1 if is_backwards else 1
+        is_wanted = np.zeros(1 << 16, bool)
+        is_wanted[[number for number, each in self._numbers.items() if each in channels]] = True
+        pending = deque(
+            chunk
+            for chunk in (self._from_end if is_backwards else self._chunks)
+            if chunk.start_ns <= end_ns
+            and start_ns <= chunk.end_ns
+            and (chunk.counts is None or is_wanted[chunk.counts["channel"]].any())
+        )
+        opened: list[tuple[int, int, RecordedMessage, Iterator[RecordedMessage], int]] = []
+        size = 0
+        while pending or opened:
+            while pending and (not opened or _first(pending[0], sign) <= opened[0][0]):
+                if opened and size + pending[0].size > MAX_OPEN:
+                    break
+                chunk = pending.popleft()
+                entries = self._entries(chunk, is_wanted, start_ns, end_ns, sign)
+                if entry := next(entries, None):
+                    size += chunk.size
+                    place = (sign * entry.stamp_ns, sign * chunk.offset, entry, entries, chunk.size)
+                    heapq.heappush(opened, place)
+            if not opened:
+                continue
+            _, place_of_chunk, entry, entries, own_size = opened[0]
+            yield entry
+            if following := next(entries, None):
+                key = sign * following.stamp_ns
+                heapq.heapreplace(opened, (key, place_of_chunk, following, entries, own_size))
+            else:
+                heapq.heappop(opened)
+                size -= own_size
+
+    def _entries(
+        self,
+        chunk: McapChunk,
+        is_wanted: npt.NDArray[np.bool_],
+        start_ns: int,
+        end_ns: int,
+        sign: int,
+    ) -> Iterator[RecordedMessage]:
+        """The wanted messages of a chunk by time, against it with a sign of -1."""
+        content = self._content(chunk)
+        stamps = content.stamps
+        inside = is_wanted[content.numbers] & (stamps >= start_ns) & (stamps <= end_ns)
+        rows = np.flatnonzero(inside)
+        rows = rows[np.argsort(stamps[rows], kind="stable")][::sign]
+        data = content.data
+        for row in rows.tolist():
+            start = content.starts[row]
+            (length,) = struct.unpack_from("<Q", data, start - 8)
+            message = data[start + MESSAGE_FIELDS.size : start + length]
+            channel = self._numbers[int(content.numbers[row])]
+            yield RecordedMessage(channel, int(stamps[row]), message)
+
+    def _content(self, chunk: McapChunk) -> _Content:
+        """The messages of a chunk; those of the last chunks are remembered, as seeks come near."""
+        known = self._contents.pop(chunk.offset, None)
+        content = known or self._unpacked(chunk)
+        self._contents[chunk.offset] = content
+        while len(self._contents) > 1 and self._remembered() > MAX_REMEMBERED:
+            del self._contents[next(iter(self._contents))]
+        return content
+
+    def _remembered(self) -> int:
+        return sum(len(content.data) for content in self._contents.values())
+
+    def _unpacked(self, chunk: McapChunk) -> _Content:
+        """Unpack a chunk and find its messages."""
         data, fault = contents_of(chunk, self._file)
-        stamps, places = array("Q"), array("Q")
+        numbers, stamps, starts = array("H"), array("Q"), array("Q")
         at = 0
         while at + PREFIX.size <= len(data):
             opcode, length = PREFIX.unpack_from(data, at)
@@ -160,21 +214,41 @@ class McapRecording:
                 break
             if opcode == MESSAGE and length >= MESSAGE_FIELDS.size:
                 number, _, stamp_ns, _ = MESSAGE_FIELDS.unpack_from(data, start)
-                if number in wanted and start_ns <= stamp_ns <= end_ns:
+                if number in self._numbers:
+                    numbers.append(number)
                     stamps.append(stamp_ns)
-                    places.append(start)
-                elif number not in self._numbers:
+                    starts.append(start)
+                else:
                     fault = "a message in it is of an unknown channel"
         if at != len(data) and not chunk.is_cut:
             fault = fault or "a record in it is damaged"
         if fault:
             self.losses.skipped[chunk.offset] = fault
-        for row in np.argsort(np.frombuffer(stamps, np.uint64), kind="stable").tolist():
-            start = places[row]
-            (length,) = struct.unpack_from("<Q", data, start - 8)
-            (number,) = struct.unpack_from("<H", data, start)
-            content = data[start + MESSAGE_FIELDS.size : start + length]
-            yield RecordedMessage(wanted[number], stamps[row], content)
+        return _Content(
+            data, np.frombuffer(numbers, np.uint16), np.frombuffer(stamps, np.uint64), starts
+        )
+
+
+@dataclass(frozen=True)
+class _Content:
+    """The messages of a chunk, in the order of the file.
+
+    Args:
+        data: of the chunk.
+        numbers: uint16 (N,), of their channels.
+        stamps: uint64 (N,), times of recording in ns.
+        starts: offsets in the data.
+    """
+
+    data: bytes
+    numbers: npt.NDArray[np.uint16]
+    stamps: npt.NDArray[np.uint64]
+    starts: Sequence[int]
+
+
+def _first(chunk: McapChunk, sign: int) -> int:
+    """The least key of the messages of a chunk."""
+    return chunk.start_ns if sign > 0 else -chunk.end_ns
 
 
 def _count_entries(index: bytes, table: npt.NDArray[np.int64], parts: TimeParts) -> None:

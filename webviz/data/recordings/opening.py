@@ -118,6 +118,12 @@ class _Unpacked:
         """`Recording.messages`."""
         return self._inner.messages(channels, start_ns, end_ns)
 
+    def newest(
+        self, channels: Collection[RecordedChannel], end_ns: int
+    ) -> Iterator[RecordedMessage]:
+        """`Recording.newest`."""
+        return self._inner.newest(channels, end_ns)
+
     @property
     def used(self) -> frozenset[RecordedChannel]:
         """`Recording.used`."""

@@ -93,6 +93,12 @@ class Recording(Protocol):
         """The messages of some channels by time, both ends included; skips what is damaged."""
         ...
 
+    def newest(
+        self, channels: Collection[RecordedChannel], end_ns: int
+    ) -> Iterator[RecordedMessage]:
+        """The messages of some channels until a time, the newest first; skips what is damaged."""
+        ...
+
     @property
     def used(self) -> frozenset[RecordedChannel]:
         """The channels that have messages, or may have if that takes long to find out."""

@@ -6,6 +6,7 @@ import contextlib
 import sqlite3
 import struct
 import time
+from collections import deque
 from collections.abc import Collection, Iterator
 from pathlib import Path
 from typing import Any
@@ -94,6 +95,24 @@ class SqliteRecording:
             if entry and start_ns <= entry.stamp_ns <= end_ns and entry not in newest:
                 yield entry
 
+    def newest(
+        self, channels: Collection[RecordedChannel], end_ns: int
+    ) -> Iterator[RecordedMessage]:
+        """`Recording.newest`; of a damaged table at most `MAX_MISSES` messages."""
+        wanted = {number: each for number, each in self._numbers.items() if each in channels}
+        rows = self._rows(wanted, 0, end_ns, "DESC")
+        while True:
+            try:
+                row = next(rows, None)
+            except sqlite3.Error:
+                break
+            if row is None:
+                return
+            if entry := self._entry(wanted, *row):
+                end_ns = min(end_ns, entry.stamp_ns - 1)
+                yield entry
+        yield from reversed(deque(self.messages(channels, 0, end_ns), MAX_MISSES))
+
     def histogram(self, parts: TimeParts) -> dict[RecordedChannel, Counts]:
         """`Recording.histogram`, of a damaged table without what it cannot read."""
         found = {channel: np.zeros(parts.count, np.int64) for channel in self.channels}
@@ -172,12 +191,12 @@ class SqliteRecording:
         return (first, last) if is_time else None
 
     def _rows(
-        self, wanted: Collection[int], start_ns: int, end_ns: int
+        self, wanted: Collection[int], start_ns: int, end_ns: int, order: str = "ASC"
     ) -> Iterator[tuple[Any, Any, Any]]:
         marks = ", ".join("?" * len(wanted))
         rows = self._db.execute(
             f"SELECT {_COLUMNS} WHERE topic_id IN ({marks}) "
-            "AND timestamp BETWEEN ? AND ? ORDER BY timestamp",
+            f"AND timestamp BETWEEN ? AND ? ORDER BY timestamp {order}",
             (*wanted, start_ns, end_ns),
         )
         # Not from the cursor itself: it would be closed with the generator, perhaps after its file.

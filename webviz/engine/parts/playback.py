@@ -109,12 +109,10 @@ class PlaybackPart(Part):
     # Commands
 
     def _play(self, command: Play, sender: Sender) -> None:
-        if self._known().play():
-            self._start_over()
+        self._known().play()
 
     def _seek(self, command: Seek, sender: Sender) -> None:
-        if self._known().seek(self._at_ns(command.at_s)):
-            self._start_over()
+        self._known().seek(self._at_ns(command.at_s))
 
     def _set_rate(self, command: SetRate, sender: Sender) -> None:
         control, rate = self._known(), command.rate
@@ -154,8 +152,7 @@ class PlaybackPart(Part):
             where = "next" if command.is_forward else "previous"
             what = f"message on {topic}" if topic else "message of a displayed topic"
             raise Error(f"There is no {where} {what}. Step in the other direction.")
-        if control.seek(at_ns):
-            self._start_over()
+        control.seek(at_ns)
 
     def _save_bookmark(self, command: SaveBookmark, sender: Sender) -> None:
         control, at_s = self._known(), command.at_s

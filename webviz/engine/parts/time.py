@@ -106,5 +106,5 @@ class TimePart(Part):
             self._paused_ns = self.core.frames.now_ns if command.paused else None
         elif command.paused:
             self._control.pause()
-        elif self._control.play():
-            self.start_over()
+        else:
+            self._control.play()

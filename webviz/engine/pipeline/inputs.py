@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
 from typing import Any
 
 from webviz.api.display import Display, Sync, inputs_of, overrides
 from webviz.api.frames import Frames
+from webviz.api.lookback import Lookback
 from webviz.api.status import Level, Status
 from webviz.data.transforms.reasons import in_words
 from webviz.data.words import counted
 from webviz.engine.pipeline.guard import Guard
 from webviz.engine.pipeline.intake import PATIENCE_S, Arrival, Intake, intakes_of
 from webviz.engine.pipeline.synchronizer import Gap, Synchronizer
-from webviz.engine.sources import Offer, Raw, Subscriber, Subscription
+from webviz.engine.sources import Offer, Raw, Subscriber, Subscription, merged
 
 Set = Mapping[str, Arrival]
 """Messages that are drawn together, by input, at the pose of the first; usually just one."""
@@ -42,8 +44,13 @@ class Inputs:
 
     def subscriptions(self) -> dict[str, Subscription]:
         """The subscriptions by topic."""
-        active = self._active().values()
-        wanted = {i.name: i.subscription() for i in active if i.name and i.type}
+        wanted: dict[str, Subscription] = {}
+        for name, intake in self._active().items():
+            if intake.name and intake.type:
+                is_placed = self.waits(name)
+                lookback = self._lookback(name, intake, is_placed)
+                own = intake.subscription(lookback, is_placed)
+                wanted = dict(merged([wanted, {intake.name: own}]))
         return self._subscriber.subscribe(wanted)
 
     def ask(self) -> None:
@@ -118,6 +125,19 @@ class Inputs:
         if status := self._sync_status(clock):
             result["Sync"] = status
         return result
+
+    def _lookback(self, name: str, intake: Intake, is_placed: bool) -> Lookback:
+        """The declared lookback of an input, and the messages that wait for others."""
+        lookback = self._guard("lookback", self._display.lookback, name)
+        if not isinstance(lookback, Lookback):
+            return Lookback()
+        since = self.intakes[lookback.since].name if lookback.since in self.intakes else ""
+        count, sync = lookback.count, type(self._display).sync
+        if count and is_placed:
+            count += intake.topic.filter_size
+        if count and sync and name in sync.inputs:
+            count += sync.queue_size
+        return replace(lookback, count=count, since=since)
 
     def _duration_ns(self, message: Any) -> int:
         duration_ns = self._guard("duration", self._display.duration_ns, message)

@@ -9,6 +9,7 @@ from typing import Any
 from webviz.api.declared import Topic
 from webviz.api.display import Display, inputs
 from webviz.api.frames import Frames
+from webviz.api.lookback import Lookback
 from webviz.api.ports import ANY, Input
 from webviz.api.status import Level, OtherFixedFrame, Remedy, Status
 from webviz.data.messages import MessageError, decode, peek_header
@@ -98,9 +99,19 @@ class Intake:
         """Return whether the newest message waits for its transform."""
         return len(self._filter) > 0 and self._newest > self._newest_placed
 
-    def subscription(self) -> Subscription:
-        """The subscription of the topic."""
-        return Subscription(self.type, self.topic, self.spec.latched)
+    def subscription(self, lookback: Lookback, is_placed: bool) -> Subscription:
+        """The subscription of the topic.
+
+        Args:
+            lookback: which past messages of a recording it needs; the newest, too, for the status.
+            is_placed: whether messages wait for the transform at their stamp.
+        """
+        newest = Lookback(count=1 + is_placed * self.topic.filter_size)
+        lookbacks = (lookback,) if lookback.count else (lookback, newest)
+        latched = self.spec.latched
+        return Subscription(
+            self.type, self.topic, latched, lookbacks=lookbacks, is_placed=is_placed
+        )
 
     def take(
         self,

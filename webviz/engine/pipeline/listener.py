@@ -6,6 +6,7 @@ import logging
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from webviz.api.declared import Topic
+from webviz.api.lookback import Lookback
 from webviz.api.robots import NamespacedRobot
 from webviz.api.status import Level, Status
 from webviz.data.messages import MessageError, TFMessage, decode
@@ -22,6 +23,8 @@ TYPE = "tf2_msgs/msg/TFMessage"
 Names = Sequence[tuple[str, str]]
 """Parents and children."""
 
+STATIC, MOVING = Lookback(), Lookback(seconds=15.0)
+"""Of a recording; the buffer holds 10 s, and frames that are older turn grey for some seconds."""
 BACK_NS = 1_000_000_000
 BACK_S = 2.0
 BACK_MESSAGES = 10
@@ -75,9 +78,13 @@ class TransformListener:
 
     def subscriptions(self) -> dict[str, Subscription]:
         """The topics of tf2."""
-        topics = self._topics.items()
         return self._subscriber.subscribe(
-            {topic: Subscription(TYPE, Topic(topic), is_static) for topic, (is_static, _) in topics}
+            {
+                topic: Subscription(
+                    TYPE, Topic(topic), is_static, lookbacks=(STATIC if is_static else MOVING,)
+                )
+                for topic, (is_static, _) in self._topics.items()
+            }
         )
 
     def take(self, batches: Mapping[str, Iterable[Raw]], offers: Mapping[str, Offer]) -> bool:

@@ -71,7 +71,8 @@ class Painter:
         self._statuses: dict[str, dict[str, Status]] = {}
         self._scales: dict[str, ColorScale | None] = {}
         self._offered: dict[str, Mapping[str, Mapping[str, int]]] = {}
-        self._drawn: dict[str, dict[int, Look]] = {}
+        self._drawn: dict[str, dict[int, Look | None]] = {}
+        """By input and slot; None for what is outdated."""
         self._version = 0
         self._draw_job: _DrawJob | None = None
         self._seen: list[tuple[History, int]] | None = None
@@ -111,9 +112,11 @@ class Painter:
         self.is_stale = True
 
     def forget(self) -> None:
-        """Hide everything and discard the state of the display."""
-        self.hide()
+        """Discard the state of the display; what is drawn stays until something is drawn anew."""
+        self._drop_job()
+        self._drawn = {name: dict.fromkeys(drawn) for name, drawn in self._drawn.items()}
         self._state = _NO_STATE
+        self.is_stale = True
 
     def close(self) -> None:
         """Remove everything from the scene, and end the slow work."""
@@ -152,7 +155,7 @@ class Painter:
     def has(self, sample: Sample) -> bool:
         """Return whether a sample is drawn, by itself or with others."""
         drawn = self._drawn.get(sample.input)
-        return drawn is None or any(sample is each for each, _ in drawn.values())
+        return drawn is None or any(look and sample is look[0] for look in drawn.values())
 
     def is_busy(self) -> bool:
         """Return whether the result of slow work is not drawn yet."""

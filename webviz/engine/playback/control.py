@@ -7,6 +7,8 @@ import time
 
 from webviz.engine.playback.playable import Playable
 
+NEAR_NS = 1_000_000_000
+"""A position this far ahead is played to; one that is further on or back is looked up."""
 MAX_STEP_S = 0.25
 """Wall time that one step makes up for: playing slows down where drawing is slow."""
 
@@ -30,6 +32,7 @@ class PlaybackControl:
         """True to play as soon as a browser is connected, until somebody plays or pauses."""
         self._is_playing = False
         self._target_ns: int | None = None
+        self._has_to_jump = False
         self._stepped_s = 0.0
         self._offset_ns = 0
 
@@ -58,35 +61,23 @@ class PlaybackControl:
         """Seconds of the recording that were played: monotonic, for ages and rates."""
         return (self.playback.position_ns + self._offset_ns) / 1e9
 
-    def play(self) -> bool:
-        """Play on, at the end of the span from its start.
-
-        Returns:
-            Whether all received data must be discarded first.
-        """
+    def play(self) -> None:
+        """Play on, at the end of the span from its start."""
         self._is_playing, self.is_ready = True, False
         self._stepped_s = time.monotonic()
         first_ns, last_ns = self.span_ns
-        return not first_ns - 1 <= self.position_ns < last_ns and self.seek(first_ns)
+        if not first_ns - 1 <= self.position_ns < last_ns:
+            self.seek(first_ns)
 
     def pause(self) -> None:
         """Stay at the position."""
         self._is_playing = self.is_ready = False
 
-    def seek(self, at_ns: int) -> bool:
-        """Approach a position; `advance` until `is_seeking` is False.
-
-        Returns:
-            Whether all received data must be discarded first.
-        """
+    def seek(self, at_ns: int) -> None:
+        """Approach a position; `advance` until `is_seeking` is False."""
         at_ns = min(max(at_ns, self.playback.start_ns), self.playback.end_ns)
-        before_ns = self.playback.position_ns
         self._target_ns = at_ns
-        if at_ns >= before_ns:
-            return False
-        self.playback.seek(at_ns)
-        self._offset_ns += before_ns - self.playback.position_ns
-        return True
+        self._has_to_jump = not 0 <= at_ns - self.playback.position_ns <= NEAR_NS
 
     def advance(self, is_busy: bool = False) -> bool:
         """Play what is due since the last call.
@@ -95,29 +86,41 @@ class PlaybackControl:
             is_busy: whether displays have to catch up first.
 
         Returns:
-            Whether all received data must be discarded, since the span starts over.
+            Whether all received data must be discarded, since another position is approached.
         """
         now_s = time.monotonic()
         passed_s = min(now_s - self._stepped_s, MAX_STEP_S)
         self._stepped_s = now_s
         if is_busy:
             return False
+        if self._has_to_jump and self._target_ns is not None:
+            self._jump(self._target_ns)
+            return True
         if self._target_ns is not None:
             self.playback.play_step(self._target_ns)
             if self.playback.position_ns >= self._target_ns:
                 self._target_ns = None
             return False
-        return self._is_playing and self._play_on(passed_s)
+        if self._is_playing:
+            self._play_on(passed_s)
+        return False
 
-    def _play_on(self, passed_s: float) -> bool:
+    def _jump(self, at_ns: int) -> None:
+        """Go to where playing leads to a position, once for all that were asked for meanwhile."""
+        self._has_to_jump = False
+        before_ns = self.playback.position_ns
+        self.playback.seek(at_ns)
+        self._offset_ns += max(0, before_ns - self.playback.position_ns)
+
+    def _play_on(self, passed_s: float) -> None:
         playback = self.playback
         first_ns, last_ns = self.span_ns
         if playback.position_ns >= last_ns:
             if self.loop and first_ns < last_ns:
-                return self.seek(first_ns)
-            self.pause()
+                self.seek(first_ns)
+            else:
+                self.pause()
         elif math.isinf(self.rate):
             playback.play_step(last_ns)
         else:
             playback.play(min(last_ns, playback.position_ns + round(passed_s * self.rate * 1e9)))
-        return False

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+import itertools
 import re
-from collections import deque
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from concurrent.futures import Future
+from dataclasses import replace
 from pathlib import Path
 
+from webviz.api.lookback import Lookback
 from webviz.data.disk import in_thread
 from webviz.data.messages import MessageError, register
 from webviz.engine.sources.bag_extras import Extra
 from webviz.engine.sources.bag_file import BagChannel, BagError, Recorded
 from webviz.engine.sources.bag_files import BagFiles
 from webviz.engine.sources.bag_frames import frames_of, links_of
+from webviz.engine.sources.bag_past import BagPast
 from webviz.engine.sources.bag_time import CLOCK, TF, BagTime
 from webviz.engine.sources.graph import ReadOnly
 from webviz.engine.sources.inbox import MAX_BYTES, Inbox, Raw
@@ -24,8 +27,9 @@ NODE = "webviz"
 MAX_BATCH = 500
 """Messages per call of `play`, so that no queue of the inbox overflows."""
 MAX_BATCH_BYTES = 32 << 20
-STEP_NS = 100_000_000
-"""Recording time between two turns of a frame loop without browsers."""
+STEP_NS, LONG_STEP_NS = 100_000_000, 2_000_000_000
+"""Recording time between two turns of a frame loop that draws nothing: longer while it is far from
+its destination, but much shorter than the history of transforms."""
 INBOX_LIMIT = 20_000
 """Messages per topic; all latched messages arrive at once."""
 NONE = "the bag has none"
@@ -68,6 +72,8 @@ class BagSource:
         self._problems: dict[str, str] = {}
         self._begins: dict[str, str] = {}
         self._offers = self._all_offers()
+        self._served: dict[str, str] = {}
+        """Types by topic, of subscriptions that get their past from the seek before."""
         self._counting: Future[Mapping[str, Sequence[int]]] | None = None
         self._next: Recorded | None = None
         self._upcoming: Iterator[Recorded] = iter(())
@@ -126,7 +132,9 @@ class BagSource:
             BagError: the file can no longer be read.
         """
         next_ns = until_ns if self._next is None else self._next.stamp_ns
-        self.play(min(until_ns, max(next_ns, self._position_ns + STEP_NS)))
+        left_ns = until_ns - self._position_ns
+        step_ns = min(max(left_ns // 8, STEP_NS), LONG_STEP_NS)
+        self.play(min(until_ns, max(next_ns, self._position_ns + step_ns)))
 
     @property
     def names(self) -> Sequence[str]:
@@ -134,11 +142,18 @@ class BagSource:
         return self._file.names
 
     def seek(self, at_ns: int) -> None:
-        """Go back to the start."""
+        """`Playable.seek`: reads what the subscriptions need of the past, and then on."""
         self.inbox.drain()
-        self._time.rewind()
-        self._position_ns = self._file.start_ns - 1
-        self._read_on()
+        channels = self._channels_to_read()
+        past = BagPast(self._file, channels, self._wanted, at_ns).messages()
+        self._upcoming = itertools.chain(past, self._file.messages(channels, at_ns + 1))
+        self._next = next(self._upcoming, None)
+        first_ns = at_ns if self._next is None else self._next.stamp_ns
+        self._position_ns = min(first_ns, at_ns) - 1
+        self._time.seek(self._position_ns)
+        for extra in self._extras:
+            self._put(Recorded(extra.topic, extra.type, extra.cdr, self._file.start_ns))
+        self._served = _types(self._wanted)
 
     def neighbour(self, topic: str, is_forward: bool) -> int | None:
         """`Playable.neighbour`."""
@@ -151,10 +166,8 @@ class BagSource:
             found = next(self._file.messages(channels, self._position_ns + 1), None)
             return found and found.stamp_ns
         before_ns = min(self._position_ns, self._file.end_ns) - 1
-        stamp_ns = None
-        for found in self._file.messages(channels, self._file.start_ns, before_ns):
-            stamp_ns = found.stamp_ns
-        return stamp_ns
+        found = next(self._file.newest(channels, before_ns), None)
+        return found and found.stamp_ns
 
     def histogram(self, buckets: int) -> Mapping[str, Sequence[int]]:
         """`Playable.histogram`; none until a worker has counted."""
@@ -190,8 +203,15 @@ class BagSource:
             self.inbox.open(topic, INBOX_LIMIT)
         self._learn(fresh)
         self._begins |= {topic: self._beginning(topic) for topic in fresh}
+        served, self._served = self._served, {}
         for topic, wish in fresh.items():
-            self._repeat(topic, wish)
+            if served.get(topic) == wish.type:
+                continue
+            self._put_extras(topic)
+            if topic in before and before[topic].type == wish.type:
+                self._repeat(topic, wish)
+            else:
+                self._catch_up(topic, wish)
         if _types(before) != _types(self._wanted):
             self._read_on()
         self._offers = self._all_offers()
@@ -264,29 +284,45 @@ class BagSource:
                 except MessageError as error:
                     self._problems[channel.topic] = str(error)
 
-    def _repeat(self, topic: str, wish: Subscription) -> None:
-        """Deliver what publishers repeat for a late subscription."""
+    def _catch_up(self, topic: str, wish: Subscription) -> None:
+        """Deliver what a new subscription would hold if it had been there from the start."""
+        channels = [channel for channel in self._channels() if channel.topic == topic]
+        if channels and self._position_ns >= self._file.start_ns:
+            latched = Lookback(count=sum(channel.depth for channel in self._latched(topic, wish)))
+            lookbacks = (*wish.lookbacks, *([latched] if latched.count else []))
+            wanted = self._wanted | {topic: replace(wish, lookbacks=lookbacks)}
+            for recorded in BagPast(self._file, channels, wanted, self._position_ns).messages():
+                self._put(recorded)
+
+    def _put_extras(self, topic: str) -> None:
         for extra in self._extras:
             if extra.topic == topic:
                 self._put(Recorded(topic, extra.type, extra.cdr, self._file.start_ns))
-        latched = [
+
+    def _repeat(self, topic: str, wish: Subscription) -> None:
+        """Deliver what publishers repeat for a subscription that is made anew."""
+        latched = self._latched(topic, wish)
+        # Which publishers of transforms were still running is unknown, so all of them count.
+        is_tf = wish.type == TF
+        depth = INBOX_LIMIT if is_tf else sum(channel.depth for channel in latched)
+        past: list[Recorded] = []
+        size = 0
+        for recorded in itertools.islice(self._file.newest(latched, self._position_ns), depth):
+            size += len(recorded.cdr)
+            if past and size > MAX_BYTES:
+                break
+            past.append(recorded)
+        for recorded in reversed(past):
+            self._put(recorded)
+
+    def _latched(self, topic: str, wish: Subscription) -> Sequence[BagChannel]:
+        """The channels of a topic whose publishers repeat their last messages."""
+        return [
             channel
             for channel in self._channels()
             if channel.topic == topic
             and (wish.latched or _weakest(channel.publishers)[1] == "transient_local")
         ]
-        # Which publishers of transforms were still running is unknown, so all of them count.
-        is_tf = wish.type == TF
-        depth = INBOX_LIMIT if is_tf else sum(channel.depth for channel in latched)
-        past: deque[Recorded] = deque()
-        size = 0
-        for recorded in self._file.messages(latched, self._file.start_ns, self._position_ns):
-            past.append(recorded)
-            size += len(recorded.cdr)
-            while len(past) > depth or (len(past) > 1 and size > MAX_BYTES):
-                size -= len(past.popleft().cdr)
-        for recorded in past:
-            self._put(recorded)
 
     def _arrive(self, recorded: Recorded) -> None:
         if recorded.topic == "/clock" and recorded.type == CLOCK:

@@ -112,6 +112,20 @@ class BagFile:
         except OSError as error:
             raise BagError(self._unreadable(error)) from error
 
+    def newest(self, channels: Collection[BagChannel], end_ns: int) -> Iterator[Recorded]:
+        """The messages of channels until a time of recording, the newest first.
+
+        Raises:
+            BagError: the file can no longer be read.
+        """
+        by_recorded = {channel.recorded: channel for channel in channels}
+        try:
+            for entry in self._recording.newest(by_recorded.keys(), end_ns):
+                channel = by_recorded[entry.channel]
+                yield Recorded(channel.topic, channel.type, entry.data, entry.stamp_ns)
+        except OSError as error:
+            raise BagError(self._unreadable(error)) from error
+
     def is_used(self, channel: BagChannel) -> bool:
         """Return whether a channel has messages, or may have."""
         return channel.recorded in self._used

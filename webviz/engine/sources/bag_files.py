@@ -59,15 +59,27 @@ class BagFiles:
         Raises:
             BagError: a file can no longer be read.
         """
+        until_ns = self.end_ns if end_ns is None else end_ns
+        found = [file.messages(own, start_ns, until_ns) for file, own in self._by_file(channels)]
+        return found[0] if len(found) == 1 else heapq.merge(*found, key=_stamp)
+
+    def newest(self, channels: Collection[BagChannel], end_ns: int) -> Iterator[Recorded]:
+        """The messages of channels until a time of recording, the newest first.
+
+        Raises:
+            BagError: a file can no longer be read.
+        """
+        found = [file.newest(own, end_ns) for file, own in self._by_file(channels)]
+        return found[0] if len(found) == 1 else heapq.merge(*found, key=_stamp, reverse=True)
+
+    def _by_file(
+        self, channels: Collection[BagChannel]
+    ) -> Iterator[tuple[BagFile, Sequence[BagChannel]]]:
+        """The files that have some of the channels, and which."""
         wanted = frozenset(channels)
-        found = [
-            file.messages(own, start_ns, self.end_ns if end_ns is None else end_ns)
-            for file in self._files
-            if (own := [channel for channel in file.channels if channel in wanted])
-        ]
-        if len(found) == 1:
-            return found[0]
-        return heapq.merge(*found, key=lambda recorded: recorded.stamp_ns)
+        for file in self._files:
+            if own := [channel for channel in file.channels if channel in wanted]:
+                yield file, own
 
     def is_used(self, topic: str) -> bool:
         """Return whether a topic has messages, or may have."""
@@ -116,3 +128,7 @@ class BagFiles:
         where = " and ".join(f"{type_name} in {name}" for type_name, name in names.items())
         more = f", and so do {counted(len(found) - 1, 'more topic')}" if len(found) > 1 else ""
         return f"{topic} differs between the bags, {where}{more}: a display reads one type only."
+
+
+def _stamp(recorded: Recorded) -> int:
+    return recorded.stamp_ns

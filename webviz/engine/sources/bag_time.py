@@ -26,6 +26,7 @@ class BagTime:
     """
 
     def __init__(self, file: BagFiles) -> None:
+        self._file = file
         self.remark = ""
         """A warning, "" for none."""
         self.clocks: list[BagChannel] = [
@@ -40,10 +41,10 @@ class BagTime:
         else:
             self._follow_transforms(file)
 
-    def rewind(self) -> None:
-        """Go back to the start of the bag."""
+    def seek(self, at_ns: int) -> None:
+        """Go to a time of recording: its last /clock counts, or else the first one of the bag."""
         if self._first is not None:
-            self.update(self._first)
+            self.update(next(self._file.newest(self.clocks, at_ns), self._first))
 
     def update(self, recorded: Recorded) -> None:
         """Process a message of /clock, in the order of the bag."""

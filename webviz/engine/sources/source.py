@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 import msgspec
 
 from webviz.api.declared import Topic
+from webviz.api.lookback import Lookback
 from webviz.engine.sources.graph import Durability, Graph, Reliability
 from webviz.engine.sources.inbox import Inbox
 
@@ -22,12 +23,17 @@ class Subscription:
         topic: full name, and the QoS that the user chose.
         latched: transient local, whatever publishers offer.
         asked: increased to make publishers repeat latched messages; see `Subscriber`.
+        lookbacks: which past messages of a recording readers need; `since` is a topic. By default
+            the newest one.
+        is_placed: whether messages need the transforms at their stamp.
     """
 
     type: str
     topic: Topic
     latched: bool = False
     asked: int = 0
+    lookbacks: tuple[Lookback, ...] = field(default=(Lookback(count=1),), compare=False)
+    is_placed: bool = field(default=False, compare=False)
 
 
 def merged(wishes: Iterable[Mapping[str, Subscription]]) -> dict[str, Subscription]:
@@ -48,9 +54,14 @@ def merged(wishes: Iterable[Mapping[str, Subscription]]) -> dict[str, Subscripti
 
 def _shared(first: Subscription, other: Subscription) -> Subscription:
     """A subscription that serves both."""
-    asked = max(first.asked, other.asked)
+    first = replace(
+        first,
+        asked=max(first.asked, other.asked),
+        lookbacks=(*first.lookbacks, *other.lookbacks),
+        is_placed=first.is_placed or other.is_placed,
+    )
     if other.type != first.type:
-        return replace(first, asked=asked)
+        return first
     topic, latched = first.topic, first.latched
     if other.topic.reliability != topic.reliability:
         chosen = {topic.reliability, other.topic.reliability}
@@ -58,7 +69,7 @@ def _shared(first: Subscription, other: Subscription) -> Subscription:
         topic = msgspec.structs.replace(topic, reliability=reliability)
     if (other.latched, other.topic.durability) != (latched, topic.durability):
         topic, latched = msgspec.structs.replace(topic, durability="auto"), False
-    return replace(first, topic=topic, latched=latched, asked=asked)
+    return replace(first, topic=topic, latched=latched)
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ from webviz.data.messages import encode as serialized
 from webviz.shell.testing.comparing import NOTICEABLE, TOLERANCE, share_of_difference
 from webviz.shell.testing.live import LiveViewer
 from webviz.shell.testing.messages import header, turned
+from webviz.shell.testing.seeking import BagViewer, check_seeks
 from webviz.shell.testing.shown import Shown
 from webviz.shell.testing.source import SECOND
 from webviz.shell.testing.stage import Stage
@@ -15,9 +16,11 @@ __all__ = [
     "NOTICEABLE",
     "SECOND",
     "TOLERANCE",
+    "BagViewer",
     "LiveViewer",
     "Shown",
     "Stage",
+    "check_seeks",
     "header",
     "serialized",
     "share_of_difference",

@@ -1,0 +1,28 @@
+"""Past messages on which the state of a display depends."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Lookback:
+    """The messages of one input before a time that make up what is shown at that time.
+
+    Without arguments, all of them. Each argument narrows it; a message that any of them leaves out
+    is not read when somebody seeks in a recording.
+
+    Args:
+        count: number of newest messages; 0 is unlimited.
+        seconds: maximum time since arrival; 0 is unlimited.
+        since: another input: only messages since the first one that is read of it count.
+        starts_over: called with a message of this input and its type; returns whether none before
+            it counts.
+    """
+
+    count: int = 0
+    seconds: float = 0.0
+    since: str = ""
+    starts_over: Callable[[Any, str], bool] | None = None

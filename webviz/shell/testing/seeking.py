@@ -1,0 +1,156 @@
+"""Checks that a seek in a bag shows what playing from the start shows."""
+
+from __future__ import annotations
+
+import contextlib
+import random
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from webviz.engine.commands import Command, Seek
+from webviz.engine.loop import FrameLoop
+from webviz.engine.sources.bag import BagSource
+from webviz.engine.state import Row
+from webviz.files import opening
+from webviz.files.config import Config
+from webviz.shell.app.reading import read_config
+from webviz.shell.testing.recording import RecordingScene
+
+MAX_TURNS = 100_000
+LOOK_S = 0.02
+"""For slow work of displays, per turn."""
+
+
+class BagViewer:
+    """A viewer of a bag without a browser, which only runs in `turn`.
+
+    Args:
+        bag: a file or folder, or several.
+        config: YAML, or a config; None for the displays of the bag's topics.
+    """
+
+    def __init__(self, bag: Path | Sequence[Path], config: str | Config | None = None) -> None:
+        self.source = BagSource(bag)
+        self.scene = RecordingScene()
+        if config is None:
+            config = read_config(None, self.source)
+        elif isinstance(config, str):
+            config = opening.parse(config, "the config")
+        self.loop = FrameLoop(config, self.source, self.scene, strict=True)
+        self.turn()
+
+    def turn(self) -> None:
+        """One turn of the frame loop."""
+        self.loop.turn()
+
+    def do(self, command: Command) -> None:
+        """Carry out a command, and turn until it is answered and drawn.
+
+        Raises:
+            webviz.Error: it is refused.
+        """
+        answer = self.loop.enqueue(command)
+        self.turn_until(answer.done)
+        answer.result()
+        self.settle()
+
+    def play_to(self, at_s: float) -> None:
+        """Play from the position to a time, in seconds from the start, as fast as possible."""
+        at_ns = self.source.start_ns + round(at_s * 1e9)
+        while self.source.position_ns < at_ns:
+            self.source.play_step(at_ns)
+            self.turn()
+            self.settle()
+
+    def settle(self) -> None:
+        """Turn until the slow work of displays is drawn."""
+        self.turn()
+        self.turn_until(lambda: not self.loop.is_busy())
+
+    def turn_until(self, is_reached: Callable[[], bool]) -> None:
+        """Turn until a condition holds.
+
+        Raises:
+            AssertionError: it does not for a long time.
+        """
+        for _ in range(MAX_TURNS):
+            if is_reached():
+                return
+            self.source.inbox.arrived.clear()
+            self.turn()
+            if self.loop.is_busy():
+                self.source.inbox.arrived.wait(LOOK_S)
+        raise AssertionError("The viewer did not get there.")
+
+    def shown(self) -> dict[str, Any]:
+        """The nodes that are seen of each display, with their poses in the fixed frame."""
+        found: dict[str, Any] = {}
+        for row in self.loop.state().rows:
+            nodes = [(pose, node) for _, pose, node in self.scene.visible(f"{row.id}/")]
+            # In which slot of a display a sample is drawn makes no difference.
+            found[f"{row.id} {row.name}"] = sorted(nodes, key=repr)
+        return found
+
+    @property
+    def rows(self) -> Sequence[Row]:
+        """The displays with their statuses."""
+        return self.loop.state().rows
+
+    def close(self) -> None:
+        """End the viewer and close the bag."""
+        self.loop.close()
+        self.source.close()
+
+
+def check_seeks(
+    bag: Path | Sequence[Path],
+    config: str | Config | None = None,
+    *,
+    times: Sequence[float] = (),
+    count: int = 10,
+    seed: int = 0,
+) -> None:
+    """Check that after a seek each display shows what it shows when the bag is played to there.
+
+    Use it for displays that override `Display.lookback`, `history`, `fold` or `accept`. Which
+    messages are dropped when more than `filter_size` wait for transforms depends on the speed of
+    playing; choose a large one for bags whose transforms come late.
+
+    Args:
+        bag: a file or folder, or several.
+        config: YAML, or a config; None for the displays of the bag's topics.
+        times: where to seek in this order, in seconds from the start; none for times by chance.
+        count: number of times by chance.
+        seed: of chance.
+
+    Raises:
+        AssertionError: a display differs; names it and the time.
+    """
+    with _opened(bag, config) as sought, _opened(bag, config) as played:
+        duration_s = (sought.source.end_ns - sought.source.start_ns) / 1e9
+        chance = random.Random(seed)
+        wanted = times or [round(chance.uniform(0, duration_s), 3) for _ in range(count)]
+        truth: dict[float, dict[str, Any]] = {}
+        for at_s in sorted(set(wanted)):
+            played.play_to(at_s)
+            played.settle()
+            truth[at_s] = played.shown()
+        for before_s, at_s in zip([0.0, *wanted], wanted, strict=False):
+            sought.do(Seek(at_s))
+            for display, found in sought.shown().items():
+                if found != (expected := truth[at_s][display]):
+                    raise AssertionError(
+                        f"{display} differs at {at_s:g} s after a seek from {before_s:g} s:\n"
+                        f"  sought: {_summary(found)}\n  played: {_summary(expected)}"
+                    )
+
+
+@contextlib.contextmanager
+def _opened(bag: Path | Sequence[Path], config: str | Config | None) -> Iterator[BagViewer]:
+    with contextlib.closing(BagViewer(bag, config)) as viewer:
+        yield viewer
+
+
+def _summary(nodes: Any) -> str:
+    return f"{len(nodes)} nodes: {str(nodes)[:2000]}"
