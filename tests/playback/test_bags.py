@@ -92,7 +92,7 @@ def test_types_that_differ_between_bags_are_reported(tmp_path: Path, theater: Ca
     other.add("/words", "std_msgs/msg/Bool")
     other.put(0, "/words", {"data": True})
     viewer = theater([first, other.write(tmp_path / "second")])
-    assert viewer.loop.state().statuses["Recording"].text == (
+    assert viewer.loop.state().statuses["Bag"].text == (
         "/words differs between the bags, std_msgs/msg/String in first and std_msgs/msg/Bool in "
         "second: a display reads one type only."
     )
@@ -128,7 +128,7 @@ def test_a_program_plays_a_bag(tmp_path: Path, storage: StoragePlugin) -> None:
         viewer.add("Text", topic="/words")
         viewer.seek("end")
         assert viewer.position == 4.0
-        assert "Recording" not in viewer.statuses  # which would report damage
+        assert "Bag" not in viewer.statuses  # which would report damage
         viewer.seek(viewer.span[0] + 1)
         assert viewer.position == 1.0
         with pytest.raises(webviz.Error, match=r"7 s is outside of run\. Give 0 to 4 s"):

@@ -139,6 +139,8 @@ def test_of_what_was_latched_no_more_is_repeated_than_fits(tmp_path, opened, mon
     bag = opened(strings(0, 1, 2, 3, latched=True, depth=3).write(tmp_path / "bag"))
     bag.play(3)
     bag.want("/words")
+    bag.heard()
+    bag.want("/words", asked=1)
     assert bag.heard() == ["2", "3"]
     monkeypatch.setattr("webviz.engine.sources.bag.MAX_BYTES", 1)
     bag.want()

@@ -104,7 +104,7 @@ class PlaybackPart(Part):
     def statuses(self) -> Mapping[str, Status]:
         """Return what is missing, unusual or damaged in the recording."""
         remarks = self._control.playback.remarks if self._control else ()
-        return {"Recording": Status(Level.WARN, joined(*remarks))} if remarks else {}
+        return {"Bag": Status(Level.WARN, joined(*remarks))} if remarks else {}
 
     # Commands
 

@@ -168,7 +168,7 @@ class _Report:
         general = {
             key: status
             for key, status in first.shown.general.items()
-            if status.level is not Level.OK and key not in ("Import", "Recording")
+            if status.level is not Level.OK and key not in ("Import", "Bag")
         }
         for line in _table(first.statuses | general):
             print(f"  {line}", file=sys.stderr)
