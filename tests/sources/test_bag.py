@@ -143,8 +143,7 @@ def test_of_what_was_latched_no_more_is_repeated_than_fits(tmp_path, opened, mon
     bag.want("/words", asked=1)
     assert bag.heard() == ["2", "3"]
     monkeypatch.setattr("webviz.engine.sources.bag.MAX_BYTES", 1)
-    bag.want()
-    bag.want("/words")
+    bag.want("/words", asked=2)
     assert bag.heard() == ["3"]
 
 
