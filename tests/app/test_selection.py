@@ -43,6 +43,11 @@ displays:
 - {type: LaserScan, name: Scan, topic: /scan, size: 0.02, enabled: false}
 - {type: MarkerArray, name: Markers, topic: /markers, enabled: false}
 """
+MARKED = """() => {
+  const canvas = document.querySelector(".wv-highlight");
+  const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+  return data.some((byte) => byte > 0);
+}"""
 TITLE = ".wv-selection [data-thing] .wv-field-name"
 
 
@@ -263,6 +268,21 @@ def test_boxes_select_and_keys_add_and_remove(
     box(page, (-1.5, -1.5), (0.5, 0.5))
     viewer.do(SetProperty("display1", "selectable", True))
     page.wait_for(lambda: not is_passed_over(), "a display that is selectable again")
+
+    box(page, (-1.5, -1.5), (0.5, 0.5))
+    wait_for_titles(page, ["Point 0", "Point 1", "Point 3", "Point 4"])
+    assert tab.evaluate(MARKED)
+    places = [(x + 0.3, y, z) for x, y, z in places]
+    publish(source, "/cloud", "sensor_msgs/msg/PointCloud2", xyz_cloud(places))
+    page.draw()
+    assert tab.evaluate(MARKED)
+    tab.evaluate("""() => {
+      window.wasNow = performance.now;
+      performance.now = () => window.wasNow.call(performance) + 11_000;
+    }""")
+    page.draw()
+    page.wait_for(lambda: not tab.evaluate(MARKED), "no mark of what was replaced long ago")
+    tab.evaluate("() => { performance.now = window.wasNow }")
 
     viewer.do(RemoveDisplay("display1"))
     wait_for_titles(page, [])

@@ -49,6 +49,21 @@ def test_two_who_edit_at_once_end_with_the_same(mine: Pane, open_tab: OpenTab) -
     mine.wait_for_value("channel", "again")
 
 
+def test_a_field_that_was_left_or_has_the_focus_shows_what_another_has_entered(
+    mine: Pane, open_tab: OpenTab
+) -> None:
+    other = Pane(open_tab()).mount()
+    mine.enter("count", "0")
+    mine.tab.wait_for(mine.row("count").get_by_role("alert").is_visible)
+    mine.field("channel").focus()
+    other.enter("count", "7")
+    mine.wait_for_value("count", "7")
+    assert mine.row("count").get_by_role("alert").is_hidden()
+    mine.field("count").focus()
+    other.enter("count", "8")
+    mine.wait_for_value("count", "8")
+
+
 def test_a_browser_that_comes_late_sees_how_things_are(
     mine: Pane, open_tab: OpenTab, make_row: MakeRow
 ) -> None:

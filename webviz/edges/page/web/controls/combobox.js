@@ -46,6 +46,7 @@ export function combobox({
       if (!isTyped) write();
     },
     send: change,
+    isFocused: () => input.matches(":focus"),
     refused(text) {
       set(input, { "aria-invalid": text ? "true" : null });
       refused?.(text);

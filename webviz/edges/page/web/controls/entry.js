@@ -26,6 +26,7 @@ export function entry(field, { change, refused, encode, decode, after = () => {}
       write();
     },
     send: change,
+    isFocused: () => field.matches(":focus"),
     refused(text) {
       set(field, { "aria-invalid": text ? "true" : null });
       refused(text);

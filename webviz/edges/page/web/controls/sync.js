@@ -11,12 +11,15 @@ const LOST = { level: "error", text: "Not changed: the viewer does not answer. T
 /**
  * `show(value)` makes the control show a value. `send(value)` sends it to the viewer; it may return a promise
  * of `{level, text}`. `refused(text)` says why the viewer did not take it, or "" that all is well.
+ * What was refused stays for correction; once the control has lost the focus (`isFocused()`), until
+ * somebody else changes the value.
  *
  * @param {{
  *   show: (value: any) => void, send: (value: any) => any, refused?: (text: string) => void,
+ *   isFocused?: () => boolean,
  * }} control
  */
-export function sync({ show, send, refused = () => {} }) {
+export function sync({ show, send, refused = () => {}, isFocused = () => false }) {
   let newest;
   let hasNewest = false;
   let isHeld = false;
@@ -59,6 +62,8 @@ export function sync({ show, send, refused = () => {} }) {
   return {
     /** What the viewer has. */
     show(value) {
+      const isOther = hasNewest && JSON.stringify(value) !== JSON.stringify(newest);
+      if (isOther && isRefused && !isHeld && !isFocused()) tell("");
       newest = value;
       hasNewest = true;
       if (!isBusy()) show(value);

@@ -10,10 +10,12 @@ import * as selection from "./selection.js";
 const COLOR = "#00e5ff";
 const BACK = "rgba(0, 0, 0, 0.65)";
 const POINT_PX = 5; // half of the square around a point
+const OLD_MS = 10_000; // how long something is marked that is not drawn any more
 
 let layer = null;
 let drawing = null;
 let isEmpty = true;
+let timer = 0;
 
 export function install() {
   selection.onChange(() => viser.requestRender());
@@ -49,10 +51,19 @@ function draw() {
   const [now, old] = [[], []];
   for (const pick of picks) {
     const outline = outlineOf(pick, find, selection.moves(pick));
-    if (outline) (outline.isOld ? old : now).push(outline);
+    if (!outline) continue;
+    pick.oldSince = outline.isOld ? pick.oldSince ?? performance.now() : null;
+    if (!outline.isOld) now.push(outline);
+    else if (performance.now() - pick.oldSince < OLD_MS) old.push(outline);
   }
+  if (old.length) timer ||= setTimeout(drawAgain, OLD_MS);
   stroke(pen, now, []);
   stroke(pen, old, [2, 3]);
+}
+
+function drawAgain() {
+  timer = 0;
+  viser.requestRender();
 }
 
 // First a dark line that is wider: legible on any ground.
