@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import gc
 import inspect
 import sys
+import weakref
 from collections.abc import Callable, Mapping, Sequence
 from typing import Annotated, Any
 
@@ -270,3 +272,21 @@ def test_a_turn_that_raises_does_not_end_the_loop(
     b.viewer._wake()
     b.viewer.run()
     assert len(turns) == 3
+
+
+def test_a_command_that_fails_leaves_memory_at_once(bench: Callable[..., Any]) -> None:
+    b = bench(Sound(name="Sound"))
+    told: list[str] = []
+    gc.collect()
+    gc.disable()  # it stops all threads, for longer the more there is
+    try:
+        answer = b.viewer.enqueue(SetProperty("display1", "nothing", 1))
+        waiting = weakref.ref(answer)
+        answer.add_done_callback(lambda done: told.append(str(done.exception())))
+        b.until_done(answer)
+        del answer
+        assert told
+        assert told[0].startswith("Not changed")
+        assert waiting() is None
+    finally:
+        gc.enable()

@@ -126,7 +126,9 @@ class Requests:
                 self._begin(result, answer)
                 return []
         except Refused as error:
-            return [functools.partial(answer.set_exception, error)]
+            # Without a traceback, which refers to the answer: the garbage of a flood of commands
+            # would stop all threads for so long that a driven robot stutters.
+            return [functools.partial(answer.set_exception, Refused(str(error)))]
         return [functools.partial(answer.set_result, result)]
 
     def _begin(self, job: Job[Any], answer: Future[str]) -> None:

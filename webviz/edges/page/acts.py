@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 from collections.abc import Callable
-from concurrent.futures import CancelledError, Future
+from concurrent.futures import Future
 from typing import Any, get_type_hints
 
 import msgspec
@@ -57,13 +57,12 @@ class Acts:
             return
 
         def tell(done: Future[str]) -> None:
-            level, text = "ok", ""
-            try:
-                text = done.result()
-            except CancelledError:
+            if done.cancelled():
                 return
-            except Exception as error:  # a sentence for people
+            if error := done.exception():  # a sentence for people
                 level, text = "error", brief(str(error), MAX_ERROR)
+            else:
+                level, text = "ok", done.result()
             self._channel.send(Done(do.number, level, text, "".join(made)), browser)
             if level == "ok" and isinstance(command, NOTED):
                 self._note(browser, text)
