@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import threading
 from pathlib import Path
 
 import pytest
@@ -42,6 +43,29 @@ def test_the_files_have_a_limit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
     assert sorted(file.name for file in tmp_path.iterdir()) == ["journal.txt", "journal.txt.1"]
     assert [len(file.read_text().splitlines()) for file in sorted(tmp_path.iterdir())] == [10, 10]
     assert path.read_text().endswith(f"{99:099}\n")
+
+
+def test_what_a_slow_disk_has_no_time_for_is_counted(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(journal_file, "MAX_WAITING", 2)
+    path, begun, mounted = tmp_path / "journal.txt", threading.Event(), threading.Event()
+    kept = JournalFile(path)
+    append = kept._append
+
+    def append_slowly(data: bytes) -> None:
+        begun.set()
+        assert mounted.wait(60.0)
+        append(data)
+
+    monkeypatch.setattr(kept, "_append", append_slowly)
+    kept.write("0")
+    assert begun.wait(60.0)
+    for number in range(1, 6):
+        kept.write(str(number))
+    mounted.set()
+    kept.close()
+    assert path.read_text().splitlines() == ["0", "(3 entries dropped)", "1", "2"]
 
 
 def test_what_is_no_file_of_this_user_is_refused(tmp_path: Path) -> None:

@@ -167,3 +167,13 @@ def test_what_becomes_objects_has_a_limit(monkeypatch):
     assert len(decode(name, encode(name, {"name": ["a"] * 3, "position": numbers})).position) == 100
     with pytest.raises(DecodeError, match=r"its sequences have more than 3 elements\.$"):
         decode(name, encode(name, {"name": ["a"] * 4}))
+
+
+def test_a_trajectory_that_is_cut_off_says_where() -> None:
+    cdr = encode("trajectory_msgs/msg/JointTrajectory", {"points": [{"positions": [1.0, 2.0]}]})
+    found = set[str]()
+    for size in range(4, len(cdr)):
+        with pytest.raises(DecodeError) as caught:
+            decode("trajectory_msgs/msg/JointTrajectory", cdr[:size])
+        found.add(str(caught.value).partition(": ")[2].partition(" (at")[0])
+    assert "2 elements of float64 are longer than the rest" in found

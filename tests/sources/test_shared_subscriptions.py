@@ -60,9 +60,10 @@ def test_readers_that_disagree_on_durability_follow_the_publishers(
 
 
 def test_the_first_reader_decides_on_the_type_and_whoever_asks_last_counts() -> None:
-    wishes = [
-        Subscription(TYPE, Topic("/a", reliability="reliable"), asked=1),
+    strict = Topic("/a", reliability="reliable")
+    wishes = (
+        Subscription(TYPE, strict, asked=1),
         Subscription(OTHER, Topic("/a", reliability="best_effort"), latched=True, asked=3),
-        Subscription(TYPE, Topic("/a", reliability="reliable"), asked=2),
-    ]
-    assert shared(*wishes) == Subscription(TYPE, Topic("/a", reliability="reliable"), asked=3)
+    )
+    assert shared(*wishes) == Subscription(TYPE, strict, asked=3)
+    assert shared(*wishes, Subscription(TYPE, strict, asked=2)).asked == 3
