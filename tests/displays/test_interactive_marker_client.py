@@ -2,24 +2,28 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from typing import Any
 
 import pytest
 
-from webviz import Frames, Level, Pose
+from webviz import Context, Error, Frames, Level, Pose
 from webviz.api.wire import Heard
 from webviz.data.messages import decode, encode, interfaces
 from webviz.data.transforms import TransformBuffer
+from webviz_displays.interactive_markers import client as protocol
 from webviz_displays.interactive_markers import server as known_server
 from webviz_displays.interactive_markers.client import (
     ANSWER_S,
     MAX_WAITING,
+    PAUSE_S,
     SLOW_BYTES,
     Client,
 )
 from webviz_displays.interactive_markers.completion import Completed, completed
+from webviz_displays.interactive_markers.drawing import MarkerLook
 from webviz_displays.interactive_markers.feedback import (
     MOUSE_DOWN,
     POSE_UPDATE,
@@ -47,13 +51,15 @@ class Server:
     def __init__(self) -> None:
         interfaces.service(SERVICE)  # declares its messages
         self.endpoints: frozenset[bytes] = frozenset({b"first"})
+        self.is_ready, self.has_gap = True, False
         self.messages: list[bytes] = []
         self.asked: list[Future[bytes]] = []
         self.jobs: list[tuple[Future[Any], Callable[[], Any]]] = []
 
     def listen(self, topic: str, type: str, depth: int) -> Heard:
         messages, self.messages = tuple(self.messages), []
-        return Heard(messages, ("/server",) * len(self.endpoints), self.endpoints, is_ready=True)
+        publishers = ("/server",) * len(self.endpoints)
+        return Heard(messages, publishers, self.endpoints, self.is_ready, self.has_gap)
 
     def query(self, service: str, type: str, timeout_s: float) -> Future[bytes]:
         assert (service, type, timeout_s) == ("/arm/get_interactive_markers", SERVICE, ANSWER_S)
@@ -121,6 +127,45 @@ def test_updates_that_the_answer_includes_are_not_applied_again(
     assert all_of(news) == ["a"]
     assert erased(news) == ["at 5", "at 6"]
     assert (client.state, client.sequence, client.gaps) == ("running", 6, 0)
+    server.update(6)  # later, it is a gap
+    assert client.step(server) == []
+    assert (client.state, client.gaps) == ("searching", 1)
+
+
+def test_a_server_is_asked_once_it_is_heard_and_not_too_often(server: Server) -> None:
+    client = Client("/arm")
+    server.is_ready = False
+    client.step(server)
+    assert not server.asked
+    server.is_ready = True
+    client.step(server)
+    server.answer(4)
+    client.step(server)
+    server.has_gap = True  # messages were dropped
+    client.step(server)
+    assert (client.state, len(server.asked)) == ("searching", 1)
+    server.has_gap = False
+    server.clock_s += PAUSE_S
+    client.step(server)
+    server.clock_s += PAUSE_S
+    server.asked[-1].set_exception(Error("It did not answer."))
+    assert client.step(server) == []
+    assert client.status(0).text == "It did not answer."
+    for count in (2, 3):
+        client.step(server)
+        assert len(server.asked) == count
+        server.clock_s += PAUSE_S
+
+
+def test_updates_that_wait_are_bounded_by_bytes(
+    server: Server, client: Client, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(protocol, "MAX_WAITING_BYTES", 10_000)
+    for number in (1, 2):
+        server.update(number, size=5000)
+    server.clock_s += PAUSE_S
+    client.step(server)
+    assert len(server.asked) == 2
 
 
 def test_signs_of_life_are_no_updates(server: Server, client: Client) -> None:
@@ -199,6 +244,7 @@ def test_large_messages_are_read_in_a_worker_and_all_others_wait_for_them(
     server.clock_s += 1.0
     client.step(server)
     server.work()
+    assert client.step(server) == []
     server.answer(0, "b")
     assert all_of(client.step(server)) == ["b"]
     server.update(1, size=SLOW_BYTES)
@@ -265,6 +311,9 @@ def test_markers_names_and_remarks_of_a_server_are_bounded() -> None:
     assert (len(known.ignored), known.left_out) == (MAX_IGNORED, 26)
     known.take([news_of(erases=["-1005", "0", "0", "ghost"])])
     assert (len(known.ignored), len(known.markers)) == (MAX_IGNORED - 1, MAX_MARKERS - 1)
+    far = [{"name": "1", "pose": {"position": {"x": math.nan}}}]
+    known.take([news_of(erases=list(known.ignored)), news_of(poses=far)])
+    assert known.ignored == {"1": "Its new pose is not finite, or too large. Correct the server."}
     known.take([News(is_all=True)])
     assert (known.markers, known.ignored, known.left_out) == ({}, {}, 0)
     known.take([news_of(markers=[{"name": "n" * 100_000}], poses=[{"name": "p" * 100_000}])])
@@ -289,6 +338,64 @@ def test_the_contents_of_all_markers_are_bounded(monkeypatch: pytest.MonkeyPatch
     assert not known.ignored
     known.take([news_of(erases=["b"]), news_of(markers=[line("c", 1000)])])
     assert known.markers.keys() == {"a", "c"}
+
+
+def test_many_markers_are_drawn_in_turn_while_what_is_drawn_stays(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(known_server, "DRAWING_S", -1.0)  # one at a time
+    known, around = InteractiveMarkerServer("/arm", "webviz"), frames("map")
+
+    def box(name: str, x: float) -> dict[str, Any]:
+        solid = {"color": {"a": 1.0}}
+        line = {"type": 5, "points": [{"x": math.nan}, {}], **solid}
+        shapes = [{"type": 1, **solid}, line]
+        header, at = {"frame_id": "map"}, {"position": {"x": x}}
+        return {"name": name, "header": header, "pose": at, "controls": [{"markers": shapes}]}
+
+    def draw() -> dict[str, float]:
+        """Draw; where each box is, by the key of its marker."""
+        ctx = Context(around, lambda *_, **__: None, None)
+        known.draw(MarkerLook(titles=False, axes=False, is_transparent=True), ctx)
+        boxes = [group for group in ctx.groups.values() if "box" in " ".join(group.nodes)]
+        assert all("line" not in " ".join(group.nodes) for group in boxes)
+        return {
+            key.rpartition("/")[0].partition("/")[2]: group.placement.offset.position[0]
+            for group in boxes
+            for key in group.nodes
+            if key.startswith("c0/")
+        }
+
+    known.take([news_of(markers=[box("a", 1.0), box("b", 2.0), box("c", 3.0)])])
+    assert (draw(), known.undrawn) == ({"m1": 1.0}, 2)
+    known.take([news_of(markers=[box("a", 5.0)])])
+    assert (draw(), known.undrawn) == ({"m1": 1.0, "m2": 2.0}, 2)
+    assert (draw(), known.undrawn) == ({"m1": 1.0, "m2": 2.0, "m3": 3.0}, 1)
+    assert (draw(), known.undrawn) == ({"m1": 5.0, "m2": 2.0, "m3": 3.0}, 0)
+
+
+def test_shapes_in_frames_of_their_own_are_looked_for_when_transforms_come() -> None:
+    known, around = InteractiveMarkerServer("/arm", "webviz"), frames("map")
+    own = {"type": 1, "header": {"frame_id": "tool"}, "color": {"a": 1.0}}
+    values = {"name": "a", "header": {"frame_id": "map"}, "controls": [{"markers": [own]}]}
+    known.take([news_of(markers=[values])])
+    look = MarkerLook(titles=False, axes=False, is_transparent=True)
+
+    def draw() -> None:
+        now = Frames(around.buffer, "map", 0)
+        known.draw(look, Context(now, lambda *_, **__: None, None))
+
+    draw()
+    shown = known.shown["a"]
+    assert known.is_waiting
+    assert "tool" in shown.lost
+    drawn = shown.drawn_in
+    draw()
+    assert shown.drawn_in == drawn  # nothing is new
+    around.buffer.set_transform("map", "tool", 0, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), True)
+    draw()
+    assert not shown.lost
+    assert not known.is_waiting
 
 
 def tracked(stamp: int) -> Tracked:
@@ -329,6 +436,21 @@ def test_a_pose_of_the_server_waits_for_the_end_of_a_drag_once() -> None:
     version = marker.version
     marker.release()  # nothing waits any more
     assert (marker.pose.position[0], marker.version) == (2.0, version)
+
+
+def test_only_what_changes_a_marker_is_drawn_and_sent() -> None:
+    marker, around = tracked(stamp=0), frames("hand")
+    marker.press()
+    turned = marker.made.pose
+    assert not marker.drag("x", turned, 0.0, around)
+    assert marker.drag("x", turned, 1.0, around)
+    assert not marker.drag("x", turned, 1.0, around)
+    marker.release()
+    version = marker.version
+    marker.put(marker.source)
+    assert marker.version == version
+    marker.update(marker.made)  # which has no control x
+    assert marker.turned == {}
 
 
 def test_only_successive_poses_of_one_control_replace_each_other() -> None:
