@@ -284,6 +284,14 @@ def test_boxes_select_and_keys_add_and_remove(
     page.wait_for(lambda: not tab.evaluate(MARKED), "no mark of what was replaced long ago")
     tab.evaluate("() => { performance.now = window.wasNow }")
 
+    tab.keyboard.press("Escape")
+    hint = tab.locator(".wv-pointer")
+    tab.mouse.move(*on_screen(page, (0.3, 0.0)))
+    page.wait_for(lambda: "Cloud · Point 4" in hint.inner_text(), "what is under the mouse")
+    publish(source, "/cloud", "sensor_msgs/msg/PointCloud2", xyz_cloud([(2.0, 2.0, 0.0)]))
+    page.draw()
+    page.wait_for(lambda: "Cloud" not in hint.inner_text(), "what is there now, at rest")
+
     viewer.do(RemoveDisplay("display1"))
     wait_for_titles(page, [])
     tab.keyboard.press("Escape")

@@ -10,6 +10,8 @@ import { sendable } from "../tools/selection.js";
 import * as viser from "../viser_page.js";
 
 const REST_MS = 150;
+const AGAIN_MS = 2000; // what is named may move on below a mouse that rests
+const SHARE = 20; // at most one part of the time goes to looking again
 const HINTS = {
   FPS: "Left: look around · Middle or Shift: move · Right or wheel: walk · F: look at",
   TopDownOrtho: "Left: turn · Middle or Shift: move · Right or wheel: zoom · F: center",
@@ -45,14 +47,20 @@ export function build() {
 
   // A look at all that is drawn is too slow for each frame; and its display knows more.
   async function rest() {
+    const begun = performance.now();
     const found = mouse && hit(mouse);
-    if (!found || !("group" in found)) return; // the ground
-    isNamed = true;
+    if (!found || !("group" in found)) { // the ground
+      if (isNamed) show(mouse && groundAt(...mouse), "");
+      isNamed = false;
+      return;
+    }
     const [at, point] = [mouse, toFixedFrame(found.point)];
-    show(point, nameOf(found, names));
+    resting = setTimeout(rest, Math.max(AGAIN_MS, SHARE * (performance.now() - begun)));
+    if (!isNamed) show(point, nameOf(found, names));
+    isNamed = true;
     const [picks] = sendable([{ ...found, id: 0 }]);
     const { level, text } = await act("Identify", { picks }, { quiet: true, errors: "caller" });
-    if (isNamed && mouse === at && level === "ok" && text) show(point, text);
+    if (isNamed && mouse === at) show(point, (level === "ok" && text) || nameOf(found, names));
   }
 
   function leave() {
