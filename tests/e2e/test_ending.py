@@ -89,6 +89,18 @@ def test_the_simulator_ends_when_the_viewer_is_killed(start: Callable[..., Progr
         check_nothing_is_left(family)
 
 
+def test_a_simulator_that_has_to_be_killed_leaves_nothing(start: Callable[..., Program]) -> None:
+    program = start("webviz", "demo", "--port", "0")
+    program.url()
+    family = family_of(program)
+    (simulator,) = (each for each in family if "webviz_sim" in each.cmdline())
+    files = shared_memory(family)
+    assert shared_memory([simulator])
+    simulator.suspend()  # as one that is busy
+    program.end(signal.SIGTERM)
+    check_nothing_is_left(family, files)
+
+
 def test_a_closed_terminal_ends_the_demo_cleanly(ros_env: dict[str, str]) -> None:
     command = [sys.executable, "-m", "webviz", "demo", "--port", "0"]
     pid, terminal = pty.fork()

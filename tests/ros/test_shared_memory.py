@@ -14,7 +14,12 @@ import pytest
 from processes import eventually
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
-from webviz.edges.ros.shared_memory import MIN_AGE_S, remove_abandoned
+from webviz.edges.ros.shared_memory import (
+    MIN_AGE_S,
+    remove_abandoned,
+    remove_unused,
+    segments_of,
+)
 from webviz.shell.testing.domain import isolated_domain
 
 PROGRAM = """
@@ -79,3 +84,18 @@ def test_segments_of_killed_processes_are_removed_and_those_of_others_kept(
     assert existing(kept) == kept
     running.communicate("\n")
     assert existing(kept) == set()
+
+
+def test_segments_of_a_process_that_is_killed_are_removed_at_once(
+    start: Callable[[], subprocess.Popen[str]],
+) -> None:
+    running, killed = start(), start()
+    kept, abandoned = files(running), files(killed)
+    segments = segments_of(killed.pid)
+    assert {path for path in abandoned if not path.name.endswith("_el")} == segments
+    killed.kill()
+    killed.wait()
+    remove_unused(segments | segments_of(running.pid) | segments_of(killed.pid))
+    assert existing(abandoned) == set()
+    assert existing(kept) == kept
+    running.communicate("\n")

@@ -61,5 +61,15 @@ def simulator(ros: Sequence[str], stop: Stop) -> Iterator[str]:
         try:
             simulator.wait(max(0.0, stop.left_s - SPARE_S))
         except subprocess.TimeoutExpired:
-            simulator.kill()
+            _kill(simulator)
         watcher.join()
+
+
+def _kill(simulator: subprocess.Popen[bytes]) -> None:
+    """End a simulator that does not end by itself, such as one that is still starting."""
+    from webviz.edges.ros.shared_memory import remove_unused, segments_of
+
+    segments = segments_of(simulator.pid)
+    simulator.kill()
+    simulator.wait()
+    remove_unused(segments)
