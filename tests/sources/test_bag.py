@@ -67,12 +67,12 @@ def test_many_messages_come_in_parts_and_none_is_lost(tmp_path, opened):
 
 
 def test_large_messages_come_in_parts_too(tmp_path, opened, monkeypatch):
-    monkeypatch.setattr("webviz.engine.sources.bag.MAX_BATCH_BYTES", 10)  # less than one has
+    monkeypatch.setattr("webviz.engine.sources.bag.MAX_BATCH_BYTES", 15)  # each has 10
     bag = opened(strings(0, 1, 2).write(tmp_path / "bag"))
     bag.want("/words")
-    for text in ("0", "1", "2"):
+    for texts in (["0", "1"], ["2"]):
         bag.source.play(bag.source.end_ns)
-        assert bag.heard() == [text]
+        assert bag.heard() == texts
 
 
 def test_playing_to_a_time_that_is_over_changes_nothing(tmp_path, opened):
@@ -252,6 +252,15 @@ def test_transforms_of_another_time_set_the_time(tmp_path, opened, offset_s):
     assert bag.source.now_ns() == ns(offset_s) + ns(1.5)
     (remark,) = bag.source.remarks
     assert f"The transforms begin at {offset_s + 1}.0 s" in remark
+
+
+def test_transforms_that_come_late_do_not_set_the_time(tmp_path, opened):
+    recorded = Bag()
+    recorded.transform(0, "map", "base")
+    recorded.messages = [(600, *message[1:]) for message in recorded.messages]
+    bag = opened(recorded.write(tmp_path / "bag"))
+    assert bag.source.now_ns() == bag.source.position_ns
+    assert bag.source.remarks == []
 
 
 def test_topics_are_named_and_remapped_as_for_a_node(tmp_path, opened):

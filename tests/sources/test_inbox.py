@@ -61,3 +61,13 @@ def test_a_closed_topic_makes_room() -> None:
     put(inbox, "/b", 90)
     put(inbox, "/c", 60)
     assert kept(inbox) == {"/b": [90], "/c": [60]}
+
+
+def test_messages_and_bytes_are_counted_until_a_topic_is_closed() -> None:
+    inbox = opened(100, 1000)
+    put(inbox, "/a", 60, 50, 40)
+    put(inbox, "/b", 5)
+    inbox.drain()
+    assert inbox.received() == {"/a": (3, 150), "/b": (1, 5)}
+    inbox.close("/a")
+    assert inbox.received() == {"/b": (1, 5)}

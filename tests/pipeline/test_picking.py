@@ -1,0 +1,58 @@
+"""What browsers pick, found among what was drawn."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from webviz.api.context import Group, Placement
+from webviz.api.nodes import Arrows, Lines, Mesh, Node
+from webviz.engine.commands import Pick
+from webviz.engine.pipeline.picking import Shot, found_in
+
+Point = tuple[float, float, float]
+NUMBER = 5
+"""Of a pick."""
+
+
+def pick(node: Node, item: int | None, point: Point) -> tuple[int, Point] | None:
+    """Return id and position of what a browser picked of a node that is drawn alone."""
+    group = Group(Placement())
+    group.add("node", node)
+    picks: list[Pick] = [(NUMBER, item, point, None)]
+    found = found_in(Shot({"": group}, (), "map"), "", "node", picks).get(NUMBER)
+    return None if found is None else (found.hit.id, (*found.hit.point,))
+
+
+@pytest.mark.parametrize(
+    ("point", "face"),
+    [
+        ((0.6, 0.2, 0.0), 0),
+        ((0.2, 0.6, 0.0), 1),
+        ((1.7, 0.5, 0.0), 0),  # beside all, nearest to this one
+        ((0.4, 0.7, 3.0), 1),
+    ],
+)
+def test_a_point_belongs_to_the_nearest_face(point: Point, face: int) -> None:
+    corners = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], np.float32)
+    faces = np.array([[0, 1, 2], [0, 2, 3]], np.uint32)
+    mesh = Mesh(corners, faces, (1, 2, 3), ids=np.array([10, 11]))
+    assert pick(mesh, None, point) == (10 + face, point)
+
+
+@pytest.mark.parametrize(
+    ("point", "is_there"),
+    [((2.0, 0.0, 0.0), True), ((3.0, 0.0, 0.0), True), ((2.5, 0.0, 0.5), False)],
+    ids=["tail", "shaft", "beside"],
+)
+def test_an_arrow_is_where_its_tail_is(point: Point, is_there: bool) -> None:
+    segments = np.array([[[0, 0, 0], [0, 1, 0]], [[2, 0, 0], [4, 0, 0]]], np.float32)
+    expected = (1, (2.0, 0.0, 0.0)) if is_there else None
+    assert pick(Arrows(segments, (1, 2, 3), 0.1, 0.2, 0.3), 1, point) == expected
+
+
+def test_a_line_is_where_its_middle_is() -> None:
+    segments = np.array([[[0, 0, 0], [0, 1, 0]], [[2, 0, 0], [4, 0, 0]]], np.float32)
+    lines = Lines(segments, (1, 2, 3), 1.0)
+    assert pick(lines, 1, (2.0, 0.0, 0.0)) == (1, (3.0, 0.0, 0.0))
+    assert pick(lines, 2, (2.0, 0.0, 0.0)) is None
