@@ -19,6 +19,7 @@ from webviz.data.recordings.recording import (
     RecordingError,
     TimeParts,
 )
+from webviz.data.recordings.ros1 import Ros1Recording
 from webviz.data.recordings.sqlite import SqliteRecording
 from webviz.data.recordings.unpacking import unpack_file
 
@@ -29,6 +30,7 @@ _LOOKED_AT = 512
 CONTAINERS: dict[str, Callable[[Path], Recording]] = {
     "mcap": McapRecording,
     "sqlite": SqliteRecording,
+    "ros1": Ros1Recording,
 }
 
 
@@ -56,6 +58,8 @@ def _kind(path: Path) -> str:
         return "mcap"
     if head.startswith(SQLITE):
         return "sqlite"
+    if head.startswith(ROS_1):
+        return "ros1"
     for mark, compression in COMPRESSED.items():
         if head.startswith(mark):
             return compression
@@ -68,11 +72,6 @@ def _other(path: Path, head: bytes) -> str:
         return f"{path} is empty (0 bytes). Copy it again, or choose another bag."
     if is_lfs(head):
         return f"{path} is a Git LFS pointer, not the bag itself: run `git lfs pull`."
-    if head.startswith(ROS_1):
-        return (
-            f"{path} is a ROS 1 bag: convert it with `rosbags-convert --src {path} "
-            f"--dst {path.stem}`, and give that folder."
-        )
     what = "not a bag"
     with contextlib.suppress(UnicodeDecodeError):
         # A character may be cut off at the end.

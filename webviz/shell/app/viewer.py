@@ -51,8 +51,8 @@ class Viewer(Running, TimeControls):
         allow_hosts: host names that browsers may use with `host`.
         fixed_frame: overrides that of the config.
         source: of messages, closed with the viewer; None for the ROS graph.
-        bag: an MCAP or db3 file, a rosbag2 folder, or several of them, to play instead of the ROS
-            graph; without a config, its topics are shown. It is paused at its start.
+        bag: an MCAP or db3 file, a rosbag2 folder, a ROS 1 bag, or several of them, to play instead
+            of the ROS graph; without a config, its topics are shown. It is paused at its start.
         autoplay: play the bag as soon as a browser is connected.
         ros_args: for the ROS node: `["--ros-args", "-r", "/scan:=/front/scan"]`; with a bag,
             remappings of topics only.

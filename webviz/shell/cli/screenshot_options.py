@@ -88,7 +88,7 @@ class ScreenshotOptions(ConfigOptions):
     """Time limit per picture in seconds, to play the bag and wait for the displays."""
 
     bag: Annotated[File | None, BAG] = None
-    """Read a bag instead of live topics: an MCAP or db3 file, or a rosbag2 folder."""
+    """Read a bag instead of live topics: MCAP or db3 file, rosbag2 folder, or ROS 1 bag."""
     at: Annotated[Repeatable[At], BAG, Parameter(metavar="S", converter=_times, n_tokens=1)] = ()
     """Time: seconds from the start, a Unix time, `start` or `end` (repeatable; default: end)."""
     every: Annotated[Seconds | None, BAG] = None

@@ -18,7 +18,7 @@ class BagOptions:
     """The bag to play."""
 
     bag: Annotated[Repeatable[Path], BAG, Parameter(metavar="FILE", consume_multiple=1)] = ()
-    """Play an MCAP or db3 file, or a rosbag2 folder; several are merged by time (repeatable)."""
+    """Play an MCAP or db3 file, a rosbag2 folder or ROS 1 bag; several are merged (repeatable)."""
     paused: Annotated[Flag, BAG] = False
     """Stay at the start of the bag, instead of playing once a browser connects."""
 

@@ -1,0 +1,147 @@
+"""Bags of ROS 1: the same messages, as ROS 2 has them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from rosbags.rosbag1 import Writer
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+
+from webviz.data.messages import decode
+from webviz.data.recordings import RecordingError, open_recording
+from webviz.engine.sources.bag import BagSource
+from webviz.shell.testing import check_seeks
+
+SECOND = 1_000_000_000
+STORE = get_typestore(Stores.ROS1_NOETIC)
+STORE.register(
+    get_types_from_msg(
+        "Header header\nBasket[] baskets\nduration ripe\n"
+        f"{'=' * 80}\nMSG: fruit_of_ros_1/Basket\nstring name\nint16[2] size\nbool is_full",
+        "fruit_of_ros_1/msg/Harvest",
+    )
+)
+TF = "geometry_msgs/TransformStamped[] transforms"
+STORE.register(get_types_from_msg(TF, "tf2_msgs/msg/TFMessage"))
+T = STORE.types
+
+
+def time(at_s: float) -> Any:
+    return T["builtin_interfaces/msg/Time"](1000 + int(at_s), round(at_s % 1 * 1e9))
+
+
+def head(frame: str, at_s: float) -> Any:
+    return T["std_msgs/msg/Header"](7, time(at_s), frame)
+
+
+def moved(parent: str, child: str, at_s: float, x: float) -> Any:
+    vector = T["geometry_msgs/msg/Vector3"](x, 0.0, 0.0)
+    turned = T["geometry_msgs/msg/Quaternion"](0.0, 0.0, 0.0, 1.0)
+    transform = T["geometry_msgs/msg/Transform"](vector, turned)
+    return T["geometry_msgs/msg/TransformStamped"](head(parent, at_s), child, transform)
+
+
+def scan(at_s: float) -> Any:
+    ranges, none = np.array([1, 2, 3 + at_s], np.float32), np.zeros(0, np.float32)
+    name = "sensor_msgs/msg/LaserScan"
+    return T[name](head("laser", at_s), 0.0, 0.2, 0.1, 0.0, 0.1, 0.0, 9.0, ranges, none)
+
+
+def camera() -> Any:
+    roi = T["sensor_msgs/msg/RegionOfInterest"](0, 0, 0, 0, False)
+    k, p = np.arange(9.0), np.arange(12.0)
+    name = "sensor_msgs/msg/CameraInfo"
+    return T[name](head("lens", 0), 4, 6, "plumb_bob", np.zeros(5), k, k, p, 0, 0, roi)
+
+
+def harvest() -> Any:
+    basket = T["fruit_of_ros_1/msg/Basket"]("pears", np.array([3, -4], np.int16), True)
+    ripe = T["builtin_interfaces/msg/Duration"](-2, 5)
+    return T["fruit_of_ros_1/msg/Harvest"](head("tree", 1), [basket, basket], ripe)
+
+
+def written(path: Path, compression: Writer.CompressionFormat | None = None) -> Path:
+    """Ten seconds of a robot with a laser."""
+    writer = Writer(path)
+    if compression:
+        writer.set_compression(compression)
+    with writer:
+        connections: dict[str, Any] = {}
+
+        def put(at_s: float, topic: str, message: Any, latch: int | None = None) -> None:
+            name = message.__msgtype__
+            if topic not in connections:
+                connections[topic] = writer.add_connection(
+                    topic, name, typestore=STORE, latching=latch
+                )
+            raw = STORE.serialize_ros1(message, name)
+            writer.write(connections[topic], 1000 * SECOND + round(at_s * 1e9), raw)
+
+        tf = T["tf2_msgs/msg/TFMessage"]
+        put(0, "/tf_static", tf([moved("base", "laser", 0, 0.5)]), 1)
+        put(0, "/camera_info", camera())
+        put(1, "/harvest", harvest())
+        for tenths in range(100):
+            put(tenths / 10, "/tf", tf([moved("odom", "base", tenths / 10, tenths / 10)]))
+            put(tenths / 10, "/scan", scan(tenths / 10))
+    return path
+
+
+@pytest.mark.parametrize("compression", [None, *Writer.CompressionFormat])
+def test_its_messages_are_those_of_ros_2(
+    tmp_path: Path, opened: Callable[..., Any], compression: Writer.CompressionFormat | None
+) -> None:
+    bag = opened(written(tmp_path / "run.bag", compression))
+    wanted = {
+        "/scan": "sensor_msgs/msg/LaserScan",
+        "/camera_info": "sensor_msgs/msg/CameraInfo",
+        "/harvest": "fruit_of_ros_1/msg/Harvest",
+    }
+    found: dict[str, list[Any]] = {}
+    for topic, name in wanted.items():
+        bag.want(topic, type_name=name)
+        bag.source.seek(bag.source.end_ns)
+        bag.play(10)
+        arrived = bag.source.inbox.drain().get(topic, ())
+        found[topic] = [decode(name, raw.cdr) for raw in arrived]
+    assert bag.source.remarks == []
+    newest = found["/scan"][-1]
+    assert (newest.header.frame_id, newest.header.stamp_ns) == ("laser", 1009_900_000_000)
+    assert newest.ranges.tolist() == pytest.approx([1, 2, 12.9])
+    assert found["/camera_info"][0].k.tolist() == list(range(9))
+    (pears, _) = found["/harvest"][0].baskets
+    assert (pears.name, list(pears.size), pears.is_full) == ("pears", [3, -4], True)
+    assert found["/harvest"][0].ripe.sec == -2
+
+
+def test_a_seek_shows_what_playing_shows(tmp_path: Path) -> None:
+    check_seeks(written(tmp_path / "run.bag"), count=5)
+
+
+def test_what_was_latched_is_known_as_such(tmp_path: Path) -> None:
+    source = BagSource(written(tmp_path / "run.bag"))
+    (publisher,) = source.offers()["/tf_static"].publishers
+    assert publisher.durability == "transient_local"
+    source.close()
+
+
+def test_one_flipped_bit_ends_in_a_sentence(tmp_path: Path) -> None:
+    path = written(tmp_path / "run.bag")
+    good, said = path.read_bytes(), set[int]()
+    for place in range(0, len(good), 97):
+        data = bytearray(good)
+        data[place] ^= 1 << place % 8
+        path.write_bytes(data)
+        try:
+            recording = open_recording(path)
+        except RecordingError as error:
+            said.add(str(error).count("\n"))
+            continue
+        if recording.span_ns:
+            list(recording.messages(recording.channels, *recording.span_ns))
+        recording.close()
+    assert said <= {0}

@@ -1,0 +1,184 @@
+"""Conversion of ROS 1 messages to those of ROS 2, by the .msg text that comes with them."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+from rosbags.interfaces import Nodetype
+from rosbags.typesys import Stores, TypesysError, get_types_from_msg, get_typestore
+
+from webviz.data.messages import typestore
+from webviz.data.messages.encode import encode
+from webviz.data.messages.errors import DecodeError, DefinitionError
+
+RENAMED = {"tf/msg/tfMessage": "tf2_msgs/msg/TFMessage"}
+"""Types by their names in ROS 2."""
+_NUMBERS = {
+    "bool": "?",
+    "byte": "B",  # an octet in ROS 2
+    "char": "B",
+    "int8": "b",
+    "uint8": "B",
+    "int16": "h",
+    "uint16": "H",
+    "int32": "i",
+    "uint32": "I",
+    "int64": "q",
+    "uint64": "Q",
+    "float32": "f",
+    "float64": "d",
+}
+_TIMES = ("builtin_interfaces/msg/Time", "builtin_interfaces/msg/Duration")
+_SIZE = struct.Struct("<I")
+_TIME = struct.Struct("<Ii")
+
+_Read = Callable[[bytes, int], tuple[Any, int]]
+"""Reads a value at an offset, and returns it with the offset behind it."""
+
+
+class Ros1Type:
+    """A message type of ROS 1.
+
+    Fields by their names in ROS 2 are kept, whatever their case; those that ROS 2 dropped, such as
+    `seq` of headers, are skipped, and those that it added have their default.
+
+    Args:
+        name: of the type, such as "sensor_msgs/msg/LaserScan".
+        text: its .msg text and those of nested types.
+
+    Raises:
+        DefinitionError: the text is invalid or incomplete.
+    """
+
+    def __init__(self, name: str, text: str) -> None:
+        try:
+            self._defined: Mapping[str, Any] = get_types_from_msg(text, name)
+        except TypesysError as error:
+            raise DefinitionError(f"The definition of {name} is not valid .msg text.") from error
+        self.name = RENAMED.get(name, name)
+        """Of the type in ROS 2."""
+        self._made: dict[str, _Read] = {}
+        self._read = self._message(name, ())
+
+    def definition(self) -> str:
+        """The .msg text of the type in ROS 2, "" if ROS 2 has the type itself."""
+        if typestore.type_exists(self.name):
+            return ""
+        store = get_typestore(Stores.EMPTY)
+        for name, fields in self._defined.items():
+            known = typestore.type_exists(name)
+            store.fielddefs[name] = ([], typestore.described(name)) if known else fields
+        for name in _TIMES:
+            store.fielddefs[name] = ([], typestore.described(name))
+        return store.generate_msgdef(self.name, ros_version=2)[0]
+
+    def to_cdr(self, data: bytes) -> bytes:
+        """A message as ROS 2 has it; its type must be registered.
+
+        Raises:
+            DecodeError: the message is cut off.
+            EncodeError: ROS 2 has a field of another type.
+        """
+        try:
+            values, _ = self._read(data, 0)
+        except (struct.error, UnicodeDecodeError, ValueError) as error:
+            raise DecodeError(f"{self.name} of ROS 1 is damaged.") from error
+        return encode(self.name, values)
+
+    def _message(self, name: str, inside: tuple[str, ...]) -> _Read:
+        """The reader of a message."""
+        if name in self._made:
+            return self._made[name]
+        if name in _TIMES:
+            return _time
+        if name in inside or name not in self._defined:
+            raise DefinitionError(f"The definition of {name} is missing.")
+        kept = None
+        if typestore.type_exists(target := RENAMED.get(name, name)):
+            kept = {field.name.lower(): field.name for field in typestore.fields(target)}
+        fields: list[tuple[str | None, _Read]] = []
+        for field, (kind, value) in self._defined[name][1]:
+            called = field if kept is None else kept.get(field.lower())
+            fields.append((called, self._field(kind, value, (*inside, name))))
+
+        def read(data: bytes, at: int) -> tuple[Any, int]:
+            found = {}
+            for called, read_field in fields:
+                value, at = read_field(data, at)
+                if called is not None:
+                    found[called] = value
+            return found, at
+
+        self._made[name] = read
+        return read
+
+    def _field(self, kind: Nodetype, value: Any, inside: tuple[str, ...]) -> _Read:
+        if kind == Nodetype.NAME:
+            return self._message(value, inside)
+        if kind == Nodetype.BASE:
+            return _string if value[0] == "string" else _number(value[0])
+        (inner, base), size = value
+        count = size if kind == Nodetype.ARRAY else None
+        if inner == Nodetype.BASE and base[0] != "string":
+            return _numbers(base[0], count)
+        return _several(self._field(inner, base, inside), count)
+
+
+def _time(data: bytes, at: int) -> tuple[Any, int]:
+    seconds, nanoseconds = _TIME.unpack_from(data, at)
+    seconds = seconds - (1 << 32) if seconds >> 31 else seconds
+    return {"sec": seconds, "nanosec": max(nanoseconds, 0)}, at + _TIME.size
+
+
+def _string(data: bytes, at: int) -> tuple[Any, int]:
+    (size,) = _SIZE.unpack_from(data, at)
+    start = at + _SIZE.size
+    if start + size > len(data):
+        raise ValueError
+    return data[start : start + size].decode(errors="replace").replace("\0", ""), start + size
+
+
+def _number(base: str) -> _Read:
+    layout = struct.Struct(f"<{_NUMBERS[base]}")
+
+    def read(data: bytes, at: int) -> tuple[Any, int]:
+        return layout.unpack_from(data, at)[0], at + layout.size
+
+    return read
+
+
+def _numbers(base: str, count: int | None) -> _Read:
+    """A reader of an array, of a sequence without a count."""
+    dtype = np.dtype(f"<{_NUMBERS[base]}")
+
+    def read(data: bytes, at: int) -> tuple[Any, int]:
+        size, at = _count(data, at, count)
+        array = np.frombuffer(data, dtype, size, at) if size else np.zeros(0, dtype)
+        return array, at + size * dtype.itemsize
+
+    return read
+
+
+def _several(one: _Read, count: int | None) -> _Read:
+    """A reader of several messages or texts."""
+
+    def read(data: bytes, at: int) -> tuple[Any, int]:
+        size, at = _count(data, at, count)
+        if size > len(data):
+            raise ValueError
+        found = []
+        for _ in range(size):
+            value, at = one(data, at)
+            found.append(value)
+        return found, at
+
+    return read
+
+
+def _count(data: bytes, at: int, count: int | None) -> tuple[int, int]:
+    if count is not None:
+        return count, at
+    return _SIZE.unpack_from(data, at)[0], at + _SIZE.size

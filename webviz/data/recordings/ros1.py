@@ -1,0 +1,183 @@
+"""ROS 1 bags (.bag), whose messages are converted to those of ROS 2."""
+
+from __future__ import annotations
+
+import bisect
+import bz2
+import heapq
+from collections.abc import Collection, Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rosbags.rosbag1 import Reader
+from rosbags.rosbag1.reader import Compression, decompressors
+
+from webviz.data.messages.errors import MessageError
+from webviz.data.messages.ros1 import Ros1Type
+from webviz.data.recordings.recording import (
+    Counts,
+    Losses,
+    RecordedChannel,
+    RecordedMessage,
+    RecordingError,
+    TimeParts,
+)
+from webviz.data.recordings.unpacking import MAX_BYTES, unpack
+
+LATCHED = "- {reliability: reliable, durability: transient_local, depth: 1}"
+VOLATILE = "- {reliability: reliable, durability: volatile}"
+MAX_CHUNKS = 8
+"""Unpacked chunks that are kept; recorders close them at 768 kB."""
+
+_Place = tuple[int, int, int]
+"""Of a message: time, offset of its chunk in the file, and its offset in the chunk."""
+
+
+class Ros1Recording:
+    """The messages of a ROS 1 bag.
+
+    Args:
+        path: of the file.
+
+    Raises:
+        RecordingError: it is damaged, or lacks its index.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.losses = Losses("message", "skipped")
+        self._reader = Reader(path)
+        try:
+            self._reader.open()
+        except OSError:
+            raise
+        except Exception as error:  # rosbags raises whatever damage leads to
+            reason = str(error).rstrip(".")
+            raise RecordingError(
+                f"{path} cannot be read ({reason}): run `rosbag reindex {path}`."
+            ) from error
+        self._chunks: dict[int, bytes] = {}
+        self._types: dict[RecordedChannel, Ros1Type] = {}
+        self._places: dict[RecordedChannel, list[_Place]] = {}
+        for connection in self._reader.connections:
+            self._note(connection)
+        self.channels = tuple(self._places)
+        stamps = [
+            place[0] for places in self._places.values() for place in places[:1] + places[-1:]
+        ]
+        self.span_ns = (min(stamps), max(stamps)) if stamps else None
+
+    def messages(
+        self, channels: Collection[RecordedChannel], start_ns: int, end_ns: int
+    ) -> Iterator[RecordedMessage]:
+        """`Recording.messages`."""
+        found = [self._within(channel, start_ns, end_ns) for channel in self._wanted(channels)]
+        for channel, place in heapq.merge(*found, key=_stamp):
+            if entry := self._entry(channel, place):
+                yield entry
+
+    def newest(
+        self, channels: Collection[RecordedChannel], end_ns: int
+    ) -> Iterator[RecordedMessage]:
+        """`Recording.newest`."""
+        found = [self._within(channel, 0, end_ns, -1) for channel in self._wanted(channels)]
+        for channel, place in heapq.merge(*found, key=_stamp, reverse=True):
+            if entry := self._entry(channel, place):
+                yield entry
+
+    @property
+    def used(self) -> frozenset[RecordedChannel]:
+        """`Recording.used`."""
+        return frozenset(channel for channel, places in self._places.items() if places)
+
+    def histogram(self, parts: TimeParts) -> dict[RecordedChannel, Counts]:
+        """`Recording.histogram`."""
+        found: dict[RecordedChannel, Counts] = {}
+        for channel, places in self._places.items():
+            numbers = parts.part_of(np.array([place[0] for place in places], np.uint64))
+            found[channel] = np.bincount(numbers, minlength=parts.count).astype(np.int64)
+        return found
+
+    def close(self) -> None:
+        """Close the file."""
+        self._reader.close()
+
+    def _note(self, connection: Any) -> None:
+        """Note a publisher of a topic; its messages are those of its channel."""
+        topic = f"/{connection.topic.strip('/')}"
+        profile = LATCHED if connection.ext.latching else VOLATILE
+        try:
+            type_ = Ros1Type(connection.msgtype, connection.msgdef.data)
+            channel = RecordedChannel(topic, type_.name, "cdr", type_.definition(), profile)
+        except MessageError:
+            channel = RecordedChannel(topic, connection.msgtype, "ros1", "", profile)
+        else:
+            self._types[channel] = type_
+        places = [
+            (each.time, each.chunk_pos, each.offset) for each in self._reader.indexes[connection.id]
+        ]
+        self._places[channel] = sorted([*self._places.get(channel, []), *places])
+
+    def _wanted(self, channels: Collection[RecordedChannel]) -> Sequence[RecordedChannel]:
+        return [channel for channel in self._types if channel in channels]
+
+    def _within(
+        self, channel: RecordedChannel, start_ns: int, end_ns: int, step: int = 1
+    ) -> Iterator[tuple[RecordedChannel, _Place]]:
+        """The places of the messages of a channel within a span, by time or against it."""
+        places = self._places[channel]
+        first = bisect.bisect_left(places, start_ns, key=_time)
+        last = bisect.bisect_right(places, end_ns, key=_time)
+        for index in range(first, last)[::step]:
+            yield channel, places[index]
+
+    def _entry(self, channel: RecordedChannel, place: _Place) -> RecordedMessage | None:
+        """A message in the form of ROS 2, None if it is damaged."""
+        stamp_ns, chunk, at = place
+        data = self._chunk(chunk)
+        size = int.from_bytes(data[at : at + 4], "little")
+        start = at + 4 + size + 4
+        length = int.from_bytes(data[start - 4 : start], "little")
+        message = data[start : start + length]
+        try:
+            if start > len(data) or len(message) < length:
+                self.losses.skipped[place] = "its chunk is damaged"
+                return None
+            return RecordedMessage(channel, stamp_ns, self._types[channel].to_cdr(message))
+        except MessageError as error:
+            self.losses.skipped[place] = str(error).rstrip(".")
+            return None
+
+    def _chunk(self, position: int) -> bytes:
+        """The unpacked chunk at an offset of the file, or what can be unpacked of it."""
+        if position in self._chunks:
+            return self._chunks[position]
+        chunk, file = self._reader.chunks[position], self._reader.bio
+        assert file is not None
+        file.seek(chunk.datapos)
+        packed = file.read(min(chunk.datasize, MAX_BYTES))
+        if chunk.decompressor is decompressors[Compression.BZ2.value]:
+            data = _unpacked_bz2(packed)
+        elif chunk.decompressor is decompressors[Compression.LZ4.value]:
+            data, _ = unpack(packed, "lz4", MAX_BYTES)
+        else:
+            data = packed
+        while len(self._chunks) >= MAX_CHUNKS:
+            del self._chunks[next(iter(self._chunks))]
+        self._chunks[position] = data
+        return data
+
+
+def _unpacked_bz2(data: bytes) -> bytes:
+    try:
+        return bz2.BZ2Decompressor().decompress(data, MAX_BYTES)
+    except (OSError, EOFError):
+        return b""
+
+
+def _time(place: _Place) -> int:
+    return place[0]
+
+
+def _stamp(item: tuple[RecordedChannel, _Place]) -> int:
+    return item[1][0]
