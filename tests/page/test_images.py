@@ -305,6 +305,9 @@ def test_on_a_phone_images_are_below_the_scene(tab: Any) -> None:
         return scene["width"] == 400 and box["y"] >= scene["y"] + scene["height"] > 100
 
     tab.wait_for(is_below)
+    tab.button("Show the panels").click()
+    tab.page.get_by_role("button", name="Add display").click(trial=True)  # nothing is above it
+    tab.button("Hide the panels").click()
     tab.page.set_viewport_size(size)
     tab.wait_for(lambda: root.bounding_box()["width"] < size["width"] - 600)
 
