@@ -220,7 +220,7 @@ class ObjectsDisplay(Display):
 
 
 class DetectedObjects(ObjectsDisplay):
-    """Objects that Autoware's detectors find in one scan or image."""
+    """Objects that Autoware detects, before it follows them over time."""
 
     rviz = "autoware_perception_rviz_plugin/DetectedObjects"
 
