@@ -27,8 +27,7 @@ TESTS = {
     "webviz/edges/page/driving.py": "tests/page/test_driving.py",
     "webviz/engine/driving": "tests/pipeline/test_helm.py tests/pipeline/test_driving.py",
     "webviz/engine/pipeline": "tests/pipeline",
-    "webviz/engine/sources": "tests/sources tests/pipeline/test_intake.py "
-    "tests/pipeline/test_rights.py",
+    "webviz/engine/sources": "tests/sources tests/playback tests/pipeline/test_rights.py",
     "webviz/engine/sources/gate.py": "tests/pipeline/test_rights.py tests/pipeline/test_driving.py",
     "displays/webviz_displays/interactive_markers": "tests/displays/test_interactive_markers.py",
 }

@@ -7,6 +7,8 @@ import time
 from collections.abc import Callable
 from typing import Annotated, Any, ClassVar
 
+import pytest
+
 from webviz import Context, Display, Input, Prop, Sample, Topic
 from webviz.engine.commands import SetFixedFrame, SetProperty
 
@@ -23,18 +25,19 @@ class Link(Display):
         link.points("dot", [[0, 0, 0]], (255, 0, 0), 0.1)
 
 
+@pytest.mark.parametrize("other", ["elsewhere", "somewhere"])  # before and after "map"
 def test_what_stays_at_its_last_pose_does_so_in_one_fixed_frame_only(
-    bench: Callable[..., Any],
+    bench: Callable[..., Any], other: str
 ) -> None:
     b = bench(Link(name="Link"))
     b.transform("map", "base", T, x=3.0)
-    b.transform("elsewhere", "odd", T)
+    b.transform(other, "odd", T)
     b.turn()
     assert [pose.position[0] for _, pose, _ in b.scene.visible()] == [3.0]
     b.viewer.buffer.clear()
     b.turn()
     assert [pose.position[0] for _, pose, _ in b.scene.visible()] == [3.0]
-    b.do(SetFixedFrame("elsewhere"))
+    b.do(SetFixedFrame(other))
     assert list(b.scene.visible()) == []
 
 

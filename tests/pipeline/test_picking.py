@@ -40,6 +40,17 @@ def test_a_point_belongs_to_the_nearest_face(point: Point, face: int) -> None:
     assert pick(mesh, None, point) == (10 + face, point)
 
 
+def test_a_point_on_a_face_belongs_to_it() -> None:
+    random = np.random.default_rng(0)
+    vertices = random.uniform(-5.0, 5.0, (30, 3)).astype(np.float32)
+    faces = np.arange(30, dtype=np.uint32).reshape(10, 3)
+    mesh = Mesh(vertices, faces, (1, 2, 3), ids=np.arange(10))
+    for number, corners in enumerate(vertices[faces].astype(np.float64)):
+        for weights in random.dirichlet((1.0, 1.0, 1.0), 20):
+            x, y, z = (weights @ corners).tolist()
+            assert pick(mesh, None, (x, y, z)) == (number, (x, y, z))
+
+
 @pytest.mark.parametrize(
     ("point", "is_there"),
     [((2.0, 0.0, 0.0), True), ((3.0, 0.0, 0.0), True), ((2.5, 0.0, 0.5), False)],

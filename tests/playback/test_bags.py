@@ -86,15 +86,22 @@ def test_several_bags_are_one(tmp_path: Path, theater: Callable) -> None:
     assert heard == [encode("std_msgs/msg/String", {"data": text}) for text in "012"]
 
 
-def test_types_that_differ_between_bags_are_reported(tmp_path: Path, theater: Callable) -> None:
-    first = strings(0).write(tmp_path / "first")
-    other = Bag()
-    other.add("/words", "std_msgs/msg/Bool")
-    other.put(0, "/words", {"data": True})
-    viewer = theater([first, other.write(tmp_path / "second")])
+@pytest.mark.parametrize(
+    ("count", "more"),
+    [(1, ""), (2, ", and so does 1 more topic"), (3, ", and so do 2 more topics")],
+)
+def test_types_that_differ_between_bags_are_reported(
+    tmp_path: Path, theater: Callable, count: int, more: str
+) -> None:
+    first, other = strings(0), Bag()
+    for topic in ("/words", "/a", "/b")[:count]:
+        first.add(topic, "std_msgs/msg/String")
+        other.add(topic, "std_msgs/msg/Bool")
+        other.put(0, topic, {"data": True})
+    viewer = theater([first.write(tmp_path / "first"), other.write(tmp_path / "second")])
     assert viewer.loop.state().statuses["Bag"].text == (
         "/words differs between the bags, std_msgs/msg/String in first and std_msgs/msg/Bool in "
-        "second: a display reads one type only."
+        f"second{more}: a display reads one type only."
     )
 
 

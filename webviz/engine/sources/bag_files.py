@@ -126,7 +126,9 @@ class BagFiles:
             return ""
         topic, names = next(iter(found.items()))
         where = " and ".join(f"{type_name} in {name}" for type_name, name in names.items())
-        more = f", and so do {counted(len(found) - 1, 'more topic')}" if len(found) > 1 else ""
+        others = len(found) - 1
+        verb = "does" if others == 1 else "do"
+        more = f", and so {verb} {counted(others, 'more topic')}" if others else ""
         return f"{topic} differs between the bags, {where}{more}: a display reads one type only."
 
 
