@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -42,26 +42,37 @@ _NOUNS: dict[Rendering, str] = {
 }
 
 
-@dataclass
-class _State:
+@dataclass(frozen=True, eq=False)
+class _Known:
     """Octree read last, so that a change of colour does not read it again.
 
     Args:
         message: that the others are of.
-        tree: None if it cannot be read.
-        fault: why.
-        span: lowest and highest z of its leaves, metres.
         choice: that `seen` is of.
-        seen: what is to be drawn.
-        drawn: the tree and what is drawn of it; in one, since it is read while a thread draws.
+        tree: None if it cannot be read.
+        span: lowest and highest z of its leaves, metres.
+        seen: what is to be drawn, None if there is no tree.
+        fault: why there is none.
     """
 
     message: Any = None
-    tree: Octree | None = None
-    fault: str = ""
-    span: tuple[float, float] = (0.0, 0.0)
     choice: VoxelChoice | None = None
+    tree: Octree | None = None
+    span: tuple[float, float] = (0.0, 0.0)
     seen: VisibleVoxels | None = None
+    fault: str = ""
+
+
+@dataclass
+class _State:
+    """Kept between messages, of which a large one may be drawn in a thread beside a small one.
+
+    Args:
+        known: the octree read last.
+        drawn: the tree and what is drawn of it.
+    """
+
+    known: _Known = field(default_factory=_Known)
     drawn: tuple[Octree, VisibleVoxels] | None = None
 
 
@@ -124,15 +135,16 @@ class OctreeDisplay(Display):
         state: _State = ctx.state
         levels = self.max_octree_depth or LEVELS
         choice = VoxelChoice(self.voxel_rendering, levels, self.min_height, self.max_height)
-        if state.message is not sample.message or state.seen is None or state.choice != choice:
-            _read(state, sample.message, choice)
-        tree = state.tree
-        if tree is None or state.seen is None:
-            ctx.error("Octree", state.fault)
+        known = state.known
+        if known.message is not sample.message or known.fault or known.choice != choice:
+            known = state.known = _read(known, sample.message, choice)
+        tree, seen = known.tree, known.seen
+        if tree is None or seen is None:
+            ctx.error("Octree", known.fault)
             return
-        state.drawn = tree, state.seen
-        self._report(tree, state.seen, levels, ctx)
-        voxels = state.seen.voxels
+        state.drawn = tree, seen
+        self._report(tree, seen, levels, ctx)
+        voxels = seen.voxels
         if not len(voxels.nodes) or self.voxel_alpha == 0:
             return
         origin = origin_near(voxels.centers)
@@ -141,7 +153,7 @@ class OctreeDisplay(Display):
             "box",
             voxels.centers - origin,
             np.repeat(voxels.sizes[:, None], 3, axis=1),
-            self._colors(state, tree, ctx),
+            self._colors(tree, seen, known.span, ctx),
             opacity=self.voxel_alpha,
             is_data=True,
             ids=places_of(tree, voxels),
@@ -170,15 +182,16 @@ class OctreeDisplay(Display):
             values["Color"] = "r {}, g {}, b {}".format(*tree.colors[node].tolist())
         return Details("Occupied voxel" if log_odds[0] >= 0 else "Free voxel", values)
 
-    def _colors(self, state: _State, tree: Octree, ctx: Context) -> NDArray[np.uint8]:
-        assert state.seen is not None
-        voxels = state.seen.voxels
+    def _colors(
+        self, tree: Octree, seen: VisibleVoxels, span: tuple[float, float], ctx: Context
+    ) -> NDArray[np.uint8]:
+        voxels = seen.voxels
         if self.voxel_coloring == "Cell Color" and tree.colors is not None:
             return tree.colors[voxels.nodes]
         if self.voxel_coloring == "Cell Probability":
             colors, ctx.color_scale = by_probability(tree.log_odds[voxels.nodes])
             return colors
-        colors, ctx.color_scale = by_height(voxels, *state.span)
+        colors, ctx.color_scale = by_height(voxels, *span)
         return colors
 
     def _other_voxels(self, tree: Octree) -> Remedy:
@@ -248,18 +261,16 @@ class OccupancyGridStamped(OctreeDisplay):
     rviz = "octomap_rviz_plugins/OccupancyGridStamped"
 
 
-def _read(state: _State, message: Any, choice: VoxelChoice) -> None:
+def _read(before: _Known, message: Any, choice: VoxelChoice) -> _Known:
     """Read a tree, unless it is known, and what is to be drawn of it."""
-    if state.message is not message:
-        state.message, state.tree = message, None
-    state.choice, state.seen = choice, None
+    tree, span = (before.tree, before.span) if before.message is message else (None, (0.0, 0.0))
     try:
         with memory_for(message):
-            if state.tree is None:
-                state.tree, state.span = _tree_of(message)
-            state.seen = seen_of(state.tree, choice)
+            if tree is None:
+                tree, span = _tree_of(message)
+            return _Known(message, choice, tree, span, seen_of(tree, choice))
     except OctreeFault as fault:
-        state.fault = str(fault)
+        return _Known(message, choice, fault=str(fault))
 
 
 def _tree_of(message: Any) -> tuple[Octree, tuple[float, float]]:
