@@ -207,6 +207,7 @@ class Intake:
         self._filter.clear()
         self._reception.reset()
         self._waiting_since = None
+        self._newest = self._newest_placed = -1
 
     def statuses(
         self, offers: Mapping[str, Offer], dropped: int, frames: Frames, clock: float

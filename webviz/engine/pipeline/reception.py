@@ -58,7 +58,8 @@ class Reception:
         self._times.append(clock - (time.monotonic() - raw.arrived_s))
 
     def reset(self) -> None:
-        """Forget the times of messages, such as after a jump of time."""
+        """Forget all messages, such as after a jump of time."""
+        self.count = 0
         self._times.clear()
         self.last = None
 

@@ -227,7 +227,7 @@ def pictures(order: Order, studio: Studio | None = None) -> Generator[Picture]:
             deadline = time.monotonic() + order.timeout
             at_s = None
             if isinstance(order.source, BagSource) and position is not None:
-                viewer.play(order.source, position, deadline)
+                viewer.seek(order.source, position, deadline)
                 at_s = seconds_from_start(position, order.source)
             shown = viewer.wait(awaited, deadline)
             for name, view in looks:

@@ -1,4 +1,4 @@
-"""A viewer without a thread: plays a bag to a time, and reports the statuses of displays."""
+"""A viewer without a thread: shows a bag at a time, and reports the statuses of displays."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from webviz.api.group import DisplayGroup
 from webviz.api.status import Level, Status
 from webviz.api.views import FIXED_FRAME, FPS, TopDownOrtho, View
 from webviz.edges.page.content.visibility import enabled, hidden_in
+from webviz.engine.commands import Seek
 from webviz.engine.loop import FrameLoop
 from webviz.engine.sources import Source
 from webviz.engine.sources.bag import BagSource
@@ -59,7 +60,7 @@ class OfflineViewer:
     def __init__(self, config: Config, source: Source, studio: Studio) -> None:
         self._source = source
         self._studio = studio
-        self._viewer = FrameLoop(config, source, studio.scene, clock=self._clock)
+        self._viewer = FrameLoop(config, source, studio.scene)
         self._viewer.turn()
 
     def close(self) -> None:
@@ -67,37 +68,32 @@ class OfflineViewer:
         self._viewer.close()
         self._studio.clear()
 
-    def play(self, source: BagSource, until_ns: int, deadline: float) -> None:
-        """Play a bag to a time of recording without drawing.
+    def seek(self, source: BagSource, at_ns: int, deadline: float) -> None:
+        """Show a bag at a time of recording.
 
         Args:
             source: the bag.
-            until_ns: the time of recording.
+            at_ns: the time of recording.
             deadline: in seconds of `time.monotonic`.
 
         Raises:
             Error: the deadline passed before.
         """
-        self._studio.scene.is_watched = False
-        try:
-            while source.position_ns < until_ns:
-                if time.monotonic() > deadline:
-                    reached, wanted = (
-                        seconds_from_start(at_ns, source)
-                        for at_ns in (source.position_ns, until_ns)
-                    )
-                    raise Error(
-                        f"The time-out passed after {max(reached, 0.0):.1f} s of {wanted:.1f} s of "
-                        "the bag. Choose a longer time-out or an earlier time."
-                    )
-                if self._viewer.is_busy():  # else messages might be dropped
-                    source.inbox.arrived.wait(LOOK_S)
-                else:
-                    source.play_step(until_ns)
-                source.inbox.arrived.clear()
-                self._viewer.turn()
-        finally:
-            self._studio.scene.is_watched = True
+        answer = self._viewer.enqueue(Seek(seconds_from_start(at_ns, source)))
+        while not answer.done():
+            if time.monotonic() > deadline:
+                reached, wanted = (
+                    seconds_from_start(each, source) for each in (source.position_ns, at_ns)
+                )
+                raise Error(
+                    f"The time-out passed after {max(reached, 0.0):.1f} s of {wanted:.1f} s of "
+                    "the bag. Choose a longer time-out or an earlier time."
+                )
+            source.inbox.arrived.clear()
+            self._viewer.turn()
+            if self._viewer.is_busy() and not answer.done():
+                source.inbox.arrived.wait(LOOK_S)
+        answer.result()
 
     def wait(self, names: Collection[str], deadline: float) -> Readiness:
         """Draw until nothing is loading and the named displays are OK, or the deadline passes.
@@ -162,12 +158,6 @@ class OfflineViewer:
                 name, number = f"{row.name} ({number})", number + 1
             result[name] = summary(row.statuses)
         return result
-
-    def _clock(self) -> float:
-        """Seconds for ages and rates, which are reproducible for a bag."""
-        if isinstance(self._source, BagSource):
-            return self._source.position_ns / 1e9
-        return time.monotonic()
 
 
 def summary(statuses: Mapping[str, Status]) -> Status:
