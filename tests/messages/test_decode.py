@@ -255,6 +255,7 @@ def test_the_two_part_type_names_of_ros_1_and_bags_are_understood():
 def test_stamps_keep_every_nanosecond():
     cdr = b"\x00\x01\x00\x00" + (1_700_000_000).to_bytes(4, "little") + b"\x01\x00\x00\x00"
     assert decode("rosgraph_msgs/msg/Clock", cdr).clock.ns == 1_700_000_000_000_000_001
+    assert decode("builtin_interfaces/msg/Duration", cdr).ns == 1_700_000_000_000_000_001
 
 
 @pytest.mark.parametrize("kind", [bytes, bytearray, memoryview])
@@ -273,3 +274,4 @@ def test_markers_of_texts_make_no_empty_lists_of_their_own():
         assert content.points is NOTHING.points
         assert content.colors is NOTHING.colors
         assert content.uv_coordinates is NOTHING.uv_coordinates
+        assert content.texture is NOTHING.texture

@@ -95,6 +95,7 @@ def assert_same_but_padding(ours: bytes, theirs: bytes) -> None:
         (SCAN, {"header": {"stamp": {"sec": 2**31}}}, ".header.stamp.sec: expected int32 (-21474"),
         (SCAN, {"range_min": "near"}, ".range_min: expected float32, got 'near'"),
         (SCAN, {"range_min": 1e300}, ".range_min: expected float32, got 1e+300"),
+        (SCAN, {"range_min": "a" * 100}, f".range_min: expected float32, got '{'a' * 56}..."),
         (SCAN, {"ranges": [1.0, 1e300]}, ".ranges[1]: expected float32, got 1e+300"),
         (SCAN, {"ranges": [1.0, None]}, ".ranges: expected an array of float32, got [1.0, None]"),
         (SCAN, {"ranges": [[1.0], [2.0]]}, ".ranges: expected shape (N,), got (2, 1)"),

@@ -21,7 +21,7 @@ from cosmic_ray.work_db import WorkDB, use_db
 from cosmic_ray.work_item import TestOutcome, WorkerOutcome, WorkItem, WorkResult
 
 TESTS = {
-    "webviz/data/messages": "tests/messages",
+    "webviz/data/messages": "tests/messages tests/displays/test_marker.py",
     "webviz/data/transforms": "tests/transforms",
     "webviz/edges/access": "tests/access/test_tokens.py tests/access/test_proxies.py tests/access",
     "webviz/edges/page/driving.py": "tests/page/test_driving.py",

@@ -42,7 +42,7 @@ def read_transforms(reader: Reader) -> list[FrameTransform]:
     make = tuple.__new__
     transforms = []
     for _ in range(count):
-        reader.pos = pos = (pos + 3) & ~3
+        reader.pos = pos  # behind a count or a pose, and so aligned
         sec, nanosec, parent_length = head(data, pos)
         start = pos + 12
         end = start + parent_length
