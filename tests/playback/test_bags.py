@@ -105,6 +105,15 @@ def test_types_that_differ_between_bags_are_reported(
     )
 
 
+def test_bags_that_lie_far_apart_are_reported(tmp_path: Path, theater: Callable) -> None:
+    days = strings(100 * 86_400).write(tmp_path / "late")
+    viewer = theater([days, strings(0).write(tmp_path / "early")])
+    assert viewer.loop.state().statuses["Bag"].text == (
+        "late begins 100 days after early ends, with nothing in between: play them one by one, or "
+        "select a span of the timeline."
+    )
+
+
 def test_definitions_that_differ_between_bags_are_not_mixed(
     tmp_path: Path, theater: Callable
 ) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import heapq
+import itertools
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 
@@ -11,6 +12,8 @@ from webviz.data.messages.typestore import are_same
 from webviz.data.recordings.recording import Counts, TimeParts
 from webviz.data.words import counted
 from webviz.engine.sources.bag_file import BagChannel, BagFile, Recorded
+
+DAY_NS = 86_400_000_000_000
 
 
 class BagFiles:
@@ -38,6 +41,7 @@ class BagFiles:
         self.channels = tuple(self._agreeing())
         self._used = {c.topic for file in files for c in file.channels if file.is_used(c)}
         self._conflict = self._conflicting_types()
+        self._gap = self._gap_between()
 
     @property
     def skipped(self) -> Mapping[str, str]:
@@ -49,7 +53,7 @@ class BagFiles:
     def remarks(self) -> list[str]:
         """Return sentences on what is missing, unusual or damaged so far."""
         own = [remark for file in self._files for remark in file.remarks]
-        return [*own, *([self._conflict] if self._conflict else [])]
+        return [*own, *filter(None, [self._conflict, self._gap])]
 
     def messages(
         self, channels: Collection[BagChannel], start_ns: int, end_ns: int | None = None
@@ -114,6 +118,18 @@ class BagFiles:
                 else:
                     why = f"{channel.type} is not defined in {name} as it is in {where}"
                     self._redefined[channel.topic] = why
+
+    def _gap_between(self) -> str:
+        """Return a sentence on bags that lie far apart, "" without any."""
+        files = sorted(self._files, key=lambda file: file.start_ns)
+        for before, after in itertools.pairwise(files):
+            days = (after.start_ns - before.end_ns) / DAY_NS
+            if days > 1:
+                return (
+                    f"{after.path.name} begins {days:.0f} days after {before.path.name} ends, with "
+                    "nothing in between: play them one by one, or select a span of the timeline."
+                )
+        return ""
 
     def _conflicting_types(self) -> str:
         """Return a sentence on topics whose type differs between bags, "" without any."""
