@@ -1,4 +1,4 @@
-"""What browsers pick, found among what was drawn."""
+"""Picks of browsers, found among what was drawn."""
 
 from __future__ import annotations
 
