@@ -59,11 +59,14 @@ def test_readers_that_disagree_on_durability_follow_the_publishers(
         assert (found.topic.durability, found.latched) == expected
 
 
-def test_the_first_reader_decides_on_the_type_and_whoever_asks_last_counts() -> None:
+@pytest.mark.parametrize(("type_", "other"), [(TYPE, OTHER), (OTHER, TYPE)])
+def test_the_first_reader_decides_on_the_type_and_whoever_asks_last_counts(
+    type_: str, other: str
+) -> None:
     strict = Topic("/a", reliability="reliable")
     wishes = (
-        Subscription(TYPE, strict, asked=1),
-        Subscription(OTHER, Topic("/a", reliability="best_effort"), latched=True, asked=3),
+        Subscription(type_, strict, asked=1),
+        Subscription(other, Topic("/a", reliability="best_effort"), latched=True, asked=3),
     )
-    assert shared(*wishes) == Subscription(TYPE, strict, asked=3)
-    assert shared(*wishes, Subscription(TYPE, strict, asked=2)).asked == 3
+    assert shared(*wishes) == Subscription(type_, strict, asked=3)
+    assert shared(*wishes, Subscription(type_, strict, asked=2)).asked == 3
