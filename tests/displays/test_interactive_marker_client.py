@@ -7,12 +7,15 @@ from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from typing import Any
 
+import numpy as np
 import pytest
 
-from webviz import Context, Error, Frames, Level, Pose
+from webviz import Context, Error, Frames, Group, Instances, Level, Pose
+from webviz.api.handles import Grip, GripKind, Handle
 from webviz.api.wire import Heard
 from webviz.data.messages import decode, encode, interfaces
 from webviz.data.transforms import TransformBuffer
+from webviz_displays.interactive_markers import InteractiveMarkers
 from webviz_displays.interactive_markers import client as protocol
 from webviz_displays.interactive_markers import server as known_server
 from webviz_displays.interactive_markers.client import (
@@ -25,10 +28,14 @@ from webviz_displays.interactive_markers.client import (
 from webviz_displays.interactive_markers.completion import Completed, completed
 from webviz_displays.interactive_markers.drawing import MarkerLook
 from webviz_displays.interactive_markers.feedback import (
+    BUTTON_CLICK,
+    MENU_SELECT,
     MOUSE_DOWN,
+    MOUSE_UP,
     POSE_UPDATE,
     FeedbackQueue,
 )
+from webviz_displays.interactive_markers.feedback import KEEP_ALIVE as STAYS
 from webviz_displays.interactive_markers.reading import (
     MAX_MARKERS,
     SERVICE,
@@ -40,6 +47,8 @@ from webviz_displays.interactive_markers.server import MAX_IGNORED, InteractiveM
 from webviz_displays.interactive_markers.tracked import Place, Tracked
 
 KEEP_ALIVE, CHANGE = 0, 1
+MENU, BUTTON, MOVE_AXIS = 1, 2, 3
+MARKER = "visualization_msgs/msg/InteractiveMarker"
 
 
 class Server:
@@ -400,8 +409,7 @@ def test_shapes_in_frames_of_their_own_are_looked_for_when_transforms_come() -> 
 
 def tracked(stamp: int) -> Tracked:
     values = {"name": "a", "header": {"frame_id": "hand", "stamp": {"sec": stamp}}}
-    name = "visualization_msgs/msg/InteractiveMarker"
-    made = completed(decode(name, encode(name, values)))
+    made = completed(decode(MARKER, encode(MARKER, values)))
     assert isinstance(made, Completed)
     return Tracked("m1", made)
 
@@ -471,3 +479,129 @@ def test_only_successive_poses_of_one_control_replace_each_other() -> None:
     queue.add(message(POSE_UPDATE, "b", "y", 7.0))
     found = [each["x"] for each in iter(queue.next, None)]
     assert found == [1.0, 2.0, 3.0, 4.0, 5.0, 7.0]
+
+
+class Shown:
+    """A display with one marker of a server, which records what is sent to it."""
+
+    def __init__(self, server: Server, **values: Any) -> None:
+        self.display = InteractiveMarkers(interactive_markers_namespace="/arm")
+        self.state, self.wire, self.around = self.display.new_state(), server, frames("map")
+        self.display.talk(server, self.context())
+        cdr = encode(MARKER, {"name": "a", "header": {"frame_id": "odom"}, **values})
+        found = completed(decode(MARKER, cdr))
+        assert isinstance(found, Completed)
+        self.known.take([News(markers={"a": found})])
+
+    @property
+    def known(self) -> InteractiveMarkerServer:
+        assert self.state.server
+        return self.state.server
+
+    def context(self, fixed: str = "map") -> Context:
+        here = Frames(self.around.buffer, fixed, 0)
+        return Context(here, lambda *_, **__: None, self.state)
+
+    def handle(self, fixed: str = "map") -> Handle:
+        return self.display.handles(self.context(fixed))["m1"]
+
+    def groups(self) -> Mapping[str, Group]:
+        """Draw; what follows a frame, by key."""
+        ctx = self.context()
+        self.display.draw_all((), ctx)
+        return {key.rpartition("|")[2]: group for key, group in ctx.groups.items()}
+
+    def grip(
+        self, kind: GripKind, x: float | None = None, **values: Any
+    ) -> list[tuple[int, float]]:
+        """Do it; the events that the server gets, and where the marker is in them."""
+        pose = None if x is None else Pose((x, 0.0, 0.0))
+        self.display.grip(Grip("m1", 0, kind, pose, **values), self.wire, self.context())
+        outgoing = self.known.outgoing
+        sent = list(iter(outgoing.next, None))
+        return [(each["event_type"], each["pose"]["position"]["x"]) for each in sent]
+
+
+def test_a_gesture_is_reported_to_the_server_event_by_event(server: Server) -> None:
+    shown = Shown(server, controls=[{"interaction_mode": MOVE_AXIS}])
+    assert shown.grip("move", 5.0) == []  # nobody has pressed
+    assert shown.grip("press") == [(POSE_UPDATE, 0.0), (MOUSE_DOWN, 0.0)]
+    assert shown.grip("move", 1.0, turned=0.5) == [(POSE_UPDATE, 1.0)]
+    assert shown.grip("move", 1.0, turned=0.5) == []
+    assert shown.handle().controls[0].turned == 0.5
+    assert shown.grip("hold") == [(STAYS, 1.0)]
+    assert shown.grip("release", 2.0) == [(POSE_UPDATE, 2.0), (MOUSE_UP, 2.0)]
+    assert shown.grip("hold", 7.0) == [(STAYS, 2.0)]
+
+    button = Shown(server, controls=[{"interaction_mode": BUTTON}])
+    assert button.grip("press", 3.0) == [(POSE_UPDATE, 0.0), (MOUSE_DOWN, 0.0)]
+    clicked = [(BUTTON_CLICK, 0.0), (POSE_UPDATE, 0.0), (MOUSE_UP, 0.0)]
+    assert button.grip("release") == clicked
+    menu = [{"id": 4, "title": "Go"}, {"id": 5, "title": "rm", "command_type": 1}]
+    chosen = Shown(server, controls=[{"interaction_mode": MENU}], menu_entries=menu)
+    assert chosen.grip("choose", entry=4) == [(MENU_SELECT, 0.0)]
+    assert chosen.grip("choose", entry=5) == []
+    still = Shown(server, controls=[{"interaction_mode": 0}])
+    assert still.grip("press") == []
+
+
+def test_handles_are_made_anew_only_if_something_changes(server: Server) -> None:
+    shown = Shown(server, controls=[{"interaction_mode": MOVE_AXIS}])
+    shown.known.markers["a"].put(Place("hand", 5, Pose()))
+    first = shown.handle()
+    assert shown.display.handles(shown.context()) is shown.display.handles(shown.context())
+    assert (first.frame, first.refusal, shown.handle("hand").frame) == ("map", "", "hand")
+    shown.state.refusal = "Read-only."
+    assert shown.handle().refusal == "Read-only."
+
+
+def test_shapes_turn_with_the_marker_or_apart_from_it(server: Server) -> None:
+    solid = {"type": 1, "color": {"a": 1.0}}
+    text = {"type": 9, "text": "four\nno", "scale": {"z": 0.5}, "color": {"a": 1.0}}
+    shapes = {"interaction_mode": BUTTON, "markers": [solid, text]}
+    across = {"w": math.sqrt(0.5), "z": math.sqrt(0.5)}
+    facings = [{"orientation_mode": facing, **shapes} for facing in (0, 1, 2)]
+    facings.append({"independent_marker_orientation": True, **facings[2]})
+    shown = Shown(server, controls=facings, pose={"orientation": across})
+    groups = shown.groups()
+    assert groups.keys() == {"m1", "m1.1", "m1.2v"}
+    turned = {key: group.placement.offset.wxyz[3] for key, group in groups.items()}
+    assert turned == pytest.approx({"m1": math.sqrt(0.5), "m1.1": 0.0, "m1.2v": 0.0})
+    assert {"c0/m1/box", "c3/m1/box"} <= groups["m1"].nodes.keys()
+    ball = groups["m1"].nodes["c0/m1/grip"]  # around the text
+    assert isinstance(ball, Instances)
+    np.testing.assert_allclose(ball.scales, [(1.0, 1.0, 0.5)])
+
+
+def test_what_hides_a_marker_is_an_error_and_what_it_lacks_a_warning(server: Server) -> None:
+    shown = Shown(server, controls=[{}])
+    there, lost = {"header": {"frame_id": "map"}}, {"frame_id": "nowhere"}
+    late = {**lost, "stamp": {"sec": 9}}
+    markers = [
+        {"name": "refused", "scale": math.nan},
+        {"name": "frameless"},
+        {"name": "late", "header": late, "controls": [{}]},
+        {"name": "lost", "header": lost, "controls": [{}]},
+        {"name": "odd", **there, "controls": [{}, {"interaction_mode": 10}]},
+        {"name": "bare", **there},
+    ]
+    shown.known.take([news_of(markers=markers)])
+    ctx = shown.context()
+    shown.display.tick(ctx)
+    levels = {key: status.level for key, status in ctx.statuses.items() if key != "Server"}
+    hidden = dict.fromkeys(("refused", "frameless", "late", "lost"), Level.ERROR)
+    assert levels == {"a": Level.OK, **hidden, "odd": Level.WARN, "bare": Level.WARN}
+
+
+def test_feedback_has_the_newest_stamp_of_the_frame_of_a_marker(server: Server) -> None:
+    shown = Shown(server, header={"frame_id": "cart"}, controls=[{"interaction_mode": MOVE_AXIS}])
+    assert shown.grip("press") == []  # its frame is unknown
+    at = (0.0, 0.0, 0.0)
+    for stamp_ns in (3_000_000_001, 5_000_000_002):
+        shown.around.buffer.set_transform("map", "cart", stamp_ns, at, (0.0, 0.0, 0.0, 1.0))
+    shown.display.grip(Grip("m1", 0, "press", point=(1.0, 2.0, 3.0)), server, shown.context())
+    move, down = iter(shown.known.outgoing.next, None)
+    for each in (move, down):
+        assert each["header"] == {"stamp": {"sec": 5, "nanosec": 2}, "frame_id": "cart"}
+    assert (move["mouse_point_valid"], down["mouse_point_valid"]) == (False, True)
+    assert down["mouse_point"] == {"x": 1.0, "y": 2.0, "z": 3.0}

@@ -29,7 +29,10 @@ TESTS = {
     "webviz/engine/pipeline": "tests/pipeline",
     "webviz/engine/sources": "tests/sources tests/playback tests/pipeline/test_rights.py",
     "webviz/engine/sources/gate.py": "tests/pipeline/test_rights.py tests/pipeline/test_driving.py",
-    "displays/webviz_displays/interactive_markers": "tests/displays/test_interactive_markers.py",
+    "displays/webviz_displays/interactive_markers": (
+        "tests/displays/test_interactive_markers.py "
+        "tests/displays/test_interactive_marker_client.py"
+    ),
 }
 """The nearest tests of a room, the fastest first."""
 UNION = "core/ReplaceBinaryOperator_BitOr_"
