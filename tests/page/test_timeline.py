@@ -96,6 +96,19 @@ def test_a_recording_shows_position_length_and_its_time(timeline: Tab) -> None:
     assert "Elapsed" not in timeline.page.locator(".wv-time").inner_text()
 
 
+def test_a_recording_of_one_message_has_its_head_and_mark_at_the_start(
+    loop: Loop, timeline: Tab
+) -> None:
+    show(loop, end_ns=RECORDING.start_ns, position_s=0.0)
+    alpha = """([x, y]) => {
+        const canvas = document.querySelector("canvas.wv-track");
+        const at = [x, y].map((each) => Math.round(each * devicePixelRatio));
+        return canvas.getContext("2d").getImageData(...at, 1, 1).data[3];
+    }"""
+    timeline.wait_for(lambda: timeline.page.evaluate(alpha, [EDGE, 1]) > 0)
+    expect(timeline.page.locator("canvas.wv-track")).to_have_attribute("aria-valuenow", "0")
+
+
 def test_a_click_and_a_drag_seek(timeline: Tab) -> None:
     track = timeline.page.locator(".wv-track")
     track.click(position=at(timeline, 40))
@@ -202,7 +215,7 @@ def test_a_link_names_a_moment_once(timeline: Tab) -> None:
     page = timeline.page
     page.goto(page.url + "&t=1:02.5")
     timeline.wait_for(lambda: last_seek(timeline) == 62.5)
-    assert "t=" not in page.url
+    timeline.wait_for(lambda: "t=" not in page.url)
     page.keyboard.press("Control+k")
     page.get_by_role("combobox", name="Command").fill("link to this")
     page.keyboard.press("Enter")

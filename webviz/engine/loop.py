@@ -248,9 +248,11 @@ class FrameLoop:
     def _receive(self) -> None:
         """Take what has arrived; of a recording, as much as brings the position to be shown."""
         until = time.monotonic() + SEEKING_S
-        if self._playback.is_seeking:  # the source reads what they need of the past
-            self._guard("Source", self._source.want, self._parts.subscriptions())
         while True:
+            if self._playback.is_seeking:
+                # The source reads what they need of the past, and repeats what was latched if time
+                # goes back on the way.
+                self._guard("Source", self._source.want, self._parts.subscriptions())
             is_late = any(runner.is_late() for runner in self._displays.list.active())
             self._guard("Playback", self._playback.advance, is_late)
             batches = self._arrivals.take(self._parts)

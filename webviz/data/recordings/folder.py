@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import contextlib
+import heapq
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path, PurePath
-from typing import Any
+from typing import Any, NamedTuple
 
 from ruamel.yaml import YAML
 
@@ -31,7 +32,7 @@ ENDINGS = (".mcap", ".db3", ".zstd", ".zst")
 
 
 class FolderRecording:
-    """The messages of a rosbag2 folder, file by file.
+    """The messages of a rosbag2 folder: file by file, merged where their times overlap.
 
     Args:
         path: of the folder.
@@ -50,8 +51,11 @@ class FolderRecording:
         parts = self._files.values()
         channels = (channel for part in parts for channel in part.channels)
         self.channels = tuple(dict.fromkeys(channels))
-        spans = [part.span_ns for part in parts if part.span_ns]
-        self.span_ns = (min(s[0] for s in spans), max(s[1] for s in spans)) if spans else None
+        files = [_File(*part.span_ns, part) for part in parts if part.span_ns]
+        self._runs = _overlapping(files)
+        self.span_ns = None
+        if files:
+            self.span_ns = min(f.start_ns for f in files), max(f.end_ns for f in files)
 
     @property
     def losses(self) -> Losses:
@@ -69,15 +73,19 @@ class FolderRecording:
         self, channels: Collection[RecordedChannel], start_ns: int, end_ns: int
     ) -> Iterator[RecordedMessage]:
         """`Recording.messages`."""
-        for part in self._files.values():
-            yield from self._unpacked(part.messages(channels, start_ns, end_ns))
+        for run in self._runs:
+            if run[0].start_ns <= end_ns and any(start_ns <= file.end_ns for file in run):
+                found = [file.part.messages(channels, start_ns, end_ns) for file in run]
+                yield from self._unpacked(heapq.merge(*found, key=_stamp))
 
     def newest(
         self, channels: Collection[RecordedChannel], end_ns: int
     ) -> Iterator[RecordedMessage]:
         """`Recording.newest`."""
-        for part in reversed(self._files.values()):
-            yield from self._unpacked(part.newest(channels, end_ns))
+        for run in reversed(self._runs):
+            if run[0].start_ns <= end_ns:
+                found = [file.part.newest(channels, end_ns) for file in run]
+                yield from self._unpacked(heapq.merge(*found, key=_stamp, reverse=True))
 
     def _unpacked(self, entries: Iterator[RecordedMessage]) -> Iterator[RecordedMessage]:
         """Unpack messages that are compressed one by one."""
@@ -143,6 +151,29 @@ class FolderRecording:
         if not parts:
             raise errors[0]
         return parts
+
+
+class _File(NamedTuple):
+    """A file and the times of its first and last message."""
+
+    start_ns: int
+    end_ns: int
+    part: Recording
+
+
+def _overlapping(files: Sequence[_File]) -> list[list[_File]]:
+    """Group files by time: those of a group overlap, and groups follow each other."""
+    runs: list[list[_File]] = []
+    for file in sorted(files, key=lambda file: file.start_ns):
+        if runs and file.start_ns < max(before.end_ns for before in runs[-1]):
+            runs[-1].append(file)
+        else:
+            runs.append([file])
+    return runs
+
+
+def _stamp(entry: RecordedMessage) -> int:
+    return entry.stamp_ns
 
 
 def _metadata(folder: Path) -> tuple[list[str], str]:

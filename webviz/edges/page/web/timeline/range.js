@@ -4,6 +4,9 @@ import { changed } from "../charts/scale.js";
 
 const MIN_S = 0.01;
 
+/** The seconds that a whole timeline shows; those of a recording of one moment have room for it, too. */
+export const shownLength = (duration) => Math.max(duration, MIN_S);
+
 /**
  * A window within 0 and `duration` that is at least a hundredth of a second long.
  *

@@ -6,6 +6,7 @@ import { isTyping, provide } from "../shell/commands.js";
 import { toast } from "../shell/toasts.js";
 import { watch } from "../stores.js";
 import { bookmarks as bookmarkMenu } from "./bookmarks.js";
+import { shownLength } from "./range.js";
 import { seeks } from "./seeks.js";
 import { topics as topicList } from "./topics.js";
 import { track as makeTrack } from "./track.js";
@@ -36,7 +37,7 @@ export function timeline(places) {
   };
   const track = makeTrack(seek, () => topics.redraw());
   const topics = topicList({
-    range: track.range, whole: () => recording.get("duration"), step, toggled: () => show(),
+    range: track.range, whole: () => shownLength(recording.get("duration")), step, toggled: () => show(),
   });
   const bookmarks = bookmarkMenu(seek, position);
   const buttons = makeTransport(seek, step, topics, bookmarks);

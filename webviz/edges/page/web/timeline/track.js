@@ -7,7 +7,7 @@ import { el, set, setText } from "../dom.js";
 import { toast } from "../shell/toasts.js";
 import { duration } from "../shell/time_text.js";
 import { draw, MARGIN } from "./draw.js";
-import { following, zoomed } from "./range.js";
+import { following, shownLength, zoomed } from "./range.js";
 
 const WHEEL = 1.25;
 const MIN_SPAN_PX = 4;
@@ -22,7 +22,7 @@ export function track(seek, redrawn = () => {}) {
   let counts = [];
   let bookmarks = [];
   let range = [0, 1]; // the window, in seconds
-  let length = 1; // of the recording
+  let length = 1; // of the whole track, in seconds
   let hover = null;
   let drag = null; // {pointer, from, isSpan}
   let frame = 0;
@@ -42,8 +42,9 @@ export function track(seek, redrawn = () => {}) {
 
   function show(next) {
     recording = next;
-    if (length !== recording.get("duration")) {
-      length = recording.get("duration");
+    const whole = shownLength(recording.get("duration"));
+    if (length !== whole) {
+      length = whole;
       setRange([0, length]);
     }
     if (recording.get("is_playing") && !drag) follow();
