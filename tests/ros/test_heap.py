@@ -9,15 +9,17 @@ import pytest
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
 
+from webviz.edges.ros.heap import MOST_UNUSED
+
 PROGRAM = """
-import itertools, psutil
+import itertools, psutil, sys
 from webviz.edges.ros.heap import PERIOD_S, Heap
 
 def resident():
     return psutil.Process().memory_info().rss
 
 heap = Heap(itertools.count(0.0, PERIOD_S).__next__)
-messages = [b"x" * (16 << 20) for _ in range(8)]
+messages = [b"x" * (16 << 20) for _ in range(int(sys.argv[1]))]
 pin = [bytes(1000) for _ in range(1000)]
 for message in messages:
     heap.note(len(message))
@@ -30,10 +32,23 @@ print(loaded - while_they_come, loaded - resident())
 """
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="is about glibc")
-def test_memory_of_large_messages_is_kept_while_they_come_and_given_back_when_they_stop() -> None:
-    program = [sys.executable, "-c", PROGRAM]
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="is about glibc")
+
+
+def returned(messages: int) -> tuple[int, int]:
+    """Bytes that are returned of messages of 16 MB, while they come and in all."""
+    program = [sys.executable, "-c", PROGRAM, str(messages)]
     done = subprocess.run(program, capture_output=True, text=True, check=True, timeout=60)
-    kept, given_back = map(int, done.stdout.split())
-    assert kept < 1 << 20
-    assert given_back > 100 << 20
+    while_they_come, in_all = map(int, done.stdout.split())
+    return while_they_come, in_all
+
+
+def test_memory_of_large_messages_is_kept_while_they_come_and_given_back_when_they_stop() -> None:
+    while_they_come, in_all = returned(8)
+    assert while_they_come < 1 << 20
+    assert in_all > 100 << 20
+
+
+def test_much_free_memory_is_given_back_while_large_messages_come() -> None:
+    while_they_come, _ = returned(24)
+    assert while_they_come > MOST_UNUSED
