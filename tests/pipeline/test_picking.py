@@ -5,8 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from webviz.api.context import Group, Placement
-from webviz.api.nodes import Arrows, Lines, Mesh, Node
+from webviz.api.context import Group, Placement, When
+from webviz.api.frames import Frames
+from webviz.api.nodes import Arrows, Lines, Mesh, Node, Points
+from webviz.data.transforms import TransformBuffer
 from webviz.engine.commands import Pick
 from webviz.engine.pipeline.picking import Shot, found_in
 
@@ -67,3 +69,16 @@ def test_a_line_is_where_its_middle_is() -> None:
     lines = Lines(segments, (1, 2, 3), 1.0)
     assert pick(lines, 1, (2.0, 0.0, 0.0)) == (1, (3.0, 0.0, 0.0))
     assert pick(lines, 2, (2.0, 0.0, 0.0)) is None
+
+
+@pytest.mark.parametrize(("when", "x"), [("latest", 3.0), ("now", 2.0)])
+def test_what_moves_with_a_frame_is_where_it_was_drawn(when: When, x: float) -> None:
+    buffer = TransformBuffer()
+    for stamp_ns, at in ((1, 1.0), (2, 2.0)):
+        buffer.set_transform("map", "cart", stamp_ns, (at, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+    points = Points(np.array([[1, 0, 0]], np.float32), (1, 2, 3), 0.1)
+    group = Group(Placement("cart", when))
+    group.add("node", points)
+    picks: list[Pick] = [(NUMBER, 0, (1.0, 0.0, 0.0), None)]
+    found = found_in(Shot({"": group}, (), "map"), "", "node", picks)[NUMBER]
+    assert found.position(Frames(buffer, "map", 1)) == ("map", (x, 0.0, 0.0))

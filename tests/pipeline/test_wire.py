@@ -9,7 +9,7 @@ import pytest
 
 from webviz.engine.pipeline import wire
 from webviz.engine.pipeline.wire import DisplayWire
-from webviz.engine.sources import Raw
+from webviz.engine.sources import Offer, Publisher, Raw
 
 WORDS = "/words"
 
@@ -17,8 +17,9 @@ WORDS = "/words"
 @pytest.fixture
 def heard() -> DisplayWire:
     """A wire on which a display listens to a topic."""
+    gate = cast(Any, SimpleNamespace(refusal=lambda name: ""))
     services = cast(Any, SimpleNamespace(resolve=lambda name: name))
-    made = DisplayWire(services, cast(Any, None))
+    made = DisplayWire(services, gate)
     listen(made)
     return made
 
@@ -54,3 +55,44 @@ def test_one_message_is_kept_however_large(
     monkeypatch.setattr(wire, "MAX_BYTES", 100)
     take(heard, 1000)
     assert listen(heard) == ([1000], False)
+
+
+def test_what_a_display_names_no_longer_is_given_up(heard: DisplayWire) -> None:
+    heard.advertise("/answers", "std_msgs/msg/String", 7)
+    heard.forget_unnamed()
+    assert (heard.topics(), [each.depth for each in heard.outlets()]) == ((WORDS,), [7])
+    listen(heard)
+    heard.forget_unnamed()
+    assert (heard.topics(), heard.outlets()) == ((WORDS,), [])
+    heard.forget_unnamed()
+    assert heard.topics() == ()
+
+
+def test_a_pause_or_another_depth_is_a_gap(heard: DisplayWire) -> None:
+    take(heard, 30)
+    heard.pause()
+    take(heard, 30)
+    assert listen(heard) == ([], True)
+    take(heard, 30)
+    assert listen(heard) == ([30], False)
+    take(heard, 30)
+    found = heard.listen(WORDS, "std_msgs/msg/String", 20)
+    assert (found.messages, found.has_gap) == ((), True)
+    assert heard.subscriptions()[WORDS].topic.depth == 20
+
+
+def test_a_publisher_counts_once_its_type_fits_and_the_topic_is_subscribed(
+    heard: DisplayWire,
+) -> None:
+    right = Publisher("/a", "std_msgs/msg/String", "reliable", "volatile", b"1")
+    other = Publisher("/b", "std_msgs/msg/Int8", "reliable", "volatile", b"2")
+    requested = "reliable", "volatile"
+    for offer, is_ready in (
+        (Offer((right, other)), False),
+        (Offer((right, other), requested, type=other.type), False),
+        (Offer((right, other), requested, type=right.type), True),
+    ):
+        heard.take({}, {WORDS: offer})
+        found = heard.listen(WORDS, right.type, 10)
+        assert (found.publishers, found.endpoints) == (("/a",), {b"1"})
+        assert found.is_ready == is_ready
