@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import gc
 import random
 import re
+import sqlite3
 from collections.abc import Sequence
 from pathlib import Path
 from zlib import crc32
@@ -37,10 +39,19 @@ def test_a_bag_that_is_not_there(tmp_path):
     assert "not found" in refusal(tmp_path / "nowhere.mcap")
 
 
-def test_a_folder_without_metadata(tmp_path):
-    folder = strings(0).write(tmp_path / "bag")
+@pytest.mark.parametrize("storage", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
+def test_a_folder_without_metadata_is_read_as_one_that_is_still_recorded(tmp_path, opened, storage):
+    folder = strings(0, 1).write(tmp_path / "bag", storage)
     (folder / "metadata.yaml").unlink()
-    assert f"ros2 bag reindex {folder}" in refusal(folder)
+    (file,) = folder.iterdir()
+    bag = opened(folder)
+    bag.want("/words")
+    bag.play(1)
+    assert bag.heard() == ["0", "1"]
+    assert bag.source.remarks == [
+        "bag has no metadata.yaml: it is still being recorded, or its recorder was interrupted. "
+        f"Reading {file.name}."
+    ]
 
 
 @pytest.mark.parametrize("text", ["", "[", "rosbag2_bagfile_information: 3", "a: b"])
@@ -127,7 +138,8 @@ def test_of_an_mcap_file_that_was_cut_off_everything_before_is_shown(tmp_path, o
         file.write_bytes(data[: int(share * len(data))])
         bag = opened(file)
         assert bag.source.remarks == [
-            f"{file.name} is damaged: its end is missing; everything else is shown."
+            f"{file.name} has no end: it is still being recorded or was cut off. What it "
+            "contained when it was opened is shown."
         ]
         bag.want("/noise")
         bag.play(300)
@@ -152,7 +164,7 @@ def test_of_a_database_that_was_cut_off_everything_before_is_shown(tmp_path, ope
         assert heard == [text for text in _texts(recorded) if text in set(heard)]
         counts.append(len(heard))
         (remark,) = bag.source.remarks
-        assert remark.startswith(f"{file.name} is damaged: ")
+        assert remark.startswith((f"{file.name} is damaged: ", f"{file.name} has no end: "))
     assert counts == sorted(counts)
     assert counts[0] > 60
 
@@ -358,11 +370,11 @@ def test_damage_in_the_middle_is_reported_and_the_rest_is_shown(tmp_path, opened
     )
 
 
-@pytest.mark.parametrize("name", ["flip1.mcap", "trunc70.mcap"])
-def test_of_a_real_damaged_bag_the_beginning_is_shown(opened, name):
+@pytest.mark.parametrize(("name", "why"), [("flip1", "is damaged"), ("trunc70", "has no end")])
+def test_of_a_real_damaged_bag_the_beginning_is_shown(opened, name, why):
     if not DAMAGED.exists():
         pytest.skip("shared data is missing")
-    whole, bag = opened(DAMAGED.parent / "nav2_turtlebot.mcap"), opened(DAMAGED / name)
+    whole, bag = opened(DAMAGED.parent / "nav2_turtlebot.mcap"), opened(DAMAGED / f"{name}.mcap")
     heard = []
     for each in (whole, bag):
         each.want("/tf", type_name=TF)
@@ -370,4 +382,42 @@ def test_of_a_real_damaged_bag_the_beginning_is_shown(opened, name):
         heard.append([raw.cdr for raw in each.source.inbox.drain()["/tf"]])
     assert 1000 < len(heard[1]) < len(heard[0])
     assert heard[1] == heard[0][: len(heard[1])]
-    assert "is damaged" in bag.source.remarks[0]
+    assert why in bag.source.remarks[0]
+
+
+def test_an_mcap_file_that_grows_while_it_is_played_shows_what_it_had(tmp_path, opened):
+    recorded = _noisy(300)
+    (file,) = files(recorded.write(tmp_path / "bag"), ".mcap")
+    data = file.read_bytes()
+    file.write_bytes(data[: len(data) // 2])
+    bag = opened(file)
+    bag.want("/noise")
+    bag.play(60)
+    with file.open("ab") as growing:
+        growing.write(data[len(data) // 2 :])
+    end_ns = bag.source.end_ns
+    bag.source.seek(bag.source.start_ns)
+    bag.heard("/noise")
+    while bag.source.position_ns < end_ns:
+        bag.source.play(end_ns)
+    assert bag.source.end_ns == end_ns
+    assert 60 < _beginning(recorded, bag.heard("/noise")) < 300
+
+
+@pytest.mark.parametrize("journal_mode", ["wal", "delete"])
+def test_a_database_that_is_still_written_shows_what_it_had(tmp_path, opened, journal_mode):
+    (file,) = files(strings(0, 1).write(tmp_path / "bag", StoragePlugin.SQLITE3), ".db3")
+    with contextlib.closing(sqlite3.connect(file)) as recorder:
+        recorder.execute(f"PRAGMA journal_mode = {journal_mode}")
+        recorder.execute("PRAGMA cache_size = 1")
+        copy = "INSERT INTO messages SELECT id + 2, topic_id, timestamp + 2, data FROM messages"
+        recorder.execute(copy)
+        if journal_mode == "wal":
+            recorder.commit()
+        bag = opened(file)
+        bag.want("/words")
+        bag.play(1)
+        assert bag.heard() == ["0", "1"]
+        (remark,) = bag.source.remarks
+        assert remark.startswith(f"{file.name} has no end: it is still being recorded, or ")
+        recorder.rollback()

@@ -14,6 +14,7 @@ from ruamel.yaml import YAML
 from webviz.data.lfs import is_lfs
 from webviz.data.recordings.opening import open_file
 from webviz.data.recordings.recording import (
+    END_MISSING,
     Counts,
     Losses,
     RecordedChannel,
@@ -38,13 +39,20 @@ class FolderRecording:
         path: of the folder.
 
     Raises:
-        RecordingError: its metadata are missing or broken, or no file of it can be read.
+        RecordingError: its metadata are broken, or no file of it can be read.
         OSError: it cannot be read.
     """
 
     def __init__(self, path: Path) -> None:
         self._losses = Losses("message", "skipped")
-        names, self._compression = _metadata(path)
+        if (path / METADATA).is_file():
+            names, self._compression = _metadata(path)
+        else:
+            names, self._compression = [file.name for file in _files_in(path)], ""
+            self._losses.notes.append(
+                f"{path.name} has no {METADATA}: it is still being recorded, or its recorder was "
+                f"interrupted. Reading {', '.join(names)}."
+            )
         with contextlib.ExitStack() as stack:
             self._files = self._opened(self._existing(path, names), stack)
             self._stack = stack.pop_all()
@@ -61,7 +69,11 @@ class FolderRecording:
     def losses(self) -> Losses:
         """Those of the folder and of each file; reading finds more."""
         within = {name: part.losses for name, part in self._files.items()}
-        lost = [f"in {name} {text}" for name, losses in within.items() if (text := str(losses))]
+        lost = [
+            END_MISSING if losses.is_unfinished else f"in {name} {text}"
+            for name, losses in within.items()
+            if (text := str(losses))
+        ]
         notes = [note for losses in within.values() for note in losses.notes]
         return replace(
             self._losses,
@@ -176,22 +188,30 @@ def _stamp(entry: RecordedMessage) -> int:
     return entry.stamp_ns
 
 
+def _files_in(folder: Path) -> list[Path]:
+    """The files that may be parts of a bag.
+
+    Raises:
+        RecordingError: there are none.
+    """
+    found = sorted(file for file in folder.iterdir() if file.suffix in ENDINGS)
+    if found:
+        return found
+    raise RecordingError(
+        f"{folder} is not a bag: it has no {METADATA}, MCAP or db3 file. Give an MCAP or db3 file, "
+        "or a rosbag2 folder."
+    )
+
+
 def _metadata(folder: Path) -> tuple[list[str], str]:
     """The names of the files, and the compression of each message, "" for none.
 
     Raises:
-        RecordingError: the metadata are missing or broken.
+        RecordingError: the metadata are broken.
         OSError: they cannot be read.
     """
     path = folder / METADATA
     remedy = f"run `ros2 bag reindex {folder}`, or give one of the files in it."
-    if not path.is_file() and not any(file.suffix in ENDINGS for file in folder.iterdir()):
-        raise RecordingError(
-            f"{folder} is not a bag: it has no {METADATA}, MCAP or db3 file. Give an MCAP or db3 "
-            "file, or a rosbag2 folder."
-        )
-    if not path.is_file():
-        raise RecordingError(f"{folder} has no {METADATA}: {remedy}")
     with path.open("rb") as file:
         text = file.read(MAX_METADATA + 1)
     if is_lfs(text):

@@ -137,6 +137,11 @@ class Losses:
     others: list[str] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
 
+    @property
+    def is_unfinished(self) -> bool:
+        """Return whether nothing but the end is missing, as while a recording goes on."""
+        return not self.skipped and set(self.others) == {END_MISSING}
+
     def __str__(self) -> str:
         """All losses as a clause, "" without any."""
         parts = list(self.others)

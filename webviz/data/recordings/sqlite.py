@@ -67,6 +67,7 @@ class SqliteRecording:
             self._db.close()
             raise
         self.channels = tuple(dict.fromkeys(self._numbers.values()))
+        self.losses.notes += [_unread(path, journal) for journal in _journals(path)]
         self.used = self._used()
 
     def messages(
@@ -262,6 +263,20 @@ def _damaged(path: Path, reason: str) -> RecordingError:
     return RecordingError(
         f"{path} is damaged ({reason}): recover it with "
         f"`sqlite3 {path} .recover | sqlite3 recovered.db3`."
+    )
+
+
+def _journals(path: Path) -> list[str]:
+    """Names of the files with changes that are not in the database yet."""
+    names = [f"{path.name}{ending}" for ending in ("-wal", "-journal")]
+    files = [path.with_name(name) for name in names]
+    return [file.name for file in files if file.is_file() and file.stat().st_size]
+
+
+def _unread(path: Path, journal: str) -> str:
+    return (
+        f"{path.name} has no end: it is still being recorded, or its recorder was interrupted. "
+        f"What only {journal} contains is not shown; open it again when recording has ended."
     )
 
 

@@ -89,6 +89,12 @@ class BagFile:
     def remarks(self) -> list[str]:
         """Return sentences on what is missing, unusual or damaged so far."""
         losses = self._recording.losses
+        if losses.is_unfinished:
+            unfinished = (
+                f"{self.path.name} has no end: it is still being recorded or was cut off. What "
+                "it contained when it was opened is shown."
+            )
+            return [*losses.notes, unfinished]
         lost = str(losses)
         damage = f"{self.path.name} is damaged: {lost}; everything else is shown."
         return [*losses.notes, *([damage] if lost else [])]
