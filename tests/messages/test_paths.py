@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from webviz.data.messages import (
+    FrameTransform,
     Header,
     JointState,
     LaserScan,
@@ -16,6 +17,7 @@ from webviz.data.messages import (
     Path,
     PoseStampedSequence,
     String,
+    TFMessage,
     Time,
     message_class,
 )
@@ -58,6 +60,8 @@ def test_a_number_is_found_by_its_path(message: Any, path: str, number: float) -
     ("message", "path", "reason"),
     [
         (JOINTS, "velocity[0]", "No element 0 for `velocity[0]`; there are 0."),
+        (JOINTS, "position[2]", "No element 2 for `position[2]`; there are 2."),
+        (JOINTS, "position[-3]", "No element -3 for `position[-3]`; there are 2."),
         (JOINTS, "position[tail]", "No element named tail for `position[tail]`; there are 2."),
         (JOINTS, "speed", "No field `speed` for `speed`. Choose one of header, name, position"),
         (JOINTS, "position", "`position` is not a number. Choose one of its parts."),
@@ -88,6 +92,26 @@ def test_the_numbers_of_a_message_are_listed_by_name_if_they_have_one() -> None:
         "position[right]",
     ]
     assert len(numeric_paths(LaserScan(ranges=np.zeros(1000, np.float32)), 25)) == 25
+
+
+def test_elements_are_called_by_names_that_are_unique_and_no_numbers() -> None:
+    for names, called in (
+        (["a", "b"], ["a", "b"]),
+        (["a", "a"], [0, 1]),
+        (["a", "1"], [0, 1]),
+        (["a", "b]"], [0, 1]),
+        (["a", ""], [0, 1]),
+        (["a"], [0, 1]),
+    ):
+        joints = JointState(name=names, effort=np.zeros(2))
+        assert numeric_paths(joints, 9)[1:] == [f"effort[{key}]" for key in called]
+
+
+def test_the_most_telling_name_of_an_element_counts() -> None:
+    frames = TFMessage([FrameTransform("map", "odom", 5, (1.0, 2.0, 3.0), (0.0, 0.0, 0.0, 1.0))])
+    assert FieldPath("transforms[odom].translation[1]").number(frames) == 2.0
+    with pytest.raises(PathError, match="No element named map"):
+        FieldPath("transforms[map].stamp_ns")(frames)
 
 
 @pytest.mark.parametrize("name", DEFINITIONS)

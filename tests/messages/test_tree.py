@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from webviz.data.messages import (
+    Duration,
     FrameTransform,
     Header,
     JointState,
@@ -85,3 +86,36 @@ def test_numbers_keep_millimetres_at_utm_coordinates() -> None:
     assert fields(JointState(position=np.array([4649776.12])))["position"]["items"] == [
         "4649776.12"
     ]
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (Time(1_700_000_000, 12_999_999), "2023-11-14 22:13:20.012 UTC"),
+        (Time(31_536_000), "1971-01-01 00:00:00.000 UTC"),
+        (Time(31_535_999, 500_000_000), "31535999.500 s"),
+        (Duration(-2, 500_000_000), "-1.5 s"),
+    ],
+)
+def test_times_for_people_are_dates_and_seconds(value: Time | Duration, text: str) -> None:
+    assert to_tree(value, is_readable=True) == text
+
+
+def test_rows_of_numbers_say_how_long_they_are() -> None:
+    points = message_class("geometry_msgs/msg/Polygon")(points=np.zeros((30, 3), np.float32))
+    found = fields(points, max_items=4)["points"]
+    assert (found["length"], found["type"]) == (30, "3 x float32")
+    assert found["items"] == ["0"] * 4
+
+
+def test_digits_and_elements_are_as_many_as_asked() -> None:
+    found = fields(
+        JointState(name=["a"] * 9, position=np.array([1 / 3] * 9)), digits=2, max_items=3
+    )
+    assert found["name"]["items"] == ["'a'"] * 3
+    assert found["position"]["items"] == ["0.33"] * 3
+
+
+def test_a_string_is_whole_up_to_its_limit() -> None:
+    assert fields(String("x" * 400))["data"] == repr("x" * 400)
+    assert fields(String("x" * 401))["data"] == repr("x" * 400) + " … (401 characters)"

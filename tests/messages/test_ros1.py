@@ -1,0 +1,109 @@
+"""Messages of ROS 1, byte by byte; `tests/sources/test_ros1_bags.py` reads them from bags."""
+
+from __future__ import annotations
+
+import struct
+from typing import Any
+
+import pytest
+
+from webviz.data.messages import DecodeError, DefinitionError, decode, register
+from webviz.data.messages.ros1 import Ros1Type
+
+NAME = "old_msgs/msg/Mixed"
+TEXT = """time at
+duration ripe
+string[] names
+uint8[3] rgb
+float32[] numbers
+old_msgs/Part[2] parts
+bool last
+""" + ("=" * 80 + "\nMSG: old_msgs/Part\nchar letter\nint64 size\n")
+HEADER = "uint32 seq\ntime stamp\nstring frame_id\n"
+HEAD = struct.pack("<III", 7, 1, 2) + struct.pack("<I", 3) + b"map"
+
+
+def mixed(seconds: int = 5, nanoseconds: int = 6) -> bytes:
+    return b"".join(
+        [
+            struct.pack("<IiiiI", seconds, nanoseconds, -3, 4, 2),
+            *(struct.pack("<I", len(name)) + name for name in (b"a\xfc", b"bcd")),
+            bytes([1, 2, 3]),
+            struct.pack("<I2f", 2, 0.5, -1.5),
+            struct.pack("<BqBq", 65, -1, 66, 2**40),
+            b"\1",
+        ]
+    )
+
+
+def made() -> Ros1Type:
+    known = Ros1Type(NAME, TEXT)
+    if text := known.definition():
+        register(NAME, text)
+    return known
+
+
+def read(cdr: bytes) -> Any:
+    return decode(NAME, cdr)
+
+
+def test_every_kind_of_field_is_converted() -> None:
+    message = read(made().to_cdr(mixed()))
+    assert (message.at.ns, message.ripe.sec, message.ripe.nanosec) == (5_000_000_006, -3, 4)
+    assert message.names == ["a\ufffd", "bcd"]
+    assert bytes(message.rgb) == b"\1\2\3"
+    assert message.numbers.tolist() == [0.5, -1.5]
+    assert [(part.letter, part.size) for part in message.parts] == [(65, -1), (66, 2**40)]
+    assert message.last is True
+
+
+def test_times_that_ros_2_does_not_have_are_the_nearest() -> None:
+    message = read(made().to_cdr(mixed(2**32 - 2, -1)))
+    assert (message.at.sec, message.at.nanosec) == (-2, 0)
+
+
+def test_a_message_that_is_cut_off_is_refused() -> None:
+    known, whole = made(), mixed()
+    for end in range(len(whole)):
+        with pytest.raises(DecodeError, match=f"^{NAME} of ROS 1 is damaged"):
+            known.to_cdr(whole[:end])
+    for count in (100_000, 2**32 - 1):
+        damaged = whole[:16] + struct.pack("<I", count) + whole[20:]
+        with pytest.raises(DecodeError, match="damaged"):
+            known.to_cdr(damaged)
+
+
+def test_lengths_that_lie_at_the_end_are_refused() -> None:
+    nothing = "old_msgs/Nothing[] many\n" + "=" * 80 + "\nMSG: old_msgs/Nothing\n"
+    for known, data in (
+        (Ros1Type("std_msgs/msg/String", "string data\n"), struct.pack("<I", 4) + b"abc"),
+        (Ros1Type("old_msgs/msg/Nothings", nothing), struct.pack("<I", 2**32 - 1)),
+    ):
+        with pytest.raises(DecodeError, match="damaged"):
+            known.to_cdr(data)
+
+
+def test_what_ros_2_dropped_or_renamed_is_skipped_or_renamed() -> None:
+    nested = "=" * 80 + f"\nMSG: std_msgs/Header\n{HEADER}"
+    known = Ros1Type(
+        "geometry_msgs/msg/PointStamped",
+        f"Header header\nPoint point\n{nested}"
+        + ("=" * 80 + "\nMSG: geometry_msgs/Point\nfloat64 X\nfloat64 y\nfloat64 z\n"),
+    )
+    assert known.definition() == ""
+    message = decode(known.name, known.to_cdr(HEAD + struct.pack("<3d", 1.0, 2.0, 3.0)))
+    assert (message.header.frame_id, message.header.stamp_ns) == ("map", 1_000_000_002)
+    assert (message.point.x, message.point.y, message.point.z) == (1.0, 2.0, 3.0)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("old_msgs/Missing part\n", "old_msgs/msg/Missing is missing"),
+        ("old_msgs/Odd part\n", "old_msgs/msg/Odd is missing"),
+        ("float64 = (\n", "not valid .msg text"),
+    ],
+)
+def test_a_definition_that_is_incomplete_or_endless_is_refused(text: str, said: str) -> None:
+    with pytest.raises(DefinitionError, match=said):
+        Ros1Type("old_msgs/msg/Odd", text)
