@@ -1,0 +1,82 @@
+"""How much of the past a seek reads, and how far a step towards a time goes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+from bags import START_NS, TF, Bag, ns, strings
+
+from webviz.api.declared import Topic
+from webviz.api.lookback import Lookback
+from webviz.engine.sources import Subscription
+from webviz.engine.sources.bag import BagSource
+from webviz.engine.sources.bag_files import BagFiles
+from webviz.engine.sources.bag_past import BagPast
+
+STRING = "std_msgs/msg/String"
+
+
+@contextmanager
+def opened(path: Path) -> Iterator[BagFiles]:
+    files = BagFiles([path])
+    yield files
+    files.close()
+
+
+def moving(last_s: int) -> Bag:
+    """A transform each second."""
+    bag = Bag()
+    for at_s in range(last_s + 1):
+        bag.transform(at_s, "map", "base")
+    return bag
+
+
+def transforms_read(path: Path, at_s: int) -> list[int]:
+    """When the transforms were recorded that a seek reads, with strings that are placed."""
+    wanted = {
+        "/tf": Subscription(TF, Topic("/tf")),
+        "/words": Subscription(STRING, Topic("/words"), lookbacks=(Lookback(),), is_placed=True),
+    }
+    with opened(path) as files:
+        past = BagPast(files, files.channels, wanted, START_NS + ns(at_s))
+        return [(each.stamp_ns - START_NS) // ns(1) for each in past.messages() if each.type == TF]
+
+
+def test_transforms_of_the_last_15_s_are_read(tmp_path: Path) -> None:
+    path = moving(40).write(tmp_path / "run")
+    assert transforms_read(path, 30) == [*range(15, 31)]
+
+
+def test_transforms_around_an_older_message_are_read_too(tmp_path: Path) -> None:
+    bag = moving(90)
+    bag.add("/words", STRING)
+    bag.put(30, "/words", {"data": "old"})
+    assert transforms_read(bag.write(tmp_path / "run"), 80) == [*range(20, 34), *range(65, 81)]
+
+
+@pytest.mark.parametrize(("count", "is_all"), [(100, False), (101, True)])
+def test_of_more_than_100_older_messages_all_transforms_since_are_read(
+    tmp_path: Path, count: int, is_all: bool
+) -> None:
+    bag = moving(120)
+    bag.add("/words", STRING)
+    for number in range(count):
+        bag.put(80 if number else 20, "/words", {"data": "old"})
+    parts = [*range(10, 24), *range(70, 84), *range(104, 120)]
+    read = transforms_read(bag.write(tmp_path / "run"), 119)
+    assert read == ([*range(120)] if is_all else parts)
+
+
+@pytest.mark.parametrize(("left_s", "step_s"), [(0.4, 0.1), (8, 1), (12, 1.5), (16, 2), (60, 2)])
+def test_a_step_goes_an_eighth_of_the_way_within_bounds(
+    tmp_path: Path, left_s: float, step_s: float
+) -> None:
+    source = BagSource(strings(*[0.1 * tenth for tenth in range(700)]).write(tmp_path / "run"))
+    source.want({"/words": Subscription(STRING, Topic("/words"))})
+    source.play(source.start_ns)
+    source.play_step(source.start_ns + ns(left_s))
+    assert source.position_ns == source.start_ns + ns(step_s)
+    source.close()
