@@ -24,8 +24,8 @@ from webviz.edges.access.roles import LIMITS, LINKS, Limits, Role
 from webviz.edges.access.tokens import make
 from webviz.edges.page.acts import NOT_OF_PAGES
 from webviz.edges.page.refusals import HALF
-from webviz.edges.scene import open_server
-from webviz.edges.scene.connections import BURST_S, BYTES_PER_MESSAGE
+from webviz.edges.scene import connections, open_server
+from webviz.edges.scene.connections import BURST_S, Allowance
 from webviz.engine.commands import Command
 
 PARAMETERS = {role: name for name, role in LINKS.items()}
@@ -304,9 +304,9 @@ def test_an_owner_revokes_any_link_but_their_own(house: House) -> None:
 
 def test_watchers_cannot_keep_the_owner_out(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
     few = {
-        Role.WATCHER: Limits(0.5, 64, 100.0, 1000),
-        Role.OPERATOR: Limits(0.75, 64, 100.0, 1000),
-        Role.OWNER: Limits(1.0, 64, 100.0, 1000),
+        Role.WATCHER: Limits(0.5, 64, 100.0, 1000, 1000),
+        Role.OPERATOR: Limits(0.75, 64, 100.0, 1000, 1000),
+        Role.OWNER: Limits(1.0, 64, 100.0, 1000, 1000),
     }
     monkeypatch.setattr("webviz.edges.scene.connections.LIMITS", few)
     monkeypatch.setattr("webviz.edges.scene.connections.MAX_BROWSERS", 4)
@@ -325,7 +325,7 @@ def test_watchers_cannot_keep_the_owner_out(house: House, monkeypatch: pytest.Mo
 
 
 def test_one_address_has_a_limit(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
-    one = {**LIMITS, Role.WATCHER: Limits(1.0, 1, 100.0, 1000)}
+    one = {**LIMITS, Role.WATCHER: Limits(1.0, 1, 100.0, 1000, 1000)}
     monkeypatch.setattr("webviz.edges.scene.connections.LIMITS", one)
     house.enter(Role.WATCHER).receive("You")
     assert house.ask("/", Cookie=house.cookie(Role.WATCHER)).status == 503
@@ -354,15 +354,19 @@ def test_a_role_has_a_rate_of_messages(
     assert owner_s < 60.0
 
 
-def test_long_messages_count_for_more(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
-    limits = dataclasses.replace(LIMITS[Role.WATCHER], messages_per_second=20.0)
-    monkeypatch.setattr("webviz.edges.scene.connections.LIMITS", {**LIMITS, Role.WATCHER: limits})
-    guest = house.enter(Role.WATCHER)
-    size = 30 * BYTES_PER_MESSAGE
-    start = time.monotonic()
+def test_watchers_who_flood_with_long_messages_are_not_read(
+    house: House, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(connections, "Allowance", lambda rate, burst: Allowance(1e-9, burst))
+    watcher, owner = house.enter(Role.WATCHER), house.enter(Role.OWNER)
+    lasting = int(BURST_S * LIMITS[Role.WATCHER].messages_per_second) << 10  # bytes
     for _ in range(2):
-        assert "characters" in guest.do("FocusFrame", frame="x" * size)
-    assert time.monotonic() - start > 2 * 30 / 20.0 - BURST_S
+        watcher.send("Do", number=1, command="FocusFrame", arguments={"frame": lasting // 2 * "x"})
+    watcher.send("Do", number=1, command="Export", arguments={})
+    for _ in range(3):
+        owner.do("FocusFrame", frame=lasting // 2 * "x")
+    assert owner.do("ResetView") == ""
+    assert (house.reached.count("Export"), house.reached.count("ResetView")) == (0, 1)
 
 
 def test_messages_are_not_compressed_so_that_none_unfolds_without_end(house: House) -> None:

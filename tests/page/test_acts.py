@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+from collections.abc import Iterator
 from typing import Any
 
 import pytest
@@ -23,6 +25,7 @@ def test_a_command_has_the_types_of_its_fields() -> None:
     [
         ("SetBackground", {"color": [1, 2, 300]}, "<= 255"),
         ("SetFrameRate", {"hz": "fast"}, "Expected `float`"),
+        ("FocusFrame", {"frame": [[]] * 60_000}, "Expected `str`"),
         ("SetFrameRate", {}, "missing required field `hz`"),
         ("SaveView", {"name": "a", "browser": 3}, "unknown field `browser`"),
         ("AddDisplay", {"type": "Grid", "made": "x"}, "unknown field `made`"),
@@ -33,6 +36,28 @@ def test_a_command_has_the_types_of_its_fields() -> None:
 def test_what_does_not_fit_is_refused(name: str, arguments: dict[str, Any], reason: str) -> None:
     with pytest.raises(ValueError, match=reason):
         command_of(name, arguments)
+
+
+class Unread(list[None]):
+    """A list that nobody may read."""
+
+    def __iter__(self) -> Iterator[None]:
+        pytest.fail("a list was read that is too long")
+
+
+@pytest.mark.parametrize(
+    ("value", "reason"),
+    [
+        (Unread([None] * 50_001), "at most 50000 values"),
+        (dict.fromkeys(map(str, range(25_001))), "at most 50000 values"),
+        (100_001 * "x", "at most 100000 characters"),
+        (functools.reduce(lambda value, _: [value], range(100), 0), "nested levels"),
+    ],
+    ids=["list", "dict", "text", "nested"],
+)
+def test_what_has_no_end_is_refused_before_it_is_read(value: object, reason: str) -> None:
+    with pytest.raises(ValueError, match=reason):
+        command_of("ChangeView", {"key": "type", "value": value})
 
 
 def test_no_page_may_load_code() -> None:

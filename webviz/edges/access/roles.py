@@ -41,17 +41,20 @@ class Limits:
         per_address: browsers from one network address.
         messages_per_second: received from it on average; a page sends 50 while the user drags
             something.
-        max_characters: of one message; the longest are configs, which owners open.
+        bytes_per_message: each further multiple of this size counts as one more message. Reading
+            JSON holds up whoever drives: what watchers send at most takes little of a processor.
+        max_characters: of one message; the longest of watchers are selections, of owners configs.
     """
 
     share: float
     per_address: int
     messages_per_second: float
+    bytes_per_message: int
     max_characters: int
 
 
 LIMITS = {
-    Role.WATCHER: Limits(0.75, 16, 100.0, 1 << 20),
-    Role.OPERATOR: Limits(0.9, 32, 200.0, 1 << 20),
-    Role.OWNER: Limits(1.0, 128, 200.0, 3 << 20),
+    Role.WATCHER: Limits(0.75, 16, 100.0, 1 << 10, 256 << 10),
+    Role.OPERATOR: Limits(0.9, 32, 200.0, 32 << 10, 1 << 20),
+    Role.OWNER: Limits(1.0, 128, 200.0, 32 << 10, 3 << 20),
 }

@@ -88,11 +88,11 @@ def command_of(name: str, arguments: dict[str, Any], **own: Any) -> Command:
     class_, form = _forms().get(name, (None, None))
     if class_ is None:
         raise ValueError(UNKNOWN)
-    _refuse_endless({key: value for key, value in arguments.items() if key != "text"})
     try:
         values = msgspec.structs.asdict(msgspec.convert(arguments, form))
     except (msgspec.ValidationError, RecursionError) as error:
         raise ValueError(f"Not done: {error}.") from error
+    _refuse_endless({key: value for key, value in arguments.items() if key != "text"})
     names = {field.name for field in dataclasses.fields(class_)}
     return class_(**values, **{key: value for key, value in own.items() if key in names})
 
@@ -103,19 +103,21 @@ def _refuse_endless(arguments: dict[str, Any]) -> None:
     count = characters = 0
     while waiting:
         value, depth = waiting.pop()
-        count += 1
+        parts: list[Any] = []
         if isinstance(value, str):
             characters += len(value)
         elif isinstance(value, dict):
-            waiting += [(part, depth + 1) for pair in value.items() for part in pair]
+            parts = [*value, *value.values()]
         elif isinstance(value, list):
-            waiting += [(part, depth + 1) for part in value]
+            parts = value
+        count += len(parts)
         if characters > MAX_TEXT:
             raise ValueError(f"Not done: expected at most {MAX_TEXT} characters.")
         if count > MAX_VALUES:
             raise ValueError(f"Not done: expected at most {MAX_VALUES} values.")
         if depth > MAX_DEPTH:
             raise ValueError(f"Not done: expected at most {MAX_DEPTH} nested levels.")
+        waiting += [(part, depth + 1) for part in parts]
 
 
 def form_of(name: str) -> type[msgspec.Struct]:

@@ -27,8 +27,6 @@ MAX_BROWSERS = 128
 
 BURST_S = 2.0
 """Seconds of the allowed rate that may come at once."""
-BYTES_PER_MESSAGE = 32 << 10
-"""Each further multiple of this size counts as one more message."""
 MAX_WAIT = 1.0
 """Seconds by which a connection may exceed the rate with frames that cannot wait, such as pings."""
 CLOSE_ONE = "Close another page of webviz."
@@ -180,8 +178,10 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
     @grant.setter
     def grant(self, grant: Grant) -> None:
         self._grant = grant
-        rate = LIMITS[grant.role].messages_per_second
+        limits = LIMITS[grant.role]
+        rate = limits.messages_per_second
         self._allowance = Allowance(rate, BURST_S * rate)
+        self._bytes_per_message = limits.bytes_per_message
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Adds the connection to the gate."""
@@ -319,7 +319,7 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
         """The next valid message, at the allowed rate."""
         while True:
             data = await super().recv(decode)
-            cost = 1.0 + len(data) / BYTES_PER_MESSAGE
+            cost = 1.0 + len(data) / self._bytes_per_message
             # Also with a delay of 0: otherwise received messages would keep other tasks waiting.
             await asyncio.sleep(self._allowance.spend(cost, self.loop.time()))
             if self.is_expelled:
