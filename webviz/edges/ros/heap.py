@@ -12,8 +12,8 @@ PERIOD_S = 10.0
 LOOK_S = 0.5
 LARGE = 1 << 20
 """Message size in bytes above which reusing freed memory is cheaper than fresh pages."""
-MOST_UNUSED = 256 << 20
-"""Bytes of freed memory that are kept. To return so many takes 18 ms."""
+MOST_UNUSED = 192 << 20
+"""Bytes of freed memory that are kept. To return so many takes 14 ms."""
 
 _LIBC = ctypes.CDLL(None)
 _PAGE_BYTES = os.sysconf("SC_PAGE_SIZE")
@@ -79,7 +79,7 @@ class Heap:
 
 
 class _Usage(ctypes.Structure):
-    """What glibc's `mallinfo2` returns, in bytes."""
+    """Result of glibc's `mallinfo2`, in bytes."""
 
     _fields_ = tuple(
         (name, ctypes.c_size_t)
