@@ -22,6 +22,7 @@ from webviz.data.messages import (
     type_hash,
 )
 from webviz.data.messages.definitions import DEFINITIONS
+from webviz.data.messages.typestore import are_same
 
 CDR = b"\x00\x01\x00\x00"
 
@@ -138,3 +139,10 @@ def test_a_type_that_loses_its_header_has_none_from_then_on() -> None:
     assert peek_header(name, cdr) is None
     register(name, with_header)
     assert peek_header(name, cdr) == ("map", 3_000_000_000)
+
+
+def test_definitions_are_the_same_if_they_mean_the_same() -> None:
+    name, plain = "test_msgs/msg/Same", "int32 a\nfloat64 b\n"
+    assert are_same(name, plain, "# of two\nint32  a\nfloat64 b # in m\n")
+    for text, other in ((plain, "int32 a\nfloat32 b\n"), ("int32 = (", "int32 = (")):
+        assert not are_same(name, text, other)

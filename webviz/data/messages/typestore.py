@@ -114,7 +114,7 @@ def are_same(type_name: str, text: str, other: str) -> bool:
     try:
         first, second = (get_types_from_msg(each, full_name(type_name)) for each in (text, other))
     except TypesysError:
-        return text == other
+        return False
     return first == second
 
 
