@@ -24,6 +24,7 @@ from tests.attack.simulator import Simulator
 from tests.attack.sockets import Sockets, kind_of
 from tests.attack.target import Target
 from tests.attack.uploads import Uploads
+from tests.attack.weights import Weights
 from webviz.edges.access.roles import Role
 from webviz.shell.testing.domain import isolated_domain
 
@@ -36,7 +37,7 @@ MAX_BREACHES = 20
 ROLES = (None, *Role)
 KINDS = (
     *(class_.kind for class_ in (Dds, Requests, Uploads, Files, Saving, Simulator)),
-    *(class_.kind for class_ in (Bombs, Graphs, Disks, Crowds, Queues)),
+    *(class_.kind for class_ in (Bombs, Graphs, Disks, Crowds, Queues, Weights)),
     *map(kind_of, ROLES),
 )
 """Of attacks."""
@@ -93,6 +94,7 @@ def remote_attacks(target: Target, domain: int) -> Iterator[Attack]:
     """Those that attack a viewer."""
     yield Dds(domain)
     yield Graphs(target, domain)
+    yield Weights(target, domain)
     for role in ROLES:
         yield Sockets(target, role)
     yield Requests(target)
