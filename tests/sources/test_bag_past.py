@@ -1,4 +1,4 @@
-"""How much of the past a seek reads, and how far a step towards a time goes."""
+"""The part of the past that a seek reads, and the reach of a step towards a time."""
 
 from __future__ import annotations
 
