@@ -1,5 +1,7 @@
 // Ranges of values and of time, and the round numbers at their axes.
 
+import { fixed } from "../tools/numbers.js";
+
 /** Round numbers within a range, about `count` of them. */
 export function ticks(low, high, count) {
   const span = high / count - low / count; // of 1e308 and -1e308, too
@@ -43,7 +45,7 @@ export function changed(range, { around = 0.5, by = 1, move = 0 }) {
 /** A number with as many digits as the span of its axis needs. */
 export function numberText(value, span) {
   const size = Math.abs(value);
-  if (size && (size >= 1e6 || size < 1e-4)) return value.toPrecision(4).replace(/\.?0+e/, "e");
+  if (size && (size >= 1e6 || size < 1e-4)) return value.toExponential(3).replace(/\.?0+e/, "e");
   const digits = span > 0 ? Math.min(9, Math.max(0, 2 - Math.floor(Math.log10(span)))) : 3;
-  return value.toFixed(digits).replace(/(\.\d*?)0+$/, "$1").replace(/\.$/, "");
+  return fixed(value, digits).replace(/(\.\d*?)0+$/, "$1").replace(/\.$/, "");
 }

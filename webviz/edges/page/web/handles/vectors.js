@@ -61,7 +61,7 @@ export const compose = (a, b) => ({
   wxyz: turnedBy(a.wxyz, b.wxyz),
 });
 
-/** The angle by which `from` turns about a unit vector to point like `to`, in radians. */
+/** The angle by which `from` turns about a unit vector, perpendicular to both, to point like `to`, in radians. */
 export const angleAbout = (axis, from, to) =>
   Math.atan2(dot(axis, cross(from, to)), dot(from, to));
 

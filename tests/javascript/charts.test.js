@@ -1,0 +1,95 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { csv, curvesOf, extent, valueAt, visit } from "../../webviz/edges/page/web/charts/curves.js";
+import { changed, numberText, roomy, share, ticks } from "../../webviz/edges/page/web/charts/scale.js";
+
+const MOST = Number.MAX_VALUE;
+const piece = (times, values) => ({ times, values });
+const TWO = { name: "x", pieces: [piece([], []), piece([0, 1], [5, 6]), piece([2, 3], [7, NaN])] };
+
+function visited(curve, range) {
+  const found = [];
+  visit(curve, range, (time) => found.push(time));
+  return found;
+}
+
+test("ticks are round numbers within their range", () => {
+  assert.deepEqual(ticks(0, 10, 5), [0, 2, 4, 6, 8, 10]);
+  assert.deepEqual(ticks(-0.3, 0.3, 3).map((each) => each.toFixed(1)), ["-0.2", "0.0", "0.2"]);
+  assert.deepEqual(ticks(1e-300, 3e-300, 2), [1e-300, 2e-300, 3e-300]);
+});
+
+test("ticks of extreme ranges are few, and an empty range has none", () => {
+  const widest = ticks(-MOST, MOST, 5);
+  assert.ok(widest.length > 2 && widest.every(Number.isFinite), String(widest));
+  assert.ok(ticks(1e17, 1e17 + 16, 4).length <= 50);
+  for (const [low, high] of [[1, 1], [2, 1], [NaN, 1], [0, NaN]]) assert.deepEqual(ticks(low, high, 5), []);
+});
+
+test("a range of values has room around it and is never empty", () => {
+  assert.deepEqual(roomy(0, 10), [-0.5, 10.5]);
+  assert.deepEqual(roomy(100, 100), [95, 105]);
+  assert.deepEqual(roomy(0, 0), [-1, 1]);
+  assert.deepEqual(roomy(Infinity, -Infinity), [-1, 1], "of no values");
+  assert.deepEqual(roomy(-MOST, MOST), [-MOST, MOST]);
+});
+
+test("shares of a range are right where its span overflows", () => {
+  assert.equal(share(2.5, [0, 10]), 0.25);
+  assert.equal(share(0, [-MOST, MOST]), 0.5);
+});
+
+test("a range is scaled around a share of it and moved by another", () => {
+  assert.deepEqual(changed([0, 8], { around: 0.25, by: 0.5 }), [1, 5]);
+  assert.deepEqual(changed([0, 8], { move: -0.25 }), [-2, 6]);
+});
+
+test("numbers have the digits that the span of their axis needs", () => {
+  assert.equal(numberText(1.23456, 1), "1.23");
+  assert.equal(numberText(100, 10), "100");
+  assert.equal(numberText(1.5, 0), "1.5");
+  assert.equal(numberText(1e308, 1), "1e+308");
+  assert.equal(numberText(1_234_567, 1), "1.235e+6");
+  assert.equal(numberText(0.00005, 1), "5e-5");
+  assert.equal(numberText(-0.001, 1000), "0");
+  assert.equal(numberText(NaN, 1), "NaN");
+});
+
+test("curves are made of the pieces that have come, and unchanged pieces stay the same objects", () => {
+  const values = new Map([["plot/a.3", { start: 100, times: [0, 0.5], values: [1, null] }]]);
+  const facts = [{ key: "a", name: "/a", problem: "", chunks: [2, 4] }];
+  const known = new WeakMap();
+  const [curve] = curvesOf(facts, values, "plot", known);
+  assert.deepEqual(curve.pieces, [piece(Float64Array.of(100, 100.5), Float64Array.of(1, NaN))]);
+  assert.equal(curvesOf(facts, values, "plot", known)[0].pieces[0], curve.pieces[0]);
+});
+
+test("a line is drawn from the value before a range to the one behind it", () => {
+  assert.deepEqual(visited(TWO, [0.5, 1.5]), [0, 1, 2]);
+  assert.deepEqual(visited(TWO, [1.2, 1.4]), [1, 2]);
+  assert.deepEqual(visited(TWO, [5, 9]), [3]);
+  assert.deepEqual(visited(TWO, [-5, -1]), [0]);
+  assert.deepEqual(visited({ pieces: [] }, [0, 1]), []);
+});
+
+test("the extent of curves leaves out NaN", () => {
+  assert.deepEqual(extent([TWO, { pieces: [piece([1], [-1e308])] }], [0, 9]), [-1e308, 7]);
+  assert.deepEqual(extent([{ pieces: [piece([1], [NaN])] }], [0, 9]), [Infinity, -Infinity]);
+});
+
+test("the value at a time is the newest up to then", () => {
+  assert.deepEqual(valueAt(TWO, 1.9), { time: 1, value: 6 });
+  assert.deepEqual(valueAt(TWO, 2), { time: 2, value: 7 });
+  assert.deepEqual(valueAt(TWO, 99), { time: 3, value: NaN });
+  assert.equal(valueAt(TWO, -0.1), null);
+  const times = Array.from({ length: 1000 }, (_, i) => i);
+  const long = { pieces: [piece(times, times)] };
+  for (const time of [637, 637.5]) assert.deepEqual(valueAt(long, time), { time: 637, value: 637 });
+});
+
+test("CSV quotes names and leaves gaps out", () => {
+  const curves = [{ name: 'a "b",ü', pieces: [piece([1, 2, 3], [1e308, NaN, Infinity])] }];
+  assert.equal(csv(curves), 'curve,time (s),value\n"a ""b"",ü",1.000000,1e+308\n');
+  assert.equal(csv([]), "curve,time (s),value\n");
+});

@@ -1,0 +1,69 @@
+import assert from "node:assert/strict";
+import { afterEach, test } from "node:test";
+
+import { keyOf, keyText } from "../../webviz/edges/page/web/shell/keys.js";
+import * as keys from "../../webviz/edges/page/web/tools/teleop_keys.js";
+
+const press = (code, more = {}, canGoSideways = true) => keys.press({ code, ...more }, canGoSideways);
+
+afterEach(() => keys.release());
+
+test("keys are written as they are read", () => {
+  assert.equal(keyText("Ctrl+Shift+s"), "Ctrl+Shift+S");
+  assert.equal(keyText("ArrowUp"), "↑");
+  assert.equal(keyText("Alt+ArrowDown"), "Alt+↓");
+  assert.equal(keyText(" "), "Space");
+  assert.equal(keyText("Escape"), "Esc");
+  assert.equal(keyText("+"), "+");
+  assert.equal(keyText("F2"), "F2");
+});
+
+test("on a Mac Ctrl is the command key", async () => {
+  const here = Object.getOwnPropertyDescriptor(globalThis, "navigator");
+  Object.defineProperty(globalThis, "navigator", { value: { platform: "MacIntel" }, configurable: true });
+  const mac = await import(`${import.meta.resolve("../../webviz/edges/page/web/shell/keys.js")}?mac`);
+  Object.defineProperty(globalThis, "navigator", here);
+  assert.equal(mac.keyText("Ctrl+z"), "⌘+Z");
+  assert.equal(keyText("Ctrl+z"), "Ctrl+Z");
+});
+
+test("an event is named as commands name their keys", () => {
+  assert.equal(keyOf({ key: "S", ctrlKey: true, shiftKey: true }), "Ctrl+Shift+s");
+  assert.equal(keyOf({ key: "s", metaKey: true }), "Ctrl+s");
+  assert.equal(keyOf({ key: "?", shiftKey: true }), "?");
+  assert.equal(keyOf({ key: "Delete", shiftKey: true }), "Shift+Delete");
+  assert.equal(keyOf({ key: "ArrowUp", altKey: true }), "Alt+ArrowUp");
+  assert.equal(keyOf({ key: "É" }), "é");
+});
+
+test("keys drive while they are held", () => {
+  assert.ok(press("KeyW") && press("KeyA"));
+  assert.deepEqual(keys.share(), [1, 0, 1]);
+  press("ArrowUp");
+  assert.deepEqual(keys.share(), [1, 0, 1], "two keys for one way are no faster");
+  press("KeyS");
+  keys.lift({ code: "ArrowUp" });
+  assert.deepEqual(keys.share(), [0, 0, 1], "opposite keys cancel");
+  keys.release();
+  assert.deepEqual(keys.share(), [0, 0, 0]);
+});
+
+test("a key that is no key to drive with is left to others", () => {
+  assert.equal(press("KeyX"), false);
+  assert.deepEqual(keys.share(), [0, 0, 0]);
+});
+
+test("a robot that cannot go sideways ignores Q and E, which the camera must not get", () => {
+  assert.equal(press("KeyQ", {}, false), true);
+  assert.deepEqual(keys.share(), [0, 0, 0]);
+  press("KeyE");
+  assert.deepEqual(keys.share(), [0, -1, 0]);
+});
+
+test("a repeat begins nothing, and a shortcut ends all that is held", () => {
+  assert.equal(press("KeyW", { repeat: true }), true);
+  assert.deepEqual(keys.share(), [0, 0, 0]);
+  press("KeyW");
+  assert.equal(press("KeyD", { ctrlKey: true }), false);
+  assert.deepEqual(keys.share(), [0, 0, 0]);
+});
