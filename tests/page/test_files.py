@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import playwright.sync_api as playwright
 import pytest
@@ -14,31 +13,6 @@ from webviz.commands import Export, Load, Open, Save
 from webviz.engine.state import ConfigFile
 
 LAB = ConfigFile("/home/me/lab.yaml", False, "/home/me", ("lab.yaml", "nav2.rviz", "office.yaml"))
-
-
-@pytest.mark.parametrize(
-    ("entered", "name"),
-    [
-        ("lab.yaml", "lab.yaml"),
-        (" lab ", "lab.yaml"),
-        ("lab.yml", "lab.yml"),
-        ("nav2.RVIZ", "nav2.RVIZ"),
-        ("v1.2", "v1.2.yaml"),
-        (".bashrc", ".bashrc.yaml"),
-    ],
-)
-def test_a_name_without_a_known_suffix_becomes_yaml(tab: Tab, entered: str, name: str) -> None:
-    assert checked(tab, entered) == {"name": name}
-
-
-@pytest.mark.parametrize("entered", ["", "  ", "..", "a/b.yaml", "../x", "a\\b", "a\0b", "/etc/x"])
-def test_a_name_that_leaves_the_folder_is_refused(tab: Tab, entered: str) -> None:
-    assert "name" in checked(tab, entered)["problem"]
-
-
-def checked(tab: Tab, entered: str) -> Any:
-    check = "async (name) => (await import('/webviz/shell/files.js')).checkedName(name)"
-    return tab.page.evaluate(check, entered)
 
 
 def show(tab: Tab, file: ConfigFile) -> None:

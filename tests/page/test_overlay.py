@@ -54,17 +54,6 @@ def test_the_axes_are_as_before_when_a_lost_connection_is_back(tab: Tab, server:
     tab.wait_for(lambda: float(up.get_attribute("y2") or 0.0) < -25)
 
 
-def test_lengths_are_round_and_in_the_unit_that_suits_them(tab: Tab) -> None:
-    of = """async (meters) => {
-      const { rounded, inWords } = await import('/webviz/overlay/scale_bar.js');
-      return meters.map((each) => inWords(rounded(each)));
-    }"""
-    lengths = [0.00031, 0.0049, 0.03, 0.99, 1.0, 7.0, 25.0, 1999.0, 2000.0, 6e6]
-    assert tab.page.evaluate(of, lengths) == [
-        "0.2 mm", "2 mm", "2 cm", "50 cm", "1 m", "5 m", "20 m", "1 km", "2 km", "5000 km",
-    ]  # fmt: skip
-
-
 def test_the_scale_is_that_of_the_picture(tab: Tab) -> None:
     """Two points as far apart as the bar says are as far apart on the canvas as it is long."""
     tab.button("Look from Z").dispatch_event("click")

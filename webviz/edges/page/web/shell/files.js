@@ -7,9 +7,9 @@ import { icon } from "../icons.js";
 import { watch } from "../stores.js";
 import { ask, openDialog } from "./dialog.js";
 import { download } from "./download.js";
+import { checkedName, hasSuffix, SUFFIXES } from "./file_names.js";
 import { toast } from "./toasts.js";
 
-const SUFFIXES = [".yaml", ".yml", ".rviz"];
 const MAX_BYTES = 2 << 20;
 const MAX_CHARACTERS = (3 << 20) - 1000; // of a message with the config in it
 const NEW_NAME = "webviz.yaml";
@@ -46,21 +46,6 @@ export const save = () => (file.path ? act("Save") : saveAs());
 /** Sends the config here, as "yaml" or "rviz". */
 export const exportAs = (suffix) =>
   act("Export", { name: `${(fileName() || NEW_NAME).replace(/\.[^.]*$/, "")}.${suffix}` });
-
-/** The file name that was entered, or why it is invalid: `{name, problem}`. */
-export function checkedName(entered) {
-  const name = entered.trim();
-  if (!name || name === "." || name === "..")
-    return { problem: "Enter a file name, such as lab.yaml." };
-  if (/[/\\\0]/.test(name)) {
-    return { problem: "Enter a name without folders; the file is saved in the folder above." };
-  }
-  return { name: hasSuffix(name) ? name : `${name}.yaml` };
-}
-
-// As of pathlib: a name that begins with its only dot has no suffix.
-const hasSuffix = (name) =>
-  SUFFIXES.some((suffix) => name.toLowerCase().endsWith(suffix) && name.length > suffix.length);
 
 export function saveAs() {
   const input = el("input", {
