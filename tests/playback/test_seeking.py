@@ -10,7 +10,7 @@ from typing import Annotated
 
 import msgspec
 import pytest
-from bags import START_NS, Bag, ns
+from bags import START_NS, Bag, ns, strings
 from rosbags.rosbag2 import StoragePlugin
 
 from webviz import Context, Display, Input, Lookback, Sample, Topic
@@ -161,6 +161,30 @@ def test_a_seek_in_a_real_bag_shows_what_playing_shows(name: str) -> None:
         if isinstance(display, Odometry):  # its trail begins anew after a seek
             display.position_tolerance = display.angle_tolerance = 0.0
     check_seeks(BAGS / name, config, count=5, seed=3)
+
+
+def test_before_the_first_transform_no_status_is_left_of_what_was_drawn_later(
+    theater: Callable,
+) -> None:
+    bag = strings(0, 4)
+    bag.add("/scan", "sensor_msgs/msg/LaserScan")
+    scan = {"angle_increment": 0.1, "range_max": 9.0, "ranges": [1.0, 2.0]}
+    for at_s in (0.5, 2.5):
+        bag.put(at_s, "/scan", {"header": header("base", START_NS + ns(at_s)), **scan})
+    bag.put(3, "/scan", b"\x00\x01\x00\x00")
+    for at_s in (2, 2.6):
+        bag.transform(at_s, "map", "base")
+    viewer = theater(bag, "fixed_frame: map\ndisplays: [{type: LaserScan}]\n")
+
+    def levels(at_s: float) -> dict[str, str]:
+        (row,) = viewer.do(Seek(at_s)).rows
+        return {key: status.level.name for key, status in row.statuses.items()}
+
+    before = levels(1.0)
+    assert before["Transform"] == "WARN"
+    assert levels(2.9)["Transform"] == "OK"
+    assert levels(3.5)["Message"] == "ERROR"
+    assert levels(1.0) == before
 
 
 def test_a_seek_while_seeking_goes_to_the_last(theater: Callable) -> None:

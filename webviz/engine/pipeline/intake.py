@@ -203,9 +203,11 @@ class Intake:
         self._fault = ""
 
     def reset(self) -> None:
-        """Discard waiting messages, such as after a jump of time."""
+        """Forget all messages and their statuses, such as after a jump of time."""
         self._filter.clear()
         self._reception.reset()
+        self._fault = ""
+        self._placed_at = self._late_s = 0.0
         self._waiting_since = None
         self._newest = self._newest_placed = -1
 
