@@ -6,7 +6,7 @@ import pytest
 from bags import START_NS, TF, Bag, files, ns, stamped, strings
 from rosbags.rosbag2 import CompressionMode, StoragePlugin
 
-from webviz.data.messages import decode
+from webviz.data.messages import decode, register
 from webviz.engine.sources.bag import MAX_BATCH
 
 KINDS = [
@@ -197,6 +197,17 @@ def test_a_type_that_nobody_knows_is_learnt_from_the_bag(tmp_path, opened):
     message = decode("learnt_msgs/msg/Own", raw.cdr)
     assert (message.data, message.number) == ("hi", 7)
     assert bag.source.remarks == []
+
+
+def test_a_type_that_was_known_before_is_read_as_the_bag_defines_it(tmp_path, opened):
+    register("aged_msgs/msg/Own", "int8 old\n")
+    recorded = Bag()
+    recorded.add("/own", "aged_msgs/msg/Own", definition="string data\n")
+    recorded.put(0, "/own", b"\x00\x01\x00\x00\x03\x00\x00\x00hi\x00")
+    bag = opened(recorded.write(tmp_path / "bag"))
+    bag.want("/own", type_name="aged_msgs/msg/Own")
+    bag.play(1)
+    assert bag.heard("/own", "aged_msgs/msg/Own") == ["hi"]
 
 
 @pytest.mark.parametrize("text", ["", "nonsense of a definition!", "other_msgs/Missing part\n"])

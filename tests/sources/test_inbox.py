@@ -31,6 +31,15 @@ def test_a_topic_keeps_its_newest_message_however_large() -> None:
     assert inbox.dropped("/a") == 2
 
 
+def test_a_topic_keeps_its_newest_messages_up_to_a_number() -> None:
+    inbox = opened(1000, 1000)
+    put(inbox, "/a", *range(1, 13))
+    put(inbox, "/closed", 1)
+    assert kept(inbox) == {"/a": list(range(3, 13))}
+    assert inbox.dropped("/a") == 2
+    assert inbox.received().keys() == {"/a"}
+
+
 def test_all_topics_share_a_limit_and_the_one_with_most_bytes_loses_its_oldest() -> None:
     inbox = opened(100, 150)
     put(inbox, "/a", 40, 50)
