@@ -31,7 +31,7 @@ export function step(model, ids, way) {
   const moved = topmost(model, ids);
   if (!moved.length) return null;
   const [first, last] = [moved[0], moved.at(-1)];
-  const around = siblings(model, first).filter((item) => item === first || !ids.has(item.id));
+  const around = siblings(model, first);
   const before = around.slice(0, around.indexOf(first));
   if (way === "up") {
     return before.length ? { group: first.parent?.id ?? "", before: before.at(-1).id } : null;
@@ -42,7 +42,7 @@ export function step(model, ids, way) {
     return group ? inside(group) : null;
   }
   const others = siblings(model, last);
-  const next = others.slice(others.indexOf(last) + 1).find(({ id }) => !ids.has(id));
+  const next = others[others.indexOf(last) + 1];
   return next ? behind(model, next, ids) : null;
 }
 
