@@ -1,4 +1,4 @@
-// Which control suits which kind of property.
+// Controls for each kind of property.
 //
 // A control is made by `(property, {label, change, refused})`: a property as `content/forms.py` declares
 // it; `change(value)` sends what was entered and returns the promise of `act`; `refused(text)` says why

@@ -1,4 +1,4 @@
-// What is typed into a field counts on Enter, or when the field is left; Escape goes back.
+// Text fields: input counts on Enter, or when the field is left; Escape goes back.
 
 import { set } from "../dom.js";
 import { MIXED, MIXED_TEXT } from "./mixed.js";

@@ -3,5 +3,5 @@
 /** In place of a value, also of an element of a vector. */
 export const MIXED = Symbol("mixed");
 
-/** What a field says instead of it. */
+/** The text of a field with such a value. */
 export const MIXED_TEXT = "Mixed";

@@ -61,7 +61,7 @@ export function row(property, send, { marks = true, command = "" } = {}) {
   };
 }
 
-/** What a tooltip says of a property: what it is for, what it may be, what it is by itself. */
+/** The tooltip of a property: its purpose, its bounds and its default. */
 function about(property) {
   const range = bounds(property);
   const items = { dict: "One entry per line, name: value.", list: "One entry per line." }[property.kind];

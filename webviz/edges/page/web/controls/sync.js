@@ -11,7 +11,7 @@ const LOST = { level: "error", text: "Not changed: the viewer does not answer. T
 /**
  * `show(value)` makes the control show a value. `send(value)` sends it to the viewer; it may return a promise
  * of `{level, text}`. `refused(text)` says why the viewer did not take it, or "" that all is well.
- * What was refused stays for correction; once the control has lost the focus (`isFocused()`), until
+ * A refused value stays for correction; once the control has lost the focus (`isFocused()`), until
  * somebody else changes the value.
  *
  * @param {{
@@ -60,7 +60,7 @@ export function sync({ show, send, refused = () => {}, isFocused = () => false }
   }
 
   return {
-    /** What the viewer has. */
+    /** The value that the viewer has. */
     show(value) {
       const isOther = hasNewest && JSON.stringify(value) !== JSON.stringify(newest);
       if (isOther && isRefused && !isHeld && !isFocused()) tell("");
@@ -82,7 +82,7 @@ export function sync({ show, send, refused = () => {}, isFocused = () => false }
       if (isUnderWay) waiting = { value };
       else next(value);
     },
-    /** What they entered means nothing: says so, and leaves it to them. */
+    /** Report invalid input, and leave it for correction. */
     refuse: tell,
     /** Back to what the viewer has, or is about to have. */
     cancel() {

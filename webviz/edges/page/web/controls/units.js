@@ -52,7 +52,7 @@ export function format(value) {
 /** The largest power of ten up to a size. */
 const powerOfTen = (size) => Number(`1e${Math.floor(Math.log10(size))}`);
 
-/** How far one step of an arrow key goes from a value. */
+/** The step of an arrow key from a value. */
 export function stepOf({ kind, low, high }, value) {
   if (kind === "int") return 1;
   if (low !== undefined && high !== undefined) return powerOfTen((high - low) / 100);

@@ -75,7 +75,7 @@ export function updateFrame(row, { name, depth, isOpen, frame, isLoop }) {
   indent(row, depth);
 }
 
-/** How fast a frame comes. */
+/** The rate of a frame, as text. */
 export function factOf(frame) {
   if (!frame) return "";
   if (frame.is_static) return "static";
@@ -83,7 +83,7 @@ export function factOf(frame) {
   return frame.hz ? rateText(frame.hz) : "one sample";
 }
 
-/** How old the newest transform of a frame is; times of a simulation are no ages for wall time. */
+/** The age of the newest transform of a frame; times of a simulation are no ages for wall time. */
 export function ageText({ age }) {
   if (age === null) return "";
   return age < -0.5 ? `${spanText(-age)} ahead` : spanText(Math.max(0, age));

@@ -30,7 +30,7 @@ export function rowsOf(tree, folds, depth = 0, path = "") {
   });
 }
 
-/** What a row says of a tree that is folded. */
+/** The text of a row whose tree is folded. */
 function brief(tree) {
   if (isLeaf(tree)) return tree;
   if (tree.fields) return cut(inline(tree));

@@ -25,7 +25,7 @@ async function firstPlot() {
   return { id: values.get("id"), curves: values.get("value.curves") };
 }
 
-// What a store has now.
+// The present values of a store.
 function once(store) {
   return new Promise((resolve) => {
     const end = watch(store, (values) => {

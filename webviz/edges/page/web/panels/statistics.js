@@ -1,4 +1,4 @@
-// How many things of each display are selected, and over what their values extend.
+// Statistics of the selection: how many things of each display, and the range of their values.
 
 const DIGITS = 3; // of how far values extend
 const MAX_DECIMALS = 9;

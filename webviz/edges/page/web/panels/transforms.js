@@ -102,7 +102,7 @@ export const transforms = {
   },
 };
 
-/** What is known of a frame, in sentences. */
+/** Facts about a frame, in sentences. */
 function detailOf({ name, frame }) {
   if (!frame) return `${name} is a root: it has no parent.`;
   const age = frame.is_static || !frame.samples ? "" : `${ageText(frame)} old`;

@@ -1,4 +1,4 @@
-// What the frame of the page can do, as commands; the header and its menu are made of them.
+// Commands of the page's frame; the header and its menu are made of them.
 
 import { act } from "../act.js";
 import { openAdd } from "./add.js";

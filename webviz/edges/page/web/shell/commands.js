@@ -55,7 +55,7 @@ export function run({ needs, run: act }) {
 /** The keys of a command, in a list. */
 export const keysOf = ({ key }) => (key ? [key].flat() : []);
 
-/** Whether the target of an event is a text field. */
+/** True if the target of an event is a text field. */
 export const isTyping = (event) => Boolean(event.target.closest?.(TYPED));
 
 export function install() {

@@ -23,7 +23,7 @@ const baseName = (path) => path.split("/").pop();
 export const fileName = () => baseName(file.path);
 export const path = () => file.path;
 export const isChanged = () => file.is_changed;
-/** Whether the server has reported the file. */
+/** True once the server has reported the file. */
 export const isThere = () => file.folder !== null;
 
 export function install() {

@@ -1,4 +1,4 @@
-// What to do when nothing is published at all.
+// First steps, shown while nothing is published at all.
 
 import { copy } from "../clipboard.js";
 import { el } from "../dom.js";

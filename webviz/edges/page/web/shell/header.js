@@ -69,7 +69,7 @@ function button(iconName, label, key, run) {
   );
 }
 
-// What it would undo is in its tooltip; all steps are in a menu, by a right click or the arrow key.
+// Its tooltip names the step to undo; all steps are in a menu, by a right click or the arrow key.
 function step(way, action) {
   const made = button(action.icon, action.name, [action.key].flat()[0], action.run);
   if (why(action.needs)) return needs(action.needs, made);

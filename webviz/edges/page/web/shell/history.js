@@ -25,7 +25,7 @@ export function onSteps(listener) {
   listener();
 }
 
-/** What the next step of a way, "undo" or "redo", would be about; undefined if there is none. */
+/** The subject of the next step of a way, "undo" or "redo"; undefined if there is none. */
 export const next = (way) => (steps[way].find(isOwn) ?? steps[way][0])?.label;
 
 /** Takes back the newest step of this page; without one, the newest of all. */

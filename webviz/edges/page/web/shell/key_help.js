@@ -7,7 +7,7 @@ import { keyText } from "./keys.js";
 
 const ORDER = ["File", "Edit", "View", "Time", "Tools", "Displays"];
 
-// What the scene itself listens to, see scene/mouse.js; and viser's camera.
+// Keys of the scene itself, see scene/mouse.js; and viser's camera.
 const SCENE = [
   ["Turn the view", ["Drag"]],
   ["Move the view", ["Shift+Drag", "Middle button"]],
@@ -18,7 +18,7 @@ const SCENE = [
   ["Look at what is under the mouse", ["F"]],
 ];
 
-// What the tree of displays listens to while it has the focus, see panels/displays/keys.js.
+// Keys of the tree of displays while it has the focus, see panels/displays/keys.js.
 const TREE = [
   ["Show or hide displays", ["Space"]],
   ["Copy as YAML", ["Ctrl+c"]],
@@ -30,7 +30,7 @@ const TREE = [
   ["Actions", ["Shift+F10"]],
 ];
 
-// What an image listens to while it has the focus, see images/zoom.js.
+// Keys of an image while it has the focus, see images/zoom.js.
 const IMAGE = [
   ["Zoom", ["Wheel", "+", "-"]],
   ["Move", ["Drag", "←", "↑", "→", "↓"]],

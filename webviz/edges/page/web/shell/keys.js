@@ -1,4 +1,4 @@
-// How keys are called, for people.
+// Names of keys, for people.
 
 const isMac = /Mac|iPhone|iPad/.test(navigator.platform);
 const ARROWS = { ArrowUp: "↑", ArrowDown: "↓", ArrowLeft: "←", ArrowRight: "→" };

@@ -1,4 +1,4 @@
-// Which part of the window the side has: its width, and whether it is folded away.
+// Layout of the side: its width, and whether it is folded away.
 
 import { el } from "../dom.js";
 import { recall, remember } from "../remember.js";

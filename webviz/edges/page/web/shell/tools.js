@@ -21,7 +21,7 @@ import { keyText } from "./keys.js";
 /** The buttons of the tools; those that are icons may go into a menu. */
 export const buttons = el("div", { class: "wv-tools", role: "group", "aria-label": "Tools" });
 export const icons = el("div", { class: "wv-tools", role: "group", "aria-label": "Camera" });
-/** What goes on below the toolbar: waypoints that are collected, goals of robots. */
+/** The area below the toolbar: waypoints that are collected, goals of robots. */
 export const cards = el("div", { class: "wv-cards" });
 export { hint };
 

@@ -1,4 +1,4 @@
-// What can be added for topics: each with the displays that show it, an image once for all transports.
+// Topics that can be added: each with the displays that show it, an image once for all transports.
 
 import { typeIcon } from "./type_icons.js";
 

@@ -1,4 +1,4 @@
-// What is done with displays, and the menu of it.
+// Actions on displays, and their menu.
 
 import { act, newStep } from "../../act.js";
 import { copy } from "../../clipboard.js";
@@ -11,7 +11,7 @@ import * as selection from "./selection.js";
 
 const switching = new Map();
 
-/** Whether a display is on: as it was just switched here, until the viewer has answered. */
+/** True if a display is on: as it was just switched here, until the viewer has answered. */
 export const isEnabled = (item) => switching.get(item.id) ?? item.enabled;
 
 /** Switches displays on or off; `refresh` shows what came of it. */

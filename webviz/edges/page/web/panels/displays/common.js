@@ -1,4 +1,4 @@
-// What several displays have in common: the properties that are declared alike, and their values.
+// Properties that several displays have in common, declared alike, and their values.
 
 import { MIXED } from "../../controls/mixed.js";
 

@@ -1,4 +1,4 @@
-// What this browser has folded and unfolded: groups are open at first, displays are not.
+// Folding in this browser: groups are open at first, displays are not.
 //
 // Ids serve while the viewer runs; names last longer, so they are what is remembered.
 
@@ -18,7 +18,7 @@ channel.onOpen(() => {
   paths.clear();
 });
 
-/** Whether what is in a group, or the properties of a display, are shown below it. */
+/** True if the content of a group, or the properties of a display, are shown below it. */
 export const isOpen = (item) => item.isGroup !== toggled.has(item.id);
 
 /** Folds or unfolds. */

@@ -47,10 +47,10 @@ export function arrange(values) {
   return model;
 }
 
-/** What an item is among: the children of its group, or what is in none. */
+/** The siblings of an item: the children of its group, or what is in none. */
 export const siblings = (model, item) => item.parent?.children ?? model.top;
 
-/** Whether an item is one of a set of ids, or in one. */
+/** True if an item is one of a set of ids, or in one. */
 export function isWithin(item, ids) {
   for (let one = item; one; one = one.parent) if (ids.has(one.id)) return true;
   return false;
@@ -76,7 +76,7 @@ export function visible(model, isOpen, search) {
   return rows;
 }
 
-/** Whether all words are somewhere in the name, the type and the topics of an item. */
+/** True if all words are somewhere in the name, the type and the topics of an item. */
 export function matches(item, words) {
   const text = [item.name, item.type, ...item.topics].join("\n").toLowerCase();
   return words.every((word) => text.includes(word));

@@ -1,4 +1,4 @@
-// Which displays this browser has selected, and which one keys are about.
+// Displays that are selected in this browser, and the one that keys act on.
 
 import * as channel from "../../channel.js";
 import { recall, remember } from "../../remember.js";
@@ -61,7 +61,7 @@ export function toggle(id) {
 }
 
 export const severalAtOnce = () => isSeveral;
-/** Whether each click adds a row, or takes it away. */
+/** True if each click adds a row, or takes it away. */
 export const selectSeveral = (wanted) => (isSeveral = wanted);
 
 /** Selects from where the selection began to a row. */

@@ -1,4 +1,4 @@
-// What a display, or the viewer, says about itself: a line each, folded to the worst.
+// Statuses of a display, or of the viewer: a line each, folded to the worst.
 
 import { needs } from "../../access.js";
 import { act } from "../../act.js";
