@@ -1,6 +1,7 @@
 """Mood of docstrings: modules, classes and values get a noun phrase, functions the imperative."""
 
 import ast
+import re
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,9 @@ FILES = [
     for path in sorted((ROOT / folder).rglob("*.py"))
 ]
 QUESTIONS = ("What", "Whether", "How", "Which")
+PAGE = ROOT / "webviz" / "edges" / "page" / "web"
+COMMENT = re.compile(rf"(?:/\*\*[\s*]*|^//)\s*(?:{'|'.join(QUESTIONS)})\b.*", re.MULTILINE)
+"""A comment of JSDoc, of a module or at its top level that begins as a question."""
 
 
 @pytest.mark.parametrize("folder", sorted({path.relative_to(ROOT).parts[0] for path in FILES}))
@@ -25,5 +29,16 @@ def test_no_docstring_begins_as_a_question(folder: str) -> None:
         and isinstance(node.value, ast.Constant)
         and isinstance(node.value.value, str)
         and node.value.value.lstrip().split(" ", 1)[0] in QUESTIONS
+    ]
+    assert found == []
+
+
+def test_no_comment_of_the_page_begins_as_a_question() -> None:
+    modules = sorted(PAGE.rglob("*.js"))
+    assert modules
+    found = [
+        f"{path.relative_to(ROOT)}: {' '.join(match.group().split())}"
+        for path in modules
+        for match in COMMENT.finditer(path.read_text(encoding="utf-8"))
     ]
     assert found == []

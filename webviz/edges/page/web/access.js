@@ -1,4 +1,4 @@
-// What people may do on this page, as the server said when the page joined. The server holds every
+// Permissions on this page, as the server said when the page joined. The server holds every
 // message against the same roles; here, what is not allowed says so before it is tried.
 
 import * as channel from "./channel.js";

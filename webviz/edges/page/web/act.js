@@ -1,4 +1,4 @@
-// What people do on this page: commands to the viewer, and what comes of them.
+// Commands of this page to the viewer, and their answers.
 
 import { why } from "./access.js";
 import * as channel from "./channel.js";
@@ -12,7 +12,7 @@ channel.on("Done", ({ number, level, text, display }) => {
   waiting.delete(number);
   done?.({ level, text, display });
 });
-// What was under way when the connection was lost is not answered any more.
+// Commands under way when the connection was lost are not answered any more.
 channel.onOpen(() => waiting.clear());
 
 /**

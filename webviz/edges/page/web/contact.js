@@ -1,4 +1,4 @@
-// What the page does when the server falls silent.
+// Notice and recovery when the server falls silent.
 //
 // The server says something at least every second. A browser learns from its websocket alone neither
 // that a server hangs nor that a radio link broke.

@@ -46,7 +46,7 @@ viser.connectToFolder();
 const installed = install();
 const address = new URL("webviz/channel", location.href).href.replace(/^http/, "ws");
 
-// What the server and the pictures of webviz call.
+// Functions that the server and the pictures of webviz call.
 window.webviz = {
   /** viser's id of this page, once it is connected. */
   browser: null,

@@ -1,4 +1,4 @@
-// What viser's page does differently for us, besides drawing.
+// Changes to viser's page, besides drawing.
 
 import * as viser from "./viser_page.js";
 

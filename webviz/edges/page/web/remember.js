@@ -1,8 +1,8 @@
-// What this browser remembers of its own page: folding, widths, the tab that is open.
+// State that this browser remembers of its own page: folding, widths, the tab that is open.
 
 const PREFIX = "webviz.";
 
-/** What was remembered under a key, or `otherwise`. */
+/** The value remembered under a key, or `otherwise`. */
 export function recall(key, otherwise) {
   try {
     return JSON.parse(localStorage.getItem(PREFIX + key)) ?? otherwise;

@@ -7,7 +7,7 @@ export const VISER = "1.1.1";
 
 const page = () => window.__viserMutable;
 
-// What has to be there, and what for. A path of a function ends with ().
+// Required parts of viser's page, and their uses. A path of a function ends with ().
 const NEEDS = {
   "scene.onBeforeRender()": "everything that is adjusted before a frame is drawn",
   "scene.onAfterRender()": "measuring how many points the page holds",
@@ -41,7 +41,7 @@ const NEEDS = {
   "sendCamera()": "telling the server where a camera is",
 };
 
-/** What this page lacks of what is accessed here: sentences, none if it is viser's of `VISER`. */
+/** Sentences on what is accessed here and missing on this page; none if it is viser's of `VISER`. */
 export function missing() {
   const lacks = [];
   for (const [path, use] of Object.entries(NEEDS)) {
@@ -111,7 +111,7 @@ export const requestRender = () => page().requestRender();
 export const sendCamera = () => page().sendCamera();
 export const setMaxOrbitDistance = (meters) => (page().configuredMaxOrbitDistance = meters);
 
-/** Whether the messages are yet to be handled that make the scene after connecting. */
+/** True until the messages that make the scene after connecting are handled. */
 export const isFirstBatch = () => page().firstMessageBatch;
 
 /** Handles the messages that have come, as viser does when it draws a frame. */

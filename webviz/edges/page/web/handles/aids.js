@@ -17,7 +17,7 @@ export function install() {
   beforeRender(draw);
 }
 
-/** Whether a control of a mode has an axis to show. */
+/** True for a mode whose control has an axis to show. */
 export const isAbout = (mode) => ["move_axis", "move_rotate", "rotate_axis"].includes(mode);
 
 /** Shows a line through a point of a frame, the coordinates of `object`; null for none. */

@@ -1,4 +1,4 @@
-// What a drag does to the pose of a handle: RViz's rules, in the coordinates of its frame.
+// Drags of the pose of a handle: RViz's rules, in the coordinates of its frame.
 //
 // `begin` takes where the drag begins, and returns what takes each step of it. Both get how the
 // camera sees the frame, see `sight.js`; a step also gets the pointer: `{at, by, wheel, shift,

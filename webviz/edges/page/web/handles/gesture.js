@@ -1,4 +1,4 @@
-// What the pointer does to handles while the tool Interact is active.
+// Gestures of the pointer on handles while the tool Interact is active.
 
 import { why } from "../access.js";
 import * as channel from "../channel.js";
@@ -222,7 +222,7 @@ function show({ id, control, at, point }) {
   setTimeout(() => menu.open(at, handle, choose));
 }
 
-// What is under the pointer, in the frame of the dragged handle; null for nothing.
+// The point under the pointer, in the frame of the dragged handle; null for nothing.
 function pointAt(at, id = drag?.id) {
   const node = frameNode(known.all().get(id)?.frame);
   const found = node && pickAt(at);

@@ -1,4 +1,4 @@
-// What displays let people move in the scene.
+// Handles of displays that people move in the scene.
 
 import * as known from "./known.js";
 import * as poses from "./poses.js";

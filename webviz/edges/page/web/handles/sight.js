@@ -1,4 +1,4 @@
-// How the camera sees a frame.
+// Projection of a frame by the camera.
 
 import constants from "../constants.js";
 import { casterAt } from "../scene/rays.js";
@@ -18,7 +18,7 @@ const segment = (text) =>
 export const frameNode = (group) => viser.node(group ? pathOf(group) : ROOT);
 
 /**
- * How the camera sees the coordinates of an object: `rayAt(xy)` through a point of the window,
+ * Projection of the coordinates of an object: `rayAt(xy)` through a point of the window,
  * `project(point)` to one, or null behind the camera; `right`, `up` and `forward`; `perPixel(point)`
  * and `unit(point)`, how many metres a pixel is there, and a hundred.
  */

@@ -90,7 +90,7 @@ function trianglesOf({ rows, columns, places }) {
   return new Float32Array(found);
 }
 
-/** Which place of the image, as shares of its size, is shown at a place of the bent one; or null. */
+/** The place of the image, as shares of its size, that is shown at a place of the bent one; or null. */
 export function straight({ rows, columns, places }, /** @type {number[]} */ [x, y]) {
   const [across, down] = [x * (columns - 1), y * (rows - 1)];
   const column = Math.min(Math.floor(across), columns - 2);

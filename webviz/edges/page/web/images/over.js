@@ -39,7 +39,7 @@ function fitting([wide, tall], width, height) {
   return [(wide * scale) / width, (tall * scale) / height];
 }
 
-// How large all that the camera sees at a zoom of 1 is, as shares of the pane; as RViz does it.
+// The size of all that the camera sees at a zoom of 1, as shares of the pane; as RViz does it.
 function extent({ size, focal, zoom }, width, height) {
   const aspect = size[0] / focal[0] / (size[1] / focal[1]);
   const own = width / height;

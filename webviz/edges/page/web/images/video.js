@@ -1,6 +1,6 @@
 // Video by the decoder of the browser (WebCodecs).
 
-// What the packets need: baseline strings, since the streams carry their own parameters.
+// Codecs of the packets: baseline strings, since the streams carry their own parameters.
 const CODECS = {
   h264: "avc1.640033", h265: "hev1.1.6.L153.B0", vp9: "vp09.00.50.08", av1: "av01.0.12M.08",
 };

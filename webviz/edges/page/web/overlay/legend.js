@@ -1,4 +1,4 @@
-// Which values colours stand for, of each display that colours by value.
+// Legends of colours, for each display that colours by value.
 
 import { el, set, setChildren, setText } from "../dom.js";
 import { watch } from "../stores.js";

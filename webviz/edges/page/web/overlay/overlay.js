@@ -1,4 +1,4 @@
-// What lies over the scene and explains it: axes, scale, legend, what is under the mouse, rates.
+// Overlays that explain the scene: axes, scale, legend, what is under the mouse, rates.
 
 import { places } from "../shell/shell.js";
 import * as gizmo from "./gizmo.js";

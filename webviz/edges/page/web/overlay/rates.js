@@ -1,4 +1,4 @@
-// How the page keeps up: frames a second and the way to the server and back; a click shows details.
+// Performance of the page: frames per second and round trip to the server; a click shows details.
 
 import * as channel from "../channel.js";
 import { el, set, setChildren, setText } from "../dom.js";

@@ -1,4 +1,4 @@
-// How long something is where the camera looks at: a bar of a round length.
+// The scale where the camera looks at: a bar of a round length.
 
 import { el, setText } from "../dom.js";
 import * as views from "../scene/view.js";

@@ -1,4 +1,4 @@
-// What the server has reduced because the link to this page is slow.
+// A note of what the server has reduced because the link to this page is slow.
 
 import * as channel from "../channel.js";
 import { el, setText } from "../dom.js";

@@ -59,7 +59,7 @@ function thin(objects, camera, budget) {
   return drawn;
 }
 
-// How much a sphere counts, the more the nearer; 0 out of sight.
+// The weight of a sphere, the more the nearer; 0 out of sight.
 function weightOf({ middle, radius }, matrixWorld, camera) {
   const at = camera.position.clone().fromArray(middle);
   at.applyMatrix4(matrixWorld).applyMatrix4(camera.matrixWorldInverse);

@@ -1,4 +1,4 @@
-// How many points this page draws 20 times a second, which it measures while it draws.
+// The number of points that this page draws 20 times a second, measured while it draws.
 
 import { why } from "../access.js";
 import * as channel from "../channel.js";
@@ -18,7 +18,7 @@ const LOOK_MS = 2;
 let held = POINTS_HELD;
 let isMeasured = false;
 
-/** How many points to draw at once. */
+/** The number of points to draw at once. */
 export const points = () => held;
 
 export function install() {
@@ -77,7 +77,7 @@ function stepBelow(count) {
   return Math.min(Math.max(step, FEWEST_POINTS), MAX_POINTS);
 }
 
-// What watchers report would change what others see.
+// Reports of watchers would change what others see.
 const report = () => why("Holds") || channel.send({ type: "Holds", points: held });
 
 // Pages that only take pictures draw on request; those must not depend on how fast that is.

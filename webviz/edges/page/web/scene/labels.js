@@ -1,4 +1,4 @@
-// How texts look.
+// Appearance of texts.
 //
 // viser draws black letters on white boxes, from distance fields. Here the boxes are hidden, and the
 // letters have a colour and an outline that the same fields give, dark around light letters and light

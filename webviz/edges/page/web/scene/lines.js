@@ -1,4 +1,4 @@
-// How lines look.
+// Appearance of lines.
 //
 // Lines with an opacity blend; viser's are opaque. The opacity is in the last bits of the width, see
 // scene/lines.py, with a mark of those that have the colour of the theme. The ends of lines with a width in metres are square, as RViz's, where viser's are

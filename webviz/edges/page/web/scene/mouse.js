@@ -1,4 +1,4 @@
-// What the mouse and the keyboard do to the camera, as RViz has it.
+// Control of the camera by mouse and keyboard, as in RViz.
 //
 // Left turns, middle or left with shift moves, right and the wheel come closer. F looks at what is
 // under the mouse.

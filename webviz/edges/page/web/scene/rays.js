@@ -2,7 +2,7 @@
 
 import * as viser from "../viser_page.js";
 
-/** What casts a ray through a point of the window, in three.js' coordinates. */
+/** The raycaster through a point of the window, in three.js' coordinates. */
 export function casterAt([x, y]) {
   const box = viser.canvas().getBoundingClientRect();
   const [across, down] = [(x - box.left) / box.width, (y - box.top) / box.height];

@@ -1,4 +1,4 @@
-// How surfaces are shaded: by the view, and boxes of data by their sides.
+// Shading of surfaces: by the view, and boxes of data by their sides.
 //
 // A surface that faces the camera has its own colour, and the less it does the darker it is, as if
 // by the one light of RViz, which shines from the camera. That is in sRGB, as there: the lights of

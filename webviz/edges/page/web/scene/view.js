@@ -29,9 +29,9 @@ let aimed = null;
 
 /** The type of the view, "" before there is one. */
 export const type = () => (view === null ? "" : view.view);
-/** What is put before the camera's own pose. */
+/** The transform before the camera's own pose. */
 export const followed = () => (rig === null ? matrix() : rig);
-/** How far the point that the camera looks at is from the focal point of the view. */
+/** The offset of the point that the camera looks at from the focal point of the view. */
 export const raised = () => (isRaised() ? raise() : vector([0, 0, 0]));
 /** Turns the camera about what it looks at, to where a direction of the fixed frame points. */
 export function lookFrom(xyz) {
@@ -50,7 +50,7 @@ export function axes() {
   return [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((axis) =>
     vector(axis).transformDirection(toCamera).toArray());
 }
-/** How many metres a pixel is where the camera looks at. */
+/** The size of a pixel where the camera looks at, in metres. */
 export const metersPerPixel = () =>
   (2 * viser.controls().distance * Math.tan((camera.fov * Math.PI) / 360)) / canvas.clientHeight;
 /** Calls `listener` whenever another view is shown. */
@@ -119,7 +119,7 @@ function rejoin() {
   setTimeout(report, SENT_MS);
 }
 
-// What viser keeps before the camera, and the cross where it turns about, without knowing rigs.
+// Adjust what viser keeps before the camera, and the cross where it turns about, without knowing rigs.
 function dress(camera) {
   if (cross) cross.visible = rig === null;
   for (const child of viser.scene().children) {

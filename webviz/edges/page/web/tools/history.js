@@ -1,4 +1,4 @@
-// What this page has sent by tools, and what came of it: the newest first.
+// History of what this page has sent by tools, with the results: the newest first.
 
 import * as channel from "../channel.js";
 import { watch } from "../stores.js";
@@ -37,7 +37,7 @@ export function send(tool, { points, yaw, keys, yaws = [], several = "" }) {
 /** Sends it again: a new message, stamped now. */
 export const again = (entry) => send(entry.tool, entry);
 
-/** What came of a gesture, in a sentence. */
+/** Note the result of a gesture, a sentence. */
 export const told = (number, level, text) => change(number, (entry) => ({ ...entry, level, text }));
 
 /** A message that a gesture became: `{topic, type, values}`. */

@@ -1,11 +1,11 @@
-// What this page has selected in the scene. The server knows the same things by the ids that they get
+// The selection of this page in the scene. The server knows the same things by the ids that they get
 // here, and what there is to say about them.
 
 import { act } from "../act.js";
 import * as channel from "../channel.js";
 import { watch } from "../stores.js";
 
-/** How many things are selected at most. */
+/** The most things that are selected. */
 export const MAX_SELECTED = 1000;
 
 const listeners = new Set();
@@ -17,10 +17,10 @@ let end = () => {};
 
 /** All things by id: what `pickAt` made of each. */
 export const all = () => things;
-/** How many there were to select. */
+/** The number of things that there were to select. */
 export const totalCount = () => total;
 
-/** Whether a thing moves and stays what it is, such as a frame; messages do not. */
+/** True if a thing moves and stays what it is, such as a frame; messages do not. */
 export const moves = ({ id }) => known.get(String(id))?.[1] ?? false;
 
 /** Calls `listener` whenever something else is selected; returns what ends it. */
@@ -44,7 +44,7 @@ export function install() {
   });
 }
 
-/** What a `pickAt` is about, for those who compare it with others. */
+/** The identity of a `pickAt`, to compare it with others. */
 const keyOf = ({ group, key, number, at }) => JSON.stringify([group, key, number, at]);
 
 /** The same as the server reads it: of one node, its items. */

@@ -53,7 +53,7 @@ export function install() {
   });
 }
 
-/** What is driven, and by whom; null while no tool that drives is active. */
+/** The robot that is driven, and by whom; null while no tool that drives is active. */
 export const state = () => driven;
 
 // The card is there while the tool is active, however it became so.

@@ -29,7 +29,7 @@ export function makeCard(change) {
     release() {
       for (const part of parts) part.release();
     },
-    /** What is held, as `share` of teleop_keys.js. */
+    /** The held direction, as `share` of teleop_keys.js. */
     share: () => parts.map((part) => part.share()).reduce(added),
     showHeld: stick.show,
     showRobot(values) {

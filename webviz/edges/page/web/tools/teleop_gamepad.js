@@ -8,7 +8,7 @@ let isArmed = false;
 /** A stick counts once it has been in its middle, so that nothing drives off by itself. */
 export const disarm = () => (isArmed = false);
 
-/** What is held, as `share` of teleop_keys.js. */
+/** The held sticks, as `share` of teleop_keys.js. */
 export function share() {
   const pads = [...(navigator.getGamepads?.() ?? [])];
   const axes = pads.find((pad) => pad?.connected && pad.axes.length > LEFT_Y)?.axes ?? [];

@@ -11,7 +11,7 @@ const KEYS = {
 
 const held = new Set();
 
-/** Whether a key is for driving; then it is held from now on. Q and E go sideways, if the robot can. */
+/** Hold a key from now on, true if it is for driving. Q and E go sideways, if the robot can. */
 export function press(event, canGoSideways) {
   const [axis] = KEYS[event.code] ?? [];
   if (event.ctrlKey || event.metaKey || event.altKey) release(); // some hide that a key is let go
@@ -29,7 +29,7 @@ export const lift = ({ code }) => held.delete(code);
 /** All keys are let go. */
 export const release = () => held.clear();
 
-/** What is held: shares of the highest speeds ahead, to the left and counter-clockwise. */
+/** The held keys as shares of the highest speeds ahead, to the left and counter-clockwise. */
 export function share() {
   const axes = [0, 0, 0];
   for (const code of held) {

@@ -50,7 +50,7 @@ export function makeStick(change) {
   return {
     element,
     release,
-    /** What is held, as `share` of teleop_keys.js. */
+    /** The held stick, as `share` of teleop_keys.js. */
     share: () => [at[1], 0, -at[0]],
     /** Shows what is held, by whatever. */
     show([linear, , angular]) {

@@ -17,7 +17,7 @@ let isCollecting = false;
 let frame = null;
 let update = () => {};
 
-/** Whether a gesture of a tool is collected: Shift begins that. */
+/** True if a gesture of a tool is collected: Shift begins that. */
 export const collects = (of, isShifted) =>
   Boolean(of.several?.length) && (isCollecting || isShifted);
 

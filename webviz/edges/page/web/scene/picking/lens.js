@@ -1,4 +1,4 @@
-// How the camera sees the coordinates of an object: the base of picking, which looks at every point
+// Projection of an object's coordinates by the camera: the base of picking, which looks at every point
 // of a cloud and every line itself. A ray of three.js tests each against its own sphere, which takes
 // seconds for a large cloud, and does not know how large points are drawn.
 
@@ -30,11 +30,11 @@ export function onCanvasAt([x, y]) {
   return [x - left, y - top].map((place) => (Math.floor(place * dpr) + 0.5) / dpr);
 }
 
-/** How far in front of the camera a point in three.js' coordinates is, in metres. */
+/** The depth of a point in three.js' coordinates: metres in front of the camera. */
 export const depthOf = (point) =>
   -point.clone().applyMatrix4(viser.camera().matrixWorldInverse).z;
 
-/** How many metres a pixel is at a depth. */
+/** The size of a pixel at a depth, in metres. */
 export function pixelAt(depth) {
   const { elements } = viser.camera().projectionMatrix;
   const w = elements[15] - elements[11] * depth; // depth, or 1 without perspective

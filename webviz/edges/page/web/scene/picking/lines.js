@@ -62,6 +62,6 @@ export function lineOf(lines, number) {
   return [0, 3].map((end) => Array.from(xyz.subarray(6 * number + end, 6 * number + end + 3)));
 }
 
-/** How many segments there are. */
+/** The number of segments. */
 export const lineCount = (lines) =>
   (lines.geometry.attributes.instanceStart?.data.array.length ?? 0) / 6;

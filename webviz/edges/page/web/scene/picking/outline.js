@@ -13,7 +13,7 @@ const EDGES = CORNERS.flatMap((from) =>
 );
 
 /**
- * What is to be drawn around a pick, whose object `find` finds (see `finder`), and which `moves` and
+ * The outline around a pick, whose object `find` finds (see `finder`), and which `moves` and
  * stays what it is, or not: `{points, edges, isOld}`, `points` in three.js' coordinates; a point of
  * a cloud has no edges. `isOld` says that something else is drawn there now, and the outline is where
  * it was. Null while its node is not shown.
@@ -26,7 +26,7 @@ export function outlineOf(pick, find, moves) {
   return pick.outline ? { ...pick.outline, isOld } : null;
 }
 
-// What does not move is known by where it is.
+// An object that does not move is known by where it is.
 function isSame(pick, object, moves) {
   const at = anchorOf(object, pick.item);
   if (moves) return at.length > 0;

@@ -1,4 +1,4 @@
-// What is under a point of the window, or in a box of it: the node, and which of its items.
+// Picking under a point of the window, or in a box of it: the node, and which of its items.
 
 import { casterAt } from "../rays.js";
 import * as viser from "../../viser_page.js";

@@ -65,7 +65,7 @@ export function textAt(text, [atX, atY]) {
   return isOn ? { number, depth: depthOf(place), off: 0, point: place } : null;
 }
 
-/** Whether the middle of a text is in a box of the canvas. */
+/** True if the middle of a text is in a box of the canvas. */
 export function isTextIn({ place }, { left, top, right, bottom }) {
   const at = onCanvas(place);
   return at !== null && at[0] >= left && at[0] <= right && at[1] >= top && at[1] <= bottom;

@@ -1,4 +1,4 @@
-// What is drawn in the scene, with the names of the nodes that it belongs to.
+// Objects that are drawn in the scene, with the names of the nodes that they belong to.
 
 import constants from "../../constants.js";
 import * as viser from "../../viser_page.js";
