@@ -99,25 +99,26 @@ def command_of(name: str, arguments: dict[str, Any], **own: Any) -> Command:
 
 def _refuse_endless(arguments: dict[str, Any]) -> None:
     """Refuse what no config file may have; the text of a whole one is checked when it is read."""
-    waiting: list[tuple[Any, int]] = [(arguments, 0)]
-    count = characters = 0
-    while waiting:
-        value, depth = waiting.pop()
-        parts: list[Any] = []
-        if isinstance(value, str):
-            characters += len(value)
-        elif isinstance(value, dict):
-            parts = [*value, *value.values()]
-        elif isinstance(value, list):
-            parts = value
-        count += len(parts)
-        if characters > MAX_TEXT:
-            raise ValueError(f"Not done: expected at most {MAX_TEXT} characters.")
-        if count > MAX_VALUES:
-            raise ValueError(f"Not done: expected at most {MAX_VALUES} values.")
+    level: list[Any] = [arguments]
+    count = characters = depth = 0
+    while level:
         if depth > MAX_DEPTH:
             raise ValueError(f"Not done: expected at most {MAX_DEPTH} nested levels.")
-        waiting += [(part, depth + 1) for part in parts]
+        below: list[Any] = []
+        for value in level:
+            if isinstance(value, str):
+                characters += len(value)
+                continue
+            if isinstance(value, dict):
+                value = [*value, *value.values()]
+            if isinstance(value, list):
+                count += len(value)
+                if count > MAX_VALUES:
+                    raise ValueError(f"Not done: expected at most {MAX_VALUES} values.")
+                below += value
+        if characters > MAX_TEXT:
+            raise ValueError(f"Not done: expected at most {MAX_TEXT} characters.")
+        level, depth = below, depth + 1
 
 
 def form_of(name: str) -> type[msgspec.Struct]:

@@ -21,6 +21,9 @@ from webviz.shell.cli.ending import INTERRUPTED, Stop, say_end
 from webviz.shell.cli.links import show_links
 from webviz.shell.cli.viewing_options import BagOptions, ViewingOptions
 
+YOUNG_OBJECTS = 10_000
+"""Garbage that the collector may leave before it runs: more objects than most messages make."""
+
 
 def serve(
     options: ViewingOptions,
@@ -103,8 +106,14 @@ def _import_slow_parts() -> None:
 
     with contextlib.suppress(ImportError):  # reported when ROS is needed
         import webviz.edges.ros.node  # noqa: F401
+    calm_collector()
+
+
+def calm_collector() -> None:
+    """Keep the garbage collector, which stops all threads, from stopping a driven robot."""
     # Modules and classes stay; to walk them takes each full collection 0.1 s of the frame loop.
     gc.freeze()
+    gc.set_threshold(YOUNG_OBJECTS)
 
 
 def _announce(options: ViewingOptions, viewer: Viewer, note: str) -> None:
