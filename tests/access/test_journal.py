@@ -1,4 +1,4 @@
-"""The journal on the disk."""
+"""The journal, and its file."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from webviz.api.errors import Error
-from webviz.edges.access import journal_file
-from webviz.edges.access.journal import Journal
+from webviz.edges.access import journal, journal_file
+from webviz.edges.access.journal import MAX_TEXT, Journal
 from webviz.edges.access.journal_file import JournalFile
 from webviz.edges.access.roles import Role
 from webviz.edges.access.visitors import Visitor
@@ -31,6 +31,21 @@ def test_entries_are_lines_of_a_file_that_others_cannot_read(tmp_path: Path) -> 
     time = r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\+00:00"
     assert re.fullmatch(time + r" Ada \(owner, 192\.0\.2\.1\): Saved a\.yaml\.", saved)
     assert re.fullmatch(time + r" \(a page that is gone\): Opened \?\?\[2J\.yaml\.", opened)
+
+
+def test_the_newest_entries_come_first_and_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(journal, "MAX_ENTRIES", 3)
+    kept = Journal()
+    before = kept.entries
+    for number in range(5):
+        before = kept.entries
+        kept.note(ADA if number % 2 else None, f"{number}" * (MAX_TEXT + 1))
+    assert [entry.text for entry in kept.entries] == [f"{n}" * MAX_TEXT for n in (4, 3, 2)]
+    gone, ada, _ = kept.entries
+    assert (ada.name, ada.role, ada.address) == ("Ada", "owner", "192.0.2.1")
+    assert (gone.name, gone.role, gone.address) == ("", "", "")
+    assert kept.entries is kept.entries
+    assert [entry.text[0] for entry in before] == ["3", "2", "1"]  # what was read stays
 
 
 def test_the_files_have_a_limit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
