@@ -56,6 +56,16 @@ def test_links_are_for_the_viewers_that_run(tmp_path: Path) -> None:
     assert announced(tmp_path / "viewers") == []
 
 
+def test_what_is_no_address_hides_no_viewer(tmp_path: Path) -> None:
+    viewers = [Announcement(f"http://robot:{port}", port, tmp_path) for port in (80, 81)]
+    (odd,) = tmp_path.glob("*-81")
+    odd.write_bytes(b"\xff")
+    (tmp_path / "folder").mkdir()
+    assert announced(tmp_path) == ["http://robot:80"]
+    for viewer in viewers:
+        viewer.close()
+
+
 def test_viewers_of_one_user_find_each_other(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
