@@ -11,6 +11,7 @@ import pytest
 from playwright.sync_api import Locator, Position, expect
 
 from tests.page.conftest import Loop, Tab
+from webviz.api.status import Level
 from webviz.engine.commands import (
     Pause,
     RemoveBookmark,
@@ -24,7 +25,7 @@ from webviz.engine.commands import (
     StepMessage,
     StopRecording,
 )
-from webviz.engine.recording_state import MemoryState, PlaybackState, RecordingState
+from webviz.engine.recording_state import Event, MemoryState, PlaybackState, RecordingState
 from webviz.engine.state import ClockPace, PanelTimes
 from webviz.files.config import Settings
 from webviz.files.config.model import MemorySettings
@@ -209,6 +210,50 @@ def test_bookmarks_are_added_gone_to_and_removed(loop: Loop, timeline: Tab) -> N
     page.get_by_role("menuitem", name="Remove").click()
     page.get_by_role("menuitem", name="lost here").last.click()
     timeline.wait_for_command(RemoveBookmark("lost here"))
+
+
+def test_warnings_are_read_clicked_and_gone_to(loop: Loop, timeline: Tab) -> None:
+    start_ns = RECORDING.start_ns
+    hostile = "<b>lost</b>\x1b\u202e" + "x" * 10_000
+    loop.show(
+        logged=(
+            Event(start_ns + 30 * 10**9, Level.WARN, "driver", "slow"),
+            Event(start_ns + 60_000_400_000, Level.ERROR, "driver", hostile),
+        ),
+        warned=(Event(start_ns + 45 * 10**9, Level.WARN, "Scan", "No transform."),),
+    )
+    timeline.turn()
+    page, track = timeline.page, timeline.page.locator(".wv-track")
+    label = page.locator(".wv-track-label")
+    track.hover(position=at(timeline, 45))
+    expect(label).to_have_text("Warning · Scan: No transform.")
+    track.hover(position=at(timeline, 60))
+    expect(label).to_contain_text("Error · driver: <b>lost</b>  xxx")
+    assert len(label.inner_text()) <= 320
+    assert label.evaluate("e => e.getBoundingClientRect().right <= innerWidth")
+    track.click(position=at(timeline, 30.2))
+    timeline.wait_for(lambda: last_seek(timeline) == 30)
+    page.mouse.move(10, 10)
+
+    def run(command: str, position_s: float) -> None:
+        show(loop, position_s=position_s)
+        timeline.wait_for(lambda: float(track.get_attribute("aria-valuenow") or -1) == position_s)
+        page.keyboard.press("Control+k")
+        field = page.get_by_role("combobox", name="Command")
+        field.fill(command)
+        page.keyboard.press("Enter")
+        expect(field).to_have_count(0)
+
+    for position_s, command, then in (
+        (12.5, "Next warning", 30.0),
+        (60.0, "Previous warning", 45.0),  # not again the one that is shown
+        (45.0, "Next warning", 60.0004),
+    ):
+        run(command, position_s)
+        timeline.wait_for(lambda then=then: last_seek(timeline) == then)
+    run("Next warning", 60.0)
+    toast = page.locator(".wv-toast", has_text="There is no next warning or error.")
+    expect(toast).to_have_count(1)
 
 
 def test_a_link_names_a_moment_once(timeline: Tab) -> None:

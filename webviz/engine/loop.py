@@ -265,7 +265,11 @@ class FrameLoop:
         """A snapshot for a panel, as of the last turn."""
         state, statuses = self._parts.state(), self._parts.statuses()
         crashed = failures(self._guard.crashes)
-        return replace(state, statuses=statuses | crashed | self._showing.statuses)
+        return replace(
+            state,
+            statuses=statuses | crashed | self._showing.statuses,
+            warned=self._playback.warned(state.rows),
+        )
 
     def is_busy(self) -> bool:
         """Return whether a display is loading something that it has not drawn yet."""

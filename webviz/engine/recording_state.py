@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+from webviz.api.status import Level
+
 
 @dataclass(frozen=True, kw_only=True)
 class PlaybackState:
@@ -30,6 +32,23 @@ class PlaybackState:
     is_seeking: bool
     loop: bool
     selected: tuple[float, float] | None
+
+
+@dataclass(frozen=True)
+class Event:
+    """A warning or an error at a moment of a recording.
+
+    Args:
+        at_ns: time of recording, since 1970.
+        level: `Level.WARN` or `Level.ERROR`.
+        name: of the node or display, which may contain anything.
+        text: a sentence, or the first line of a log message.
+    """
+
+    at_ns: int
+    level: Level
+    name: str
+    text: str
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from webviz.api.tool import Gesture, Tool
 from webviz.api.views import View
 from webviz.data.messages.tree import Tree
 from webviz.data.transforms import Diagnosis
-from webviz.engine.recording_state import MemoryState, PlaybackState, RecordingState
+from webviz.engine.recording_state import Event, MemoryState, PlaybackState, RecordingState
 from webviz.engine.sources import Offer
 from webviz.files.config import Settings
 
@@ -307,6 +307,8 @@ class State:
         history: what can be undone and redone.
         playback: the recording that is played, None for live topics.
         recorded: counts of its messages in equal parts of its span, by topic.
+        logged: warnings and errors that its nodes logged, by time.
+        warned: when displays began to warn, as far as it was shown, by time.
         memory: what is remembered of live topics, None for a recording.
         recording: the one that goes on, None for none.
         selected: ids of what each browser has selected, each with that of its display, and
@@ -337,6 +339,8 @@ class State:
     history: UndoHistory = UndoHistory()
     playback: PlaybackState | None = None
     recorded: Mapping[str, Sequence[int]] = field(default_factory=dict)
+    logged: Sequence[Event] = ()
+    warned: Sequence[Event] = ()
     memory: MemoryState | None = None
     recording: RecordingState | None = None
     selected: Mapping[int, Mapping[int, tuple[str, bool]]] = field(default_factory=dict)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from webviz.api.errors import Error
@@ -24,8 +24,9 @@ from webviz.engine.commands import (
 )
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.parts.settings import SettingsPart
-from webviz.engine.playback import PlaybackControl
-from webviz.engine.recording_state import PlaybackState
+from webviz.engine.playback import DisplayEvents, PlaybackControl
+from webviz.engine.recording_state import Event, PlaybackState
+from webviz.engine.state import Row
 from webviz.files.config import nearest
 
 MIN_RATE, MAX_RATE = 0.01, 1000.0
@@ -61,6 +62,7 @@ class PlaybackPart(Part):
         self._settings = settings
         self._control = control
         self._start_over = start_over
+        self._display_events = DisplayEvents()
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
@@ -97,9 +99,25 @@ class PlaybackPart(Part):
     def state(self) -> Mapping[str, Any]:
         """The state of the control, and what is recorded when."""
         if self._control is None:
-            return {"playback": None, "recorded": {}}
-        recorded = self._control.playback.histogram(BUCKETS)
-        return {"playback": _state_of(self._control), "recorded": recorded}
+            return {"playback": None, "recorded": {}, "logged": ()}
+        playback = self._control.playback
+        return {
+            "playback": _state_of(self._control),
+            "recorded": playback.histogram(BUCKETS),
+            "logged": playback.logged(),
+        }
+
+    def warned(self, rows: Sequence[Row]) -> Sequence[Event]:
+        """Note which displays began to warn at the position, and return all notes."""
+        control, found = self._control, self._display_events
+        # On the way to a position, and before the first message, displays lack their messages.
+        if (
+            control
+            and not control.is_seeking
+            and control.playback.position_ns >= control.playback.start_ns
+        ):
+            found.note(control.position_ns, rows)
+        return found.events
 
     def statuses(self) -> Mapping[str, Status]:
         """Return what is missing, unusual or damaged in the recording."""

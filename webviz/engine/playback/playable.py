@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Protocol, runtime_checkable
 
+from webviz.engine.recording_state import Event
+
 
 @runtime_checkable
 class Playable(Protocol):
@@ -78,5 +80,13 @@ class Playable(Protocol):
         Returns:
             Counts by topic, estimated where the index does not have them; the same mapping until
             something changes.
+        """
+        ...
+
+    def logged(self) -> Sequence[Event]:
+        """Warnings and errors of nodes by time, bounded, as far as they are known.
+
+        Returns:
+            The same sequence until something changes.
         """
         ...

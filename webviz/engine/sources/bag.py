@@ -12,10 +12,12 @@ from pathlib import Path
 from webviz.api.lookback import Lookback
 from webviz.data.disk import in_thread
 from webviz.data.messages import MessageError, register
+from webviz.engine.recording_state import Event
 from webviz.engine.sources.bag_extras import Extra
 from webviz.engine.sources.bag_file import BagChannel, BagError, Recorded
 from webviz.engine.sources.bag_files import BagFiles
 from webviz.engine.sources.bag_frames import frames_of, links_of
+from webviz.engine.sources.bag_log import LogReader
 from webviz.engine.sources.bag_past import BagPast
 from webviz.engine.sources.bag_time import CLOCK, TF, BagTime
 from webviz.engine.sources.graph import ReadOnly
@@ -63,7 +65,9 @@ class BagSource:
     ) -> None:
         self.inbox = Inbox()
         self.graph = ReadOnly("A bag is read-only. Connect to a live ROS graph to publish.")
-        self._file = BagFiles([paths] if isinstance(paths, Path) else paths)
+        paths = [paths] if isinstance(paths, Path) else paths
+        self._file = BagFiles(paths)
+        self._log = LogReader(paths, self.inbox.arrived.set)
         self._extras = tuple(extras)
         self._remappings = dict(remappings or {})
         self._time = BagTime(self._file)
@@ -101,7 +105,8 @@ class BagSource:
             for topic, why in self._file.skipped.items()
             if topic in self._wanted
         ]
-        return [*skipped, *self._file.remarks, *filter(None, [self._time.remark])]
+        others = filter(None, [self._time.remark, self._log.read.remark])
+        return [*skipped, *self._file.remarks, *others]
 
     def play(self, until_ns: int) -> None:
         """Deliver everything recorded until a time of recording.
@@ -176,6 +181,11 @@ class BagSource:
             self._counting.add_done_callback(lambda _: self.inbox.arrived.set())
         counted = self._counting
         return counted.result() if counted.done() and not counted.exception() else NOT_COUNTED
+
+    def logged(self) -> Sequence[Event]:
+        """`Playable.logged`; none until a worker has read them."""
+        self._log.start(self._file)
+        return self._log.read.events
 
     def links(self) -> Sequence[tuple[str, str]]:
         """Parents and children of the static transforms and of the first ones that move."""

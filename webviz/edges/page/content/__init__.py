@@ -16,7 +16,7 @@ from webviz.edges.page.content.goals import goals, routes
 from webviz.edges.page.content.handles import handles
 from webviz.edges.page.content.history import history
 from webviz.edges.page.content.panes import panes
-from webviz.edges.page.content.playback import bookmarks, density, playback, recorded
+from webviz.edges.page.content.playback import bookmarks, density, events, playback, recorded
 from webviz.edges.page.content.properties import properties, statuses, topics_of
 from webviz.edges.page.content.recording import recording
 from webviz.edges.page.content.scene import legend, watchers
@@ -36,6 +36,7 @@ MAKERS: Mapping[str, Callable[[State, str], Mapping[str, Any]]] = {
     "density": density,
     "displays": displays,
     "driving": driving,
+    "events": events,
     "file": file,
     "frames": frames,
     "goals": goals,

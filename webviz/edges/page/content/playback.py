@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
-from webviz.edges.page.content.forms import sendable
+from webviz.edges.page.content.forms import brief, sendable
+from webviz.engine.recording_state import Event
 from webviz.engine.state import State
 
 
@@ -57,3 +58,23 @@ def density(state: State, _: str) -> Mapping[str, Any]:
 def recorded(state: State, _: str) -> Mapping[str, Any]:
     """Counts of messages in equal parts of the recording, by topic."""
     return state.recorded
+
+
+def events(state: State, _: str) -> Mapping[str, Any]:
+    """Warnings and errors in the recording, logged by nodes and of displays, each by time.
+
+    Each is [seconds from the start, "warn" or "error", text].
+    """
+    recording = state.playback
+    if recording is None:
+        return {}
+    start_ns = recording.start_ns
+    return {
+        "logged": [_event(event, start_ns) for event in state.logged],
+        "displays": [_event(event, start_ns) for event in state.warned],
+    }
+
+
+def _event(event: Event, start_ns: int) -> Sequence[Any]:
+    at_s = (event.at_ns - start_ns) / 1e9
+    return [round(at_s, 6), event.level.name.lower(), brief(f"{event.name}: {event.text}")]

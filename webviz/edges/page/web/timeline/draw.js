@@ -7,6 +7,7 @@ export const MARGIN = 8;
 const TOP = 4;
 const BAR = 12;
 const PER_TICK = 90;
+const PEAK = 3; // half the width of what marks an event
 
 /** A canvas that fits its place, with a context in pixels of the page: `{context, width, height, color}`. */
 export function fitted(canvas) {
@@ -22,10 +23,10 @@ export function fitted(canvas) {
 }
 
 /**
- * Draws `{range, whole, counts, selected, bookmarks, position, hover}`: times in seconds, `selected` and
- * `hover` may be null, `bookmarks` are pairs of name and time.
+ * Draws `{range, whole, counts, selected, bookmarks, events, position, hover}`: times in seconds, `selected`
+ * and `hover` may be null, `bookmarks` are pairs of name and time, `events` begin with time and level.
  */
-export function draw(canvas, { range, whole, counts, selected, bookmarks, position, hover }) {
+export function draw(canvas, { range, whole, counts, selected, bookmarks, events, position, hover }) {
   const { context, width, color } = fitted(canvas);
   const x = (time) => MARGIN + share(time, range) * (width - 2 * MARGIN);
   context.fillStyle = color("line");
@@ -44,6 +45,7 @@ export function draw(canvas, { range, whole, counts, selected, bookmarks, positi
   }
   context.restore();
   scale(context, range, { x, width, color });
+  marks(context, events, { range, x, color });
   if (selected) {
     context.fillStyle = color("warn");
     for (const time of selected) context.fillRect(x(time) - 1, TOP - 2, 2, BAR + 4);
@@ -89,6 +91,27 @@ function scale(context, range, { x, width, color }) {
     const half = context.measureText(text).width / 2;
     context.fillText(text, Math.min(Math.max(x(time), half), width - half), TOP + BAR + 4);
   }
+}
+
+// Warnings are triangles above the bar, errors lines through it with a square head; these on top.
+function marks(context, events, { range, x, color }) {
+  const inside = events.filter(([time]) => time >= range[0] && time <= range[1]);
+  context.fillStyle = color("warn");
+  for (const [time, level] of inside) if (level !== "error") peak(context, x(time));
+  context.fillStyle = color("error");
+  for (const [time, level] of inside) {
+    if (level !== "error") continue;
+    context.fillRect(x(time) - 1, 0, 2, TOP + BAR);
+    context.fillRect(x(time) - PEAK, 0, 2 * PEAK, TOP);
+  }
+}
+
+function peak(context, x) {
+  context.beginPath();
+  context.moveTo(x, TOP + 2);
+  context.lineTo(x - PEAK - 1, 0);
+  context.lineTo(x + PEAK + 1, 0);
+  context.fill();
 }
 
 function flag(context, x) {

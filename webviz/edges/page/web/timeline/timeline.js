@@ -6,6 +6,7 @@ import { isTyping, provide } from "../shell/commands.js";
 import { toast } from "../shell/toasts.js";
 import { watch } from "../stores.js";
 import { bookmarks as bookmarkMenu } from "./bookmarks.js";
+import { byTime, eventCommand } from "./events.js";
 import { shownLength } from "./range.js";
 import { seeks } from "./seeks.js";
 import { topics as topicList } from "./topics.js";
@@ -41,6 +42,7 @@ export function timeline(places) {
   });
   const bookmarks = bookmarkMenu(seek, position);
   const buttons = makeTransport(seek, step, topics, bookmarks);
+  let events = [];
   let ends = [];
 
   function show() {
@@ -61,6 +63,10 @@ export function timeline(places) {
       watch("bookmarks", (known) => {
         bookmarks.show(known.get("all") ?? []);
         track.setBookmarks(known.get("all") ?? []);
+      }),
+      watch("events", (known) => {
+        events = byTime(known);
+        track.setEvents(events);
       }),
     ];
     begin();
@@ -98,6 +104,7 @@ export function timeline(places) {
     return !isTyping({ target: focused }) && !focused?.closest("button, [role=option], [role=treeitem], .wv-rows");
   };
   const jump = (seconds) => seek.to(Math.max(0, Math.min(position() + seconds, recording.get("duration"))));
+  const among = { all: () => events, seek, position };
   const commands = [
     { name: "Play or pause the recording", icon: "play", key: " ", needs: "Pause", run: places.toggle },
     { name: "Next message", icon: "step", key: "ArrowRight", needs: "StepMessage", run: () => step.run(true) },
@@ -106,6 +113,8 @@ export function timeline(places) {
     { name: `${JUMP_S} s back`, key: "Shift+ArrowLeft", needs: "Seek", run: () => jump(-JUMP_S) },
     { name: "Start of the recording", key: "Home", needs: "Seek", run: () => seek.to(0) },
     { name: "End of the recording", key: "End", needs: "Seek", run: () => seek.to(recording.get("duration")) },
+    eventCommand(true, among),
+    eventCommand(false, among),
     { name: "Add bookmark…", icon: "flag", key: "b", needs: "SaveBookmark", run: bookmarks.add },
     { name: "Copy link to this moment", icon: "copy", run: copyLink },
     { name: "Topics of the recording", icon: "list", run: topics.toggle },

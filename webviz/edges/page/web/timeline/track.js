@@ -4,9 +4,11 @@ import { why } from "../access.js";
 import { act } from "../act.js";
 import { at, share } from "../charts/scale.js";
 import { el, set, setText } from "../dom.js";
+import { plain } from "../plain.js";
 import { toast } from "../shell/toasts.js";
 import { duration } from "../shell/time_text.js";
 import { draw, MARGIN } from "./draw.js";
+import { eventText } from "./events.js";
 import { following, shownLength, zoomed } from "./range.js";
 
 const WHEEL = 1.25;
@@ -14,13 +16,15 @@ const MIN_SPAN_PX = 4;
 const SNAP_PX = 5;
 
 /**
- * Returns `{element, range, show(recording), setCounts(counts), setBookmarks(bookmarks)}`: `seek` is of
- * `seeks.js`, `recording` the store "playback", a Map. `redrawn()` is called when the window is another.
+ * Returns `{element, range, show(recording), setCounts(counts), setBookmarks(bookmarks), setEvents(events)}`:
+ * `seek` is of `seeks.js`, `recording` the store "playback", a Map, `events` are of `events.js`. `redrawn()`
+ * is called when the window is another.
  */
 export function track(seek, redrawn = () => {}) {
   let recording = null;
   let counts = [];
   let bookmarks = [];
+  let events = [];
   let range = [0, 1]; // the window, in seconds
   let length = 1; // of the whole track, in seconds
   let hover = null;
@@ -70,7 +74,7 @@ export function track(seek, redrawn = () => {}) {
       frame = 0;
       if (!recording || !canvas.clientWidth) return;
       const selected = drag?.isSpan ? drag.span : recording.get("selected");
-      draw(canvas, { range, whole: length, counts, selected, bookmarks, position: position(), hover });
+      draw(canvas, { range, whole: length, counts, selected, bookmarks, events, position: position(), hover });
     });
   }
 
@@ -81,10 +85,22 @@ export function track(seek, redrawn = () => {}) {
     return Math.min(Math.max(at(part, range), 0), length);
   }
 
-  function bookmarkAt({ clientX }) {
+  // The bookmark, or else the nearest warning or error, at a pointer: `{time, text}`.
+  function markAt({ clientX }) {
     const { left, width } = canvas.getBoundingClientRect();
     const place = (time) => left + MARGIN + share(time, range) * (width - 2 * MARGIN);
-    return bookmarks.find(([, time]) => Math.abs(place(time) - clientX) <= SNAP_PX);
+    const away = (time) => Math.abs(place(time) - clientX);
+    const bookmark = bookmarks.find(([, time]) => away(time) <= SNAP_PX);
+    if (bookmark) return { time: bookmark[1], text: bookmark[0] };
+    let found = null;
+    let least = SNAP_PX;
+    for (const event of events) {
+      const distance = away(event[0]);
+      if (distance > least || (found && distance === least)) continue;
+      found = event;
+      least = distance;
+    }
+    return found && { time: found[0], text: eventText(found) };
   }
 
   function press(event) {
@@ -92,7 +108,7 @@ export function track(seek, redrawn = () => {}) {
     const reason = why(event.shiftKey ? "SelectSpan" : "Seek");
     if (reason) return toast(reason, { level: "warn", topic: "access" });
     canvas.setPointerCapture(event.pointerId);
-    const from = bookmarkAt(event)?.[1] ?? timeAt(event);
+    const from = markAt(event)?.time ?? timeAt(event);
     drag = { pointer: event.pointerId, x: event.clientX, from, isSpan: event.shiftKey, span: null };
     if (!drag.isSpan) seek.to(from);
   }
@@ -122,8 +138,7 @@ export function track(seek, redrawn = () => {}) {
     set(label, { hidden: hover === null });
     if (hover !== null) {
       const text = duration(hover, range[1] - range[0] < 10 ? 3 : 1);
-      const bookmark = bookmarkAt(event);
-      setText(label, bookmark ? bookmark[0] : text);
+      setText(label, plain(markAt(event)?.text ?? text));
       const { left, width } = canvas.getBoundingClientRect();
       const half = label.offsetWidth / 2;
       const x = Math.min(Math.max(event.clientX - left, half), width - half);
@@ -153,6 +168,10 @@ export function track(seek, redrawn = () => {}) {
     },
     setBookmarks(next) {
       bookmarks = next;
+      later();
+    },
+    setEvents(next) {
+      events = next;
       later();
     },
   };

@@ -1,0 +1,30 @@
+// Warnings and errors of a recording: `[time, level, text]`, of the log and of displays.
+
+import { toast } from "../shell/toasts.js";
+
+const CLOSE_S = 0.001; // positions are given in milliseconds
+const LEVELS = { warn: "Warning", error: "Error" };
+
+/** Both lists of the store "events", a Map, by time. */
+export function byTime(events) {
+  return [...(events.get("logged") ?? []), ...(events.get("displays") ?? [])].sort((a, b) => a[0] - b[0]);
+}
+
+/** What an event says; the level in words. */
+export const eventText = ([, level, text]) => `${LEVELS[level]} · ${text}`;
+
+/** The command that goes to the next or previous of all events; `seek` is of `seeks.js`. */
+export function eventCommand(isNext, { all, seek, position }) {
+  const which = isNext ? "next" : "previous";
+  return {
+    name: isNext ? "Next warning" : "Previous warning", icon: isNext ? "step" : "step-back", needs: "Seek",
+    run() {
+      const now = position();
+      const found = isNext
+        ? all().find(([time]) => time > now + CLOSE_S)
+        : all().findLast(([time]) => time < now - CLOSE_S);
+      if (found) seek.to(found[0]);
+      else toast(`There is no ${which} warning or error.`);
+    },
+  };
+}
