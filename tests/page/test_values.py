@@ -44,7 +44,7 @@ def texts(tab: Any, pictures: Pictures) -> Iterator[Any]:
 
 def test_a_text_is_a_pane_with_fields_that_fold(texts: Any, pictures: Pictures) -> None:
     pictures.show("Joints", Pane(Readout("/joints", "sensor_msgs/msg/JointState", JOINTS)))
-    pane = texts.page.get_by_label("Text Joints", exact=True)
+    pane = texts.page.get_by_label("Text /joints", exact=True)
     texts.wait_for(lambda: pane.count() and "1e+308" in pane.inner_text())
     shown = pane.inner_text()
     assert "/joints · sensor_msgs/msg/JointState" in shown
@@ -62,12 +62,12 @@ def test_a_text_is_a_pane_with_fields_that_fold(texts: Any, pictures: Pictures) 
 
 def test_a_text_that_is_folded_is_not_sent(texts: Any, pictures: Pictures) -> None:
     pictures.show("Joints", Pane(Readout("/joints", "std_msgs/msg/String", String("first"))))
-    pane = texts.page.get_by_label("Text Joints", exact=True)
+    pane = texts.page.get_by_label("Text /joints", exact=True)
     texts.wait_for(lambda: pane.count() and "'first'" in pane.inner_text())
-    pane.get_by_role("button", name="Collapse Joints").click()
+    pane.get_by_role("button", name="Collapse /joints").click()
     texts.wait_for(lambda: not any(pictures._looks.values()))
     pictures.show("Joints", Pane(Readout("/joints", "std_msgs/msg/String", String("second"))))
-    pane.get_by_role("button", name="Expand Joints").click()
+    pane.get_by_role("button", name="Expand /joints").click()
     texts.wait_for(lambda: "'second'" in pane.inner_text())
 
 
@@ -178,7 +178,7 @@ def test_a_field_is_plotted_from_its_row_and_removed_in_the_legend(
     plot: Any, texts: Any, pictures: Pictures
 ) -> None:
     pictures.show("Joints", Pane(Readout("/joints", "std_msgs/msg/Float64", Number(3.5))))
-    pane = texts.page.get_by_label("Text Joints", exact=True)
+    pane = texts.page.get_by_label("Text /joints", exact=True)
     texts.wait_for(lambda: pane.count() and "3.5" in pane.inner_text())
     pane.get_by_role("button", name="Plot", exact=True).click()
     curves = [*CURVES, "/joints.data"]

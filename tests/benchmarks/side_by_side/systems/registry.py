@@ -52,7 +52,9 @@ def _floor(scene: Scene, folder: Path) -> Sequence[str]:
 def _webviz(scene: Scene, folder: Path) -> Sequence[str]:
     config = folder / "scene.yaml"
     config.write_text(scene.config)
-    return [sys.executable, "-m", "webviz", "-d", str(config), "--port", "0", "--no-autosave"]
+    # The others do not remember the last minute either.
+    options = ["--port", "0", "--no-autosave", "--set", "memory.seconds=0"]
+    return [sys.executable, "-m", "webviz", "-d", str(config), *options]
 
 
 def _watch_viser(port: int, folder: Path, scene: Scene | None, stalls: bool) -> Watcher:

@@ -12,7 +12,7 @@ from webviz.edges.page.content.properties import lines
 from webviz.engine.state import State
 from webviz.files.config import Settings
 
-NO_CONTROL = ("version", "view", "views", "bookmarks", "rviz", "publish")
+NO_CONTROL = ("version", "view", "views", "memory", "bookmarks", "rviz", "publish")
 """Settings that have another place on the page, or none."""
 
 OF_EVERY_NODE = frozenset({"/rosout", "/parameter_events"})
