@@ -10,7 +10,7 @@ export function byTime(events) {
   return [...(events.get("logged") ?? []), ...(events.get("displays") ?? [])].sort((a, b) => a[0] - b[0]);
 }
 
-/** What an event says; the level in words. */
+/** The text of an event for people, with its level in words. */
 export const eventText = ([, level, text]) => `${LEVELS[level]} · ${text}`;
 
 /** The command that goes to the next or previous of all events; `seek` is of `seeks.js`. */
