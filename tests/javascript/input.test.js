@@ -1,0 +1,78 @@
+import assert from "node:assert/strict";
+import { afterEach, test } from "node:test";
+
+import { straight } from "../../webviz/edges/page/web/images/bend.js";
+import { clicks } from "../../webviz/edges/page/web/tools/clicks.js";
+import { disarm, share } from "../../webviz/edges/page/web/tools/teleop_gamepad.js";
+
+const at = (type, x, more = {}) => ({ type, pointerId: 1, clientX: x, clientY: 0, button: 0, buttons: 0, ...more });
+
+/** The names of what a pointer's events call. */
+function heard(...events) {
+  const calls = [];
+  const take = clicks(...["click", "right", "move"].map((name) => () => calls.push(name)));
+  for (const event of events) assert.equal(take(event), false, "the camera gets all events");
+  return calls;
+}
+
+test("a button that is let go where it was pressed is a click", () => {
+  assert.deepEqual(heard(at("pointerdown", 0), at("pointerup", 3)), ["click"]);
+  assert.deepEqual(heard(at("pointerdown", 0), at("pointerup", 0, { button: 2 })), ["right"]);
+  assert.deepEqual(heard(at("pointermove", 9)), ["move"]);
+});
+
+test("a drag, another pointer or one that is cancelled clicks nothing", () => {
+  assert.deepEqual(heard(at("pointerdown", 0), at("pointerup", 4)), []);
+  const back = [at("pointermove", 9, { buttons: 1 }), at("pointermove", 0, { buttons: 1 })];
+  assert.deepEqual(heard(at("pointerdown", 0), ...back, at("pointerup", 0)), []);
+  assert.deepEqual(heard(at("pointerdown", 0), at("pointerup", 0, { pointerId: 2 })), []);
+  assert.deepEqual(heard(at("pointerdown", 0), at("pointercancel", 0), at("pointerup", 0)), []);
+  assert.deepEqual(heard(at("pointerup", 0)), []);
+});
+
+function plug(...pads) {
+  Object.defineProperty(navigator, "getGamepads", { value: () => pads, configurable: true });
+}
+
+afterEach(() => {
+  disarm();
+  Reflect.deleteProperty(navigator, "getGamepads");
+});
+
+test("a gamepad drives once its sticks have been in their middle", () => {
+  plug({ connected: true, axes: [0, -1, 0] });
+  assert.deepEqual(share(), [0, 0, 0]);
+  plug({ connected: true, axes: [0.1, -0.14, 0] });
+  assert.deepEqual(share().map(Math.abs), [0, 0, 0]);
+  plug(null, { connected: false, axes: [1, 1, 1] }, { connected: true, axes: [-0.575, -2, 0] });
+  const [ahead, left, turn] = share();
+  assert.deepEqual([ahead, Math.abs(left)], [1, 0], "at most the highest speed");
+  assert.ok(Math.abs(turn - 0.5) < 1e-9);
+});
+
+test("without a gamepad, or with one of a single axis, nothing is held", () => {
+  assert.deepEqual(share().map(Math.abs), [0, 0, 0]);
+  plug({ connected: true, axes: [1] });
+  assert.deepEqual(share().map(Math.abs), [0, 0, 0]);
+});
+
+/** The middle half of an image. */
+const MIDDLE = {
+  rows: 3, columns: 2, places: [0.25, 0.25, 0.75, 0.25, 0.25, 0.5, 0.75, 0.5, 0.25, 0.75, 0.75, 0.75],
+};
+/** The left half of an image, of which the lens does not see a corner. */
+const HALF = { rows: 2, columns: 3, places: [0, 0, 0.25, 0, 0.5, 0, 0, 1, 0.25, 1, null, null] };
+
+test("a place of a bent image is between the corners of its cell", () => {
+  assert.deepEqual(straight(HALF, [0.25, 0.5]), [0.125, 0.5]);
+  assert.deepEqual(straight(HALF, [0, 0]), [0, 0]);
+  assert.deepEqual(straight(MIDDLE, [1, 0.5]), [0.75, 0.5]);
+  assert.deepEqual(straight(MIDDLE, [0.5, 1]), [0.5, 0.75]);
+});
+
+test("places outside a bent image, or of a cell that the lens does not see, show nothing", () => {
+  for (const place of [[-0.1, 0.6], [1.1, 0.6], [0.5, -0.1], [0.5, 1.1]]) {
+    assert.equal(straight(MIDDLE, place), null, String(place));
+  }
+  for (const place of [[0.75, 0.5], [0, 1]]) assert.equal(straight(HALF, place), null, String(place));
+});
