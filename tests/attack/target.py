@@ -71,6 +71,7 @@ class Target:
             [sys.executable, "-m", "webviz", "demo", "-d", str(path), "--port", "0"],
             {**environment, **TOKENS, "PYTHONUNBUFFERED": "1", **homes(home)},
             folder / "log.txt",
+            cwd=home,  # where an owner records
         )
         self.port = int(self._program.url().rpartition(":")[2])
         self.process = psutil.Process(self._program.process.pid)

@@ -16,11 +16,13 @@ PATIENCE_S = 180.0
 class Program:
     """A program under test and what it prints."""
 
-    def __init__(self, arguments: Sequence[str], env: dict[str, str], log: Path) -> None:
+    def __init__(
+        self, arguments: Sequence[str], env: dict[str, str], log: Path, cwd: Path | None = None
+    ) -> None:
         self.log = log
         with log.open("w") as file:
             self.process = subprocess.Popen(
-                arguments, env=env, stdout=file, stderr=subprocess.STDOUT
+                arguments, env=env, stdout=file, stderr=subprocess.STDOUT, cwd=cwd
             )
 
     def output(self) -> str:
