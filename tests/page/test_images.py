@@ -236,7 +236,7 @@ def test_a_picture_is_zoomed_by_keys_and_by_two_fingers(tab: Any) -> None:
     tab.page.keyboard.press("+")
     tab.wait_for(lambda: width(tab) == pytest.approx(1.5 * whole))
     tab.page.keyboard.press("ArrowRight")
-    assert pixel_at(tab, x, y)[0] > there[0]
+    tab.wait_for(lambda: pixel_at(tab, x, y)[0] > there[0])
     tab.page.keyboard.press("0")
     tab.wait_for(lambda: width(tab) == pytest.approx(whole))
     touch = tab.page.context.new_cdp_session(tab.page)
