@@ -76,4 +76,7 @@ def test_a_killed_recording_keeps_what_was_flushed(
 def test_a_folder_that_cannot_be_written_is_one_sentence(start: Callable[..., Program]) -> None:
     program = start("webviz", "record", "-o", "/proc/run")
     assert program.process.wait(timeout=60) == 1
-    assert program.output() == "webviz: /proc/run cannot be written: No such file or directory.\n"
+    assert program.output() == (
+        "webviz: /proc/run cannot be written: No such file or directory. "
+        "Choose another folder or disk.\n"
+    )

@@ -91,7 +91,9 @@ def test_live_topics_have_no_timeline(loop: Loop, timeline: Tab) -> None:
 def test_a_recording_shows_position_length_and_its_time(timeline: Tab) -> None:
     expect(timeline.page.get_by_label("Go to time")).to_have_value("0:00:12.500")
     expect(timeline.page.locator(".wv-transport")).to_contain_text("/ 0:01:40.0")
-    expect(timeline.page.locator(".wv-time")).to_contain_text("recording")
+    badge = timeline.page.locator(".wv-badge")
+    expect(badge).to_have_text("bag")
+    expect(badge).to_have_attribute("data-tip", "run.mcap")
     slider = timeline.page.get_by_role("slider", name="Time of the recording")
     expect(slider).to_have_attribute("aria-valuetext", "0:00:12.5")
     assert "Elapsed" not in timeline.page.locator(".wv-time").inner_text()

@@ -123,7 +123,9 @@ def test_a_full_disk_is_one_sentence_and_what_was_written_is_read(tmp_path: Path
     resource.setrlimit(resource.RLIMIT_FSIZE, (folder.size + 10, limit[1]))
     try:
         put(folder, "/words", 1.0, "after")
-        with pytest.raises(RecordingError, match=r"run cannot be written: File too large\.$"):
+        with pytest.raises(
+            RecordingError, match=r"run cannot be written: File too large\. Choose another"
+        ):
             folder.flush()
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, limit)

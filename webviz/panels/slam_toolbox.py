@@ -22,7 +22,7 @@ PARAMETERS = ("paused_new_measurements", "interactive_mode")
 """Of slam_toolbox, which say its state."""
 INITIAL_POSE = "geometry_msgs/msg/PoseWithCovarianceStamped"
 STARTS = {"At the first node": 1, "At the pose": 2, "Localize at the pose": 3}
-"""Where a loaded pose graph starts, by `match_type` of DeserializePoseGraph."""
+"""Starts of a loaded pose graph, by `match_type` of DeserializePoseGraph."""
 FIRST, AT_POSE, _ = STARTS
 FAULTS = {
     "save_map": {1: "slam_toolbox has no map yet", 255: "the file was not written"},

@@ -351,5 +351,5 @@ def _density(share: float, found: tuple[float, float, float]) -> float:
 
 
 def _deviation(variance: float) -> float:
-    """A standard deviation; 0 of what is no variance."""
+    """The standard deviation of a variance; 0 if the variance is invalid."""
     return math.sqrt(variance) if math.isfinite(variance) and variance > 0 else 0.0

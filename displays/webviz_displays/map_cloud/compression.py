@@ -26,7 +26,7 @@ MAX_FLOATS = 16_000_000
 
 
 def depths_of(data: U8) -> F32:
-    """The depths (H, W) of an image in metres; 0 is no measurement.
+    """The depths (H, W) of an image in metres; 0 where nothing was measured.
 
     Args:
         data: a PNG of 16 bits in millimetres, RVL of the same, or a PNG whose four channels are the

@@ -97,7 +97,8 @@ class MapCloud(PointsDisplay):
         Prop(ge=1, le=16, rviz="Cloud decimation", help="Use each n-th row and column of depths."),
     ] = 4
     cloud_max_depth: Annotated[
-        CloudMetres, Prop(rviz="Cloud max depth (m)", help="Largest depth or range; 0 is no limit.")
+        CloudMetres,
+        Prop(rviz="Cloud max depth (m)", help="Maximum depth or range; 0 disables the limit."),
     ] = 4.0
     cloud_min_depth: Annotated[
         CloudMetres, Prop(rviz="Cloud min depth (m)", help="Smallest depth or range.")
@@ -114,11 +115,16 @@ class MapCloud(PointsDisplay):
     ] = 0.01
     filter_floor: Annotated[
         CloudHeight,
-        Prop(rviz="Filter floor (m)", help="Leave out what is below this height; 0 is no limit."),
+        Prop(
+            rviz="Filter floor (m)", help="Remove points below this height; 0 disables the filter."
+        ),
     ] = 0.0
     filter_ceiling: Annotated[
         CloudHeight,
-        Prop(rviz="Filter ceiling (m)", help="Leave out what is above this height; 0 is no limit."),
+        Prop(
+            rviz="Filter ceiling (m)",
+            help="Remove points above this height; 0 disables the filter.",
+        ),
     ] = 0.0
     node_filtering_radius: Annotated[
         float,

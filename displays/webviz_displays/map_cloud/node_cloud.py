@@ -37,9 +37,9 @@ class CloudSettings:
     Args:
         from_scan: scans, instead of depth images.
         decimation: every how many rows and columns of depth images.
-        min_depth, max_depth: limits in metres; 0 is none.
+        min_depth, max_depth: limits in metres, 0 for none.
         voxel_m: edge of the cubes of which one point is kept; 0 keeps all.
-        floor, ceiling: heights in metres between which points are kept; 0 is no limit.
+        floor, ceiling: heights in metres between which points are kept, 0 for no limit.
     """
 
     from_scan: bool

@@ -51,7 +51,7 @@ class _Known:
         choice: that `seen` is of.
         tree: None if it cannot be read.
         span: lowest and highest z of its leaves, metres.
-        seen: what is to be drawn, None if there is no tree.
+        seen: the voxels to draw, None without a tree.
         fault: why there is none.
     """
 

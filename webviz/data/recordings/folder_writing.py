@@ -25,8 +25,8 @@ class RecordingLimits:
     """Sizes at which a new file begins, and at which old ones are deleted.
 
     Args:
-        file_bytes, file_s: of one file; 0 is no limit.
-        total_bytes: of all files; the oldest are deleted. 0 is no limit.
+        file_bytes, file_s: of one file, 0 for no limit.
+        total_bytes: of all files; the oldest are deleted. 0 for no limit.
     """
 
     file_bytes: int = 0
@@ -72,7 +72,7 @@ class RecordingFolder:
         self._limits = limits
         self._number = 0
         self._written: list[_Written] = []
-        self._latched: dict[RecordedChannel, tuple[int, bytes]] = {}
+        self._latched: dict[RecordedChannel, bytes] = {}
         self._file: McapFile | None = None
         self._told = (0, 0, 0)
         try:
@@ -106,7 +106,7 @@ class RecordingFolder:
             raise self._failed(error) from error
         self.messages += 1
         if latched:
-            self._latched[channel] = stamp_ns, data
+            self._latched[channel] = data
 
     def flush(self) -> None:
         """Write all messages to the disk, so that none of them is lost with this program."""
@@ -149,7 +149,7 @@ class RecordingFolder:
     def _next_file(self, file: McapFile, stamp_ns: int) -> McapFile:
         self._finish(file)
         self._file = file = self._new_file()
-        for channel, (_, data) in self._latched.items():
+        for channel, data in self._latched.items():
             file.add(channel, stamp_ns, data)
         while self._limits.total_bytes and self._written and self.size > self._limits.total_bytes:
             self._written.pop(0).path.unlink(missing_ok=True)
@@ -171,7 +171,9 @@ class RecordingFolder:
             with contextlib.suppress(OSError):
                 file.close(is_whole=False)
         reason = os.strerror(error.errno) if error.errno else str(error)
-        return RecordingError(f"{self.path} cannot be written: {reason}.")
+        return RecordingError(
+            f"{self.path} cannot be written: {reason}. Choose another folder or disk."
+        )
 
     def _describe(self) -> None:
         """Write metadata.yaml, in place of the one before, if it names other files or topics.

@@ -150,10 +150,9 @@ class RecordingPart(Part):
         def then(recorder: Recorder) -> str:
             if recorder.problem:
                 raise Error(recorder.problem)
-            messages = past.messages
-            first_ns = messages[0][1].received_ns if messages else 0
-            last_ns = messages[-1][1].received_ns if messages else 0
-            return f"Saved the last {(last_ns - first_ns) / 1e9:.0f} s to {recorder.path.name}."
+            (_, first), (_, last) = past.messages[0], past.messages[-1]
+            saved_s = (last.received_ns - first.received_ns) / 1e9
+            return f"Saved the last {saved_s:.0f} s to {recorder.path.name}."
 
         return Job(work, then)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from datetime import datetime
 
 from webviz.data.messages import UnknownTypeError, definition
@@ -37,24 +37,13 @@ class Channels:
     def __len__(self) -> int:
         return len(self._known)
 
-    def __iter__(self) -> Iterator[str]:
-        return iter(tuple(self._known))
-
-    def find(self, topic: str, type_: str = "") -> RecordedChannel | None:
-        """The channel of a topic.
-
-        Args:
-            topic: full name.
-            type_: of the subscription, "" if the source knows it.
-
-        Returns:
-            None if nobody knows the type of its messages yet.
-        """
+    def find(self, topic: str) -> RecordedChannel | None:
+        """The channel of a topic, None if nobody knows the type of its messages yet."""
         channel = self._known.get(topic)
         if channel is None:
             offer = self._offers().get(topic)
             publishers = offer.publishers if offer else ()
-            type_ = type_ or (offer.type if offer else "") or _type_of(publishers)
+            type_ = (offer.type if offer else "") or _type_of(publishers)
             if not type_:
                 return None
             channel = self._known[topic] = _channel(topic, type_, publishers)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
+from bisect import bisect_left
 from collections import deque
 from collections.abc import Callable
 from typing import NamedTuple
@@ -69,17 +70,10 @@ class RecentMessages:
         begin_s = time.monotonic() - seconds
         with self._lock:
             messages, latched = list(self._messages), dict(self._latched)
-        first = next((i for i, (_, raw) in enumerate(messages) if raw.arrived_s >= begin_s), None)
-        first = len(messages) if first is None else first
-        latched |= {topic: raw for topic, raw in messages[:first] if self._is_latched(topic)}
+        first = bisect_left(messages, begin_s, key=lambda message: message[1].arrived_s)
+        newest = dict(messages[:first])
+        latched |= {topic: raw for topic, raw in newest.items() if self._is_latched(topic)}
         return Remembered(latched, messages[first:])
-
-    def clear(self) -> None:
-        """Forget everything."""
-        with self._lock:
-            self._messages.clear()
-            self._latched.clear()
-            self._bytes = 0
 
     def _forget(self, now_s: float) -> None:
         begin_s = now_s - self.seconds

@@ -1,5 +1,6 @@
 """`webviz record`: records topics to a rosbag2 folder of MCAP files."""
 
+import contextlib
 import sys
 import time
 from dataclasses import dataclass
@@ -90,9 +91,10 @@ def record(*, options: RecordOptions = RecordOptions(), ros: RosArgs) -> int:
             options.split or options.keep // 10, options.split_time, options.keep
         )
         try:
-            folder = RecordingFolder(options.output or Path(new_name()), library(), limits)
-            with TopicRecorder(ros_source(ros), folder, options.topics) as recorder:
-                _follow(recorder, stop)
+            with contextlib.closing(ros_source(ros)) as source:
+                folder = RecordingFolder(options.output or Path(new_name()), library(), limits)
+                with TopicRecorder(source, folder, options.topics) as recorder:
+                    _follow(recorder, stop)
         except RecordingError as error:
             raise Error(str(error)) from error
         return 0
@@ -104,7 +106,7 @@ def _follow(recorder: "TopicRecorder", stop: Stop) -> None:
     """Record until the program is asked to end, and say how far it is."""
     stop.hold()
     stop.then(recorder.wake)
-    print(f"webviz: recording to {recorder.folder.path} (press Ctrl-C to stop)", file=sys.stderr)
+    print(f"webviz: recording to {recorder.path} (press Ctrl-C to stop)", file=sys.stderr)
     said_s = time.monotonic()
     is_terminal = sys.stderr.isatty()
     while not stop.is_asked:
@@ -114,5 +116,5 @@ def _follow(recorder: "TopicRecorder", stop: Stop) -> None:
         if is_terminal and time.monotonic() - said_s >= SAY_S:
             said_s = time.monotonic()
             print(f"\r{recorder.progress()}\x1b[K", end="", file=sys.stderr, flush=True)
-    recorder.turn()
+    recorder.close()
     say_end(f"{chr(10) if is_terminal else ''}webviz: {recorder.progress()}.")

@@ -29,7 +29,6 @@ def playback(state: State, _: str) -> Mapping[str, Any]:
         "position": round(recording.position_s, 3),
         "rate": 0 if math.isinf(recording.rate) else recording.rate,
         "is_playing": recording.is_playing,
-        "is_seeking": recording.is_seeking,
         "loop": recording.loop,
         "selected": recording.selected,
     }

@@ -61,7 +61,8 @@ export function build(place) {
     const format = inSeconds ? (time) => time.toFixed(isRunning ? 1 : 3) : timeOfDay;
     setText(ros, isKnown ? format(now, !isRunning) : "No time yet");
     set(ros, { "data-tip": hintOf(isKnown, isSimulated, inSeconds) });
-    setText(badge, recording.isThere() ? "recording" : badgeOf(isSimulated, clock.get("hz")));
+    setText(badge, recording.isThere() ? "bag" : badgeOf(isSimulated, clock.get("hz")));
+    set(badge, { "data-tip": recording.names() ?? null });
     set(badge, { "data-simulated": isSimulated });
     const [beganRos, beganWall] = clock.get("began");
     // A recording has its own position; there the wall's time means nothing.

@@ -18,7 +18,7 @@ const JUMP_S = 5;
 
 /**
  * Puts a track and buttons into elements while a recording is played; `toggle` plays or pauses it.
- * Returns `isThere()`.
+ * Returns `{isThere(), names()}`.
  *
  * @param {{ track: Element, buttons: Element, toggle: () => unknown }} places
  */
@@ -49,7 +49,6 @@ export function timeline(places) {
     if (!recording) return;
     track.show(recording);
     buttons.show(recording, position());
-    document.body.classList.toggle("wv-recorded-open", topics.isOpen());
   }
 
   function appear(isThere) {
@@ -121,5 +120,5 @@ export function timeline(places) {
   ].map((one) => ({ ...one, group: "Time", isKeyHere: isFree }));
   provide(() => (recording ? commands : []));
 
-  return { isThere: () => recording !== null };
+  return { isThere: () => recording !== null, names: () => recording?.get("names").join(", ") };
 }

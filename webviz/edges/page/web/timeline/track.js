@@ -161,7 +161,6 @@ export function track(seek, redrawn = () => {}) {
     element,
     range: () => range,
     show,
-    later,
     setCounts(next) {
       counts = next;
       later();
