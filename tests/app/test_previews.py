@@ -62,6 +62,7 @@ def page(browser: playwright.Browser, viewer: webviz.Viewer) -> Iterator[Page]:
     page.wait_for(lambda: buttons.count() == 1, "the toolbar")
     page.tab.evaluate("document.querySelector('.wv-first-run')?.remove()")
     page.tab.keyboard.press("Control+b")  # no panels
+    page.wait_for(lambda: middle(page)[0] == 450.0, "a scene as wide as the window")
     page.draw()
     yield page
     assert page.errors == []
