@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from rviz_trees import lost, texts
 
-from webviz.files import opening
+from webviz.files import opening, rviz
 from webviz.shell.cli import main as cli
 from webviz_displays.moveit import MotionPlanning, PlanningScene, Trajectory
 
@@ -119,3 +119,21 @@ def test_settings_of_planning_do_not_count_but_its_metrics_do(
     [line] = [line for line in printed.splitlines() if "unsupported" in line]
     assert "Planning: Planning Metrics/Show Joint Torques" in line
     assert "MoveIt_Planning_Time" not in printed
+
+
+@pytest.mark.parametrize(("show_axes", "is_lost"), [("false", False), ("true", True)])
+def test_links_and_switches_of_old_files_count_if_they_were_changed(
+    show_axes: str, is_lost: bool
+) -> None:
+    _, report = rviz.read(
+        f"""\
+Visualization Manager:
+  Displays:
+    - Class: moveit_rviz_plugin/PlanningScene
+      Scene Robot:
+        Show Scene Robot: true
+        hand: {{Alpha: 1, Show Axes: {show_axes}, Show Trail: false, Value: true}}
+""",
+        "x.rviz",
+    )
+    assert report.is_complete is not is_lost

@@ -12,6 +12,8 @@ ALWAYS = {
     "Expand Link Details": "how RViz's panel looks",
     "Expand Joint Details": "how RViz's panel looks",
     "Link Tree Style": "how RViz's panel looks",
+    "Link Tree": "links in an order that RViz writes but does not read",
+    "Link/Joint Tree": "links in an order that RViz writes but does not read",
     "Topic Filter": "which topics RViz's panel offers",
     **dict.fromkeys(
         (
@@ -34,6 +36,7 @@ AT_DEFAULT: dict[str, tuple[Any, ...]] = {
     "Position Transformer": ("XYZ", ""),
     "Links": (None,),
     "Show All Links": (True,),
+    "Show Scene Robot": (True,),  # of MoveIt before Show Robot Visual
     "Show Weight Limit": (False,),
     "Show Manipulability Index": (False,),
     "Show Manipulability": (False,),
@@ -75,6 +78,11 @@ IGNORED_BY_PLUGINS = {
 """Keys that files have from ROS 1 or other displays, with the class that ignores them in RViz2."""
 
 
+LINKS_BESIDE_THEIR_GROUP = ("Scene Robot", "Planned Path")
+UNCHANGED_LINK = {"Alpha": 1, "Show Axes": False, "Show Trail": False, "Value": True}
+"""A link of old MoveIt files, which have it in these groups instead of in their group Links."""
+
+
 def is_without_effect(path: Path, tree: Tree) -> bool:
     """Return whether the value at a path of a display has no effect on what RViz shows."""
     first, last, cls = path[0], path[len(path) - 1], str(tree.get("Class"))
@@ -84,9 +92,11 @@ def is_without_effect(path: Path, tree: Tree) -> bool:
         return True
     if first in HIDDEN_OF_SCALARS and cls.rpartition("/")[2] in SCALARS:
         return True
-    value: Any = tree
+    value, outer = tree, None
     for key in path:
-        value = value.get(key) if isinstance(value, dict) else None
+        value, outer = (value.get(key) if isinstance(value, dict) else None), value
+    if first in LINKS_BESIDE_THEIR_GROUP and len(path) == 3 and outer == UNCHANGED_LINK:
+        return True
     if first == "Namespaces" and value is True:  # as all are
         return True
     name = path[len(path) - 2] if last == "Value" and len(path) > 1 else last

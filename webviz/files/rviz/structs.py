@@ -19,10 +19,11 @@ from webviz.files.rviz.values import Unfit
 WITH_CHILDREN = ("Frames", "Joints")
 """Mappings whose switches RViz writes as {Value: true}, because they have children."""
 
-UNLISTED = {"GridMapLayer", "intensity"}
+UNLISTED = {"GridMapLayer", "intensity", "intensities"}
 """Values that RViz and its plug-ins write without offering them as a choice; they mean the default.
 
-A DepthCloud says `intensity` as all clouds do, though its points have none.
+A DepthCloud says `intensity` as all clouds do, though its points have none; ROS 1's RViz called the
+intensities of scans `intensities`.
 """
 
 
