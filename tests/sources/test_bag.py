@@ -7,7 +7,7 @@ from bags import START_NS, TF, Bag, files, ns, stamped, strings
 from rosbags.rosbag2 import CompressionMode, StoragePlugin
 
 from webviz.data.messages import decode, register
-from webviz.engine.sources.bag import MAX_BATCH
+from webviz.engine.sources.replay import MAX_BATCH
 
 KINDS = [
     (StoragePlugin.SQLITE3, CompressionMode.NONE),
@@ -67,7 +67,7 @@ def test_many_messages_come_in_parts_and_none_is_lost(tmp_path, opened):
 
 
 def test_large_messages_come_in_parts_too(tmp_path, opened, monkeypatch):
-    monkeypatch.setattr("webviz.engine.sources.bag.MAX_BATCH_BYTES", 15)  # each has 10
+    monkeypatch.setattr("webviz.engine.sources.replay.MAX_BATCH_BYTES", 15)  # each has 10
     bag = opened(strings(0, 1, 2).write(tmp_path / "bag"))
     bag.want("/words")
     for texts in (["0", "1"], ["2"]):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
@@ -22,16 +22,11 @@ from webviz.engine.sources.bag_past import BagPast
 from webviz.engine.sources.bag_time import CLOCK, TF, BagTime
 from webviz.engine.sources.graph import ReadOnly
 from webviz.engine.sources.inbox import MAX_BYTES, Inbox, Raw
+from webviz.engine.sources.replay import Replay
 from webviz.engine.sources.source import Durability, Offer, Publisher, Reliability, Subscription
 
 NODE = "webviz"
 """The node name of private topics (~/...), as in the live viewer."""
-MAX_BATCH = 500
-"""Messages per call of `play`, so that no queue of the inbox overflows."""
-MAX_BATCH_BYTES = 32 << 20
-STEP_NS, LONG_STEP_NS = 100_000_000, 2_000_000_000
-"""Recording time between two turns of a frame loop that draws nothing: longer while it is far from
-its destination, but much shorter than the history of transforms."""
 INBOX_LIMIT = 20_000
 """Messages per topic; all latched messages arrive at once."""
 NONE = "the bag has none"
@@ -71,7 +66,7 @@ class BagSource:
         self._extras = tuple(extras)
         self._remappings = dict(remappings or {})
         self._time = BagTime(self._file)
-        self._position_ns = self._file.start_ns - 1
+        self._replay: Replay[BagChannel, Recorded] = Replay(self._file, self._arrive)
         self._wanted: dict[str, Subscription] = {}
         self._problems: dict[str, str] = {}
         self._begins: dict[str, str] = {}
@@ -79,8 +74,6 @@ class BagSource:
         self._served: dict[str, str] = {}
         """Types by topic, of subscriptions that get their past from the seek before."""
         self._counting: Future[Mapping[str, Sequence[int]]] | None = None
-        self._next: Recorded | None = None
-        self._upcoming: Iterator[Recorded] = iter(())
 
     @property
     def start_ns(self) -> int:
@@ -95,7 +88,7 @@ class BagSource:
     @property
     def position_ns(self) -> int:
         """The position in the bag: everything recorded until then has arrived."""
-        return self._position_ns
+        return self._replay.position_ns
 
     @property
     def remarks(self) -> list[str]:
@@ -116,18 +109,7 @@ class BagSource:
         Raises:
             BagError: the file can no longer be read.
         """
-        count = size = 0
-        while self._next is not None and self._next.stamp_ns <= until_ns:
-            # Messages of one stamp arrive together. Stamps in a file may be slightly out of order.
-            is_later = self._next.stamp_ns > self._position_ns
-            if is_later and (count >= MAX_BATCH or size >= MAX_BATCH_BYTES):
-                break
-            self._position_ns = max(self._position_ns, self._next.stamp_ns)
-            self._arrive(self._next)
-            count, size = count + 1, size + len(self._next.cdr)
-            self._next = next(self._upcoming, None)
-        else:
-            self._position_ns = max(self._position_ns, until_ns)
+        self._replay.play(until_ns)
         self.inbox.arrived.set()
 
     def play_step(self, until_ns: int) -> None:
@@ -136,10 +118,8 @@ class BagSource:
         Raises:
             BagError: the file can no longer be read.
         """
-        next_ns = until_ns if self._next is None else self._next.stamp_ns
-        left_ns = until_ns - self._position_ns
-        step_ns = min(max(left_ns // 8, STEP_NS), LONG_STEP_NS)
-        self.play(min(until_ns, max(next_ns, self._position_ns + step_ns)))
+        self._replay.play_step(until_ns)
+        self.inbox.arrived.set()
 
     @property
     def names(self) -> Sequence[str]:
@@ -149,13 +129,8 @@ class BagSource:
     def seek(self, at_ns: int) -> None:
         """`Playable.seek`: reads what the subscriptions need of the past, and then on."""
         self.inbox.drain()
-        channels = self._channels_to_read()
-        past = BagPast(self._file, channels, self._wanted, at_ns).messages()
-        self._upcoming = itertools.chain(past, self._file.messages(channels, at_ns + 1))
-        self._next = next(self._upcoming, None)
-        first_ns = at_ns if self._next is None else self._next.stamp_ns
-        self._position_ns = min(first_ns, at_ns) - 1
-        self._time.seek(self._position_ns)
+        self._replay.seek(at_ns, self._channels_to_read(), self._wanted)
+        self._time.seek(self.position_ns)
         for extra in self._extras:
             self._put(Recorded(extra.topic, extra.type, extra.cdr, self._file.start_ns))
         self._served = _types(self._wanted)
@@ -167,12 +142,7 @@ class BagSource:
             for channel in self._file.channels
             if (channel.topic == topic if topic else self._is_shown(channel))
         ]
-        if is_forward:
-            found = next(self._file.messages(channels, self._position_ns + 1), None)
-            return found and found.stamp_ns
-        before_ns = min(self._position_ns, self._file.end_ns) - 1
-        found = next(self._file.newest(channels, before_ns), None)
-        return found and found.stamp_ns
+        return self._replay.neighbour(channels, is_forward)
 
     def histogram(self, buckets: int) -> Mapping[str, Sequence[int]]:
         """`Playable.histogram`; none until a worker has counted."""
@@ -223,7 +193,7 @@ class BagSource:
             else:
                 self._catch_up(topic, wish)
         if _types(before) != _types(self._wanted):
-            self._read_on()
+            self._replay.read_on(self._channels_to_read())
         self._offers = self._all_offers()
 
     def offers(self) -> Mapping[str, Offer]:
@@ -232,7 +202,7 @@ class BagSource:
 
     def now_ns(self) -> int:
         """ROS time at the position in the bag; it is known also where it is 0 or less."""
-        return max(self._time.at(self._position_ns), 1)
+        return max(self._time.at(self.position_ns), 1)
 
     def clock_messages(self) -> int | None:
         """Time comes from the bag; its /clock is not counted."""
@@ -259,11 +229,6 @@ class BagSource:
         self._file.close()
 
     # Internal
-
-    def _read_on(self) -> None:
-        """Read the subscribed channels from the position on."""
-        self._upcoming = self._file.messages(self._channels_to_read(), self._position_ns + 1)
-        self._next = next(self._upcoming, None)
 
     def _is_shown(self, channel: BagChannel) -> bool:
         """Return whether displays subscribe to a channel."""
@@ -297,11 +262,11 @@ class BagSource:
     def _catch_up(self, topic: str, wish: Subscription) -> None:
         """Deliver what a new subscription would hold if it had been there from the start."""
         channels = [channel for channel in self._channels() if channel.topic == topic]
-        if channels and self._position_ns >= self._file.start_ns:
+        if channels and self.position_ns >= self._file.start_ns:
             latched = Lookback(count=sum(channel.depth for channel in self._latched(topic, wish)))
             lookbacks = (*wish.lookbacks, *([latched] if latched.count else []))
             wanted = self._wanted | {topic: replace(wish, lookbacks=lookbacks)}
-            for recorded in BagPast(self._file, channels, wanted, self._position_ns).messages():
+            for recorded in BagPast(self._file, channels, wanted, self.position_ns).messages():
                 self._put(recorded)
 
     def _put_extras(self, topic: str) -> None:
@@ -317,7 +282,7 @@ class BagSource:
         depth = INBOX_LIMIT if is_tf else sum(channel.depth for channel in latched)
         past: list[Recorded] = []
         size = 0
-        for recorded in itertools.islice(self._file.newest(latched, self._position_ns), depth):
+        for recorded in itertools.islice(self._file.newest(latched, self.position_ns), depth):
             size += len(recorded.cdr)
             if past and size > MAX_BYTES:
                 break

@@ -1,15 +1,14 @@
-"""Past messages of a bag without which a time of it cannot be shown."""
+"""Past messages without which a time of a recording cannot be shown."""
 
 from __future__ import annotations
 
 import heapq
 import itertools
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from typing import Generic, Protocol, TypeVar
 
 from webviz.api.lookback import Lookback
 from webviz.data.messages import MessageError, decode
-from webviz.engine.sources.bag_file import BagChannel, Recorded
-from webviz.engine.sources.bag_files import BagFiles
 from webviz.engine.sources.bag_time import CLOCK, TF
 from webviz.engine.sources.source import Subscription
 
@@ -21,11 +20,73 @@ MAX_OLD = 100
 """Older messages of a topic with transforms of their own; of more, all transforms since."""
 
 
-class BagPast:
-    """Finds, with the index of a bag, the messages that the state at a time depends on.
+class PastChannel(Protocol):
+    """Messages of one type on one topic."""
+
+    @property
+    def topic(self) -> str:
+        """Full name."""
+        ...
+
+    @property
+    def type(self) -> str:
+        """Three-part name."""
+        ...
+
+
+class PastMessage(Protocol):
+    """One message of the past."""
+
+    @property
+    def topic(self) -> str:
+        """Full name."""
+        ...
+
+    @property
+    def cdr(self) -> bytes:
+        """The serialised message."""
+        ...
+
+    @property
+    def stamp_ns(self) -> int:
+        """Time of recording."""
+        ...
+
+
+C = TypeVar("C", bound=PastChannel)
+M = TypeVar("M", bound=PastMessage, covariant=True)
+C_contra = TypeVar("C_contra", bound=PastChannel, contravariant=True)
+
+
+class PastMessages(Protocol[C_contra, M]):
+    """Recorded messages by time: bags, or what is remembered of live topics."""
+
+    @property
+    def start_ns(self) -> int:
+        """Time of the first message."""
+        ...
+
+    @property
+    def end_ns(self) -> int:
+        """Time of the last message."""
+        ...
+
+    def messages(
+        self, channels: Collection[C_contra], start_ns: int, end_ns: int | None = None
+    ) -> Iterator[M]:
+        """The messages of some channels by time, both ends included."""
+        ...
+
+    def newest(self, channels: Collection[C_contra], end_ns: int) -> Iterator[M]:
+        """The messages of some channels until a time, the newest first."""
+        ...
+
+
+class BagPast(Generic[C, M]):
+    """Finds the messages that the state at a time depends on.
 
     Args:
-        file: the bag.
+        file: all messages.
         channels: those to read.
         wanted: subscriptions with their lookbacks, by topic.
         at_ns: the time of recording.
@@ -33,25 +94,25 @@ class BagPast:
 
     def __init__(
         self,
-        file: BagFiles,
-        channels: Collection[BagChannel],
+        file: PastMessages[C, M],
+        channels: Collection[C],
         wanted: Mapping[str, Subscription],
         at_ns: int,
     ) -> None:
         self._file = file
         self._wanted = wanted
         self._at_ns = at_ns
-        self._channels: dict[str, list[BagChannel]] = {}
+        self._channels: dict[str, list[C]] = {}
         for channel in channels:
             self._channels.setdefault(channel.topic, []).append(channel)
         self._starts: dict[str, int] = {}
 
-    def messages(self) -> Iterator[Recorded]:
+    def messages(self) -> Iterator[M]:
         """The messages by time of recording, those at the time included."""
         recent_ns = max(self._at_ns - RECENT_NS, self._file.start_ns)
-        follow: list[BagChannel] = []
-        together: list[BagChannel] = []
-        alone: list[Iterator[Recorded]] = []
+        follow: list[C] = []
+        together: list[C] = []
+        alone: list[Iterator[M]] = []
         placed: list[tuple[int, int]] = []
         timed: list[tuple[int, int]] = []
         for topic, channels in self._channels.items():
@@ -82,15 +143,13 @@ class BagPast:
         wish = self._wanted.get(topic)
         return wish is not None and Lookback() in wish.lookbacks
 
-    def _young(self, channels: Sequence[BagChannel], recent_ns: int) -> Iterator[Recorded]:
+    def _young(self, channels: Sequence[C], recent_ns: int) -> Iterator[M]:
         """The messages of several topics, each from its start on."""
         for recorded in self._file.messages(channels, recent_ns, self._at_ns):
             if recorded.stamp_ns >= self._starts[recorded.topic]:
                 yield recorded
 
-    def _within(
-        self, channels: Sequence[BagChannel], spans: Sequence[tuple[int, int]]
-    ) -> Iterator[Recorded]:
+    def _within(self, channels: Sequence[C], spans: Sequence[tuple[int, int]]) -> Iterator[M]:
         """The messages of channels within some spans of time, each once."""
         until_ns = self._file.start_ns - 1
         for start_ns, end_ns in sorted(spans) if channels else ():
@@ -100,7 +159,7 @@ class BagPast:
                 yield from self._file.messages(channels, start_ns, until_ns)
 
     def _spans(
-        self, channels: Sequence[BagChannel], start_ns: int, recent_ns: int
+        self, channels: Sequence[C], start_ns: int, recent_ns: int
     ) -> Sequence[tuple[int, int]]:
         """When the transforms and the clock are needed for the older messages of a topic."""
         older = self._file.messages(channels, start_ns, recent_ns)
@@ -118,9 +177,7 @@ class BagPast:
             self._starts[topic] = min(starts, default=self._at_ns + 1)
         return self._starts[topic]
 
-    def _start_of(
-        self, channels: Sequence[BagChannel], lookback: Lookback, wish: Subscription
-    ) -> int:
+    def _start_of(self, channels: Sequence[C], lookback: Lookback, wish: Subscription) -> int:
         limit_ns = self._file.start_ns
         if lookback.seconds:
             limit_ns = max(limit_ns, self._at_ns - round(min(lookback.seconds, 1e9) * 1e9))
@@ -140,7 +197,7 @@ class BagPast:
         return start_ns
 
 
-def _starts_over(lookback: Lookback, recorded: Recorded, wish: Subscription) -> bool:
+def _starts_over(lookback: Lookback, recorded: PastMessage, wish: Subscription) -> bool:
     if lookback.starts_over is None:
         return False
     try:
