@@ -14,6 +14,7 @@ import msgspec
 import pytest
 import websockets.exceptions
 import websockets.sync.client
+from websockets.exceptions import ConnectionClosed
 
 from tests.access.conftest import PATIENCE_S, House, wait_until
 from tests.scene.conftest import Peer
@@ -25,8 +26,9 @@ from webviz.edges.access.tokens import make
 from webviz.edges.page.acts import NOT_OF_PAGES
 from webviz.edges.page.refusals import HALF
 from webviz.edges.scene import connections, open_server
-from webviz.edges.scene.connections import BURST_S, Allowance
+from webviz.edges.scene.connections import BURST_S, FLOODED, Allowance
 from webviz.engine.commands import Command
+from webviz.engine.parts.selection import MAX_SELECTED
 
 PARAMETERS = {role: name for name, role in LINKS.items()}
 
@@ -304,9 +306,9 @@ def test_an_owner_revokes_any_link_but_their_own(house: House) -> None:
 
 def test_watchers_cannot_keep_the_owner_out(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
     few = {
-        Role.WATCHER: Limits(0.5, 64, 100.0, 1000, 1000),
-        Role.OPERATOR: Limits(0.75, 64, 100.0, 1000, 1000),
-        Role.OWNER: Limits(1.0, 64, 100.0, 1000, 1000),
+        Role.WATCHER: Limits(0.5, 64, 100.0, 1000, 1000, 1000),
+        Role.OPERATOR: Limits(0.75, 64, 100.0, 1000, 1000, 1000),
+        Role.OWNER: Limits(1.0, 64, 100.0, 1000, 1000, 1000),
     }
     monkeypatch.setattr("webviz.edges.scene.connections.LIMITS", few)
     monkeypatch.setattr("webviz.edges.scene.connections.MAX_BROWSERS", 4)
@@ -325,7 +327,7 @@ def test_watchers_cannot_keep_the_owner_out(house: House, monkeypatch: pytest.Mo
 
 
 def test_one_address_has_a_limit(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
-    one = {**LIMITS, Role.WATCHER: Limits(1.0, 1, 100.0, 1000, 1000)}
+    one = {**LIMITS, Role.WATCHER: Limits(1.0, 1, 100.0, 1000, 1000, 1000)}
     monkeypatch.setattr("webviz.edges.scene.connections.LIMITS", one)
     house.enter(Role.WATCHER).receive("You")
     assert house.ask("/", Cookie=house.cookie(Role.WATCHER)).status == 503
@@ -369,6 +371,35 @@ def test_watchers_who_flood_with_long_messages_are_not_read(
     assert (house.reached.count("Export"), house.reached.count("ResetView")) == (0, 1)
 
 
+def test_messages_that_a_page_leaves_behind_beyond_its_rate_do_nothing(
+    house: House, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(connections, "Allowance", lambda rate, burst: Allowance(20.0, 5.0))
+    watcher = house.enter(Role.WATCHER)
+    for number in range(300):  # 15 s
+        watcher.send("Do", number=number, command="ResetView", arguments={})
+    wait_until(lambda: "ResetView" in house.reached)
+    watcher.drop()
+    wait_until(lambda: not house.server.channel.browsers())
+    assert house.reached.count("ResetView") < 300
+    assert "ResetView" in house.reached
+
+
+def test_a_page_that_keeps_sending_too_much_is_ended_with_the_reason(
+    house: House, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(connections, "Allowance", lambda rate, burst: Allowance(20.0, 5.0))
+    monkeypatch.setattr(connections, "FLOOD_S", 0.2)
+    watcher = house.enter(Role.WATCHER)
+    for number in range(300):
+        watcher.send("Do", number=number, command="ResetView", arguments={})
+    with pytest.raises(ConnectionClosed) as ended:
+        watcher.receive("Nothing")
+    assert ended.value.rcvd is not None
+    assert (ended.value.rcvd.code, ended.value.rcvd.reason) == (1008, FLOODED)
+    assert house.reached.count("ResetView") < 300
+
+
 def test_messages_are_not_compressed_so_that_none_unfolds_without_end(house: House) -> None:
     url = f"ws://127.0.0.1:{house.server.get_port()}/webviz/channel"
     headers = {"Cookie": house.cookie(Role.WATCHER)}
@@ -388,6 +419,17 @@ def test_a_message_has_the_size_that_the_role_may_send(house: House) -> None:
     assert refused["text"].endswith(f" characters in one message; the limit is {limit}.")
     guest.send("Do", number=2, command="Export", arguments={})
     assert guest.receive("Done")["number"] == 2
+
+
+def test_watchers_may_send_a_selection_and_no_lists_that_are_slow_to_read(house: House) -> None:
+    guest = house.enter(Role.WATCHER)
+    items = [[number, number, [0.5, 0.5, 0.5], [1, 2, 3]] for number in range(MAX_SELECTED)]
+    pick = {"group": "a", "key": "b", "items": items}
+    assert guest.do("Select", picks=[pick], keep=[], total=MAX_SELECTED) == ""
+    refused = guest.do("ChangeView", key="distance", value=30_000 * [[]])
+    assert refused.startswith("Not done: 60")
+    assert refused.endswith(" values in one message; the limit is 20000.")
+    assert house.reached == ["Select"]
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import socket
 import time
 from typing import Any
 
@@ -57,6 +58,10 @@ class Guest:
         """The answer to a command."""
         self.send("Do", number=1, command=command, arguments=arguments)
         return self.receive("Done")["text"]
+
+    def drop(self) -> None:
+        """End what is sent on the channel without a word, as a browser that is killed."""
+        self._socket.socket.shutdown(socket.SHUT_WR)
 
     def close(self) -> None:
         """End the connections."""

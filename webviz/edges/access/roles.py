@@ -44,6 +44,9 @@ class Limits:
         bytes_per_message: each further multiple of this size counts as one more message. Reading
             JSON holds up whoever drives: what watchers send at most takes little of a processor.
         max_characters: of one message; the longest of watchers are selections, of owners configs.
+        max_values: of one message, counted by its commas and brackets before it is read: lists of
+            lists take a hundred times as long as a text of that length. A selection of a thousand
+            things has 11 000, and the text of a config as many as it has characters.
     """
 
     share: float
@@ -51,10 +54,11 @@ class Limits:
     messages_per_second: float
     bytes_per_message: int
     max_characters: int
+    max_values: int
 
 
 LIMITS = {
-    Role.WATCHER: Limits(0.75, 16, 100.0, 1 << 10, 256 << 10),
-    Role.OPERATOR: Limits(0.9, 32, 200.0, 32 << 10, 1 << 20),
-    Role.OWNER: Limits(1.0, 128, 200.0, 32 << 10, 3 << 20),
+    Role.WATCHER: Limits(0.75, 16, 100.0, 1 << 10, 256 << 10, 20_000),
+    Role.OPERATOR: Limits(0.9, 32, 200.0, 32 << 10, 1 << 20, 200_000),
+    Role.OWNER: Limits(1.0, 128, 200.0, 32 << 10, 3 << 20, 3 << 20),
 }

@@ -18,7 +18,7 @@ from websockets.exceptions import ConnectionClosed
 
 from webviz.edges.access import rules
 from webviz.edges.access.access import Grant
-from webviz.edges.access.roles import LIMITS, Role
+from webviz.edges.access.roles import LIMITS, Limits, Role
 from webviz.edges.access.visitors import Visitor
 from webviz.edges.page.messages import (
     Do,
@@ -303,9 +303,9 @@ class Channel:
 
     def _hear(self, browser: int, text: str, connection: Websocket) -> None:
         log = connection.logger
-        if len(text) > (limit := LIMITS[connection.grant.role].max_characters):
-            log.warning("A message of a page was ignored: %d characters.", len(text))
-            self._refuse_long(browser, text, limit)
+        if excess := _excess(text, LIMITS[connection.grant.role]):
+            log.warning("A message of a page was ignored: %s.", excess)
+            self._refuse_excess(browser, text, excess)
             return
         try:
             message = self._decoder.decode(text)
@@ -325,12 +325,11 @@ class Channel:
         for listener in self._listeners.get(type(message), ()):
             listener(browser, message)
 
-    def _refuse_long(self, browser: int, text: str, limit: int) -> None:
+    def _refuse_excess(self, browser: int, text: str, excess: str) -> None:
         """Answer a command that is too long, without reading all of it."""
         with contextlib.suppress(msgspec.MsgspecError, RecursionError):
             number = msgspec.json.decode(text, type=_Long).number
-            reason = f"Not done: {len(text)} characters in one message; the limit is {limit}."
-            self.send(Done(number, "error", reason, ""), browser)
+            self.send(Done(number, "error", f"Not done: {excess}.", ""), browser)
 
     @staticmethod
     def _refusal(role: Role, message: FromPage) -> str:
@@ -380,6 +379,15 @@ class _Long(msgspec.Struct, tag="Do"):
     """Readable part of a command that is too long."""
 
     number: Number
+
+
+def _excess(text: str, limits: Limits) -> str:
+    """Return a clause on what a message has too much of, "" if it is within the limits."""
+    if len(text) > (limit := limits.max_characters):
+        return f"{len(text)} characters in one message; the limit is {limit}"
+    if (values := sum(map(text.count, ",[{"))) > (limit := limits.max_values):
+        return f"{values} values in one message; the limit is {limit}"
+    return ""
 
 
 def objection(data: str | bytes, role: Role) -> str | None:

@@ -6,12 +6,13 @@ import asyncio
 import contextlib
 import functools
 import resource
+import select
 from collections.abc import AsyncIterator, Callable, Iterator
 from typing import Any
 
 import websockets.asyncio.server as websocket
 from websockets.exceptions import ConnectionClosed
-from websockets.frames import Frame, Opcode
+from websockets.frames import CloseCode, Frame, Opcode
 from websockets.protocol import State
 
 from webviz.edges.access.access import EVERYBODY, Grant
@@ -29,6 +30,10 @@ BURST_S = 2.0
 """Seconds of the allowed rate that may come at once."""
 MAX_WAIT = 1.0
 """Seconds by which a connection may exceed the rate with frames that cannot wait, such as pings."""
+FLOOD_S = 30.0
+"""Seconds for which a connection may exceed the rate before it is ended; a page whose network was
+stalled catches up sooner."""
+FLOODED = "This page sent too many messages."
 CLOSE_ONE = "Close another page of webviz."
 READ_BYTES = 1 << 12
 """Read from a connection in one turn of the event loop: the smallest frames have 6 bytes, and each
@@ -125,11 +130,18 @@ class Allowance:
         self._rate = rate
         self._credit = burst / rate
         self._paid_until = -float("inf")
+        self._in_time = -float("inf")
 
     def spend(self, messages: float, now: float) -> float:
         """Counts messages at a time in seconds; returns how many seconds to wait."""
+        if now - self._paid_until >= self._credit / 2.0:
+            self._in_time = now
         self._paid_until = max(self._paid_until, now - self._credit) + messages / self._rate
         return max(0.0, self._paid_until - now)
+
+    def exhausted_s(self, now: float) -> float:
+        """Seconds since the last message at which half a burst or more was left."""
+        return now - self._in_time
 
 
 class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
@@ -320,11 +332,35 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
         while True:
             data = await super().recv(decode)
             cost = 1.0 + len(data) / self._bytes_per_message
+            wait = 0.0 if self.is_expelled else self._allowance.spend(cost, self.loop.time())
             # Also with a delay of 0: otherwise received messages would keep other tasks waiting.
-            await asyncio.sleep(self._allowance.spend(cost, self.loop.time()))
+            await asyncio.sleep(wait)
+            if wait > 0.0:
+                await self._end_flood()
             if self.is_expelled:
                 continue
             objection = self.objection(data, self.grant.role)
             if objection is None:
                 return data
             self.logger.warning("Ignored a message of a browser: %s.", objection)
+
+    async def _end_flood(self) -> None:
+        """Ends the connection if it sends too much for long, or has closed its end."""
+        if self._is_gone:
+            self.is_expelled = True
+            self.transport.abort()
+        elif self._allowance.exhausted_s(self.loop.time()) > FLOOD_S:
+            self.is_expelled = True
+            self.logger.warning("Ended a connection that sent too many messages.")
+            with contextlib.suppress(TimeoutError):
+                await asyncio.wait_for(self.close(CloseCode.POLICY_VIOLATION, FLOODED), FAREWELL)
+            self.transport.abort()
+
+    @property
+    def _is_gone(self) -> bool:
+        """Return whether the browser has closed its end, also if some of what it sent is unread."""
+        if self.transport.is_closing():
+            return True
+        end = select.poll()
+        end.register(self.transport.get_extra_info("socket").fileno(), select.POLLRDHUP)
+        return bool(end.poll(0))
