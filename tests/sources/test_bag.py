@@ -7,6 +7,7 @@ from bags import START_NS, TF, Bag, files, ns, stamped, strings
 from rosbags.rosbag2 import CompressionMode, StoragePlugin
 
 from webviz.data.messages import decode, register
+from webviz.engine.sources.bag import BagSource
 from webviz.engine.sources.replay import MAX_BATCH
 
 KINDS = [
@@ -340,3 +341,17 @@ def test_the_offset_of_simulated_time_is_that_of_the_first_stamped_transform(tmp
     bag = opened(recorded.write(tmp_path / "bag"))
     bag.play(1.5)  # from the first message on
     assert bag.source.now_ns() == ns(102.5)
+
+
+def test_a_subscription_that_is_made_anew_reads_no_beginning_again(tmp_path, opened, monkeypatch):
+    bag = opened(strings(0, 1, 2).write(tmp_path / "bag"))
+    read = []
+    beginning = BagSource._beginning
+    monkeypatch.setattr(
+        BagSource,
+        "_beginning",
+        lambda source, topic: read.append(topic) or beginning(source, topic),
+    )
+    bag.want("/words")
+    bag.want("/words", asked=1)
+    assert read == ["/words"]

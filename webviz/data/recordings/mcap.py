@@ -23,6 +23,7 @@ from webviz.data.recordings.mcap_records import (
     PREFIX,
     SCHEMA,
 )
+from webviz.data.recordings.mcap_times import ChunkTimes
 from webviz.data.recordings.recording import (
     Counts,
     Losses,
@@ -64,7 +65,7 @@ class McapRecording:
         self._numbers = index.channels()
         self.channels = tuple(dict.fromkeys(self._numbers.values()))
         self._chunks = sorted(index.chunks, key=lambda chunk: chunk.start_ns)
-        self._from_end = sorted(self._chunks, key=lambda chunk: -chunk.end_ns)
+        self._times = ChunkTimes(self._chunks)
         self._contents: dict[int, _Content] = {}
         """The last chunks by their offset, the newest at the end."""
         self.span_ns = None
@@ -135,22 +136,19 @@ class McapRecording:
     ) -> Iterator[RecordedMessage]:
         """The messages of some channels within a span, by time or against it."""
         sign = -1 if is_backwards else 1
+        wanted = {number for number, each in self._numbers.items() if each in channels}
         is_wanted = np.zeros(1 << 16, bool)
-        is_wanted[[number for number, each in self._numbers.items() if each in channels]] = True
-        pending = deque(
-            chunk
-            for chunk in (self._from_end if is_backwards else self._chunks)
-            if chunk.start_ns <= end_ns
-            and start_ns <= chunk.end_ns
-            and (chunk.counts is None or is_wanted[chunk.counts["channel"]].any())
-        )
+        is_wanted[list(wanted)] = True
+        pending = deque(self._times.within(wanted, start_ns, end_ns, sign))
         opened: list[tuple[int, int, RecordedMessage, Iterator[RecordedMessage], int]] = []
         size = 0
         while pending or opened:
-            while pending and (not opened or _first(pending[0], sign) <= opened[0][0]):
-                if opened and size + pending[0].size > MAX_OPEN:
+            while pending:
+                chunk = self._chunks[pending[0]]
+                is_later = opened and _first(chunk, sign) > opened[0][0]
+                if is_later or (opened and size + chunk.size > MAX_OPEN):
                     break
-                chunk = pending.popleft()
+                pending.popleft()
                 entries = self._entries(chunk, is_wanted, start_ns, end_ns, sign)
                 if entry := next(entries, None):
                     size += chunk.size

@@ -181,18 +181,20 @@ class BagSource:
         fresh = {t: s for t, s in self._wanted.items() if _is_new(s, before.get(t))}
         for topic in fresh.keys() - before.keys():
             self.inbox.open(topic, INBOX_LIMIT)
-        self._learn(fresh)
-        self._begins |= {topic: self._beginning(topic) for topic in fresh}
+        types = _types(before)
+        new = {topic: wish for topic, wish in fresh.items() if types.get(topic) != wish.type}
+        self._learn(new)
+        self._begins |= {topic: self._beginning(topic) for topic in new}
         served, self._served = self._served, {}
         for topic, wish in fresh.items():
             if served.get(topic) == wish.type:
                 continue
             self._put_extras(topic)
-            if topic in before and before[topic].type == wish.type:
-                self._repeat(topic, wish)
-            else:
+            if topic in new:
                 self._catch_up(topic, wish)
-        if _types(before) != _types(self._wanted):
+            else:
+                self._repeat(topic, wish)
+        if types != _types(self._wanted):
             self._replay.read_on(self._channels_to_read())
         self._offers = self._all_offers()
 
