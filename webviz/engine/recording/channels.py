@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from datetime import datetime
 
+from webviz.api.offer import Offer, Publisher
 from webviz.data.messages import UnknownTypeError, definition
 from webviz.data.recordings import RecordedChannel
 from webviz.engine.sources.bag_qos import text_of
-from webviz.engine.sources.source import Offer, Publisher
 
 
 def library() -> str:

@@ -1,9 +1,10 @@
 """Sources of messages: a live ROS graph or a bag, behind one interface."""
 
+from webviz.api.offer import Offer, Publisher
 from webviz.engine.sources.gate import AllowList, Gate, Rights
 from webviz.engine.sources.graph import Goal, Graph, Missing, NotConnected, Outlet, ReadOnly
 from webviz.engine.sources.inbox import Inbox, Raw
-from webviz.engine.sources.source import Offer, Publisher, Source, Subscription, merged
+from webviz.engine.sources.source import Source, Subscription, merged
 from webviz.engine.sources.subscriber import Subscriber
 
 __all__ = [

@@ -10,6 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from webviz.api.lookback import Lookback
+from webviz.api.offer import Durability, Offer, Publisher, Reliability
 from webviz.data.disk import in_thread
 from webviz.data.messages import MessageError, register
 from webviz.engine.recording_state import Event
@@ -23,7 +24,7 @@ from webviz.engine.sources.bag_time import CLOCK, TF, BagTime
 from webviz.engine.sources.graph import ReadOnly
 from webviz.engine.sources.inbox import MAX_BYTES, Inbox, Raw
 from webviz.engine.sources.replay import Replay
-from webviz.engine.sources.source import Durability, Offer, Publisher, Reliability, Subscription
+from webviz.engine.sources.source import Subscription
 
 NODE = "webviz"
 """The node name of private topics (~/...), as in the live viewer."""

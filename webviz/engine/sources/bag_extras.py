@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from webviz.api.errors import Error
+from webviz.api.offer import Publisher
 from webviz.data.messages import encode
 from webviz.engine.sources.bag_time import TF
-from webviz.engine.sources.source import Publisher
 from webviz_sim.world import WorldError, load_world
 
 MAP_TYPE = "nav_msgs/msg/OccupancyGrid"

@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import NamedTuple
 
 from webviz.api.errors import Error
+from webviz.api.offer import Publisher
 from webviz.data.messages import MessageError, register, type_exists
 from webviz.data.messages.typestore import full_name
 from webviz.data.recordings import RecordedChannel, RecordingError, open_recording
 from webviz.data.recordings.recording import Counts, TimeParts
 from webviz.engine.sources.bag_qos import profiles_of
-from webviz.engine.sources.source import Publisher
 
 KEEP_LAST = 1
 """Latched messages per publisher if the bag does not record the depth."""

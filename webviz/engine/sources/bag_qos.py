@@ -11,8 +11,7 @@ from typing import Any, NamedTuple
 
 from ruamel.yaml import YAML
 
-from webviz.engine.sources.graph import Durability, Reliability
-from webviz.engine.sources.source import Publisher
+from webviz.api.offer import Durability, Publisher, Reliability
 
 MAX_TEXT = 1 << 20
 MAX_PROFILES = 100

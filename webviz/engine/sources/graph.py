@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 from concurrent.futures import Future
 from dataclasses import dataclass
-from typing import Literal, Protocol
+from typing import Protocol
 
 from webviz.api.errors import Error
+from webviz.api.offer import Durability, Reliability
 from webviz.data.words import joined
-
-Reliability = Literal["reliable", "best_effort"]
-Durability = Literal["volatile", "transient_local"]
 
 
 class NotConnected(Error):

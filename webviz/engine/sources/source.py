@@ -10,7 +10,8 @@ import msgspec
 
 from webviz.api.declared import Topic
 from webviz.api.lookback import Lookback
-from webviz.engine.sources.graph import Durability, Graph, Reliability
+from webviz.api.offer import Offer
+from webviz.engine.sources.graph import Graph
 from webviz.engine.sources.inbox import Inbox
 
 
@@ -70,53 +71,6 @@ def _shared(first: Subscription, other: Subscription) -> Subscription:
     if (other.latched, other.topic.durability) != (latched, topic.durability):
         topic, latched = msgspec.structs.replace(topic, durability="auto"), False
     return replace(first, topic=topic, latched=latched)
-
-
-@dataclass(frozen=True)
-class Publisher:
-    """A publisher of a topic.
-
-    Args:
-        node: full node name, "" for a DDS program without a ROS node.
-        type: message type.
-        reliability, durability: offered QoS.
-        endpoint: its identity, which changes when its node is started again; b"" if unknown.
-    """
-
-    node: str
-    type: str
-    reliability: Reliability
-    durability: Durability
-    endpoint: bytes = b""
-
-    @property
-    def label(self) -> str:
-        """Its node, for sentences."""
-        return self.node or "a DDS program"
-
-
-@dataclass(frozen=True)
-class Offer:
-    """Publishers and QoS of one topic.
-
-    Args:
-        publishers: all of them.
-        requested: reliability and durability of our subscription, None without one.
-        problem: why no message can arrive, "" if it can.
-        type: of our subscription, "" without one; a topic can be read as one type only.
-        subscribers: their number, webviz included; None if unknown.
-        is_recorded: whether it is of a bag, whose messages match any QoS.
-        begins: when the first message of a bag comes, such as "the bag's first is at 0.8 s"; "" for
-            live topics.
-    """
-
-    publishers: tuple[Publisher, ...]
-    requested: tuple[Reliability, Durability] | None = None
-    problem: str = ""
-    type: str = ""
-    subscribers: int | None = None
-    is_recorded: bool = False
-    begins: str = ""
 
 
 class Source(Protocol):
