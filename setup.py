@@ -115,6 +115,7 @@ setup(
             "Wrench = webviz_displays.vectors:Wrench",
             "ZedOdDisplay = webviz_displays.zed:ZedOdDisplay",
         ],
+        "webviz.checks": ["webviz = webviz.checks"],
         "webviz.tools": [
             "GoalPose = webviz.tools.goal_pose:GoalPose",
             "Nav2Goal = webviz.tools.nav2_goal:Nav2Goal",

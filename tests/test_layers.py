@@ -21,6 +21,7 @@ ROOMS = (
     "webviz.files",
     "webviz.engine",
     "webviz.edges",
+    "webviz.checks",
     "webviz.tools",
     "webviz.panels",
     "webviz.shell",
@@ -157,8 +158,8 @@ def test_the_edges_do_not_import_each_other() -> None:
     assert not wrong
 
 
-@pytest.mark.parametrize("package", ["webviz_displays", "webviz.tools"])
-def test_displays_and_tools_know_the_public_api_only(package: str) -> None:
+@pytest.mark.parametrize("package", ["webviz_displays", "webviz.checks", "webviz.tools"])
+def test_displays_checks_and_tools_know_the_public_api_only(package: str) -> None:
     wrong = {
         (name, other)
         for name in MODULES

@@ -9,10 +9,12 @@ import importlib
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from webviz.api.check import Check
     from webviz.api.context import ColorScale, Context, Group, Placement
     from webviz.api.declared import Color, Prop, Topic
     from webviz.api.display import Display, Keep, Sync
     from webviz.api.errors import Error
+    from webviz.api.finding import ChangeDisplay, Finding, Severity, Symptom
     from webviz.api.frames import FramePoses, Frames, compose
     from webviz.api.lookback import Lookback
     from webviz.api.nodes import (
@@ -33,6 +35,7 @@ if TYPE_CHECKING:
         Shape,
         Solid,
     )
+    from webviz.api.observation import DisplaySeen, InputSeen, Observation
     from webviz.api.panel import Panel, Send, Ui
     from webviz.api.picking import Details, Hit
     from webviz.api.ports import Input, Output
@@ -46,12 +49,16 @@ if TYPE_CHECKING:
 __all__ = [
     "Arrows",
     "Axes",
+    "ChangeDisplay",
+    "Check",
     "Color",
     "ColorScale",
     "Context",
     "Details",
     "Display",
+    "DisplaySeen",
     "Error",
+    "Finding",
     "FramePoses",
     "Frames",
     "Glb",
@@ -59,6 +66,7 @@ __all__ = [
     "Hit",
     "Image",
     "Input",
+    "InputSeen",
     "Instances",
     "Keep",
     "Labels",
@@ -68,6 +76,7 @@ __all__ = [
     "Mesh",
     "Models",
     "Node",
+    "Observation",
     "OtherFixedFrame",
     "Output",
     "Pane",
@@ -80,11 +89,13 @@ __all__ = [
     "Rgb",
     "Sample",
     "Send",
+    "Severity",
     "Shape",
     "Solid",
     "State",
     "Status",
     "Stroke",
+    "Symptom",
     "Sync",
     "Tool",
     "ToolContext",
@@ -97,10 +108,12 @@ __all__ = [
 
 _HOMES = {
     "webviz.shell.app.viewer": ("Viewer",),
+    "webviz.api.check": ("Check",),
     "webviz.api.context": ("ColorScale", "Context", "Group", "Placement"),
     "webviz.api.declared": ("Color", "Prop", "Topic"),
     "webviz.api.display": ("Display", "Keep", "Sync"),
     "webviz.api.errors": ("Error",),
+    "webviz.api.finding": ("ChangeDisplay", "Finding", "Severity", "Symptom"),
     "webviz.api.frames": ("FramePoses", "Frames", "compose"),
     "webviz.api.lookback": ("Lookback",),
     "webviz.api.nodes": (
@@ -121,6 +134,7 @@ _HOMES = {
         "Shape",
         "Solid",
     ),
+    "webviz.api.observation": ("DisplaySeen", "InputSeen", "Observation"),
     "webviz.api.panel": ("Panel", "Send", "Ui"),
     "webviz.api.picking": ("Details", "Hit"),
     "webviz.api.ports": ("Input", "Output"),

@@ -18,6 +18,7 @@ from webviz.api.frames import Frames, is_placeable
 from webviz.api.nodes import Ids, Node, Pose, Rgb, Shape, Solid
 from webviz.api.status import Level, OtherFixedFrame, Remedy, Status
 from webviz.data.transforms.geometry import REACH_M
+from webviz.data.transforms.reasons import Explanation
 
 When = Literal["latest", "now"]
 """The latest common time of a frame and the fixed frame, or the viewer's current time."""
@@ -286,13 +287,32 @@ class Context(Group):
         """Report that all is well."""
         self.statuses[key] = Status(Level.OK, text)
 
-    def warn(self, key: str, text: str, remedy: Remedy | OtherFixedFrame | None = None) -> None:
-        """Report a warning; `remedy` is a change that would help, and a button of the page."""
-        self.statuses[key] = Status(Level.WARN, text, remedy)
+    def warn(
+        self,
+        key: str,
+        text: str,
+        remedy: Remedy | OtherFixedFrame | None = None,
+        reason: Explanation | None = None,
+    ) -> None:
+        """Report a warning; `remedy` is a change that would help, and a button of the page.
 
-    def error(self, key: str, text: str, remedy: Remedy | OtherFixedFrame | None = None) -> None:
-        """Report an error; `remedy` is a change that would help, and a button of the page."""
-        self.statuses[key] = Status(Level.ERROR, text, remedy)
+        Args:
+            key: of the status.
+            text: a sentence with cause and remedy.
+            remedy: see `webviz.Status`.
+            reason: why a frame has no pose, if that is the cause.
+        """
+        self.statuses[key] = Status(Level.WARN, text, remedy, reason)
+
+    def error(
+        self,
+        key: str,
+        text: str,
+        remedy: Remedy | OtherFixedFrame | None = None,
+        reason: Explanation | None = None,
+    ) -> None:
+        """Report an error; its arguments are those of `warn`."""
+        self.statuses[key] = Status(Level.ERROR, text, remedy, reason)
 
 
 def _checked(pose: Pose, what: str) -> Pose:

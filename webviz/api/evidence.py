@@ -14,6 +14,11 @@ from numpy.typing import NDArray
 
 from webviz.api.nodes import Pose
 
+GOOD = 0.8
+"""Share of points on walls from which on a scan fits."""
+BAD = 0.4
+"""Share of points on walls below which a scan does not fit, even if nothing else does."""
+
 
 @dataclass(frozen=True, eq=False)
 class Hits:
@@ -66,3 +71,53 @@ class Way:
 
 
 Evidence = Hits | Walls | Way
+
+
+@dataclass(frozen=True)
+class Fit:
+    """Quality of the fit of a scan.
+
+    Args:
+        share: of `points` that lie on walls.
+        points: that were compared, those on known ground.
+        turn: rotation about the laser in radians that would make it fit, None if none would.
+        shift: of the laser in metres along the map's axes that would, None if none would.
+        is_mirrored: whether a laser mounted upside down would fit.
+        cured: the share of points on walls with that.
+    """
+
+    share: float
+    points: int
+    turn: float | None = None
+    shift: tuple[float, float] | None = None
+    is_mirrored: bool = False
+    cured: float = 0.0
+
+    @property
+    def is_cured(self) -> bool:
+        """Return whether something would make it fit."""
+        return self.is_mirrored or self.turn is not None or self.shift is not None
+
+    @property
+    def is_good(self) -> bool:
+        """Return whether the scan belongs where it is, as far as can be known."""
+        return self.share >= GOOD or (self.share >= BAD and not self.is_cured)
+
+
+@dataclass(frozen=True)
+class MapFit:
+    """Fit of the scan of one display to the map that fits best.
+
+    Args:
+        fit: its quality.
+        frame: frame id of the sensor.
+        map_topic: topic of the map.
+        map_frame: frame id of the map.
+        is_placed: whether another scan shows that the robot is in place.
+    """
+
+    fit: Fit
+    frame: str
+    map_topic: str
+    map_frame: str
+    is_placed: bool

@@ -66,11 +66,13 @@ class Status:
         level: its severity.
         text: a sentence.
         remedy: a change that would help, None if none would.
+        reason: why a frame has no pose, if that is the cause; for checks, which see more.
     """
 
     level: Level
     text: str
     remedy: Remedy | OtherFixedFrame | None = None
+    reason: Explanation | None = None
 
 
 def worst(statuses: Iterable[Status]) -> Level:

@@ -14,6 +14,7 @@ from webviz.api.robots import NamespacedRobot, robots_of
 from webviz.data.transforms import TransformBuffer
 from webviz.engine.arrivals import Arrivals
 from webviz.engine.commands import PROGRAM, Command, Sender
+from webviz.engine.doctor import Doctor
 from webviz.engine.driving import Helms
 from webviz.engine.own_names import own_names
 from webviz.engine.parts import Core, Part, Parts
@@ -169,6 +170,8 @@ class FrameLoop:
         ]
         self._parts = Parts(all_parts, self._guard)
         self._do = history.noting(self._parts.do)
+        self.doctor = Doctor(core, displays)
+        """Finds the causes behind the statuses."""
         self._arrivals = Arrivals(core, self._time, transforms)
         self._showing = Showing(scene, views, self._guard)
         self._move_on()
@@ -265,11 +268,12 @@ class FrameLoop:
         """A snapshot for a panel, as of the last turn."""
         state, statuses = self._parts.state(), self._parts.statuses()
         crashed = failures(self._guard.crashes)
-        return replace(
+        seen = replace(
             state,
             statuses=statuses | crashed | self._showing.statuses,
             warned=self._playback.warned(state.rows),
         )
+        return replace(seen, findings=self._guard.attempt("Doctor", (), self.doctor.examine, seen))
 
     def is_busy(self) -> bool:
         """Return whether a display is loading something that it has not drawn yet."""

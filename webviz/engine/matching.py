@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+
+from webviz.api.evidence import GOOD, Fit
 
 F64 = NDArray[np.float64]
 C128 = NDArray[np.complex128]
@@ -34,10 +35,6 @@ AROUND_M = 0.4
 MAX_STEPS = 1000
 """Places along a path that are looked at."""
 
-GOOD = 0.8
-"""Share of points on walls from which on a scan fits."""
-BAD = 0.4
-"""Share of points on walls below which a scan does not fit, even if nothing else does."""
 CURED, BETTER = 0.85, 0.25
 """Share of points on walls that a cure must reach, and how much larger it must be."""
 EQUAL = 0.03
@@ -54,37 +51,6 @@ _TURNS = np.radians(np.arange(-180.0, 180.0, 3.0)).astype(np.complex128)
 _FINE_TURNS = np.radians(np.arange(-6.0, 6.25, 0.5)).astype(np.complex128)
 _SHIFTS = _square(SHIFT_M, TOLERANCE_M)
 _FINE_SHIFTS = _square(0.3, 0.05)
-
-
-@dataclass(frozen=True)
-class Fit:
-    """Quality of the fit of a scan.
-
-    Args:
-        share: of `points` that lie on walls.
-        points: that were compared, those on known ground.
-        turn: rotation about the laser in radians that would make it fit, None if none would.
-        shift: of the laser in metres along the map's axes that would, None if none would.
-        is_mirrored: whether a laser mounted upside down would fit.
-        cured: the share of points on walls with that.
-    """
-
-    share: float
-    points: int
-    turn: float | None = None
-    shift: tuple[float, float] | None = None
-    is_mirrored: bool = False
-    cured: float = 0.0
-
-    @property
-    def is_cured(self) -> bool:
-        """Return whether something would make it fit."""
-        return self.is_mirrored or self.turn is not None or self.shift is not None
-
-    @property
-    def is_good(self) -> bool:
-        """Return whether the scan belongs where it is, as far as can be known."""
-        return self.share >= GOOD or (self.share >= BAD and not self.is_cured)
 
 
 def fit(

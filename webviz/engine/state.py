@@ -8,6 +8,7 @@ from typing import Any, Literal
 
 from webviz.api.context import ColorScale
 from webviz.api.display import Display
+from webviz.api.finding import Finding
 from webviz.api.handles import Handle
 from webviz.api.panel import Panel
 from webviz.api.status import Level, Status, worst
@@ -309,6 +310,7 @@ class State:
         recorded: counts of its messages in equal parts of its span, by topic.
         logged: warnings and errors that its nodes logged, by time.
         warned: when displays began to warn, as far as it was shown, by time.
+        findings: of the doctor, the one to repair first at the beginning.
         memory: what is remembered of live topics, None for a recording.
         recording: the one that goes on, None for none.
         selected: ids of what each browser has selected, each with that of its display, and
@@ -341,6 +343,7 @@ class State:
     recorded: Mapping[str, Sequence[int]] = field(default_factory=dict)
     logged: Sequence[Event] = ()
     warned: Sequence[Event] = ()
+    findings: Sequence[Finding] = ()
     memory: MemoryState | None = None
     recording: RecordingState | None = None
     selected: Mapping[int, Mapping[int, tuple[str, bool]]] = field(default_factory=dict)

@@ -215,7 +215,7 @@ class MapDisplay(Display):
             else:
                 reason = ctx.frames.explain(grid.frame, folded.stamp_ns)
                 text = joined(reason.sentence, "Until then the map follows its frame.")
-                ctx.warn("Transform", text, OtherFixedFrame.of(reason))
+                ctx.warn("Transform", text, OtherFixedFrame.of(reason), reason)
         group = ctx.follow(frame, when="now", offset=compose(outer, grid.origin))
         for (row, column), image in images.items():
             corner = (column * grid.resolution, row * grid.resolution, 0.0)

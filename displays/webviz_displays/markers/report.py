@@ -140,7 +140,7 @@ def report_waiting(store: Store, ctx: Context) -> None:
     reason = ctx.frames.explain(frame, stamp_ns)
     verb = "waits" if count == 1 else "wait"
     text = f"{counted(count, 'marker')}{first} {verb} for a transform. {reason.sentence}"
-    ctx.error("Transform", text, OtherFixedFrame.of(reason))
+    ctx.error("Transform", text, OtherFixedFrame.of(reason), reason)
 
 
 def report_namespaces(store: Store, off: Set[str], ctx: Context) -> None:

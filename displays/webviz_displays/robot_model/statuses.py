@@ -92,7 +92,7 @@ def report_places(
         "Links seen before stay in grey at their last pose.",
     )
     for link, reason in reasons.items():
-        ctx.error(f"Link {link}", reason.sentence, OtherFixedFrame.of(reason))
+        ctx.error(f"Link {link}", reason.sentence, OtherFixedFrame.of(reason), reason)
 
 
 def report_joints(missing: Sequence[str], total: int, fault: str, ctx: Context) -> None:

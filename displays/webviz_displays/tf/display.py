@@ -245,7 +245,7 @@ class TF(Display):
             state.reasons_of = moment
             state.reasons = distinct(names, ctx.frames.explain, NAMED)
         for name, reason in state.reasons.items():
-            ctx.warn(name, reason.sentence, OtherFixedFrame.of(reason))
+            ctx.warn(name, reason.sentence, OtherFixedFrame.of(reason), reason)
         for name in [name for name, is_on in self.frames.items() if is_on][:READ_OUT]:
             if name not in ctx.statuses and (text := readout(ctx.frames, name)):
                 ctx.ok(name, text)

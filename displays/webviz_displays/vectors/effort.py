@@ -188,7 +188,7 @@ class Effort(Display):
             waiting = state.waiting[-1]
             lost = next(f for f in waiting.frames if ctx.frames.at(f, waiting.stamp_ns) is None)
             reason = ctx.frames.explain(lost, waiting.stamp_ns)
-            ctx.error("Transform", reason.sentence, OtherFixedFrame.of(reason))
+            ctx.error("Transform", reason.sentence, OtherFixedFrame.of(reason), reason)
         if newest is None:
             return
         self._report(newest.message, state.efforts, joints, rings[0], ctx)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from difflib import get_close_matches
 
 from webviz.data.transforms.buffer import TransformBuffer
@@ -27,6 +28,13 @@ def explain(
         stamp_ns: time of the data; 0 means the latest.
         now_ns: the current ROS time; 0 if unknown.
     """
+    reason = _reason(buffer, fixed_frame, frame, stamp_ns, now_ns)
+    return replace(reason, frame=frame)
+
+
+def _reason(
+    buffer: TransformBuffer, fixed_frame: str, frame: str, stamp_ns: int, now_ns: int
+) -> Explanation:
     if frame == fixed_frame and frame:
         return Explanation(Kind.AVAILABLE, "Transform OK")
     faulty = _invalid(buffer, fixed_frame, frame)

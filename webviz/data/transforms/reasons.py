@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 
 from webviz.data.transforms.errors import NS_PER_S
@@ -50,6 +50,7 @@ class Explanation:
         cause: what is missing, equal for all frames that lack it; "" for this frame alone.
         filter_size: of a queue that would be long enough, 0 if it is unknown.
         other_frame: a fixed frame in which the frame has a pose, "" if the sentence names none.
+        frame: the one without a pose.
     """
 
     kind: Kind
@@ -59,6 +60,7 @@ class Explanation:
     cause: str = ""
     filter_size: int = 0
     other_frame: str = ""
+    frame: str = field(default="", compare=False)
 
 
 FOR_ALL = (Kind.NO_TRANSFORMS, Kind.UNKNOWN_FIXED_FRAME)

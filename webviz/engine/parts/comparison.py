@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 
-from webviz.api.evidence import Hits, Walls, Way
+from webviz.api.evidence import Fit, Hits, MapFit, Walls, Way
 from webviz.api.frames import compose, is_placeable, to_pose
 from webviz.api.nodes import Pose
 from webviz.api.status import Level, Status
 from webviz.data.rotations import conjugate, matrices
 from webviz.data.transforms import TransformException
-from webviz.engine.matching import C128, Fit, fit, in_the_way
+from webviz.engine.matching import C128, fit, in_the_way
 from webviz.engine.parts.display_list import DisplayList
 from webviz.engine.parts.part import Core
 from webviz.engine.pipeline import Runner
@@ -39,6 +39,10 @@ class Comparison:
         self._core = core
         self._displays = displays
         self._next = 0.0
+        self.fits: dict[str, MapFit] = {}
+        """Of laser scans to the map, by id of their display."""
+        self.blocked: dict[str, int] = {}
+        """Points of scans on paths, by id of the display of the path."""
 
     def update(self) -> None:
         """Compare again when it is time."""
@@ -48,6 +52,7 @@ class Comparison:
         for runner in self._displays.runners():
             for key in (ON_MAP, ON_WAY):
                 runner.remarks.pop(key, None)
+        self.fits, self.blocked = {}, {}
         if self._core.is_watched():
             self._compare()
 
@@ -69,11 +74,14 @@ class Comparison:
         for (runner, hits), found in zip(scans, fits, strict=True):
             if found is not None:
                 runner.remarks[ON_MAP] = _status(*found, hits, is_placed)
+                best, walls = found
+                self.fits[runner.id] = MapFit(best, hits.frame, walls.topic, walls.frame, is_placed)
             if found is None or found[0].is_good:
                 trusted.append(hits)
         for runner, way in ways:
             if (count := sum(self._in_the_way(hits, way) for hits in trusted)) >= FEWEST:
                 age_s = (self._core.now_ns - way.received_ns) / 1e9
+                self.blocked[runner.id] = count
                 runner.remarks[ON_WAY] = Status(Level.WARN, _blocked(count, age_s))
 
     def _on_map(self, hits: Hits, maps: list[Walls]) -> tuple[Fit, Walls] | None:

@@ -50,7 +50,7 @@ class DisplaysPart(Part):
         super().__init__(core)
         self.list = DisplayList(services)
         self._tracer = services.tracer
-        self._comparison = Comparison(core, self.list)
+        self.comparison = Comparison(core, self.list)
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
@@ -86,7 +86,7 @@ class DisplaysPart(Part):
 
     def state(self) -> Mapping[str, Any]:
         """The list of displays."""
-        self.core.guard("Comparison", self._comparison.update)
+        self.core.guard("Comparison", self.comparison.update)
         return {"rows": rows(self.list.entries, self._statuses_of)}
 
     def _statuses_of(self, runner: Runner) -> Mapping[str, Status]:

@@ -8,12 +8,13 @@ from dataclasses import replace
 from webviz.api.display import Display, Keep, overrides
 from webviz.api.frames import Frames
 from webviz.api.nodes import Pose
+from webviz.api.observation import InputSeen
 from webviz.api.sample import Sample
 from webviz.api.status import Level, Status
 from webviz.data.messages import MessageError, decode
 from webviz.engine.pipeline.folding import Folding, Received
 from webviz.engine.pipeline.guard import Guard
-from webviz.engine.pipeline.history import Histories, History
+from webviz.engine.pipeline.history import Histories, History, held_samples
 from webviz.engine.pipeline.inputs import Inputs, Set
 from webviz.engine.pipeline.intake import Arrival
 from webviz.engine.pipeline.services import Services
@@ -99,6 +100,16 @@ class Holder:
                 history.move(frames, before, self.inputs.waits)
         self._trim(keep, frames)
         return is_moved
+
+    def observed(self) -> tuple[InputSeen, ...]:
+        """The inputs that the display listens to, as the checks of the doctor see them."""
+        newest: dict[str, Sample] = {}
+        if not overrides(self._display, "fold"):  # whose samples are no messages
+            for sample in held_samples(self.histories):
+                newest |= {sample.input: sample, **sample.synced}
+        return tuple(
+            intake.observed(newest.get(name)) for name, intake in self.inputs.active().items()
+        )
 
     def statuses(
         self, offers: Mapping[str, Offer], frames: Frames, dropped: Callable[[str], int]

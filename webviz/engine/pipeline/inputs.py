@@ -45,7 +45,7 @@ class Inputs:
     def subscriptions(self) -> dict[str, Subscription]:
         """The subscriptions by topic."""
         wanted: dict[str, Subscription] = {}
-        for name, intake in self._active().items():
+        for name, intake in self.active().items():
             if intake.name and intake.type:
                 is_placed = self.waits(name)
                 lookback = self._lookback(name, intake, is_placed)
@@ -63,7 +63,7 @@ class Inputs:
 
     def is_waiting(self) -> bool:
         """Return whether the newest message of an input waits for its transform."""
-        return any(intake.is_waiting for intake in self._active().values())
+        return any(intake.is_waiting for intake in self.active().values())
 
     def waits(self, name: str) -> bool:
         """Return whether messages of an input wait for the transform at their stamp."""
@@ -84,7 +84,7 @@ class Inputs:
         clock: float,
     ) -> list[Set]:
         """Take the messages of this turn; those that can be drawn now, in order of arrival."""
-        active = self._active()
+        active = self.active()
         arrived: list[tuple[str, Arrival]] = []
         duration_ns = self._duration_ns if overrides(self._display, "duration_ns") else None
         for name, intake in active.items():
@@ -115,7 +115,7 @@ class Inputs:
     ) -> dict[str, Status]:
         """Statuses of topics, messages, transforms and stamps."""
         result: dict[str, Status] = {}
-        active = self._active()
+        active = self.active()
         for name, intake in active.items():
             if self._is_replaced(intake, offers.get(intake.name)):
                 continue
@@ -149,7 +149,8 @@ class Inputs:
         is_silent = not intake.has_received and not (offer and offer.publishers)
         return is_silent and other is not None and other.has_received
 
-    def _active(self) -> dict[str, Intake]:
+    def active(self) -> dict[str, Intake]:
+        """The intakes that the display listens to, by input."""
         if not overrides(self._display, "listens"):
             return self.intakes
         listens = self._display.listens

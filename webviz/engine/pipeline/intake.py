@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -10,7 +11,9 @@ from webviz.api.declared import Topic
 from webviz.api.display import Display, inputs
 from webviz.api.frames import Frames
 from webviz.api.lookback import Lookback
+from webviz.api.observation import InputSeen
 from webviz.api.ports import ANY, Input
+from webviz.api.sample import Sample
 from webviz.api.status import Level, OtherFixedFrame, Remedy, Status
 from webviz.data.messages import MessageError, decode, peek_header
 from webviz.data.transforms import MessageFilter
@@ -22,6 +25,8 @@ PATIENCE_S = 1.0
 """A message that waits longer for its transform gets a status; TF is often 30 ms late."""
 DROPS_S = 10.0
 """Duration for which dropped messages are reported."""
+STAMPS = 20
+"""Last messages whose stamps are kept for checks."""
 LATE_S = 0.3
 """A message drawn later than this because of its transform gets a warning."""
 
@@ -88,6 +93,8 @@ class Intake:
         self._waiting_since: float | None = None
         self._newest = self._newest_placed = -1
         self._drops = Drops()
+        self._frame = ""
+        self._stamps: deque[tuple[int, int]] = deque(maxlen=STAMPS)
 
     @property
     def has_received(self) -> bool:
@@ -163,6 +170,8 @@ class Intake:
                 arrivals.append(Arrival(raw, "", 0, reception.count - 1))
                 continue
             frame, stamp_ns = header
+            self._frame = frame
+            self._stamps.append((stamp_ns, raw.received_ns))
             arrival = Arrival(raw, frames.named(frame), stamp_ns, reception.count - 1, message)
             if not waits:
                 arrivals.append(arrival)
@@ -210,6 +219,28 @@ class Intake:
         self._placed_at = self._late_s = 0.0
         self._waiting_since = None
         self._newest = self._newest_placed = -1
+        self._stamps.clear()
+
+    def observed(self, sample: Sample | None) -> InputSeen:
+        """The input as the checks of the doctor see it.
+
+        Args:
+            sample: its newest message with a pose, None without one.
+        """
+        return InputSeen(
+            path=self.path,
+            topic=self.name,
+            types=self.spec.types,
+            qos=self.topic,
+            latched=self.spec.latched,
+            status="Topic" if self.path == "topic" else f"Topic ({self.path})",
+            received=self._reception.count,
+            rate_hz=self._reception.rate(),
+            stamps=tuple(self._stamps),
+            frame=self._frame,
+            type=self.type,
+            message=sample and sample.message,
+        )
 
     def statuses(
         self, offers: Mapping[str, Offer], dropped: int, frames: Frames, clock: float
@@ -237,11 +268,11 @@ class Intake:
             if size:
                 label = f"Set the filter size to {size}"
                 remedy = Remedy(f"{self.path}.filter_size", size, label)
-            return Status(Level.ERROR, waiting.sentence, remedy)
+            return Status(Level.ERROR, waiting.sentence, remedy, waiting)
         if not self._placed_at:
             # In a bag nothing arrives while its time stands still.
             if waiting and frames.buffer.recorded:
-                return Status(Level.WARN, waiting.sentence)
+                return Status(Level.WARN, waiting.sentence, reason=waiting)
             return None
         if self._late_s > LATE_S and clock - self._placed_at < PATIENCE_S:
             text = (

@@ -102,7 +102,7 @@ class Reception:
         if not self.count:
             when = f": {offer.begins}" if offer and offer.begins else f" from {who}"
             return Status(Level.WARN, f"No message yet on {self._name}{when}.")
-        age, rate = clock - self._times[-1] if self._times else 0.0, self._rate()
+        age, rate = clock - self._times[-1] if self._times else 0.0, self.rate()
         # While simulated time is paused, silence is not a problem.
         silence = min(age, (now_ns - self.last.received_ns) / 1e9) if self.last else 0.0
         if rate and not self._is_sporadic and silence > max(2.0, 5.0 * self._longest_gap()):
@@ -177,7 +177,7 @@ class Reception:
             text += " Messages arrive only because another display reads the topic."
         return text
 
-    def _rate(self) -> float:
+    def rate(self) -> float:
         """Messages per second over the last ones, 0 if unknown."""
         span = self._times[-1] - self._times[0] if len(self._times) >= FEWEST else 0.0
         return (len(self._times) - 1) / span if span > 0 else 0.0

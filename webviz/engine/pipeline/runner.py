@@ -11,6 +11,7 @@ from webviz.api.display import Display, inputs, overrides
 from webviz.api.evidence import Evidence
 from webviz.api.frames import Frames
 from webviz.api.handles import Grip, Handle
+from webviz.api.observation import InputSeen
 from webviz.api.picking import Details
 from webviz.api.robots import NamespacedRobot, RobotFrames, robot_of
 from webviz.api.status import Level, OtherFixedFrame, Status, worst
@@ -173,6 +174,10 @@ class Runner:
         samples = held_samples(self._holder.histories)
         return self._guard.attempt("evidence", None, self.display.evidence, samples, context)
 
+    def observed(self) -> tuple[InputSeen, ...]:
+        """Its inputs, as the checks of the doctor see them."""
+        return self._holder.observed()
+
     # Handles
 
     def handles(self) -> Mapping[str, Handle]:
@@ -261,7 +266,7 @@ class Runner:
         if lost := self._painter.lost(frames):
             reason = frames.explain(lost[0])
             remedy = OtherFixedFrame.of(reason)
-            result["Transform"] = Status(Level.ERROR, reason.sentence, remedy)
+            result["Transform"] = Status(Level.ERROR, reason.sentence, remedy, reason)
         size = self._holder.busy_with or self._painter.busy_with
         if size:
             level = Level.WARN if self._painter.is_empty() else Level.OK

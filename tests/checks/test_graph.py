@@ -1,0 +1,97 @@
+"""Faults of the ROS graph, provoked with real publishers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import pytest
+import rclpy
+from examining import display, live_findings
+from rclpy.context import Context
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from sensor_msgs.msg import LaserScan
+
+import webviz
+from webviz.engine.commands import SetProperty
+from webviz.shell.testing.live import LiveViewer
+from webviz_displays.laser_scan import LaserScan as LaserScanDisplay
+from webviz_displays.path import Path
+
+BEST_EFFORT = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+SCAN = "sensor_msgs/msg/LaserScan"
+
+
+@pytest.fixture
+def robot(webviz_domain: int) -> Iterator[Node]:
+    """A node that publishes nothing yet."""
+    context = Context()
+    rclpy.init(context=context, domain_id=webviz_domain)
+    node = Node("robot", context=context)
+    yield node
+    node.destroy_node()
+    context.try_shutdown()
+
+
+def scan(topic: str, **policies: str) -> LaserScanDisplay:
+    """A display of a scan, named after its topic."""
+    return LaserScanDisplay(name=topic, topic=webviz.Topic(topic, **policies))  # pyright: ignore
+
+
+def wait_for(viewer: LiveViewer, *ids: str) -> dict[str, webviz.Finding]:
+    """Wait until exactly these findings are made, in this order."""
+    viewer.wait_for(
+        lambda: tuple(live_findings(viewer)) == ids,
+        lambda: f"It found {[*live_findings(viewer)]}, not {[*ids]}.",
+    )
+    return live_findings(viewer)
+
+
+def test_every_fault_of_a_topic_has_its_own_finding(
+    robot: Node, webviz_viewer: Callable[..., LiveViewer]
+) -> None:
+    robot.create_publisher(LaserScan, "/front/scan", BEST_EFFORT)
+    robot.create_publisher(LaserScan, "/scan_rear", BEST_EFFORT)
+    robot.create_publisher(LaserScan, "/plan", BEST_EFFORT)
+    viewer = webviz_viewer(
+        scan("/nothing_like_it"),
+        scan("/scan_raer"),
+        scan("/back/scan"),
+        Path(topic=webviz.Topic("/plan")),
+        scan("/front/scan", reliability="reliable"),
+        scan("/scan_rear", durability="transient_local"),
+        scan("/plan"),
+    )
+    found = wait_for(
+        viewer,
+        "GRAPH002 /scan_raer",
+        "GRAPH003 /back/scan",
+        "GRAPH004 /plan",
+        "GRAPH005 /front/scan",
+        "GRAPH006 /scan_rear",
+        "GRAPH010 /nothing_like_it",
+    )
+    misspelt = found["GRAPH002 /scan_raer"]
+    assert misspelt.cause == ("No node publishes /scan_raer, but /scan_rear has a similar name.")
+    assert misspelt.explains == ((display(viewer, "/scan_raer"), "Topic"),)
+    assert misspelt.button == (
+        display(viewer, "/scan_raer"),
+        webviz.Remedy("topic.name", "/scan_rear", "Use /scan_rear"),
+    )
+
+
+def test_a_remedy_ends_its_finding(robot: Node, webviz_viewer: Callable[..., LiveViewer]) -> None:
+    publisher = robot.create_publisher(LaserScan, "/scan", BEST_EFFORT)
+    viewer = webviz_viewer(scan("/scan", reliability="reliable"))
+    found = wait_for(viewer, "GRAPH005 /scan")
+    change = found["GRAPH005 /scan"].button
+    assert isinstance(change, webviz.ChangeDisplay)
+    viewer.viewer.enqueue(SetProperty(change.display, change.remedy.path, change.remedy.value))
+    wait_for(viewer, "GRAPH008 /scan")
+    message = LaserScan()
+    message.header.frame_id = "map"
+    viewer.wait_for(publisher.get_subscription_count)
+    publisher.publish(message)
+    wait_for(viewer)
+    robot.destroy_publisher(publisher)
+    wait_for(viewer, "GRAPH011 /scan")

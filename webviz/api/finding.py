@@ -1,0 +1,125 @@
+"""Findings of the doctor: one cause, with its evidence, its remedy and the statuses it explains."""
+
+from __future__ import annotations
+
+import enum
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from webviz.api.status import OtherFixedFrame, Remedy
+
+Fact = str | int | float | bool | None | tuple[str, ...]
+"""A piece of evidence, as JSON has it."""
+
+
+class CauseLevel(enum.Enum):
+    """The nine levels of causes, from those that affect most to those that affect least.
+
+    The value begins the ids of the checks on that level.
+    """
+
+    MACHINE = "ENV"
+    NETWORK = "NET"
+    MIDDLEWARE = "SHM"
+    GRAPH = "GRAPH"
+    TIME = "TIME"
+    FRAMES = "TF"
+    DATA = "DATA"
+    VIEW = "VIEW"
+    BROWSER = "WEB"
+
+    @property
+    def title(self) -> str:
+        """Its name in sentences."""
+        return self.name.lower()
+
+    @property
+    def place(self) -> int:
+        """Its place among the levels; causes come before their symptoms."""
+        return list(CauseLevel).index(self)
+
+    @staticmethod
+    def of(id: str) -> CauseLevel:
+        """The level that the id of a check names.
+
+        Raises:
+            ValueError: it names none.
+        """
+        return CauseLevel(id.rstrip("0123456789"))
+
+
+class Severity(enum.IntEnum):
+    """The severity of a finding.
+
+    A NOTE is worth knowing and breaks nothing yet. With a WARNING, something is wrong or missing;
+    with an ERROR, nothing can be shown of what it explains.
+    """
+
+    NOTE = 0
+    WARNING = 1
+    ERROR = 2
+
+
+class Symptom(NamedTuple):
+    """A status that a finding explains.
+
+    Args:
+        display: its id; "" for the viewer as a whole.
+        status: key of the status.
+    """
+
+    display: str
+    status: str
+
+
+class ChangeDisplay(NamedTuple):
+    """A change of a display that is a remedy.
+
+    Args:
+        display: its id.
+        remedy: the property and the value to give it.
+    """
+
+    display: str
+    remedy: Remedy
+
+    @property
+    def label(self) -> str:
+        """Of the button that makes the change."""
+        return self.remedy.label
+
+
+@dataclass(frozen=True, kw_only=True)
+class Finding:
+    """One cause that a check has found.
+
+    Args:
+        id: of the check, such as GRAPH003.
+        cause: one sentence.
+        remedy: what to do, a sentence.
+        subject: the topic, frame, display or device it is about; a check has one finding for each.
+        severity: whether anything is broken by it.
+        evidence: what was observed, by name.
+        command: to type in a terminal, "" if none repairs it.
+        button: a change of the viewer that repairs it, None if none does.
+        explains: the statuses that follow from it.
+        first_ns, last_ns: ROS time when it was first and last seen; 0 while unknown.
+    """
+
+    id: str
+    cause: str
+    remedy: str
+    subject: str = ""
+    severity: Severity = Severity.WARNING
+    evidence: Mapping[str, Fact] = field(default_factory=dict)
+    command: str = ""
+    button: ChangeDisplay | OtherFixedFrame | None = None
+    explains: tuple[Symptom, ...] = ()
+    first_ns: int = field(default=0, compare=False)
+    last_ns: int = field(default=0, compare=False)
+
+    @property
+    def level(self) -> CauseLevel:
+        """The level of the cause."""
+        return CauseLevel.of(self.id)

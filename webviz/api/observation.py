@@ -1,0 +1,158 @@
+"""Observations of the doctor: what its checks see of the machine, the graph and the viewer."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from webviz.api.declared import Topic
+from webviz.api.display import Display
+from webviz.api.environment import Environment
+from webviz.api.evidence import MapFit
+from webviz.api.finding import Symptom
+from webviz.api.offer import Offer
+from webviz.api.status import Level, Status
+from webviz.data.transforms import TransformBuffer
+from webviz.data.transforms.reasons import Explanation, Kind
+
+NO_OFFER = Offer(())
+
+
+@dataclass(frozen=True)
+class InputSeen:
+    """One input of a display.
+
+    Args:
+        path: of its topic among the properties of the display.
+        topic: full name, "" if it has none.
+        types: message types that the display reads, the preferred first.
+        qos: as chosen by the user.
+        latched: whether it always asks for transient local.
+        status: key of the status of its topic.
+        received: messages since the start.
+        rate_hz: of the last messages, 0 if unknown.
+        stamps: (stamp, time of reception) of the last messages with a header, in ns, oldest first.
+        frame: frame id of the newest message, as it was sent.
+        type: message type of `message`.
+        message: the newest one that has a pose, None without one.
+    """
+
+    path: str
+    topic: str
+    types: tuple[str, ...]
+    qos: Topic
+    latched: bool
+    status: str
+    received: int
+    rate_hz: float
+    stamps: Sequence[tuple[int, int]]
+    frame: str
+    type: str
+    message: Any
+
+
+@dataclass(frozen=True)
+class DisplaySeen:
+    """One enabled display.
+
+    Args:
+        id: for remedies and symptoms.
+        type: name of its type.
+        display: its properties, read-only.
+        statuses: by key.
+        inputs: its topics.
+        fit: how well its laser scan fits the map, None if unknown.
+        blocked: points of a laser scan on its path.
+    """
+
+    id: str
+    type: str
+    display: Display
+    statuses: Mapping[str, Status]
+    inputs: Sequence[InputSeen] = ()
+    fit: MapFit | None = None
+    blocked: int = 0
+
+    def problem(self, key: str) -> Status | None:
+        """The status of a key if it is a warning or an error."""
+        status = self.statuses.get(key)
+        return status if status and status.level >= Level.WARN else None
+
+    def symptom(self, key: str) -> tuple[Symptom, ...]:
+        """The status of a key as a symptom, none if it is neither a warning nor an error."""
+        return (Symptom(self.id, key),) if self.problem(key) else ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Observation:
+    """A robot and a viewer at one moment, as the checks of the doctor see them.
+
+    Args:
+        now_ns: ROS time, 0 while it is unknown.
+        fixed_frame: id of the frame that everything is drawn in.
+        buffer: all transforms.
+        displays: that are enabled.
+        statuses: of the viewer as a whole.
+        offers: publishers and QoS by topic.
+        nodes: full names, with duplicates.
+        is_simulated: whether ROS time comes from /clock or a bag.
+        clock_hz: messages per second on /clock.
+        is_paused: whether a person has paused time.
+        is_recorded: whether messages come from a bag.
+        environment: of this machine, None with a bag or until it is known.
+    """
+
+    now_ns: int
+    fixed_frame: str
+    buffer: TransformBuffer
+    displays: Sequence[DisplaySeen]
+    statuses: Mapping[str, Status] = field(default_factory=dict)
+    offers: Mapping[str, Offer] = field(default_factory=dict)
+    nodes: Sequence[str] = ()
+    is_simulated: bool = False
+    clock_hz: float = 0.0
+    is_paused: bool = False
+    is_recorded: bool = False
+    environment: Environment | None = None
+
+    def inputs(self) -> Iterator[tuple[DisplaySeen, InputSeen]]:
+        """All inputs that have a topic, each with its display."""
+        for display in self.displays:
+            for each in display.inputs:
+                if each.topic:
+                    yield display, each
+
+    def starved(self) -> Iterator[tuple[DisplaySeen, InputSeen, Offer]]:
+        """The inputs whose topic has a warning or an error, each with its publishers."""
+        for display, each in self.inputs():
+            if display.problem(each.status):
+                yield display, each, self.offers.get(each.topic, NO_OFFER)
+
+    def samples(self, *types: str) -> Iterator[tuple[DisplaySeen, InputSeen]]:
+        """The inputs with a message of one of these types."""
+        for display, each in self.inputs():
+            if each.type in types and each.message is not None:
+                yield display, each
+
+    @functools.cached_property
+    def _lost(self) -> Mapping[Kind, Sequence[tuple[Symptom, Explanation]]]:
+        owners = [(display.id, display.statuses) for display in self.displays]
+        found: dict[Kind, list[tuple[Symptom, Explanation]]] = {}
+        for id, statuses in [("", self.statuses), *owners]:
+            for key, status in statuses.items():
+                if status.reason is not None and status.level >= Level.WARN:
+                    symptom = Symptom(id, key)
+                    found.setdefault(status.reason.kind, []).append((symptom, status.reason))
+        return found
+
+    def lost(self, *kinds: Kind) -> Iterator[tuple[Symptom, Explanation]]:
+        """The statuses of frames that have no pose for one of these reasons."""
+        for kind in kinds:
+            yield from self._lost.get(kind, ())
+
+    def nodes_of(self, topic: str) -> str:
+        """The nodes that publish a topic, for sentences; "" if none does."""
+        publishers = self.offers.get(topic, NO_OFFER).publishers
+        return ", ".join(dict.fromkeys(publisher.label for publisher in publishers))

@@ -1,0 +1,1 @@
+"""The doctor's own checks: one module for each, in folders by level of causes."""

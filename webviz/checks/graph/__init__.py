@@ -1,0 +1,1 @@
+"""Checks of the ROS graph: who publishes what, and how."""

@@ -1,0 +1,46 @@
+"""Graph without any other node."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from webviz.api.check import Check
+from webviz.api.finding import Finding, Severity
+from webviz.api.observation import Observation
+
+
+class EmptyGraph(Check):
+    """No other node found.
+
+    webviz is the only node of its ROS graph: discovery has found no participant besides it.
+
+    Why:
+        Without discovery there are no topics, whatever the displays are set to. Either nothing
+        runs, or the nodes are in another domain, on another network, or hidden by a firewall.
+
+    Repair:
+        Start the robot. If it runs, compare the domain and the middleware on both machines:
+
+            printenv | grep -E '^(ROS|RMW|FASTRTPS|FASTDDS|CYCLONEDDS)'
+
+        They must agree in `ROS_DOMAIN_ID` and `RMW_IMPLEMENTATION`. Then let `ros2 multicast
+        receive` wait on one machine while `ros2 multicast send` runs on the other.
+    """
+
+    id = "GRAPH001"
+
+    def find(self, seen: Observation) -> Iterator[Finding]:
+        """Yield a finding if the graph has one node and displays lack topics."""
+        explains = [s for display, each, _ in seen.starved() for s in display.symptom(each.status)]
+        if seen.is_recorded or len(seen.nodes) != 1 or not explains:
+            return
+        variables = seen.environment.variables if seen.environment else {}
+        domain = variables.get("ROS_DOMAIN_ID", "0")
+        yield self.found(
+            f"No other ROS node is visible in domain {domain}.",
+            "Start the robot, or set the ROS_DOMAIN_ID of its nodes.",
+            severity=Severity.ERROR,
+            evidence={"domain": domain, "nodes": tuple(seen.nodes)},
+            command="ros2 multicast receive",
+            explains=tuple(explains),
+        )

@@ -1,0 +1,44 @@
+"""Topics on which messages no longer arrive."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from webviz.api.check import Check
+from webviz.api.finding import Finding
+from webviz.api.observation import Observation
+
+
+class StoppedPublisher(Check):
+    """Publisher that has stopped sending.
+
+    Messages arrived at a steady rate, and then no more, although the publisher still exists.
+
+    Why:
+        The node hangs, its sensor has failed, or the link to its machine has been lost: DDS notices
+        a lost machine only after its lease of about 20 s.
+
+    Repair:
+        Look at the log of the node and at the sensor. Check whether its machine still answers.
+    """
+
+    id = "GRAPH009"
+
+    def find(self, seen: Observation) -> Iterator[Finding]:
+        """Yield a finding for each topic that fell silent."""
+        for display, each, offer in seen.starved():
+            if not each.received or not offer.publishers or offer.problem:
+                continue
+            who = seen.nodes_of(each.topic)
+            yield self.found(
+                f"{who} has stopped sending {each.topic}, which came at {each.rate_hz:.1f} Hz.",
+                "Look at the log of the node and at its sensor.",
+                subject=each.topic,
+                evidence={
+                    "topic": each.topic,
+                    "rate_hz": round(each.rate_hz, 3),
+                    "received": each.received,
+                },
+                command="" if seen.is_recorded else f"ros2 topic hz {each.topic}",
+                explains=display.symptom(each.status),
+            )

@@ -1,0 +1,96 @@
+"""The doctor: runs the checks in slices, once a second while somebody looks."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+
+from webviz.api.finding import Finding
+from webviz.engine.doctor.observing import observe
+from webviz.engine.doctor.ordering import ordered
+from webviz.engine.doctor.registry import installed_checks
+from webviz.engine.parts.displays import DisplaysPart
+from webviz.engine.parts.part import Core
+from webviz.engine.state import State
+
+EVERY_S = 1.0
+"""Interval between the beginnings of two rounds."""
+SLICE_S = 0.001
+"""Time for checks in one turn; the one that exceeds it still ends."""
+
+Key = tuple[str, str]
+"""Id and subject, by which a finding is known again."""
+
+
+class Doctor:
+    """Examines the viewer in rounds, each of all checks on one observation.
+
+    A finding counts once two rounds in a row have made it: what lasts shorter repairs itself.
+
+    Args:
+        core: shared by all parts.
+        displays: have messages and statuses.
+    """
+
+    def __init__(self, core: Core, displays: DisplaysPart) -> None:
+        self._core = core
+        self._displays = displays
+        self._checks = [check() for check in installed_checks()]
+        self._next_s = 0.0
+        self._round: Iterator[None] | None = None
+        self._since: Mapping[Key, int] = {}
+        self.slice_s = SLICE_S
+        """Time for checks in one turn."""
+        self.rounds = 0
+        """Number of completed rounds."""
+        self.findings: Sequence[Finding] = ()
+        """Of the last round, the one to repair first at the beginning."""
+
+    def examine(self, state: State) -> Sequence[Finding]:
+        """Continue the round, or begin another when it is time; return the findings of the last.
+
+        Args:
+            state: of this turn.
+        """
+        if not self._core.is_watched():
+            self._round = None
+        elif self._round is not None or self._is_due():
+            self._round = self._round or self._examined(state)
+            self._continue(self._round)
+        return self.findings
+
+    def _is_due(self) -> bool:
+        now_s = self._core.clock()
+        if 0.0 < self._next_s - now_s <= EVERY_S:
+            return False
+        self._next_s = now_s + EVERY_S
+        return True
+
+    def _continue(self, checks: Iterator[None]) -> None:
+        until_s = time.monotonic() + self.slice_s
+        for _ in checks:
+            if time.monotonic() > until_s:
+                return
+        self._round = None
+
+    def _examined(self, state: State) -> Iterator[None]:
+        """Run all checks on what is seen now, with a pause after each."""
+        core = self._core
+        seen = observe(core, self._displays, state)
+        found: list[Finding] = []
+        for check in self._checks:
+            found += core.guard.attempt(f"Check {check.id}", [], lambda c=check: list(c.find(seen)))
+            yield
+        before, now_ns = self._since, seen.now_ns
+        self._since = {key: before.get(key, now_ns) for key in map(_key, found)}
+        steady = [each for each in found if _key(each) in before]
+        self.findings = tuple(
+            replace(each, first_ns=self._since[_key(each)], last_ns=now_ns)
+            for each in ordered(steady)
+        )
+        self.rounds += 1
+
+
+def _key(finding: Finding) -> Key:
+    return finding.id, finding.subject

@@ -1,0 +1,36 @@
+"""The order of findings: causes before symptoms, and one finding for one cause."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+
+from webviz.api.finding import Finding, Severity, Symptom
+
+
+def ordered(findings: Iterable[Finding]) -> Sequence[Finding]:
+    """The findings to show, the one to repair first at the beginning.
+
+    Findings of one check about one subject become one. Of the others, those on a level that affects
+    more come first; notes, which break nothing, come last. A finding that explains no status but
+    those of the ones before it is a symptom of these, and left out.
+    """
+    merged: dict[tuple[str, str], Finding] = {}
+    for finding in findings:
+        key = finding.id, finding.subject
+        known = merged.get(key)
+        explains = tuple(dict.fromkeys((*(known.explains if known else ()), *finding.explains)))
+        merged[key] = replace(known or finding, explains=explains)
+    shown: list[Finding] = []
+    explained: set[Symptom] = set()
+    for finding in sorted(merged.values(), key=_place):
+        if finding.explains and explained.issuperset(finding.explains):
+            continue
+        shown.append(finding)
+        explained.update(finding.explains)
+    return tuple(shown)
+
+
+def _place(finding: Finding) -> tuple[bool, int, str, int, str]:
+    is_note = finding.severity is Severity.NOTE
+    return is_note, finding.level.place, finding.id, -len(finding.explains), finding.subject
