@@ -63,7 +63,7 @@ check: $(VENV)/ready-to-check
 	@$(VENV)/bin/ruff check
 	@$(VENV)/bin/ruff format --check
 	@$(NODE) $(SCRIPTS)/node_modules/oxlint/bin/oxlint --config tests/javascript/oxlintrc.json \
-		--deny-warnings webviz/edges/page/web
+		--deny-warnings webviz/page/web
 	@$(NODE) $(SCRIPTS)/node_modules/typescript/bin/tsc --project tests/javascript
 	@$(VENV)/bin/basedpyright
 

@@ -13,7 +13,7 @@ FILES = [
     for path in sorted((ROOT / folder).rglob("*.py"))
 ]
 QUESTIONS = ("What", "Whether", "How", "Which")
-PAGE = ROOT / "webviz" / "edges" / "page" / "web"
+PAGE = ROOT / "webviz" / "page" / "web"
 COMMENT = re.compile(rf"(?:/\*\*[\s*]*|^//)\s*(?:{'|'.join(QUESTIONS)})\b.*", re.MULTILINE)
 """A comment of JSDoc, of a module or at its top level that begins as a question."""
 

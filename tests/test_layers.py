@@ -1,4 +1,4 @@
-"""Imports run downwards only, through the rooms in the order of the README's table."""
+"""Imports run downwards only, through the rooms in the order of ARCHITECTURE.md."""
 
 import ast
 import graphlib
@@ -19,8 +19,12 @@ ROOMS = (
     "webviz.data",
     "webviz.api",
     "webviz.files",
+    "webviz.sources",
     "webviz.engine",
-    "webviz.edges",
+    "webviz.ros",
+    "webviz.server",
+    "webviz.scene",
+    "webviz.page",
     "webviz.checks",
     "webviz.tools",
     "webviz.panels",
@@ -29,20 +33,40 @@ ROOMS = (
 """Each may import itself and those before it."""
 FACES = ("webviz", "webviz.__main__", "webviz.commands", "webviz.testing", "webviz.transforms")
 """Public names, under which nothing inside webviz is imported."""
+FOLDERS = {
+    "webviz.engine": (
+        "state",
+        "commands",
+        "driving",
+        "playback",
+        "pipeline",
+        "parts",
+        "doctor",
+        "loop",
+    ),
+    "webviz.server": ("access", "sending", "channel", "images", "http"),
+}
+"""Folders of a room, each of which may import itself and those before it."""
+STRANGERS = (
+    ("webviz.ros", "webviz.server"),
+    ("webviz.ros", "webviz.scene"),
+    ("webviz.ros", "webviz.page"),
+    ("webviz.scene", "webviz.page"),
+)
+"""Pairs of rooms that do not know each other."""
 EDGES = {
-    "rclpy": ("webviz.edges.ros", "webviz_sim"),
-    "rosidl_runtime_py": ("webviz.edges.ros", "webviz_sim"),
-    "viser": ("webviz.edges.scene",),
+    "rclpy": ("webviz.ros", "webviz_sim"),
+    "rosidl_runtime_py": ("webviz.ros", "webviz_sim"),
+    "viser": ("webviz.scene", "webviz.server.http"),
 }
 """Who may know a library."""
 MESSAGES = "webviz.data.messages"
 SHARED_WITH_THE_SIMULATOR = (
     MESSAGES,
     "webviz.data.rotations",
-    "webviz.edges.ros.types",
+    "webviz.data.map_file",
+    "webviz.ros.types",
 )
-BELOW_THE_EDGES = ("webviz.edges.access", "webviz.edges.page")
-"""Rooms below scene and page; each knows only those before it."""
 PUBLIC = ("webviz.api", "webviz.data")
 """Modules that displays and tools may import besides `webviz` itself."""
 
@@ -77,8 +101,8 @@ def is_within(name: str, *packages: str) -> bool:
     return any(name == package or name.startswith(f"{package}.") for package in packages)
 
 
-def test_the_readme_lists_the_rooms_in_the_order_of_their_imports() -> None:
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
+def test_the_architecture_lists_the_rooms_in_the_order_of_their_imports() -> None:
+    text = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
     rooms = re.findall(r"^\| `webviz/(\w+)/`", text, re.MULTILINE)
     assert [f"webviz.{room}" for room in rooms] == [room for room in ROOMS if room in MODULES]
 
@@ -110,7 +134,7 @@ def test_no_modules_import_each_other_in_a_circle() -> None:
 
 
 def test_no_modules_of_the_page_import_each_other_in_a_circle() -> None:
-    folder = ROOT / "webviz/edges/page/web"
+    folder = ROOT / "webviz/page/web"
     graph = {
         path: {
             (path.parent / target).resolve()
@@ -138,28 +162,37 @@ def test_libraries_stay_at_their_edges() -> None:
     assert not wrong
 
 
-def test_the_edges_do_not_import_each_other() -> None:
-    edges = sorted({".".join(n.split(".")[:3]) for n in MODULES if n.startswith("webviz.edges.")})
-    assert {*BELOW_THE_EDGES} <= {*edges}
-    below = {
-        edge: BELOW_THE_EDGES[: BELOW_THE_EDGES.index(edge)]
-        if edge in BELOW_THE_EDGES
-        else BELOW_THE_EDGES
-        for edge in edges
-    }
+@pytest.mark.parametrize("room", FOLDERS)
+def test_the_folders_of_a_room_import_in_one_direction(room: str) -> None:
+    folders = [f"{room}.{folder}" for folder in FOLDERS[room]]
+    inside = {name for name in MODULES if is_within(name, room) and name != room}
+    assert not {name for name in inside if not is_within(name, *folders)}
     wrong = {
         (name, other)
-        for edge in edges
-        for name in MODULES
-        if is_within(name, edge)
+        for index, folder in enumerate(folders)
+        for name in inside
+        if is_within(name, folder)
         for other in imports(name)
-        if is_within(other, *(e for e in edges if e not in (edge, *below[edge])))
+        if is_within(other, *folders[index + 1 :])
     }
     assert not wrong
 
 
-@pytest.mark.parametrize("package", ["webviz_displays", "webviz.checks", "webviz.tools"])
-def test_displays_checks_and_tools_know_the_public_api_only(package: str) -> None:
+@pytest.mark.parametrize("pair", STRANGERS)
+def test_some_rooms_do_not_know_each_other(pair: tuple[str, str]) -> None:
+    wrong = {
+        (name, other)
+        for room, foreign in (pair, pair[::-1])
+        for name in MODULES
+        if is_within(name, room)
+        for other in imports(name)
+        if is_within(other, foreign)
+    }
+    assert not wrong
+
+
+@pytest.mark.parametrize("package", ["webviz_displays", "webviz.tools"])
+def test_displays_and_tools_know_the_public_api_only(package: str) -> None:
     wrong = {
         (name, other)
         for name in MODULES

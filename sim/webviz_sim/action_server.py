@@ -14,7 +14,7 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
 from webviz.data.messages import decode, encode, interfaces
-from webviz.edges.ros.types import from_cdr, message_class, service_class, to_cdr
+from webviz.ros.types import from_cdr, message_class, service_class, to_cdr
 
 KEPT = 20
 """Goals that have ended, whose results clients may still request."""

@@ -15,7 +15,7 @@ from std_msgs.msg import String
 
 from webviz.data.messages import FrameTransform
 from webviz.data.rotations import from_rpy, multiply
-from webviz.edges.ros.types import message_class
+from webviz.ros.types import message_class
 from webviz_sim import messages
 from webviz_sim.description import demo_description, read_joints, read_robot
 from webviz_sim.lidar import LidarSettings, scan

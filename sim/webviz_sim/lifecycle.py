@@ -7,7 +7,7 @@ from rclpy.node import Node
 from std_srvs.srv import Trigger
 
 from webviz.data.messages import decode, interfaces
-from webviz.edges.ros.types import service_class, to_cdr
+from webviz.ros.types import service_class, to_cdr
 from webviz_sim.action_server import response_of
 
 MANAGE = "nav2_msgs/srv/ManageLifecycleNodes"

@@ -12,11 +12,12 @@ from numpy.typing import NDArray
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
 
-from webviz.edges.ros.types import message_class
+from webviz.data.map_file import UNKNOWN
+from webviz.ros.types import message_class
 from webviz_sim import messages
 from webviz_sim.lidar import Scan
 from webviz_sim.pose import Pose2D, wrap
-from webviz_sim.world import UNKNOWN, World
+from webviz_sim.world import World
 
 PARTICLES = 300
 STEADY = 0.04  # m, the standard deviation of a filter that has converged

@@ -14,15 +14,15 @@ import pytest
 
 from tests.support.guest import Guest
 from webviz.api.vehicle import Velocity
-from webviz.edges.access import token_file
-from webviz.edges.access.access import Access
-from webviz.edges.access.roles import Role
-from webviz.edges.access.tokens import Token, make
-from webviz.edges.page.pages import Pages
-from webviz.edges.scene import open_server
-from webviz.edges.scene.quiet_server import Server
 from webviz.engine.commands import Command, Sender
 from webviz.engine.driving import HelmAnswer
+from webviz.page.pages import Pages
+from webviz.scene import open_server
+from webviz.server.access import token_file
+from webviz.server.access.access import Access
+from webviz.server.access.roles import Role
+from webviz.server.access.tokens import Token, make
+from webviz.server.http.viser_server import Server
 
 PATIENCE_S = 30.0
 

@@ -9,7 +9,7 @@ import pytest
 from certificates import certificate
 from cryptography.hazmat.primitives import serialization
 
-from webviz.edges.access.tls import CertificateError, doubts, server_context
+from webviz.server.access.tls import CertificateError, doubts, server_context
 
 
 @pytest.fixture(scope="module")

@@ -19,16 +19,17 @@ from websockets.exceptions import ConnectionClosed
 from tests.access.conftest import PATIENCE_S, House, wait_until
 from tests.scene.conftest import Peer
 from tests.support.guest import Guest
-from webviz.edges.access import roles, rules, token_file
-from webviz.edges.access.access import CHECK_S, Access
-from webviz.edges.access.roles import LIMITS, LINKS, Limits, Role
-from webviz.edges.access.tokens import make
-from webviz.edges.page.acts import NOT_OF_PAGES
-from webviz.edges.page.refusals import HALF
-from webviz.edges.scene import connections, open_server
-from webviz.edges.scene.connections import BURST_S, FLOODED, Allowance
 from webviz.engine.commands import Command
 from webviz.engine.parts.selection import MAX_SELECTED
+from webviz.page.acts import NOT_OF_PAGES
+from webviz.scene import open_server
+from webviz.server.access import roles, rules, token_file
+from webviz.server.access.access import CHECK_S, Access
+from webviz.server.access.roles import LIMITS, LINKS, Limits, Role
+from webviz.server.access.tokens import make
+from webviz.server.channel.refusals import HALF
+from webviz.server.http import connections
+from webviz.server.http.connections import BURST_S, FLOODED, Allowance
 
 PARAMETERS = {role: name for name, role in LINKS.items()}
 
@@ -310,8 +311,8 @@ def test_watchers_cannot_keep_the_owner_out(house: House, monkeypatch: pytest.Mo
         Role.OPERATOR: Limits(0.75, 64, 100.0, 1000, 1000, 1000),
         Role.OWNER: Limits(1.0, 64, 100.0, 1000, 1000, 1000),
     }
-    monkeypatch.setattr("webviz.edges.scene.connections.LIMITS", few)
-    monkeypatch.setattr("webviz.edges.scene.connections.MAX_BROWSERS", 4)
+    monkeypatch.setattr("webviz.server.http.connections.LIMITS", few)
+    monkeypatch.setattr("webviz.server.http.connections.MAX_BROWSERS", 4)
     server = open_server(port=0, access=Access(True, house.path))
     small = House(server, house.tokens, house.path, house.access)
     try:
@@ -328,7 +329,7 @@ def test_watchers_cannot_keep_the_owner_out(house: House, monkeypatch: pytest.Mo
 
 def test_one_address_has_a_limit(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
     one = {**LIMITS, Role.WATCHER: Limits(1.0, 1, 100.0, 1000, 1000, 1000)}
-    monkeypatch.setattr("webviz.edges.scene.connections.LIMITS", one)
+    monkeypatch.setattr("webviz.server.http.connections.LIMITS", one)
     house.enter(Role.WATCHER).receive("You")
     assert house.ask("/", Cookie=house.cookie(Role.WATCHER)).status == 503
     assert b"1 browsers of your address" in house.body
@@ -340,7 +341,7 @@ def test_a_role_has_a_rate_of_messages(
     house: House, monkeypatch: pytest.MonkeyPatch, role: Role
 ) -> None:
     slow = {each: dataclasses.replace(LIMITS[each], messages_per_second=2.0) for each in Role}
-    monkeypatch.setattr("webviz.edges.scene.connections.LIMITS", {**LIMITS, role: slow[role]})
+    monkeypatch.setattr("webviz.server.http.connections.LIMITS", {**LIMITS, role: slow[role]})
     guest, owner = house.enter(role), house.enter(Role.OWNER)
 
     def seconds(of: Guest) -> float:

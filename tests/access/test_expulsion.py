@@ -14,11 +14,11 @@ from websockets.exceptions import ConnectionClosed
 from tests.access.conftest import House, wait_until
 from tests.support.guest import Guest
 from webviz.data.disk import MAX_THREADS, in_thread
-from webviz.edges.access import token_file
-from webviz.edges.access.access import Access
-from webviz.edges.access.roles import Role
-from webviz.edges.access.tokens import make
-from webviz.edges.scene import open_server
+from webviz.scene import open_server
+from webviz.server.access import token_file
+from webviz.server.access.access import Access
+from webviz.server.access.roles import Role
+from webviz.server.access.tokens import make
 
 
 @pytest.fixture
@@ -64,7 +64,7 @@ def test_a_token_expires_although_its_file_cannot_be_read(
     caplog: pytest.LogCaptureFixture,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("webviz.edges.access.access.MAX_MISSED", 1)
+    monkeypatch.setattr("webviz.server.access.access.MAX_MISSED", 1)
     clock = [datetime.now(UTC)]
     token = make("a", Role.WATCHER, clock[0], days=1.0)
     path = tmp_path / "tokens.json"

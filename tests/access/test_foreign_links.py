@@ -12,7 +12,7 @@ import playwright.sync_api as playwright
 import pytest
 
 from tests.access.conftest import House
-from webviz.edges.access.roles import LINKS, Role
+from webviz.server.access.roles import LINKS, Role
 
 PARAMETERS = {role: name for name, role in LINKS.items()}
 

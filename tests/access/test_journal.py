@@ -10,11 +10,11 @@ from pathlib import Path
 import pytest
 
 from webviz.api.errors import Error
-from webviz.edges.access import journal, journal_file
-from webviz.edges.access.journal import MAX_TEXT, Journal
-from webviz.edges.access.journal_file import JournalFile
-from webviz.edges.access.roles import Role
-from webviz.edges.access.visitors import Visitor
+from webviz.server.access import journal, journal_file
+from webviz.server.access.journal import MAX_TEXT, Journal
+from webviz.server.access.journal_file import JournalFile
+from webviz.server.access.roles import Role
+from webviz.server.access.visitors import Visitor
 
 ADA = Visitor("Ada", Role.OWNER, "192.0.2.1", 0.0)
 

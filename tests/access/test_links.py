@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from webviz.edges.access.announcing import Announcement, announced, reachable
-from webviz.edges.access.roles import Role
-from webviz.edges.access.tokens import make
+from webviz.server.access.announcing import Announcement, announced, reachable
+from webviz.server.access.roles import Role
+from webviz.server.access.tokens import make
 from webviz.shell.cli.links import show_links
 
 TOKENS = [make(f"the {role.label}", role, datetime.now(UTC)) for role in Role]
@@ -79,7 +79,7 @@ def test_viewers_of_one_user_find_each_other(
 KILLED = """
 import os, signal, sys
 from pathlib import Path
-from webviz.edges.access.announcing import Announcement
+from webviz.server.access.announcing import Announcement
 kept = Announcement("http://robot:80", 80, Path(sys.argv[1]))
 os.kill(os.getpid(), signal.SIGKILL)
 """

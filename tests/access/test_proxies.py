@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from websockets.datastructures import Headers
 
 import webviz
-from webviz.edges.access.proxies import Caller, Proxies
+from webviz.server.access.proxies import Caller, Proxies
 
 TRUSTED = Proxies(["127.0.0.1", "10.0.0.0/8", "fd00::/8"])
 SAID = {

@@ -7,14 +7,14 @@ from typing import cast
 import pytest
 
 from webviz import commands
-from webviz.edges.access import rules
-from webviz.edges.access.roles import LIMITS, LINKS, Role
-from webviz.edges.page import invitation_messages, messages
-from webviz.edges.page.content import MAKERS
-from webviz.edges.page.messages import FromPage
-from webviz.edges.page.refusals import answer
-from webviz.edges.scene.adapter.wire import message_type
 from webviz.engine.commands import Command
+from webviz.page.content import MAKERS
+from webviz.server.access import rules
+from webviz.server.access.roles import LIMITS, LINKS, Role
+from webviz.server.channel import invitation_messages, messages
+from webviz.server.channel.messages import FromPage
+from webviz.server.channel.refusals import answer
+from webviz.server.http.viser_types import message_type
 
 NOT_OF_PAGES = {
     "CallService": "panels of the viewer send it",

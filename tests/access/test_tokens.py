@@ -11,11 +11,11 @@ from pathlib import Path
 import pytest
 from websockets.datastructures import Headers
 
-from webviz.edges.access import login, token_file
-from webviz.edges.access.access import EVERYBODY, Access
-from webviz.edges.access.roles import Role
-from webviz.edges.access.starting import access_to, is_local, link, make_missing
-from webviz.edges.access.tokens import MAX_TOKENS, Token, TokenError, make
+from webviz.server.access import login, token_file
+from webviz.server.access.access import EVERYBODY, Access
+from webviz.server.access.roles import Role
+from webviz.server.access.starting import access_to, is_local, link, make_missing
+from webviz.server.access.tokens import MAX_TOKENS, Token, TokenError, make
 
 NOW = datetime(2030, 1, 1, tzinfo=UTC)
 SECRET = "A" * 32

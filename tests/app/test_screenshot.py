@@ -15,7 +15,7 @@ import pytest
 import webviz
 import webviz_urdf
 from webviz.data.messages import encode
-from webviz.edges.scene.schemes import BACKGROUND
+from webviz.scene.schemes import BACKGROUND
 from webviz.shell.pictures.browser import VARIABLE
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.source import HandFedSource

@@ -9,8 +9,8 @@ import pytest
 
 import webviz
 from tests.support.guest import Guest
-from webviz.edges.access.rules import COMMANDS
-from webviz.edges.page.content.forms import MAX_TEXT
+from webviz.page.content.forms import MAX_TEXT
+from webviz.server.access.rules import COMMANDS
 
 LONG = "x" * 40_000
 ARGUMENTS: list[dict[str, Any]] = [

@@ -13,12 +13,12 @@ from remembering_graph import RememberingGraph
 
 import webviz
 from webviz.engine.commands import SetToolProperty, ShowView
-from webviz.engine.sources import Outlet
 from webviz.files.config import Config
 from webviz.files.opening import parse
 from webviz.shell.app.running import checked_view
 from webviz.shell.pictures.browser import Page
 from webviz.shell.testing.source import HandFedSource
+from webviz.sources import Outlet
 
 SCALE = 50.0
 """Pixels of a metre."""

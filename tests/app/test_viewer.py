@@ -17,9 +17,9 @@ from webviz.api import registry
 from webviz.api.views import Orbit, TopDownOrtho
 from webviz.data.messages import encode
 from webviz.engine.commands import Refresh
-from webviz.engine.sources import Offer
 from webviz.shell.testing import header
 from webviz.shell.testing.source import HandFedSource
+from webviz.sources import Offer
 
 Refused = Callable[[Callable[[], object]], str]
 

@@ -20,7 +20,7 @@ from webviz.api.display import inputs_of
 from webviz.api.registry import display_types
 from webviz.data.messages import DecodeError, decode, encode
 from webviz.data.messages.typestore import fields
-from webviz.edges.ros.types import message_class
+from webviz.ros.types import message_class
 from webviz.shell.testing.messages import header
 
 DISCOVERY_S = 60.0

@@ -14,7 +14,7 @@ from rclpy.qos import QoSProfile
 from tests.attack.attack import Attack, Case, Outcome, Violation
 from tests.attack.target import Target
 from webviz.data.messages import encode
-from webviz.edges.ros.types import message_class
+from webviz.ros.types import message_class
 from webviz.shell.testing.messages import header
 
 TF = "tf2_msgs/msg/TFMessage"

@@ -11,9 +11,9 @@ from pathlib import Path
 
 from webviz.api.declared import Topic
 from webviz.api.errors import Error
-from webviz.engine.sources import Subscription
-from webviz.engine.sources.bag import BagSource
 from webviz.files import opening
+from webviz.sources import Subscription
+from webviz.sources.bag.source import BagSource
 from webviz_urdf import Resolver, load_robot
 from webviz_urdf.robot import RobotDescriptionError
 from webviz_urdf.textures import TextureError, open_image

@@ -25,7 +25,7 @@ from tests.attack.sockets import Sockets, kind_of
 from tests.attack.target import Target
 from tests.attack.uploads import Uploads
 from tests.attack.weights import Weights
-from webviz.edges.access.roles import Role
+from webviz.server.access.roles import Role
 from webviz.shell.testing.domain import isolated_domain
 
 CORPUS = Path(__file__).parent / "corpus"

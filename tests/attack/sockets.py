@@ -16,9 +16,9 @@ from tests.attack import commands
 from tests.attack.attack import Attack, Case, Outcome, Violation, mutated
 from tests.attack.target import ANSWER_S, Target
 from tests.attack.visitor import Visitor
-from webviz.edges.access.roles import Role
-from webviz.edges.access.rules import COMMANDS, MESSAGES, SCENE
-from webviz.edges.page.messages import Do
+from webviz.server.access.roles import Role
+from webviz.server.access.rules import COMMANDS, MESSAGES, SCENE
+from webviz.server.channel.messages import Do
 
 VISER = "viser.msgpack"
 CHANNEL = "channel.json"

@@ -18,10 +18,10 @@ import viser
 from webviz import Frames
 from webviz.data.messages import decode, encode
 from webviz.data.transforms import TransformBuffer
-from webviz.edges.scene import ViserScene, open_server
 from webviz.engine.pipeline import Runner, Services
 from webviz.engine.pipeline.background import Workers
-from webviz.engine.sources import Offer, Publisher, Raw
+from webviz.scene import ViserScene, open_server
+from webviz.sources import Offer, Publisher, Raw
 from webviz_displays.markers import MarkerArray
 
 ARRAY, TOPIC = "visualization_msgs/msg/MarkerArray", "/visualization_marker_array"

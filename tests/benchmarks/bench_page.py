@@ -32,18 +32,18 @@ from webviz.api.declared import make
 from webviz.api.registry import display_types
 from webviz.api.status import Level, Status
 from webviz.api.vehicle import Velocity
-from webviz.edges.access.access import EVERYBODY
-from webviz.edges.page.channel import Channel
-from webviz.edges.page.messages import Hello, Watch
-from webviz.edges.page.pace import LinkPace, Stretch
-from webviz.edges.page.pages import Pages
-from webviz.edges.scene import open_server
-from webviz.edges.scene.server import Server
 from webviz.engine.commands import Command, Sender
 from webviz.engine.driving import HelmAnswer
-from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import Row, State, Traffic
+from webviz.page.pages import Pages
+from webviz.scene import open_server
+from webviz.scene.server import Server
+from webviz.server.access.access import EVERYBODY
+from webviz.server.channel.channel import Channel
+from webviz.server.channel.messages import Hello, Watch
+from webviz.server.sending.pace import LinkPace, Stretch
 from webviz.shell.pictures.browser import launched
+from webviz.sources import Offer, Publisher
 
 FEW, MANY = 5, 100
 ROUNDS = 7

@@ -24,10 +24,10 @@ from rosbags.typesys import Stores, get_typestore
 
 from webviz import Frames
 from webviz.data.transforms import TransformBuffer
-from webviz.edges.scene import ViserScene, open_server
 from webviz.engine.pipeline import Runner, Services
 from webviz.engine.pipeline.background import Workers
-from webviz.engine.sources import Offer, Publisher, Raw
+from webviz.scene import ViserScene, open_server
+from webviz.sources import Offer, Publisher, Raw
 from webviz_displays.point_cloud2 import PointCloud2
 
 STORE = get_typestore(Stores.ROS2_JAZZY)

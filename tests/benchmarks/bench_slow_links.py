@@ -19,9 +19,9 @@ import numpy as np
 from tests.scene.conftest import Peer
 from tests.support.slow_link import SlowLink
 from webviz.api.nodes import Points, Pose
-from webviz.edges.page.links import reduced
-from webviz.edges.scene import ViserScene, open_server
-from webviz.edges.scene.quiet_server import Server
+from webviz.scene import ViserScene, open_server
+from webviz.server.channel.links import reduced
+from webviz.server.http.viser_server import Server
 
 PERIOD_S = 0.05
 CLOUD_POINTS = 100_000

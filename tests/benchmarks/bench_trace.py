@@ -19,10 +19,10 @@ from webviz import Context, Display, Frames, Input, Sample, Topic
 from webviz.data.messages import encode
 from webviz.data.transforms import TransformBuffer
 from webviz.engine.pipeline import Runner, Services, Workers
-from webviz.engine.sources import Raw
-from webviz.engine.trace import Tracer
+from webviz.engine.state.trace import Tracer
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.recording import RecordingScene
+from webviz.sources import Raw
 
 POSE = "geometry_msgs/msg/PoseStamped"
 SECOND = 1_000_000_000

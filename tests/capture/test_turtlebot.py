@@ -9,8 +9,8 @@ import PIL.Image
 import pytest
 
 import webviz
-from webviz.engine.sources.bag_extras import map_of_file, static_transform
 from webviz.shell.testing.comparing import share_of_difference
+from webviz.sources.bag.extras import map_of_file, static_transform
 
 ROOT = Path(__file__).parents[2]
 DATA = ROOT.parent / "shared/data"

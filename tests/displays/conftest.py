@@ -20,10 +20,10 @@ from webviz.data.transforms import TransformBuffer
 from webviz.engine.pipeline import Runner, Services
 from webviz.engine.pipeline.background import Workers
 from webviz.engine.pipeline.point_budget import PointBudget
-from webviz.engine.sources import Gate, Offer, Publisher, Raw, Rights
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.recording import RecordingScene
 from webviz.shell.testing.source import SECOND, HandFedSource
+from webviz.sources import Gate, Offer, Publisher, Raw, Rights
 from webviz_displays.shared.geometry import transformed
 
 PATIENCE_S = 60.0

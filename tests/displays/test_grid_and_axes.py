@@ -4,7 +4,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from webviz.edges.scene.schemes import SCHEMES
+from webviz.scene.schemes import SCHEMES
 from webviz_displays.axes import Axes
 from webviz_displays.grid import Grid
 

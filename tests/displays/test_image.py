@@ -15,7 +15,7 @@ from PIL import Image as Pillow
 from webviz.api.nodes import Pane
 from webviz.api.pictures import Encoded, Pixels, Video
 from webviz.data.messages import encode
-from webviz.engine.sources import Offer, Publisher
+from webviz.sources import Offer, Publisher
 from webviz_displays.image import Image
 from webviz_displays.image.video import FFMPEG, FOXGLOVE
 

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from webviz.engine.sources import Raw
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.source import SECOND
+from webviz.sources import Raw
 from webviz_displays.markers import Marker, MarkerArray
 from webviz_displays.markers.blocks import BLOCK
 

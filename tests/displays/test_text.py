@@ -11,8 +11,8 @@ import pytest
 from webviz import Topic
 from webviz.api.pictures import Readout
 from webviz.data.messages import encode
-from webviz.engine.sources import Offer, Publisher
 from webviz.shell.pictures.readouts import written
+from webviz.sources import Offer, Publisher
 from webviz_displays.text import MAX_FIELDS, Text
 
 Benches = Callable[..., Any]

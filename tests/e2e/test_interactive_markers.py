@@ -25,7 +25,7 @@ from geometry_msgs.msg import Pose
 from marker_server import Feedback, MarkerServer
 from visualization_msgs.msg import MenuEntry
 
-from webviz.edges.ros.node import RosSource
+from webviz.ros.node import RosSource
 
 KEEP_ALIVE, UPDATE, MENU, CLICK, DOWN, UP = range(6)
 NAMESPACE = "/basic_controls"

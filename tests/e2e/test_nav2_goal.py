@@ -19,7 +19,7 @@ from webviz.shell.pictures.browser import Page
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
 
-from webviz.edges.ros.node import RosSource
+from webviz.ros.node import RosSource
 
 SCALE = 50.0
 """Pixels of a metre; up on the screen is +y."""

@@ -19,7 +19,7 @@ from webviz.shell.pictures.browser import Page, Pixels
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
 
-from webviz.edges.ros.talker import Talker
+from webviz.ros.talker import Talker
 
 BRICK = np.array((200, 60, 20))
 

@@ -1,8 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { csv, curvesOf, extent, valueAt, visit } from "../../webviz/edges/page/web/charts/curves.js";
-import { changed, numberText, roomy, share, ticks } from "../../webviz/edges/page/web/charts/scale.js";
+import { csv, curvesOf, extent, valueAt, visit } from "../../webviz/page/web/charts/curves.js";
+import { changed, numberText, roomy, share, ticks } from "../../webviz/page/web/charts/scale.js";
 
 const MOST = Number.MAX_VALUE;
 const piece = (times, values) => ({ times, values });

@@ -1,9 +1,9 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { parse as parseColor } from "../../webviz/edges/page/web/controls/color.js";
-import { decode, encode } from "../../webviz/edges/page/web/controls/lines.js";
-import { bounds, format, parse, stepOf, within } from "../../webviz/edges/page/web/controls/units.js";
+import { parse as parseColor } from "../../webviz/page/web/controls/color.js";
+import { decode, encode } from "../../webviz/page/web/controls/lines.js";
+import { bounds, format, parse, stepOf, within } from "../../webviz/page/web/controls/units.js";
 
 test("numbers are typed with their unit or another of its kind", () => {
   const typed = {

@@ -1,10 +1,10 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { MIXED } from "../../webviz/edges/page/web/controls/mixed.js";
-import { commonOf, filled, valuesOf } from "../../webviz/edges/page/web/panels/displays/common.js";
-import { arrange, globalItem, topmost, visible } from "../../webviz/edges/page/web/panels/displays/model.js";
-import { below, moves, step } from "../../webviz/edges/page/web/panels/displays/places.js";
+import { MIXED } from "../../webviz/page/web/controls/mixed.js";
+import { commonOf, filled, valuesOf } from "../../webviz/page/web/panels/displays/common.js";
+import { arrange, globalItem, topmost, visible } from "../../webviz/page/web/panels/displays/model.js";
+import { below, moves, step } from "../../webviz/page/web/panels/displays/places.js";
 
 const row = (name, depth, more = {}) => ({ name, depth, type: "Grid", topics: [], enabled: true, ...more });
 const group = (name, depth, more = {}) => row(name, depth, { type: "Group", ...more });

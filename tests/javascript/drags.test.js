@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { begin } from "../../webviz/edges/page/web/handles/drags.js";
+import { begin } from "../../webviz/page/web/handles/drags.js";
 
 const S = Math.SQRT1_2;
 const IDENTITY = [1, 0, 0, 0];

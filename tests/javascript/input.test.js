@@ -1,9 +1,9 @@
 import assert from "node:assert/strict";
 import { afterEach, test } from "node:test";
 
-import { straight } from "../../webviz/edges/page/web/images/bend.js";
-import { clicks } from "../../webviz/edges/page/web/tools/clicks.js";
-import { disarm, share } from "../../webviz/edges/page/web/tools/teleop_gamepad.js";
+import { straight } from "../../webviz/page/web/images/bend.js";
+import { clicks } from "../../webviz/page/web/tools/clicks.js";
+import { disarm, share } from "../../webviz/page/web/tools/teleop_gamepad.js";
 
 const at = (type, x, more = {}) => ({ type, pointerId: 1, clientX: x, clientY: 0, button: 0, buttons: 0, ...more });
 

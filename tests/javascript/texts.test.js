@@ -1,12 +1,12 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { bytesText, rateText, sizeText, spanText } from "../../webviz/edges/page/web/panels/units.js";
-import { plain } from "../../webviz/edges/page/web/plain.js";
-import { duration, timeOfDay } from "../../webviz/edges/page/web/shell/time_text.js";
-import { fixed } from "../../webviz/edges/page/web/tools/numbers.js";
-import { yaml } from "../../webviz/edges/page/web/tools/yaml.js";
-import { wordsOf } from "../../webviz/edges/page/web/words.js";
+import { bytesText, rateText, sizeText, spanText } from "../../webviz/page/web/panels/units.js";
+import { plain } from "../../webviz/page/web/plain.js";
+import { duration, timeOfDay } from "../../webviz/page/web/shell/time_text.js";
+import { fixed } from "../../webviz/page/web/tools/numbers.js";
+import { yaml } from "../../webviz/page/web/tools/yaml.js";
+import { wordsOf } from "../../webviz/page/web/words.js";
 
 test("a duration is hours, minutes and seconds, cut and not rounded", () => {
   assert.equal(duration(3723.49), "1:02:03.4");

@@ -1,8 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { following, limited, zoomed } from "../../webviz/edges/page/web/timeline/range.js";
-import { parseTime } from "../../webviz/edges/page/web/timeline/typed_time.js";
+import { following, limited, zoomed } from "../../webviz/page/web/timeline/range.js";
+import { parseTime } from "../../webviz/page/web/timeline/typed_time.js";
 
 test("a window stays within the recording and keeps its length", () => {
   assert.deepEqual(limited([-5, 15], 100), [0, 20]);

@@ -3,7 +3,7 @@ import { test } from "node:test";
 
 import {
   about, angleAbout, compose, inverse, onLine, onPlane, rotate, turnedBy, unit,
-} from "../../webviz/edges/page/web/handles/vectors.js";
+} from "../../webviz/page/web/handles/vectors.js";
 
 const [X, Y, Z] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
 const DOWN = { origin: [2, 3, 10], direction: [0, 0, -1] };

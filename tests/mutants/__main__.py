@@ -23,12 +23,12 @@ from cosmic_ray.work_item import TestOutcome, WorkerOutcome, WorkItem, WorkResul
 TESTS = {
     "webviz/data/messages": "tests/messages tests/displays/test_marker.py",
     "webviz/data/transforms": "tests/transforms",
-    "webviz/edges/access": "tests/access/test_tokens.py tests/access/test_proxies.py tests/access",
-    "webviz/edges/page/driving.py": "tests/page/test_driving.py",
+    "webviz/server/access": "tests/access/test_tokens.py tests/access/test_proxies.py tests/access",
+    "webviz/page/driving.py": "tests/page/test_driving.py",
     "webviz/engine/driving": "tests/pipeline/test_helm.py tests/pipeline/test_driving.py",
     "webviz/engine/pipeline": "tests/pipeline",
-    "webviz/engine/sources": "tests/sources tests/playback tests/pipeline/test_rights.py",
-    "webviz/engine/sources/gate.py": "tests/pipeline/test_rights.py tests/pipeline/test_driving.py",
+    "webviz/sources": "tests/sources tests/playback tests/pipeline/test_rights.py",
+    "webviz/sources/gate.py": "tests/pipeline/test_rights.py tests/pipeline/test_driving.py",
     "displays/webviz_displays/interactive_markers": (
         "tests/displays/test_interactive_markers.py "
         "tests/displays/test_interactive_marker_client.py"

@@ -12,7 +12,7 @@ from xml.etree import ElementTree
 import pytest
 from ruamel.yaml import YAML
 
-from webviz.edges.ros.control import PARAMETERS
+from webviz.ros.control import PARAMETERS
 from webviz_sim.options import OPTIONS
 
 ROOT = Path(__file__).parents[2]

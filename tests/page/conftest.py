@@ -17,10 +17,6 @@ from webviz.api.declared import Color, Prop, Topic, set_property
 from webviz.api.display import Display, Input
 from webviz.api.status import Status
 from webviz.api.vehicle import Velocity
-from webviz.edges.access.access import Access
-from webviz.edges.page.pages import Pages
-from webviz.edges.scene import open_server
-from webviz.edges.scene.server import Server
 from webviz.engine.commands import (
     AddDisplay,
     Command,
@@ -32,6 +28,10 @@ from webviz.engine.commands import (
 )
 from webviz.engine.driving import HelmAnswer
 from webviz.engine.state import Row, State
+from webviz.page.pages import Pages
+from webviz.scene import open_server
+from webviz.scene.server import Server
+from webviz.server.access.access import Access
 
 WIDTH, HEIGHT = 900, 800
 """Of a tab in pixels."""

@@ -10,8 +10,8 @@ import pytest
 
 from tests.page.conftest import Tab
 from webviz import commands
-from webviz.edges.access.rules import COMMANDS
-from webviz.edges.page.acts import command_of
+from webviz.page.acts import command_of
+from webviz.server.access.rules import COMMANDS
 
 
 def test_a_command_has_the_types_of_its_fields() -> None:

@@ -10,10 +10,10 @@ import pytest
 from tests.page.conftest import Loop, Tab
 from webviz.api.declared import Topic
 from webviz.commands import AddDisplay
-from webviz.edges.page.content.types import types
-from webviz.edges.scene.server import Server
-from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import Row, State, Traffic
+from webviz.page.content.types import types
+from webviz.scene.server import Server
+from webviz.sources import Offer, Publisher
 
 SCAN, BATTERY = "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/BatteryState"
 MAP = "nav_msgs/msg/OccupancyGrid"

@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 
 from webviz.api.vehicle import Velocity
-from webviz.edges.page.channel import Channel
-from webviz.edges.page.driving import BEAT_S, FRESH_S, SLOW, DrivingMessages
-from webviz.edges.page.messages import Drive, HelmReport
 from webviz.engine.driving import HelmAnswer
+from webviz.page.driving import BEAT_S, FRESH_S, SLOW, DrivingMessages
+from webviz.server.channel.channel import Channel
+from webviz.server.channel.messages import Drive, HelmReport
 
 HEARTBEAT_S = 0.05
 """Between two of a page."""

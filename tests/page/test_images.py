@@ -20,10 +20,10 @@ from webviz.api.nodes import Labels, Pane, Points, Pose
 from webviz.api.pictures import Encoded, Packet, Pixels, Sight, Video, Warp
 from webviz.api.status import Level, Status
 from webviz.data.images import CameraModel, Lens, RawImage, Tone
-from webviz.edges.page.messages import MAX_PANES
-from webviz.edges.page.pictures import Pictures
-from webviz.edges.scene import ViserScene
 from webviz.engine.state import Row
+from webviz.scene import ViserScene
+from webviz.server.channel.messages import MAX_PANES
+from webviz.server.images.pictures import Pictures
 from webviz_displays.camera import Camera
 from webviz_displays.grid import Grid
 from webviz_displays.image import Image
@@ -111,7 +111,7 @@ def test_pictures_have_their_colors_and_hovering_reads_values(tab: Any) -> None:
 def test_only_what_is_shown_is_sent_and_only_the_newest(
     tab: Any, pictures: Pictures, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("webviz.edges.page.pictures.UNSEEN_S", 0.0)
+    monkeypatch.setattr("webviz.server.images.pictures.UNSEEN_S", 0.0)
     sent: list[str] = []
     send = pictures._channel.send_bytes
     pictures._channel.send_bytes = lambda data, key, browser: (  # type: ignore[method-assign]

@@ -10,10 +10,10 @@ import pytest
 from pages import COARSE
 
 from tests.page.conftest import Tab, open_page
-from webviz.edges.page.messages import Shell
-from webviz.edges.scene.server import Server
-from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import Row, State
+from webviz.scene.server import Server
+from webviz.server.channel.messages import Shell
+from webviz.sources import Offer, Publisher
 
 SURFACES = ("back", "raised", "field", "chosen", "hover")
 LETTERS = ("text", "quiet", "accent", "ok", "warn", "error")

@@ -12,9 +12,9 @@ import pytest
 from tests.page.conftest import Loop, Tab
 from webviz.api.context import ColorScale
 from webviz.api.nodes import Points, Pose
-from webviz.edges.scene import ViserScene
-from webviz.edges.scene.server import Server
 from webviz.engine.state import Row
+from webviz.scene import ViserScene
+from webviz.scene.server import Server
 
 AXES = "async () => (await import('/webviz/scene/view.js')).axes()"
 CENTER = (700, 400)

@@ -11,9 +11,9 @@ from tests.page.conftest import Tab, open_page
 from webviz.commands import Save
 from webviz.data.messages import LaserScan, to_tree
 from webviz.data.transforms import Diagnosis, FrameReport
-from webviz.edges.scene.server import Server
-from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import ConfigFile, Inspected, Row
+from webviz.scene.server import Server
+from webviz.sources import Offer, Publisher
 
 WIDTH, HEIGHT = 390, 844
 FINGER_PX = 40

@@ -14,12 +14,12 @@ from tests.page.conftest import Loop, Tab
 from webviz.api import registry
 from webviz.api.declared import Prop, make
 from webviz.api.panel import Panel, Send, Slide, Ui
-from webviz.edges.page.plugin_panels import MAX_WAITING
-from webviz.edges.page.recorded_ui import RecordedUi
-from webviz.edges.page.widgets import MAX_HTML, MAX_LINES
 from webviz.engine.commands import AddPanel, InspectTopic, RemovePanel, Reset, SetPanelProperty
-from webviz.engine.plugins import load
+from webviz.engine.pipeline.plugins import load
 from webviz.engine.state import PanelTab, State, Traffic
+from webviz.page.plugin_panels import MAX_WAITING
+from webviz.page.recorded_ui import RecordedUi
+from webviz.page.widgets import MAX_HTML, MAX_LINES
 
 EXAMPLE = Path(__file__).parents[2] / "displays/docs/examples/quiet_topics.py"
 HOSTILE = "<img src=x onerror=alert(1)>"

@@ -14,12 +14,12 @@ from tests.page.trees import Tree
 from webviz.api.declared import make
 from webviz.api.registry import display_types
 from webviz.api.status import Level, Remedy, Status
-from webviz.edges.page.content.forms import values_of
-from webviz.edges.page.content.properties import IN_THE_TREE
 from webviz.engine.commands import SetBackground, SetFixedFrame, SetFrameRate
-from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import Row, Traffic
 from webviz.files.config import Settings
+from webviz.page.content.forms import values_of
+from webviz.page.content.properties import IN_THE_TREE
+from webviz.sources import Offer, Publisher
 from webviz_displays.markers import MarkerArray
 from webviz_displays.point_cloud2 import PointCloud2
 from webviz_displays.tf import TF

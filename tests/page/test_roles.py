@@ -12,14 +12,14 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.page.conftest import Loop, Tab, open_page
-from webviz.edges.access import token_file
-from webviz.edges.access.access import Access
-from webviz.edges.access.roles import Role
-from webviz.edges.access.starting import link
-from webviz.edges.access.tokens import Token, make
-from webviz.edges.scene import open_server
 from webviz.engine import commands
 from webviz.engine.state import Row, ToolButton
+from webviz.scene import open_server
+from webviz.server.access import token_file
+from webviz.server.access.access import Access
+from webviz.server.access.roles import Role
+from webviz.server.access.starting import link
+from webviz.server.access.tokens import Token, make
 
 WHY = "Only operators may do this. Your link is for a watcher."
 

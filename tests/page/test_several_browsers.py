@@ -8,8 +8,8 @@ import pytest
 
 from tests.page.conftest import Tab
 from tests.page.properties_pane import Pane
-from webviz.edges.scene.server import Server
 from webviz.engine.state import Row
+from webviz.scene.server import Server
 
 MakeRow = Callable[..., Row]
 OpenTab = Callable[[], Tab]

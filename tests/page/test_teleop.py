@@ -9,9 +9,9 @@ import pytest
 
 from tests.page.conftest import Tab
 from webviz.api.vehicle import STILL, Velocity
-from webviz.edges.scene.server import Server
 from webviz.engine.driving import HelmAnswer
 from webviz.engine.state import Driving, ToolButton
+from webviz.scene.server import Server
 from webviz.tools.teleop import Teleop
 
 CAMERA = "window.__viserMutable.cameraControl.toJSON()"

@@ -25,10 +25,10 @@ from webviz.engine.commands import (
     StepMessage,
     StopRecording,
 )
-from webviz.engine.recording_state import Event, MemoryState, PlaybackState, RecordingState
 from webviz.engine.state import ClockPace, PanelTimes
 from webviz.files.config import Settings
 from webviz.files.config.model import MemorySettings
+from webviz.sources.past_state import Event, MemoryState, PlaybackState, RecordingState
 
 START_S = 1_700_000_000
 COUNTS = [20] * 100 + [0] * 50 + [5] * 350

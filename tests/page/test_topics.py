@@ -13,10 +13,10 @@ from webviz.api import registry
 from webviz.api.declared import Topic
 from webviz.api.display import Display, Input
 from webviz.data.messages import LaserScan, to_tree
-from webviz.edges.page.content.topics import topics
 from webviz.engine.commands import AddDisplay, InspectTopics
-from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import Inspected, State, Traffic
+from webviz.page.content.topics import topics
+from webviz.sources import Offer, Publisher
 
 HOSTILE = "<img src=x onerror=alert(1)>"
 CLOUD = "test_msgs/msg/Cloud"

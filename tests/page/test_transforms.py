@@ -9,9 +9,9 @@ import pytest
 
 from tests.page.conftest import Loop, Tab
 from webviz.data.transforms import Diagnosis, FrameReport
-from webviz.edges.page.content.transforms import between, pair_of
 from webviz.engine.commands import FocusFrame, InspectTransforms
 from webviz.engine.state import Between, State
+from webviz.page.content.transforms import between, pair_of
 
 HOSTILE = "<img src=x onerror=alert(1)>"
 ODOM = FrameReport("odom", "map", False, ("/slam",), 20.04, 1, 123_000_000, None, 200, 10, ())

@@ -13,7 +13,6 @@ from tests.page.conftest import Loop, Tab
 from tests.page.trees import Tree, group, height_of
 from webviz.api.declared import Topic
 from webviz.api.status import Level, OtherFixedFrame, Status
-from webviz.edges.scene.server import Server
 from webviz.engine.commands import (
     AddDisplay,
     DuplicateDisplay,
@@ -26,6 +25,7 @@ from webviz.engine.commands import (
     WriteDisplays,
 )
 from webviz.engine.state import Row, Traffic
+from webviz.scene.server import Server
 
 MakeRow = Callable[..., Row]
 LOST = {"Topic": Status(Level.ERROR, "No publisher on /scan. Start the laser driver.")}

@@ -11,10 +11,10 @@ import pytest
 from webviz.api.declared import Topic
 from webviz.api.group import DisplayGroup
 from webviz.api.status import Level, OtherFixedFrame, Remedy, Status
-from webviz.edges.page.content import MAKERS
-from webviz.edges.page.reading import StateReading
-from webviz.edges.page.stores import Stores
 from webviz.engine.state import Row, State, Traffic
+from webviz.page.content import MAKERS
+from webviz.page.reading import StateReading
+from webviz.server.channel.stores import Stores
 
 MakeRow = Callable[..., Row]
 STATUSES = {

@@ -13,11 +13,11 @@ from webviz.api.declared import Topic
 from webviz.api.nodes import Pane
 from webviz.api.pictures import Readout
 from webviz.data.messages import Header, JointState, String, Time, message_class
-from webviz.edges.page.pictures import Pictures
 from webviz.engine.commands import SetPanelProperty
-from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import PanelTab, PanelTimes, Row, Traffic
 from webviz.panels.plot import Plot
+from webviz.server.images.pictures import Pictures
+from webviz.sources import Offer, Publisher
 from webviz_displays.text import Text
 
 SECOND = 10**9

@@ -10,7 +10,6 @@ import pytest
 
 from tests.page.conftest import Tab
 from webviz.api.views import FPS, Orbit, TopDownOrtho
-from webviz.edges.scene.server import Server
 from webviz.engine.commands import (
     ChangeView,
     FocusDisplay,
@@ -24,6 +23,7 @@ from webviz.engine.commands import (
 )
 from webviz.engine.state import Row
 from webviz.files.config import Settings
+from webviz.scene.server import Server
 
 
 class Pane:

@@ -24,15 +24,15 @@ from webviz.api.declared import Topic
 from webviz.api.nodes import Image, Points, Pose
 from webviz.api.status import Level, Status
 from webviz.api.views import Orbit
-from webviz.edges.scene import ViserScene, open_server
-from webviz.edges.scene.server import Server
-from webviz.engine.recording_state import PlaybackState
-from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import ClockPace, ConfigFile, PanelTimes, Row, State, ToolButton, Traffic
 from webviz.files.config import Settings
+from webviz.scene import ViserScene, open_server
+from webviz.scene.server import Server
 from webviz.shell.pictures.browser import Pixels
 from webviz.shell.testing import share_of_difference
 from webviz.shell.testing.pictures import Album
+from webviz.sources import Offer, Publisher
+from webviz.sources.past_state import PlaybackState
 from webviz_displays.grid import Grid
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Map

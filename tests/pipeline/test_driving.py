@@ -17,9 +17,9 @@ from webviz.api.vehicle import STILL, Velocity
 from webviz.commands import Load, SetToolProperty, Undo
 from webviz.engine.driving import HelmAnswer, Helms
 from webviz.engine.driving.helm import PERIOD_S, TAIL
-from webviz.engine.sources import Gate, NotConnected, Outlet, Rights
 from webviz.engine.state import Driving
 from webviz.shell.testing.source import HandFedSource
+from webviz.sources import Gate, NotConnected, Outlet, Rights
 from webviz.tools.teleop import Teleop
 
 TWIST, ODOMETRY = "geometry_msgs/msg/Twist", "nav_msgs/msg/Odometry"

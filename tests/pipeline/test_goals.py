@@ -12,10 +12,10 @@ from remembering_graph import RememberingGraph, SentGoal
 from webviz.api.status import Level, Status
 from webviz.data.messages import encode
 from webviz.engine.commands import CancelGoal, DismissGoal, Refresh, UseTool
-from webviz.engine.goals import ANSWER_S, SILENCE_S
 from webviz.engine.parts.goals import MAX_ACTIVE, SHOWN_S
-from webviz.engine.sources import Missing
 from webviz.engine.state import GoalProgress
+from webviz.engine.state.goals import ANSWER_S, SILENCE_S
+from webviz.sources import Missing
 
 TO_POSE = "nav2_msgs/action/NavigateToPose"
 THROUGH = "nav2_msgs/action/NavigateThroughPoses"

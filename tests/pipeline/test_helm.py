@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from webviz.api.vehicle import STILL, Velocity
 from webviz.engine.driving.helm import BEAT_S, PERIOD_S, RELEASE_S, TAIL, Helm
-from webviz.engine.sources import Outlet
+from webviz.sources import Outlet
 from webviz.tools.teleop import Teleop
 
 AHEAD = Velocity(linear=1.0)

@@ -19,10 +19,10 @@ from webviz.engine.commands import (
     Reset,
 )
 from webviz.engine.parts.topics import MAX_INSPECTED
-from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import State
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.source import SECOND
+from webviz.sources import Offer, Publisher
 from webviz_displays.image import Image
 from webviz_displays.path import Path
 

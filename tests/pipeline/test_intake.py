@@ -13,8 +13,8 @@ from webviz.api.status import OtherFixedFrame, Remedy
 from webviz.data.transforms import filter as transform_filter
 from webviz.engine.commands import SetFixedFrame, SetProperty
 from webviz.engine.pipeline.reception import Reception
-from webviz.engine.sources import Offer, Publisher, Raw
 from webviz.shell.testing.messages import header
+from webviz.sources import Offer, Publisher, Raw
 from webviz_displays.path import Path
 
 SECOND = 1_000_000_000

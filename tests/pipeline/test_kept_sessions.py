@@ -9,8 +9,6 @@ from typing import Any
 
 import pytest
 
-from webviz.edges.access.roles import Role
-from webviz.edges.access.rules import COMMANDS
 from webviz.engine.commands import (
     ChangeView,
     Export,
@@ -33,6 +31,8 @@ from webviz.engine.commands import (
 )
 from webviz.files.opening import load
 from webviz.files.sessions import MAX_VIEWERS, Sessions
+from webviz.server.access.roles import Role
+from webviz.server.access.rules import COMMANDS
 from webviz_displays.axes import Axes
 
 

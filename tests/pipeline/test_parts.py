@@ -13,9 +13,9 @@ import pytest
 from webviz import Error, commands
 from webviz.api.status import Level, Status
 from webviz.engine.commands import Command, FileCommand, Pause, Refresh, Reset, Sender, ViewCommand
+from webviz.engine.commands.requests import Job, Refused
 from webviz.engine.parts import Batches, Core, Handler, Part
 from webviz.engine.parts.part import overrides
-from webviz.engine.requests import Job, Refused
 from webviz.engine.state import State
 from webviz.shell.testing.source import SECOND
 

@@ -10,7 +10,7 @@ import pytest
 
 from webviz import Context, Display, Input, Pose, Sample, Topic
 from webviz.data.transforms.geometry import REACH_M
-from webviz.engine.scene import NoCameras
+from webviz.engine.pipeline.scene import NoCameras
 from webviz_displays.tf import TF
 
 SECOND = 1_000_000_000

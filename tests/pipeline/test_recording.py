@@ -11,10 +11,10 @@ from bench import Bench, benches
 from webviz.data.messages import decode, encode
 from webviz.data.recordings import open_recording
 from webviz.engine.commands import SaveMemory, Sender, StartRecording, StopRecording
-from webviz.engine.recording import RecentMessages
-from webviz.engine.sources import Offer, Publisher, Raw
 from webviz.files.config import Settings
 from webviz.files.config.model import MemorySettings
+from webviz.sources import Offer, Publisher, Raw
+from webviz.sources.recording import RecentMessages
 from webviz_displays.path import Path as PathDisplay
 from webviz_displays.robot_model import RobotModel
 

@@ -14,13 +14,13 @@ import webviz
 from webviz.api.status import Level, Status
 from webviz.data.messages import encode
 from webviz.engine.commands import Load, Redo, Refresh, Reset, SetToolProperty, Undo, UseTool
-from webviz.engine.own_names import own_names
-from webviz.engine.pipeline.guard import Guard
-from webviz.engine.sources import Gate, NotConnected, Outlet, Rights
+from webviz.engine.commands.guard import Guard
+from webviz.engine.pipeline.own_names import own_names
 from webviz.files.opening import parse
 from webviz.panels.nav2 import Nav2
 from webviz.shell.app.allow_list import report_everything
 from webviz.shell.testing.source import HandFedSource
+from webviz.sources import Gate, NotConnected, Outlet, Rights
 
 POINT = ((1.0, 2.0, 0.0),)
 TYPE = "geometry_msgs/msg/PointStamped"

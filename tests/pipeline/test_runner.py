@@ -331,7 +331,7 @@ def test_reset_and_a_jump_back_of_time_forget_what_was(bench: Callable[..., Any]
 
 
 def test_bytes_that_are_no_message_become_a_status(bench: Callable[..., Any]) -> None:
-    from webviz.engine.sources import Raw
+    from webviz.sources import Raw
 
     b = bench(Dot(name="Dot"))
     b.transform("map", "base", T, static=True)
@@ -353,7 +353,7 @@ def test_bytes_that_are_no_message_become_a_status(bench: Callable[..., Any]) ->
 
 
 def test_the_same_latched_message_again_is_ignored(bench: Callable[..., Any]) -> None:
-    from webviz.engine.sources import Offer, Publisher
+    from webviz.sources import Offer, Publisher
 
     b = bench(Dot(name="Dot"))
     publisher = Publisher("/test", "geometry_msgs/msg/PoseStamped", "reliable", "transient_local")

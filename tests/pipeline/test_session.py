@@ -35,7 +35,7 @@ from webviz.engine.commands import (
     SetToolProperty,
     WriteDisplays,
 )
-from webviz.engine.requests import MAX_FILES, MAX_REQUESTS
+from webviz.engine.commands.requests import MAX_FILES, MAX_REQUESTS
 from webviz.engine.state import ConfigFile, State
 from webviz.files.config import Branch, Unreadable, document
 from webviz.files.opening import load, parse

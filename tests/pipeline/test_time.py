@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 from webviz import Context, Display, Input, Keep, Sample, Topic
 from webviz.engine.commands import DuplicateDisplay, Pause, Reset
-from webviz.engine.sources import Offer, Publisher
+from webviz.sources import Offer, Publisher
 
 SECOND = 1_000_000_000
 T = 100 * SECOND

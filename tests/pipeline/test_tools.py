@@ -11,7 +11,7 @@ from remembering_graph import RememberingGraph
 
 from webviz.api.status import Level, Status
 from webviz.engine.commands import SetToolProperty, UseTool
-from webviz.engine.sources import Outlet
+from webviz.sources import Outlet
 
 QUARTER = math.pi / 2
 

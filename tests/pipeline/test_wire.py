@@ -9,7 +9,7 @@ import pytest
 
 from webviz.engine.pipeline import wire
 from webviz.engine.pipeline.wire import DisplayWire
-from webviz.engine.sources import Offer, Publisher, Raw
+from webviz.sources import Offer, Publisher, Raw
 
 WORDS = "/words"
 

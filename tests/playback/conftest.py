@@ -11,11 +11,11 @@ from bags import Bag
 
 from webviz.engine.commands import Command, Refresh
 from webviz.engine.loop import FrameLoop
-from webviz.engine.recording_state import PlaybackState
-from webviz.engine.sources.bag import BagSource
 from webviz.engine.state import State
 from webviz.files.opening import parse
 from webviz.shell.testing.recording import RecordingScene
+from webviz.sources.bag.source import BagSource
+from webviz.sources.past_state import PlaybackState
 
 TURNS = 10_000
 

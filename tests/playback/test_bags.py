@@ -16,10 +16,10 @@ from rosbags.rosbag2 import StoragePlugin
 
 import webviz
 from webviz.data.messages import encode
-from webviz.engine.bag_config import config_of
-from webviz.engine.sources.bag import BagSource
+from webviz.shell.app.bag_config import config_of
 from webviz.shell.cli import main as cli
 from webviz.shell.testing import header
+from webviz.sources.bag.source import BagSource
 
 
 def robot() -> Bag:

@@ -12,12 +12,12 @@ from rosbags.rosbag2 import StoragePlugin
 
 from webviz.api.status import Level, Status
 from webviz.data.messages import encode
-from webviz.edges.page.content import MAKERS
 from webviz.engine.commands import RemoveDisplay, Seek
 from webviz.engine.playback import DisplayEvents
-from webviz.engine.recording_state import Event
-from webviz.engine.sources.bag_log import MAX_EVENTS, MAX_NAME, MAX_TEXT, read_log
 from webviz.engine.state import Row
+from webviz.page.content import MAKERS
+from webviz.sources.bag.log import MAX_EVENTS, MAX_NAME, MAX_TEXT, read_log
+from webviz.sources.past_state import Event
 
 LOG = "rcl_interfaces/msg/Log"
 INFO, WARN, ERROR, FATAL = 20, 30, 40, 50
@@ -76,7 +76,7 @@ def test_any_bytes_on_rosout_are_bounded_and_skipped(tmp_path: Path) -> None:
 def test_a_log_that_is_too_large_is_reported(
     theater: Callable, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("webviz.engine.sources.bag_log.MAX_BYTES", 500)
+    monkeypatch.setattr("webviz.sources.bag.log.MAX_BYTES", 500)
     viewer = theater(logged((1, WARN, "seen"), (2.5, WARN, "x" * 500), (3, WARN, "not seen")))
     viewer.turn_until(lambda: "Bag" in viewer.loop.state().statuses)
     state = viewer.loop.state()

@@ -12,7 +12,7 @@ from rosbags.rosbag2 import CompressionMode, StoragePlugin
 
 from webviz.data.recordings import open_recording
 from webviz.data.recordings.recording import TimeParts
-from webviz.engine.sources.bag import BagSource
+from webviz.sources.bag.source import BagSource
 
 PARTS = 50
 

@@ -9,7 +9,6 @@ import pytest
 from bags import START_NS, Bag, ns, strings
 from bench import benches
 
-from webviz.edges.page.content import MAKERS
 from webviz.engine.commands import (
     Command,
     Pause,
@@ -26,8 +25,9 @@ from webviz.engine.commands import (
     StepMessage,
     Undo,
 )
+from webviz.engine.commands.requests import Refused
 from webviz.engine.playback import PlaybackControl
-from webviz.engine.requests import Refused
+from webviz.page.content import MAKERS
 
 CONFIG = """\
 fixed_frame: map

@@ -15,13 +15,13 @@ from rosbags.rosbag2 import StoragePlugin
 
 from webviz import Context, Display, Input, Lookback, Sample, Topic
 from webviz.api.display import inputs
-from webviz.engine import loop
-from webviz.engine.bag_config import config_of
 from webviz.engine.commands import Seek
-from webviz.engine.sources.bag import BagSource
-from webviz.engine.sources.bag_file import Recorded
+from webviz.engine.loop import loop
 from webviz.files.config import Config
+from webviz.shell.app.bag_config import config_of
 from webviz.shell.testing import BagViewer, check_seeks, header
+from webviz.sources.bag.file import Recorded
+from webviz.sources.bag.source import BagSource
 from webviz_displays.odometry.display import Odometry
 
 CONFIG = """\

@@ -10,7 +10,7 @@ from bench import Bench, benches
 
 from webviz.api import registry
 from webviz.api.display import Display
-from webviz.engine.plugins import load
+from webviz.engine.pipeline.plugins import load
 
 EXAMPLE = Path(__file__).with_name("polygon.py")
 

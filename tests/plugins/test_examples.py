@@ -15,7 +15,7 @@ from webviz.api.display import Display
 from webviz.api.status import Status
 from webviz.data.messages import decode, encode
 from webviz.engine.commands import Load, Refresh, UseTool
-from webviz.engine.plugins import load
+from webviz.engine.pipeline.plugins import load
 from webviz.shell.testing.messages import header
 
 EXAMPLES = Path(__file__).parents[2] / "displays/docs/examples"

@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 from remembering_graph import RememberingGraph
 
-from webviz.edges.page.recorded_ui import RecordedUi
 from webviz.engine.commands import AddPanel, OpenPanels, Sender
+from webviz.page.recorded_ui import RecordedUi
 from webviz.panels import joints as module
 from webviz.panels.joints import Joints
 
@@ -120,7 +120,7 @@ def test_a_moved_slider_publishes_all_joints_until_nobody_looks(
     _, message = hand.viewer.source.graph.published[-1]
     assert message.header.stamp_ns == hand.viewer.viewer.state().clock.ros_ns
     monkeypatch.setattr(module, "PAUSE_S", -1.0)
-    monkeypatch.setattr("webviz.edges.page.widgets.SETTLE_S", -1.0)
+    monkeypatch.setattr("webviz.page.widgets.SETTLE_S", -1.0)
     hand.show()
     assert len(hand.published()) == 2
     assert hand.widget("Publish").value is False

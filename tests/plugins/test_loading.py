@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from webviz.api import registry
-from webviz.engine.plugins import PluginError, Watcher, load
+from webviz.engine.pipeline.plugins import PluginError, Watcher, load
 from webviz.files.config import dump
 from webviz.files.opening import parse
 

@@ -22,7 +22,7 @@ from webviz.engine.commands import (
     SetPanelProperty,
     Undo,
 )
-from webviz.engine.plugins import load
+from webviz.engine.pipeline.plugins import load
 from webviz.files.config import ConfigError, Unreadable, document
 from webviz.files.config.overrides import override
 from webviz.files.opening import parse

@@ -12,13 +12,13 @@ import numpy as np
 import pytest
 
 from webviz.data.messages import Header, JointState, String, Time
-from webviz.edges.page.chart import ChartWidget
-from webviz.edges.page.recorded_ui import RecordedUi
 from webviz.engine.commands import AddPanel, OpenPanels, Reset, SetPanelProperty
-from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import PanelTab, PanelTimes, State
+from webviz.page.chart import ChartWidget
+from webviz.page.recorded_ui import RecordedUi
 from webviz.panels.plot import Plot
 from webviz.panels.plot.history import MAX_POINTS, CurveHistory
+from webviz.sources import Offer, Publisher
 
 JOINTS = "sensor_msgs/msg/JointState"
 TWIST = "geometry_msgs/msg/Twist"

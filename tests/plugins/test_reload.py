@@ -11,7 +11,7 @@ import rviz_trees
 from webviz import Topic
 from webviz.api.declared import make
 from webviz.engine.commands import AddDisplay, Reset, SetProperty
-from webviz.engine.plugins import ReloadPlugin
+from webviz.engine.pipeline.plugins import ReloadPlugin
 from webviz.files import rviz
 from webviz.files.config import dump
 from webviz.files.opening import parse

@@ -12,11 +12,11 @@ from remembering_graph import RememberingGraph
 from webviz.api.errors import Error
 from webviz.api.panel import Panel
 from webviz.data.messages import decode, encode, interfaces
-from webviz.edges.page.recorded_ui import RecordedUi
 from webviz.engine.commands import AddPanel, OpenPanels, Refresh, Sender
-from webviz.engine.own_names import own_names
-from webviz.engine.pipeline.guard import Guard
+from webviz.engine.commands.guard import Guard
+from webviz.engine.pipeline.own_names import own_names
 from webviz.files.config import Config
+from webviz.page.recorded_ui import RecordedUi
 from webviz.panels.docking import Docking
 from webviz.panels.selector import Selector
 from webviz.panels.slam_toolbox import INITIAL_POSE, SlamToolbox

@@ -29,12 +29,12 @@ import webviz
 from webviz.api.declared import Topic
 from webviz.api.status import Level, OtherFixedFrame, Status
 from webviz.data.messages import decode, encode
-from webviz.edges.ros.node import RosSource
-from webviz.edges.ros.types import message_class
 from webviz.engine.commands import Command
-from webviz.engine.sources import Subscription
 from webviz.engine.state import ConfigFile, State
+from webviz.ros.node import RosSource
+from webviz.ros.types import message_class
 from webviz.shell.testing import header
+from webviz.sources import Subscription
 
 TF = "tf2_msgs/msg/TFMessage"
 CONFIG = "fixed_frame: odom\ndisplays: [{type: Grid, name: Floor}]\n"

@@ -22,10 +22,10 @@ from std_msgs.msg import String
 from std_srvs.srv import SetBool
 
 from webviz.data.messages import decode, encode, interfaces
-from webviz.edges.ros.node import RosSource
-from webviz.edges.ros.types import MessageTypeError, learn, message_class
-from webviz.edges.ros.types.composing import composed_service
-from webviz.engine.sources import NotConnected, Outlet, ReadOnly
+from webviz.ros.node import RosSource
+from webviz.ros.types import MessageTypeError, learn, message_class
+from webviz.ros.types.composing import composed_service
+from webviz.sources import NotConnected, Outlet, ReadOnly
 
 STRING = "std_msgs/msg/String"
 FIBONACCI = "test_msgs/action/Fibonacci"
@@ -161,7 +161,7 @@ def test_the_publisher_of_a_topic_that_is_no_longer_advertised_is_destroyed(
 def test_a_message_does_not_wait_for_what_arrives(
     webviz_domain: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("webviz.edges.ros.node.REST_S", 3600.0)
+    monkeypatch.setattr("webviz.ros.node.REST_S", 3600.0)
     source = RosSource(domain_id=webviz_domain)
     outlet = Outlet("/lonely", STRING)
     for _ in range(5):
@@ -287,7 +287,7 @@ def test_a_truncated_result_ends_a_goal(source: RosSource, peer: Peer, result: b
 def test_a_goal_that_is_no_longer_followed_frees_its_place(
     source: RosSource, peer: Peer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("webviz.edges.ros.calls.MAX_CALLS", 2)
+    monkeypatch.setattr("webviz.ros.calls.MAX_CALLS", 2)
     peer.node.create_service(SetBool, "/waiting", lambda _, response: response)
     request = encode("std_srvs/srv/SetBool_Request")
     first = source.graph.call("/waiting", "std_srvs/srv/SetBool", request, 60.0)

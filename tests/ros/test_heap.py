@@ -9,11 +9,11 @@ import pytest
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
 
-from webviz.edges.ros.heap import MOST_UNUSED
+from webviz.ros.heap import MOST_UNUSED
 
 PROGRAM = """
 import itertools, psutil, sys
-from webviz.edges.ros.heap import PERIOD_S, Heap
+from webviz.ros.heap import PERIOD_S, Heap
 
 def resident():
     return psutil.Process().memory_info().rss

@@ -11,14 +11,14 @@ import pytest
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
 
 from webviz.data.messages import encode
-from webviz.edges.page.recorded_ui import RecordedUi
-from webviz.edges.ros.node import RosSource
-from webviz.edges.ros.talker import Talker
 from webviz.engine.commands import AddPanel, Command, InspectTopics, OpenPanels, SetProperty
 from webviz.engine.loop import FrameLoop
 from webviz.engine.state import State
 from webviz.files.config import Config, Settings
+from webviz.page.recorded_ui import RecordedUi
 from webviz.panels.joints import Joints
+from webviz.ros.node import RosSource
+from webviz.ros.talker import Talker
 from webviz.shell.testing.recording import RecordingScene
 from webviz_displays.robot_model import RobotModel
 

@@ -23,11 +23,11 @@ from webviz.api.frames import Frames
 from webviz.api.status import Level
 from webviz.data.messages import decode
 from webviz.data.transforms import TransformBuffer
-from webviz.edges.ros import node
-from webviz.edges.ros.node import RosSource
-from webviz.engine.pipeline.guard import Guard
+from webviz.engine.commands.guard import Guard
 from webviz.engine.pipeline.inputs import Inputs
-from webviz.engine.sources import Gate, Outlet, Rights, Subscription, merged
+from webviz.ros import node
+from webviz.ros.node import RosSource
+from webviz.sources import Gate, Outlet, Rights, Subscription, merged
 
 STRING = "std_msgs/msg/String"
 

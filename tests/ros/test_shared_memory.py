@@ -14,16 +14,11 @@ import pytest
 from processes import eventually
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
-from webviz.edges.ros.shared_memory import (
-    MIN_AGE_S,
-    remove_abandoned,
-    remove_unused,
-    segments_of,
-)
+from webviz.ros.shared_memory import MIN_AGE_S, remove_abandoned, remove_unused, segments_of
 from webviz.shell.testing.domain import isolated_domain
 
 PROGRAM = """
-from webviz.edges.ros.node import RosSource
+from webviz.ros.node import RosSource
 source = RosSource()
 print("ready", flush=True)
 input()

@@ -15,9 +15,9 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 
 from webviz.data.messages import register, type_exists
-from webviz.edges.ros.types import MessageTypeError, learn, message_class, service_class, type_hash
-from webviz.edges.ros.types.composing import composed_message, composed_service
-from webviz.edges.ros.types.wire import RawPayload
+from webviz.ros.types import MessageTypeError, learn, message_class, service_class, type_hash
+from webviz.ros.types.composing import composed_message, composed_service
+from webviz.ros.types.wire import RawPayload
 
 # rclpy's own imports: the parser of an old lark uses a module that Python 3.11 deprecates.
 pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
@@ -42,7 +42,7 @@ import sys, time
 import rclpy
 from rclpy.signals import SignalHandlerOptions
 from webviz.data.messages import register
-from webviz.edges.ros.types import message_class
+from webviz.ros.types import message_class
 role, type_name, topic = sys.argv[1:4]
 definition = sys.argv[4] if len(sys.argv) > 4 else ""
 rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
@@ -134,7 +134,7 @@ def test_an_unknown_type_says_what_to_install():
 
 def test_a_missing_package_under_another_rmw_says_how_to_install_it():
     script = (
-        "import webviz.edges.ros.types.classes as t\n"
+        "import webviz.ros.types.classes as t\n"
         "t.get_rmw_implementation_identifier = lambda: 'rmw_cyclonedds_cpp'\n"
         "try: t.message_class('map_msgs/msg/OccupancyGridUpdate')\n"
         "except t.MessageTypeError as error: print(error)\n"
@@ -283,8 +283,8 @@ SERVER = """
 import sys
 import rclpy
 from rclpy.signals import SignalHandlerOptions
-from webviz.edges.ros.types import service_class
-from webviz.edges.ros.types.wire import RawPayload
+from webviz.ros.types import service_class
+from webviz.ros.types.wire import RawPayload
 rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
 node = rclpy.create_node("server")
 def answer(request, response):

@@ -15,7 +15,7 @@ import viser
 import websockets.sync.client
 import zstandard
 
-from webviz.edges.scene import ViserScene, open_server
+from webviz.scene import ViserScene, open_server
 from webviz.shell.pictures.browser import Page
 from webviz.shell.pictures.browser_scripts import CANVAS
 

@@ -18,10 +18,10 @@ from viser import _messages as wire
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 from viser.infra._messages import wire_field_names
 
-from webviz.edges.scene import ViserScene
-from webviz.edges.scene.adapter.image import add_blank_image
-from webviz.edges.scene.adapter.link import MAX_TOMBSTONES
-from webviz.edges.scene.adapter.poses import OrientationMessage, PositionMessage
+from webviz.scene import ViserScene
+from webviz.scene.adapter.image import add_blank_image
+from webviz.scene.adapter.link import MAX_TOMBSTONES
+from webviz.scene.adapter.poses import OrientationMessage, PositionMessage
 
 
 def test_viser_has_the_loop_that_we_replace() -> None:

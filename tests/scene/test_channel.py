@@ -18,13 +18,13 @@ import websockets.exceptions
 import websockets.sync.client
 from websockets.sync.connection import Connection
 
-from webviz.edges.access import rules
-from webviz.edges.access.roles import LIMITS, Role
-from webviz.edges.page.messages import Answer, Ask, FromPage, ToPage
-from webviz.edges.page.outgoing import MAX_WAITING
-from webviz.edges.scene import ViserScene, open_server
-from webviz.edges.scene.adapter.greeting import greet
-from webviz.edges.scene.quiet_server import Server
+from webviz.scene import ViserScene, open_server
+from webviz.scene.adapter.greeting import greet
+from webviz.server.access import rules
+from webviz.server.access.roles import LIMITS, Role
+from webviz.server.channel.messages import Answer, Ask, FromPage, ToPage
+from webviz.server.channel.outgoing import MAX_WAITING
+from webviz.server.http.viser_server import Server
 from webviz.shell.pictures.browser import Page
 
 
@@ -279,7 +279,7 @@ def test_a_real_page_answers_and_is_back_when_the_server_is_another(
         greet(server, *rest)
 
     # The worst case: the page is there before anybody has told the server how to greet it.
-    monkeypatch.setattr("webviz.edges.scene.server.greet", greet_late)
+    monkeypatch.setattr("webviz.scene.server.greet", greet_late)
     again = open_server(port=port)
     try:
         listen(again)

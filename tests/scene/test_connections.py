@@ -14,9 +14,9 @@ import viser
 import websockets.exceptions
 from websockets.frames import Frame, Opcode
 
-from webviz.edges.scene import connections
-from webviz.edges.scene.connections import MAX_BROWSERS, READ_BYTES, Allowance, Connection
-from webviz.edges.scene.crowding import network_of
+from webviz.server.http import connections
+from webviz.server.http.connections import MAX_BROWSERS, READ_BYTES, Allowance, Connection
+from webviz.server.http.crowding import network_of
 
 PAGE = b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"
 
@@ -82,7 +82,7 @@ def test_addresses_that_one_subscriber_has_are_one_network(address: str, network
 
 FEW_FILES = """
 import os, resource, socket
-from webviz.edges.scene import open_server
+from webviz.scene import open_server
 server = open_server(port=0)
 address = ("127.0.0.1", server.get_port())
 request = b"GET / HTTP/1.1\\r\\nHost: localhost\\r\\n\\r\\n"

@@ -8,7 +8,7 @@ import threading
 import playwright.sync_api as playwright
 import viser
 
-from webviz.edges.scene import ViserScene, open_server
+from webviz.scene import ViserScene, open_server
 from webviz.shell.pictures.browser import Page
 
 LOST = re.compile(

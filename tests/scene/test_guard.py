@@ -12,7 +12,7 @@ import pytest
 import viser
 import websockets.exceptions
 
-from webviz.edges.scene import CannotListen, PortInUse, open_server
+from webviz.scene import CannotListen, PortInUse, open_server
 
 
 def status(server: viser.ViserServer, *headers: tuple[str, str]) -> int:

@@ -14,9 +14,9 @@ import viser
 from certificates import authority, certificate
 
 import webviz
-from webviz.edges.access.tls import server_context
-from webviz.edges.scene import open_server
-from webviz.edges.scene.listener import MAX_HANDSHAKES
+from webviz.scene import open_server
+from webviz.server.access.tls import server_context
+from webviz.server.http.listener import MAX_HANDSHAKES
 from webviz.shell.pictures.browser import Page
 from webviz.shell.testing.source import HandFedSource
 

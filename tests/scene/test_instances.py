@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from webviz.api.nodes import Instances, Pose
-from webviz.edges.scene.schemes import BACKGROUND
-from webviz.edges.scene.solids import SOLIDS
+from webviz.scene.schemes import BACKGROUND
+from webviz.scene.solids import SOLIDS
 
 COLOR = (200, 100, 50)
 RED, GREEN, BLUE = (200, 0, 0), (0, 200, 0), (0, 0, 200)

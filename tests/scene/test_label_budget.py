@@ -9,8 +9,8 @@ import pytest
 from viser import LabelHandle
 
 from webviz.api.nodes import Labels
-from webviz.edges.scene import ViserScene
-from webviz.edges.scene.label_budget import AT_ONCE, LabelBudget
+from webviz.scene import ViserScene
+from webviz.scene.label_budget import AT_ONCE, LabelBudget
 
 
 def labels(texts: list[str], x: float = 0.0) -> Labels:
@@ -46,7 +46,7 @@ def test_many_texts_are_added_over_several_flushes(scene: Any) -> None:
 def test_texts_of_several_nodes_are_limited_and_room_is_given_back(
     scene: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("webviz.edges.scene.label_budget.MAX_LABELS", 3)
+    monkeypatch.setattr("webviz.scene.label_budget.MAX_LABELS", 3)
     monkeypatch.setattr(scene.link, "label_budget", LabelBudget())
     scene.upsert("a", "texts", labels(["1", "2"]))
     scene.upsert("b", "texts", labels(["3", "4", "5"]))
@@ -68,7 +68,7 @@ def test_texts_of_several_nodes_are_limited_and_room_is_given_back(
 def test_the_characters_of_all_texts_are_limited(
     scene: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("webviz.edges.scene.label_budget.MAX_CHARACTERS", 10)
+    monkeypatch.setattr("webviz.scene.label_budget.MAX_CHARACTERS", 10)
     monkeypatch.setattr(scene.link, "label_budget", LabelBudget())
     scene.upsert("a", "texts", labels(["12345", "123456"]))
     settle(scene)

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from webviz.api.nodes import Image
-from webviz.edges.scene import ViserScene
-from webviz.edges.scene.late import Late
+from webviz.scene import ViserScene
+from webviz.scene.late import Late
 
 
 def test_of_one_name_only_the_newest_work_is_sent() -> None:

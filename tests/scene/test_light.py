@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from webviz.api.nodes import Axes, Instances, Mesh, Node
-from webviz.edges.scene.constants import DARKEST
-from webviz.edges.scene.schemes import BACKGROUND
+from webviz.scene.constants import DARKEST
+from webviz.scene.schemes import BACKGROUND
 
 COLOR = (200, 100, 50)
 FROM_ABOVE, FROM_A_SIDE = ((0.0, -0.01, 10.0), (10.0, 0.0, 0.0))

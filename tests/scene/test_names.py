@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from webviz.edges.scene.names import node_path, segment
+from webviz.scene.names import node_path, segment
 
 # Lone surrogates included: a frame id may be any bytes, decoded with surrogateescape.
 ANY_TEXT = st.text(st.characters(codec=None), max_size=8)

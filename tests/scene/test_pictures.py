@@ -8,7 +8,7 @@ import numpy as np
 
 from webviz.api.nodes import Image, Lines, Pose
 from webviz.api.views import Orbit, TopDownOrtho
-from webviz.edges.scene.schemes import BACKGROUND
+from webviz.scene.schemes import BACKGROUND
 
 COLOR = (200, 100, 50)
 RED, GREEN, BLUE = (255, 0, 0), (0, 255, 0), (0, 0, 255)

@@ -8,7 +8,7 @@ import numpy as np
 import PIL.Image
 import pytest
 
-from webviz.edges.scene.png import encode_png
+from webviz.scene.png import encode_png
 
 RNG = np.random.default_rng(0)
 

@@ -31,10 +31,10 @@ from webviz.api.nodes import (
     Pose,
     Rgb,
 )
-from webviz.edges.scene import set_background
-from webviz.edges.scene.holding import FEWEST_POINTS
-from webviz.edges.scene.points import PART
-from webviz.edges.scene.schemes import BACKGROUND
+from webviz.scene import set_background
+from webviz.scene.holding import FEWEST_POINTS
+from webviz.scene.points import PART
+from webviz.scene.schemes import BACKGROUND
 from webviz_urdf.glb import MeshPart, Surface, write_glb
 
 COLOR = (200, 100, 50)

@@ -13,8 +13,8 @@ import pytest
 import viser
 import websockets.sync.server
 
-from webviz.edges.scene import ViserScene
-from webviz.edges.scene.sparing_log import sparing_log
+from webviz.scene import ViserScene
+from webviz.server.http.sparing_log import sparing_log
 
 Ask = Callable[[bytes], tuple[int, bytes, bytes]]
 HOST = b"Host: localhost\r\n"

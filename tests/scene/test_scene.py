@@ -20,7 +20,7 @@ from webviz.api.nodes import (
     Points,
     Pose,
 )
-from webviz.edges.scene import ViserScene
+from webviz.scene import ViserScene
 
 RED = (255, 0, 0)
 SEGMENTS = np.arange(12, dtype=np.float32).reshape(2, 2, 3)

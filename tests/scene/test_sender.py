@@ -11,8 +11,8 @@ from viser import _messages as wire
 from viser.infra._infra import ClientId
 from websockets.frames import Frame, Opcode
 
-from webviz.edges.scene import ViserScene
-from webviz.edges.scene.frame_header import header
+from webviz.scene import ViserScene
+from webviz.server.sending.frame_header import header
 
 
 @pytest.mark.parametrize("size", [0, 125, 126, 65535, 65536, 70000])

@@ -14,14 +14,14 @@ from viser import _messages as wire
 from tests.scene.conftest import Peer
 from tests.support.slow_link import SlowLink
 from webviz.api.nodes import Image, Points, Pose
-from webviz.edges.page.links import reduced
-from webviz.edges.page.pace import LinkPace, Stretch
-from webviz.edges.scene import ViserScene
-from webviz.edges.scene.adapter.acknowledging import AcknowledgementRequest
-from webviz.edges.scene.listener import SEND_BUFFER_BYTES, UNSENT_BYTES
-from webviz.edges.scene.outbox import WINDOW_BYTES, Outbox, bulk
-from webviz.edges.scene.pieces import Piece
-from webviz.edges.scene.points import PART
+from webviz.scene import ViserScene
+from webviz.scene.adapter.acknowledging import AcknowledgementRequest
+from webviz.scene.points import PART
+from webviz.server.channel.links import reduced
+from webviz.server.http.listener import SEND_BUFFER_BYTES, UNSENT_BYTES
+from webviz.server.sending.outbox import WINDOW_BYTES, Outbox, bulk
+from webviz.server.sending.pace import LinkPace, Stretch
+from webviz.server.sending.pieces import Piece
 
 PLENTY = 1e9
 SLOW = 1e6

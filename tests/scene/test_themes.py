@@ -10,8 +10,8 @@ import pytest
 
 from tests.scene.conftest import View
 from webviz.api.nodes import Labels, Lines, Rgb
-from webviz.edges.scene import set_background
-from webviz.edges.scene.schemes import SCHEMES
+from webviz.scene import set_background
+from webviz.scene.schemes import SCHEMES
 
 OWN = (200, 30, 90)
 ACROSS = np.array([[(-3.0, 0.0, 0.0), (3.0, 0.0, 0.0)]], np.float32)

@@ -25,7 +25,7 @@ from webviz.api.views import (
     XYOrbit,
     target_group,
 )
-from webviz.edges.scene import ViserScene, open_server
+from webviz.scene import ViserScene, open_server
 from webviz.shell.pictures.browser import Page
 
 WIDTH, HEIGHT = 900, 600

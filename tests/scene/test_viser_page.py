@@ -10,7 +10,7 @@ import viser
 
 from tests.scene.conftest import View
 
-FOLDER = Path(str(resources.files("webviz.edges.page"))) / "web"
+FOLDER = Path(str(resources.files("webviz.page"))) / "web"
 MODULES = sorted(str(file.relative_to(FOLDER)) for file in FOLDER.rglob("*.js"))
 
 

@@ -19,7 +19,7 @@ from rclpy.experimental.events_executor import EventsExecutor
 from rclpy.node import Node
 from test_msgs.action import Fibonacci
 
-from webviz.edges.ros.types import learn
+from webviz.ros.types import learn
 from webviz_sim.action_server import KEPT, ActionServer, ServerGoal
 
 pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")

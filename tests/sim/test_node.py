@@ -24,7 +24,7 @@ from sensor_msgs.msg import JointState, LaserScan
 from std_msgs.msg import String
 from std_srvs.srv import Empty
 
-from webviz.edges.ros.types import message_class
+from webviz.ros.types import message_class
 from webviz_sim.options import BUILDING, OPTIONS
 from webviz_sim.pose import Pose2D
 from webviz_sim.raycast import cast_rays

@@ -9,8 +9,8 @@ import pytest
 
 from webviz.api.declared import Topic
 from webviz.data.messages import decode
-from webviz.engine.sources import Subscription
-from webviz.engine.sources.bag import BagSource
+from webviz.sources import Subscription
+from webviz.sources.bag.source import BagSource
 
 STRING = "std_msgs/msg/String"
 

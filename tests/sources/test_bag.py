@@ -7,8 +7,8 @@ from bags import START_NS, TF, Bag, files, ns, stamped, strings
 from rosbags.rosbag2 import CompressionMode, StoragePlugin
 
 from webviz.data.messages import decode, register
-from webviz.engine.sources.bag import BagSource
-from webviz.engine.sources.replay import MAX_BATCH
+from webviz.sources.bag.source import BagSource
+from webviz.sources.replay import MAX_BATCH
 
 KINDS = [
     (StoragePlugin.SQLITE3, CompressionMode.NONE),
@@ -68,7 +68,7 @@ def test_many_messages_come_in_parts_and_none_is_lost(tmp_path, opened):
 
 
 def test_large_messages_come_in_parts_too(tmp_path, opened, monkeypatch):
-    monkeypatch.setattr("webviz.engine.sources.replay.MAX_BATCH_BYTES", 15)  # each has 10
+    monkeypatch.setattr("webviz.sources.replay.MAX_BATCH_BYTES", 15)  # each has 10
     bag = opened(strings(0, 1, 2).write(tmp_path / "bag"))
     bag.want("/words")
     for texts in (["0", "1"], ["2"]):
@@ -146,14 +146,14 @@ def test_what_was_latched_is_repeated_for_who_comes_late(tmp_path, opened):
 
 
 def test_of_what_was_latched_no_more_is_repeated_than_fits(tmp_path, opened, monkeypatch):
-    monkeypatch.setattr("webviz.engine.sources.bag.MAX_BYTES", 20)  # each has 10
+    monkeypatch.setattr("webviz.sources.bag.source.MAX_BYTES", 20)  # each has 10
     bag = opened(strings(0, 1, 2, 3, latched=True, depth=3).write(tmp_path / "bag"))
     bag.play(3)
     bag.want("/words")
     bag.heard()
     bag.want("/words", asked=1)
     assert bag.heard() == ["2", "3"]
-    monkeypatch.setattr("webviz.engine.sources.bag.MAX_BYTES", 1)
+    monkeypatch.setattr("webviz.sources.bag.source.MAX_BYTES", 1)
     bag.want("/words", asked=2)
     assert bag.heard() == ["3"]
 

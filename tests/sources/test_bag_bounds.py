@@ -16,7 +16,7 @@ from rosbags.rosbag2 import CompressionMode, StoragePlugin
 from webviz.data.recordings import unpacking
 from webviz.data.recordings.mcap import McapRecording
 from webviz.data.recordings.unpacking import MAX_BYTES
-from webviz.engine.sources.bag import BagError
+from webviz.sources.bag.source import BagError
 
 GIB = 1 << 30
 EXTRA_MB = 700
@@ -40,8 +40,8 @@ def read_in_little_memory(path) -> str:
         "import resource, sys\n"
         "from pathlib import Path\n"
         "from webviz.api.declared import Topic\n"
-        "from webviz.engine.sources import Subscription\n"
-        "from webviz.engine.sources.bag import BagSource\n"
+        "from webviz.sources import Subscription\n"
+        "from webviz.sources.bag.source import BagSource\n"
         "used = int(open('/proc/self/statm').read().split()[0]) * resource.getpagesize()\n"
         f"resource.setrlimit(resource.RLIMIT_AS, (used + ({EXTRA_MB} << 20),) * 2)\n"
         "bag = BagSource(Path(sys.argv[1]))\n"

@@ -12,8 +12,8 @@ from bags import strings
 
 from webviz.api.declared import Topic
 from webviz.data.messages import OccupancyGrid, TFMessage, decode
-from webviz.engine.sources import Subscription
-from webviz.engine.sources.bag_extras import ExtraError, map_of_file, static_transform
+from webviz.sources import Subscription
+from webviz.sources.bag.extras import ExtraError, map_of_file, static_transform
 
 
 def write_map(folder: Path) -> Path:

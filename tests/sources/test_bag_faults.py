@@ -19,7 +19,7 @@ from rosbags.rosbag2 import CompressionMode, StoragePlugin
 
 from webviz.data.messages import DecodeError, decode
 from webviz.data.recordings import open_recording
-from webviz.engine.sources.bag import BagError, BagSource
+from webviz.sources.bag.source import BagError, BagSource
 
 ZSTD = b"\x28\xb5\x2f\xfd"
 """First bytes of compressed data."""

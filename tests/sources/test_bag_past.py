@@ -11,10 +11,10 @@ from bags import START_NS, TF, Bag, ns, strings
 
 from webviz.api.declared import Topic
 from webviz.api.lookback import Lookback
-from webviz.engine.sources import Subscription
-from webviz.engine.sources.bag import BagSource
-from webviz.engine.sources.bag_files import BagFiles
-from webviz.engine.sources.bag_past import BagPast
+from webviz.sources import Subscription
+from webviz.sources.bag.files import BagFiles
+from webviz.sources.bag.past import BagPast
+from webviz.sources.bag.source import BagSource
 
 STRING = "std_msgs/msg/String"
 

@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from webviz.engine.sources import Publisher
-from webviz.engine.sources.bag_qos import MAX_PROFILES, MAX_TEXT, profiles_of, text_of
+from webviz.sources import Publisher
+from webviz.sources.bag.qos import MAX_PROFILES, MAX_TEXT, profiles_of, text_of
 
 RELIABLE = ("reliable", "volatile")
 LATCHED = ("reliable", "transient_local")

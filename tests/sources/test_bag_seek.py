@@ -9,10 +9,10 @@ import pytest
 from bags import START_NS, Bag, ns
 
 from webviz.engine.loop import FrameLoop
-from webviz.engine.sources.bag import BagSource
 from webviz.files.opening import parse
 from webviz.shell.testing import header
 from webviz.shell.testing.recording import RecordingScene
+from webviz.sources.bag.source import BagSource
 
 CONFIG = """\
 fixed_frame: map

@@ -8,9 +8,9 @@ import pytest
 from bags import Bag, ns
 
 from webviz.engine.loop import FrameLoop
-from webviz.engine.sources.bag import BagSource
 from webviz.files.opening import parse
 from webviz.shell.testing.recording import RecordingScene
+from webviz.sources.bag.source import BagSource
 
 CONFIG = """\
 fixed_frame: map

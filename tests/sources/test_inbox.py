@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from webviz.engine.sources import Raw
-from webviz.engine.sources.inbox import Inbox
+from webviz.sources import Raw
+from webviz.sources.inbox import Inbox
 
 
 def put(inbox: Inbox, topic: str, *sizes: int) -> None:

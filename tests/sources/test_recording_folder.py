@@ -15,8 +15,8 @@ from rosbags.rosbag2 import Reader
 from webviz.data.messages import definition, encode
 from webviz.data.recordings import RecordedChannel, RecordingError, open_recording
 from webviz.data.recordings.folder_writing import RecordingFolder, RecordingLimits
-from webviz.engine.sources import Publisher
-from webviz.engine.sources.bag_qos import text_of
+from webviz.sources import Publisher
+from webviz.sources.bag.qos import text_of
 
 STRING = "std_msgs/msg/String"
 

@@ -13,8 +13,8 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from webviz.data.messages import decode
 from webviz.data.recordings import RecordingError, open_recording
-from webviz.engine.sources.bag import BagSource
 from webviz.shell.testing import check_seeks
+from webviz.sources.bag.source import BagSource
 
 SECOND = 1_000_000_000
 STORE = get_typestore(Stores.ROS1_NOETIC)

@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 
 from webviz.api.declared import Topic
-from webviz.engine.sources import Subscription
-from webviz.engine.sources.source import merged
+from webviz.sources import Subscription
+from webviz.sources.source import merged
 
 TYPE, OTHER = "std_msgs/msg/String", "std_msgs/msg/Bool"
 

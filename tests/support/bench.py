@@ -13,7 +13,7 @@ from webviz.data.messages import encode
 from webviz.engine.commands import PROGRAM, Command, Sender
 from webviz.engine.loop import FrameLoop
 from webviz.engine.parts import Core, Part
-from webviz.engine.scene import Cameras, NoCameras
+from webviz.engine.pipeline.scene import Cameras, NoCameras
 from webviz.engine.state import State
 from webviz.files.config import Config, Item, Settings
 from webviz.shell.testing.messages import header

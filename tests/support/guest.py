@@ -10,7 +10,7 @@ import msgspec
 import websockets.sync.client
 
 from tests.scene.conftest import Peer
-from webviz.edges.scene.quiet_server import Server
+from webviz.server.http.viser_server import Server
 
 PATIENCE_S = 60.0
 

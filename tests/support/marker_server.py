@@ -24,7 +24,7 @@ from visualization_msgs.msg import (
 from visualization_msgs.srv import GetInteractiveMarkers
 
 from webviz.data.messages import encode
-from webviz.edges.ros.types import message_class
+from webviz.ros.types import message_class
 
 Feedback = InteractiveMarkerFeedback
 TRANSFORMS = "tf2_msgs/msg/TFMessage"

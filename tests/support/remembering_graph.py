@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from webviz.data.messages import decode
-from webviz.engine.sources import Goal, NotConnected, Outlet
+from webviz.sources import Goal, NotConnected, Outlet
 
 
 @dataclass

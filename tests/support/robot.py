@@ -15,7 +15,7 @@ from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
 from webviz.data.messages import encode
-from webviz.edges.ros.types import message_class
+from webviz.ros.types import message_class
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.source import SECOND
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from webviz import Level
-from webviz.engine.requests import Refused
+from webviz.engine.commands.requests import Refused
 from webviz.shell.testing import SECOND, Stage
 from webviz_displays.grid import Grid
 from webviz_displays.laser_scan import LaserScan

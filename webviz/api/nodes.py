@@ -1,7 +1,7 @@
 """Nodes: what displays draw, as plain data.
 
 A node is a frozen description in the coordinates of its frame (metres, x forward, y left, z up).
-Displays make nodes, tests read them, and `webviz.edges.scene` turns them into messages of viser.
+Displays make nodes, tests read them, and `webviz.scene` turns them into messages of viser.
 Arrays must not be changed once they are part of a node.
 """
 

@@ -2,7 +2,7 @@
 
 Displays, tools and panels are registered in the same way. Packages, webviz among them, declare
 theirs as entry points of the group `webviz.displays`, `webviz.tools` or `webviz.panels`;
-`webviz.engine.plugins` registers those of files at run time.
+`webviz.engine.pipeline.plugins` registers those of files at run time.
 """
 
 from __future__ import annotations

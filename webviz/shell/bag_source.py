@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from webviz.api.errors import Error
-from webviz.engine.sources.bag import BagSource
-from webviz.engine.sources.bag_extras import Extra
+from webviz.sources.bag.extras import Extra
+from webviz.sources.bag.source import BagSource
 
 
 def bag_source(
@@ -17,7 +17,7 @@ def bag_source(
 
     Args:
         paths: MCAP files, db3 files or rosbag2 folders.
-        extras: messages to add, see `webviz.engine.sources.bag_extras`.
+        extras: messages to add, see `webviz.sources.bag.extras`.
         ros_args: remappings of topics: `["--ros-args", "-r", "/scan:=/front/scan"]`.
 
     Raises:

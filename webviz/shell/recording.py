@@ -10,8 +10,8 @@ from webviz.api.declared import Topic
 from webviz.data.recordings import RecordingError
 from webviz.data.recordings.folder_writing import RecordingFolder
 from webviz.data.words import counted
-from webviz.engine.recording import Channels, Recorder, Remembered
-from webviz.engine.sources import Offer, Source, Subscription
+from webviz.sources import Offer, Source, Subscription
+from webviz.sources.recording import Channels, Recorder, Remembered
 
 REST_S = 0.1
 DEPTH = 100

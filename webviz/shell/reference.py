@@ -12,10 +12,10 @@ import msgspec
 from cyclopts import App
 from cyclopts.argument import ArgumentCollection
 
-from webviz.edges.access.roles import LINKS
-from webviz.edges.access.tokens import role_name
 from webviz.files.config.schema import schema
 from webviz.files.rviz.docs import table
+from webviz.server.access.roles import LINKS
+from webviz.server.access.tokens import role_name
 from webviz.shell.cli.commands import app
 from webviz.shell.cli.options import MESH_ROOT
 from webviz.shell.pictures.browser import VARIABLE

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from webviz.api.errors import Error
 
 if TYPE_CHECKING:
-    from webviz.edges.ros.node import RosSource
+    from webviz.ros.node import RosSource
 
 NO_ROS = (
     "Python {version} cannot import rclpy of ROS 2 Jazzy. Run `source /opt/ros/jazzy/setup.bash` "
@@ -27,7 +27,7 @@ def ros_source(ros_args: Sequence[str] = ()) -> RosSource:
         Error: ROS is missing, or does not start.
     """
     try:
-        from webviz.edges.ros.node import RosSource
+        from webviz.ros.node import RosSource
     except ImportError as error:
         raise Error(NO_ROS.format(version=sys.version.split()[0])) from error
     try:

@@ -23,7 +23,7 @@ from viser import _messages as wire
 from side_by_side import viser_wire
 from side_by_side.websocket import WebSocket
 from webviz.api.nodes import Axes, Pose
-from webviz.edges.scene import ViserScene, open_server
+from webviz.scene import ViserScene, open_server
 
 FRAMES, LINKS = 200, 60
 UNTURNED = np.array([1, 0, 0, 0], np.float32)

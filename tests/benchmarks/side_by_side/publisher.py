@@ -25,7 +25,7 @@ from rclpy.signals import SignalHandlerOptions
 from side_by_side.log import RECORD
 from side_by_side.scenes import SCENES
 from side_by_side.streams import Stream
-from webviz.edges.ros.types import message_class
+from webviz.ros.types import message_class
 
 PREFILL_HZ = 2000
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from webviz.api.handles import Grip
 from webviz.engine.commands.command import Command, ignore
-from webviz.engine.trace import Trace
+from webviz.engine.state.trace import Trace
 
 
 @dataclass(frozen=True)

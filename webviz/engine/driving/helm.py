@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from webviz.api.vehicle import STILL, Vehicle, Velocity
-from webviz.engine.sources.graph import Outlet
+from webviz.sources.graph import Outlet
 
 BEAT_S = 0.2
 """A driver who acknowledges nothing new for so long has lost control."""

@@ -11,7 +11,7 @@ from concurrent.futures import Future, wait
 from webviz.api.vehicle import STILL, Vehicle, Velocity
 from webviz.data.messages import encode
 from webviz.engine.driving.helm import PERIOD_S, Helm, HelmAnswer
-from webviz.engine.sources import Gate, Outlet
+from webviz.sources import Gate, Outlet
 
 log = logging.getLogger("webviz")
 

@@ -10,10 +10,10 @@ from webviz.api.nodes import Pose
 from webviz.api.status import Level, Status
 from webviz.data.rotations import conjugate, matrices
 from webviz.data.transforms import TransformException
-from webviz.engine.matching import C128, fit, in_the_way
 from webviz.engine.parts.display_list import DisplayList
 from webviz.engine.parts.part import Core
 from webviz.engine.pipeline import Runner
+from webviz.engine.state.matching import C128, fit, in_the_way
 
 EVERY_S = 1.0
 """Interval of the consistency check."""

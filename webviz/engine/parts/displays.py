@@ -27,8 +27,8 @@ from webviz.engine.parts.display_list import DisplayList
 from webviz.engine.parts.display_rows import rows
 from webviz.engine.parts.part import Batches, Core, Handler, Part
 from webviz.engine.pipeline import Runner, Services
-from webviz.engine.sources import Outlet, Subscription, merged
 from webviz.files.config import ConfigError, mistakes, nearest, sentences
+from webviz.sources import Outlet, Subscription, merged
 
 UNSEEN = Status(
     Level.IDLE,

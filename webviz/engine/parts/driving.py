@@ -11,8 +11,8 @@ from webviz.data.messages import MessageError, decode
 from webviz.data.words import joined
 from webviz.engine.driving import Helms
 from webviz.engine.parts.part import Batches, Core, Part
-from webviz.engine.sources import Raw, Subscriber, Subscription
 from webviz.engine.state import Driving
+from webviz.sources import Raw, Subscriber, Subscription
 
 ODOMETRY = "nav_msgs/msg/Odometry"
 FRESH_S = 1.0

@@ -27,15 +27,15 @@ from webviz.engine.commands import (
     Sender,
     WriteDisplays,
 )
+from webviz.engine.commands.requests import Job
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.parts.plugin_list import PluginList
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.parts.steps import Origin
 from webviz.engine.parts.views import ViewsPart
-from webviz.engine.requests import Job
 from webviz.engine.state import ConfigFile
-from webviz.engine.statuses import import_status
+from webviz.engine.state.statuses import import_status
 from webviz.files import config as config_file
 from webviz.files import opening
 from webviz.files.config import Config, ConfigError, Template

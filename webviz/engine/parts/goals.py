@@ -9,10 +9,10 @@ from webviz.api.errors import Error
 from webviz.api.goal import GoalRequest
 from webviz.api.status import Level, Status
 from webviz.engine.commands import CancelGoal, Command, DismissGoal, Sender, SendGoal
-from webviz.engine.goals import RunningGoal
 from webviz.engine.parts.part import Core, Handler, Part
-from webviz.engine.sources import Goal
 from webviz.engine.state import GoalProgress
+from webviz.engine.state.goals import RunningGoal
+from webviz.sources import Goal
 
 MAX_ACTIVE = 20
 SHOWN_S = 10.0

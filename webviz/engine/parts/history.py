@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from webviz.engine.commands import Command, Redo, Sender, Undo
+from webviz.engine.commands.requests import Job
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.parts.rebasing import rebased
 from webviz.engine.parts.steps import Difference, Moment, difference
-from webviz.engine.requests import Job
 from webviz.engine.state import Step, UndoHistory
 from webviz.files.config import ConfigError
 

@@ -9,7 +9,7 @@ from webviz.api.declared import Topic
 from webviz.api.errors import Error
 from webviz.api.status import Level, Status
 from webviz.engine.parts.part import Core
-from webviz.engine.sources import Outlet
+from webviz.sources import Outlet
 
 DEPTH = 5
 """Queue depth of a publisher, RViz's."""

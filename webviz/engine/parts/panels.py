@@ -26,9 +26,9 @@ from webviz.engine.commands import (
 from webviz.engine.parts.outlets import outlet_of, publish
 from webviz.engine.parts.part import Batches, Core, Handler, Part
 from webviz.engine.parts.plugin_list import PluginList
-from webviz.engine.sources import Outlet, Subscriber, Subscription, merged
 from webviz.engine.state import PanelTab
 from webviz.files.config import MAX_PLUGINS, ConfigError, mistakes, nearest, sentences
+from webviz.sources import Outlet, Subscriber, Subscription, merged
 
 
 class PanelsPart(Part):

@@ -9,10 +9,10 @@ from webviz.api.frames import Frames
 from webviz.api.status import Status
 from webviz.data.transforms import TransformBuffer
 from webviz.engine.commands import Command, Sender
-from webviz.engine.pipeline.guard import Guard
-from webviz.engine.requests import Job
-from webviz.engine.scene import Scene
-from webviz.engine.sources import Gate, Offer, Raw, Source, Subscription
+from webviz.engine.commands.guard import Guard
+from webviz.engine.commands.requests import Job
+from webviz.engine.pipeline.scene import Scene
+from webviz.sources import Gate, Offer, Raw, Source, Subscription
 
 Batches = Mapping[str, Iterable[Raw]]
 """Messages by topic, oldest first."""

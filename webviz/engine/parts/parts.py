@@ -9,11 +9,11 @@ from typing import Any
 from webviz.api.errors import Error
 from webviz.api.status import Status
 from webviz.engine.commands import Command, FileCommand, Refresh, Sender
+from webviz.engine.commands.guard import Guard
+from webviz.engine.commands.requests import Job
 from webviz.engine.parts.part import Batches, Handler, Part, overrides
-from webviz.engine.pipeline.guard import Guard
-from webviz.engine.requests import Job
-from webviz.engine.sources import Subscription, merged
 from webviz.engine.state import State
+from webviz.sources import Subscription, merged
 
 _FIELDS = {field.name for field in fields(State)}
 _HOOKS = ("subscriptions", "take", "reset", "keep_up", "state", "statuses", "close")

@@ -25,9 +25,9 @@ from webviz.engine.commands import (
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.playback import DisplayEvents, PlaybackControl
-from webviz.engine.recording_state import Event, PlaybackState
 from webviz.engine.state import Row
 from webviz.files.config import nearest
+from webviz.sources.past_state import Event, PlaybackState
 
 MIN_RATE, MAX_RATE = 0.01, 1000.0
 BUCKETS = 500

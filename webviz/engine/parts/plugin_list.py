@@ -15,7 +15,7 @@ from webviz.api.status import Level, Status
 from webviz.data.words import joined
 from webviz.engine.parts.refusals import not_changed
 from webviz.engine.parts.steps import Snapshot, kept, made_anew
-from webviz.engine.plugins import made_new
+from webviz.engine.pipeline.plugins import made_new
 from webviz.files.config import ConfigError, Unreadable, nearest
 
 log = logging.getLogger("webviz")

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from webviz.engine import plugins
 from webviz.engine.commands import Command, ReloadPlugin, Sender
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.parts.plugin_list import PluginList
 from webviz.engine.parts.settings import SettingsPart
+from webviz.engine.pipeline import plugins
 
 
 class PluginsPart(Part):

@@ -13,11 +13,11 @@ from webviz.data.recordings import RecordingError
 from webviz.data.recordings.folder_writing import RecordingFolder
 from webviz.data.words import counted, joined
 from webviz.engine.commands import Command, SaveMemory, Sender, StartRecording, StopRecording
+from webviz.engine.commands.requests import Job
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.parts.settings import SettingsPart
-from webviz.engine.recording import Channels, RecentMessages, Recorder, library, new_name
-from webviz.engine.recording_state import MemoryState, RecordingState
-from webviz.engine.requests import Job
+from webviz.sources.past_state import MemoryState, RecordingState
+from webviz.sources.recording import Channels, RecentMessages, Recorder, library, new_name
 
 MEGABYTE = 1_000_000
 FROM_BAG = "A bag is a recording already. Copy its files."

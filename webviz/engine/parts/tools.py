@@ -23,9 +23,9 @@ from webviz.engine.parts.outlets import outlet_of
 from webviz.engine.parts.outlets import publish as publish_on
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.parts.plugin_list import PluginList
-from webviz.engine.sources import Outlet
 from webviz.engine.state import ToolButton
 from webviz.files.config import ConfigError
+from webviz.sources import Outlet
 
 log = logging.getLogger("webviz")
 

@@ -11,8 +11,8 @@ from webviz.api.declared import Topic
 from webviz.data.messages import MessageError, decode, peek_header, to_tree
 from webviz.engine.commands import Command, InspectTopic, InspectTopics, Sender
 from webviz.engine.parts.part import Batches, Core, Handler, Part
-from webviz.engine.sources import Offer, Raw, Subscriber, Subscription
 from webviz.engine.state import Inspected, Traffic
+from webviz.sources import Offer, Raw, Subscriber, Subscription
 
 SPAN_S = 3.0
 """Over how long a rate is measured."""

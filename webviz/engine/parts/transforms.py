@@ -11,9 +11,9 @@ from webviz.data.transforms import Diagnosis, TransformException, diagnose, expl
 from webviz.engine.commands import Command, InspectTransforms, Sender
 from webviz.engine.parts.part import Batches, Core, Handler, Part
 from webviz.engine.pipeline.listener import TransformListener
-from webviz.engine.sources import Subscription
 from webviz.engine.state import Between
-from webviz.engine.statuses import fixed_frame_status
+from webviz.engine.state.statuses import fixed_frame_status
+from webviz.sources import Subscription
 
 EVERY_S = 1.0
 """Interval between readings of the tree."""

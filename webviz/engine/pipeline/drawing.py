@@ -20,7 +20,7 @@ _IDENTITY = Pose()
 
 
 class DrawingScene(Protocol):
-    """Draws groups of nodes; see `webviz.edges.scene.ViserScene`."""
+    """Draws groups of nodes; see `webviz.scene.ViserScene`."""
 
     def set_pose(self, group: str, pose: Pose) -> None:
         """Place a group in the fixed frame."""

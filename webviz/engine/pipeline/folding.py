@@ -12,9 +12,9 @@ from typing import Any
 from webviz.api.display import Display
 from webviz.api.sample import Sample
 from webviz.data.messages import MessageError, decode
+from webviz.engine.commands.guard import CRASHED, Guard
 from webviz.engine.pipeline.background import Workers, is_slow
-from webviz.engine.pipeline.guard import CRASHED, Guard
-from webviz.engine.sources import Raw
+from webviz.sources import Raw
 
 MAX_BYTES = 64 << 20
 """Of messages that wait while another is merged; the newest waits however large it is."""

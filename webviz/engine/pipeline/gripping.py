@@ -8,10 +8,10 @@ from webviz.api.context import Context
 from webviz.api.display import Display, overrides
 from webviz.api.frames import Frames
 from webviz.api.handles import Grip, Handle
-from webviz.engine.pipeline.guard import Guard
+from webviz.engine.commands.guard import Guard
 from webviz.engine.pipeline.services import Services
 from webviz.engine.pipeline.wire import DisplayWire
-from webviz.engine.sources import Offer, Outlet, Raw, Subscription
+from webviz.sources import Offer, Outlet, Raw, Subscription
 
 UNSEEN_TURNS = 2
 """Turns without drawing, after which no messages are kept: no browser is connected."""

@@ -12,13 +12,13 @@ from webviz.api.observation import InputSeen
 from webviz.api.sample import Sample
 from webviz.api.status import Level, Status
 from webviz.data.messages import MessageError, decode
+from webviz.engine.commands.guard import Guard
 from webviz.engine.pipeline.folding import Folding, Received
-from webviz.engine.pipeline.guard import Guard
 from webviz.engine.pipeline.history import Histories, History, held_samples
 from webviz.engine.pipeline.inputs import Inputs, Set
 from webviz.engine.pipeline.intake import Arrival
 from webviz.engine.pipeline.services import Services
-from webviz.engine.sources import Offer, Raw
+from webviz.sources import Offer, Raw
 
 
 class Holder:

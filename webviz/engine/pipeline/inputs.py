@@ -12,10 +12,10 @@ from webviz.api.lookback import Lookback
 from webviz.api.status import Level, Status
 from webviz.data.transforms.reasons import in_words
 from webviz.data.words import counted
-from webviz.engine.pipeline.guard import Guard
+from webviz.engine.commands.guard import Guard
 from webviz.engine.pipeline.intake import PATIENCE_S, Arrival, Intake, intakes_of
 from webviz.engine.pipeline.synchronizer import Gap, Synchronizer
-from webviz.engine.sources import Offer, Raw, Subscriber, Subscription, merged
+from webviz.sources import Offer, Raw, Subscriber, Subscription, merged
 
 Set = Mapping[str, Arrival]
 """Messages that are drawn together, by input, at the pose of the first; usually just one."""

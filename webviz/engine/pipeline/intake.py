@@ -19,7 +19,7 @@ from webviz.data.messages import MessageError, decode, peek_header
 from webviz.data.transforms import MessageFilter
 from webviz.data.words import counted, joined
 from webviz.engine.pipeline.reception import Reception
-from webviz.engine.sources import Offer, Raw, Subscription
+from webviz.sources import Offer, Raw, Subscription
 
 PATIENCE_S = 1.0
 """A message that waits longer for its transform gets a status; TF is often 30 ms late."""

@@ -15,7 +15,7 @@ from webviz.data.transforms.clocks import clock_problem
 from webviz.data.transforms.conflicts import conflicts
 from webviz.data.words import joined
 from webviz.engine.pipeline.transform_layout import Layouts, TransformBatch
-from webviz.engine.sources import Offer, Raw, Subscriber, Subscription
+from webviz.sources import Offer, Raw, Subscriber, Subscription
 
 TOPICS = {"tf": False, "tf_static": True}
 TYPE = "tf2_msgs/msg/TFMessage"

@@ -16,10 +16,10 @@ from webviz.api.picking import Details, Hit
 from webviz.api.sample import Sample
 from webviz.api.status import Status
 from webviz.engine.commands import Picks
+from webviz.engine.commands.guard import CRASHED, Guard
 from webviz.engine.pipeline.background import Tasks, Workers, is_slow
 from webviz.engine.pipeline.baking import bake
 from webviz.engine.pipeline.drawing import Drawing, DrawingScene, groups_of
-from webviz.engine.pipeline.guard import CRASHED, Guard
 from webviz.engine.pipeline.history import Held, Histories, History, held_samples
 from webviz.engine.pipeline.picking import Found
 from webviz.engine.pipeline.point_budget import PointBudget

@@ -13,7 +13,7 @@ from dataclasses import replace
 from webviz.api.declared import Topic
 from webviz.api.ports import ANY, Input
 from webviz.api.status import Level, Remedy, Status
-from webviz.engine.sources import Offer, Publisher, Raw
+from webviz.sources import Offer, Publisher, Raw
 
 AUTOMATIC = {"reliability": "auto", "durability": "auto"}
 """Of a topic, whose other values stay."""

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 
 from webviz.api.status import Level, Status
 from webviz.data.transforms.reasons import in_words
-from webviz.engine.sources import Offer
+from webviz.sources import Offer
 
 log = logging.getLogger("webviz")
 

@@ -16,14 +16,14 @@ from webviz.api.picking import Details
 from webviz.api.robots import NamespacedRobot, RobotFrames, robot_of
 from webviz.api.status import Level, OtherFixedFrame, Status, worst
 from webviz.engine.commands import Picks
+from webviz.engine.commands.guard import Guard
 from webviz.engine.pipeline.gripping import Gripping
-from webviz.engine.pipeline.guard import Guard
 from webviz.engine.pipeline.history import held_samples
 from webviz.engine.pipeline.holder import Holder
 from webviz.engine.pipeline.painter import Painter
 from webviz.engine.pipeline.picking import Found
 from webviz.engine.pipeline.services import Services
-from webviz.engine.sources import Offer, Outlet, Raw, Subscription, merged
+from webviz.sources import Offer, Outlet, Raw, Subscription, merged
 
 NOTHING_TO_DRAW = Status(
     Level.WARN,

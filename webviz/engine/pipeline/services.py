@@ -11,8 +11,8 @@ from webviz.api.robots import NamespacedRobot
 from webviz.engine.pipeline.background import Workers
 from webviz.engine.pipeline.drawing import DrawingScene
 from webviz.engine.pipeline.point_budget import PointBudget
-from webviz.engine.sources import Gate
-from webviz.engine.trace import Tracer
+from webviz.engine.state.trace import Tracer
+from webviz.sources import Gate
 
 
 @dataclass(frozen=True)

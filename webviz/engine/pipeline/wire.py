@@ -12,7 +12,7 @@ from webviz.api.declared import Topic
 from webviz.api.wire import Heard
 from webviz.data.messages import encode, interfaces
 from webviz.engine.pipeline.services import Services
-from webviz.engine.sources import Gate, Offer, Outlet, Raw, Subscription
+from webviz.sources import Gate, Offer, Outlet, Raw, Subscription
 
 T = TypeVar("T")
 

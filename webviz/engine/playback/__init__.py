@@ -2,6 +2,6 @@
 
 from webviz.engine.playback.control import PlaybackControl
 from webviz.engine.playback.display_events import DisplayEvents
-from webviz.engine.playback.playable import Playable
+from webviz.sources.playable import Playable
 
 __all__ = ["DisplayEvents", "Playable", "PlaybackControl"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 
-from webviz.engine.playback.playable import Playable
+from webviz.sources.playable import Playable
 
 NEAR_NS = 1_000_000_000
 """A position this far ahead is played to; one that is further on or back is looked up."""

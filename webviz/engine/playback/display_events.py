@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from webviz.api.status import Level
-from webviz.engine.recording_state import Event
 from webviz.engine.state import Row
+from webviz.sources.past_state import Event
 
 MAX_EVENTS = 500
 SECOND_NS = 1_000_000_000

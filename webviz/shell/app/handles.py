@@ -23,7 +23,7 @@ from webviz.engine.commands import (
     TraceDisplay,
 )
 from webviz.engine.state import Row
-from webviz.engine.trace import Trace
+from webviz.engine.state.trace import Trace
 from webviz.shell.app.adding import NoSuchProperty, no_property
 
 if TYPE_CHECKING:

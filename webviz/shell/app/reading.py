@@ -10,7 +10,7 @@ from webviz.files import opening
 from webviz.files.config import Config
 
 if TYPE_CHECKING:
-    from webviz.engine.sources import Source
+    from webviz.sources import Source
 
 
 def read_config(path: Path | None, source: Source | None = None) -> Config:
@@ -21,7 +21,7 @@ def read_config(path: Path | None, source: Source | None = None) -> Config:
     """
     if path is not None:
         return opening.load(path)
-    from webviz.engine.bag_config import config_of  # here, as it takes a tenth of a second
-    from webviz.engine.sources.bag import BagSource
+    from webviz.shell.app.bag_config import config_of  # here, as it takes a tenth of a second
+    from webviz.sources.bag.source import BagSource
 
     return config_of(source) if isinstance(source, BagSource) else config_file.standard()

@@ -21,15 +21,15 @@ import PIL.Image
 
 from webviz.api.errors import Error
 from webviz.api.views import View, with_type
-from webviz.edges.access.journal_file import JournalFile
-from webviz.edges.access.login import cookie_name
-from webviz.edges.access.tls import doubts, server_context
-from webviz.engine import plugins as plugin_files
 from webviz.engine.commands import Command, Refresh, ShowView, StartWithView
+from webviz.engine.pipeline import plugins as plugin_files
 from webviz.engine.state import State
 from webviz.files import config as config_file
 from webviz.files.config import Config
 from webviz.files.sessions import Sessions
+from webviz.server.access.journal_file import JournalFile
+from webviz.server.access.login import cookie_name
+from webviz.server.access.tls import doubts, server_context
 from webviz.shell.app.allow_list import check_names, report_everything
 from webviz.shell.app.link_rate import bytes_per_second
 from webviz.shell.app.reading import read_config
@@ -38,8 +38,8 @@ from webviz.shell.pictures import files as picture_files
 from webviz.shell.ros_source import ros_source
 
 if TYPE_CHECKING:
-    from webviz.engine.sources import Source
     from webviz.shell.pictures.browser import Pixels
+    from webviz.sources import Source
 
 log = logging.getLogger("webviz")
 
@@ -105,11 +105,11 @@ class Running:
             # Report errors in files before importing viser, which is slow.
             shown = read(path, None) if path is not None else None
             tls = _tls(certfile, keyfile)
-            from webviz.edges.access.announcing import Announcement, reachable
-            from webviz.edges.access.starting import access_to, make_missing
-            from webviz.edges.page.pages import Pages
-            from webviz.edges.scene import ViserScene, open_server
             from webviz.engine.loop import FrameLoop
+            from webviz.page.pages import Pages
+            from webviz.scene import ViserScene, open_server
+            from webviz.server.access.announcing import Announcement, reachable
+            from webviz.server.access.starting import access_to, make_missing
             from webviz.shell.pictures.snapshots import Snapshots
 
             # A proxy on this machine brings others.

@@ -19,10 +19,10 @@ from webviz.engine.commands import (
     StopRecording,
 )
 from webviz.engine.parts.playback import LIVE
-from webviz.engine.recording import new_name
-from webviz.engine.recording_state import PlaybackState
 from webviz.engine.state import State
 from webviz.shell.pictures.times import At, position_ns, seconds_from_start
+from webviz.sources.past_state import PlaybackState
+from webviz.sources.recording import new_name
 
 
 class TimeControls(ABC):

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from cyclopts import App
 
-from webviz.engine import plugins
+from webviz.engine.pipeline import plugins
 from webviz.files import config as config_file
 from webviz.files import opening, rviz
 from webviz.files.config import ConfigError

@@ -7,9 +7,9 @@ import sys
 from collections.abc import Sequence
 from datetime import UTC, datetime
 
-from webviz.edges.access.announcing import reachable
-from webviz.edges.access.starting import link
-from webviz.edges.access.tokens import Token
+from webviz.server.access.announcing import reachable
+from webviz.server.access.starting import link
+from webviz.server.access.tokens import Token
 
 ELSEWHERE = (
     "webviz: this viewer asks for a link with a token. Run `webviz token list --links` in a "

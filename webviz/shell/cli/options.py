@@ -14,8 +14,8 @@ from cyclopts import Parameter
 from webviz.api.errors import Error
 
 if TYPE_CHECKING:
-    from webviz.engine.sources import Source
     from webviz.files.config import Config
+    from webviz.sources import Source
 
 T = TypeVar("T")
 Repeatable = Annotated[tuple[T, ...], Parameter(show_default=False)]

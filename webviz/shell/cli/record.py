@@ -83,9 +83,9 @@ def record(*, options: RecordOptions = RecordOptions(), ros: RosArgs) -> int:
         from webviz.api.errors import Error
         from webviz.data.recordings import RecordingError
         from webviz.data.recordings.folder_writing import RecordingFolder, RecordingLimits
-        from webviz.engine.recording import library, new_name
         from webviz.shell.recording import TopicRecorder
         from webviz.shell.ros_source import ros_source
+        from webviz.sources.recording import library, new_name
 
         limits = RecordingLimits(
             options.split or options.keep // 10, options.split_time, options.keep

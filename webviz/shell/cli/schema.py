@@ -11,7 +11,7 @@ from cyclopts import App, Parameter
 from webviz.api.panel import Panel
 from webviz.api.registry import display_types, plugin_types
 from webviz.api.tool import Tool
-from webviz.engine import plugins
+from webviz.engine.pipeline import plugins
 from webviz.files.config import write_text
 from webviz.files.config.schema import schema as json_schema
 from webviz.shell.cli.options import File, Plugins

@@ -14,7 +14,7 @@ import PIL.Image
 from cyclopts import App
 
 from webviz.api.status import Level, Status
-from webviz.engine import plugins
+from webviz.engine.pipeline import plugins
 from webviz.shell.cli.ending import INTERRUPTED, end_children, end_in_time, on_signal, say_end
 from webviz.shell.cli.options import ROS_ARGS_HELP, RosArgs
 from webviz.shell.cli.screenshot_options import EXAMPLES, FPS, ScreenshotOptions, check
@@ -23,8 +23,8 @@ from webviz.shell.pictures.files import OutputError
 from webviz.shell.pictures.times import At, every
 
 if TYPE_CHECKING:
-    from webviz.engine.sources.bag import BagSource
     from webviz.shell.pictures.capture import Order, Picture
+    from webviz.sources.bag.source import BagSource
 
 MAX_TOPICS = 40
 """Topics of a bag to list at most."""
@@ -52,9 +52,9 @@ def screenshot(*, options: ScreenshotOptions, ros: RosArgs) -> int:
 
 
 def _make(options: ScreenshotOptions, ros: Sequence[str]) -> int:
-    from webviz.engine.sources.bag import BagSource
-    from webviz.engine.sources.bag_extras import map_of_file, static_transform
     from webviz.shell.pictures.capture import SIZE, Order, image_alone, opened
+    from webviz.sources.bag.extras import map_of_file, static_transform
+    from webviz.sources.bag.source import BagSource
 
     output: Path = options.output
     is_animation = options.is_animation

@@ -12,14 +12,14 @@ from pathlib import Path
 
 from webviz.api.registry import display_types
 from webviz.data.messages import type_exists
-from webviz.edges.access.starting import link
-from webviz.engine.sources import Source
 from webviz.files.config import Config
 from webviz.files.sessions import Sessions, name_of
+from webviz.server.access.starting import link
 from webviz.shell.app.viewer import Viewer
 from webviz.shell.cli.ending import INTERRUPTED, Stop, say_end
 from webviz.shell.cli.links import show_links
 from webviz.shell.cli.viewing_options import BagOptions, ViewingOptions
+from webviz.sources import Source
 
 YOUNG_OBJECTS = 10_000
 """Garbage that the collector may leave before it runs: more objects than most messages make."""
@@ -100,12 +100,12 @@ def _import_slow_parts() -> None:
     """Import what a viewer needs, to keep the time short in which a signal finds it half made."""
     display_types()
     type_exists("std_msgs/msg/Header")  # reads the definitions of all messages
-    import webviz.edges.page.pages
-    import webviz.edges.scene
+    import webviz.page.pages
+    import webviz.scene
     import webviz.shell.pictures.snapshots
 
     with contextlib.suppress(ImportError):  # reported when ROS is needed
-        import webviz.edges.ros.node  # noqa: F401
+        import webviz.ros.node  # noqa: F401
     calm_collector()
 
 

@@ -67,7 +67,7 @@ def simulator(ros: Sequence[str], stop: Stop) -> Iterator[str]:
 
 def _kill(simulator: subprocess.Popen[bytes]) -> None:
     """End a simulator that does not end by itself, such as one that is still starting."""
-    from webviz.edges.ros.shared_memory import remove_unused, segments_of
+    from webviz.ros.shared_memory import remove_unused, segments_of
 
     segments = segments_of(simulator.pid)
     simulator.kill()

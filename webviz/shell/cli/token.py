@@ -9,13 +9,13 @@ from typing import Annotated
 
 from cyclopts import App, Parameter
 
-from webviz.edges.access import token_file
-from webviz.edges.access.announcing import announced
-from webviz.edges.access.roles import Role
-from webviz.edges.access.starting import link
-from webviz.edges.access.token_file import Tokens
-from webviz.edges.access.tokens import RoleName, Token, TokenError, make
 from webviz.files.config import nearest
+from webviz.server.access import token_file
+from webviz.server.access.announcing import announced
+from webviz.server.access.roles import Role
+from webviz.server.access.starting import link
+from webviz.server.access.token_file import Tokens
+from webviz.server.access.tokens import RoleName, Token, TokenError, make
 from webviz.shell.cli.links import lines_of, qr_code
 from webviz.shell.cli.options import Flag
 

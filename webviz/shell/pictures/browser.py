@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from webviz.api.errors import Error
 from webviz.api.pictures import Sight
-from webviz.edges.page.frames import sight_values, warp_values
+from webviz.server.images.frames import sight_values, warp_values
 from webviz.shell.pictures.browser_scripts import (
     CANVAS,
     COUNT_UNPACKING,

@@ -17,10 +17,7 @@ from webviz.api.registry import plugin_types
 from webviz.api.status import Status
 from webviz.api.views import View
 from webviz.data.words import joined
-from webviz.engine import plugins
-from webviz.engine.sources import Source
-from webviz.engine.sources.bag import BagSource
-from webviz.engine.sources.bag_extras import Extra
+from webviz.engine.pipeline import plugins
 from webviz.files.config import Config, Settings, nearest
 from webviz.files.opening import load, parse
 from webviz.shell.bag_source import bag_source
@@ -29,6 +26,9 @@ from webviz.shell.pictures.offline_viewer import OfflineViewer, Readiness
 from webviz.shell.pictures.studio import Studio
 from webviz.shell.pictures.times import At, position_ns, seconds_from_start
 from webviz.shell.ros_source import ros_source
+from webviz.sources import Source
+from webviz.sources.bag.extras import Extra
+from webviz.sources.bag.source import BagSource
 
 SIZE = (1280, 720)
 TIMEOUT_S = 20.0
@@ -164,7 +164,7 @@ def capture(
         focus: frame to look at, instead of the focal points of the views.
         fixed_frame: overrides that of the config.
         plugin: Python files with displays.
-        extras: messages to add to the bag, see `webviz.engine.sources.bag_extras`.
+        extras: messages to add to the bag, see `webviz.sources.bag.extras`.
         ros_args: for the ROS node: `["--ros-args", "-r", "/scan:=/front/scan"]`.
         studio: to reuse for many pictures; by default a browser is launched.
 

@@ -13,15 +13,15 @@ from webviz.api.frames import Frames
 from webviz.api.group import DisplayGroup
 from webviz.api.status import Level, Status
 from webviz.api.views import FIXED_FRAME, FPS, TopDownOrtho, View
-from webviz.edges.page.content.visibility import enabled, hidden_in
 from webviz.engine.commands import Seek
 from webviz.engine.loop import FrameLoop
-from webviz.engine.sources import Source
-from webviz.engine.sources.bag import BagSource
 from webviz.engine.state import State
 from webviz.files.config import Config, nearest
+from webviz.page.content.visibility import enabled, hidden_in
 from webviz.shell.pictures.studio import Studio
 from webviz.shell.pictures.times import seconds_from_start
+from webviz.sources import Source
+from webviz.sources.bag.source import BagSource
 
 LOOK_S = 0.05
 LOADING = "Loading"

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 
 from webviz.api.errors import Error
 from webviz.api.views import View
-from webviz.edges.page.content.visibility import hidden_in
-from webviz.edges.scene import ViserScene
 from webviz.engine.state import State
+from webviz.page.content.visibility import hidden_in
+from webviz.scene import ViserScene
 from webviz.shell.pictures.browser import Page, Pixels, check_size, launched
 from webviz.shell.pictures.browser_scripts import CANVAS
 from webviz.shell.pictures.dock import with_panes

@@ -13,8 +13,8 @@ from webviz.api import pictures
 from webviz.api.nodes import Rgb
 from webviz.api.stills import opened
 from webviz.api.views import View
-from webviz.edges.scene import ViserScene, open_server
-from webviz.edges.scene.schemes import BACKGROUND
+from webviz.scene import ViserScene, open_server
+from webviz.scene.schemes import BACKGROUND
 from webviz.shell.pictures.browser import Page, Pixels
 from webviz.shell.pictures.dock import with_panes
 

@@ -11,17 +11,17 @@ import time
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from webviz.engine.sources import Inbox, Raw
 from webviz.files.config import Config
 from webviz.shell.testing.pictures import Photographer
 from webviz.shell.testing.recording import RecordingScene
 from webviz.shell.testing.shown import Shown
 from webviz.shell.testing.watched import WatchedViewer
+from webviz.sources import Inbox, Raw
 
 __tracebackhide__ = True  # failures are shown where the test calls
 
 if TYPE_CHECKING:
-    from webviz.edges.ros.node import RosSource
+    from webviz.ros.node import RosSource
 
 T = TypeVar("T")
 
@@ -71,8 +71,8 @@ class LiveViewer(Shown):
         domain: int,
         simulator: Mapping[str, Any] | None = None,
     ) -> None:
-        from webviz.edges.ros.node import RosSource
-        from webviz.edges.ros.talker import Talker
+        from webviz.ros.node import RosSource
+        from webviz.ros.talker import Talker
 
         self._inbox = _WatchedInbox()
         self._crash: BaseException | None = None
@@ -208,7 +208,7 @@ class LiveViewer(Shown):
 
     def _is_connected(self, topic: str, type_name: str) -> bool:
         """Return whether the subscription knows all its publishers, including the test's."""
-        from webviz.edges.ros.qos import adapt
+        from webviz.ros.qos import adapt
 
         wish, offer = self.viewer.wanted().get(topic), self.source.offers().get(topic)
         if wish is None or offer is None:

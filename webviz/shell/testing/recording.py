@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 from webviz.api.bounds import Box, bounds, union
 from webviz.api.frames import compose
 from webviz.api.nodes import POINTS_HELD, Node, Pose, Rgb
-from webviz.engine.scene import Cameras, NoCameras
+from webviz.engine.pipeline.scene import Cameras, NoCameras
 
 if TYPE_CHECKING:
-    from webviz.edges.scene import ViserScene
+    from webviz.scene import ViserScene
 
 
 @dataclass

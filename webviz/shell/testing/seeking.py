@@ -10,12 +10,12 @@ from typing import Any
 
 from webviz.engine.commands import Command, Seek
 from webviz.engine.loop import FrameLoop
-from webviz.engine.sources.bag import BagSource
 from webviz.engine.state import Row
 from webviz.files import opening
 from webviz.files.config import Config
 from webviz.shell.app.reading import read_config
 from webviz.shell.testing.recording import RecordingScene
+from webviz.sources.bag.source import BagSource
 
 MAX_TURNS = 100_000
 LOOK_S = 0.02

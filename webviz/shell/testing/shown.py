@@ -69,7 +69,7 @@ class Shown(Seen, ABC):
             frame: adds a header with this frame id and the current time to `values`.
         """
         if not isinstance(message, str):
-            from webviz.edges.ros.talker import serialize  # requires rclpy
+            from webviz.ros.talker import serialize  # requires rclpy
 
             self.publish_bytes(topic, *serialize(message))
             return

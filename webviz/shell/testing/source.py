@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from webviz.engine.sources import Graph, Inbox, Offer, Publisher, Raw, ReadOnly, Subscription
+from webviz.sources import Graph, Inbox, Offer, Publisher, Raw, ReadOnly, Subscription
 
 SECOND = 1_000_000_000
 LIMIT = 1000

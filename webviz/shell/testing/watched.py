@@ -6,10 +6,10 @@ import threading
 from collections.abc import Mapping
 
 from webviz.engine.loop import FrameLoop
-from webviz.engine.sources import Source, Subscription
 from webviz.engine.state import State
 from webviz.files.config import Config
 from webviz.shell.testing.recording import RecordingScene
+from webviz.sources import Source, Subscription
 
 
 class WatchedViewer(FrameLoop):

@@ -19,7 +19,7 @@ from rclpy.node import Node
 from side_by_side.log import RECORD
 from side_by_side.streams import STAMP
 from side_by_side.systems.arguments import LATCHED, parsed
-from webviz.edges.ros.types import message_class
+from webviz.ros.types import message_class
 
 STAMP_AT = {"tf2_msgs/msg/TFMessage": 8, "std_msgs/msg/String": None}
 """Behind the length of the list; other messages begin with it, after 4 bytes that tell the

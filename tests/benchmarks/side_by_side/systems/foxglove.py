@@ -19,7 +19,7 @@ from rclpy.node import Node
 
 from side_by_side.systems.arguments import LATCHED, parsed
 from side_by_side.systems.typed import STORE
-from webviz.edges.ros.types import message_class
+from webviz.ros.types import message_class
 
 
 class Bridge(foxglove.websocket.ServerListener):

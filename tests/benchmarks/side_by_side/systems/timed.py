@@ -31,12 +31,12 @@ def main(started_s: float, arguments: list[str]) -> int:
     from webviz.shell.cli.commands import run
 
     times["command line"] = time.time() - started_s
-    import webviz.edges.scene
+    import webviz.scene
     from webviz.shell.app import running
     from webviz.shell.cli import serving
 
     timed(serving, "_import_slow_parts", "more imports")
-    timed(webviz.edges.scene, "open_server", "server")
+    timed(webviz.scene, "open_server", "server")
     timed(running, "ros_source", "ROS")
     announce = serving._announce
 

@@ -12,7 +12,7 @@ from rclpy.qos import QoSProfile
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from webviz.data.messages.definitions import DEFINITIONS
-from webviz.edges.ros.types import message_class
+from webviz.ros.types import message_class
 
 STORE = get_typestore(Stores.ROS2_JAZZY)
 UPDATE = "map_msgs/msg/OccupancyGridUpdate"

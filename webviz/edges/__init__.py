@@ -1,1 +1,0 @@
-"""Where webviz meets other systems: ROS, the scene and the panel of the page."""

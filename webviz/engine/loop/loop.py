@@ -1,0 +1,305 @@
+"""The frame loop: the one thread that changes displays, transforms, scene and panel."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Sequence
+from concurrent.futures import Future
+from dataclasses import replace
+from pathlib import Path
+
+from webviz.api.nodes import POINTS_HELD
+from webviz.api.robots import NamespacedRobot, robots_of
+from webviz.data.transforms import TransformBuffer
+from webviz.engine.commands import PROGRAM, Command, Sender
+from webviz.engine.commands.guard import Guard
+from webviz.engine.commands.requests import Requests
+from webviz.engine.doctor import Doctor
+from webviz.engine.driving import Helms
+from webviz.engine.loop.arrivals import Arrivals
+from webviz.engine.loop.showing import Showing
+from webviz.engine.parts import Core, Part, Parts
+from webviz.engine.parts.autosave import AutosavePart
+from webviz.engine.parts.displays import DisplaysPart
+from webviz.engine.parts.driving import DrivingPart
+from webviz.engine.parts.files import FilesPart
+from webviz.engine.parts.goals import GoalsPart
+from webviz.engine.parts.handles import HandlesPart
+from webviz.engine.parts.history import HistoryPart
+from webviz.engine.parts.panels import PanelsPart
+from webviz.engine.parts.playback import PlaybackPart
+from webviz.engine.parts.plugins import PluginsPart
+from webviz.engine.parts.recording import RecordingPart
+from webviz.engine.parts.selection import SelectionPart
+from webviz.engine.parts.session import SessionPart
+from webviz.engine.parts.settings import SettingsPart
+from webviz.engine.parts.time import TimePart
+from webviz.engine.parts.tools import ToolsPart
+from webviz.engine.parts.topics import TopicsPart
+from webviz.engine.parts.transforms import TransformsPart
+from webviz.engine.parts.views import ViewsPart
+from webviz.engine.pipeline import Services, Workers
+from webviz.engine.pipeline.own_names import own_names
+from webviz.engine.pipeline.point_budget import PointBudget
+from webviz.engine.pipeline.scene import Scene
+from webviz.engine.playback import Playable, PlaybackControl
+from webviz.engine.state import State
+from webviz.engine.state.settled import settled
+from webviz.engine.state.statuses import failures
+from webviz.files.config import Config, Settings
+from webviz.sources import Gate, Rights, Source
+
+IDLE_S = 0.25
+"""Interval of turns while nothing arrives: ages in statuses, frames that fade."""
+PANEL_S = 0.2
+SEEKING_S = 0.1
+"""Of a turn while a recording is read up to a position."""
+FAILURE_S = 15.0
+"""Duration for which the failure of a part is shown."""
+
+
+class FrameLoop:
+    """Keeps a scene true to a source, as a config says.
+
+    Args:
+        config: what to show first.
+        source: where messages come from.
+        scene: where to draw.
+        show: called with the state whenever panels should be updated.
+        path: the file of the config, None if it has none.
+        autoplay: play a recording as soon as a browser is connected; else it is paused first.
+        may_publish: whether tools may publish, call services and send goals.
+        allow_publish: names to which they may, besides those of the config.
+        autosave: a file that follows every change, None for no autosave.
+        session: a file that keeps unsaved changes for the next start, None for none.
+        restore: whether to show those of the last one.
+        parts: factories of additional parts.
+        strict: let exceptions of displays through, for tests.
+        clock: monotonic time in seconds, for rates and ages; None for that of the source, which
+            stands still with a recording.
+    """
+
+    def __init__(
+        self,
+        config: Config,
+        source: Source,
+        scene: Scene,
+        show: Callable[[State], None] = lambda state: None,
+        *,
+        path: Path | None = None,
+        autoplay: bool = False,
+        may_publish: bool = True,
+        allow_publish: Sequence[str] = (),
+        autosave: Path | None = None,
+        session: Path | None = None,
+        restore: bool = True,
+        parts: Sequence[Callable[[Core], Part]] = (),
+        strict: bool = False,
+        clock: Callable[[], float] | None = None,
+    ) -> None:
+        self._source = source
+        control = PlaybackControl(source) if isinstance(source, Playable) else None
+        clock = clock or (control.clock if control else time.monotonic)
+        self._show = show
+        self._stop = threading.Event()
+        self._guard = Guard("", strict, shown_s=FAILURE_S, clock=clock)
+        self._requests = Requests(self._guard, self._wake)
+        self._workers = Workers(self._wake)
+        self._next_panel = 0.0
+        self._shown = State()
+        self._named_robots: tuple[object, tuple[NamespacedRobot, ...]] = None, ()
+        rights = Rights(
+            may_publish,
+            config.settings.publish,
+            own_names(config, self._guard),
+            tuple(allow_publish),
+        )
+        gate = Gate(source, rights, lambda: self._settings.settings.publish)
+        core = self._core = Core(source, gate, scene, self._guard, clock)
+        services = Services(
+            scene,
+            self._workers,
+            source.resolve,
+            strict,
+            clock,
+            gate=gate,
+            wake=self._wake,
+            robots=self._robots,
+            points=PointBudget(self._points_held),
+        )
+        self._tracer = services.tracer
+        transforms = TransformsPart(core, self._robots)
+        self._time = TimePart(core, lambda: self._parts.reset(), control)
+        self._owed: list[Callable[[], None]] = []
+        displays = self._displays = DisplaysPart(core, services)
+        settings = self._settings = SettingsPart(core)
+        self._playback = PlaybackPart(core, settings, control, self._time.start_over, autoplay)
+        views = ViewsPart(core, settings, displays)
+        goals = GoalsPart(core)
+        self.helms = Helms(gate, source.now_ns)
+        """Of the vehicles that tools drive; they do not wait for the loop."""
+        panels = PanelsPart(core)
+        tools = ToolsPart(core, goals, self.helms, lambda: {*displays.outlets(), *panels.outlets()})
+        files = self._files = FilesPart(
+            core, displays, settings, views, tools.list, panels.list, config, path
+        )
+        history = HistoryPart(core, files)
+        kept = SessionPart(core, files, session) if session else None
+        all_parts = [
+            transforms,
+            self._time,
+            self._playback,
+            displays,
+            settings,
+            views,
+            tools,
+            panels,
+            goals,
+            DrivingPart(core, self.helms, tools.odometry),
+            files,
+            history,
+            TopicsPart(core),
+            RecordingPart(core, settings, control is None),
+            SelectionPart(core, displays),
+            HandlesPart(core, displays),
+            PluginsPart(core, displays, [tools.list, panels.list], settings),
+            *([AutosavePart(core, files, autosave)] if autosave else ()),
+            *([kept] if kept else ()),
+            *(make(core) for make in parts),
+        ]
+        self._parts = Parts(all_parts, self._guard)
+        self._do = history.noting(self._parts.do)
+        self.doctor = Doctor(core, displays)
+        """Finds the causes behind the statuses."""
+        self._arrivals = Arrivals(core, self._time, transforms)
+        self._showing = Showing(scene, views, self._guard)
+        self._move_on()
+        self.restored: Future[str] | None = None
+        """The answer to what restores the last session, None if there is none."""
+        if kept and (command := kept.restored(restore)):
+            self.restored = self._requests.put(command, PROGRAM)
+
+    @property
+    def buffer(self) -> TransformBuffer:
+        """All transforms."""
+        return self._core.buffer
+
+    @property
+    def settings(self) -> Settings:
+        """Everything in the config except its lists."""
+        return self._settings.settings
+
+    def enqueue(self, command: Command, sender: Sender = PROGRAM) -> Future[str]:
+        """Enqueue a command from any thread; the next turn of the loop carries it out.
+
+        Returns:
+            Its answer, once its effect is drawn and shown; a
+            `webviz.engine.commands.requests.Refused` if it was refused.
+        """
+        answer = self._requests.put(command, sender)
+        self._wake()
+        return answer
+
+    def stop(self) -> None:
+        """End `run`, from any thread or a signal handler."""
+        self.helms.stop()
+        self._stop.set()
+        self._wake()
+
+    def run(self) -> None:
+        """Run until `stop`: a turn whenever something arrives, at most `frame_rate` per second."""
+        arrived = self._source.inbox.arrived
+        try:
+            while not self._stop.is_set():
+                began = time.monotonic()
+                arrived.clear()
+                self._guard("Frame loop", self.turn)
+                arrived.wait(IDLE_S)
+                rest = 1.0 / self.settings.frame_rate - (time.monotonic() - began)
+                if rest > 0:
+                    self._stop.wait(rest)
+        finally:
+            self.close()
+
+    def close(self) -> None:
+        """Stop all vehicles, and end all threads and autosave."""
+        self.helms.close()
+        self._requests.end()
+        self._parts.close()
+        self._workers.close()
+
+    def turn(self) -> None:
+        """One turn of the frame loop."""
+        core, parts = self._core, self._parts
+        self._owed += self._requests.obey(self._do)
+        self._receive()
+        is_seeking = self._playback.is_seeking
+        answers, self._owed = ([], self._owed) if is_seeking else (self._owed, [])
+        if core.is_watched() and not is_seeking:
+            runners = self._displays.list.active()
+            self._showing.draw(runners, core.frames, self.settings.background)
+            self._tracer.sent()
+        self._guard("Source", self._source.want, parts.subscriptions())
+        if answers or time.monotonic() >= self._next_panel:
+            self._next_panel = time.monotonic() + PANEL_S
+            parts.keep_up(bool(answers))
+            self._guard("Panel", self._show_state)
+        for answer in answers:
+            answer()  # once the effect is visible
+
+    def _receive(self) -> None:
+        """Take what has arrived; of a recording, as much as brings the position to be shown."""
+        until = time.monotonic() + SEEKING_S
+        while True:
+            if self._playback.is_seeking:
+                # The source reads what they need of the past, and repeats what was latched if time
+                # goes back on the way.
+                self._guard("Source", self._source.want, self._parts.subscriptions())
+            is_late = any(runner.is_late() for runner in self._displays.list.active())
+            self._guard("Playback", self._playback.advance, is_late)
+            batches = self._arrivals.take(self._parts)
+            self._move_on()
+            self._parts.take(batches)
+            if is_late or not self._playback.is_seeking or time.monotonic() > until:
+                return
+
+    def state(self) -> State:
+        """A snapshot for a panel, as of the last turn."""
+        state, statuses = self._parts.state(), self._parts.statuses()
+        crashed = failures(self._guard.crashes)
+        seen = replace(
+            state,
+            statuses=statuses | crashed | self._showing.statuses,
+            warned=self._playback.warned(state.rows),
+        )
+        return replace(seen, findings=self._guard.attempt("Doctor", (), self.doctor.examine, seen))
+
+    def is_busy(self) -> bool:
+        """Return whether a display is loading something that it has not drawn yet."""
+        return any(runner.is_busy() for runner in self._displays.list.active())
+
+    def config(self) -> Config:
+        """The current config."""
+        return self._files.config()
+
+    def _show_state(self) -> None:
+        self._shown = settled(self.state(), self._shown)
+        self._show(self._shown)
+
+    def _move_on(self) -> None:
+        """Look up frames at the time that is shown now."""
+        core = self._core
+        core.frames = core.frames.next(self.settings.fixed_frame, self._time.shown_ns)
+
+    def _points_held(self) -> int:
+        return self._guard.attempt("Scene", POINTS_HELD, self._core.scene.points_held)
+
+    def _robots(self) -> tuple[NamespacedRobot, ...]:
+        entries = self.settings.robots
+        if entries is not self._named_robots[0]:
+            self._named_robots = entries, robots_of(entries)
+        return self._named_robots[1]
+
+    def _wake(self) -> None:
+        self._source.inbox.arrived.set()

@@ -1,0 +1,60 @@
+"""Default allow-list of a viewer whose config has none."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from webviz.api.declared import make
+from webviz.api.display import Display
+from webviz.api.panel import Panel
+from webviz.api.registry import plugin_types
+from webviz.api.tool import Tool, outputs
+from webviz.engine.commands.guard import Guard
+from webviz.files.config import Branch, Config, Item
+
+Plugin = Tool | Panel | Display
+
+PATTERN = frozenset("*?[")
+"""Characters that match others in a list of what may be published."""
+
+
+def own_names(config: Config, guard: Guard) -> tuple[str, ...]:
+    """The names of a config's own topics, services and actions, sorted.
+
+    They are those of its tools, displays and panels, and those of installed displays and panels
+    with default properties, since pages may add these. What is changed later adds no name, or
+    everybody who may change a property could publish anywhere. Nor does a pattern that somebody
+    has entered as a property: patterns are for the list `publish`, and for plug-ins.
+
+    Args:
+        config: with which a viewer is started.
+        guard: for calls of plug-ins; one that fails adds no name.
+    """
+    names: set[str] = set()
+    for item in [*config.tools, *config.panels, *_flat(config.displays)]:
+        if isinstance(item, Plugin):
+            names |= guard.attempt(item.name, set[str](), _names_of, item)
+    names = {name for name in names if PATTERN.isdisjoint(name)}
+    for base in (Panel, Display):
+        for name, cls in plugin_types(base).items():
+            names |= guard.attempt(name, set[str](), lambda cls=cls: _names_of(make(cls, {})))
+    return tuple(sorted(names - {""}))
+
+
+def _names_of(plugin: Plugin) -> set[str]:
+    names = set(plugin.uses)
+    if isinstance(plugin, Tool):
+        names |= {topic.name for _, _, topic in outputs(plugin)}
+        if (vehicle := plugin.vehicle) is not None:
+            names.add(vehicle.topic.name)
+    elif isinstance(plugin, Panel):
+        names |= plugin.publications().keys()
+    return names
+
+
+def _flat(items: Sequence[Item]) -> Iterator[Item]:
+    for item in items:
+        if isinstance(item, Branch):
+            yield from _flat(item.displays)
+        else:
+            yield item

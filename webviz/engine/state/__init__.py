@@ -1,0 +1,35 @@
+"""The state of a viewer, as pages and Python see it."""
+
+from webviz.engine.state.state import (
+    Between,
+    ClockPace,
+    ConfigFile,
+    Driving,
+    GoalProgress,
+    Inspected,
+    PanelTab,
+    PanelTimes,
+    Row,
+    State,
+    Step,
+    ToolButton,
+    Traffic,
+    UndoHistory,
+)
+
+__all__ = [
+    "Between",
+    "ClockPace",
+    "ConfigFile",
+    "Driving",
+    "GoalProgress",
+    "Inspected",
+    "PanelTab",
+    "PanelTimes",
+    "Row",
+    "State",
+    "Step",
+    "ToolButton",
+    "Traffic",
+    "UndoHistory",
+]

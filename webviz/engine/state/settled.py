@@ -1,0 +1,30 @@
+"""Memoised parts of a state: unchanged ones are reused, so that panels skip them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from webviz.engine.state.state import Row, State
+
+_COMPARED = (
+    *("frames", "statuses", "file", "traffic", "inspected", "between", "views", "history"),
+    *("transforms", "driving", "playback", "selected", "selections"),
+)
+"""Fields that are made anew for each state, and cannot change within."""
+
+
+def settled(state: State, before: State) -> State:
+    """The same state, of the very objects of the one before wherever they are equal."""
+    kept: dict[str, Any] = {
+        name: old for name in _COMPARED if (old := getattr(before, name)) == getattr(state, name)
+    }
+    known = {row.id: row for row in before.rows}
+    rows = tuple(_settled(row, known.get(row.id)) for row in state.rows)
+    return replace(state, rows=before.rows if rows == before.rows else rows, **kept)
+
+
+def _settled(row: Row, before: Row | None) -> Row:
+    if before is None or row.display is not before.display or row != before:
+        return row
+    return before

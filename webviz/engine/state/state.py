@@ -1,0 +1,351 @@
+"""The state of a viewer for panels: a snapshot made by the frame loop."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+from webviz.api.context import ColorScale
+from webviz.api.display import Display
+from webviz.api.finding import Finding
+from webviz.api.handles import Handle
+from webviz.api.panel import Panel
+from webviz.api.status import Level, Status, worst
+from webviz.api.tool import Gesture, Tool
+from webviz.api.views import View
+from webviz.data.messages.tree import Tree
+from webviz.data.transforms import Diagnosis
+from webviz.files.config import Settings
+from webviz.sources import Offer
+from webviz.sources.past_state import Event, MemoryState, PlaybackState, RecordingState
+
+
+@dataclass(frozen=True)
+class Row:
+    """One display in the list.
+
+    Args:
+        id: for commands.
+        type: name of the display type.
+        display: read-only; None if the entry of the config cannot be shown.
+        name: as shown.
+        statuses: sentences by key.
+        depth: number of groups it is in.
+        enabled: its own switch, whatever its groups are.
+        color_scale: the meaning of its colours.
+        revision: how often the display was changed, which is the same object then.
+        offered: names for switches, see `Context.offered`.
+    """
+
+    id: str
+    type: str
+    display: Display | None
+    name: str
+    statuses: Mapping[str, Status]
+    depth: int = 0
+    enabled: bool = True
+    color_scale: ColorScale | None = None
+    revision: int = 0
+    offered: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
+
+    @property
+    def level(self) -> Level:
+        """The worst of its statuses."""
+        return worst(self.statuses.values())
+
+
+@dataclass(frozen=True)
+class ConfigFile:
+    """The file of the config.
+
+    Args:
+        path: of the file, "" if there is none.
+        is_changed: whether there are unsaved changes.
+        folder: base of relative paths.
+        others: names of all config files in the folder, sorted.
+    """
+
+    path: str = ""
+    is_changed: bool = False
+    folder: str = ""
+    others: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class ClockPace:
+    """Rate of ROS time, for pages that count by themselves.
+
+    Args:
+        ros_ns, wall_s: ROS time, and wall time in seconds since 1970, of one moment.
+        rate: seconds of ROS time per second, 0 while it stands still.
+    """
+
+    ros_ns: int = 0
+    wall_s: float = 0.0
+    rate: float = 0.0
+
+    def at(self, wall_s: float) -> float:
+        """ROS time in ns at a wall time."""
+        return self.ros_ns + (wall_s - self.wall_s) * self.rate * 1e9
+
+
+@dataclass(frozen=True)
+class PanelTimes:
+    """The times of RViz's Time panel.
+
+    Args:
+        ros_ns: the ROS time that is shown; constant while paused, 0 while unknown.
+        ros_elapsed_ns: since the viewer started or was reset.
+        wall_s: seconds since 1970.
+        wall_elapsed_s: since the viewer started or was reset.
+        is_paused: whether time is paused.
+        pace: how the time that is shown goes on.
+        is_simulated: whether ROS time comes from /clock or a bag instead of this machine.
+        clock_hz: messages per second on /clock, 0 while ROS time is wall time.
+    """
+
+    ros_ns: int = 0
+    ros_elapsed_ns: int = 0
+    wall_s: float = 0.0
+    wall_elapsed_s: float = 0.0
+    is_paused: bool = False
+    pace: ClockPace = ClockPace()
+    is_simulated: bool = False
+    clock_hz: float = 0.0
+
+
+@dataclass(frozen=True)
+class Traffic:
+    """Traffic of a topic over the last seconds.
+
+    Args:
+        rate_hz, bytes_per_s: over the last seconds.
+        delay_s: how long after its stamp a recent message came, None if it has no stamp.
+    """
+
+    rate_hz: float
+    bytes_per_s: float
+    delay_s: float | None = None
+
+
+@dataclass(frozen=True)
+class Inspected:
+    """The inspected topic.
+
+    Args:
+        type: of its messages, "" without a publisher.
+        message: the last one, see `webviz.data.messages.to_tree`; None without one.
+        problem: why there is none, or why it cannot be read; a sentence.
+        size: of it in bytes.
+        received_s: when it came, in seconds of wall time since 1970; 0 without one.
+    """
+
+    type: str = ""
+    message: Tree | None = None
+    problem: str = ""
+    size: int = 0
+    received_s: float = 0.0
+
+
+@dataclass(frozen=True)
+class Between:
+    """The transform between two frames, at the newest time that all links between them have.
+
+    Args:
+        translation: of the source in the target, in metres; None if there is no transform.
+        rotation: (x, y, z, w).
+        age_s: how old that time is; None if all links are static, or ROS time is not known.
+        problem: why there is no transform, and what to do; a sentence.
+    """
+
+    translation: tuple[float, float, float] | None = None
+    rotation: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0)
+    age_s: float | None = None
+    problem: str = ""
+
+
+@dataclass(frozen=True)
+class ToolButton:
+    """One tool in the toolbar.
+
+    Args:
+        id: for commands.
+        name: as shown.
+        tooltip: one sentence.
+        shortcut: the key that selects it, "" for none.
+        gesture: followed by the page.
+        icon: of the page, "" for that of the gesture.
+        surface: whether the gesture starts on a surface.
+        stays: whether it remains active after a gesture.
+        asks: whether pages ask before they send a gesture.
+        refusal: why it cannot be used, a sentence; "" if it can.
+        several: labels of the buttons that send several poses, () if it takes one.
+        tool: read-only.
+    """
+
+    id: str
+    name: str
+    tooltip: str
+    shortcut: str
+    gesture: Gesture
+    icon: str = ""
+    surface: bool = False
+    stays: bool = False
+    asks: bool = False
+    refusal: str = ""
+    several: tuple[str, ...] = ()
+    tool: Tool = field(default_factory=Tool)
+
+
+@dataclass(frozen=True)
+class PanelTab:
+    """One panel of a plug-in.
+
+    Args:
+        id: for commands.
+        tab: names its tab: its type, with a number from the second of a type on.
+        panel: read-only but for its own methods.
+    """
+
+    id: str
+    tab: str
+    panel: Panel
+
+
+@dataclass(frozen=True)
+class GoalProgress:
+    """A goal that a tool sent to an action.
+
+    Args:
+        id: for commands.
+        title: name of the tool.
+        label: what the goal is, in a few words.
+        frame: the fixed frame when it was sent.
+        poses: x, y, z in metres and yaw in radians in that frame.
+        phase: "sending" until the server accepts it, and "ended" with its outcome.
+        status: what is to be said of it, None for nothing.
+        values: what its feedback says, texts by label.
+        can_dismiss: whether pages may put it away, though the server has not ended it.
+    """
+
+    id: str
+    title: str
+    label: str = ""
+    frame: str = ""
+    poses: Sequence[tuple[float, float, float, float]] = ()
+    phase: Literal["sending", "active", "canceling", "ended"] = "sending"
+    status: Status | None = None
+    values: Mapping[str, str] = field(default_factory=dict)
+    can_dismiss: bool = False
+
+
+@dataclass(frozen=True)
+class Driving:
+    """A vehicle that browsers attend to.
+
+    Args:
+        driver: id of the browser that drives, None if none does.
+        speed: of the robot in m/s, negative while it backs; None if it is unknown.
+        turn_rate: of the robot in rad/s, counter-clockwise; None if it is unknown.
+        problem: why they are unknown, with a remedy; "" if they are not.
+    """
+
+    driver: int | None = None
+    speed: float | None = None
+    turn_rate: float | None = None
+    problem: str = ""
+
+
+@dataclass(frozen=True)
+class Step:
+    """Something that was changed.
+
+    Args:
+        number: of the change; undo and redo are changes too.
+        label: what was done, in a few words.
+        browser: that did it, None for a program.
+    """
+
+    number: int
+    label: str
+    browser: int | None
+
+
+@dataclass(frozen=True)
+class UndoHistory:
+    """Undo and redo steps, each with the newest first."""
+
+    undo: tuple[Step, ...] = ()
+    redo: tuple[Step, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class State:
+    """A viewer at one moment; each part fills in the fields that it owns.
+
+    Args:
+        rows: the displays in order.
+        fixed_frame: id of the frame that everything is drawn in.
+        frames: all known frame ids, sorted.
+        topics: message types by topic name.
+        statuses: of the viewer as a whole, such as "Fixed Frame".
+        settings: everything in the config except its lists.
+        file: of the config.
+        clock: the time.
+        offers: publishers and QoS by topic name.
+        traffic: by topic name, of the topics that are subscribed to.
+        inspected: the inspected topics, by name.
+        transforms: the tree of transforms, None while no page shows it.
+        between: requested transforms, by target and source frame.
+        views: what each browser shows, by its id.
+        tools: in the order of the toolbar.
+        panels: of plug-ins, in the order of their tabs.
+        goals: that tools sent to actions, oldest first.
+        driving: the vehicles that browsers attend to, by id of their tool.
+        handles: what browsers can grip, by id of the display and key, each with the id of the
+            browser that holds it.
+        history: what can be undone and redone.
+        playback: the recording that is played, None for live topics.
+        recorded: counts of its messages in equal parts of its span, by topic.
+        logged: warnings and errors that its nodes logged, by time.
+        warned: when displays began to warn, as far as it was shown, by time.
+        findings: of the doctor, the one to repair first at the beginning.
+        memory: what is remembered of live topics, None for a recording.
+        recording: the one that goes on, None for none.
+        selected: ids of what each browser has selected, each with that of its display, and
+            whether it moves.
+        selections: what is known of it, for the browsers that show it.
+        more: fields of additional parts, by name.
+    """
+
+    rows: tuple[Row, ...] = ()
+    fixed_frame: str = Settings().fixed_frame
+    frames: tuple[str, ...] = ()
+    topics: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    statuses: Mapping[str, Status] = field(default_factory=dict)
+    settings: Settings = field(default_factory=Settings)
+    file: ConfigFile = ConfigFile()
+    clock: PanelTimes = PanelTimes()
+    offers: Mapping[str, Offer] = field(default_factory=dict)
+    traffic: Mapping[str, Traffic] = field(default_factory=dict)
+    inspected: Mapping[str, Inspected] = field(default_factory=dict)
+    transforms: Diagnosis | None = None
+    between: Mapping[tuple[str, str], Between] = field(default_factory=dict)
+    views: Mapping[int, View] = field(default_factory=dict)
+    tools: tuple[ToolButton, ...] = ()
+    panels: tuple[PanelTab, ...] = ()
+    goals: tuple[GoalProgress, ...] = ()
+    driving: Mapping[str, Driving] = field(default_factory=dict)
+    handles: Mapping[tuple[str, str], tuple[Handle, int | None]] = field(default_factory=dict)
+    history: UndoHistory = UndoHistory()
+    playback: PlaybackState | None = None
+    recorded: Mapping[str, Sequence[int]] = field(default_factory=dict)
+    logged: Sequence[Event] = ()
+    warned: Sequence[Event] = ()
+    findings: Sequence[Finding] = ()
+    memory: MemoryState | None = None
+    recording: RecordingState | None = None
+    selected: Mapping[int, Mapping[int, tuple[str, bool]]] = field(default_factory=dict)
+    selections: Mapping[int, Mapping[str, Any]] = field(default_factory=dict)
+    more: Mapping[str, Any] = field(default_factory=dict)

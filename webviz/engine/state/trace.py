@@ -1,0 +1,129 @@
+"""Latency traces: the times of one sample on its way to the browsers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import Future
+from dataclasses import dataclass
+
+from webviz.api.errors import Error
+from webviz.api.sample import Sample
+from webviz.sources import Raw
+
+MAX_ASKED = 100
+
+
+@dataclass(frozen=True)
+class Trace:
+    """The times of one sample on its way to the browsers, in nanoseconds of ROS time.
+
+    From its arrival on they advance with the wall clock, so that a paused or slow simulation hides
+    no delay.
+
+    Args:
+        input: of the display.
+        number: of the sample, from 0.
+        published_ns: its stamp, 0 if it has none.
+        received_ns: its arrival.
+        ready_ns: its transform was available, and its partners if the input is synchronized.
+        decoded_ns: it was decoded.
+        drawn_ns: the display had drawn it.
+        sent_ns: it was passed to the connections.
+        acknowledged_ns: every connected browser had applied it; None if one did not answer.
+    """
+
+    input: str
+    number: int
+    published_ns: int
+    received_ns: int
+    ready_ns: int
+    decoded_ns: int
+    drawn_ns: int
+    sent_ns: int
+    acknowledged_ns: int | None = None
+
+    def times(self) -> dict[str, int]:
+        """The known times by name, in order."""
+        names = ("published", "received", "ready", "decoded", "drawn", "sent", "acknowledged")
+        return {name: ns for name in names if (ns := getattr(self, f"{name}_ns"))}
+
+    def __str__(self) -> str:
+        known = self.times()
+        first = next(iter(known.values()))
+        return ", ".join(f"{name} {(ns - first) / 1e6:+.1f} ms" for name, ns in known.items())
+
+
+@dataclass
+class _Begun:
+    """A sample on its way; times are monotonic, in seconds."""
+
+    sample: Sample
+    arrived_s: float
+    ready_s: float
+    decoded_s: float
+    drawn_s: float = 0.0
+
+    def trace(self, sent_s: float) -> Trace:
+        sample = self.sample
+
+        def ros_ns(at_s: float) -> int:
+            return sample.received_ns + round((at_s - self.arrived_s) * 1e9)
+
+        steps = (self.ready_s, self.decoded_s, self.drawn_s, sent_s)
+        return Trace(
+            sample.input, sample.number, sample.stamp_ns, sample.received_ns, *map(ros_ns, steps)
+        )
+
+
+class Tracer:
+    """Traces the next sample of displays on request.
+
+    Args:
+        clock: monotonic time in seconds, the one of `Raw.arrived_s`.
+    """
+
+    def __init__(self, clock: Callable[[], float]) -> None:
+        self.clock = clock
+        self._asked: dict[str, list[Future[Trace]]] = {}
+        self._begun: dict[str, _Begun] = {}
+
+    def ask(self, display: str, answer: Future[Trace]) -> None:
+        """Trace the next sample of a display. Cancel the answer to stop waiting.
+
+        Raises:
+            Error: too many traces are requested.
+        """
+        for asked, answers in list(self._asked.items()):
+            self._asked[asked] = [each for each in answers if not each.cancelled()]
+            if not self._asked[asked]:
+                del self._asked[asked]
+        if sum(map(len, self._asked.values())) >= MAX_ASKED:
+            raise Error("Too many traces at once. Try again later.")
+        if display not in self._asked:
+            self.forget(display)  # left from a cancelled request
+        self._asked.setdefault(display, []).append(answer)
+
+    def wants(self, display: str) -> bool:
+        """Return whether the next sample of a display is to be traced."""
+        return display in self._asked
+
+    def decoded(self, display: str, sample: Sample, raw: Raw, ready_s: float, at_s: float) -> None:
+        """A display holds a sample, decoded at `at_s`."""
+        self._begun[display] = _Begun(sample, raw.arrived_s, ready_s, at_s)
+
+    def drawn(self, display: str) -> None:
+        """A display has drawn its samples."""
+        if begun := self._begun.get(display):
+            begun.drawn_s = self.clock()
+
+    def sent(self) -> None:
+        """Everything drawn was sent: answer."""
+        for display in [display for display, begun in self._begun.items() if begun.drawn_s]:
+            trace = self._begun.pop(display).trace(self.clock())
+            for answer in self._asked.pop(display, ()):
+                if answer.set_running_or_notify_cancel():
+                    answer.set_result(trace)
+
+    def forget(self, display: str) -> None:
+        """Discard a sample that will not be drawn."""
+        self._begun.pop(display, None)

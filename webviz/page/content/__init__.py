@@ -1,0 +1,70 @@
+"""Contents of the page's stores, made from the state of the viewer.
+
+One function a store: from a state, and what stands behind the colon of the store's name, to values
+by key. It runs some times a second while a page watches, so it has to be quick; what has not
+changed is not sent.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from webviz.engine.state import State
+from webviz.page.content.clock import clock
+from webviz.page.content.displays import displays, rate
+from webviz.page.content.goals import goals, routes
+from webviz.page.content.handles import handles
+from webviz.page.content.history import history
+from webviz.page.content.panes import panes
+from webviz.page.content.playback import bookmarks, density, events, playback, recorded
+from webviz.page.content.properties import properties, statuses, topics_of
+from webviz.page.content.recording import recording
+from webviz.page.content.scene import legend, watchers
+from webviz.page.content.selection import picking, selected, selection
+from webviz.page.content.tools import driving, tool
+from webviz.page.content.topics import message, topics, traffic
+from webviz.page.content.transforms import between, transforms
+from webviz.page.content.types import types
+from webviz.page.content.viewer import file, frames, graph, settings, view_type
+from webviz.page.content.views import view, views
+
+MAKERS: Mapping[str, Callable[[State, str], Mapping[str, Any]]] = {
+    "between": between,
+    "bookmarks": bookmarks,
+    "clock": clock,
+    "density": density,
+    "displays": displays,
+    "driving": driving,
+    "events": events,
+    "file": file,
+    "frames": frames,
+    "goals": goals,
+    "graph": graph,
+    "handles": handles,
+    "history": history,
+    "legend": legend,
+    "message": message,
+    "panes": panes,
+    "picking": picking,
+    "playback": playback,
+    "properties": properties,
+    "rate": rate,
+    "recorded": recorded,
+    "recording": recording,
+    "routes": routes,
+    "selected": selected,
+    "selection": selection,
+    "settings": settings,
+    "tool": tool,
+    "topics": topics,
+    "traffic": traffic,
+    "statuses": statuses,
+    "topics_of": topics_of,
+    "view": view,
+    "views": views,
+    "transforms": transforms,
+    "types": types,
+    "view_type": view_type,
+    "watchers": watchers,
+}

@@ -1,0 +1,131 @@
+"""The tree of displays."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from webviz.api.display import inputs
+from webviz.api.status import Level, OtherFixedFrame, Status
+from webviz.engine.state import Row, State
+from webviz.page.content.forms import sendable
+
+_LEVELS = {level: level.name.lower() for level in Level}
+_CHANGING = re.compile(r"(?<![\w.-])(\d{1,9}(?:\.\d{1,9})?)( (?:s|Hz)\b)")
+"""Ages and rates in sentences."""
+
+
+def displays(state: State, _: str) -> Mapping[str, Any]:
+    """The rows by id, and "order": the ids from top to bottom."""
+    return {"order": [row.id for row in state.rows], **_rows(state.rows, causes(state))}
+
+
+def rate(state: State, id_: str) -> Mapping[str, Any]:
+    """Of the display with this id: "hz", how many messages arrive, to two digits; if it listens."""
+    row = next((row for row in state.rows if row.id == id_), None)
+    known = [state.traffic[name].rate_hz for name in _topics(row) if name in state.traffic]
+    return {"hz": _rounded(known[0])} if known else {}
+
+
+class _Rows:
+    """Rows as the page shows them, by id; the same object for a row as long as it is unchanged."""
+
+    def __init__(self) -> None:
+        self._known: dict[str, tuple[Row, Mapping[str, Any]]] = {}
+        self._causes: tuple[Status, ...] = ()
+
+    def __call__(
+        self, rows: Iterable[Row], causes: tuple[Status, ...]
+    ) -> Mapping[str, Mapping[str, Any]]:
+        before = self._known if causes == self._causes else {}
+        self._causes = causes
+        self._known = now = {
+            row.id: known
+            if (known := before.get(row.id)) and known[0] is row
+            else (row, _row(row, causes))
+            for row in rows
+        }
+        return {id_: shown for id_, (_, shown) in now.items()}
+
+
+_rows = _Rows()
+
+
+def causes(state: State) -> tuple[Status, ...]:
+    """The problems of the viewer that a click can solve; displays have others because of them."""
+    return tuple(status for status in state.statuses.values() if status.remedy)
+
+
+def remedy_of(
+    status: Status, display: str, known: Sequence[Status] = ()
+) -> Mapping[str, Any] | None:
+    """A command that would help, its arguments, and the label of its button; None if none would.
+
+    Args:
+        status: of a display, or of the viewer.
+        display: id of the display.
+        known: see `causes`.
+    """
+    cause = next((each for each in known if each.text in status.text), None)
+    remedy = status.remedy or (cause.remedy if cause else None)
+    if remedy is None:
+        return None
+    if isinstance(remedy, OtherFixedFrame):
+        command, fields = "SetFixedFrame", {"frame": remedy.frame}
+    else:
+        command = "SetProperty"
+        fields = {"display": display, "path": remedy.path, "value": remedy.value}
+    told = {"label": remedy.label, "command": command, "arguments": fields}
+    return sendable(told)
+
+
+def _row(row: Row, causes: Sequence[Status]) -> Mapping[str, Any]:
+    level = row.level
+    worst = next((s for s in row.statuses.values() if s.level == level), None)
+    is_said = any(each.text in status.text for each in causes for status in row.statuses.values())
+    told = {
+        "type": row.type,
+        "name": row.name,
+        "depth": row.depth,
+        "enabled": row.enabled,
+        "can_edit": row.display is not None,
+        "level": level_name(level),
+        # What the viewer says is on top of the list, once.
+        "line": "" if is_said else _worst(row, level),
+        "topics": _topics(row),
+    }
+    has_own = worst and level > Level.OK and not is_said and row.type != "Group"
+    remedy = remedy_of(worst, row.id) if worst and has_own else None
+    return told | {"remedy": remedy} if remedy else told
+
+
+def _worst(row: Row, level: Level) -> str:
+    """The first status of this level if it is a problem; that of a group names the display."""
+    if level < Level.WARN:
+        return ""
+    key, status = next((k, s) for k, s in row.statuses.items() if s.level == level)
+    text = f"{key}: {status.text}" if row.type == "Group" or not status.text else status.text
+    return _CHANGING.sub(lambda found: f"{_steady(float(found[1])):.9g}{found[2]}", text)
+
+
+def _topics(row: Row | None) -> list[str]:
+    display = row.display if row else None
+    return [topic.name for _, _, topic in inputs(display) if topic.name] if display else []
+
+
+def _steady(value: float) -> float:
+    """An age or a rate with so few digits that it does not change all the time."""
+    return value if value < 1.0 else _rounded(value) if value >= 10.0 else float(round(value))
+
+
+def _rounded(value: float) -> float:
+    if not value > 0.0:
+        return 0.0
+    return float(round(value, 1 - math.floor(math.log10(value))))
+
+
+def level_name(level: Level) -> str:
+    """A level as the page calls it: "ok", "warn" and so on."""
+    return _LEVELS[level]

@@ -1,0 +1,133 @@
+"""All pages: what they show of a viewer, and what they ask of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import Future
+from dataclasses import replace
+
+from webviz.api.registry import display_types
+from webviz.engine.commands import Command, Refresh, Sender
+from webviz.engine.commands.guard import Guard
+from webviz.engine.state import State
+from webviz.page.acts import Acts
+from webviz.page.content import MAKERS
+from webviz.page.driving import DrivingMessages, Steer
+from webviz.page.gripping import GripMessages
+from webviz.page.people import People
+from webviz.page.plugin_panels import PluginPanels
+from webviz.page.reading import StateReading
+from webviz.page.toolbar import Toolbar
+from webviz.page.wishes import Wishes
+from webviz.server.access.access import Access
+from webviz.server.access.journal import Journal
+from webviz.server.access.roles import Role
+from webviz.server.channel.channel import Channel
+from webviz.server.channel.messages import Shell, ShowPictures
+
+OF_ONE_BROWSER = ("selected", "selection", "view", "view_type")
+"""Stores with the id of a browser behind the colon."""
+
+
+class Pages:
+    """Shows a viewer on every page, and passes on what people do there.
+
+    Args:
+        channel: to the pages.
+        enqueue: takes commands and their senders, from any thread.
+        steer: takes set-points of vehicles, see `webviz.engine.driving.Helms`.
+        access: knows the tokens; None if none are asked for.
+        keep: called with each line of the journal, from any thread.
+    """
+
+    def __init__(
+        self,
+        channel: Channel,
+        enqueue: Callable[[Command, Sender], Future[str]],
+        steer: Steer,
+        access: Access | None = None,
+        keep: Callable[[str], object] | None = None,
+    ) -> None:
+        self._channel = channel
+        self._guard = Guard("The page", strict=False)
+        journal = Journal(keep)
+
+        def note(browser: int, text: str) -> None:
+            journal.note(channel.visitors().get(browser), text)
+
+        def request(command: Command, sender: Sender) -> Future[str]:
+            return enqueue(command, _ranked(channel, sender))
+
+        self._toolbar = Toolbar(channel, request, note)
+        self._acts = Acts(channel, request, note)
+        self._driving = DrivingMessages(channel, steer, note)
+        people = People(channel, journal, access or Access())
+        self._gripping = GripMessages(channel, request)
+        self._wishes = Wishes(request)
+        self._panels = panels = PluginPanels(channel, request)
+        self._of_panels = {
+            "addresses": people.addresses,
+            "journal": people.journal,
+            "links": people.links,
+            "people": people.people,
+            "commands": panels.commands,
+            "panel": panels.panel,
+            "panel_properties": panels.properties,
+            "panels": panels.panels,
+        }
+        self._read: dict[str, StateReading] = {}
+        """Dependencies of the stores that are kept."""
+        self._types = display_types()
+        # A store that a page begins to watch is filled on the next turn of the frame loop.
+        channel.on_watch = lambda browser: request(Refresh(), Sender(browser))
+        channel.may_watch = _may_watch
+        # What a pane shows that was not seen before is received from the next turn on.
+        channel.on(ShowPictures, lambda browser, _: request(Refresh(), Sender(browser)))
+        channel.send(Shell())
+
+    def debug(self) -> None:
+        """Show viser's own panel, too."""
+        self._channel.send(Shell(debug=True))
+
+    def update(self, state: State) -> None:
+        """Show the viewer as it is; sends only what is new. To be called by the frame loop."""
+        self._toolbar.update(state)
+        watched = self._channel.watched()
+        self._panels.update(state, watched)
+        self._wishes.update(watched)
+        self._forget(watched)
+        for store in watched:
+            read = self._read.get(store)
+            if read is None or not read.is_as_in(state):
+                self._guard(store, self._fill, store, state)
+
+    def _fill(self, store: str, state: State) -> None:
+        name, _, argument = store.partition(":")
+        if (make := self._of_panels.get(name)) is not None:
+            self._channel.show(store, make(state, argument))
+        elif (make := MAKERS.get(name)) is not None:
+            reading = StateReading(state)
+            self._channel.show(store, make(reading.state, argument))
+            self._read[store] = reading
+
+    def _forget(self, watched: set[str]) -> None:
+        """Have stores made anew that are not watched any more, and all if there are other types."""
+        if (types := display_types()) != self._types:
+            self._types = types
+            self._read.clear()
+        for store in self._read.keys() - watched:
+            del self._read[store]
+
+
+def _ranked(channel: Channel, sender: Sender) -> Sender:
+    """A sender with the priority of their role."""
+    if sender.browser is None:
+        return sender
+    grant = channel.grant_of(sender.browser)
+    return replace(sender, priority=Role.WATCHER if grant is None else grant.role)
+
+
+def _may_watch(browser: int, store: str) -> bool:
+    """Return whether a store may be sent to a browser: a view is that of its own page only."""
+    name, _, argument = store.partition(":")
+    return name not in OF_ONE_BROWSER or argument == str(browser)

@@ -1,0 +1,188 @@
+"""Who is connected and what they did; and how the owner invites others."""
+
+from __future__ import annotations
+
+import asyncio
+import dataclasses
+from collections.abc import Callable, Mapping
+from concurrent.futures import Future
+from datetime import UTC, datetime
+from typing import Any, TypeVar
+
+from webviz.api.errors import Error
+from webviz.data.disk import DiskThreads
+from webviz.engine.state import State
+from webviz.server.access import token_file
+from webviz.server.access.access import Access
+from webviz.server.access.journal import Journal
+from webviz.server.access.roles import Role
+from webviz.server.access.starting import link
+from webviz.server.access.tokens import Token, TokenError, make
+from webviz.server.channel.channel import Channel
+from webviz.server.channel.invitation_messages import Dismiss, Dismissed, Invitation, Invite, Revoke
+from webviz.server.channel.messages import Done
+
+NOT_ASKED = (
+    "Not made: this viewer asks for no tokens. Start webviz with --token, or with --host for "
+    "other machines."
+)
+OWN_LINK = "Not done: this is your own link. Make another with `webviz token rotate`."
+
+MAX_THREADS = 4
+"""That change the file of tokens, or wait for it."""
+
+T = TypeVar("T")
+
+
+class People:
+    """Stores about people, see `webviz.page.content`, and invitations.
+
+    Args:
+        channel: to the pages.
+        journal: what people did.
+        access: knows the tokens.
+    """
+
+    def __init__(self, channel: Channel, journal: Journal, access: Access) -> None:
+        self._channel = channel
+        self._journal = journal
+        self._access = access
+        channel.on(Invite, self._invite)
+        channel.on(Dismiss, self._dismiss)
+        channel.on(Revoke, lambda browser, asked: self._revoke(browser, asked, asked.name))
+        self._dismissing: set[asyncio.Task[None]] = set()
+        self._disk = DiskThreads(MAX_THREADS)
+
+    def people(self, state: State, _: str) -> Mapping[str, Any]:
+        """Of each browser by its id: name, role, since when, latency in ms, and what it drives."""
+        names = {button.id: button.name for button in state.tools}
+        driving = {tool: driving.driver for tool, driving in state.driving.items()}
+        return {
+            str(browser): {
+                "name": visitor.name,
+                "role": visitor.role.label,
+                "since_s": round(visitor.since_s),
+                "latency_ms": round(1000.0 * visitor.latency_s) if visitor.latency_s else None,
+                "drives": [names.get(t, t) for t, driver in driving.items() if driver == browser],
+            }
+            for browser, visitor in self._channel.visitors().items()
+        }
+
+    def addresses(self, state: State, _: str) -> Mapping[str, Any]:
+        """The network address of each browser by its id."""
+        return {str(id_): visitor.address for id_, visitor in self._channel.visitors().items()}
+
+    def links(self, state: State, _: str) -> Mapping[str, Any]:
+        """Of each valid link by its name: its role, and when it ends, in seconds since 1970."""
+        return {
+            token.name: {
+                "role": token.role,
+                "expires_s": None if token.expires is None else token.expires.timestamp(),
+            }
+            for token in self._access.tokens
+        }
+
+    def journal(self, state: State, _: str) -> Mapping[str, Any]:
+        """Return people's actions, newest first."""
+        return {"entries": [dataclasses.asdict(entry) for entry in self._journal.entries]}
+
+    # Called on the event loop
+
+    def _invite(self, browser: int, invite: Invite) -> None:
+        def answer(done: Future[Token]) -> None:
+            try:
+                address = link(invite.url, done.result())
+            except Error as error:
+                self._channel.send(Invitation(invite.number, str(error), "", ""), browser)
+                return
+            import segno  # here, as it would slow down the start
+
+            code = segno.make(address, micro=False).svg_data_uri(scale=5, border=4, light="#fff")
+            self._channel.send(Invitation(invite.number, "", address, code), browser)
+            text = f"Invited {invite.name} as {Role[invite.role.upper()].phrase}."
+            self._journal.note(self._channel.visitors().get(browser), text)
+
+        self._begin(lambda: self._make(invite)).add_done_callback(answer)
+
+    def _dismiss(self, browser: int, dismiss: Dismiss) -> None:
+        visitor = self._channel.visitors().get(dismiss.browser)
+        grant = self._channel.grant_of(dismiss.browser)
+        if visitor is None or grant is None:
+            self._answer(browser, dismiss, "", "They are gone already.")
+        elif dismiss.browser == browser:
+            self._answer(browser, dismiss, "", "Not done: this is your own page. Close it.")
+        elif dismiss.revokes:
+            self._revoke(browser, dismiss, grant.name)
+        else:
+            text = (
+                "The owner has ended your visit. Open the address of the viewer again to come back."
+            )
+            self._channel.send(Dismissed(text), dismiss.browser)
+            task = asyncio.get_running_loop().create_task(self._channel.dismiss(dismiss.browser))
+            self._dismissing.add(task)
+            task.add_done_callback(self._dismissing.discard)
+            who = visitor.name or visitor.address
+            self._answer(browser, dismiss, f"Ended a visit of {who}.")
+
+    def _revoke(self, browser: int, asked: Dismiss | Revoke, name: str) -> None:
+        own = self._channel.grant_of(browser)
+        if name and own is not None and own.name == name:
+            self._answer(browser, asked, "", OWN_LINK)
+            return
+
+        def answer(done: Future[None]) -> None:
+            try:
+                done.result()
+            except Error as error:
+                self._answer(browser, asked, "", str(error))
+            else:
+                self._answer(browser, asked, f"Revoked the link of {name}.")
+
+        self._begin(lambda: self._remove(name)).add_done_callback(answer)
+
+    def _begin(self, work: Callable[[], T]) -> Future[T]:
+        """Work on the file of tokens in a thread; it fails if too much does already."""
+        try:
+            return self._disk.start(work)
+        except OSError:
+            refused: Future[T] = Future()
+            refused.set_exception(TokenError("Not done: too many at once. Try again later."))
+            return refused
+
+    def _answer(self, browser: int, asked: Dismiss | Revoke, done: str, problem: str = "") -> None:
+        level = "error" if problem else "ok"
+        self._channel.send(Done(asked.number, level, problem or done, ""), browser)
+        if done:
+            self._journal.note(self._channel.visitors().get(browser), done)
+
+    def _remove(self, name: str) -> None:
+        """Remove a token from the file; its pages are closed soon."""
+        if not self._access.asks or self._access.path is None:
+            raise TokenError("Not revoked: this viewer asks for no tokens.")
+
+        def remove(tokens: tuple[Token, ...]) -> tuple[Token, ...]:
+            kept = tuple(token for token in tokens if token.name != name)
+            if len(kept) == len(tokens):
+                raise TokenError(
+                    f"Not revoked: {name} is not in the file of tokens. Restart webviz "
+                    "without it in the environment."
+                )
+            return kept
+
+        token_file.modify(self._access.path, remove)
+        self._access.refresh()
+
+    def _make(self, invite: Invite) -> Token:
+        if not self._access.asks or self._access.path is None:
+            raise TokenError(NOT_ASKED)
+        role = Role[invite.role.upper()]
+        made = make(invite.name, role, datetime.now(UTC), invite.days)
+
+        def add(tokens: tuple[Token, ...]) -> tuple[Token, ...]:
+            if any(token.name == made.name for token in tokens):
+                raise TokenError(f"There is a link for {made.name} already. Choose another name.")
+            return (*tokens, made)
+
+        token_file.modify(self._access.path, add)
+        self._access.refresh()  # the link works at once
+        return made

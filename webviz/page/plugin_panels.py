@@ -1,0 +1,212 @@
+"""Panels of plug-ins: each records its widgets, and pages draw them in a tab of its own."""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+import queue
+import threading
+from collections.abc import Callable, Collection, Mapping
+from concurrent.futures import Future
+from typing import Any
+
+from webviz.api.panel import Panel
+from webviz.api.registry import broken_types, plugin_types
+from webviz.engine.commands import Command, Sender
+from webviz.engine.commands.guard import Guard
+from webviz.engine.state import State
+from webviz.page.chart import ChartWidget
+from webviz.page.content.forms import form, values_of
+from webviz.page.recorded_ui import RecordedUi
+from webviz.page.widgets import Widget, clean
+from webviz.server.channel.channel import Channel
+from webviz.server.channel.messages import Done, Use
+
+log = logging.getLogger("webviz")
+
+MAX_WAITING = 16
+"""Acts of one panel that wait for one that takes long."""
+_SHARED = ("name",)
+"""Properties of all panels, which their tab does not show."""
+
+
+class PluginPanels:
+    """The panels of plug-ins, each in a tab named after its type.
+
+    All browsers share them. `update` is called by the frame loop; what browsers do runs in a thread
+    of each panel, so that no act stops the viewer or another panel.
+
+    Args:
+        channel: to the pages.
+        enqueue: takes commands, from any thread.
+    """
+
+    def __init__(self, channel: Channel, enqueue: Callable[[Command, Sender], Future[str]]) -> None:
+        self._channel = channel
+        self._enqueue = enqueue
+        self._tabs: dict[str, _Tab] = {}
+        self._order: list[str] = []
+        self._broken = broken_types(Panel)
+        channel.on(Use, self._use)
+
+    def update(self, state: State, watched: Collection[str]) -> None:
+        """Let the panels show the viewer whose stores are watched."""
+        panels = {tab.tab: tab.panel for tab in state.panels}
+        for name in [n for n, tab in self._tabs.items() if panels.get(n) is not tab.panel]:
+            self._tabs.pop(name).close()
+        for name in panels.keys() - self._tabs.keys():
+            self._tabs[name] = _Tab(name, panels[name], self._send)
+        self._order = list(panels)
+        for name, tab in self._tabs.items():
+            if f"panel:{name}" in watched:
+                tab.update(state)
+
+    # What stores hold, see `webviz.page.content`
+
+    def panels(self, state: State, _: str) -> Mapping[str, Any]:
+        """Title by name, "/order": the names from left to right, and "/types" that can be added."""
+        titles = {name: tab.title for name, tab in self._tabs.items()}
+        broken = {name: clean(name) for name in self._broken}
+        return {**titles, **broken, "/order": [*self._order, *self._broken], "/types": _types()}
+
+    def panel(self, state: State, name: str) -> Mapping[str, Any]:
+        """The widgets of a panel by id, "/order", and "/failure": a sentence or "".
+
+        The pieces of a chart have its id with a slash and theirs.
+        """
+        tab = self._tabs.get(name)
+        if tab is None:
+            return {"/order": [], "/failure": self._broken.get(name, "")}
+        widgets = dict(tab.ui.widgets)
+        values = {id_: widget.values for id_, widget in widgets.items()}
+        parts = {
+            f"{id_}/{name}": part
+            for id_, widget in widgets.items()
+            if isinstance(widget, ChartWidget)
+            for name, part in widget.parts.items()
+        }
+        return {**values, **parts, "/order": list(widgets), "/failure": tab.failure}
+
+    def properties(self, state: State, name: str) -> Mapping[str, Any]:
+        """Of a panel, as the store `tool` has them of a tool; nothing if it is gone."""
+        found = next((tab for tab in state.panels if tab.tab == name), None)
+        if found is None:
+            return {}
+        cls, own = type(found.panel), values_of(found.panel, _SHARED)
+        return {"id": found.id, "type": cls.__name__, "declared": form(cls, _SHARED), **own}
+
+    def commands(self, state: State, _: str) -> Mapping[str, Any]:
+        """The commands of all panels: panel, widget, label and key."""
+        return {
+            f"{name}/{id_}": {"panel": name, "widget": id_, **command.values}
+            for name, tab in self._tabs.items()
+            for id_, command in dict(tab.ui.commands).items()
+        }
+
+    # Called on the event loop
+
+    def _use(self, browser: int, use: Use) -> None:
+        def answer(text: str) -> None:
+            level = "error" if text else "ok"
+            self._channel.send(Done(use.number, level, text, ""), browser)
+
+        tab = self._tabs.get(use.panel)
+        widget = tab.ui.find(use.widget) if tab else None
+        if tab is None or widget is None:
+            answer("Not done: this panel has changed.")
+        elif not tab.hands.do(lambda: answer(tab.use(widget, use.value, browser))):
+            answer(f"Not done: the panel {tab.title} is busy.")
+
+    def _send(self, command: Any, browser: int | None = None) -> None:
+        self._enqueue(command, Sender(browser)).add_done_callback(_note_refusal)
+
+
+def _types() -> list[Mapping[str, str]]:
+    """The types of panels: name and title."""
+    return [
+        {"type": name, "title": clean(cls.title or name)}
+        for name, cls in sorted(plugin_types(Panel).items())
+    ]
+
+
+def _note_refusal(answer: Future[str]) -> None:
+    if not answer.cancelled() and (error := answer.exception()) is not None:
+        log.warning("A panel sent a command that was refused: %s", error)
+
+
+class _Tab:
+    """One panel in its tab.
+
+    Args:
+        name: of the tab.
+        panel: not built yet.
+        send: see `webviz.api.panel.Send`.
+    """
+
+    def __init__(self, name: str, panel: Panel, send: Callable[..., None]) -> None:
+        self.panel = panel
+        self.title = clean(panel.name)
+        self.ui = RecordedUi()
+        self.hands = _Hands(f"webviz-panel-{name}")
+        self.failure = ""
+        self._guard = Guard(f"The panel {self.title}", strict=False)
+        self._acts = Guard(f"The panel {self.title}", strict=False)
+        self._is_built = False
+        self._guard("build", self._build, send)
+
+    def update(self, state: State) -> None:
+        """Let the panel show the viewer, and note what it raises."""
+        if self._is_built:
+            self._guard("show", self.panel.show, state)
+        self.failure = next(iter(self._guard.crashes.values()), "")
+
+    def use(self, widget: Widget, value: Any, browser: int) -> str:
+        """Do what a browser did; returns what went wrong, a sentence or ""."""
+        try:
+            widget.use(value, browser)
+        except (Exception, SystemExit) as error:  # a plug-in may raise anything
+            return self._acts.note("act", error)
+        return ""
+
+    def close(self) -> None:
+        """End it."""
+        self.hands.close()
+
+    def _build(self, send: Callable[..., None]) -> None:
+        self.panel.build(self.ui, send)
+        self._is_built = True
+
+
+class _Hands:
+    """Does what browsers ask of one panel, one after the other, in a thread of its own.
+
+    Args:
+        name: of the thread.
+    """
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+        self._waiting: queue.Queue[Callable[[], object] | None] = queue.Queue(MAX_WAITING)
+        self._thread: threading.Thread | None = None
+
+    def do(self, act: Callable[[], object]) -> bool:
+        """Do something as soon as possible; False if too much is waiting. From one thread only."""
+        try:
+            self._waiting.put_nowait(act)
+        except queue.Full:
+            return False
+        if self._thread is None:
+            self._thread = threading.Thread(target=self._run, name=self._name, daemon=True)
+            self._thread.start()
+        return True
+
+    def close(self) -> None:
+        """Forget what waits, and end when what is under way is done."""
+        with contextlib.suppress(queue.Empty):
+            while True:
+                self._waiting.get_nowait()
+        self._waiting.put_nowait(None)
+
+    def _run(self) -> None:
+        while (act := self._waiting.get()) is not None:
+            act()

@@ -1,0 +1,57 @@
+"""Subscriptions that exist only because pages watch them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from webviz.engine.commands import (
+    PROGRAM,
+    Command,
+    InspectSelections,
+    InspectTopics,
+    InspectTransforms,
+    OpenPanels,
+    Sender,
+)
+from webviz.page.content.transforms import pair_of
+
+
+class Wishes:
+    """Follows which stores are watched: work for stores that no page watches ends automatically.
+
+    Args:
+        enqueue: takes commands, from any thread.
+    """
+
+    def __init__(self, enqueue: Callable[[Command, Sender], object]) -> None:
+        self._enqueue = enqueue
+        self._wished = _wishes(set())
+
+    def update(self, watched: set[str]) -> None:
+        """Ask for what these stores need, if that is something else than before."""
+        wished = _wishes(watched)
+        for command in wished - self._wished:
+            self._enqueue(command, PROGRAM)
+        self._wished = wished
+
+
+def _wishes(stores: set[str]) -> set[Command]:
+    """Return the commands that these stores need."""
+    pairs = map(pair_of, _arguments("between", stores))
+    return {
+        InspectTopics(frozenset(_arguments("message", stores))),
+        InspectSelections(
+            _browsers("selected", stores), _browsers("selection", stores), "picking" in stores
+        ),
+        InspectTransforms("transforms" in stores, frozenset(pair for pair in pairs if pair)),
+        OpenPanels(frozenset(_arguments("panel", stores))),
+    }
+
+
+def _arguments(name: str, stores: set[str]) -> set[str]:
+    """Return the arguments after the colon of the stores of a name."""
+    return {store.partition(":")[2] for store in stores if store.startswith(f"{name}:")}
+
+
+def _browsers(name: str, stores: set[str]) -> frozenset[int]:
+    return frozenset(int(each) for each in _arguments(name, stores) if each.isdecimal())

@@ -1,0 +1,175 @@
+"""The action clients of the node."""
+
+from __future__ import annotations
+
+import logging
+import uuid
+from collections.abc import Callable
+from concurrent.futures import Future
+from typing import Any, TypeVar
+
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+from rclpy.subscription import Subscription
+
+from webviz.data.messages import MessageError, decode, encode, interfaces
+from webviz.data.words import joined
+from webviz.ros.calls import WAIT_S, Calls
+from webviz.ros.types import learn, message_class
+from webviz.sources.graph import Goal, NotConnected
+
+T = TypeVar("T")
+
+log = logging.getLogger("webviz")
+
+CANCEL = "action_msgs/srv/CancelGoal"
+FEEDBACK_DEPTH = 10
+GOAL_ID = slice(4, 20)
+"""Of a serialised feedback message, after the encapsulation header."""
+Call = Callable[[str, str, bytes, float], Future[bytes]]
+"""Calls a service from any thread: its name, type, request and time limit; the response."""
+
+
+class Goals:
+    """Sends goals and follows them.
+
+    Args:
+        node: that has the subscriptions to feedback.
+        calls: for the node's thread.
+        call: for any thread.
+    """
+
+    def __init__(self, node: Node, calls: Calls, call: Call) -> None:
+        self._node = node
+        self._calls = calls
+        self._call = call
+        self._subscriptions: dict[str, Subscription] = {}
+        self._feedback: dict[bytes, Callable[[bytes], object]] = {}
+
+    def new(self, action: str) -> Goal:
+        """A goal that is not sent yet. Cancel its result to stop following it."""
+        goal_id = uuid.uuid4().bytes
+
+        def cancel() -> Future[int]:
+            values = {"goal_info": {"goal_id": _id(goal_id)}}
+            parts = interfaces.service(CANCEL)
+            request = encode(parts.request, values)
+            answer = self._call(f"{action}/_action/cancel_goal", CANCEL, request, WAIT_S)
+            code: Future[int] = Future()
+            _then(answer, code, lambda cdr: int(_read(parts.response, cdr, action).return_code))
+            return code
+
+        goal = Goal(goal_id, Future(), Future(), cancel)
+        goal.result.add_done_callback(lambda _: self._feedback.pop(goal_id, None))
+        return goal
+
+    def send(
+        self,
+        action: str,
+        type: str,
+        goal: bytes,
+        sent: Goal,
+        feedback: Callable[[bytes], object],
+    ) -> None:
+        """Send a goal, and wait for its result if it is accepted. In the node's thread."""
+        learn(type)
+        parts = interfaces.action(type)
+        values = {"goal_id": _id(sent.id), "goal": decode(parts.goal, goal)}
+        request = encode(f"{parts.send_goal}_Request", values)
+        subscription = self._subscribe(action, parts.feedback)
+        self._feedback[sent.id] = feedback
+        answer: Future[bytes] = Future()
+
+        def take(cdr: bytes) -> bool:
+            try:
+                is_accepted = bool(_read(f"{parts.send_goal}_Response", cdr, action).accepted)
+            except NotConnected:
+                sent.cancel()  # the server may have accepted it
+                raise
+            if is_accepted:
+                self._await(action, parts, sent)
+            else:
+                _fail(sent.result, NotConnected(f"{action} rejected the goal."))
+            return is_accepted
+
+        def on_answer(answered: Future[bytes]) -> None:
+            _then(answered, sent.accepted, take)
+            if error := sent.accepted.exception():
+                _fail(sent.result, error)
+
+        answer.add_done_callback(on_answer)
+        self._calls.send(
+            f"{action}/_action/send_goal",
+            parts.send_goal,
+            request,
+            WAIT_S * 5,
+            answer,
+            lambda: subscription.get_publisher_count() > 0,  # lose no feedback
+        )
+
+    def _await(self, action: str, parts: interfaces.Action, sent: Goal) -> None:
+        request = encode(f"{parts.get_result}_Request", {"goal_id": _id(sent.id)})
+
+        def status(cdr: bytes) -> tuple[int, bytes]:
+            return int(_read(f"{parts.get_result}_Response", cdr, action).status), cdr
+
+        forever = float("inf")
+        answer = self._call(f"{action}/_action/get_result", parts.get_result, request, forever)
+        sent.result.add_done_callback(lambda _: answer.cancel())
+        _then(answer, sent.result, status)
+
+    def _subscribe(self, action: str, type: str) -> Subscription:
+        """The subscription to the feedback of all goals of an action."""
+        topic = f"{action}/_action/feedback"
+        if topic in self._subscriptions:
+            return self._subscriptions[topic]
+
+        def arrive(cdr: bytes) -> None:
+            listener = self._feedback.get(cdr[GOAL_ID])
+            if listener is not None:
+                try:
+                    listener(cdr)
+                except Exception:  # in the tool that sent the goal; keep the node running
+                    log.exception("Feedback of %s could not be handled", action)
+
+        self._subscriptions[topic] = self._node.create_subscription(
+            message_class(type), topic, arrive, QoSProfile(depth=FEEDBACK_DEPTH), raw=True
+        )
+        return self._subscriptions[topic]
+
+
+def _read(type: str, cdr: bytes, action: str) -> Any:
+    """A part of an answer of an action.
+
+    Raises:
+        NotConnected: it is malformed.
+    """
+    try:
+        return decode(type, cdr)
+    except MessageError as error:
+        text = joined(f"An answer of {action} cannot be read: {error}", "Correct the server.")
+        raise NotConnected(text) from error
+
+
+def _then(answer: Future[bytes], then: Future[T], read: Callable[[bytes], T]) -> None:
+    """Settle a future, unless it is cancelled, with what `read` makes of an answer."""
+
+    def finish(answered: Future[bytes]) -> None:
+        if not then.set_running_or_notify_cancel():
+            return
+        try:
+            then.set_result(read(answered.result()))
+        except Exception as error:
+            then.set_exception(error)
+
+    answer.add_done_callback(finish)
+
+
+def _fail(future: Future[Any], error: BaseException) -> None:
+    """Fail a future, unless it is cancelled."""
+    if future.set_running_or_notify_cancel():
+        future.set_exception(error)
+
+
+def _id(goal_id: bytes) -> dict[str, Any]:
+    return {"uuid": list(goal_id)}

@@ -1,0 +1,86 @@
+"""Output of the node: publishing, service calls, goals."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from concurrent.futures import Future
+
+from rclpy.node import Node
+
+from webviz.ros.calls import Calls
+from webviz.ros.goals import Goals
+from webviz.ros.jobs import Jobs
+from webviz.ros.publishers import OutletPublishers
+from webviz.sources.graph import Goal, Outlet
+
+
+class RosGraph:
+    """Publishes, calls services and sends goals; see `webviz.sources.Graph`.
+
+    Args:
+        node: whose thread calls `turn` now and then, and often while calls are pending.
+        wake: makes that thread call `turn` soon.
+    """
+
+    def __init__(self, node: Node, wake: Callable[[], None]) -> None:
+        self._node = node
+        self._jobs = Jobs(wake)
+        self._publishers = OutletPublishers(node)
+        self._calls = Calls(node)
+        self._goals = Goals(node, self._calls, self.call)
+        self._nodes: tuple[str, ...] = ()
+
+    # From any thread
+
+    def advertise(self, outlets: Collection[Outlet]) -> Future[None]:
+        """Create these publishers ahead of their first messages, and destroy the previous ones."""
+        wanted = frozenset(outlets)
+        return self._jobs.put(lambda: self._publishers.advertise(wanted))
+
+    def publish(self, outlet: Outlet, cdr: bytes) -> Future[int]:
+        """Publish a message; the number of matched subscriptions."""
+        return self._jobs.put(lambda: self._publishers.publish(outlet, cdr))
+
+    def call(self, service: str, type: str, request: bytes, timeout_s: float) -> Future[bytes]:
+        """Call a service; the serialised response."""
+        answer: Future[bytes] = Future()
+        self._start(answer, lambda: self._calls.send(service, type, request, timeout_s, answer))
+        return answer
+
+    def send_goal(
+        self, action: str, type: str, goal: bytes, feedback: Callable[[bytes], object]
+    ) -> Goal:
+        """Send a goal to an action."""
+        sent = self._goals.new(action)
+        self._start(sent.accepted, lambda: self._goals.send(action, type, goal, sent, feedback))
+        return sent
+
+    def nodes(self) -> tuple[str, ...]:
+        """Full names of the nodes of the graph, sorted."""
+        return self._nodes
+
+    # In the thread of the node
+
+    def turn(self) -> bool:
+        """Run the queued jobs, and advance the pending calls; whether there are any."""
+        self._jobs.run()
+        return self._calls.turn()
+
+    def look(self) -> None:
+        """Refresh the node names."""
+        names = self._node.get_node_names_and_namespaces()
+        self._nodes = tuple(sorted({f"{space.rstrip('/')}/{name}" for name, space in names}))
+
+    def close(self) -> None:
+        """Fail everything that is pending."""
+        self._jobs.end()
+        self._calls.close()
+
+    def _start(self, answer: Future, do: Callable[[], None]) -> None:
+        """Call `do` in the thread of the node, and pass its error to the answer."""
+
+        def pass_on(started: Future[None]) -> None:
+            if (error := started.exception()) and not answer.done():
+                answer.set_exception(error)
+
+        self._jobs.put(do).add_done_callback(pass_on)

@@ -1,0 +1,308 @@
+"""The viewer's ROS node: one thread that subscribes to raw messages and watches the graph."""
+
+from __future__ import annotations
+
+import functools
+import threading
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import rclpy
+from rclpy.clock import JumpThreshold, ROSClock
+from rclpy.context import Context
+from rclpy.duration import Duration
+from rclpy.exceptions import InvalidTopicNameException
+from rclpy.executors import Executor, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
+from rclpy.signals import SignalHandlerOptions
+from rclpy.subscription import Subscription as RclpySubscription
+from rclpy.topic_endpoint_info import TopicEndpointInfo
+
+from webviz.ros import qos
+from webviz.ros.control import ControlNode
+from webviz.ros.graph import RosGraph
+from webviz.ros.guard_condition import GuardCondition
+from webviz.ros.heap import Heap
+from webviz.ros.shared_memory import remove_abandoned
+from webviz.ros.types import learn, message_class
+from webviz.sources import Inbox, Offer, Publisher, Raw, Subscription
+from webviz.sources.inbox import MAX_TOTAL
+
+REST_S = 0.25
+"""Time to wait before looking at the publishers of subscribed topics. Finite, because the
+events executor of rclpy 7.1.6 spins at full load in an unlimited wait."""
+PENDING_S = 0.05
+"""The same while calls are pending."""
+GRAPH_POLL_S = 2.0
+INBOX_LIMIT = 1000
+MAX_MESSAGE = MAX_TOTAL
+"""Bytes, the same as of a bag."""
+TF_TYPE = "tf2_msgs/msg/TFMessage"
+ANY_JUMP = JumpThreshold(
+    min_forward=Duration(nanoseconds=1),
+    min_backward=Duration(nanoseconds=-1),
+    on_clock_change=False,
+)
+TF_LIMIT = 20_000
+"""Every transform counts: room for the 10 s that the buffer keeps, at 2 kHz."""
+
+
+class RosSource:
+    """Messages from the ROS graph, as raw bytes in an inbox.
+
+    All rclpy calls are made in one thread of this object; the methods are thread-safe.
+
+    Args:
+        args: command line arguments for ROS (`--ros-args ...`).
+        node_name: unless remapped by `args`.
+        domain_id: ROS domain; None for that of the environment.
+    """
+
+    def __init__(
+        self,
+        args: Sequence[str] = (),
+        node_name: str = "webviz",
+        domain_id: int | None = None,
+    ) -> None:
+        self._heap = Heap()
+        self.inbox = Inbox()
+        self._context = Context()
+        remove_abandoned()
+        rclpy.init(
+            args=list(args),
+            context=self._context,
+            domain_id=domain_id,
+            signal_handler_options=SignalHandlerOptions.NO,
+        )
+        # The service cannot describe types that are composed at run time (see `types`).
+        silent = Parameter("start_type_description_service", value=False)
+        self._node = Node(node_name, context=self._context, parameter_overrides=[silent])
+        self._clock = self._node.get_clock()
+        self._clock_messages = 0
+        self._jumps = self._clock.create_jump_callback(ANY_JUMP, post_callback=self._count_clock)
+        self._guard_condition = GuardCondition()
+        self.control = ControlNode(self._node, self._guard_condition.trigger)
+        self._executor = _executor(self._context)
+        self.graph = RosGraph(self._node, self._guard_condition.trigger)
+        self._wanted: Mapping[str, Subscription] = {}
+        self._held: dict[str, _Held] = {}
+        self._offers: dict[str, Offer] = {}
+        self._problems: dict[str, str] = {}
+        self._stop = threading.Event()
+        self._thread = threading.Thread(target=self._run, name="webviz-ros", daemon=True)
+        self._thread.start()
+
+    def want(self, subscriptions: Mapping[str, Subscription]) -> None:
+        """Replace all subscriptions; takes effect soon."""
+        if subscriptions != self._wanted:
+            self._wanted = dict(subscriptions)
+            self._guard_condition.trigger()
+
+    def offers(self) -> Mapping[str, Offer]:
+        """All topics of the graph."""
+        return self._offers
+
+    def now_ns(self) -> int:
+        """ROS time; 0 before the first /clock when use_sim_time is set."""
+        if isinstance(self._clock, ROSClock) and self._clock.ros_time_is_active:
+            return self._clock.now().nanoseconds
+        return time.time_ns()
+
+    def clock_messages(self) -> int | None:
+        """Return the number of /clock messages that moved ROS time; None without use_sim_time."""
+        is_simulated = isinstance(self._clock, ROSClock) and self._clock.ros_time_is_active
+        return self._clock_messages if is_simulated else None
+
+    def resolve(self, topic: str) -> str:
+        """The full name of a topic.
+
+        Raises:
+            ValueError: the name is invalid.
+        """
+        try:
+            return self._node.resolve_topic_name(topic)
+        except (InvalidTopicNameException, RuntimeError, ValueError) as error:
+            reason = str(error).partition(", at /")[0].rpartition("name: ")[2]
+            raise ValueError(f"{topic!r} is not a valid topic name: {reason}") from error
+
+    def close(self) -> None:
+        """Destroy the node and end the thread."""
+        self._stop.set()
+        self._guard_condition.trigger()
+        self._thread.join()
+
+    def _run(self) -> None:
+        executor = self._executor
+        executor.add_node(self._node)
+        next_wanted = next_graph = 0.0
+        wanted: Mapping[str, Subscription] = {}
+        try:
+            while not self._stop.is_set():
+                self._guard_condition.reset()
+                now = time.monotonic()
+                if now >= next_graph:
+                    next_graph = now + GRAPH_POLL_S
+                    self._look([name for name, _ in self._node.get_topic_names_and_types()])
+                    self._reconcile(self._wanted)
+                    self.graph.look()
+                elif now >= next_wanted or wanted is not self._wanted:
+                    next_wanted = now + REST_S
+                    is_new = wanted is not self._wanted
+                    wanted = self._wanted
+                    if self._look([*self._offers, *wanted], only=wanted) or is_new:
+                        self._reconcile(wanted)
+                self._heap.turn()
+                self.control.turn()
+                guard: Any = self._guard_condition  # which is no whole future
+                if self.graph.turn():
+                    executor.spin_once_until_future_complete(guard, PENDING_S)
+                else:
+                    executor.spin_until_future_complete(guard, REST_S)
+        finally:
+            self.control.close()
+            self.graph.close()
+            executor.shutdown()
+            self._node.destroy_node()
+            self._context.try_shutdown()
+
+    def _look(self, topics: Sequence[str], only: Mapping[str, Subscription] | None = None) -> bool:
+        """Refresh the offers of topics; those outside `only` stay as they are.
+
+        Returns:
+            Whether any of them has changed.
+        """
+        offers = {}
+        for topic in topics:
+            known = self._offers.get(topic)
+            if only is not None and known is not None and topic not in only:
+                offers[topic] = known
+                continue
+            subscribers = self._node.count_subscribers(topic)
+            if only is not None and known is not None and self._has_as_many(topic, known):
+                publishers = known.publishers
+            else:
+                infos = self._node.get_publishers_info_by_topic(topic)
+                publishers = tuple(sorted(map(_publisher, infos), key=lambda p: (p.node, p.type)))
+            held = self._held.get(topic)
+            problem = self._problems.get(topic, "")
+            policies, type_ = (held.policies, held.wish.type) if held else (None, "")
+            offers[topic] = Offer(publishers, policies, problem, type_, subscribers)
+        if offers == self._offers:
+            return False
+        self._offers = offers
+        self.inbox.arrived.set()
+        return True
+
+    def _has_as_many(self, topic: str, known: Offer) -> bool:
+        """Return whether a topic has as many publishers as were known, which is quick to check."""
+        return self._node.count_publishers(topic) == len(known.publishers)
+
+    def _reconcile(self, wanted: Mapping[str, Subscription]) -> None:
+        """Subscribe and unsubscribe to what is wanted, with the QoS that matches now."""
+        for topic in [t for t in self._held if t not in wanted]:
+            self._release(topic)
+            self.inbox.close(topic)
+        for topic, wish in wanted.items():
+            if self._stop.is_set():  # the first subscriptions take longest
+                return
+            publishers = self._offers[topic].publishers if topic in self._offers else ()
+            if publishers and all(p.type != wish.type for p in publishers):
+                self._release(topic)  # rclpy allows one type per topic, and none matches
+                continue
+            policies, is_mixed = qos.adapt(wish, publishers), qos.is_mixed(wish, publishers)
+            if policies[1] == "volatile" and not is_mixed:
+                wish = replace(wish, asked=0)  # no latched message could be sent again
+            fitting = _Held(wish, policies, is_mixed)
+            if self._held.get(topic) != fitting:
+                self._release(topic)
+                self._subscribe(topic, fitting)
+
+    def _subscribe(self, topic: str, held: _Held) -> None:
+        self.inbox.open(topic, TF_LIMIT if held.wish.type == TF_TYPE else INBOX_LIMIT)
+        reliability, durability = held.policies
+        durabilities: list[qos.Durability] = [durability]
+        if held.is_mixed:
+            durabilities = ["transient_local", "volatile"]
+        try:
+            learn(held.wish.type)
+            held.subscriptions = [
+                self._node.create_subscription(
+                    message_class(held.wish.type),
+                    topic,
+                    functools.partial(self._arrive, topic),
+                    qos.profile(held.wish, reliability, each),
+                    raw=True,
+                    event_callbacks=qos.NO_EVENTS_OF_SUBSCRIPTIONS,
+                )
+                for each in durabilities
+            ]
+        except Exception as error:  # rclpy, the type support and DDS raise many kinds
+            self._problems[topic] = f"cannot subscribe: {' '.join(str(error).split())}"
+        else:
+            self._problems.pop(topic, None)
+        self._held[topic] = held
+
+    def _release(self, topic: str) -> None:
+        held = self._held.pop(topic, None)
+        if held is None:
+            return
+        for subscription in held.subscriptions:
+            self._node.destroy_subscription(subscription)
+        # The executor has to let go of it before the topic can have another type.
+        never: Any = GuardCondition()
+        self._executor.spin_until_future_complete(never, 0.0)
+
+    def _count_clock(self, jump: object) -> None:
+        self._clock_messages += 1
+
+    def _arrive(self, topic: str, cdr: bytes) -> None:
+        if len(cdr) > MAX_MESSAGE:
+            self._problems[topic] = (
+                f"a message of {len(cdr) / 2**20:.0f} MB is above the limit of "
+                f"{MAX_MESSAGE >> 20} MB; publish smaller ones"
+            )
+            return
+        self._heap.note(len(cdr))
+        self._problems.pop(topic, None)
+        self.inbox.put(topic, Raw(cdr, self.now_ns()))
+
+
+@dataclass
+class _Held:
+    """A subscription; equal to another if it can be kept instead."""
+
+    wish: Subscription
+    policies: tuple[qos.Reliability, qos.Durability]
+    is_mixed: bool
+    subscriptions: list[RclpySubscription] = field(default_factory=list, compare=False)
+
+
+def _executor(context: Context) -> Executor:
+    """The events executor (20 µs per message) if available.
+
+    The default one rebuilds its wait set on every wake-up, 25 µs per subscription.
+    """
+    try:
+        from rclpy.experimental.events_executor import EventsExecutor
+    except ImportError:  # rclpy before 7.1.4
+        return SingleThreadedExecutor(context=context)
+    return EventsExecutor(context=context)  # pyright: ignore[reportReturnType]
+
+
+def _publisher(info: TopicEndpointInfo) -> Publisher:
+    # A publisher outside of ROS has a placeholder as its node name.
+    name = "" if info.node_name.startswith("_") else info.node_name
+    policies = info.qos_profile
+    is_reliable = policies.reliability == ReliabilityPolicy.RELIABLE
+    is_latched = policies.durability == DurabilityPolicy.TRANSIENT_LOCAL
+    return Publisher(
+        node=f"{info.node_namespace.rstrip('/')}/{name}" if name else "",
+        type=info.topic_type,
+        reliability="reliable" if is_reliable else "best_effort",
+        durability="transient_local" if is_latched else "volatile",
+        endpoint=bytes(info.endpoint_gid),
+    )

@@ -1,0 +1,74 @@
+"""The QoS of subscriptions: what the publishers offer, unless the user chose one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Literal
+
+from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+
+from webviz.sources import Publisher, Subscription
+
+Reliability = Literal["reliable", "best_effort"]
+Durability = Literal["volatile", "transient_local"]
+
+DEPTHS = {
+    "tf2_msgs/msg/TFMessage": 200,
+    "std_msgs/msg/String": 1,
+    "nav_msgs/msg/OccupancyGrid": 2,
+    "map_msgs/msg/OccupancyGridUpdate": 20,
+    "nav_msgs/msg/Odometry": 100,
+    "visualization_msgs/msg/Marker": 100,
+    "visualization_msgs/msg/MarkerArray": 100,
+}
+"""Default depth of the history by type; other types have `SENSOR_DEPTH`."""
+SENSOR_DEPTH = 5
+
+
+NO_EVENTS_OF_PUBLISHERS = PublisherEventCallbacks(use_default_callbacks=False)
+NO_EVENTS_OF_SUBSCRIPTIONS = SubscriptionEventCallbacks(use_default_callbacks=False)
+"""For whatever is destroyed while the executor runs: an event that waits then, such as that of an
+incompatible publisher, ends `spin_once` with an InvalidHandle. The statuses of displays report what
+the default events would log."""
+
+
+def adapt(wish: Subscription, publishers: Sequence[Publisher]) -> tuple[Reliability, Durability]:
+    """The QoS that matches the most publishers.
+
+    As in rosbag2: reliable only if all publishers are, and transient local only if all are. Without
+    publishers it is best effort and volatile, which matches any.
+    """
+    matching = [p for p in publishers if p.type == wish.type]
+    reliability = wish.topic.reliability
+    if reliability == "auto":
+        all_reliable = matching and all(p.reliability == "reliable" for p in matching)
+        reliability = "reliable" if all_reliable else "best_effort"
+    durability = wish.topic.durability
+    if wish.latched:
+        durability = "transient_local"
+    elif durability == "auto":
+        all_latched = matching and all(p.durability == "transient_local" for p in matching)
+        durability = "transient_local" if all_latched else "volatile"
+    return reliability, durability
+
+
+def is_mixed(wish: Subscription, publishers: Sequence[Publisher]) -> bool:
+    """Return whether only some publishers are transient local, so that it takes two subscriptions.
+
+    A volatile one misses latched messages, a transient local one does not match the others.
+    """
+    if wish.topic.durability != "auto" and not wish.latched:
+        return False
+    offered = {p.durability for p in publishers if p.type == wish.type}
+    return len(offered) == 2
+
+
+def profile(wish: Subscription, reliability: Reliability, durability: Durability) -> QoSProfile:
+    """The rclpy profile for a wish and its adapted policies."""
+    return QoSProfile(
+        depth=wish.topic.depth or DEPTHS.get(wish.type, SENSOR_DEPTH),
+        history=HistoryPolicy.KEEP_LAST,
+        reliability=ReliabilityPolicy[reliability.upper()],
+        durability=DurabilityPolicy[durability.upper()],
+    )

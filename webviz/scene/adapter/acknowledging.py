@@ -1,0 +1,92 @@
+"""Waits until browsers have applied what was sent to them."""
+
+from __future__ import annotations
+
+import threading
+import time
+import uuid
+
+from viser import _messages as wire
+
+from webviz.scene.late import Late
+from webviz.server.channel.messages import Answer, Ask
+from webviz.server.http.viser_server import Server
+
+
+class AcknowledgementRequest(wire.RunJavascriptMessage, include_in_scene_serialization=True):
+    """Makes a page answer once it has handled all messages queued before."""
+
+    def redundancy_key(self) -> str:
+        """One per token, so that none replaces another."""
+        return self.source
+
+    def as_serializable_dict(self, binary_buffers: list[memoryview] | None = None) -> dict:
+        """As viser packs it, under the name of viser's class."""
+        return {"type": "RunJavascriptMessage", "source": self.source}
+
+
+class Acknowledgements:
+    """The answers of pages to markers.
+
+    Args:
+        server: of the pages.
+        late: messages that are still being made.
+    """
+
+    def __init__(self, server: Server, late: Late) -> None:
+        self._server = server
+        self._late = late
+        self._answered: dict[str, set[int]] = {}
+        self._changed = threading.Condition()
+        server.channel.on(Answer, self._receive)
+
+    def wait(self, timeout: float, browser: int | None = None) -> None:
+        """Waits until one connected browser, or all of them, have applied everything queued so far.
+
+        There are three queues: the shared one, that of each browser, and the channel. Applied means
+        handled in order; the next frame shows it. Must not be called on viser's event loop.
+
+        Raises:
+            TimeoutError: a browser that is still connected did not answer within `timeout` seconds,
+                or there was still something to send.
+        """
+        socket = self._server._websock_server
+        tokens = [uuid.uuid4().hex for _ in range(3)]
+        shared, own = (
+            AcknowledgementRequest(self._server.modules.answer(token)) for token in tokens[:2]
+        )
+        answered = {token: set[int]() for token in tokens}
+        self._answered |= answered
+        asked = self._server.get_clients()
+        if browser is not None:
+            asked = {id_: client for id_, client in asked.items() if id_ == browser}
+        deadline = time.monotonic() + timeout
+        try:
+            if not self._late.wait(timeout):
+                raise TimeoutError(f"Pictures were not encoded within {timeout:g} s.")
+            socket.queue_message(shared)
+            self._server.flush()
+            for client in asked.values():
+                connection = client._websock_connection
+                # It may be gone by now, which viser would warn of.
+                with connection.get_message_buffer().sanctioned_dead_writes():
+                    connection.queue_message(own)
+                client.flush()
+                self._server.channel.send(Ask(tokens[2]), client.client_id)
+            with self._changed:
+                while (asked.keys() & self._server.get_clients().keys()) - set.intersection(
+                    *answered.values()
+                ):
+                    if time.monotonic() > deadline:
+                        raise TimeoutError(f"A browser did not answer within {timeout:g} s.")
+                    self._changed.wait(0.05)
+        finally:
+            for token in tokens:
+                del self._answered[token]
+            socket.get_message_buffer().remove_from_buffer(lambda message: message is shared)
+
+    def _receive(self, browser: int, answer: Answer) -> None:
+        with self._changed:
+            if answer.token in self._answered:
+                self._answered[answer.token].add(browser)
+                self._changed.notify_all()

@@ -1,0 +1,32 @@
+"""Images in the scene."""
+
+from __future__ import annotations
+
+import numpy as np
+import viser
+from viser import ImageHandle
+from viser import _messages as wire
+
+from webviz.scene.png import encode_png
+
+_BLANK = encode_png(np.zeros((1, 1, 4), np.uint8))
+
+
+def add_blank_image(server: viser.ViserServer, name: str) -> ImageHandle:
+    """Adds an image of one metre that shows nothing yet.
+
+    viser's way to do it imports all plug-ins of imageio and Pillow, and takes the frame loop a
+    millisecond or two for each tile of a map.
+    """
+    props = wire.ImageProps(
+        _format="png",
+        _data=_BLANK,
+        render_width=1.0,
+        render_height=1.0,
+        cast_shadow=False,
+        receive_shadow=False,
+        scale=1.0,
+    )
+    message = wire.ImageMessage(name, props)
+    pose = (1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+    return ImageHandle._make(server.scene, message, name, *pose, visible=True)

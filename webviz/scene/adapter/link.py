@@ -1,0 +1,157 @@
+"""Sends the messages of a scene to the browsers of a server."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+import numpy as np
+import viser
+from numpy.typing import NDArray
+from viser import _messages as wire
+
+from webviz.scene.adapter.acknowledging import AcknowledgementRequest, Acknowledgements
+from webviz.scene.adapter.hints import evaluate_hints_once
+from webviz.scene.adapter.poses import (
+    Move,
+    OrientationMessage,
+    Position,
+    PositionMessage,
+    Wxyz,
+    queue_moves,
+)
+from webviz.scene.adapter.sender import SceneSender
+from webviz.scene.label_budget import LabelBudget
+from webviz.scene.late import Late
+from webviz.server.http.viser_server import Server
+from webviz.server.images.pictures import Pictures
+
+MAX_TOMBSTONES = 10_000
+"""Removal messages in the buffer, above which browsers that do not read are disconnected."""
+_PRUNE_EVERY = 500
+
+
+class Adapter:
+    """Sends the messages of a scene to every browser of a server.
+
+    Args:
+        server: as from `open_server`.
+    """
+
+    def __init__(self, server: viser.ViserServer) -> None:
+        assert isinstance(server, Server), "not opened by open_server"
+        self.server = server
+        self.channel = server.channel
+        """To the modules of the pages."""
+        self.pictures = Pictures(server.channel)
+        """In panes beside the scene."""
+        self.late = Late()
+        """Messages that are slow to make, and are sent later."""
+        self.label_budget = LabelBudget()
+        self._socket = server._websock_server
+        self._buffer = self._socket.get_message_buffer()
+        self._queue = self._socket.queue_message
+        self._acknowledgements = Acknowledgements(server, self.late)
+        self._removed = 0
+        self._sender = SceneSender(
+            self._buffer, self._socket._live_connections, last=AcknowledgementRequest
+        )
+        evaluate_hints_once()
+
+    def set_position(self, name: str, position: Position) -> None:
+        """Places a node relative to its parent."""
+        self._queue(PositionMessage(name, position))
+
+    def set_orientation(self, name: str, wxyz: Wxyz) -> None:
+        """Turns a node relative to its parent."""
+        self._queue(OrientationMessage(name, wxyz))
+
+    def place(self, moves: Iterable[Move]) -> None:
+        """Places and turns many nodes; to be called in an `atomic` block, or before `flush`."""
+        queue_moves(self._buffer, moves)
+
+    def update(self, name: str, props: dict[str, Any]) -> None:
+        """Assigns several properties in one message; arrays must not change afterwards.
+
+        The message replaces an unsent one with the same property names. Hence always send the
+        properties of a node in the same disjoint sets.
+        """
+        self._queue(wire.SceneNodeUpdateMessage(name, props))
+
+    @contextlib.contextmanager
+    def atomic(self) -> Iterator[None]:
+        """Sends what is queued inside in one piece at its end, before viser's 16 ms are over."""
+        buffer, sender = self._buffer, self._sender
+        before = buffer.message_counter
+        buffer.atomic_start()
+        try:
+            yield
+        finally:
+            with buffer.buffer_lock:
+                buffer.atomic_counter -= 1
+                is_due = sender.is_held or buffer.message_counter != before
+                sender.is_held = False
+            if is_due:
+                self.flush()
+
+    def flush(self) -> None:
+        """Sends what is queued now instead of at the end of viser's 16 ms window."""
+        self.server.flush()
+
+    def acknowledge(self, timeout: float = 10.0, client_id: int | None = None) -> None:
+        """Waits until one browser, or all of them, have applied everything queued so far.
+
+        Raises:
+            TimeoutError: see `Acknowledgements.wait`.
+        """
+        self._acknowledgements.wait(timeout, client_id)
+
+    def count_removals(self, count: int) -> None:
+        """Counts removed nodes, and sometimes drops removal messages that all browsers have."""
+        self._removed += count
+        if self._removed >= _PRUNE_EVERY:
+            self._removed = 0
+            self.server.get_event_loop().call_soon_threadsafe(self._prune)
+
+    def camera(self, client: viser.ClientHandle) -> tuple[NDArray[np.float64], ...]:
+        """A consistent snapshot of a browser's camera.
+
+        Returns:
+            float64 (3,) position, (4,) orientation as a quaternion with w first (z looks forward,
+            y down), and (3,) pivot: in metres, in the coordinates of the scene.
+        """
+        state = client.camera._state
+        return state.position, state.wxyz, state.look_at
+
+    @property
+    def watchers(self) -> int:
+        """Number of connected browsers, including those that are loading."""
+        return len(self._socket._live_connections)
+
+    @property
+    def queued_messages(self) -> int:
+        """Number of shared messages queued so far."""
+        return self._buffer.message_counter
+
+    @property
+    def live_messages(self) -> int:
+        """Number of messages that a browser receives when it joins."""
+        return len(self._buffer.message_from_id)
+
+    def _prune(self) -> None:
+        """Drops removal messages, and browsers that stopped reading (on the event loop).
+
+        A sleeping browser has to receive the removal of every node, so each of these messages is
+        kept. Once disconnected, the browser reconnects and receives the scene anew.
+        """
+        self.server._run_garbage_collector()
+        with self._buffer.buffer_lock:
+            messages = self._buffer.message_from_id.values()
+            tombstones = sum(message.lifecycle_phase == "remove" for message in messages)
+            oldest_wanted = self._buffer.message_counter - MAX_TOMBSTONES
+        if tombstones <= MAX_TOMBSTONES:
+            return
+        for client_id, cursor in tuple(self._buffer.generator_cursors.items()):
+            if cursor < oldest_wanted and client_id in self._socket._live_connections:
+                self._socket._live_connections[client_id].transport.abort()

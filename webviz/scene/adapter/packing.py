@@ -1,0 +1,45 @@
+"""Packs messages as viser's page reads them, into whole websocket frames."""
+
+from __future__ import annotations
+
+import struct
+import time
+from collections.abc import Sequence
+
+import msgspec
+import zstandard
+from viser.infra._infra import _append_aligned_buffers
+from viser.infra._messages import Message
+
+from webviz.server.sending.frame_header import header
+from webviz.server.sending.pieces import Piece
+
+_packer = msgspec.msgpack.Encoder()
+
+
+class Packer:
+    """Packs messages; one thread may use it at a time."""
+
+    def __init__(self) -> None:
+        self._zstd = zstandard.ZstdCompressor(level=1)
+
+    def frame(self, messages: Sequence[Message | Piece]) -> bytes:
+        """A websocket frame without mask, which is the same for all browsers.
+
+        It contains the size of the msgpack before and after compression, the msgpack, and the
+        arrays, each aligned to 8 bytes.
+        """
+        arrays: list[memoryview] = []
+        packed = _packer.encode(
+            {
+                "messages": [message.as_serializable_dict(arrays) for message in messages],
+                "timestampSec": time.perf_counter(),
+                "binaryBufferLengths": [array.nbytes for array in arrays],
+            }
+        )
+        compressed = self._zstd.compress(packed)
+        sizes = struct.pack("<QQ", len(packed), len(compressed))
+        parts: list[bytes | memoryview] = [b"", sizes, compressed]
+        _append_aligned_buffers(parts, arrays, len(sizes) + len(compressed))
+        parts[0] = header(sum(memoryview(part).nbytes for part in parts))
+        return b"".join(parts)

@@ -1,0 +1,175 @@
+"""Places the cameras of browsers, and reports their views."""
+
+from __future__ import annotations
+
+import itertools
+import threading
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+import viser
+
+from webviz.api.views import (
+    FIELD_OF_VIEW,
+    FIXED_FRAME,
+    VIEW_TYPES,
+    Camera,
+    Orbit,
+    ThirdPersonFollower,
+    View,
+    camera_of,
+    target_group,
+    type_of,
+    view_of,
+)
+from webviz.scene.adapter import Adapter
+from webviz.scene.names import node_path
+from webviz.server.channel.messages import PlaceCamera, SaveCanvas, StartView, ViewReport
+
+M = TypeVar("M", bound=PlaceCamera)
+
+ASSUMED_PX = 800.0
+"""Height of a picture before the page reports it; the page corrects the distance."""
+
+
+@dataclass
+class _Browser:
+    """The camera of a browser.
+
+    Args:
+        view: requested last; its values hold until the page has confirmed the request.
+        number: of that request.
+        obeyed: the last request that the page confirmed.
+        size: width and height of its picture in pixels.
+    """
+
+    view: View
+    number: int
+    obeyed: int
+    size: tuple[float, float]
+
+
+class ViserCameras:
+    """The cameras of all browsers of a server, which users move independently.
+
+    All methods belong to one thread, which takes the reports of pages when it needs them.
+
+    Args:
+        link: to the server.
+    """
+
+    def __init__(self, link: Adapter) -> None:
+        self._link = link
+        self._start: View = Orbit()
+        self._numbers = itertools.count(1)
+        self._browsers: dict[int, _Browser] = {}
+        self._lock = threading.Lock()
+        self._heard: dict[int, ViewReport] = {}
+        """The newest report of each browser that was not taken yet."""
+        link.channel.on(ViewReport, self._hear)
+        link.server.on_client_connect(self._join)
+        link.server.on_client_disconnect(self._leave)
+        self.start_with(self._start)
+
+    def start_with(self, view: View) -> None:
+        """Choose the view of browsers that join."""
+        self._start = view
+        camera = camera_of(view, ASSUMED_PX)
+        initial = self._link.server.initial_camera
+        initial.look_at = camera.look_at
+        initial.position = camera.position
+        initial.up = (0.0, 0.0, 1.0)
+        initial.fov = FIELD_OF_VIEW
+
+    def show(self, view: View, browser: int | None = None) -> None:
+        """Show a view in one browser or in all of them.
+
+        The camera follows the target frame if its `target_group` is in the scene.
+        """
+        self._take_reports()
+        number = next(self._numbers)
+        for id_ in self._link.server.get_clients():
+            if browser in (None, id_):
+                if known := self._browsers.get(id_):
+                    known.view, known.number = view, number
+                self._link.channel.send(_message(PlaceCamera, view, number), id_)
+
+    def views(self) -> Mapping[int, View]:
+        """The current view of every browser, by its id."""
+        clients = self._take_reports()
+        return {id_: self._view(known, clients[id_]) for id_, known in self._browsers.items()}
+
+    def target_frames(self) -> set[str]:
+        """The target frames of all views, including that of browsers that join."""
+        self._take_reports()
+        views = [self._start, *(known.view for known in self._browsers.values())]
+        return {view.target_frame for view in views} - {FIXED_FRAME}
+
+    def size(self, browser: int) -> tuple[float, float]:
+        """Width and height of the picture in a browser, in pixels.
+
+        Raises:
+            KeyError: the browser is unknown.
+        """
+        self._take_reports()
+        return self._browsers[browser].size
+
+    def save_image(self, name: str, browser: int | None = None) -> None:
+        """Make one browser or all of them download their picture as a PNG of that name."""
+        self._link.channel.send(SaveCanvas(name), browser)
+
+    def _take_reports(self) -> dict[int, viser.ClientHandle]:
+        """Apply the reports of pages, and return the connected browsers."""
+        with self._lock:
+            heard, self._heard = self._heard, {}
+        clients = self._link.server.get_clients()
+        for id_ in self._browsers.keys() - clients.keys():
+            del self._browsers[id_]
+        for id_, report in heard.items():
+            if id_ not in clients or report.view not in VIEW_TYPES:
+                continue  # not a report of webviz's page
+            size = (max(report.width, 1.0), max(report.height, 1.0))
+            if known := self._browsers.get(id_):
+                known.obeyed, known.size = report.number, size
+            else:
+                view = VIEW_TYPES[report.view](target_frame=report.target_frame)
+                self._browsers[id_] = _Browser(view, report.number, report.number, size)
+        return clients
+
+    def _view(self, known: _Browser, client: viser.ClientHandle) -> View:
+        if known.obeyed != known.number:
+            return known.view
+        position, (w, x, y, z), pivot = self._link.camera(client)
+        forward = np.array((2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)))
+        camera = Camera(position, position + forward * np.linalg.norm(pivot - position))
+        return view_of(type(known.view), known.view.target_frame, camera, known.size[1])
+
+    # Called on viser's event loop
+
+    async def _join(self, client: viser.ClientHandle) -> None:
+        self._link.channel.send(_message(StartView, self._start, 0), client.client_id)
+
+    async def _leave(self, client: viser.ClientHandle) -> None:
+        with self._lock:
+            self._heard.pop(client.client_id, None)
+
+    def _hear(self, browser: int, report: ViewReport) -> None:
+        with self._lock:
+            self._heard[browser] = report
+
+
+def _message(kind: type[M], view: View, number: int) -> M:
+    camera = camera_of(view, ASSUMED_PX)
+    frame = view.target_frame
+    return kind(
+        number=number,
+        view=type_of(view),
+        target_frame=frame,
+        frame="" if frame == FIXED_FRAME else node_path(target_group(frame)),
+        turns=isinstance(view, ThirdPersonFollower),
+        position=camera.position.tolist(),
+        look_at=camera.look_at.tolist(),
+        scale=getattr(view, "scale", None),
+    )

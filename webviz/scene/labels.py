@@ -1,0 +1,143 @@
+"""Texts."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from viser import LabelHandle
+
+from webviz.api.nodes import U8, Labels, Rgb
+from webviz.scene.adapter import Adapter
+from webviz.scene.label_budget import MAX_LABELS
+from webviz.scene.schemes import TEXT_CODE
+
+# Line height of RViz's Liberation Sans in font sizes (measured). Browsers use Arial or a font of
+# the same size.
+_LINE = 1.19
+
+
+class _Label(NamedTuple):
+    """A text, its position, and viser's properties for its look."""
+
+    text: str
+    position: tuple[float, float, float]
+    look: dict[str, Any]
+
+
+class LabelsDrawn:
+    """One viser label per text, under one frame; labels are reused in order.
+
+    Many are added over several flushes, and no more than `LabelBudget` allows.
+    """
+
+    def __init__(self, link: Adapter, name: str) -> None:
+        self._link = link
+        self._name = name
+        self._frame = link.server.scene.add_frame(name, show_axes=False)
+        self._labels: list[LabelHandle] = []
+        self._sent: list[_Label] = []
+        self._wanted: list[tuple[str, list[float], float]] = []
+        """Texts, their positions, and heights; most of very many are never sent."""
+        self._anchor = ""
+
+    def draw(self, node: Labels) -> None:
+        """Sends changed labels; those whose position is not finite are dropped."""
+        anchor = "top-center" if node.below else "center-center"
+        texts = node.texts[:MAX_LABELS]
+        heights = _tinted(node.height / _LINE, _steps(node.colors, len(texts)))
+        positions = node.positions[:MAX_LABELS]
+        labels = list(zip(texts, positions.tolist(), heights, strict=True))
+        finite = np.flatnonzero(np.isfinite(positions).all(axis=1))
+        self._wanted = [labels[index] for index in finite.tolist()]
+        self._anchor = anchor
+        budget = self._link.label_budget
+        for index, old in enumerate(self._sent[: len(self._wanted)]):
+            new = self._label(index)
+            if not budget.change(old.text, new.text):
+                self._remove_from(index)
+                break
+            self._change(index, old, new)
+            self._sent[index] = new
+        self._remove_from(len(self._wanted))
+        self._add_more()
+
+    def remove(self) -> None:
+        """Removes the labels from the scene."""
+        self._link.count_removals(len(self._labels))
+        self.forget()
+        self._frame.remove()
+
+    def forget(self) -> None:
+        """Gives back the room of labels that go with their group."""
+        budget = self._link.label_budget
+        budget.leave(self._name)
+        for label in self._sent:
+            budget.free(label.text)
+
+    def _add_more(self) -> None:
+        budget = self._link.label_budget
+        budget.leave(self._name)
+        for index in range(len(self._labels), len(self._wanted)):
+            new = self._label(index)
+            if not budget.take(new.text):
+                budget.wait(self._name, self._add_more)
+                return
+            self._add(index, new)
+            self._sent.append(new)
+
+    def _label(self, index: int) -> _Label:
+        text, (x, y, z), height = self._wanted[index]
+        look = {"font_scene_height": height, "anchor": self._anchor}
+        return _Label(_encodable(text), (x, y, z), look)
+
+    def _remove_from(self, index: int) -> None:
+        for label, sent in zip(self._labels[index:], self._sent[index:], strict=True):
+            label.remove()
+            self._link.label_budget.free(sent.text)
+        self._link.count_removals(len(self._labels[index:]))
+        del self._labels[index:], self._sent[index:]
+
+    def _add(self, index: int, new: _Label) -> None:
+        name = f"{self._name}/{index}"
+        label = self._link.server.scene.add_label(
+            name, new.text, font_size_mode="scene", depth_test=True, **new.look
+        )
+        self._labels.append(label)
+        self._link.set_position(name, new.position)
+
+    def _change(self, index: int, old: _Label, new: _Label) -> None:
+        name = f"{self._name}/{index}"
+        if old.text != new.text:
+            self._link.update(name, {"text": new.text})
+        if old.position != new.position:
+            self._link.set_position(name, new.position)
+        if old.look != new.look:
+            self._link.update(name, new.look)
+
+
+def _steps(colors: U8 | Rgb | None, count: int) -> U8:
+    """Colours of so many texts in 32 steps per channel, uint8 (count, 3)."""
+    if colors is None:
+        return np.broadcast_to(np.array(TEXT_CODE, np.uint8), (count, 3))
+    known = np.asarray(colors, np.uint8) >> 3
+    steps = known[:count] if known.ndim > 1 else np.broadcast_to(known, (count, 3))
+    taken = (steps == TEXT_CODE).all(axis=1, keepdims=True)
+    return np.where(taken, np.uint8(31), steps)
+
+
+def _tinted(height: float, steps: U8) -> list[float]:
+    """A height for each colour (N, 3) of 32 steps per channel, whose last bits are that colour.
+
+    viser's labels have no colour. Their height reaches the shader as a float32, which labels.js
+    makes use of: five bits for each channel, which changes the height by less than 0.2 %.
+    """
+    red, green, blue = steps.astype(np.uint32).T
+    (bits,) = np.array([height], np.float32).view(np.uint32)
+    tinted = (bits & np.uint32(0xFFFF8000)) | red << 10 | green << 5 | blue
+    return tinted.astype(np.uint32).view(np.float32).astype(np.float64).tolist()
+
+
+def _encodable(text: str) -> str:
+    """Replaces lone surrogates, from invalid UTF-8, which would end every browser's connection."""
+    return text.encode(errors="replace").decode()

@@ -1,0 +1,261 @@
+"""The scene of all browsers: rigid groups of nodes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import viser
+
+from webviz.api.bounds import Box, bounds, union
+from webviz.api.nodes import (
+    Arrows,
+    Axes,
+    Glb,
+    Image,
+    Instances,
+    Labels,
+    Lines,
+    Mesh,
+    Models,
+    Node,
+    Pane,
+    Points,
+    Pose,
+    Rgb,
+)
+from webviz.scene.adapter import Adapter, Move, Position, Wxyz
+from webviz.scene.adapter.background import set_background
+from webviz.scene.axes import AxesDrawn
+from webviz.scene.cameras import ViserCameras
+from webviz.scene.drawn import Drawn
+from webviz.scene.holding import Holding
+from webviz.scene.images import ImageDrawn
+from webviz.scene.instances import InstancesDrawn
+from webviz.scene.labels import LabelsDrawn
+from webviz.scene.lines import ArrowsDrawn, LinesDrawn
+from webviz.scene.meshes import GlbDrawn, MeshDrawn, ModelsDrawn
+from webviz.scene.names import ROOT, node_path
+from webviz.scene.panes import PaneDrawn
+from webviz.scene.points import PointsDrawn, keep_shaders
+
+_DRAWN: dict[type, Callable[[Adapter, str], Drawn[Any]]] = {
+    Points: PointsDrawn,
+    Lines: LinesDrawn,
+    Arrows: ArrowsDrawn,
+    Axes: AxesDrawn,
+    Labels: LabelsDrawn,
+    Mesh: MeshDrawn,
+    Instances: InstancesDrawn,
+    Models: ModelsDrawn,
+    Glb: GlbDrawn,
+    Image: ImageDrawn,
+    Pane: PaneDrawn,
+}
+
+_IDENTITY = Pose()
+
+
+class ViserScene:
+    """Groups of nodes, each with one pose in the fixed frame.
+
+    Methods only record changes; `flush` compares the result with what was sent and sends the
+    difference in one piece. All methods belong to one thread.
+
+    Args:
+        server: as from `open_server`.
+    """
+
+    def __init__(self, server: viser.ViserServer) -> None:
+        self.link = Adapter(server)
+        self._groups: dict[str, _Group] = {}
+        self._dirty: dict[str, _Group] = {}
+        self._gone: list[_Group] = []
+        keep_shaders(server.scene, ROOT)
+        self.cameras = ViserCameras(self.link)
+        self._holding = Holding(self.link)
+
+    def has_watchers(self) -> bool:
+        """Return whether any browser is connected."""
+        return self.link.watchers > 0
+
+    def is_unseen(self, display: str) -> bool:
+        """Return whether pages have a pane for a display id, but none has shown it for a while."""
+        return self.link.pictures.is_unseen(display)
+
+    def points_held(self) -> int:
+        """Return the number of points every connected browser draws fast enough."""
+        return self._holding.points()
+
+    def set_background(self, rgb: Rgb | None) -> None:
+        """Set the background to one colour; None is that of each page, which follows its theme."""
+        set_background(self.link.server, rgb)
+
+    def set_pose(self, group: str, pose: Pose) -> None:
+        """Places a group in the fixed frame; a new group is at the identity.
+
+        Raises:
+            ValueError: the pose is not finite.
+        """
+        known = self._groups.get(group)
+        if known is not None and known.pose == pose:
+            return
+        if not math.isfinite(sum(pose.position) + sum(pose.wxyz)):
+            raise ValueError(f"The pose of {group!r} is not finite.")
+        self._touch(group).pose = pose
+
+    def upsert(self, group: str, key: str, node: Node, pose: Pose = _IDENTITY) -> None:
+        """Draws a node at a pose in a group, in place of the one with the same key."""
+        wanted = self._touch(group)
+        wanted.nodes[key] = (node, pose)
+        wanted.dirty[key] = None
+
+    def remove(self, group: str, key: str) -> None:
+        """Removes a node, if it exists."""
+        if group in self._groups and key in self._groups[group].nodes:
+            wanted = self._touch(group)
+            del wanted.nodes[key]
+            wanted.dirty[key] = None
+
+    def remove_group(self, group: str) -> None:
+        """Removes a group with its nodes and pose, if it exists."""
+        self._dirty.pop(group, None)
+        if group in self._groups:
+            self._gone.append(self._groups.pop(group))
+
+    def set_visible(self, group: str, visible: bool) -> None:
+        """Hides or shows a group; hidden nodes may be changed."""
+        self._touch(group).visible = visible
+
+    def bounds(self, prefix: str) -> Box | None:
+        """The bounding box in the fixed frame of all visible groups with a prefix."""
+        return union(
+            box.moved(pose).moved(group.pose)
+            for name, group in self._groups.items()
+            if name.startswith(prefix) and group.visible
+            for node, pose in group.nodes.values()
+            if (box := bounds(node)) is not None
+        )
+
+    def clear(self) -> None:
+        """Removes every group."""
+        for group in tuple(self._groups):
+            self.remove_group(group)
+
+    def flush(self) -> None:
+        """Sends everything that changed since the last flush, in one piece.
+
+        Raises:
+            Exception: a node is malformed. It is dropped and named in a note; the rest follows in
+                the next flush.
+        """
+        self.link.late.deliver()
+        texts = self.link.label_budget
+        if not self._dirty and not self._gone and not texts.is_waiting:
+            return
+        moves: list[Move] = []
+        with self.link.atomic():
+            while self._gone:
+                self._gone.pop().remove(self.link)
+            texts.deliver()
+            try:
+                for name, group in tuple(self._dirty.items()):
+                    group.send(self.link, moves)
+                    del self._dirty[name]
+            finally:
+                self.link.place(moves)
+        if texts.is_unfinished:
+            self.link.late.wake()
+
+    def acknowledge(self, timeout: float) -> None:
+        """Waits until every browser has applied everything that was flushed.
+
+        Raises:
+            TimeoutError: it takes longer than `timeout` seconds.
+        """
+        self.link.late.finish(timeout)
+        while self.link.label_budget.is_unfinished:
+            self.flush()
+        self.link.acknowledge(timeout)
+
+    def _touch(self, name: str) -> _Group:
+        group = self._groups.get(name)
+        if group is None:
+            group = self._groups[name] = _Group(name)
+        self._dirty[name] = group
+        return group
+
+
+class _Group:
+    """A rigid group: its wanted state, and the state in the browsers."""
+
+    def __init__(self, name: str) -> None:
+        self.pose = Pose()
+        self.visible = True
+        self.nodes: dict[str, tuple[Node, Pose]] = {}
+        self.dirty: dict[str, None] = {}
+        self._name = name
+        self._path = node_path(name)
+        self._handle: viser.FrameHandle | None = None
+        self._sent_position: Position | None = None
+        self._sent_wxyz: Wxyz | None = None
+        self._sent_visible = True
+        self._drawn: dict[str, tuple[Node, Pose, Drawn[Any]]] = {}
+
+    def send(self, link: Adapter, moves: list[Move]) -> None:
+        """Sends the changes, except for the pose of the group, which is added to `moves`."""
+        if self._handle is None:
+            self._handle = link.server.scene.add_frame(self._path, show_axes=False)
+        position = self.pose.position
+        is_moved, is_turned = position != self._sent_position, self.pose.wxyz != self._sent_wxyz
+        if is_moved or is_turned:
+            self._sent_position, self._sent_wxyz = position, self.pose.wxyz
+            wxyz = self.pose.wxyz if is_turned else None
+            moves.append((self._path, position if is_moved else None, wxyz))
+        if self.visible != self._sent_visible:
+            self._handle.visible = self._sent_visible = self.visible
+        for key in tuple(self.dirty):
+            del self.dirty[key]
+            try:
+                self._send_node(link, key)
+            except Exception as error:
+                error.add_note(f"while drawing {key!r} of {self._name!r}")
+                raise
+        for pane in self._panes():
+            pane.set_visible(self.visible)
+
+    def _send_node(self, link: Adapter, key: str) -> None:
+        wanted, sent = self.nodes.get(key), self._drawn.get(key)
+        if sent is not None and (wanted is None or type(wanted[0]) is not type(sent[0])):
+            sent[2].remove()
+            link.count_removals(1)
+            del self._drawn[key]
+            sent = None
+        if wanted is None:
+            return
+        node, pose = wanted
+        path = node_path(self._name, key)
+        drawn = _DRAWN[type(node)](link, path) if sent is None else sent[2]
+        is_new = sent is None or node != sent[0]
+        if is_new:
+            drawn.draw(node)
+        # Some primitives recreate their viser node when drawn, at the identity.
+        if pose != (_IDENTITY if sent is None else sent[1]) or (is_new and pose != _IDENTITY):
+            link.set_position(path, pose.position)
+            link.set_orientation(path, pose.wxyz)
+        self._drawn[key] = (node, pose, drawn)
+
+    def _panes(self) -> list[PaneDrawn]:
+        return [drawn for _, _, drawn in self._drawn.values() if isinstance(drawn, PaneDrawn)]
+
+    def remove(self, link: Adapter) -> None:
+        link.late.drop(self._path)
+        for _, _, drawn in self._drawn.values():  # all others are below the frame of the group
+            if isinstance(drawn, PaneDrawn):
+                drawn.remove()
+            elif isinstance(drawn, LabelsDrawn):
+                drawn.forget()
+        if self._handle is not None:
+            self._handle.remove()
+            link.count_removals(1 + len(self._drawn))

@@ -1,0 +1,1 @@
+"""The server: access, what is sent first, the channel to pages, HTTP and websockets."""

@@ -1,0 +1,63 @@
+"""Says in each page what is reduced because of its link."""
+
+from __future__ import annotations
+
+from webviz.server.channel.channel import Channel
+from webviz.server.channel.messages import ToPage
+from webviz.server.sending.pace import LinkPace
+
+ORDINALS = {1: "st", 2: "nd", 3: "rd"}
+SIZES = {2: "half size", 4: "a quarter of their size", 8: "an eighth of their size"}
+
+
+class SlowLink(ToPage, frozen=True):
+    """Says what is reduced because of the link to this page.
+
+    Args:
+        text: a sentence, "" if nothing is.
+    """
+
+    text: str
+
+
+class Links:
+    """The links to all pages.
+
+    Args:
+        channel: to the pages.
+    """
+
+    def __init__(self, channel: Channel) -> None:
+        self._channel = channel
+        self._told: dict[int, str] = {}
+
+    def tell(self) -> None:
+        """Sends each page what has changed for it."""
+        told: dict[int, str] = {}
+        for browser in self._channel.browsers():
+            pace = self._channel.pace(browser)
+            told[browser] = "" if pace is None else reduced(pace)
+            if told[browser] != self._told.get(browser, ""):
+                self._channel.send(SlowLink(told[browser]), browser)
+        self._told = told
+
+
+def reduced(pace: LinkPace) -> str:
+    """Return a sentence on what is reduced because of a link; "" if nothing is."""
+    parts = []
+    if pace.every > 1:
+        parts.append(f"clouds show every {pace.every}{_ordinal(pace.every)} point")
+    if pace.shrink > 1:
+        parts.append(f"images at {SIZES[pace.shrink]}")
+    if not parts or pace.rate is None:
+        return ""
+    return f"Slow link, {_rate(pace.rate)}: {', '.join(parts)}"
+
+
+def _rate(bytes_per_second: float) -> str:
+    mbit = bytes_per_second * 8e-6
+    return f"{mbit:.2g} Mbit/s" if mbit < 10 else f"{mbit:.0f} Mbit/s"
+
+
+def _ordinal(number: int) -> str:
+    return "th" if number % 100 in (11, 12, 13) else ORDINALS.get(number % 10, "th")

@@ -1,0 +1,385 @@
+"""Messages between the server and its pages: JSON objects whose `type` is the class's name."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, ClassVar
+
+import msgspec
+
+from webviz.api.handles import GripKind
+
+Number = Annotated[int, msgspec.Meta(ge=0, lt=1 << 53)]
+"""Integers both JavaScript and JSON can hold."""
+
+
+class ToPage(msgspec.Struct, frozen=True, tag=True):
+    """A message from the server to a page."""
+
+    kept: ClassVar[bool] = False
+    """True if only the newest of a kind counts: pages that join receive it, and it replaces
+    older ones that wait to be sent."""
+
+
+class FromPage(msgspec.Struct, frozen=True, tag=True, forbid_unknown_fields=True):
+    """A message from a page to the server; it may come from any program."""
+
+
+class Hello(FromPage, frozen=True):
+    """The first message of a page.
+
+    Args:
+        key: received over viser's connection of the same page.
+    """
+
+    key: str
+
+
+class You(ToPage, frozen=True):
+    """The first message to a page: what it may do.
+
+    Args:
+        role: "watcher", "operator" or "owner"; see `webviz.server.access.rules`.
+        name: of the token of its browser, "" if none is asked for.
+    """
+
+    kept = True
+
+    role: str
+    name: str
+
+
+class Ask(ToPage, frozen=True):
+    """Asks for an `Answer` after everything that was sent before."""
+
+    token: str
+
+
+class Answer(FromPage, frozen=True):
+    """Says that all has been done that came before the `Ask` with the same token."""
+
+    token: str
+
+
+class Ping(FromPage, frozen=True):
+    """Asks for a `Pong`, by which the page measures the way to the server and back."""
+
+
+class Pong(ToPage, frozen=True):
+    """Answers a `Ping`."""
+
+    kept = True
+
+
+class Beat(ToPage, frozen=True):
+    """Says that the server is there; at least every second something does.
+
+    Args:
+        wall: its time in seconds since 1970; clocks of browsers may be wrong.
+    """
+
+    kept = True
+
+    wall: float
+
+
+class PlaceCamera(ToPage, frozen=True):
+    """Puts the camera where a view says.
+
+    Args:
+        number: of this request; see `ViewReport`.
+        view, target_frame: type and target frame of the view.
+        frame: name of the node that is followed, "" for none.
+        turns: whether the camera turns with it about z.
+        position, look_at: of the camera and of what it looks at, in metres, in the coordinates of
+            that node.
+        scale: pixels per metre of a view without perspective.
+    """
+
+    number: int
+    view: str
+    target_frame: str
+    frame: str
+    turns: bool
+    position: list[float]
+    look_at: list[float]
+    scale: float | None
+
+
+class StartView(PlaceCamera, frozen=True):
+    """The same for a page that has just joined; one that was here before stays as it is."""
+
+
+class ViewReport(FromPage, frozen=True):
+    """Says which view a page has, when it has moved its camera or changed its size.
+
+    Args:
+        number: of the last request it obeyed.
+        view, target_frame: type and target frame of the view.
+        width, height: of its picture in CSS pixels.
+    """
+
+    number: int
+    view: str
+    target_frame: str
+    width: float
+    height: float
+
+
+MAX_PANES = 64
+"""That one page may show."""
+Width = Annotated[int, msgspec.Meta(ge=0, le=1 << 16)]
+"""Of a picture on a screen in pixels."""
+DisplayId = Annotated[str, msgspec.Meta(max_length=200)]
+
+
+class ShowPictures(FromPage, frozen=True):
+    """Says which displays' pictures a page shows now, and how wide.
+
+    Args:
+        widths: by id of the display, in pixels of the screen.
+    """
+
+    widths: Annotated[dict[DisplayId, Width], msgspec.Meta(max_length=MAX_PANES)]
+
+
+class FramesShown(FromPage, frozen=True):
+    """Says that a page can take the next pictures.
+
+    Args:
+        numbers: of the newest picture it has shown, by id of the display.
+    """
+
+    numbers: Annotated[dict[DisplayId, Number], msgspec.Meta(max_length=MAX_PANES)]
+
+
+class ReadPixel(FromPage, frozen=True):
+    """Asks for the value of a pixel of the newest picture of a display."""
+
+    display: DisplayId
+    x: Number
+    y: Number
+
+
+class PixelValue(ToPage, frozen=True):
+    """Answers a `ReadPixel`; the text is "" if the value is not known."""
+
+    display: str
+    x: int
+    y: int
+    text: str
+
+
+class SaveCanvas(ToPage, frozen=True):
+    """Lets a page download what it shows as a PNG of that name, "" for one made of the time."""
+
+    name: str
+
+
+class Tools(ToPage, frozen=True):
+    """The toolbar, in order.
+
+    Args:
+        tools: fields of `webviz.engine.state.ToolButton`, but for `tool`.
+    """
+
+    kept = True
+
+    tools: tuple[dict[str, Any], ...]
+
+
+class Result(ToPage, frozen=True):
+    """Outcome of a stroke: a sentence, and its level "ok", "warn" or "error".
+
+    Args:
+        number: of the stroke.
+    """
+
+    number: int
+    level: str
+    text: str
+
+
+class Published(ToPage, frozen=True):
+    """A message that a stroke published.
+
+    Args:
+        number: of the stroke.
+        topic, message_type: as chosen.
+        values: by field.
+    """
+
+    number: int
+    topic: str
+    message_type: str
+    values: msgspec.Raw
+
+
+class StrokeDone(FromPage, frozen=True):
+    """A finished gesture; see `webviz.api.tool.Stroke`.
+
+    Args:
+        number: for the page to know what came of it.
+    """
+
+    tool: str
+    points: tuple[tuple[float, float, float], ...]
+    yaw: float
+    keys: tuple[str, ...]
+    yaws: tuple[float, ...] = ()
+    several: str = ""
+    number: int = 0
+
+
+Share = Annotated[float, msgspec.Meta(ge=-1, le=1)]
+"""Of the highest speed of a vehicle along one axis."""
+
+
+class Drive(FromPage, frozen=True):
+    """The heartbeat of a page with the controls of a vehicle: what is held there.
+
+    Args:
+        tool: id of the tool.
+        beat: the newest that the page has received in a `HelmReport`, 0 for none.
+        linear, lateral, angular: ahead, to the left and counter-clockwise.
+    """
+
+    tool: str
+    beat: Number
+    linear: Share
+    lateral: Share
+    angular: Share
+
+
+class HelmReport(ToPage, frozen=True):
+    """Answers a `Drive`.
+
+    Args:
+        tool: id of the tool.
+        beat: proves, when it comes back, that the page is alive.
+        driver: id of the browser that drives, None if it is free.
+        problem: why commands do not reach the robot, with a remedy; "" if they do.
+    """
+
+    kept = True
+
+    tool: str
+    beat: Number
+    driver: int | None
+    problem: str
+
+
+class Gripped(FromPage, frozen=True):
+    """Something that a page does with a handle of a display; see `webviz.api.handles.Grip`."""
+
+    display: str
+    handle: str
+    control: Number
+    kind: GripKind
+    position: tuple[float, float, float] | None = None
+    wxyz: tuple[float, float, float, float] | None = None
+    turned: float = 0.0
+    point: tuple[float, float, float] | None = None
+    entry: Annotated[int, msgspec.Meta(ge=0, lt=1 << 32)] = 0
+
+
+class GripRefused(ToPage, frozen=True):
+    """Says in a sentence why a grip is refused; the handle is named as in the store `handles`."""
+
+    handle: str
+    kind: str
+    text: str
+
+
+class Shell(ToPage, frozen=True):
+    """Shows what is around the scene. Without it, as for pictures, a page has the scene only.
+
+    Args:
+        debug: whether viser's own panel is shown too.
+    """
+
+    kept = True
+
+    debug: bool = False
+
+
+class Watch(FromPage, frozen=True):
+    """Asks for the values of a store, now and whenever they change; see `Values`."""
+
+    store: str
+
+
+class Unwatch(FromPage, frozen=True):
+    """Ends a `Watch`."""
+
+    store: str
+
+
+class Values(ToPage, frozen=True):
+    """Changes of a store that the page watches.
+
+    Args:
+        store: its name.
+        all: whether these are all values, and others that the page knows are gone.
+        set: new values by key.
+        gone: keys that are no longer there.
+    """
+
+    store: str
+    all: bool
+    set: dict[str, msgspec.Raw]
+    gone: tuple[str, ...]
+
+
+class Do(FromPage, frozen=True):
+    """Asks for a change of the viewer.
+
+    Args:
+        number: of the request, for the page to know its `Done`.
+        command: name of a class of `webviz.commands`.
+        arguments: its fields.
+        step: of several that are undone together, the number of the first; else 0.
+    """
+
+    number: Number
+    command: str
+    arguments: dict[str, Any]
+    step: Number = 0
+
+
+class Use(FromPage, frozen=True):
+    """Reports the use of a widget in a plug-in's panel.
+
+    Args:
+        number: of the request, for the page to know its `Done`.
+        panel: its name in the registry.
+        widget: its id.
+        value: what was entered, None for a button.
+    """
+
+    number: Number
+    panel: str
+    widget: str
+    value: bool | str | None = None
+
+
+class Done(ToPage, frozen=True):
+    """Outcome of a `Do` or a `Use`.
+
+    Args:
+        number: of the request.
+        level: "ok" or "error".
+        text: a sentence, "" if there is nothing to say.
+        display: id of the display that it made, or "".
+    """
+
+    number: int
+    level: str
+    text: str
+    display: str
+
+
+class Download(ToPage, frozen=True):
+    """Lets a page download a text as a file of that name."""
+
+    name: str
+    text: str

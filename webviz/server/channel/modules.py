@@ -1,0 +1,81 @@
+"""Page for browsers: viser's, with our JavaScript modules and style sheets added.
+
+They are in the one file of the page: to load more than a hundred small files takes longer than all
+the rest of the page, above all over a slow network.
+"""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import json
+import re
+from collections.abc import Mapping
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+CHANNEL = "/webviz/channel"
+"""Where the websocket of the channel is, below the page."""
+
+_FOLDER = Path(str(resources.files("webviz.page"))) / "web"
+_STYLE = re.compile(r'<link rel="stylesheet" href="webviz/([^"]+)">')
+_MODULES = "$MODULES"
+"""Stands in `head.html` for all modules, as JSON."""
+_OWN = b"(async()=>{  const d=document.currentScript.dataset;"
+"""Beginning of viser's script, which unpacks the rest of it."""
+
+
+class Modules:
+    """The modules of a page.
+
+    Args:
+        constants: what Python and the modules share; `constants.js` for the latter.
+    """
+
+    def __init__(self, constants: Mapping[str, Any]) -> None:
+        files = _files()
+        content = repr((constants, sorted(files.items()))).encode()
+        self._version = hashlib.sha256(content).hexdigest()[:16]
+        shared = json.dumps({**constants, "VERSION": self._version})
+        modules = {name: text for name, text in files.items() if name.endswith(".js")}
+        modules["constants.js"] = f"export default {shared};\n"
+        head = _STYLE.sub(lambda link: f"<style>\n{files[link[1]]}</style>", files["head.html"])
+        # Nothing in a module may end the element that it is in.
+        self._head = head.replace(_MODULES, json.dumps(modules).replace("<", r"\u003c")).encode()
+
+    def added_to(self, page: bytes) -> bytes:
+        """viser's page with the modules, which run before its own script.
+
+        Raises:
+            ValueError: it is not an HTML page with a head and the script of viser.
+        """
+        start, head, rest = page.partition(b"<head>")
+        before, own, after = rest.partition(_OWN)
+        if not (head and own):
+            raise ValueError("The page of viser has no <head>, or another script than expected.")
+        return start + head + self._head + before + own + b"await window.webvizModules;" + after
+
+    def connect(self, browser: int, key: str) -> str:
+        """A script that makes a page open the channel.
+
+        Args:
+            browser: viser's id of the page.
+            key: for the channel.
+        """
+        told = json.dumps({"browser": browser, "key": key, "version": self._version})
+        return f"window.webviz?.connect({told});"
+
+    def answer(self, token: str) -> str:
+        """A script that makes a page send an `Answer` with this token."""
+        return f"window.webviz?.answer({json.dumps(token)});"
+
+
+@functools.cache
+def _files() -> dict[str, str]:
+    """The texts of all files of the page, by their paths below its folder."""
+    return {
+        file.relative_to(_FOLDER).as_posix(): file.read_text("utf-8")
+        for file in _FOLDER.rglob("*")
+        if file.suffix in (".js", ".css", ".html")
+    }

@@ -1,0 +1,1 @@
+"""HTTP, websockets and TLS, and the limits that guard them."""

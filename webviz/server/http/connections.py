@@ -1,0 +1,366 @@
+"""The connections of browsers: how many there may be, and how much each may send."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import functools
+import resource
+import select
+from collections.abc import AsyncIterator, Callable, Iterator
+from typing import Any
+
+import websockets.asyncio.server as websocket
+from websockets.exceptions import ConnectionClosed
+from websockets.frames import CloseCode, Frame, Opcode
+from websockets.protocol import State
+
+from webviz.server.access.access import EVERYBODY, Grant
+from webviz.server.access.roles import LIMITS, Role
+from webviz.server.http.crowding import network_of, oldest_of_most_crowded
+from webviz.server.http.listener import Handshakes
+from webviz.server.http.requests import add_policy, as_get, is_complete, is_head, refusal
+from webviz.server.http.viser_messages import objection
+from webviz.server.sending.frame_header import header
+from webviz.server.sending.pace import LinkPace, Mark, Stretch
+
+MAX_BROWSERS = 128
+
+BURST_S = 2.0
+"""Seconds of the allowed rate that may come at once."""
+MAX_WAIT = 1.0
+"""Seconds by which a connection may exceed the rate with frames that cannot wait, such as pings."""
+FLOOD_S = 30.0
+"""Seconds for which a connection may exceed the rate before it is ended; a page whose network was
+stalled catches up sooner."""
+FLOODED = "This page sent too many messages."
+CLOSE_ONE = "Close another page of webviz."
+READ_BYTES = 1 << 12
+"""Read from a connection in one turn of the event loop: the smallest frames have 6 bytes, and each
+costs some 10 µs, in which others wait, such as browsers that drive."""
+WHOLE = (Opcode.BINARY, Opcode.TEXT)
+"""Frames that carry a whole message if they are final."""
+ANSWER_S = 0.05
+"""After which to look again whether a request is answered; most are at once."""
+FAREWELL = 1.0
+"""Seconds for a browser to close its connection when the server stops."""
+
+
+class ConnectionLimits:
+    """Limits the connections of a server: opening ones, those of browsers, and their channels.
+
+    Args:
+        handshakes: with TLS, those that are not complete.
+    """
+
+    def __init__(self, handshakes: Handshakes | None = None) -> None:
+        self._handshakes = handshakes
+        descriptors, _ = resource.getrlimit(resource.RLIMIT_NOFILE)
+        self.limit = max(4, min(MAX_BROWSERS, descriptors // 4))
+        """Opening connections and browsers, each."""
+        self._opening: dict[Connection, str] = {}
+        """With the network of each."""
+        self._open: set[Connection] = set()
+
+    def refusal(self, newcomer: Connection) -> str:
+        """Why one more browser may not connect: a sentence, "" if it may."""
+        role = newcomer.grant.role
+        limits = LIMITS[role]
+        browsers = [connection for connection in self._open if not connection.is_channel]
+        limit = int(self.limit * limits.share)
+        if sum(connection.grant.role <= role for connection in browsers) >= limit:
+            reserved = "" if limit == self.limit else f" for {role.label}s"
+            return f"{limit} browsers are connected, which is the limit{reserved}. {CLOSE_ONE}"
+        if len(browsers) >= self.limit:
+            return f"{self.limit} browsers are connected, which is the limit. {CLOSE_ONE}"
+        network = network_of(newcomer.address)
+        near = sum(network_of(connection.address) == network for connection in browsers)
+        if near >= limits.per_address:
+            return f"{near} browsers of your address are connected, which is the limit. {CLOSE_ONE}"
+        return ""
+
+    def enter(self, connection: Connection) -> None:
+        """Adds an opening connection; of too many, one of the most crowded network is aborted."""
+        if self._handshakes is not None:
+            self._handshakes.end(connection.transport.get_extra_info("socket").fileno())
+        self._opening[connection] = network_of((connection.remote_address or ("",))[0])
+        if len(self._opening) > self.limit:
+            crowding = oldest_of_most_crowded(self._opening)
+            del self._opening[crowding]
+            crowding.transport.abort()
+
+    def leave(self, connection: Connection) -> None:
+        """Removes a connection that is open or lost."""
+        self._opening.pop(connection, None)
+
+    @contextlib.contextmanager
+    def opened(self, connection: Connection) -> Iterator[None]:
+        """Counts a connection as open during the block."""
+        self.leave(connection)
+        self._open.add(connection)
+        try:
+            yield
+        finally:
+            self._open.discard(connection)
+
+    def expel(self, is_over: Callable[[Connection], bool]) -> None:
+        """Ends open connections at once, and ignores what they have sent."""
+        for connection in filter(is_over, tuple(self._open)):
+            connection.is_expelled = True
+            connection.transport.abort()
+
+    def close(self) -> None:
+        """Closes all connections, within a second also those that do not respond."""
+        if self._handshakes is not None:
+            self._handshakes.close()
+        for connection in (*self._opening, *self._open):
+            patience = 0.0 if connection in self._opening else FAREWELL
+            connection.loop.call_later(patience, connection.transport.abort)
+
+
+class Allowance:
+    """A rate limit with bursts.
+
+    Args:
+        rate: messages per second.
+        burst: messages at once.
+    """
+
+    def __init__(self, rate: float, burst: float) -> None:
+        self._rate = rate
+        self._credit = burst / rate
+        self._paid_until = -float("inf")
+        self._in_time = -float("inf")
+
+    def spend(self, messages: float, now: float) -> float:
+        """Counts messages at a time in seconds; returns how many seconds to wait."""
+        if now - self._paid_until >= self._credit / 2.0:
+            self._in_time = now
+        self._paid_until = max(self._paid_until, now - self._credit) + messages / self._rate
+        return max(0.0, self._paid_until - now)
+
+    def exhausted_s(self, now: float) -> float:
+        """Seconds since the last message at which half a burst or more was left."""
+        return now - self._in_time
+
+
+class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
+    """A connection that checks its request before websockets, and its messages before viser.
+
+    Args:
+        gate: of the server.
+        rate: bytes a second that links to browsers are known to take; None to measure it.
+    """
+
+    def __init__(
+        self, gate: ConnectionLimits, rate: float | None, *arguments: Any, **options: Any
+    ) -> None:
+        super().__init__(*arguments, **options)
+        self.stretch = Stretch(LinkPace(rate))
+        """Bytes sent that may not have arrived."""
+        self._asking: asyncio.Task[None] | None = None
+        # websockets fails, and logs it, if a browser is gone before it is answered.
+        send_eof = self.protocol.send_eof
+        self.protocol.send_eof = lambda: None if self.protocol.eof_sent else send_eof()
+        self.wants_head = False
+        """True if the request is for the headers only."""
+        self.host = ""
+        """By what name the browser addresses this server, if it is allowed."""
+        self.address = ""
+        """IP address of the browser, as far as it is known."""
+        self.is_secure = False
+        """True if the browser uses https."""
+        self.is_channel = False
+        """True if this is the channel of a page, instead of viser's own connection."""
+        self._gate = gate
+        self.objection: Callable[[str | bytes, Role], str | None] = objection
+        """The reason to ignore a message, or None."""
+        self.is_expelled = False
+        """True if nothing that it sends counts any more."""
+        self.grant = EVERYBODY
+        self._head: bytearray | None = bytearray()
+        self._read = memoryview(bytearray(READ_BYTES))
+        self._is_refused = False
+
+    @property
+    def grant(self) -> Grant:
+        """Return its grant."""
+        return self._grant
+
+    @grant.setter
+    def grant(self, grant: Grant) -> None:
+        self._grant = grant
+        limits = LIMITS[grant.role]
+        rate = limits.messages_per_second
+        self._allowance = Allowance(rate, BURST_S * rate)
+        self._bytes_per_message = limits.bytes_per_message
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        """Adds the connection to the gate."""
+        super().connection_made(transport)
+        self._gate.enter(self)
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        """Removes the connection from the gate."""
+        self._gate.leave(self)
+        self.stretch.drop()
+        super().connection_lost(exc)
+
+    def get_buffer(self, sizehint: int) -> memoryview:
+        """Where the event loop puts what it reads in one turn."""
+        return self._read
+
+    def buffer_updated(self, nbytes: int) -> None:
+        """Handles what was read."""
+        self.data_received(bytes(self._read[:nbytes]))
+
+    def data_received(self, data: bytes) -> None:
+        """Collects and checks the request; websockets handles the rest."""
+        if self._is_refused:
+            return  # keep reading, or closing the connection would discard the response
+        if self._head is None:
+            super().data_received(data)
+            return
+        self._head += data
+        if not is_complete(bytes(self._head)):
+            return
+        head, self._head = bytes(self._head), None
+        if (refused := refusal(head)) is not None:
+            self._is_refused = True
+            response = self.respond(refused[0], refused[1] + "\n")
+            add_policy(response.headers, "")
+            self.wants_head = is_head(head)
+            if self.wants_head:
+                response.body = b""
+            if refused[0] == 405:
+                response.headers["Allow"] = "GET, HEAD"
+            self.transport.write(response.serialize())
+            if self.transport.can_write_eof():
+                self.transport.write_eof()
+            else:  # with TLS: closing at once would discard the response
+                self.loop.call_later(FAREWELL, self.transport.close)
+            return
+        self.wants_head = is_head(head)
+        super().data_received(as_get(head))
+
+    def eof_received(self) -> Any:  # True keeps the connection open
+        """Handles the end of a request after its answer, in between which websockets fails."""
+        is_asking = self._head is None and not self._is_refused and self.state is State.CONNECTING
+        if not is_asking or self.is_secure:  # with TLS, there is no way to wait
+            return super().eof_received()
+        self.loop.call_later(ANSWER_S, self._end)
+        return True
+
+    def _end(self) -> None:
+        if not self.transport.is_closing() and not self.eof_received():
+            self.transport.close()
+
+    def process_event(self, event: Any) -> None:
+        """Handles the request, or a frame on arrival."""
+        # Whole messages wait in `recv`; other frames take effect, or memory, at once.
+        is_whole = isinstance(event, Frame) and event.opcode in WHOLE and event.fin
+        is_request = not isinstance(event, Frame)
+        is_pong = isinstance(event, Frame) and event.opcode is Opcode.PONG
+        is_answer = is_pong and bytes(event.data) in self.pending_pings
+        is_instant = not (is_whole or is_request or is_answer)
+        if is_instant and self._allowance.spend(1.0, self.loop.time()) > MAX_WAIT:
+            self.transport.abort()
+        super().process_event(event)
+
+    async def send(self, message: Any, text: bool | None = None) -> None:
+        """Sends a message, or fragments of one as they come, and measures when it arrives."""
+        if isinstance(message, str | bytes):
+            self.stretch.send(len(message))
+        await super().send(message, text)
+        await self._ping()
+
+    def write(self, frame: bytes) -> None:
+        """Sends a whole frame without waiting, unless the connection is being closed."""
+        if self.state is not State.OPEN:
+            return
+        self.transport.write(frame)
+        self.stretch.send(len(frame))
+        if self.stretch.is_due and self._asking is None:
+            self._asking = self.loop.create_task(self._ask())
+
+    async def _ask(self) -> None:
+        with contextlib.suppress(ConnectionClosed):
+            await self._ping()
+        self._asking = None
+
+    async def send_in_time(self, message: bytes) -> None:
+        """Sends a message in fragments, each when there is room for it on the link."""
+        piece = self.stretch.pace.piece()
+        if len(message) <= piece and self.stretch.pace.room() > 0:
+            # A third of what `send` takes, which copies the message twice.
+            self.write(b"".join((header(len(message)), message)))
+            with contextlib.suppress(OSError):  # it is gone
+                await self.drain()
+        else:
+            await self.send(self._fragments(message, piece))
+
+    async def _fragments(self, message: bytes, size: int) -> AsyncIterator[bytes]:
+        for start in range(0, len(message), size):
+            while self.stretch.pace.room() < 1:
+                await self.stretch.pace.wait()
+            fragment = message[start : start + size]
+            self.stretch.send(len(fragment))
+            yield fragment
+            await self._ping()
+
+    async def _ping(self) -> None:
+        """Asks the browser to say when it has got here, if that is worth asking."""
+        if (mark := self.stretch.end()) is None:
+            return
+        heard = functools.partial(self._heard, self.stretch.pace, mark)
+        try:
+            pong = await self.ping()
+        except ConnectionClosed:
+            self.stretch.pace.lose(mark)
+            raise
+        asyncio.ensure_future(pong).add_done_callback(heard)
+
+    @staticmethod
+    def _heard(pace: LinkPace, mark: Mark, pong: asyncio.Future[float]) -> None:
+        if pong.cancelled() or pong.exception() is not None:
+            pace.lose(mark)
+        else:
+            pace.hear(mark)
+
+    async def recv(self, decode: bool | None = None) -> Any:
+        """The next valid message, at the allowed rate."""
+        while True:
+            data = await super().recv(decode)
+            cost = 1.0 + len(data) / self._bytes_per_message
+            wait = 0.0 if self.is_expelled else self._allowance.spend(cost, self.loop.time())
+            # Also with a delay of 0: otherwise received messages would keep other tasks waiting.
+            await asyncio.sleep(wait)
+            if wait > 0.0:
+                await self._end_flood()
+            if self.is_expelled:
+                continue
+            objection = self.objection(data, self.grant.role)
+            if objection is None:
+                return data
+            self.logger.warning("Ignored a message of a browser: %s.", objection)
+
+    async def _end_flood(self) -> None:
+        """Ends the connection if it sends too much for long, or has closed its end."""
+        if self._is_gone:
+            self.is_expelled = True
+            self.transport.abort()
+        elif self._allowance.exhausted_s(self.loop.time()) > FLOOD_S:
+            self.is_expelled = True
+            self.logger.warning("Ended a connection that sent too many messages.")
+            with contextlib.suppress(TimeoutError):
+                await asyncio.wait_for(self.close(CloseCode.POLICY_VIOLATION, FLOODED), FAREWELL)
+            self.transport.abort()
+
+    @property
+    def _is_gone(self) -> bool:
+        """Return whether the browser has closed its end, also if some of what it sent is unread."""
+        if self.transport.is_closing():
+            return True
+        end = select.poll()
+        end.register(self.transport.get_extra_info("socket").fileno(), select.POLLRDHUP)
+        return bool(end.poll(0))

@@ -1,0 +1,51 @@
+"""viser's server without output on the terminal."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import rich
+import viser
+
+from webviz.server.channel.channel import Channel
+from webviz.server.channel.modules import Modules
+
+
+class Server(viser.ViserServer):
+    """viser's server without its banner; it stops without waiting for browsers.
+
+    Args:
+        channel: to the modules of its pages.
+        modules: of its pages.
+        close: closes all connections; called on the event loop.
+        options: for viser.
+    """
+
+    def __init__(
+        self, channel: Channel, modules: Modules, close: Callable[[], None], **options: Any
+    ) -> None:
+        self.channel = channel
+        self.modules = modules
+        self._close = close
+        with replaced(rich.get_console(), "quiet", True):
+            super().__init__(**options)
+
+    def stop(self) -> None:
+        """Ends the server's threads and frees the port."""
+        with contextlib.suppress(RuntimeError):  # stopped already
+            self.get_event_loop().call_soon_threadsafe(self._close)
+        with replaced(rich.get_console(), "quiet", True):
+            super().stop()
+
+
+@contextlib.contextmanager
+def replaced(target: Any, name: str, value: Any) -> Iterator[None]:
+    """Replaces an attribute during the block."""
+    original = getattr(target, name)
+    setattr(target, name, value)
+    try:
+        yield
+    finally:
+        setattr(target, name, original)

@@ -1,0 +1,1 @@
+"""Images of panes on their way to the pages that show them."""

@@ -1,0 +1,279 @@
+"""Sends pictures to the pages that show them: only those, at their size, and only the newest."""
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+from collections import deque
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass, field
+from functools import partial
+
+from webviz.api.nodes import Pane
+from webviz.api.pictures import Encoded, Pixels, Video
+from webviz.api.stills import File, factor_for, file_of
+from webviz.data.images import ImageError
+from webviz.server.channel.channel import Channel
+from webviz.server.channel.messages import FramesShown, PixelValue, ReadPixel, ShowPictures
+from webviz.server.images.frames import Sent, frame
+from webviz.server.images.pixel_values import pixel_text
+
+MAX_IN_FLIGHT = 2
+"""Pictures of a pane that a page has not shown yet: one on its way, one being decoded."""
+UNSEEN_S = 2.0
+"""A page that is loaded again, or left for a moment, has its pictures at once."""
+PICTURE_S = 0.3
+"""Seconds of a slow link that one picture of each pane together may take."""
+MAX_SHRINK = 8
+
+log = logging.getLogger("webviz")
+
+
+@dataclass(frozen=True)
+class _Shown:
+    """Picture a display shows now, and its number."""
+
+    number: int
+    pane: Pane
+
+
+@dataclass
+class _Look:
+    """A page that shows the picture of a display.
+
+    Args:
+        width: of it on the screen in pixels.
+        sent: number of the newest picture that was sent.
+        has: what the page has of what pictures share.
+        waiting: numbers of pictures that were sent, and are not shown yet.
+        is_busy: whether the next picture is being made.
+        turn: alternates with each picture that is sent.
+        shrink: by how much pictures are made smaller because of the link.
+    """
+
+    width: int
+    sent: int = 0
+    has: Sent = field(default_factory=Sent)
+    waiting: deque[int] = field(default_factory=deque)
+    is_busy: bool = False
+    turn: bool = False
+    shrink: int = 1
+
+
+class Pictures:
+    """The pictures of all displays, and the pages that show them.
+
+    `show` and `remove` belong to one thread; pages are heard on the event loop. Pictures are made
+    in threads, and sent on the event loop if they are files already: each thread on their way
+    would take longer than that.
+
+    Args:
+        channel: to the pages.
+    """
+
+    def __init__(self, channel: Channel) -> None:
+        self._channel = channel
+        self._lock = threading.Lock()
+        self._pool = ThreadPoolExecutor(max_workers=2, thread_name_prefix="webviz-pictures")
+        self._shown: dict[str, _Shown] = {}
+        self._looks: dict[int, dict[str, _Look]] = {}
+        self._made: dict[tuple[str, int], tuple[int, Future[File]]] = {}
+        """By display and factor, of the newest picture: pages of one size share it."""
+        self._reading: dict[int, Future[None]] = {}
+        self._pages: set[int] = set()
+        """That have panes, whether or not they show them."""
+        self._seen: dict[str, float] = {}
+        """When pages were found not to show a display any more."""
+        self._number = 0
+        channel.on(ShowPictures, self._look)
+        channel.on(FramesShown, self._advance)
+        channel.on(ReadPixel, self._read)
+
+    def show(self, display: str, pane: Pane) -> None:
+        """Make this the picture of a display."""
+        with self._lock:
+            self._number += 1
+            self._shown[display] = _Shown(self._number, pane)
+            looks = self._looks_at(display)
+            is_ready = [self._continue(browser, display, look) for browser, look in looks]
+        if any(is_ready):
+            self._channel.call_soon(partial(self._send_ready, display))
+
+    def remove(self, display: str) -> None:
+        """Forget the picture of a display."""
+        with self._lock:
+            self._shown.pop(display, None)
+            self._seen.pop(display, None)
+            for key in [key for key in self._made if key[0] == display]:
+                del self._made[key]
+
+    def is_unseen(self, display: str) -> bool:
+        """Return whether pages have a pane for a display, but none has shown it for `UNSEEN_S`."""
+        now = time.monotonic()
+        with self._lock:
+            self._pages &= self._channel.browsers()
+            if not self._pages or any(display in self._looks.get(each, {}) for each in self._pages):
+                self._seen.pop(display, None)
+                return False
+            return now - self._seen.setdefault(display, now) > UNSEEN_S
+
+    def panes(self) -> dict[str, Pane]:
+        """Return the panes shown now by display id, in the order of the displays."""
+        with self._lock:
+            shown = {display: each.pane for display, each in self._shown.items()}
+        return dict(sorted(shown.items(), key=lambda item: item[1].order))
+
+    # Called on the event loop
+
+    def _look(self, browser: int, message: ShowPictures) -> None:
+        with self._lock:
+            self._pages.add(browser)
+            before = self._looks.pop(browser, {})
+            looks = {
+                display: before.get(display) or _Look(width)
+                for display, width in message.widths.items()
+            }
+            for gone in self._looks.keys() - self._channel.browsers():
+                del self._looks[gone]
+            if not looks:
+                return
+            self._looks[browser] = looks
+            for display, look in looks.items():
+                if look.width != message.widths[display]:
+                    look.width, look.sent = message.widths[display], 0
+        for display in looks:
+            self._send_ready(display)
+
+    def _advance(self, browser: int, message: FramesShown) -> None:
+        with self._lock:
+            looks = self._looks.get(browser, {})
+            for display, number in message.numbers.items():
+                if (look := looks.get(display)) is not None:
+                    while look.waiting and look.waiting[0] <= number:
+                        look.waiting.popleft()
+        for display in message.numbers.keys() & looks.keys():
+            self._send_ready(display)
+
+    def _read(self, browser: int, message: ReadPixel) -> None:
+        with self._lock:
+            before = self._reading.get(browser)
+            shown = self._shown.get(message.display)
+            if (before and not before.done()) or shown is None:
+                return
+            self._reading[browser] = self._pool.submit(self._answer, browser, message, shown.pane)
+
+    def _send_ready(self, display: str) -> None:
+        """Send a picture that is a file already to the pages that can take it."""
+        with self._lock:
+            looks = self._looks_at(display)
+            ready = [each for each in looks if self._continue(each[0], display, each[1])]
+        for browser, look in ready:
+            self._send(browser, display, look)
+
+    # Internal
+
+    def _looks_at(self, display: str) -> list[tuple[int, _Look]]:
+        """The pages that show a display."""
+        return [(page, looks[display]) for page, looks in self._looks.items() if display in looks]
+
+    def _continue(self, browser: int, display: str, look: _Look) -> bool:
+        """Make the next picture for a page in a thread, if there is one that the page can take.
+
+        Returns:
+            Whether it is a file already, which `_send_ready` sends.
+        """
+        shown = self._shown.get(display)
+        if shown is None or shown.number == look.sent:
+            return False
+        if look.is_busy or len(look.waiting) >= MAX_IN_FLIGHT:
+            return False
+        if isinstance(shown.pane.picture, Encoded | Video) and self._rate(browser) is None:
+            return True
+        look.is_busy = True
+        self._pool.submit(self._send, browser, display, look)
+        return False
+
+    def _send(self, browser: int, display: str, look: _Look) -> None:
+        """Send the newest picture."""
+        with self._lock:
+            shown = self._shown.get(display)
+            has = look.has
+            rate = self._rate(browser)
+        data = b""
+        if shown is not None:
+            try:
+                for _ in range(2):
+                    file = self._file(shown, display, look)
+                    data, has = frame(display, shown.number, shown.pane, file, has)
+                    if not self._fit(look, shown, len(data), rate):
+                        break
+            except Exception:
+                log.exception("A picture of %r could not be made", display)
+        with self._lock:
+            look.is_busy = False
+            if shown is None or self._looks.get(browser, {}).get(display) is not look:
+                return
+            look.sent, look.has = shown.number, has
+            if data:
+                look.waiting.append(shown.number)
+                # Two at most are on their way, neither of which may replace the other there: later
+                # ones go on from what they say.
+                look.turn = not look.turn
+                self._channel.send_bytes(data, f"{display} {look.turn:d}", browser)
+            is_ready = self._continue(browser, display, look)
+        if is_ready:
+            self._channel.call_soon(partial(self._send_ready, display))
+
+    def _rate(self, browser: int) -> float | None:
+        """Bytes a second for each picture of a page; None on a link that is fast enough."""
+        looks = self._looks.get(browser, {})
+        pace = self._channel.pace(browser)
+        if pace is None:
+            return None
+        pace.shrink = max((look.shrink for look in looks.values()), default=1)
+        return None if pace.rate is None else pace.rate / max(1, len(looks))
+
+    @staticmethod
+    def _fit(look: _Look, shown: _Shown, size: int, rate: float | None) -> bool:
+        """Adapts how much smaller pictures are made; whether this one is much too large."""
+        if rate is None or not isinstance(shown.pane.picture, Pixels | Encoded):
+            look.shrink = 1
+            return False
+        excess = size / (rate * PICTURE_S)
+        before = look.shrink
+        while excess > 1.0 and look.shrink < MAX_SHRINK:
+            look.shrink, excess = look.shrink * 2, excess / 4
+        if look.shrink == before > 1 and excess < 0.15:
+            look.shrink //= 2
+        return look.shrink > before
+
+    def _file(self, shown: _Shown, display: str, look: _Look) -> File | None:
+        """Return the picture a page decodes, None for video; made once for all pages of a size."""
+        picture = shown.pane.picture
+        if isinstance(picture, Video):
+            return None
+        factor = factor_for(picture, look.width) * look.shrink
+        if not isinstance(picture, Pixels) and factor == 1:
+            return file_of(picture, factor)
+        key = display, factor
+        with self._lock:
+            number, made = self._made.get(key, (0, None))
+            if made is not None and number == shown.number:
+                mine = None
+            else:
+                mine = made = Future()
+                self._made[key] = shown.number, made
+        if mine is not None:
+            try:
+                mine.set_result(file_of(picture, factor))
+            except Exception as error:
+                mine.set_exception(error)
+        return made.result()
+
+    def _answer(self, browser: int, message: ReadPixel, pane: Pane) -> None:
+        try:
+            text = pixel_text(pane.picture, message.x, message.y)
+        except ImageError:
+            return
+        self._channel.send(PixelValue(message.display, message.x, message.y, text), browser)

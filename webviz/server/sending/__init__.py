@@ -1,0 +1,1 @@
+"""Order and amount of the messages sent to each browser."""

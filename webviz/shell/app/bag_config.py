@@ -1,0 +1,106 @@
+"""The config of a bag without one: displays for its topics, and a fixed frame."""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Mapping, Sequence
+
+from webviz.api.declared import make
+from webviz.api.display import Display
+from webviz.api.ports import TRANSPORTS
+from webviz.api.registry import display_types
+from webviz.engine.commands.by_topic import Pick, picks
+from webviz.files.config import STANDARD, Config, Item
+from webviz.sources.bag.source import BagSource
+from webviz.sources.bag.time import TF
+
+PREFERRED = ("RobotModel", "Image", "OccupancyGrid", "PlanningScene", "Trajectory")
+"""Of several displays that fit a topic."""
+ON_REQUEST = {"CameraInfo", "Effort", "Text"}
+"""Displays that repeat what others show, or that fit everything."""
+JOINTS = "RobotModel", "joint_states_topic"
+"""Only moves the links of a model, which comes from the description."""
+MOST_ENABLED = 4
+"""Of each type; further ones are in the list, switched off."""
+MOST_DISPLAYS = 100
+FRAMES = ("map", "odom", "world")
+"""Fixed frames by preference; without them, the root of the largest tree."""
+
+
+def config_of(bag: BagSource) -> Config:
+    """The displays that fit the topics of a bag, in a frame that it has."""
+    types = display_types()
+    topics = {
+        topic: tuple(dict.fromkeys(publisher.type for publisher in offer.publishers))
+        for topic, offer in bag.offers().items()
+        if bag.has(topic)
+    }
+    found = sorted(_chosen(picks(topics, types)), key=_place)[:MOST_DISPLAYS]
+    names = ["Grid"]
+    if any(TF in messages for messages in topics.values()):
+        names.append("TF")
+    config = Config(displays=[make(types[name], {}) for name in names if name in types])
+    config.displays += _displays(found, types)
+    links = bag.links() or [(frame, frame) for frame in bag.frames({p.topic for p in found})]
+    if frame := _fixed_frame(links):
+        config.set_fixed_frame(frame)
+    return config
+
+
+def _chosen(fits: Iterable[Pick]) -> Iterable[Pick]:
+    """One display for each topic, and for one of the transports of an image."""
+    by_topic: dict[str, list[Pick]] = defaultdict(list)
+    for pick in fits:
+        if pick.display not in ON_REQUEST and (pick.display, pick.input) != JOINTS:
+            by_topic[pick.topic].append(pick)
+    seen = set[str]()
+    for topic, several in sorted(by_topic.items()):
+        folder, _, last = topic.rpartition("/")
+        base = folder if last in TRANSPORTS else topic
+        if base not in seen:
+            seen.add(base)
+            yield min(several, key=_rank)
+
+
+def _rank(pick: Pick) -> int:
+    return PREFERRED.index(pick.display) if pick.display in PREFERRED else len(PREFERRED)
+
+
+def _place(pick: Pick) -> tuple[int, str, str]:
+    """The usual displays come first."""
+    place = STANDARD.index(pick.display) if pick.display in STANDARD else len(STANDARD)
+    return place, pick.display, pick.topic
+
+
+def _displays(found: Sequence[Pick], types: Mapping[str, type[Display]]) -> Iterable[Item]:
+    counts = Counter(pick.display for pick in found)
+    made = Counter[str]()
+    for pick in found:
+        made[pick.display] += 1
+        values = {**pick.values, "enabled": made[pick.display] <= MOST_ENABLED}
+        if counts[pick.display] > 1:
+            values["name"] = pick.topic
+        yield make(types[pick.display], values)
+
+
+def _fixed_frame(links: Sequence[tuple[str, str]]) -> str:
+    """The frame in which most can be drawn, "" without any.
+
+    Args:
+        links: parents and children.
+    """
+    parents = {child: parent for parent, child in links}
+    frames = {frame for link in links for frame in link}
+    for name in FRAMES:
+        if name in frames:
+            return name
+    sizes = Counter(_root(frame, parents) for frame in frames)
+    return min(sizes, key=lambda root: (-sizes[root], root), default="")
+
+
+def _root(frame: str, parents: Mapping[str, str]) -> str:
+    seen = {frame}
+    while (parent := parents.get(frame)) is not None and parent not in seen:
+        seen.add(parent)
+        frame = parent
+    return frame

@@ -1,0 +1,28 @@
+"""Sources of messages: a live ROS graph or a bag, behind one interface."""
+
+from webviz.api.offer import Offer, Publisher
+from webviz.sources.gate import AllowList, Gate, Rights
+from webviz.sources.graph import Goal, Graph, Missing, NotConnected, Outlet, ReadOnly
+from webviz.sources.inbox import Inbox, Raw
+from webviz.sources.source import Source, Subscription, merged
+from webviz.sources.subscriber import Subscriber
+
+__all__ = [
+    "AllowList",
+    "Gate",
+    "Goal",
+    "Graph",
+    "Inbox",
+    "Missing",
+    "NotConnected",
+    "Offer",
+    "Outlet",
+    "Publisher",
+    "Raw",
+    "ReadOnly",
+    "Rights",
+    "Source",
+    "Subscriber",
+    "Subscription",
+    "merged",
+]

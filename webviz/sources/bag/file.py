@@ -1,0 +1,197 @@
+"""A bag file: its channels, and its messages in the order of time."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+from webviz.api.errors import Error
+from webviz.api.offer import Publisher
+from webviz.data.messages import MessageError, register, type_exists
+from webviz.data.messages.typestore import full_name
+from webviz.data.recordings import RecordedChannel, RecordingError, open_recording
+from webviz.data.recordings.recording import Counts, TimeParts
+from webviz.sources.bag.qos import profiles_of
+
+KEEP_LAST = 1
+"""Latched messages per publisher if the bag does not record the depth."""
+
+
+class BagError(Error):
+    """A bag cannot be read; one sentence with a remedy."""
+
+
+class Recorded(NamedTuple):
+    """One message of a bag."""
+
+    topic: str
+    type: str
+    cdr: bytes
+    stamp_ns: int
+
+
+@dataclass(frozen=True)
+class BagChannel:
+    """Messages of one type on one topic.
+
+    Args:
+        topic: full name.
+        type: three-part name.
+        publishers: recorded QoS.
+        depth: how many messages its publishers latch in total.
+        recorded: as it is in the file.
+    """
+
+    topic: str
+    type: str
+    publishers: tuple[Publisher, ...]
+    depth: int
+    recorded: RecordedChannel
+
+
+class BagFile:
+    """An mcap file, a db3 file or a rosbag2 folder, opened.
+
+    Args:
+        path: of the file or folder.
+
+    Raises:
+        BagError: it is missing, not a bag, without a whole message or empty.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        if not path.exists():
+            raise BagError(f"Bag {path} not found. Give an MCAP or db3 file, or a rosbag2 folder.")
+        try:
+            self._recording = open_recording(path)
+        except RecordingError as error:
+            raise BagError(str(error)) from error
+        except OSError as error:
+            raise BagError(self._unreadable(error)) from error
+        if self._recording.span_ns is None:
+            lost = str(self._recording.losses)
+            self.close()
+            if lost:
+                raise BagError(f"{path} is damaged, and no message in it is whole: {lost}.")
+            raise BagError(f"{path} contains no messages. Record it again or choose another bag.")
+        self.start_ns, self.end_ns = self._recording.span_ns
+        """Stamps of the first and the last message."""
+        self._used = self._recording.used
+        self.channels: tuple[BagChannel, ...] = ()
+        self.skipped: dict[str, str] = {}
+        """Why the messages of a topic cannot be read, by topic."""
+        self._look()
+
+    @property
+    def remarks(self) -> list[str]:
+        """Return sentences on what is missing, unusual or damaged so far."""
+        losses = self._recording.losses
+        if losses.is_unfinished:
+            unfinished = (
+                f"{self.path.name} has no end: it is still being recorded or was cut off. What "
+                "it contained when it was opened is shown."
+            )
+            return [*losses.notes, unfinished]
+        lost = str(losses)
+        damage = f"{self.path.name} is damaged: {lost}; everything else is shown."
+        return [*losses.notes, *([damage] if lost else [])]
+
+    def messages(
+        self, channels: Collection[BagChannel], start_ns: int, end_ns: int | None = None
+    ) -> Iterator[Recorded]:
+        """The messages of channels by time of recording, both ends included.
+
+        What is damaged is skipped, and `remarks` report it.
+
+        Raises:
+            BagError: the file can no longer be read.
+        """
+        by_recorded = {channel.recorded: channel for channel in channels}
+        end_ns = self.end_ns if end_ns is None else end_ns
+        try:
+            for entry in self._recording.messages(by_recorded.keys(), start_ns, end_ns):
+                channel = by_recorded[entry.channel]
+                yield Recorded(channel.topic, channel.type, entry.data, entry.stamp_ns)
+        except OSError as error:
+            raise BagError(self._unreadable(error)) from error
+
+    def newest(self, channels: Collection[BagChannel], end_ns: int) -> Iterator[Recorded]:
+        """The messages of channels until a time of recording, the newest first.
+
+        Raises:
+            BagError: the file can no longer be read.
+        """
+        by_recorded = {channel.recorded: channel for channel in channels}
+        try:
+            for entry in self._recording.newest(by_recorded.keys(), end_ns):
+                channel = by_recorded[entry.channel]
+                yield Recorded(channel.topic, channel.type, entry.data, entry.stamp_ns)
+        except OSError as error:
+            raise BagError(self._unreadable(error)) from error
+
+    def is_used(self, channel: BagChannel) -> bool:
+        """Return whether a channel has messages, or may have."""
+        return channel.recorded in self._used
+
+    def histogram(self, parts: TimeParts) -> dict[str, Counts]:
+        """Count the messages of each topic that can be read; see `Recording.histogram`.
+
+        Raises:
+            OSError: the file cannot be read.
+        """
+        found: dict[str, Counts] = {}
+        counts = self._recording.histogram(parts)
+        for channel in self.channels:
+            own = counts[channel.recorded]
+            found[channel.topic] = found[channel.topic] + own if channel.topic in found else own
+        return found
+
+    def close(self) -> None:
+        """Close the file."""
+        self._recording.close()
+
+    def _unreadable(self, error: OSError) -> str:
+        return f"Cannot read {self.path}: {error.strerror or error}."
+
+    def _look(self) -> None:
+        channels = []
+        for recorded in self._recording.channels:
+            reason = _obstacle(recorded)
+            if reason:
+                self.skipped[recorded.topic] = reason
+            else:
+                channels.append(_channel(recorded, f"the bag {self.path.name}"))
+        self.channels = tuple(channels)
+
+
+def _obstacle(recorded: RecordedChannel) -> str:
+    """Why the messages of a channel cannot be read, "" if they can; registers their type."""
+    if recorded.encoding != "cdr":
+        return f"its messages are encoded as {recorded.encoding}, not as CDR"
+    if recorded.type.endswith("_Event") and "/srv/" in recorded.type:
+        return "service events are unsupported"
+    if type_exists(recorded.type):
+        return ""
+    if not recorded.definition.strip():
+        return f"{recorded.type} is unknown, and the bag has no .msg definition of it"
+    try:
+        register(recorded.type, recorded.definition)
+    except MessageError as error:
+        return str(error).rstrip(".")
+    return ""
+
+
+def _channel(recorded: RecordedChannel, who: str) -> BagChannel:
+    type_name = full_name(recorded.type)
+    profiles = profiles_of(recorded.profiles)
+    publishers = tuple(Publisher(who, type_name, p.reliability, p.durability) for p in profiles)
+    return BagChannel(
+        recorded.topic,
+        type_name,
+        publishers or (Publisher(who, type_name, "reliable", "volatile"),),
+        sum(max(profile.depth, KEEP_LAST) for profile in profiles) or KEEP_LAST,
+        recorded,
+    )

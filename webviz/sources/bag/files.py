@@ -1,0 +1,152 @@
+"""Bags that are played together, as if they were one."""
+
+from __future__ import annotations
+
+import contextlib
+import heapq
+import itertools
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from pathlib import Path
+
+from webviz.data.messages.typestore import are_same
+from webviz.data.recordings.recording import Counts, TimeParts
+from webviz.data.words import counted
+from webviz.sources.bag.file import BagChannel, BagFile, Recorded
+
+DAY_NS = 86_400_000_000_000
+
+
+class BagFiles:
+    """One or several bags, merged by time of recording.
+
+    Args:
+        paths: of files or folders, at least one; each is read once.
+
+    Raises:
+        BagError: one cannot be read.
+    """
+
+    def __init__(self, paths: Sequence[Path]) -> None:
+        with contextlib.ExitStack() as stack:
+            self._files: list[BagFile] = []
+            for path in {path.resolve(): path for path in paths}.values():
+                self._files.append(BagFile(path))
+                stack.callback(self._files[-1].close)
+            self._stack = stack.pop_all()
+        files = self._files
+        self.names = tuple(file.path.name for file in files)
+        self.start_ns = min(file.start_ns for file in files)
+        self.end_ns = max(file.end_ns for file in files)
+        self._redefined: dict[str, str] = {}
+        self.channels = tuple(self._agreeing())
+        self._used = {c.topic for file in files for c in file.channels if file.is_used(c)}
+        self._conflict = self._conflicting_types()
+        self._gap = self._gap_between()
+
+    @property
+    def skipped(self) -> Mapping[str, str]:
+        """Return why the messages of a topic cannot be read, by topic."""
+        within = {topic: why for file in self._files for topic, why in file.skipped.items()}
+        return within | self._redefined
+
+    @property
+    def remarks(self) -> list[str]:
+        """Return sentences on what is missing, unusual or damaged so far."""
+        own = [remark for file in self._files for remark in file.remarks]
+        return [*own, *filter(None, [self._conflict, self._gap])]
+
+    def messages(
+        self, channels: Collection[BagChannel], start_ns: int, end_ns: int | None = None
+    ) -> Iterator[Recorded]:
+        """The messages of channels by time of recording, both ends included.
+
+        Raises:
+            BagError: a file can no longer be read.
+        """
+        until_ns = self.end_ns if end_ns is None else end_ns
+        found = [file.messages(own, start_ns, until_ns) for file, own in self._by_file(channels)]
+        return found[0] if len(found) == 1 else heapq.merge(*found, key=_stamp)
+
+    def newest(self, channels: Collection[BagChannel], end_ns: int) -> Iterator[Recorded]:
+        """The messages of channels until a time of recording, the newest first.
+
+        Raises:
+            BagError: a file can no longer be read.
+        """
+        found = [file.newest(own, end_ns) for file, own in self._by_file(channels)]
+        return found[0] if len(found) == 1 else heapq.merge(*found, key=_stamp, reverse=True)
+
+    def _by_file(
+        self, channels: Collection[BagChannel]
+    ) -> Iterator[tuple[BagFile, Sequence[BagChannel]]]:
+        """The files that have some of the channels, and which."""
+        wanted = frozenset(channels)
+        for file in self._files:
+            if own := [channel for channel in file.channels if channel in wanted]:
+                yield file, own
+
+    def is_used(self, topic: str) -> bool:
+        """Return whether a topic has messages, or may have."""
+        return topic in self._used
+
+    def histogram(self, count: int) -> Mapping[str, Sequence[int]]:
+        """Count the messages of each topic in equal parts of the span, from any thread."""
+        parts = TimeParts(self.start_ns, self.end_ns, count)
+        found: dict[str, Counts] = {}
+        for file in self._files:
+            for topic, own in file.histogram(parts).items():
+                found[topic] = found[topic] + own if topic in found else own
+        return {topic: counts.tolist() for topic, counts in found.items() if counts.any()}
+
+    def close(self) -> None:
+        """Close all files."""
+        self._stack.close()
+
+    def _agreeing(self) -> Iterator[BagChannel]:
+        """The channels but for those whose type another bag before defined differently.
+
+        A type has one definition at a time; with the wrong one, messages may turn into nonsense.
+        """
+        first: dict[str, tuple[str, str]] = {}
+        for file in self._files:
+            name = file.path.name
+            for channel in file.channels:
+                text = channel.recorded.definition
+                known, where = first.setdefault(channel.type, (text, name)) if text else (text, "")
+                if known == text or are_same(channel.type, known, text):
+                    yield channel
+                else:
+                    why = f"{channel.type} is not defined in {name} as it is in {where}"
+                    self._redefined[channel.topic] = why
+
+    def _gap_between(self) -> str:
+        """Return a sentence on bags that lie far apart, "" without any."""
+        files = sorted(self._files, key=lambda file: file.start_ns)
+        for before, after in itertools.pairwise(files):
+            days = (after.start_ns - before.end_ns) / DAY_NS
+            if days > 1:
+                return (
+                    f"{after.path.name} begins {days:.0f} days after {before.path.name} ends, with "
+                    "nothing in between: play them one by one, or select a span of the timeline."
+                )
+        return ""
+
+    def _conflicting_types(self) -> str:
+        """Return a sentence on topics whose type differs between bags, "" without any."""
+        types: dict[str, dict[str, str]] = {}
+        for file in self._files:
+            for channel in file.channels:
+                types.setdefault(channel.topic, {}).setdefault(channel.type, file.path.name)
+        found = {topic: names for topic, names in types.items() if len(set(names.values())) > 1}
+        if not found:
+            return ""
+        topic, names = next(iter(found.items()))
+        where = " and ".join(f"{type_name} in {name}" for type_name, name in names.items())
+        others = len(found) - 1
+        verb = "does" if others == 1 else "do"
+        more = f", and so {verb} {counted(others, 'more topic')}" if others else ""
+        return f"{topic} differs between the bags, {where}{more}: a display reads one type only."
+
+
+def _stamp(recorded: Recorded) -> int:
+    return recorded.stamp_ns

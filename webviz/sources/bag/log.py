@@ -1,0 +1,143 @@
+"""Warnings and errors that nodes logged to /rosout, read ahead of playing."""
+
+from __future__ import annotations
+
+import heapq
+import random
+import time
+from collections.abc import Callable, Sequence
+from concurrent.futures import Future
+from dataclasses import dataclass
+from pathlib import Path
+
+from webviz.api.status import Level
+from webviz.data.disk import in_thread
+from webviz.data.messages import MessageError, decode
+from webviz.data.words import shortened
+from webviz.sources.bag.file import BagChannel
+from webviz.sources.bag.files import BagFiles
+from webviz.sources.past_state import Event
+
+ROSOUT, LOG = "/rosout", "rcl_interfaces/msg/Log"
+WARN, ERROR = 30, 40
+"""Levels of rcl_interfaces/msg/Log; FATAL is above."""
+LEVEL_AT = 12
+"""Offset of the level in CDR: the encapsulation header and a stamp precede it."""
+MAX_EVENTS = 1000
+MAX_NAME, MAX_TEXT = 100, 200
+"""Characters of a node's name and of the first line of its message."""
+MAX_BYTES = 256 << 20
+"""Bytes of messages on /rosout that are read."""
+PATIENCE_S = 10.0
+"""For reading them."""
+
+
+@dataclass(frozen=True)
+class BagLog:
+    """The log of a bag.
+
+    Args:
+        events: at most `MAX_EVENTS` by time.
+        remark: a sentence on what is missing of them, "" if nothing is.
+    """
+
+    events: Sequence[Event] = ()
+    remark: str = ""
+
+
+NOT_READ = BagLog()
+
+
+class LogReader:
+    """Reads the log of bags in a worker.
+
+    Args:
+        paths: of the bags.
+        done: called in the worker when `read` changes.
+    """
+
+    def __init__(self, paths: Sequence[Path], done: Callable[[], None]) -> None:
+        self._paths = paths
+        self._done = done
+        self._reading: Future[BagLog] | None = None
+
+    def start(self, files: BagFiles) -> None:
+        """Start once, if the bags have messages on /rosout, or may have.
+
+        Raises:
+            OSError: no thread is free.
+        """
+        if self._reading is None and files.is_used(ROSOUT) and _channels(files):
+            self._reading = in_thread(lambda: read_log(self._paths))
+            self._reading.add_done_callback(lambda _: self._done())
+
+    @property
+    def read(self) -> BagLog:
+        """The log; without events until it is read."""
+        reading = self._reading
+        return reading.result() if reading and _is_read(reading) else NOT_READ
+
+
+def read_log(paths: Sequence[Path]) -> BagLog:
+    """Read the warnings and errors of bags, from any thread, since it opens the files anew.
+
+    Of too many, the most severe are kept, and a sample of those of the least level that is kept.
+
+    Raises:
+        BagError: a bag can no longer be read.
+    """
+    files = BagFiles(paths)
+    try:
+        return _read(files)
+    finally:
+        files.close()
+
+
+def _read(files: BagFiles) -> BagLog:
+    until_s = time.monotonic() + PATIENCE_S
+    kept: list[tuple[int, float, int, Event]] = []
+    chance = random.Random(0)  # the same sample each time
+    count = size = 0
+    remark = ""
+    for recorded in files.messages(_channels(files), files.start_ns):
+        size += len(recorded.cdr)
+        if size > MAX_BYTES or time.monotonic() > until_s:
+            at_s = (recorded.stamp_ns - files.start_ns) / 1e9
+            remark = (
+                f"The timeline shows warnings of {ROSOUT} only up to {at_s:.1f} s, since reading "
+                "all takes too long. Split the bag to see the rest."
+            )
+            break
+        if len(recorded.cdr) <= LEVEL_AT or recorded.cdr[LEVEL_AT] < WARN:
+            continue
+        try:
+            message = decode(LOG, recorded.cdr)
+        except MessageError:
+            continue
+        event = Event(
+            recorded.stamp_ns,
+            Level.ERROR if message.level >= ERROR else Level.WARN,
+            shortened(message.name, MAX_NAME),
+            _first_line(message.msg),
+        )
+        count += 1
+        entry = (message.level, chance.random(), count, event)
+        if len(kept) < MAX_EVENTS:
+            heapq.heappush(kept, entry)
+        else:
+            heapq.heappushpop(kept, entry)
+    events = tuple(event for *_, event in sorted(kept, key=lambda entry: entry[2]))
+    return BagLog(events, remark)
+
+
+def _channels(files: BagFiles) -> Sequence[BagChannel]:
+    return [c for c in files.channels if (c.topic, c.type) == (ROSOUT, LOG)]
+
+
+def _is_read(reading: Future[BagLog]) -> bool:
+    return reading.done() and not reading.exception()
+
+
+def _first_line(text: str) -> str:
+    """The first line of a text that is not empty, shortened."""
+    return shortened(text.lstrip().partition("\n")[0].rstrip(), MAX_TEXT)

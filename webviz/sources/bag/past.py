@@ -1,0 +1,206 @@
+"""Past messages without which a time of a recording cannot be shown."""
+
+from __future__ import annotations
+
+import heapq
+import itertools
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from typing import Generic, Protocol, TypeVar
+
+from webviz.api.lookback import Lookback
+from webviz.data.messages import MessageError, decode
+from webviz.sources.bag.time import CLOCK, TF
+from webviz.sources.source import Subscription
+
+RECENT_NS = 15_000_000_000
+"""Topics are read together if only messages that are younger are needed."""
+BEFORE_NS, AFTER_NS = 10_000_000_000, 3_000_000_000
+"""An older message is placed with the transforms of this time around it."""
+MAX_OLD = 100
+"""Older messages of a topic with transforms of their own; of more, all transforms since."""
+
+
+class PastChannel(Protocol):
+    """Messages of one type on one topic."""
+
+    @property
+    def topic(self) -> str:
+        """Full name."""
+        ...
+
+    @property
+    def type(self) -> str:
+        """Three-part name."""
+        ...
+
+
+class PastMessage(Protocol):
+    """One message of the past."""
+
+    @property
+    def topic(self) -> str:
+        """Full name."""
+        ...
+
+    @property
+    def cdr(self) -> bytes:
+        """The serialised message."""
+        ...
+
+    @property
+    def stamp_ns(self) -> int:
+        """Time of recording."""
+        ...
+
+
+C = TypeVar("C", bound=PastChannel)
+M = TypeVar("M", bound=PastMessage, covariant=True)
+C_contra = TypeVar("C_contra", bound=PastChannel, contravariant=True)
+
+
+class PastMessages(Protocol[C_contra, M]):
+    """Recorded messages by time: bags, or what is remembered of live topics."""
+
+    @property
+    def start_ns(self) -> int:
+        """Time of the first message."""
+        ...
+
+    @property
+    def end_ns(self) -> int:
+        """Time of the last message."""
+        ...
+
+    def messages(
+        self, channels: Collection[C_contra], start_ns: int, end_ns: int | None = None
+    ) -> Iterator[M]:
+        """The messages of some channels by time, both ends included."""
+        ...
+
+    def newest(self, channels: Collection[C_contra], end_ns: int) -> Iterator[M]:
+        """The messages of some channels until a time, the newest first."""
+        ...
+
+
+class BagPast(Generic[C, M]):
+    """Finds the messages that the state at a time depends on.
+
+    Args:
+        file: all messages.
+        channels: those to read.
+        wanted: subscriptions with their lookbacks, by topic.
+        at_ns: the time of recording.
+    """
+
+    def __init__(
+        self,
+        file: PastMessages[C, M],
+        channels: Collection[C],
+        wanted: Mapping[str, Subscription],
+        at_ns: int,
+    ) -> None:
+        self._file = file
+        self._wanted = wanted
+        self._at_ns = at_ns
+        self._channels: dict[str, list[C]] = {}
+        for channel in channels:
+            self._channels.setdefault(channel.topic, []).append(channel)
+        self._starts: dict[str, int] = {}
+
+    def messages(self) -> Iterator[M]:
+        """The messages by time of recording, those at the time included."""
+        recent_ns = max(self._at_ns - RECENT_NS, self._file.start_ns)
+        follow: list[C] = []
+        together: list[C] = []
+        alone: list[Iterator[M]] = []
+        placed: list[tuple[int, int]] = []
+        timed: list[tuple[int, int]] = []
+        for topic, channels in self._channels.items():
+            if channels[0].type in (TF, CLOCK) and not self._is_whole(topic):
+                follow += channels
+                continue
+            start_ns = self._start_ns(topic)
+            if start_ns > recent_ns:
+                together += channels
+                continue
+            alone.append(self._file.messages(channels, start_ns, self._at_ns))
+            spans = self._spans(channels, start_ns, recent_ns)
+            timed += spans
+            if (wish := self._wanted.get(topic)) and wish.is_placed:
+                placed += spans
+        clocks = [channel for channel in follow if channel.type == CLOCK]
+        moving = [channel for channel in follow if channel.type != CLOCK]
+        last = [(recent_ns, self._at_ns)]
+        return heapq.merge(
+            self._within(clocks, [*timed, *last]),
+            self._within(moving, [*placed, *last]),
+            self._young(together, recent_ns),
+            *alone,
+            key=lambda recorded: recorded.stamp_ns,
+        )
+
+    def _is_whole(self, topic: str) -> bool:
+        wish = self._wanted.get(topic)
+        return wish is not None and Lookback() in wish.lookbacks
+
+    def _young(self, channels: Sequence[C], recent_ns: int) -> Iterator[M]:
+        """The messages of several topics, each from its start on."""
+        for recorded in self._file.messages(channels, recent_ns, self._at_ns):
+            if recorded.stamp_ns >= self._starts[recorded.topic]:
+                yield recorded
+
+    def _within(self, channels: Sequence[C], spans: Sequence[tuple[int, int]]) -> Iterator[M]:
+        """The messages of channels within some spans of time, each once."""
+        until_ns = self._file.start_ns - 1
+        for start_ns, end_ns in sorted(spans) if channels else ():
+            if end_ns > until_ns:
+                start_ns = max(start_ns, until_ns + 1)
+                until_ns = min(end_ns, self._at_ns)
+                yield from self._file.messages(channels, start_ns, until_ns)
+
+    def _spans(
+        self, channels: Sequence[C], start_ns: int, recent_ns: int
+    ) -> Sequence[tuple[int, int]]:
+        """When the transforms and the clock are needed for the older messages of a topic."""
+        older = self._file.messages(channels, start_ns, recent_ns)
+        stamps = [each.stamp_ns for each in itertools.islice(older, MAX_OLD + 1)]
+        if len(stamps) > MAX_OLD:
+            return [(start_ns - BEFORE_NS, recent_ns)]
+        return [(stamp_ns - BEFORE_NS, stamp_ns + AFTER_NS) for stamp_ns in stamps]
+
+    def _start_ns(self, topic: str) -> int:
+        """From when on a topic is needed."""
+        if topic not in self._starts:
+            self._starts[topic] = self._file.start_ns  # if inputs refer to each other
+            wish, channels = self._wanted[topic], self._channels[topic]
+            starts = [self._start_of(channels, lookback, wish) for lookback in wish.lookbacks]
+            self._starts[topic] = min(starts, default=self._at_ns + 1)
+        return self._starts[topic]
+
+    def _start_of(self, channels: Sequence[C], lookback: Lookback, wish: Subscription) -> int:
+        limit_ns = self._file.start_ns
+        if lookback.seconds:
+            limit_ns = max(limit_ns, self._at_ns - round(min(lookback.seconds, 1e9) * 1e9))
+        if lookback.since:
+            is_read = lookback.since in self._channels
+            since_ns = self._start_ns(lookback.since) if is_read else self._at_ns + 1
+            limit_ns = max(limit_ns, since_ns)
+        if not lookback.count and lookback.starts_over is None:
+            return limit_ns
+        start_ns = self._at_ns + 1
+        for number, recorded in enumerate(self._file.newest(channels, self._at_ns), 1):
+            if recorded.stamp_ns < limit_ns:
+                break
+            start_ns = recorded.stamp_ns
+            if number == lookback.count or _starts_over(lookback, recorded, wish):
+                break
+        return start_ns
+
+
+def _starts_over(lookback: Lookback, recorded: PastMessage, wish: Subscription) -> bool:
+    if lookback.starts_over is None:
+        return False
+    try:
+        return lookback.starts_over(decode(wish.type, recorded.cdr), wish.type)
+    except MessageError:
+        return False

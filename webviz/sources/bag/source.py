@@ -1,0 +1,365 @@
+"""A recorded bag as a source: playing it delivers its messages."""
+
+from __future__ import annotations
+
+import itertools
+import re
+from collections.abc import Collection, Mapping, Sequence
+from concurrent.futures import Future
+from dataclasses import replace
+from pathlib import Path
+
+from webviz.api.lookback import Lookback
+from webviz.api.offer import Durability, Offer, Publisher, Reliability
+from webviz.data.disk import in_thread
+from webviz.data.messages import MessageError, register
+from webviz.sources.bag.extras import Extra
+from webviz.sources.bag.file import BagChannel, BagError, Recorded
+from webviz.sources.bag.files import BagFiles
+from webviz.sources.bag.frames import frames_of, links_of
+from webviz.sources.bag.log import LogReader
+from webviz.sources.bag.past import BagPast
+from webviz.sources.bag.time import CLOCK, TF, BagTime
+from webviz.sources.graph import ReadOnly
+from webviz.sources.inbox import MAX_BYTES, Inbox, Raw
+from webviz.sources.past_state import Event
+from webviz.sources.replay import Replay
+from webviz.sources.source import Subscription
+
+NODE = "webviz"
+"""The node name of private topics (~/...), as in the live viewer."""
+INBOX_LIMIT = 20_000
+"""Messages per topic; all latched messages arrive at once."""
+NONE = "the bag has none"
+"""When the first message of a topic comes."""
+NOT_COUNTED: Mapping[str, Sequence[int]] = {}
+TOPIC = re.compile(r"(/[A-Za-z_]\w*)+", re.ASCII)
+
+
+class BagSource:
+    """Messages of mcap files, db3 files or rosbag2 folders, merged by time, without ROS.
+
+    Time advances with `play` only. Any requested QoS is accepted.
+
+    Positions in the bag are times of recording. ROS time (`now_ns`) differs for a robot with
+    simulated time: it follows the recorded /clock, or else the transforms.
+
+    Args:
+        paths: of the bag, or of several.
+        extras: messages that the bag lacks, latched from its start on.
+        remappings: full topic names by the full names that displays use.
+
+    Raises:
+        BagError: a bag cannot be read.
+    """
+
+    def __init__(
+        self,
+        paths: Path | Sequence[Path],
+        extras: Sequence[Extra] = (),
+        remappings: Mapping[str, str] | None = None,
+    ) -> None:
+        self.inbox = Inbox()
+        self.graph = ReadOnly("A bag is read-only. Connect to a live ROS graph to publish.")
+        paths = [paths] if isinstance(paths, Path) else paths
+        self._file = BagFiles(paths)
+        self._log = LogReader(paths, self.inbox.arrived.set)
+        self._extras = tuple(extras)
+        self._remappings = dict(remappings or {})
+        self._time = BagTime(self._file)
+        self._replay: Replay[BagChannel, Recorded] = Replay(self._file, self._arrive)
+        self._wanted: dict[str, Subscription] = {}
+        self._problems: dict[str, str] = {}
+        self._begins: dict[str, str] = {}
+        self._offers = self._all_offers()
+        self._served: dict[str, str] = {}
+        """Types by topic, of subscriptions that get their past from the seek before."""
+        self._counting: Future[Mapping[str, Sequence[int]]] | None = None
+
+    @property
+    def start_ns(self) -> int:
+        """Stamp of the first message."""
+        return self._file.start_ns
+
+    @property
+    def end_ns(self) -> int:
+        """Stamp of the last message."""
+        return self._file.end_ns
+
+    @property
+    def position_ns(self) -> int:
+        """The position in the bag: everything recorded until then has arrived."""
+        return self._replay.position_ns
+
+    @property
+    def remarks(self) -> list[str]:
+        """Warnings: subscribed topics that cannot be read, missing files, damage, unusual time."""
+        skipped = [
+            f"{topic} is skipped: {why}."
+            for topic, why in self._file.skipped.items()
+            if topic in self._wanted
+        ]
+        others = filter(None, [self._time.remark, self._log.read.remark])
+        return [*skipped, *self._file.remarks, *others]
+
+    def play(self, until_ns: int) -> None:
+        """Deliver everything recorded until a time of recording.
+
+        If that is too much for the inbox, `position_ns` stays behind and the next call continues.
+
+        Raises:
+            BagError: the file can no longer be read.
+        """
+        self._replay.play(until_ns)
+        self.inbox.arrived.set()
+
+    def play_step(self, until_ns: int) -> None:
+        """Play a short step towards a time, or up to the next message if that is later.
+
+        Raises:
+            BagError: the file can no longer be read.
+        """
+        self._replay.play_step(until_ns)
+        self.inbox.arrived.set()
+
+    @property
+    def names(self) -> Sequence[str]:
+        """Names of the files or folders."""
+        return self._file.names
+
+    def seek(self, at_ns: int) -> None:
+        """`Playable.seek`: reads what the subscriptions need of the past, and then on."""
+        self.inbox.drain()
+        self._replay.seek(at_ns, self._channels_to_read(), self._wanted)
+        self._time.seek(self.position_ns)
+        for extra in self._extras:
+            self._put(Recorded(extra.topic, extra.type, extra.cdr, self._file.start_ns))
+        self._served = _types(self._wanted)
+
+    def neighbour(self, topic: str, is_forward: bool) -> int | None:
+        """`Playable.neighbour`."""
+        channels = [
+            channel
+            for channel in self._file.channels
+            if (channel.topic == topic if topic else self._is_shown(channel))
+        ]
+        return self._replay.neighbour(channels, is_forward)
+
+    def histogram(self, buckets: int) -> Mapping[str, Sequence[int]]:
+        """`Playable.histogram`; none until a worker has counted."""
+        if self._counting is None:
+            self._counting = in_thread(lambda: self._file.histogram(buckets))
+            self._counting.add_done_callback(lambda _: self.inbox.arrived.set())
+        counted = self._counting
+        return counted.result() if counted.done() and not counted.exception() else NOT_COUNTED
+
+    def logged(self) -> Sequence[Event]:
+        """`Playable.logged`; none until a worker has read them."""
+        self._log.start(self._file)
+        return self._log.read.events
+
+    def links(self) -> Sequence[tuple[str, str]]:
+        """Parents and children of the static transforms and of the first ones that move."""
+        return links_of(self._file)
+
+    def has(self, topic: str) -> bool:
+        """Return whether a topic has messages, or may have if that takes long to find out."""
+        return self._file.is_used(topic) or any(extra.topic == topic for extra in self._extras)
+
+    def frames(self, topics: Collection[str]) -> Sequence[str]:
+        """The frames of the first messages on some topics, each once."""
+        return frames_of(self._file, [c for c in self._file.channels if c.topic in topics])
+
+    # The interface of webviz.sources.Source
+
+    def want(self, subscriptions: Mapping[str, Subscription]) -> None:
+        """Make the subscriptions exactly these; latched messages arrive at once."""
+        before, self._wanted = self._wanted, dict(subscriptions)
+        if before == self._wanted:
+            return
+        for topic in before.keys() - subscriptions.keys():
+            self.inbox.close(topic)
+        fresh = {t: s for t, s in self._wanted.items() if _is_new(s, before.get(t))}
+        for topic in fresh.keys() - before.keys():
+            self.inbox.open(topic, INBOX_LIMIT)
+        types = _types(before)
+        new = {topic: wish for topic, wish in fresh.items() if types.get(topic) != wish.type}
+        self._learn(new)
+        self._begins |= {topic: self._beginning(topic) for topic in new}
+        served, self._served = self._served, {}
+        for topic, wish in fresh.items():
+            if served.get(topic) == wish.type:
+                continue
+            self._put_extras(topic)
+            if topic in new:
+                self._catch_up(topic, wish)
+            else:
+                self._repeat(topic, wish)
+        if types != _types(self._wanted):
+            self._replay.read_on(self._channels_to_read())
+        self._offers = self._all_offers()
+
+    def offers(self) -> Mapping[str, Offer]:
+        """The topics of the bag, with the QoS that publishers offered."""
+        return self._offers
+
+    def now_ns(self) -> int:
+        """ROS time at the position in the bag; it is known also where it is 0 or less."""
+        return max(self._time.at(self.position_ns), 1)
+
+    def clock_messages(self) -> int | None:
+        """Time comes from the bag; its /clock is not counted."""
+        return 0
+
+    def resolve(self, topic: str) -> str:
+        """The full name of a topic, remapped.
+
+        Raises:
+            ValueError: it is not a valid topic name.
+        """
+        name = topic if topic.startswith("/") else f"/{topic}"
+        if topic.startswith("~"):
+            name = f"/{NODE}/{topic.removeprefix('~').removeprefix('/')}"
+        if not TOPIC.fullmatch(name):
+            raise ValueError(
+                f"{topic!r} is not a valid topic name: it must be words of letters, digits and "
+                "underscores, separated by slashes, that do not start with a digit"
+            )
+        return self._remappings.get(name, name)
+
+    def close(self) -> None:
+        """Close the file."""
+        self._file.close()
+
+    # Internal
+
+    def _is_shown(self, channel: BagChannel) -> bool:
+        """Return whether displays subscribe to a channel."""
+        return channel.topic in self._wanted and channel.type not in (TF, CLOCK)
+
+    def _channels(self) -> list[BagChannel]:
+        """The subscribed channels that can be read."""
+        return [
+            channel
+            for channel in self._file.channels
+            if (wish := self._wanted.get(channel.topic))
+            and wish.type == channel.type
+            and channel.topic not in self._problems
+        ]
+
+    def _channels_to_read(self) -> list[BagChannel]:
+        """The channels to read, always including the clock."""
+        wanted = self._channels()
+        return wanted + [c for c in self._time.clocks if c not in wanted]
+
+    def _learn(self, wishes: Mapping[str, Subscription]) -> None:
+        """Register the message definitions of the bag."""
+        for channel in self._file.channels:
+            wish = wishes.get(channel.topic)
+            if wish and wish.type == channel.type and channel.recorded.definition:
+                try:
+                    register(channel.type, channel.recorded.definition)
+                except MessageError as error:
+                    self._problems[channel.topic] = str(error)
+
+    def _catch_up(self, topic: str, wish: Subscription) -> None:
+        """Deliver what a new subscription would hold if it had been there from the start."""
+        channels = [channel for channel in self._channels() if channel.topic == topic]
+        if channels and self.position_ns >= self._file.start_ns:
+            latched = Lookback(count=sum(channel.depth for channel in self._latched(topic, wish)))
+            lookbacks = (*wish.lookbacks, *([latched] if latched.count else []))
+            wanted = self._wanted | {topic: replace(wish, lookbacks=lookbacks)}
+            for recorded in BagPast(self._file, channels, wanted, self.position_ns).messages():
+                self._put(recorded)
+
+    def _put_extras(self, topic: str) -> None:
+        for extra in self._extras:
+            if extra.topic == topic:
+                self._put(Recorded(topic, extra.type, extra.cdr, self._file.start_ns))
+
+    def _repeat(self, topic: str, wish: Subscription) -> None:
+        """Deliver what publishers repeat for a subscription that is made anew."""
+        latched = self._latched(topic, wish)
+        # Which publishers of transforms were still running is unknown, so all of them count.
+        is_tf = wish.type == TF
+        depth = INBOX_LIMIT if is_tf else sum(channel.depth for channel in latched)
+        past: list[Recorded] = []
+        size = 0
+        for recorded in itertools.islice(self._file.newest(latched, self.position_ns), depth):
+            size += len(recorded.cdr)
+            if past and size > MAX_BYTES:
+                break
+            past.append(recorded)
+        for recorded in reversed(past):
+            self._put(recorded)
+
+    def _latched(self, topic: str, wish: Subscription) -> Sequence[BagChannel]:
+        """The channels of a topic whose publishers repeat their last messages."""
+        return [
+            channel
+            for channel in self._channels()
+            if channel.topic == topic
+            and (wish.latched or _weakest(channel.publishers)[1] == "transient_local")
+        ]
+
+    def _arrive(self, recorded: Recorded) -> None:
+        if recorded.topic == "/clock" and recorded.type == CLOCK:
+            self._time.update(recorded)
+        self._put(recorded)
+
+    def _put(self, recorded: Recorded) -> None:
+        self.inbox.put(recorded.topic, Raw(recorded.cdr, self._time.at(recorded.stamp_ns)))
+
+    def _all_offers(self) -> Mapping[str, Offer]:
+        publishers: dict[str, tuple[Publisher, ...]] = {}
+        for channel in self._file.channels:
+            publishers[channel.topic] = publishers.get(channel.topic, ()) + channel.publishers
+        for extra in self._extras:
+            publishers[extra.topic] = (*publishers.get(extra.topic, ()), extra.publisher)
+        offers = {topic: self._offer(topic, who) for topic, who in publishers.items()}
+        for topic, reason in self._file.skipped.items():
+            offers.setdefault(topic, Offer((), None, reason))
+        return offers
+
+    def _offer(self, topic: str, publishers: tuple[Publisher, ...]) -> Offer:
+        wish, problem = self._wanted.get(topic), self._problems.get(topic, "")
+        matching = [p for p in publishers if wish and p.type == wish.type]
+        if wish is None or not matching:
+            return Offer(publishers, None, problem, is_recorded=True)
+        begins = self._begins.get(topic, "")
+        qos = _weakest(matching)
+        return Offer(publishers, qos, problem, wish.type, is_recorded=True, begins=begins)
+
+    def _beginning(self, topic: str) -> str:
+        """When a topic begins, in words."""
+        if any(extra.topic == topic for extra in self._extras):
+            return ""
+        if not self._file.is_used(topic):
+            return NONE
+        channels = [channel for channel in self._channels() if channel.topic == topic]
+        first = next(self._file.messages(channels, self._file.start_ns), None)
+        if first is None:
+            return NONE
+        return f"the bag's first is at {(first.stamp_ns - self.start_ns) / 1e9:.1f} s"
+
+
+def _is_new(wish: Subscription, before: Subscription | None) -> bool:
+    """Return whether a subscription asks for latched messages."""
+    return before is None or before.type != wish.type or wish.asked > before.asked
+
+
+def _types(wishes: Mapping[str, Subscription]) -> dict[str, str]:
+    return {topic: wish.type for topic, wish in wishes.items()}
+
+
+def _weakest(publishers: Sequence[Publisher]) -> tuple[Reliability, Durability]:
+    """The QoS that all of them offer."""
+    reliable = all(p.reliability == "reliable" for p in publishers)
+    latched = all(p.durability == "transient_local" for p in publishers)
+    return (
+        "reliable" if reliable else "best_effort",
+        "transient_local" if latched else "volatile",
+    )
+
+
+__all__ = ["BagError", "BagSource"]

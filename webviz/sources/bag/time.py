@@ -1,0 +1,83 @@
+"""ROS time of a bag, if it differs from the time of recording."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from webviz.data.messages import Clock, MessageError, TFMessage, decode
+from webviz.sources.bag.file import BagChannel, Recorded
+from webviz.sources.bag.files import BagFiles
+
+CLOCK = "rosgraph_msgs/msg/Clock"
+TF = "tf2_msgs/msg/TFMessage"
+FOREIGN_NS = 3600 * 1_000_000_000
+"""Transforms that are further from the time of recording are in simulated time."""
+MAX_TRIED = 100
+
+
+class BagTime:
+    """Converts times of recording to ROS time, both in nanoseconds.
+
+    A recorded /clock decides, as with use_sim_time; without one, the stamps of the first
+    transforms do if they are more than an hour off.
+
+    Args:
+        file: the bags.
+    """
+
+    def __init__(self, file: BagFiles) -> None:
+        self._file = file
+        self.remark = ""
+        """A warning, "" for none."""
+        self.clocks: list[BagChannel] = [
+            c for c in file.channels if (c.topic, c.type) == ("/clock", CLOCK)
+        ]
+        """The channels of /clock."""
+        self._clock_ns: int | None = None
+        self._offset_ns = 0
+        self._first = next(file.messages(self.clocks, file.start_ns), None)
+        if self._first is not None:
+            self.update(self._first)
+        else:
+            self._follow_transforms(file)
+
+    def seek(self, at_ns: int) -> None:
+        """Go to a time of recording: its last /clock counts, or else the first one of the bag."""
+        if self._first is not None:
+            self.update(next(self._file.newest(self.clocks, at_ns), self._first))
+
+    def update(self, recorded: Recorded) -> None:
+        """Process a message of /clock, in the order of the bag."""
+        try:
+            message: Clock = decode(CLOCK, recorded.cdr)
+        except MessageError:
+            return
+        self._clock_ns = message.clock.ns
+
+    def at(self, recorded_ns: int) -> int:
+        """ROS time at a time of recording; with a /clock, its last message."""
+        return recorded_ns - self._offset_ns if self._clock_ns is None else self._clock_ns
+
+    def _follow_transforms(self, file: BagFiles) -> None:
+        for recorded in _first(file, "/tf", TF):
+            try:
+                message: TFMessage = decode(TF, recorded.cdr)
+            except MessageError:
+                continue
+            stamps = [t.stamp_ns for t in message.transforms if t.stamp_ns]
+            if not stamps:
+                continue
+            offset_ns = recorded.stamp_ns - stamps[0]
+            if abs(offset_ns) > FOREIGN_NS:
+                self._offset_ns = offset_ns
+                self.remark = (
+                    f"The transforms begin at {stamps[0] / 1e9:.1f} s, which is not the time of "
+                    "recording, and there is no /clock: time follows the transforms."
+                )
+            return
+
+
+def _first(file: BagFiles, topic: str, type_name: str) -> Iterator[Recorded]:
+    channels = [c for c in file.channels if (c.topic, c.type) == (topic, type_name)]
+    for recorded, _ in zip(file.messages(channels, file.start_ns), range(MAX_TRIED), strict=False):
+        yield recorded

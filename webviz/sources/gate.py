@@ -1,0 +1,159 @@
+"""The only way out of a viewer: everything it publishes, calls and sends passes here."""
+
+from __future__ import annotations
+
+import fnmatch
+import functools
+import re
+from collections.abc import Callable, Collection
+from concurrent.futures import Future
+from dataclasses import dataclass
+
+from webviz.sources.graph import Goal, Graph, Outlet, ReadOnly
+from webviz.sources.source import Source
+
+ALL = "webviz_all"
+"""Stands for `*` while a pattern is resolved like a name."""
+_OF_ACTION = "/_action/"
+"""Behind the name of an action, in those of its services."""
+
+AllowList = tuple[str, ...]
+"""Names of topics, services and actions, in which `*` stands for any characters."""
+
+
+@dataclass(frozen=True)
+class Rights:
+    """Rights to publish, call and send, as decided where the viewer was started.
+
+    Args:
+        may_publish: whether anything may be.
+        publish: the list of the config with which the viewer was started; those of other configs
+            narrow it.
+        own: what its tools, displays and panels use, which is the list if the config has none.
+        also: allowed besides, whatever configs say.
+    """
+
+    may_publish: bool = True
+    publish: AllowList | None = ("/*",)
+    own: AllowList = ()
+    also: AllowList = ()
+
+    @property
+    def names(self) -> AllowList:
+        """The list that holds, without what is allowed besides."""
+        return self.own if self.publish is None else self.publish
+
+
+class Gate:
+    """The graph of a source, as far as the rights allow; see `webviz.sources.Graph`.
+
+    Args:
+        source: whose graph it is.
+        rights: of the viewer.
+        publish: the list of the current config, None if it has none.
+    """
+
+    def __init__(
+        self, source: Source, rights: Rights, publish: Callable[[], AllowList | None]
+    ) -> None:
+        self._source = source
+        self._rights = rights
+        self._publish = publish
+        self._pattern = functools.lru_cache(maxsize=3)(self._compiled)
+
+    @property
+    def rights(self) -> Rights:
+        """As decided where the viewer was started."""
+        return self._rights
+
+    def refusal(self, name: str) -> str:
+        """Why nothing may be sent to a topic, service or action: a sentence; "" if it may.
+
+        Args:
+            name: its full name, after remapping.
+        """
+        graph = self._source.graph
+        if isinstance(graph, ReadOnly):
+            return graph.reason
+        if not self._rights.may_publish:
+            return "This viewer was started with --no-publish. Restart it without this option."
+        name = name.partition(_OF_ACTION)[0]
+        if self._is_on(self._rights.also, name):
+            return ""
+        if not self._is_on(self._rights.names, name):
+            return self._not_from_the_start(name)
+        narrowed = self._publish()
+        if narrowed is not None and not self._is_on(narrowed, name):
+            return f"{name} is not in the list `publish` of this config. Add it to the file."
+        return ""
+
+    def _not_from_the_start(self, name: str) -> str:
+        if self._rights.publish is None:
+            return (
+                f"No tool or panel of the config that webviz was started with uses {name}. "
+                f"Restart with `--allow-publish {name}`."
+            )
+        return (
+            f"{name} is not in the list `publish` of the config that webviz was started with. "
+            f"Add it there, or use `--allow-publish {name}`, and restart."
+        )
+
+    def advertise(
+        self, outlets: Collection[Outlet], stopping: Collection[Outlet] = ()
+    ) -> Future[None]:
+        """Make the advertised publishers these, without those that are refused.
+
+        Args:
+            outlets: to advertise.
+            stopping: which of them stay although they are refused, see `halt`.
+        """
+        allowed = {
+            outlet for outlet in outlets if outlet in stopping or not self.refusal(outlet.topic)
+        }
+        return self._source.graph.advertise(allowed)
+
+    def publish(self, outlet: Outlet, cdr: bytes) -> Future[int]:
+        """Publish a message; the number of matched subscriptions."""
+        return self._graph(outlet.topic).publish(outlet, cdr)
+
+    def halt(self, outlet: Outlet, cdr: bytes) -> Future[int]:
+        """Publish a zero that stops what was driven, even if that is refused by now."""
+        return self._source.graph.publish(outlet, cdr)
+
+    def call(self, service: str, type: str, request: bytes, timeout_s: float) -> Future[bytes]:
+        """Call a service; the serialised response."""
+        return self._graph(service).call(service, type, request, timeout_s)
+
+    def query(self, service: str, type: str, request: bytes, timeout_s: float) -> Future[bytes]:
+        """Call a service that changes nothing, whatever the rights; the serialised response."""
+        return self._source.graph.call(service, type, request, timeout_s)
+
+    def send_goal(
+        self, action: str, type: str, goal: bytes, feedback: Callable[[bytes], object]
+    ) -> Goal:
+        """Send a goal to an action; it can be cancelled even if the list is narrowed later."""
+        return self._graph(action).send_goal(action, type, goal, feedback)
+
+    def nodes(self) -> tuple[str, ...]:
+        """Full names of the nodes of the graph, sorted."""
+        return self._source.graph.nodes()
+
+    def _graph(self, name: str) -> Graph:
+        """The graph for a name; one that refuses everything if nothing may be sent to it."""
+        reason = self.refusal(name)
+        return ReadOnly(reason) if reason else self._source.graph
+
+    def _is_on(self, names: AllowList, name: str) -> bool:
+        return self._pattern(names).fullmatch(name) is not None
+
+    def _compiled(self, names: tuple[str, ...]) -> re.Pattern[str]:
+        """Matches the full names on a list."""
+        patterns = [fnmatch.translate(full) for name in names if (full := self._resolved(name))]
+        return re.compile("|".join(patterns) or r"(?!)")
+
+    def _resolved(self, name: str) -> str:
+        """The full name or pattern, "" for an invalid one."""
+        try:
+            return self._source.resolve(name.replace("*", ALL)).replace(ALL, "*")
+        except ValueError:
+            return ""

@@ -1,0 +1,70 @@
+"""Channels of recordings, of the topics of a source."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from datetime import datetime
+
+from webviz.api.offer import Offer, Publisher
+from webviz.data.messages import UnknownTypeError, definition
+from webviz.data.recordings import RecordedChannel
+from webviz.sources.bag.qos import text_of
+
+
+def library() -> str:
+    """The name of the program, for the header of its recordings."""
+    import importlib.metadata  # here, as it is slow
+
+    return f"webviz {importlib.metadata.version('webviz')}"
+
+
+def new_name() -> str:
+    """The name of a recording that begins now."""
+    return f"webviz_{datetime.now():%Y_%m_%d-%H_%M_%S}"
+
+
+class Channels:
+    """The channel of each topic, with the QoS that its publishers offered at first.
+
+    Args:
+        offers: publishers and QoS by topic, as they are now; called from any thread.
+    """
+
+    def __init__(self, offers: Callable[[], Mapping[str, Offer]]) -> None:
+        self._offers = offers
+        self._known: dict[str, RecordedChannel] = {}
+
+    def __len__(self) -> int:
+        return len(self._known)
+
+    def find(self, topic: str) -> RecordedChannel | None:
+        """The channel of a topic, None if nobody knows the type of its messages yet."""
+        channel = self._known.get(topic)
+        if channel is None:
+            offer = self._offers().get(topic)
+            publishers = offer.publishers if offer else ()
+            type_ = (offer.type if offer else "") or _type_of(publishers)
+            if not type_:
+                return None
+            channel = self._known[topic] = _channel(topic, type_, publishers)
+        return channel
+
+    def is_latched(self, topic: str) -> bool:
+        """Return whether late subscribers receive the newest message of a topic."""
+        offer = self._offers().get(topic)
+        publishers = offer.publishers if offer else ()
+        return any(each.durability == "transient_local" for each in publishers)
+
+
+def _type_of(publishers: Sequence[Publisher]) -> str:
+    """The type that all publishers agree on, "" if they do not."""
+    types = {publisher.type for publisher in publishers}
+    return types.pop() if len(types) == 1 else ""
+
+
+def _channel(topic: str, type_: str, publishers: Sequence[Publisher]) -> RecordedChannel:
+    try:
+        text = definition(type_)
+    except UnknownTypeError:
+        text = ""
+    return RecordedChannel(topic, type_, "cdr", text, text_of(publishers))

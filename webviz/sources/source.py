@@ -1,0 +1,112 @@
+"""The interface of a source of messages."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Protocol
+
+import msgspec
+
+from webviz.api.declared import Topic
+from webviz.api.lookback import Lookback
+from webviz.api.offer import Offer
+from webviz.sources.graph import Graph
+from webviz.sources.inbox import Inbox
+
+
+@dataclass(frozen=True)
+class Subscription:
+    """A wanted subscription.
+
+    Args:
+        type: the message type, such as "nav_msgs/msg/Path".
+        topic: full name, and the QoS that the user chose.
+        latched: transient local, whatever publishers offer.
+        asked: increased to make publishers repeat latched messages; see `Subscriber`.
+        lookbacks: which past messages of a recording readers need; `since` is a topic. By default
+            the newest one.
+        is_placed: whether messages need the transforms at their stamp.
+    """
+
+    type: str
+    topic: Topic
+    latched: bool = False
+    asked: int = 0
+    lookbacks: tuple[Lookback, ...] = field(default=(Lookback(count=1),), compare=False)
+    is_placed: bool = field(default=False, compare=False)
+
+
+def merged(wishes: Iterable[Mapping[str, Subscription]]) -> dict[str, Subscription]:
+    """All subscriptions by topic. The first decides on the type of a topic.
+
+    A topic has one subscription. It follows the publishers if its readers do not agree on the QoS,
+    so that none of them misses messages for the choice of another. Best effort meets all
+    publishers, so it holds beside readers that chose nothing.
+    """
+    wanted: dict[str, Subscription] = {}
+    for wish in wishes:
+        for topic, other in wish.items():
+            first = wanted.setdefault(topic, other)
+            if first is not other:
+                wanted[topic] = _shared(first, other)
+    return wanted
+
+
+def _shared(first: Subscription, other: Subscription) -> Subscription:
+    """A subscription that serves both."""
+    first = replace(
+        first,
+        asked=max(first.asked, other.asked),
+        lookbacks=(*first.lookbacks, *other.lookbacks),
+        is_placed=first.is_placed or other.is_placed,
+    )
+    if other.type != first.type:
+        return first
+    topic, latched = first.topic, first.latched
+    if other.topic.reliability != topic.reliability:
+        chosen = {topic.reliability, other.topic.reliability}
+        reliability = "best_effort" if chosen == {"auto", "best_effort"} else "auto"
+        topic = msgspec.structs.replace(topic, reliability=reliability)
+    if (other.latched, other.topic.durability) != (latched, topic.durability):
+        topic, latched = msgspec.structs.replace(topic, durability="auto"), False
+    return replace(first, topic=topic, latched=latched)
+
+
+class Source(Protocol):
+    """A live ROS graph or a bag."""
+
+    inbox: Inbox
+
+    @property
+    def graph(self) -> Graph:
+        """For output."""
+        ...
+
+    def want(self, subscriptions: Mapping[str, Subscription]) -> None:
+        """Make the subscriptions exactly these, by topic name."""
+        ...
+
+    def offers(self) -> Mapping[str, Offer]:
+        """Publishers and QoS by topic; another object only after a change."""
+        ...
+
+    def now_ns(self) -> int:
+        """ROS time; 0 while it is unknown."""
+        ...
+
+    def clock_messages(self) -> int | None:
+        """Return the number of /clock messages that set ROS time; None while it is wall time."""
+        ...
+
+    def resolve(self, topic: str) -> str:
+        """The full name of a topic, remapped and in the namespace of the source.
+
+        Raises:
+            ValueError: it is not a valid topic name; one sentence.
+        """
+        ...
+
+    def close(self) -> None:
+        """Stop all threads."""
+        ...
