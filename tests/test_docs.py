@@ -19,7 +19,11 @@ from webviz.shell.reference import ENVIRONMENT
 GUIDES = [docs.ROOT / name for name in ("README.md", "CONTRIBUTING.md", "ARCHITECTURE.md")]
 DOCUMENTS = sorted([*docs.PAGES.rglob("*.md"), *GUIDES])
 GENERATED = docs.pages()
-DRAWING = [name for name, cls in display_types().items() if cls.__module__ != "webviz.api.group"]
+DRAWING = [
+    name
+    for name, cls in display_types().items()
+    if cls.__module__ != "webviz.api.group" and not cls.reports_only
+]
 SOURCES = docs.ROOT / "displays/webviz_displays"
 
 

@@ -17,7 +17,7 @@ import trimesh
 from autoware_scenes import AUTOWARE_SCENES
 from clouds import CLOUD, xyz_cloud
 from mapping_scenes import MAPPING_SCENES
-from moveit_scenes import moveit
+from moveit_scenes import moveit, plan_task
 from perception_scenes import PERCEPTION_SCENES
 from plain_scenes import PLAIN_SCENES
 from rtabmap_scenes import RTABMAP_SCENES
@@ -272,6 +272,7 @@ SCENES: dict[str, Callable[[Any], None]] = {
     "RobotModel": robots,
     "TF": frames,
     "Text": texts,
+    "MotionPlanningTasks": plan_task,
     **dict.fromkeys(("MotionPlanning", "PlanningScene", "RobotState", "Trajectory"), moveit),
     **PLAIN_SCENES,
     **MAPPING_SCENES,
@@ -280,7 +281,7 @@ SCENES: dict[str, Callable[[Any], None]] = {
     **RTABMAP_SCENES,
 }
 
-PLAYERS = (("MotionPlanning", "planned_path."), ("Trajectory", ""))
+PLAYERS = (("MotionPlanning", "planned_path."), ("MotionPlanningTasks", ""), ("Trajectory", ""))
 ANIMATED = ("interrupt_display", "loop_animation", "state_display_time", "use_sim_time")
 """Properties that act on the animation of a path."""
 
@@ -395,6 +396,16 @@ BESIDES: dict[tuple[str, str], dict[str, Any]] = {
             f"{prefix}interrupt_display": True,
         }
         for name, prefix in PLAYERS
+    },
+    # The default is too fast for the time between two messages.
+    **{
+        ("MotionPlanningTasks", path): {"state_display_time": "3x", **more}
+        for path, more in (
+            ("interrupt_display", {"use_sim_time": True}),
+            ("loop_animation", {"use_sim_time": True, "interrupt_display": True}),
+            ("paused", {}),
+            ("use_sim_time", {}),
+        )
     },
     **{
         ("MotionPlanning", name): {"planning_request.show_workspace": True}

@@ -22,7 +22,7 @@ from plain_scenes import PLAIN_MESSAGES
 from rtabmap_scenes import RTABMAP_MESSAGES
 
 from webviz import Display
-from webviz.api.display import inputs_of
+from webviz.api.display import inputs, inputs_of
 from webviz.api.nodes import Node, has_content
 from webviz.data.messages import encode
 from webviz.data.messages.classes import DTYPES
@@ -48,7 +48,8 @@ from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Costmap, Map
 from webviz_displays.map_cloud import MapCloud
 from webviz_displays.map_graph import MapGraph
-from webviz_displays.moveit import PlanningScene, RobotState, Trajectory
+from webviz_displays.map_info import MapInfo
+from webviz_displays.moveit import MotionPlanningTasks, PlanningScene, RobotState, Trajectory
 from webviz_displays.nvblox import NvbloxMesh, NvbloxVoxelBlockLayer
 from webviz_displays.octomap import OccupancyGrid, OccupancyMap
 from webviz_displays.odometry import Odometry
@@ -156,6 +157,7 @@ DISPLAYS: list[Callable[[], Display]] = [
     ImagePlane,
     lambda: GridMap(height_transformer="Flat", color_transformer="ColorLayer"),
     MapGraph,
+    MapInfo,
     NvbloxMesh,
     NvbloxVoxelBlockLayer,
     lambda: VoxelGrid(show_unknown=True, show_free=True),
@@ -164,6 +166,7 @@ DISPLAYS: list[Callable[[], Display]] = [
     lambda: Mag(is_2d=False),
     PlanningScene,
     lambda: Trajectory(show_trail=True),
+    MotionPlanningTasks,
     RobotState,
     ZedOdDisplay,
     AutowarePath,
@@ -236,7 +239,7 @@ def send(at: Any, name: str, values: Values) -> None:
     if fields(type_name)[0].base == "std_msgs/msg/Header":
         values.setdefault("header", header("sensor", at.now_ns))
     cdr = encode(type_name, values).replace(LAST.encode(), b"\xff")
-    topic = getattr(at.display, name).name or f"{at.display.topic.name}_updates"
+    topic = next(topic.name for input, _, topic in inputs(at.display) if input == name)
     at.send_bytes(type_name, cdr, topic)
     at.turn()
     deadline = time.monotonic() + 60
@@ -259,7 +262,8 @@ def faults(at: Any) -> list[str]:
         found.append(f"it reaches to {box}")
     said = at.statuses()
     silent = all(level == "OK" or text == NOTHING_TO_DRAW.text for level, text in said.values())
-    if not any(map(has_content, nodes.values())) and silent:
+    is_blank = not type(at.display).reports_only and not any(map(has_content, nodes.values()))
+    if is_blank and silent:
         found.append(f"nothing is drawn, and only this is said: {said}")
     return found
 

@@ -17,7 +17,7 @@ from autoware_scenes import POSE as POSE_STAMPED
 from clouds import CLOUD, FLOAT32, UINT32, XYZ, cloud
 from grid_maps import GRID_MAP, grid_map
 from mapping_scenes import COSTMAP, FIELD, GRAPH, IMU, MESH, VOXEL_GRID, VOXELS, hill
-from moveit_scenes import moveit
+from moveit_scenes import moveit, plan_task
 from octrees import OCTOMAP
 from perception_scenes import ZED_OBJECTS, ZED_SCENE
 from robot_arm import ARM, describe, place_arm
@@ -39,7 +39,7 @@ from webviz_displays.map import Costmap, Map
 from webviz_displays.map_cloud import MapCloud
 from webviz_displays.map_graph import MapGraph
 from webviz_displays.markers import MarkerArray
-from webviz_displays.moveit import PlanningScene, RobotState, Trajectory
+from webviz_displays.moveit import MotionPlanningTasks, PlanningScene, RobotState, Trajectory
 from webviz_displays.nvblox import NvbloxMesh, NvbloxVoxelBlockLayer
 from webviz_displays.octomap import ColorOccupancyGrid
 from webviz_displays.odometry import Odometry
@@ -150,6 +150,18 @@ def link_of_a_trail(bench: Benches) -> Details:
     at = bench(Trajectory(paused=True, show_trail=True))
     moveit(at)
     return pick(at, "trail rider visual visual_0 0", 2)
+
+
+def link_of_a_solution(bench: Benches) -> Details:
+    at = bench(MotionPlanningTasks(paused=True))
+    plan_task(at)
+    return pick(at, "path rider visual visual_0", None, (0.0, 0.0, 0.0))
+
+
+def marker_of_a_solution(bench: Benches) -> Details:
+    at = bench(MotionPlanningTasks(paused=True))
+    plan_task(at)
+    return pick(at, "box in 0", 0)
 
 
 def beam_of_a_scan(bench: Benches) -> Details:
@@ -615,6 +627,10 @@ CASES: dict[Callable[[Benches], Details], tuple[str, Mapping[str, Any]]] = {
     link_on_a_path: (
         "Link rider", {"Point": "Point 4 of 4 points, at 3000.00 s", "Robot": "rail"}
     ),
+    link_of_a_solution: (
+        "Link rider", {"Point": "Point 8 of 8 points, at 6000.00 s", "Robot": "rail"}
+    ),
+    marker_of_a_solution: ("Marker far/0", {"Type": "CUBE"}),
     link_of_a_trail: ("Link rider", {"Point": "3"}),
     grid: ("Grid", {"Cell size": "0.5 m", "Cells": "4 x 4", "Plane": "XY"}),
     axes: ("Axes of odom", {"Length": "1 m"}),

@@ -12,7 +12,13 @@ from webviz import Topic
 from webviz.api.views import Orbit
 from webviz.shell.testing import Stage, turned
 from webviz_displays.grid import Grid
-from webviz_displays.moveit import MotionPlanning, PlanningScene, RobotState, Trajectory
+from webviz_displays.moveit import (
+    MotionPlanning,
+    MotionPlanningTasks,
+    PlanningScene,
+    RobotState,
+    Trajectory,
+)
 from webviz_displays.moveit.properties import PlannedPath, PlanningRequest, SceneRobot
 
 LENGTHS = (0.5, 0.4, 0.3)
@@ -98,6 +104,27 @@ PATH = {
         }
     ],
 }
+SOLUTION = {
+    "start_scene": SCENE,
+    "sub_trajectory": [
+        {
+            "info": {
+                "id": 1,
+                "markers": [
+                    {
+                        "header": HEADER,
+                        "type": 2,
+                        "pose": at(0.35, 0.0, 0.75),
+                        "scale": {"x": 0.08, "y": 0.08, "z": 0.08},
+                        "color": {"r": 1.0, "g": 0.8, "b": 0.0, "a": 1.0},
+                    }
+                ],
+            },
+            "trajectory": PATH["trajectory"][0],
+            "scene_diff": {"is_diff": True, "robot_state": {"is_diff": True}},
+        }
+    ],
+}
 SHOWN = {
     "state": state(GOAL),
     "highlight_links": [{"id": "part1", "color": {"r": 1.0, "g": 0.1, "b": 0.1, "a": 1.0}}],
@@ -111,6 +138,7 @@ def test_each_display_has_a_picture_of_its_own(webviz_stage: Callable[..., Stage
         "planning_scene": PlanningScene(),
         "trajectory": Trajectory(paused=True, position=1.0, show_trail=True, trail_step_size=2),
         "robot_state": RobotState(),
+        "motion_planning_tasks": MotionPlanningTasks(paused=True, show_trail=True),
         "motion_planning": MotionPlanning(
             scene_robot=SceneRobot(robot_alpha=0.3),
             planning_request=PlanningRequest(query_start_state=True, show_workspace=True),
@@ -129,6 +157,7 @@ def test_each_display_has_a_picture_of_its_own(webviz_stage: Callable[..., Stage
         seen.publish("/monitored_planning_scene", "moveit_msgs/msg/PlanningScene", SCENE)
         seen.publish("/display_planned_path", "moveit_msgs/msg/DisplayTrajectory", PATH)
         seen.publish("/display_robot_state", "moveit_msgs/msg/DisplayRobotState", SHOWN)
+        seen.publish("/solution", "moveit_task_constructor_msgs/msg/Solution", SOLUTION)
         seen.settle()
         seen.wait_until_drawn(name)
         seen.check_picture(f"{picture}/default")

@@ -1,7 +1,8 @@
-"""The panels Visual Tools, Selector, Docking and SLAM Toolbox: what they send for each button."""
+"""Panels with buttons and lists: what they send for each."""
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Callable
 from typing import Any, Generic, TypeVar
@@ -13,14 +14,18 @@ from webviz.api.errors import Error
 from webviz.api.panel import Panel
 from webviz.data.messages import decode, encode, interfaces
 from webviz.engine.commands import AddPanel, OpenPanels, Refresh, Sender
+from webviz.engine.commands.displays import SetProperty
 from webviz.engine.commands.guard import Guard
 from webviz.engine.pipeline.own_names import own_names
+from webviz.engine.state import Row, State
 from webviz.files.config import Config
 from webviz.page.recorded_ui import RecordedUi
 from webviz.panels.docking import Docking
+from webviz.panels.planning_tasks import MotionPlanningTasks
 from webviz.panels.selector import Selector
 from webviz.panels.slam_toolbox import INITIAL_POSE, SlamToolbox
 from webviz.panels.visual_tools import RvizVisualToolsGui
+from webviz_displays import moveit as displays
 
 PARAMETERS = "rcl_interfaces/srv/GetParameters"
 P = TypeVar("P", bound=Panel)
@@ -253,3 +258,25 @@ def test_what_the_panels_send_to_may_be_sent_to() -> None:
     assert "/slam_toolbox/save_map" in names
     request = encode(f"{PARAMETERS}_Request", {"names": ["dock_plugins"]})
     assert decode(f"{PARAMETERS}_Request", request).names == ["dock_plugins"]
+
+
+def test_the_solution_to_play_is_chosen_among_those_of_the_stages() -> None:
+    sent: list[tuple[Any, int | None]] = []
+    ui, panel = RecordedUi(), MotionPlanningTasks()
+    panel.build(ui, lambda command, browser=None: sent.append((command, browser)))
+
+    def shown(*rows: Row) -> str:
+        panel.show(State(rows=rows))
+        return str([widget.values for widget in ui.widgets.values()])
+
+    assert "Add one to see the stages" in shown()
+    display = displays.MotionPlanningTasks()
+    row = Row("d1", "MotionPlanningTasks", display, "Tasks", {})
+    assert "No task received" in shown(row)
+    offered = {"solution": {"7: pick": 7}, "stages": {"1 pick": 1}, "failed": {"1 pick": 4}}
+    text = shown(dataclasses.replace(row, offered=offered))
+    assert all(each in text for each in ("7: pick", "1 pick", "4", "Newest"))
+    choice = next(w for w in ui.widgets.values() if w.values.get("label") == "Solution")
+    choice.use("7: pick", 3)
+    choice.use("Newest", 3)
+    assert sent == [(SetProperty("d1", "solution", id), 3) for id in (7, 0)]

@@ -65,6 +65,51 @@ PATH = {
         }
     ],
 }
+HINT = {
+    "header": {"frame_id": "base"},
+    "ns": "goal",
+    "type": 1,
+    "pose": at(4.0),
+    "scale": {"x": 0.1, "y": 0.1, "z": 0.1},
+    "color": {"r": 1.0, "a": 1.0},
+}
+SOLUTION = {
+    "task_id": "robot_1",
+    "start_scene": SCENE,
+    "sub_solution": [{"info": {"id": 7, "cost": 1.5, "stage_id": 1}}],
+    "sub_trajectory": [
+        {
+            "info": {"id": 5, "stage_id": 2, "markers": [HINT]},
+            "trajectory": PATH["trajectory"][0],
+            "scene_diff": {
+                "is_diff": True,
+                "robot_state": {"is_diff": True},
+                "world": {"collision_objects": [{"id": "door", "operation": 1}]},
+            },
+        },
+        {
+            "info": {"id": 6, "stage_id": 3, "markers": [HINT | {"ns": "far", "pose": at(9.0)}]},
+            "trajectory": PATH["trajectory"][0],
+            "scene_diff": {"is_diff": True, "robot_state": {"is_diff": True}},
+        },
+    ],
+}
+TASK = {
+    "task_id": "robot_1",
+    "stages": [
+        {"id": 1, "name": "pick"},
+        {"id": 2, "parent_id": 1, "name": "approach"},
+        {"id": 3, "parent_id": 1, "name": "grasp"},
+    ],
+}
+NUMBERS = {
+    "task_id": "robot_1",
+    "stages": [
+        {"id": 1, "solved": [7, 8]},
+        {"id": 2, "solved": [5], "failed": [4], "total_compute_time": 0.5},
+        {"id": 3, "num_failed": 9},
+    ],
+}
 SHOWN = {
     "state": state(1.0, HELD),
     "highlight_links": [{"id": "base", "color": {"r": 1.0, "a": 0.5}}],
@@ -75,6 +120,9 @@ MOVEIT_MESSAGES: dict[str, dict[str, Any]] = {
     "moveit_msgs/msg/DisplayTrajectory": PATH,
     "moveit_msgs/msg/DisplayRobotState": SHOWN,
     "moveit_msgs/msg/RobotState": state(1.0),
+    "moveit_task_constructor_msgs/msg/Solution": SOLUTION,
+    "moveit_task_constructor_msgs/msg/TaskDescription": TASK,
+    "moveit_task_constructor_msgs/msg/TaskStatistics": NUMBERS,
 }
 """A message of each type that draws something."""
 
@@ -107,6 +155,36 @@ def moveit(bench: Any) -> None:
     while time.monotonic() < after:
         bench.turn()
     settle(bench)
+
+
+def plan_task(bench: Any) -> None:
+    """A task with two solutions; in simulated time, another one while the newest is played."""
+    bench.transform("map", "base", (1.0, 0.0, 0.0))
+    other = SOLUTION | {"sub_trajectory": SOLUTION["sub_trajectory"][1:]}
+    service = "moveit_task_constructor_msgs/srv/GetSolution"
+    bench.serve("/get_solution_robot_1", service, {"solution": other})
+    bench.send("std_msgs/msg/String", {"data": URDF}, topic="robot_description")
+    settle(bench)
+    for topic, type_name, values in (
+        ("/description", "TaskDescription", TASK),
+        ("/statistics", "TaskStatistics", NUMBERS),
+        ("/solution", "Solution", SOLUTION),
+    ):
+        bench.send(f"moveit_task_constructor_msgs/msg/{type_name}", values, topic=topic)
+    for x in (1.0, 1.5, 2.0):  # of the link that leaves a trail
+        bench.transform("map", "base", (x, 0.0, 0.0))
+        bench.turn(100.0)
+    shown = bench.display
+    if shown.use_sim_time:
+        bench.send("moveit_task_constructor_msgs/msg/Solution", SOLUTION, topic="/solution")
+    for seconds in (0.0, 2100.0, 400.0):
+        bench.turn(seconds)
+    settle(bench)
+    if shown.state_display_time == "0.05 s" and not (
+        shown.use_sim_time or shown.paused or shown.loop_animation
+    ):
+        while "Point 8 of 8" not in bench.statuses()["Path"][1]:  # in 0.4 s
+            bench.turn()
 
 
 def settle(bench: Any) -> None:

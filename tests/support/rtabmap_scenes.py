@@ -89,6 +89,19 @@ BOTH = {**rgbd(*photos.room(32, 24)), **scanned(*SCAN)}
 """A node that has images and a scan."""
 MAPPED = map_data({1: (0.0, 0.0), 2: (2.0, 1.0)}, {1: BOTH, 2: BOTH})
 
-RTABMAP_SCENES: dict[str, Callable[[Any], None]] = {"MapCloud": in_moving_frame(MAP_DATA, MAPPED)}
-RTABMAP_MESSAGES: dict[str, Values] = {MAP_DATA: MAPPED}
+INFO = "rtabmap_msgs/msg/Info"
+CLOSED = {
+    "ref_id": 12,
+    "loop_closure_id": 3,
+    "loop_closure_transform": {"translation": {"x": 0.5}, "rotation": {"w": 1.0}},
+    "stats_keys": ["Loop/Accepted_hypothesis_id/", "Timing/Total/ms"],
+    "stats_values": [3.0, 41.25],
+}
+"""Information of a node that closes a loop."""
+
+RTABMAP_SCENES: dict[str, Callable[[Any], None]] = {
+    "MapCloud": in_moving_frame(MAP_DATA, MAPPED),
+    "MapInfo": in_moving_frame(INFO, CLOSED),
+}
+RTABMAP_MESSAGES: dict[str, Values] = {MAP_DATA: MAPPED, INFO: CLOSED}
 """A message of each type that draws something."""

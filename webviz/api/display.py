@@ -98,6 +98,8 @@ class Display(Declared, kw_only=True):
     """From which size on a message is large: it takes longer than the way to a thread and back."""
     has_pane: ClassVar[bool] = False
     """True if it draws a `webviz.Pane`, for which pages keep a place beside the scene."""
+    reports_only: ClassVar[bool] = False
+    """True if its statuses are all that it shows; others warn if they have drawn nothing."""
     sync: ClassVar[Sync | None] = None
     """Inputs that are drawn together; others are drawn as their messages arrive."""
 

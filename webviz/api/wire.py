@@ -53,10 +53,13 @@ class Wire(Protocol):
         """
         ...
 
-    def query(self, service: str, type: str, timeout_s: float) -> Future[bytes]:
-        """Call a service that changes nothing, with an empty request; its serialised response.
+    def query(
+        self, service: str, type: str, timeout_s: float, request: Mapping[str, Any] | None = None
+    ) -> Future[bytes]:
+        """Call a service that changes nothing; its serialised response.
 
-        Viewers that may not publish can do so, too.
+        Viewers that may not publish can do so, too. Without a request its fields have their
+        defaults.
 
         Raises:
             ValueError: it is not a valid name; one sentence.

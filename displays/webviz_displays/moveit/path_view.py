@@ -110,13 +110,16 @@ class PathView:
             self.player.hold(playback.share)
         return self.player.index, self.player.path, self.player.is_moving
 
-    def draw(self, playback: Playback, frame: str, ctx: Context) -> None:
+    def draw(
+        self, playback: Playback, frame: str, ctx: Context, scene: KnownScene | None = None
+    ) -> None:
         """Draw the robot at the current point, and the trail.
 
         Args:
             playback: how.
             frame: that places the robot if the path does not say it.
             ctx: receives nodes and statuses.
+            scene: at that point, with what the robot holds; None if that follows from the path.
         """
         model, path = self.robots.model, self.player.path
         self.robots.report(playback.look, ctx)
@@ -137,7 +140,7 @@ class PathView:
         poses = model.poser.place(path.values[index], path.poses[index])
         self.robots.draw(poses, playback.look, frame, PREFIX, ctx)
         rgba = with_alpha(playback.attached, playback.look.alpha)
-        scene = KnownScene(attached=path.attached or {})
+        scene = scene or KnownScene(attached=path.attached or {})
         if playback.look.visual or playback.look.collision:
             self.held.draw(scene, poses, rgba, frame, PREFIX, ctx)
         if playback.trail:

@@ -36,8 +36,10 @@ class Speed(NamedTuple):
 
 
 def speed_of(text: str) -> Speed | None:
-    """A speed as MoveIt writes it, such as "3x" or "0.05 s"; None if it is invalid."""
+    """A speed as MoveIt writes it: "3x", "0.05 s" or "REALTIME"; None if it is invalid."""
     words = text.strip()
+    if words.upper() == "REALTIME":
+        return Speed(1.0, 0.0)
     try:
         value = float(words[:-1])
     except ValueError:

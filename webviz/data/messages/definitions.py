@@ -6,9 +6,11 @@ foxglove_msgs and ffmpeg_image_transport_msgs in ROS 2 Jazzy, in the order of th
 """
 
 from webviz.data.messages.perception_definitions import PERCEPTION
+from webviz.data.messages.planning_definitions import PLANNING
 
 DEFINITIONS = {
     **PERCEPTION,
+    **PLANNING,
     "map_msgs/msg/OccupancyGridUpdate": """
         std_msgs/Header header
         int32 x

@@ -26,6 +26,9 @@ visualization_msgs/InteractiveMarker[] markers""",
     "moveit_msgs/srv/GetPlanningScene": """moveit_msgs/PlanningSceneComponents components
 ---
 moveit_msgs/PlanningScene scene""",
+    "moveit_task_constructor_msgs/srv/GetSolution": """uint32 solution_id
+---
+moveit_task_constructor_msgs/Solution solution""",
     "rcl_interfaces/srv/GetParameters": """string[] names
 ---
 rcl_interfaces/ParameterValue[] values""",

@@ -227,7 +227,8 @@ class Runner:
         for text in self._guard.crashes.values():
             result["Display"] = Status(Level.ERROR, text)
         result |= self.remarks
-        if worst(result.values()) is Level.OK and self._painter.is_empty():
+        is_missing = self._painter.is_empty() and not type(self.display).reports_only
+        if worst(result.values()) is Level.OK and is_missing:
             result["Display"] = NOTHING_TO_DRAW if is_watched else NO_BROWSER
         return result
 

@@ -89,11 +89,13 @@ class DisplayWire:
         line.has_gap, line.is_open = False, True
         return heard
 
-    def query(self, service: str, type: str, timeout_s: float) -> Future[bytes]:
+    def query(
+        self, service: str, type: str, timeout_s: float, request: Mapping[str, Any] | None = None
+    ) -> Future[bytes]:
         """Call a service that changes nothing; see `webviz.api.wire.Wire`."""
         name = self._services.resolve(service)
-        request = encode(interfaces.service(type).request, {})
-        answer = self._gate.query(name, type, request, timeout_s)
+        data = encode(interfaces.service(type).request, request or {})
+        answer = self._gate.query(name, type, data, timeout_s)
         answer.add_done_callback(lambda _: self.wake())
         return answer
 

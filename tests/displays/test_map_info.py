@@ -1,0 +1,36 @@
+"""Statistics and loops of RTAB-Map as statuses."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from rtabmap_scenes import CLOSED, INFO
+
+from webviz_displays.map_info import MapInfo
+
+
+def test_loops_are_counted_and_statistics_are_statuses(bench: Callable[..., Any]) -> None:
+    at = bench(MapInfo())
+    near = CLOSED | {"loop_closure_id": 0, "proximity_detection_id": 5}
+    for values in (CLOSED, near, CLOSED):
+        at.send(INFO, values, frame="map")
+    at.turn()
+    said = at.statuses()
+    assert said["Info"] == ("OK", "12 closes a loop with 3.")
+    assert said["Loop closures"] == ("OK", "2 loop closures since it is shown.")
+    assert said["Proximity detections"] == ("OK", "1 detection since it is shown.")
+    assert said["Position"] == ("OK", "x 0.500, y 0.000, z 0.000 m.")
+    assert said["Timing/Total/ms"] == ("OK", "41.25")
+    assert said["Loop/Accepted_hypothesis_id"] == ("OK", "3")
+    assert {level for level, _ in said.values()} == {"OK"}
+
+
+def test_statistics_without_values_are_said(bench: Callable[..., Any]) -> None:
+    at = bench(MapInfo())
+    at.send(INFO, {"ref_id": 4, "stats_keys": ["a", "b"], "stats_values": [1.0]}, frame="map")
+    at.turn()
+    said = at.statuses()
+    assert said["Info"] == ("OK", "Node 4, no loop.")
+    assert said["Statistics"] == ("ERROR", "1 values for 2 names. Fix the publisher.")
+    assert "Position" not in said

@@ -1,0 +1,116 @@
+"""Tasks of MoveIt Task Constructor: their stages, and the solution that is played."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from moveit_scenes import NUMBERS, SOLUTION, TASK, plan_task
+
+from webviz_displays.moveit import MotionPlanningTasks
+from webviz_displays.moveit.planning_tasks import SolutionMarkers
+
+Benches = Callable[..., Any]
+MESSAGES = "moveit_task_constructor_msgs/msg"
+
+
+def tell(at: Any, type_name: str, values: dict[str, Any], topic: str) -> None:
+    at.send(f"{MESSAGES}/{type_name}", values, topic=topic)
+    at.turn()
+
+
+def markers(at: Any) -> list[float]:
+    """Along x, those of the solution."""
+    return sorted(
+        round(float(x), 3)
+        for key, node in at.nodes().items()
+        if key.startswith("box in")
+        for x in node.positions[:, 0] + at.poses()[key].position[0]
+    )
+
+
+@pytest.fixture
+def planned(bench: Benches) -> Any:
+    """A task with a solution of two parts of four points; the first one is shown."""
+    at = bench(MotionPlanningTasks(paused=True, position=0.0))
+    plan_task(at)
+    return at
+
+
+def test_stages_are_a_tree_with_their_numbers_of_solutions(planned: Any) -> None:
+    said = planned.statuses()
+    assert said["1 pick"] == ("OK", "2 solutions.")
+    assert said["1.1 approach"] == ("OK", "1 solution, 1 failed, 0.50 s.")
+    assert said["1.2 grasp"] == ("OK", "0 solutions, 9 failed.")
+    offered = planned.runner.offered()
+    assert offered["stages"] == {"1 pick": 2, "1.1 approach": 1, "1.2 grasp": 0}
+    assert offered["solution"] == {"7: pick": 7, "8: pick": 8, "5: approach": 5}
+
+
+def test_each_part_of_a_solution_has_the_scene_that_the_one_before_led_to(planned: Any) -> None:
+    assert planned.statuses()["Solution"] == ("OK", "Solution 7: 2 parts, cost 1.5.")
+    for position, stage, x, objects, hint in (
+        (0.0, "Part 1 of 2: 'approach'.", 3.0, 2, 5.0),
+        (1.0, "Part 2 of 2: 'grasp'.", 14.0, 1, 11.0),
+    ):
+        planned.set("position", position)
+        said = planned.statuses()
+        assert said["Stage"] == ("OK", stage)
+        assert said["Scene"][1].startswith(f"'cell': {objects} object")
+        assert planned.poses()["path rider visual visual_0"].position[0] == x
+        assert markers(planned) == [hint]
+
+
+def test_markers_are_those_of_the_part_or_of_all(planned: Any) -> None:
+    planned.set("markers.all_at_once", True)
+    assert markers(planned) == [6.0, 11.0]
+    planned.set("markers.show_markers", False)
+    assert markers(planned) == []
+
+
+def test_a_chosen_solution_is_asked_from_its_task(planned: Any) -> None:
+    planned.set("solution", 8)
+    planned.settle()
+    assert planned.statuses()["Solution"] == ("OK", "Solution 7: 1 part, cost 1.5.")
+    del planned.graph.responses["/get_solution_robot_1"]
+    planned.set("solution", 5)
+    planned.settle()
+    level, text = planned.statuses()["Solution"]
+    assert level == "WARN"
+    assert text.startswith("Solution 5: No node offers /get_solution_robot_1.")
+
+
+def test_a_task_that_begins_again_forgets_its_solution(planned: Any) -> None:
+    tell(planned, "TaskDescription", {"task_id": "robot_1"}, "/description")
+    said = planned.statuses()
+    assert "1 pick" not in said
+    assert said["Solution"] == (
+        "WARN",
+        "No solution received on /solution. Plan a task, or choose one.",
+    )
+    planned.set("solution", 7)
+    assert said["Solution"][0] == "WARN"
+    assert planned.statuses()["Solution"][1].startswith("No task is known that has solution 7.")
+
+
+def test_stages_that_name_each_other_or_nothing_are_listed_at_most_once(bench: Benches) -> None:
+    at = bench(MotionPlanningTasks(markers=SolutionMarkers()))
+    stages = [
+        {"id": 1, "parent_id": 2, "name": "a"},
+        {"id": 2, "parent_id": 1, "name": "b"},
+        {"id": 3, "parent_id": 99, "name": "c"},
+        {"id": 3, "parent_id": 3, "name": "d"},
+    ]
+    tell(at, "TaskStatistics", NUMBERS, "/statistics")
+    tell(at, "TaskDescription", TASK | {"stages": stages}, "/description")
+    assert {key for key in at.statuses() if key[:1].isdigit()} == {"1 c", "2 d"}
+
+
+def test_an_answer_without_a_solution_is_said(planned: Any) -> None:
+    service = "moveit_task_constructor_msgs/srv/GetSolution"
+    planned.serve("/get_solution_robot_1", service, {"solution": SOLUTION | {"task_id": ""}})
+    planned.set("solution", 5)
+    planned.settle()
+    text = "Solution 5: The task does not have it any more. Choose another."
+    assert planned.statuses()["Solution"] == ("WARN", text)
