@@ -10,7 +10,12 @@ from rviz_trees import lost, texts
 
 from webviz.files import opening, rviz
 from webviz.shell.cli import main as cli
-from webviz_displays.moveit import MotionPlanning, PlanningScene, Trajectory
+from webviz_displays.moveit import (
+    MotionPlanning,
+    MotionPlanningTasks,
+    PlanningScene,
+    Trajectory,
+)
 
 FILE = """\
 Visualization Manager:
@@ -137,3 +142,38 @@ Visualization Manager:
         "x.rviz",
     )
     assert report.is_complete is not is_lost
+
+
+@pytest.mark.parametrize(("approach", "is_lost"), [("true", False), ("false", True)])
+def test_a_display_of_planning_tasks_is_read_as_it_is(approach: str, is_lost: bool) -> None:
+    text = f"""\
+Panels:
+  - {{Class: moveit_task_constructor/Motion Planning Tasks, Name: Tasks}}
+Visualization Manager:
+  Displays:
+    - Class: moveit_task_constructor/Motion Planning Tasks
+      Enabled: true
+      Loop Animation: true
+      Markers: {{All at once?: true, Value: true, approach: {approach}}}
+      Name: Tasks
+      Robot:
+        Fixed Robot Color: 150; 50; 150
+        Links: {{All Links Enabled: false, hand: {{Alpha: 0.5, Value: true}}}}
+        Value: ""
+      Scene: {{Scene Alpha: 0.5, Value: false}}
+      State Display Time: 0.1 s
+      Task Solution Topic: /demo/solution
+      Tasks: {{pick: 2}}
+"""
+    config, report = rviz.read(text, "x.rviz")
+    [display] = config.displays
+    assert isinstance(display, MotionPlanningTasks)
+    assert display.task_solution_topic.name == "/demo/solution"
+    assert display.robot.links["hand"].alpha == 0.5
+    assert not display.robot.all_links_enabled
+    assert display.scene.scene_alpha == 0.5
+    assert not display.scene.show_scene
+    assert display.markers.all_at_once
+    assert (display.loop_animation, display.state_display_time) == (True, "0.1 s")
+    assert report.is_complete is not is_lost
+    assert list(lost(texts(text), texts(rviz.write(config)[0]))) == []

@@ -66,8 +66,11 @@ IGNORED_BY_RVIZ2 = (("Queue Size",), ("Unreliable",), ("Transport Hint",))
 
 
 OBJECTS = "autoware_perception_rviz_plugin"
+TASKS = "moveit_task_constructor/Motion Planning Tasks"
 IGNORED_BY_PLUGINS = {
     ("Namespaces", "nvblox_rviz_plugin/NvbloxVoxelBlockLayer"),
+    ("Tasks", TASKS),
+    ("Robot/Value", TASKS),
     ("Hide Small Values", "rviz/WrenchStamped"),
     ("Hide Small Values", "rviz_default_plugins/Wrench"),
     ("Path", f"{OBJECTS}/DetectedObjects"),
@@ -75,7 +78,8 @@ IGNORED_BY_PLUGINS = {
     ("Text/UUID", f"{OBJECTS}/DetectedObjects"),
     ("Text/Acceleration", f"{OBJECTS}/DetectedObjects"),
 }
-"""Keys that files have from ROS 1 or other displays, with the class that ignores them in RViz2."""
+"""Keys that files have from ROS 1 or other displays, or that only report something, with the class
+that ignores them in RViz2."""
 
 
 LINKS_BESIDE_THEIR_GROUP = ("Scene Robot", "Planned Path")
@@ -97,7 +101,9 @@ def is_without_effect(path: Path, tree: Tree) -> bool:
         value, outer = (value.get(key) if isinstance(value, dict) else None), value
     if first in LINKS_BESIDE_THEIR_GROUP and len(path) == 3 and outer == UNCHANGED_LINK:
         return True
-    if first == "Namespaces" and value is True:  # as all are
+    if (
+        first == "Namespaces" or (first, cls) == ("Markers", TASKS)
+    ) and value is True:  # as all are
         return True
     name = path[len(path) - 2] if last == "Value" and len(path) > 1 else last
     return value == {} or any(value == each for each in AT_DEFAULT.get(name, ()))
