@@ -13,6 +13,7 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import LaserScan
 
 import webviz
+from webviz.api.finding import CauseLevel
 from webviz.engine.commands import SetProperty
 from webviz.shell.testing.live import LiveViewer
 from webviz_displays.laser_scan import LaserScan as LaserScanDisplay
@@ -41,10 +42,10 @@ def scan(topic: str, **policies: str) -> LaserScanDisplay:
 def wait_for(viewer: LiveViewer, *ids: str) -> dict[str, webviz.Finding]:
     """Wait until exactly these findings are made, in this order."""
     viewer.wait_for(
-        lambda: tuple(live_findings(viewer)) == ids,
-        lambda: f"It found {[*live_findings(viewer)]}, not {[*ids]}.",
+        lambda: tuple(live_findings(viewer, CauseLevel.GRAPH)) == ids,
+        lambda: f"It found {[*live_findings(viewer, CauseLevel.GRAPH)]}, not {[*ids]}.",
     )
-    return live_findings(viewer)
+    return live_findings(viewer, CauseLevel.GRAPH)
 
 
 def test_every_fault_of_a_topic_has_its_own_finding(

@@ -6,35 +6,37 @@ import math
 from collections.abc import Sequence
 
 from webviz import Finding, Severity
+from webviz.api.finding import CauseLevel
 from webviz.shell.testing.live import LiveViewer
 from webviz.shell.testing.source import SECOND
 from webviz.shell.testing.stage import Stage
 
-ROUNDS = 3
-"""Two in a row make a finding; one may have begun before."""
+ROUNDS = 4
+"""Two in a row make a finding; one may be under way, and messages have to wait for a while."""
 
 
-def by_key(findings: Sequence[Finding]) -> dict[str, Finding]:
-    """Findings that are more than notes in their order, by id and subject."""
-    worse = [each for each in findings if each.severity > Severity.NOTE]
+def by_key(findings: Sequence[Finding], level: CauseLevel) -> dict[str, Finding]:
+    """Findings on a level that are more than notes in their order, by id and subject."""
+    worse = [each for each in findings if each.severity > Severity.NOTE and each.level is level]
     return {f"{each.id} {each.subject}".strip(): each for each in worse}
 
 
-def live_findings(viewer: LiveViewer) -> dict[str, Finding]:
-    """The findings of a live viewer."""
-    return by_key(viewer.viewer.snapshot().findings)
+def live_findings(viewer: LiveViewer, level: CauseLevel) -> dict[str, Finding]:
+    """The findings of a live viewer on one level."""
+    return by_key(viewer.viewer.snapshot().findings, level)
 
 
-def examined(stage: Stage, seconds: float = 1.1) -> dict[str, Finding]:
-    """The findings of a viewer after some rounds, between which time passes."""
+def examined(stage: Stage, level: CauseLevel, seconds: float = 1.1) -> dict[str, Finding]:
+    """The findings of a viewer on one level after some rounds, between which time passes."""
     doctor = stage.viewer.doctor
     doctor.slice_s = math.inf
-    until = doctor.rounds + ROUNDS
+    until, state = doctor.rounds + ROUNDS, stage.viewer.snapshot()
     while doctor.rounds < until:
         stage.clock += seconds
         stage.source.now += round(seconds * SECOND)
         stage.turn()
-    return by_key(stage.viewer.snapshot().findings)
+        state = stage.viewer.snapshot()
+    return by_key(state.findings, level)
 
 
 def display(viewer: Stage | LiveViewer, name: str) -> str:

@@ -14,7 +14,8 @@ from webviz.api.evidence import MapFit
 from webviz.api.finding import Symptom
 from webviz.api.offer import Offer
 from webviz.api.status import Level, Status
-from webviz.data.transforms import TransformBuffer
+from webviz.data.transforms import Diagnosis, TransformBuffer, diagnose
+from webviz.data.transforms.conflicts import Conflict, ConflictKind, found_conflicts
 from webviz.data.transforms.reasons import Explanation, Kind
 
 NO_OFFER = Offer(())
@@ -151,6 +152,27 @@ class Observation:
         """The statuses of frames that have no pose for one of these reasons."""
         for kind in kinds:
             yield from self._lost.get(kind, ())
+
+    def symptom(self, key: str) -> tuple[Symptom, ...]:
+        """A status of the viewer as a symptom, none if it is neither a warning nor an error."""
+        status = self.statuses.get(key)
+        return (Symptom("", key),) if status and status.level >= Level.WARN else ()
+
+    @functools.cached_property
+    def tree(self) -> Diagnosis:
+        """The tree of frames, with rates, ages and loops."""
+        return diagnose(self.buffer, self.now_ns)
+
+    def conflicts(self, kind: ConflictKind) -> Iterator[tuple[str, Conflict]]:
+        """The frames with this sign of two publishers."""
+        for frame, conflict in self._conflicts:
+            if conflict.kind is kind:
+                yield frame, conflict
+
+    @functools.cached_property
+    def _conflicts(self) -> Sequence[tuple[str, Conflict]]:
+        buffer = self.buffer
+        return [(f, each) for f in buffer.publishers for each in found_conflicts(buffer, f)]
 
     def nodes_of(self, topic: str) -> str:
         """The nodes that publish a topic, for sentences; "" if none does."""

@@ -34,6 +34,6 @@ class EndedPublisher(Check):
                 "Start its node again.",
                 subject=each.topic,
                 evidence={"topic": each.topic, "received": each.received},
-                command="" if seen.is_recorded else "ros2 node list",
+                command="ros2 node list",
                 explains=display.symptom(each.status),
             )

@@ -44,7 +44,7 @@ class NoPublisher(Check):
                 else "Start the node that publishes it, or choose another topic.",
                 subject=each.topic,
                 evidence={"topic": each.topic, "types": each.types},
-                command="" if seen.is_recorded else f"ros2 topic find {each.types[0]}",
+                command=f"ros2 topic find {each.types[0]}",
                 button=ChangeDisplay(display.id, remedy) if isinstance(remedy, Remedy) else None,
                 explains=display.symptom(each.status),
             )

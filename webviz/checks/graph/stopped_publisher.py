@@ -39,6 +39,6 @@ class StoppedPublisher(Check):
                     "rate_hz": round(each.rate_hz, 3),
                     "received": each.received,
                 },
-                command="" if seen.is_recorded else f"ros2 topic hz {each.topic}",
+                command=f"ros2 topic hz {each.topic}",
                 explains=display.symptom(each.status),
             )

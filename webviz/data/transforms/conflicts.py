@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import StrEnum
 from itertools import islice, pairwise
 from math import dist
 
@@ -25,12 +27,41 @@ MIN_LEAP_M = 0.01
 """Smaller changes are noise, such as an encoder's last digit."""
 
 
+class ConflictKind(StrEnum):
+    """A sign of two publishers of one frame."""
+
+    TWO_PARENTS = "two parents"
+    TWO_STATIC_POSES = "two static poses"
+    STATIC_AND_MOVING = "static and moving"
+    TWO_PUBLISHERS = "two publishers"
+
+
+@dataclass(frozen=True)
+class Conflict:
+    """One sign.
+
+    Attributes:
+        kind: its kind.
+        sentence: the cause with a remedy.
+        parents: of the frame, as far as they are known.
+    """
+
+    kind: ConflictKind
+    sentence: str
+    parents: tuple[str, ...] = ()
+
+
 def conflicts(buffer: TransformBuffer, frame: str) -> Iterator[str]:
     """Sentences, one for each sign of two publishers of a child frame."""
+    return (conflict.sentence for conflict in found_conflicts(buffer, frame))
+
+
+def found_conflicts(buffer: TransformBuffer, frame: str) -> Iterator[Conflict]:
+    """The signs of two publishers of a child frame."""
     cache = buffer.tree.caches[frame]
     contest = buffer.publishers[frame].contested(cache.newest_stamp, buffer.cache_time_ns)
     if contest:
-        yield _in_words(frame, contest)
+        yield _contested(frame, contest)
     if not isinstance(cache, TimeCache) or not cache.stamps:
         return
     stamps = list(islice(reversed(cache.stamps), RECENT))
@@ -38,43 +69,57 @@ def conflicts(buffer: TransformBuffer, frame: str) -> Iterator[str]:
     parents = [p for _, p in islice(reversed(cache.samples), RECENT)] if is_mixed else []
     changes = sum(a != b for a, b in pairwise(parents))
     if changes > 1:
-        both = " and ".join(f'"{name}"' for name in sorted(set(parents)))
-        yield (
+        names = sorted(set(parents))
+        both = " and ".join(f'"{name}"' for name in names)
+        yield Conflict(
+            ConflictKind.TWO_PARENTS,
             f'"{frame}" changed its parent {changes} times between {both}: two publishers give it '
-            "different parents, stop one of them."
+            "different parents, stop one of them.",
+            tuple(names),
         )
         return
     twins = len(stamps) - len(set(stamps))
     if twins > 1:
-        yield (
+        yield Conflict(
+            ConflictKind.TWO_PUBLISHERS,
             f'"{frame}" has {twins} pairs of different poses with the same stamp: two publishers, '
-            "or one whose clock stands still."
+            "or one whose clock stands still.",
         )
     elif _takes_turns(cache.samples):
-        yield f'"{frame}" alternates between two poses: it has two publishers, stop one of them.'
+        yield Conflict(
+            ConflictKind.TWO_PUBLISHERS,
+            f'"{frame}" alternates between two poses: it has two publishers, stop one of them.',
+        )
 
 
-def _in_words(frame: str, contest: Contest) -> str:
+def _contested(frame: str, contest: Contest) -> Conflict:
+    """A contest as a conflict."""
     parents = contest.parents()
     statics = [claim[0] for claim in contest.claims if isinstance(claim, tuple)]
     if len(parents) == 2:
         both = " and ".join(f'"{parent}"' for parent in parents)
-        return (
+        kind = ConflictKind.TWO_PARENTS
+        text = (
             f'"{frame}" has two parents in static transforms, {both}: stop one of their publishers.'
         )
-    if len(statics) == 2:
+    elif len(statics) == 2:
         apart = dist(statics[0][:3], statics[1][:3])
-        return (
+        kind = ConflictKind.TWO_STATIC_POSES
+        text = (
             f'"{frame}" has two static poses in "{parents[0]}", {apart:.3f} m apart and '
             "perhaps rotated: stop one of their publishers."
         )
-    if statics:
-        return (
+    elif statics:
+        kind = ConflictKind.STATIC_AND_MOVING
+        text = (
             f'"{frame}" is published on /tf and as a static transform in "{parents[0]}": stop one '
             "of the publishers."
         )
-    names = " and ".join(str(claim) or "an unknown node" for claim in contest.claims)
-    return f'"{frame}" has two publishers, {names}: stop one of them.'
+    else:
+        names = " and ".join(str(claim) or "an unknown node" for claim in contest.claims)
+        kind = ConflictKind.TWO_PUBLISHERS
+        text = f'"{frame}" has two publishers, {names}: stop one of them.'
+    return Conflict(kind, text, tuple(parents))
 
 
 def _takes_turns(samples: deque[ParentedPose]) -> bool:

@@ -86,8 +86,7 @@ def _invalid(buffer: TransformBuffer, fixed_frame: str, frame: str) -> Explanati
             "localisation).",
         )
     if fixed_frame not in names:
-        sentence, _ = unknown_fixed_frame(buffer, fixed_frame)
-        return Explanation(Kind.UNKNOWN_FIXED_FRAME, sentence)
+        return unknown_fixed_frame(buffer, fixed_frame)
     if frame not in names:
         text = f'Frame "{frame}" does not exist'
         near = _nearest(buffer, frame)
@@ -100,21 +99,22 @@ def _invalid(buffer: TransformBuffer, fixed_frame: str, frame: str) -> Explanati
                 f"{text}: no transform to it has arrived. Start the node that publishes it, such "
                 "as robot_state_publisher, or fix the frame_id of the data."
             )
-        return Explanation(Kind.UNKNOWN_FRAME, sentence)
+        return Explanation(Kind.UNKNOWN_FRAME, sentence, near=near)
     return None
 
 
-def unknown_fixed_frame(buffer: TransformBuffer, fixed_frame: str) -> tuple[str, str]:
-    """The fixed frame is unknown: a sentence that suggests another one, and that frame."""
+def unknown_fixed_frame(buffer: TransformBuffer, fixed_frame: str) -> Explanation:
+    """Explain that the fixed frame is unknown, and suggest another one."""
     text = f'Fixed frame "{fixed_frame}" does not exist.'
+    kind = Kind.UNKNOWN_FIXED_FRAME
     if near := _nearest(buffer, fixed_frame):
-        return f'{text} Did you mean "{near}"?', near
+        return Explanation(kind, f'{text} Did you mean "{near}"?', near=near)
     root, size = buffer.largest_tree()
     if fixed_frame == "map":
         text += " Start localisation or SLAM, or use"
     else:
         text += " Use"
-    return f'{text} "{root}", the root of the largest tree ({size} frames).', root
+    return Explanation(kind, f'{text} "{root}", the root of the largest tree ({size} frames).')
 
 
 def _nearest(buffer: TransformBuffer, name: str) -> str:
@@ -175,6 +175,7 @@ def _not_connected(tree: FrameTree, fixed_frame: str, frame: str) -> Explanation
                 Kind.NO_DATA,
                 f'No transform of "{top}" has arrived since the transforms were cleared, so '
                 f'"{frame}" is not connected with "{fixed_frame}".',
+                link=top,
             )
     link = _missing_link(tree, root, fixed_root)
     remedy = link or f'Publish a transform from one to the other, or use "{root}" as fixed frame.'

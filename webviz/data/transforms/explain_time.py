@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from webviz.data.transforms.buffer import TransformBuffer
 from webviz.data.transforms.cache import TimeCache
 from webviz.data.transforms.errors import NS_PER_S, stamp_to_seconds
@@ -27,7 +29,7 @@ def explain_time(
     empty = [name for name, cache in links if not cache.stamps]
     if empty:
         sentence = f'No transform of "{empty[0]}" has arrived since the transforms were cleared.'
-        return Explanation(Kind.NO_DATA, sentence)
+        return Explanation(Kind.NO_DATA, sentence, link=empty[0])
     if stamp_ns == 0:
         alone = [name for name, cache in links if len(cache.stamps) == 1]
         if not alone:
@@ -36,16 +38,18 @@ def explain_time(
             Kind.NO_DATA,
             f"Only one transform {_link(buffer, alone[0])} has arrived, newer than others "
             "in the chain; a second one is needed.",
+            link=alone[0],
         )
     late = [(cache.stamps[-1], name) for name, cache in links if cache.stamps[-1] < stamp_ns]
     early = [(cache.stamps[0], name) for name, cache in links if cache.stamps[0] > stamp_ns]
     if late:
         newest, child = min(late)
-        return _ahead(buffer, child, stamp_ns, newest, now_ns)
+        return replace(_ahead(buffer, child, stamp_ns, newest, now_ns), link=child)
     if early:
         oldest, child = max(early)
         cache = tree.caches[child]
-        return _behind(buffer, child, stamp_ns, oldest, cache.newest_stamp)
+        reason = _behind(buffer, child, stamp_ns, oldest, cache.newest_stamp)
+        return replace(reason, link=child)
     return Explanation(Kind.NO_DATA, f"{text}.")
 
 

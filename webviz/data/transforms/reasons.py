@@ -51,6 +51,8 @@ class Explanation:
         filter_size: of a queue that would be long enough, 0 if it is unknown.
         other_frame: a fixed frame in which the frame has a pose, "" if the sentence names none.
         frame: the one without a pose.
+        near: a known frame whose name is similar, "" if the name is not misspelt.
+        link: the child frame of the transform that is missing, late or wrong; "" if it is unknown.
     """
 
     kind: Kind
@@ -61,6 +63,8 @@ class Explanation:
     filter_size: int = 0
     other_frame: str = ""
     frame: str = field(default="", compare=False)
+    near: str = field(default="", compare=False)
+    link: str = field(default="", compare=False)
 
 
 FOR_ALL = (Kind.NO_TRANSFORMS, Kind.UNKNOWN_FIXED_FRAME)

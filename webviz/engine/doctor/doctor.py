@@ -86,7 +86,12 @@ class Doctor:
         self._since = {key: before.get(key, now_ns) for key in map(_key, found)}
         steady = [each for each in found if _key(each) in before]
         self.findings = tuple(
-            replace(each, first_ns=self._since[_key(each)], last_ns=now_ns)
+            replace(
+                each,
+                command="" if seen.is_recorded else each.command,  # no node would answer
+                first_ns=self._since[_key(each)],
+                last_ns=now_ns,
+            )
             for each in ordered(steady)
         )
         self.rounds += 1

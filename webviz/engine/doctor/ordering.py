@@ -7,6 +7,9 @@ from dataclasses import replace
 
 from webviz.api.finding import Finding, Severity, Symptom
 
+SUMMARIES = {Symptom("", "Transforms")}
+"""Statuses that sum up several causes, so that one cause does not explain the others."""
+
 
 def ordered(findings: Iterable[Finding]) -> Sequence[Finding]:
     """The findings to show, the one to repair first at the beginning.
@@ -24,10 +27,11 @@ def ordered(findings: Iterable[Finding]) -> Sequence[Finding]:
     shown: list[Finding] = []
     explained: set[Symptom] = set()
     for finding in sorted(merged.values(), key=_place):
-        if finding.explains and explained.issuperset(finding.explains):
+        symptoms = {*finding.explains} - SUMMARIES
+        if symptoms and explained.issuperset(symptoms):
             continue
         shown.append(finding)
-        explained.update(finding.explains)
+        explained |= symptoms
     return tuple(shown)
 
 

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from webviz.api.status import Level, OtherFixedFrame, Status
 from webviz.data.transforms import TransformBuffer
 from webviz.data.transforms.explain import unknown_fixed_frame
+from webviz.data.transforms.reasons import Explanation, Kind
 from webviz.data.words import joined
 
 
@@ -15,17 +16,17 @@ def fixed_frame_status(fixed_frame: str, buffer: TransformBuffer) -> Status:
     known = buffer.frames()
     if fixed_frame in known:
         return Status(Level.OK, "OK")
-    if not known and buffer.recorded:
-        text = f"No transforms yet, so {fixed_frame} is unknown: {buffer.recorded}."
-        return Status(Level.WARN, text)
-    if not known:
-        return Status(
-            Level.WARN,
-            f"No transforms yet on /tf or /tf_static, so {fixed_frame} is unknown. Start a "
-            "publisher of transforms, such as robot_state_publisher.",
-        )
-    sentence, other = unknown_fixed_frame(buffer, fixed_frame)
-    return Status(Level.ERROR, sentence, OtherFixedFrame(other))
+    if known:
+        reason = unknown_fixed_frame(buffer, fixed_frame)
+        other = reason.near or buffer.largest_tree()[0]
+        return Status(Level.ERROR, reason.sentence, OtherFixedFrame(other), reason)
+    text = (
+        f"No transforms yet, so {fixed_frame} is unknown: {buffer.recorded}."
+        if buffer.recorded
+        else f"No transforms yet on /tf or /tf_static, so {fixed_frame} is unknown. Start a "
+        "publisher of transforms, such as robot_state_publisher."
+    )
+    return Status(Level.WARN, text, reason=Explanation(Kind.NO_TRANSFORMS, text))
 
 
 def import_status(report: Sequence[str]) -> Status:

@@ -1,0 +1,279 @@
+"""Faults of transforms, provoked with real transforms."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import examining
+import pytest
+from examining import display
+
+from webviz import Display, Finding, OtherFixedFrame, Symptom, Topic
+from webviz.api.finding import CauseLevel
+from webviz.api.offer import Offer, Publisher
+from webviz.shell.testing.source import SECOND
+from webviz.shell.testing.stage import Stage
+from webviz_displays.laser_scan import LaserScan
+from webviz_displays.robot_model import RobotModel
+
+SCAN = "sensor_msgs/msg/LaserScan"
+AWAY = (0.1, 0.0, 0.0)
+LINKS = """<robot name="r"><link name="base_link"/><link name="arm"/>
+<joint name="j" type="revolute"><parent link="base_link"/><child link="arm"/>
+<limit lower="0" upper="1" effort="1" velocity="1"/></joint></robot>"""
+
+Make = Callable[..., Stage]
+
+
+@pytest.fixture
+def robot(webviz_stage: Make) -> Stage:
+    """A viewer of a robot that is well."""
+    stage = viewer(webviz_stage)
+    drive(stage)
+    return stage
+
+
+def viewer(make: Make, display: Display | None = None) -> Stage:
+    """A viewer whose static transforms are latched."""
+    stage = make(display or LaserScan(name="Scan"), fixed_frame="map")
+    latched = Publisher("/test", "tf2_msgs/msg/TFMessage", "reliable", "transient_local")
+    stage.source.known["/tf_static"] = Offer((latched,), ("reliable", "transient_local"))
+    return stage
+
+
+def drive(stage: Stage, stamp_ns: int = 0, child: str = "odom") -> None:
+    """Publish where the robot is."""
+    stage.transform("map", child, stamp_ns=stamp_ns or stage.source.now)
+
+
+def scan(stage: Stage, frame: str = "laser", stamp_ns: int | None = None) -> None:
+    """Publish a scan."""
+    values = {
+        "header": {
+            "frame_id": frame,
+            "stamp": stamp(stage.source.now if stamp_ns is None else stamp_ns),
+        },
+        "angle_max": 1.0,
+        "angle_increment": 0.5,
+        "range_max": 10.0,
+        "ranges": [1.0, 2.0, 1.5],
+    }
+    stage.publish("/scan", SCAN, values)
+
+
+def stamp(ns: int) -> dict[str, int]:
+    """A time as in messages."""
+    return {"sec": ns // SECOND, "nanosec": ns % SECOND}
+
+
+def mount(stage: Stage) -> None:
+    """Publish where the laser is mounted."""
+    stage.transform("odom", "base_link")
+    stage.transform("base_link", "laser", AWAY)
+    stage.turn()
+
+
+def examined(stage: Stage, seconds: float = 1.1) -> dict[str, Finding]:
+    """The findings about frames."""
+    return examining.examined(stage, CauseLevel.FRAMES, seconds)
+
+
+def only(found: dict[str, Finding]) -> Finding:
+    """The only finding."""
+    (finding,) = found.values()
+    return finding
+
+
+def test_a_robot_that_is_well_has_no_finding(robot: Stage) -> None:
+    mount(robot)
+    for _ in range(5):
+        robot.source.now += SECOND // 10
+        robot.clock += 0.1
+        drive(robot)
+        scan(robot)
+        robot.turn()
+    assert examined(robot, seconds=0.4) == {}
+
+
+def test_no_transforms(webviz_stage: Make) -> None:
+    stage = webviz_stage(LaserScan(), LaserScan(topic=Topic("/front")), fixed_frame="map")
+    scan(stage)
+    finding = only(examined(stage))
+    assert finding.id == "TF001"
+    assert {each.status for each in finding.explains} == {"Fixed Frame", "Transform"}
+
+
+@pytest.mark.parametrize(
+    ("frame", "id", "cause"),
+    [
+        ("lasr", "TF016 lasr", 'The frame "lasr" does not exist, but "laser" does.'),
+        ("", "TF015", "The messages of a display have no frame id."),
+        ("camera", "TF017 camera", 'No transform leads to the frame "camera".'),
+    ],
+)
+def test_the_frame_id_of_data(robot: Stage, frame: str, id: str, cause: str) -> None:
+    mount(robot)
+    scan(robot, frame)
+    drive(robot)
+    robot.turn()
+    found = examined(robot)
+    assert [*found] == [id]
+    assert found[id].cause == cause
+    assert found[id].explains == (Symptom(display(robot, "Scan"), "Transform"),)
+
+
+def test_a_leading_slash(robot: Stage) -> None:
+    mount(robot)
+    scan(robot, "/laser")
+    robot.turn()
+    finding = only(examined(robot))
+    assert (finding.id, finding.subject) == ("TF014", "/laser")
+
+
+def test_static_transforms_that_are_not_latched(robot: Stage) -> None:
+    volatile = Publisher("/mount", "tf2_msgs/msg/TFMessage", "reliable", "volatile")
+    robot.source.known["/tf_static"] = Offer((volatile,), ("reliable", "volatile"))
+    finding = only(examined(robot))
+    assert (finding.id, finding.subject) == ("TF024", "/mount")
+
+
+def test_a_misspelt_fixed_frame(robot: Stage) -> None:
+    mount(robot)
+    robot.set_fixed_frame("mapp")
+    scan(robot)
+    drive(robot)
+    finding = only(examined(robot))
+    assert (finding.id, finding.button) == ("TF002", OtherFixedFrame("map"))
+    robot.set_fixed_frame("map")
+    assert examined(robot, 0.5) == {}
+
+
+def test_an_unknown_fixed_frame(robot: Stage) -> None:
+    robot.set_fixed_frame("utm")
+    drive(robot)
+    assert only(examined(robot)).id == "TF004"
+
+
+@pytest.mark.parametrize("is_known", [False, True])
+def test_localisation_is_missing(webviz_stage: Make, is_known: bool) -> None:
+    stage = viewer(webviz_stage)
+    stage.transform("odom", "base_link", stamp_ns=stage.source.now)
+    stage.transform("base_link", "laser")
+    if is_known:
+        stage.transform("map", "dock")
+    stage.turn()
+    scan(stage)
+    finding = only(examined(stage))
+    assert finding.id == "TF003"
+    assert Symptom(display(stage, "Scan"), "Transform") in finding.explains
+    assert finding.button == OtherFixedFrame("odom")
+
+
+def test_odometry_is_missing(robot: Stage) -> None:
+    robot.transform("base_link", "laser")
+    robot.turn()
+    scan(robot)
+    finding = only(examined(robot))
+    assert (finding.id, finding.subject) == ("TF005", "base_link")
+
+
+def test_two_trees(robot: Stage) -> None:
+    robot.transform("sensors", "laser")
+    robot.turn()
+    scan(robot)
+    finding = only(examined(robot))
+    assert (finding.id, finding.subject) == ("TF006", "sensors")
+
+
+def test_a_loop(robot: Stage) -> None:
+    mount(robot)
+    for parent, child in (("base_link", "odom"), ("odom", "base_link")):
+        robot.transform(parent, child, stamp_ns=robot.source.now)
+    scan(robot)
+    key, finding = next(iter(examined(robot).items()))
+    assert key == "TF007 base_link odom"
+    assert "base_link" in finding.cause
+
+
+def alternating(stage: Stage, *publish: Callable[[], None]) -> None:
+    """Let publishers take turns."""
+    for _ in range(10):
+        for each in publish:
+            stage.source.now += SECOND // 20
+            each()
+            stage.turn()
+
+
+@pytest.mark.parametrize(
+    ("id", "first", "second"),
+    [
+        ("TF008 laser", ("base_link", AWAY, True), ("odom", AWAY, True)),
+        ("TF009 laser", ("base_link", AWAY, True), ("base_link", (0.5, 0.0, 0.0), True)),
+        ("TF010 laser", ("base_link", AWAY, True), ("base_link", AWAY, False)),
+        ("TF011 laser", ("base_link", AWAY, False), ("base_link", (3.0, 0.0, 0.0), False)),
+        ("TF008 laser", ("base_link", AWAY, False), ("odom", AWAY, False)),
+    ],
+)
+def test_two_publishers_of_a_frame(
+    robot: Stage,
+    id: str,
+    first: tuple[str, tuple[float, float, float], bool],
+    second: tuple[str, tuple[float, float, float], bool],
+) -> None:
+    robot.transform("odom", "base_link")
+
+    def publish(parent: str, xyz: tuple[float, float, float], is_static: bool) -> None:
+        stamp_ns = None if is_static else robot.source.now
+        robot.transform(parent, "laser", xyz, stamp_ns=stamp_ns)
+
+    alternating(robot, lambda: publish(*first), lambda: publish(*second))
+    drive(robot)
+    assert [*examined(robot)] == [id]
+
+
+def test_robot_state_publisher_is_missing(robot: Stage) -> None:
+    del robot.source.known["/tf_static"]
+    scan(robot)
+    drive(robot)
+    assert only(examined(robot)).id == "TF012"
+
+
+def test_joint_states_are_missing(webviz_stage: Make) -> None:
+    stage = viewer(webviz_stage, RobotModel(name="Robot"))
+    stage.transform("map", "base_link")
+    stage.publish("/robot_description", "std_msgs/msg/String", {"data": LINKS})
+    stage.settle()
+    finding = only(examined(stage))
+    assert (finding.id, finding.evidence["links"]) == ("TF013", ("arm",))
+
+
+def test_a_link_that_has_stopped(robot: Stage) -> None:
+    mount(robot)
+    scan(robot)
+    robot.turn()
+    for _ in range(40):
+        robot.source.now += SECOND // 10
+        robot.clock += 0.1
+        scan(robot)
+        robot.turn()
+    finding = only(examined(robot))
+    assert (finding.id, finding.evidence["link"]) == ("TF018", "odom")
+
+
+def test_refused_transforms(robot: Stage) -> None:
+    mount(robot)
+    for _ in range(3):
+        robot.transform("base_link", "arm", (math.nan, 0.0, 0.0), stamp_ns=robot.source.now)
+    drive(robot)
+    finding = only(examined(robot))
+    assert (finding.id, finding.subject) == ("TF023", "arm")
+
+
+def test_a_frame_that_is_too_far(robot: Stage) -> None:
+    mount(robot)
+    robot.transform("base_link", "laser", (1e13, 0.0, 0.0))
+    drive(robot)
+    scan(robot)
+    robot.turn()
+    assert "TF022" in {each.id for each in examined(robot).values()}

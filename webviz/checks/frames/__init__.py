@@ -1,0 +1,1 @@
+"""Checks of transforms: frames that are missing, contradictory, late or wrong."""

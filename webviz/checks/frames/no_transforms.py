@@ -1,0 +1,49 @@
+"""No transforms at all."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from webviz.api.check import Check
+from webviz.api.finding import Finding, Severity
+from webviz.api.observation import Observation
+from webviz.data.transforms.reasons import Kind
+
+
+class NoTransforms(Check):
+    """No transforms.
+
+    No transform has arrived, so only data in the fixed frame itself can be drawn.
+
+    Why:
+        Every sensor measures in its own frame. Without transforms there is no place for it.
+
+    Repair:
+        Start the nodes that publish transforms: robot_state_publisher for the links of the robot,
+        its odometry, and localisation or SLAM. See who publishes any with
+
+            ros2 topic info /tf --verbose
+    """
+
+    id = "TF001"
+
+    def find(self, seen: Observation) -> Iterator[Finding]:
+        """Yield a finding if nothing is known of any frame."""
+        explains = tuple(symptom for symptom, _ in seen.lost(Kind.NO_TRANSFORMS))
+        if not explains or (seen.is_recorded and "none" not in (seen.buffer.recorded or "none")):
+            return
+        nodes = seen.nodes_of("/tf") or seen.nodes_of("/tf_static")
+        yield self.found(
+            f"{nodes} publishes transforms, but none has arrived."
+            if nodes
+            else "The bag has no transforms."
+            if seen.is_recorded
+            else "No node publishes transforms.",
+            "Record /tf and /tf_static as well, or add a transform with --transform."
+            if seen.is_recorded
+            else "Start robot_state_publisher, the odometry and localisation.",
+            severity=Severity.ERROR,
+            evidence={"publishers": nodes, "fixed_frame": seen.fixed_frame},
+            command="ros2 topic info /tf --verbose",
+            explains=explains,
+        )

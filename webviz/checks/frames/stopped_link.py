@@ -1,0 +1,41 @@
+"""Transforms that are no longer published."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from webviz.api.check import Check
+from webviz.api.finding import Finding, Severity
+from webviz.api.observation import Observation
+from webviz.data.transforms.reasons import Kind
+
+
+class StoppedLink(Check):
+    """Transform that has stopped.
+
+    Data waits for a transform whose publisher has stopped sending.
+
+    Why:
+        Data is drawn with the transform at its stamp. If the publisher of one link stops,
+        everything behind it stands still.
+
+    Repair:
+        Start the publisher of that link again.
+    """
+
+    id = "TF018"
+
+    def find(self, seen: Observation) -> Iterator[Finding]:
+        """Yield a finding for each such frame."""
+        for symptom, reason in seen.lost(Kind.AHEAD, Kind.NO_DATA):
+            if reason.is_catching_up:
+                continue
+            yield self.found(
+                f'The transform of "{reason.link or reason.frame}" is no longer published.',
+                "Start its publisher again.",
+                subject=reason.link or reason.frame,
+                severity=Severity.ERROR,
+                evidence={"frame": reason.frame, "link": reason.link},
+                command=f"ros2 run tf2_ros tf2_echo {seen.fixed_frame} {reason.link}",
+                explains=(symptom,),
+            )
