@@ -52,7 +52,7 @@ def publish(bench: Bench) -> None:
 
 
 def test_a_memory_forgets_what_is_old_and_what_does_not_fit() -> None:
-    memory = RecentMessages(lambda topic: False, seconds=10.0, max_bytes=3000)
+    memory = RecentMessages(lambda topic: 0, seconds=10.0, max_bytes=3000)
     for second in range(20):
         memory.put("/a", raw(second))
     assert [m.received_ns // 10**9 for _, m in memory.last(1e9).messages] == list(range(10, 20))
@@ -64,13 +64,13 @@ def test_a_memory_forgets_what_is_old_and_what_does_not_fit() -> None:
 
 
 def test_the_newest_latched_message_is_not_forgotten() -> None:
-    memory = RecentMessages(lambda topic: topic == "/map", seconds=10.0, max_bytes=10**6)
+    memory = RecentMessages(lambda topic: int(topic == "/map"), seconds=10.0, max_bytes=10**6)
     memory.put("/map", raw(0))
     memory.put("/map", raw(1))
     memory.put("/scan", raw(2))
     memory.put("/scan", raw(100))
     past = memory.last(1e9)
-    assert {topic: m.received_ns // 10**9 for topic, m in past.latched.items()} == {"/map": 1}
+    assert {topic: m.received_ns // 10**9 for topic, m in past.latched} == {"/map": 1}
     assert [topic for topic, _ in past.messages] == ["/scan"]
 
 

@@ -7,13 +7,11 @@ from collections.abc import Callable
 
 import pytest
 from bags import START_NS, Bag, ns, strings
-from bench import benches
 
 from webviz.engine.commands import (
     Command,
     Pause,
     Play,
-    Refresh,
     RemoveBookmark,
     SaveBookmark,
     SaveMemory,
@@ -89,6 +87,10 @@ def test_pause_holds_the_position(theater: Callable, bag: Bag) -> None:
 def test_a_rate_is_seconds_of_the_recording_per_second(monkeypatch: pytest.MonkeyPatch) -> None:
     class Tape:
         start_ns, end_ns, position_ns = 0, ns(100), -1
+        is_live = False
+
+        def rejoin(self) -> bool:
+            return False
 
         def play(self, until_ns: int) -> None:
             self.position_ns = until_ns
@@ -164,16 +166,6 @@ def test_a_time_outside_of_the_recording_is_brought_into_it(theater: Callable, b
     viewer = theater(bag)
     assert viewer.do(Seek(1e9)).playback.position_s == 4.0
     assert viewer.do(Seek(-math.inf)).playback.position_s == 0.0
-
-
-def test_live_topics_have_no_past() -> None:
-    with benches() as bench:
-        viewer = bench()
-        assert viewer.do(Refresh()).playback is None
-        answer = viewer.viewer.enqueue(Seek(1.0))
-        viewer.viewer.turn()
-        with pytest.raises(Refused, match=r"no past to play\. Start the viewer with --bag"):
-            answer.result()
 
 
 def test_the_clock_of_ages_never_goes_back(theater: Callable, bag: Bag) -> None:

@@ -16,6 +16,7 @@ from webviz.engine.parts import Core, Part
 from webviz.engine.pipeline.scene import Cameras, NoCameras
 from webviz.engine.state import State
 from webviz.files.config import Config, Item, Settings
+from webviz.files.config.model import MemorySettings
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.recording import RecordingScene
 from webviz.shell.testing.source import HandFedSource
@@ -40,14 +41,15 @@ class Bench:
         may_publish: bool = True,
         graph: Any = None,
         robots: tuple[str, ...] = (),
+        memory: MemorySettings | None = None,
     ) -> None:
         self.source = HandFedSource(**({"graph": graph} if graph else {}))
         self.scene = RecordingScene(cameras=cameras or NoCameras())
         self.states: list[State] = []
         self.clock = 1000.0
-        config = Config(
-            Settings(fixed_frame=fixed_frame, publish=publish, robots=robots), list(displays)
-        )
+        settings = Settings(fixed_frame=fixed_frame, publish=publish, robots=robots)
+        settings.memory = memory or settings.memory
+        config = Config(settings, list(displays))
         self.viewer = FrameLoop(
             config,
             self.source,

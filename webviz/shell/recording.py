@@ -11,7 +11,7 @@ from webviz.data.recordings import RecordingError
 from webviz.data.recordings.folder_writing import RecordingFolder
 from webviz.data.words import counted
 from webviz.sources import Offer, Source, Subscription
-from webviz.sources.recording import Channels, Recorder, Remembered
+from webviz.sources.recording import Channels, Recorder
 
 REST_S = 0.1
 DEPTH = 100
@@ -36,7 +36,7 @@ class TopicRecorder:
         self._offers: Mapping[str, Offer] = {}
         self._problems: dict[str, str] = {}
         self._told: set[str] = set()
-        self._recorder = Recorder(folder, self._channels, Remembered({}, []))
+        self._recorder = Recorder(folder, self._channels)
         source.inbox.readers = (self._recorder.put,)
 
     def __enter__(self) -> Self:

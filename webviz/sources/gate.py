@@ -51,12 +51,18 @@ class Gate:
         source: whose graph it is.
         rights: of the viewer.
         publish: the list of the current config, None if it has none.
+        pause: why nothing may be sent for the moment, a sentence; "" if it may.
     """
 
     def __init__(
-        self, source: Source, rights: Rights, publish: Callable[[], AllowList | None]
+        self,
+        source: Source,
+        rights: Rights,
+        publish: Callable[[], AllowList | None],
+        pause: Callable[[], str] = str,
     ) -> None:
         self._source = source
+        self._pause = pause
         self._rights = rights
         self._publish = publish
         self._pattern = functools.lru_cache(maxsize=3)(self._compiled)
@@ -72,6 +78,10 @@ class Gate:
         Args:
             name: its full name, after remapping.
         """
+        return self.lasting_refusal(name) or self._pause()
+
+    def lasting_refusal(self, name: str) -> str:
+        """Why nothing may ever be sent to a name, as far as is known; "" if it may."""
         graph = self._source.graph
         if isinstance(graph, ReadOnly):
             return graph.reason
@@ -108,7 +118,9 @@ class Gate:
             stopping: which of them stay although they are refused, see `halt`.
         """
         allowed = {
-            outlet for outlet in outlets if outlet in stopping or not self.refusal(outlet.topic)
+            outlet
+            for outlet in outlets
+            if outlet in stopping or not self.lasting_refusal(outlet.topic)
         }
         return self._source.graph.advertise(allowed)
 

@@ -5,13 +5,15 @@ from __future__ import annotations
 import threading
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 MAX_BYTES = 64 << 20
 """Of the messages of one topic between two calls of `drain`."""
 MAX_TOTAL = 256 << 20
 """Of the messages of all topics."""
+PAST_LIMIT = 20_000
+"""Messages of the past on a topic that is not open yet."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,8 +53,9 @@ class Inbox:
         self._max_total = max_total
         self._total = 0
         self._held_drops: int | None = None
+        self._is_diverted = False
         self.readers: tuple[Callable[[str, Raw], object], ...] = ()
-        """Called with each message by the thread that puts it, whatever is dropped later."""
+        """Called with each message by the thread that puts it, whatever is dropped later; quick."""
         self.arrived = threading.Event()
         """Set by every arrival, and to wake the frame loop for other reasons."""
 
@@ -70,22 +73,33 @@ class Inbox:
                 table.pop(topic, None)
 
     def put(self, topic: str, raw: Raw) -> None:
-        """Add a message, unless its topic is closed."""
+        """Add a message, unless its topic is closed; while diverted, only readers receive it."""
         with self._lock:
-            limit = self._limits.get(topic)
-            if limit is None:
+            if topic not in self._limits:
                 return
-            count, total = self._received.get(topic, (0, 0))
-            self._received[topic] = count + 1, total + len(raw.cdr)
-            queue = self._queues.setdefault(topic, deque())
-            queue.append(raw)
-            self._count_bytes(topic, len(raw.cdr))
-            while len(queue) > 1 and (len(queue) > limit or self._bytes[topic] > self._max_bytes):
-                self._drop_oldest(topic)
-            while self._total > self._max_total and self._total > len(raw.cdr):
-                self._drop_oldest(max(self._bytes, key=self._bytes.__getitem__))
-        for read in self.readers:
-            read(topic, raw)
+            if not self._is_diverted:
+                self._queue(topic, raw)
+            for read in self.readers:
+                read(topic, raw)
+        self.arrived.set()
+
+    def divert(self) -> None:
+        """Keep new messages out of the queues, which `replay` fills until `rejoin`."""
+        with self._lock:
+            self._is_diverted = True
+
+    def replay(self, topic: str, raw: Raw) -> None:
+        """Queue a message of the past, which readers have received before."""
+        with self._lock:
+            self._queue(topic, raw)
+
+    def rejoin(self, missed: Callable[[], Iterable[tuple[str, Raw]]]) -> None:
+        """Queue new messages again, after those that were missed; none comes in between."""
+        with self._lock:
+            for topic, raw in missed():
+                if topic in self._limits:
+                    self._queue(topic, raw)
+            self._is_diverted = False
         self.arrived.set()
 
     def drain(self) -> dict[str, deque[Raw]]:
@@ -114,6 +128,18 @@ class Inbox:
         """Return the messages and bytes received on each topic since it was opened."""
         with self._lock:
             return dict(self._received)
+
+    def _queue(self, topic: str, raw: Raw) -> None:
+        limit = self._limits.get(topic, PAST_LIMIT)  # topics are opened by other threads
+        count, total = self._received.get(topic, (0, 0))
+        self._received[topic] = count + 1, total + len(raw.cdr)
+        queue = self._queues.setdefault(topic, deque())
+        queue.append(raw)
+        self._count_bytes(topic, len(raw.cdr))
+        while len(queue) > 1 and (len(queue) > limit or self._bytes[topic] > self._max_bytes):
+            self._drop_oldest(topic)
+        while self._total > self._max_total and self._total > len(raw.cdr):
+            self._drop_oldest(max(self._bytes, key=self._bytes.__getitem__))
 
     def _count_bytes(self, topic: str, size: int) -> None:
         self._bytes[topic] = self._bytes.get(topic, 0) + size

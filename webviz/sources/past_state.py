@@ -14,7 +14,10 @@ class PlaybackState:
 
     Args:
         names: of the recordings.
-        start_ns, end_ns: times of recording of the first and the last message, since 1970.
+        start_ns, end_ns: times of recording of the first and the last message, since 1970; of
+            live topics, when the viewer began, and now.
+        first_s: of the first message that there is, in seconds from the start.
+        is_live: whether topics are live, and shown as they arrive; None for a bag.
         position_s: what is shown, in seconds from the start.
         rate: seconds of the recording per second; infinity is as fast as possible.
         is_playing: whether the position moves on.
@@ -26,6 +29,8 @@ class PlaybackState:
     names: tuple[str, ...]
     start_ns: int
     end_ns: int
+    first_s: float
+    is_live: bool | None
     position_s: float
     rate: float
     is_playing: bool
@@ -58,10 +63,14 @@ class MemoryState:
     Args:
         seconds: since the oldest message.
         size: bytes of all messages.
+        is_full: whether younger messages than wanted were forgotten for their size.
+        pinned: topics whose latched messages are kept although they are older.
     """
 
     seconds: float
     size: int
+    is_full: bool = False
+    pinned: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -17,13 +17,28 @@ class Playable(Protocol):
     """
 
     @property
+    def absence(self) -> str:
+        """Return why there is no past to play, in sentences; "" if there is one."""
+        ...
+
+    @property
+    def is_live(self) -> bool:
+        """Return whether what arrives is shown, instead of a position; never of a bag."""
+        ...
+
+    @property
+    def origin_ns(self) -> int:
+        """The time from which people count; not after the start."""
+        ...
+
+    @property
     def start_ns(self) -> int:
         """Time of the first message."""
         ...
 
     @property
     def end_ns(self) -> int:
-        """Time of the last message."""
+        """Time of the last message; now of live topics."""
         ...
 
     @property
@@ -57,6 +72,10 @@ class Playable(Protocol):
 
         Messages that wait in the inbox are discarded; the caller discards all other received data.
         """
+        ...
+
+    def rejoin(self) -> bool:
+        """Become live if the position is as good as now; whether it is."""
         ...
 
     def neighbour(self, topic: str, is_forward: bool) -> int | None:

@@ -30,6 +30,7 @@ from webviz.engine.commands.panel import (
 from webviz.engine.commands.playback import (
     Play,
     RemoveBookmark,
+    ReturnToLive,
     SaveBookmark,
     Seek,
     SelectSpan,
@@ -115,6 +116,7 @@ __all__ = [
     "ResetDisplay",
     "ResetView",
     "Restore",
+    "ReturnToLive",
     "Save",
     "SaveBookmark",
     "SaveImage",

@@ -1,6 +1,7 @@
-"""Commands for recordings: bags, and whatever else has a past.
+"""Commands for recordings: bags, and the memory of live topics.
 
-Times are seconds from the start of the recording. Without one, these commands are refused.
+Times are seconds from the start of the recording, or of the viewer if topics are live. Without a
+past, these commands are refused.
 """
 
 from __future__ import annotations
@@ -20,6 +21,11 @@ class Seek(Command):
     """Show the recording at a time; answered when the scene shows it."""
 
     at_s: float
+
+
+@dataclass(frozen=True)
+class ReturnToLive(Command):
+    """Show what arrives again, instead of the past of live topics."""
 
 
 @dataclass(frozen=True)

@@ -100,6 +100,15 @@ class Helms:
             found = {tool: helm.driver(now) for tool, helm in self._helms.items()}
         return {tool: driver for tool, driver in found.items() if driver is not None}
 
+    def halt(self) -> bool:
+        """Stop all vehicles at once; whether any was driven."""
+        with self._lock:
+            driven = [helm for helm in self._helms.values() if not helm.is_at_rest]
+            for helm in driven:
+                helm.halt()
+        self._woken.set()
+        return bool(driven)
+
     def stop(self) -> None:
         """Stop all vehicles and refuse every set-point from now on; from any thread."""
         self._has_ended = True

@@ -28,7 +28,7 @@ from webviz.engine.parts.goals import GoalsPart
 from webviz.engine.parts.handles import HandlesPart
 from webviz.engine.parts.history import HistoryPart
 from webviz.engine.parts.panels import PanelsPart
-from webviz.engine.parts.playback import PlaybackPart
+from webviz.engine.parts.playback import REWOUND, PlaybackPart
 from webviz.engine.parts.plugins import PluginsPart
 from webviz.engine.parts.recording import RecordingPart
 from webviz.engine.parts.selection import SelectionPart
@@ -49,6 +49,7 @@ from webviz.engine.state.settled import settled
 from webviz.engine.state.statuses import failures
 from webviz.files.config import Config, Settings
 from webviz.sources import Gate, Rights, Source
+from webviz.sources.rewindable import Rewindable
 
 IDLE_S = 0.25
 """Interval of turns while nothing arrives: ages in statuses, frames that fade."""
@@ -64,7 +65,7 @@ class FrameLoop:
 
     Args:
         config: what to show first.
-        source: where messages come from.
+        source: where messages come from; live topics are remembered, so that they can be rewound.
         scene: where to draw.
         show: called with the state whenever panels should be updated.
         path: the file of the config, None if it has none.
@@ -77,7 +78,7 @@ class FrameLoop:
         parts: factories of additional parts.
         strict: let exceptions of displays through, for tests.
         clock: monotonic time in seconds, for rates and ages; None for that of the source, which
-            stands still with a recording.
+            stands still with a recording and while the past is shown.
     """
 
     def __init__(
@@ -98,9 +99,12 @@ class FrameLoop:
         strict: bool = False,
         clock: Callable[[], float] | None = None,
     ) -> None:
-        self._source = source
-        control = PlaybackControl(source) if isinstance(source, Playable) else None
-        clock = clock or (control.clock if control else time.monotonic)
+        live_ns = source.now_ns
+        recorded = source if isinstance(source, Playable) else Rewindable(source)
+        memory = recorded if isinstance(recorded, Rewindable) else None
+        self._source = source = recorded
+        control = PlaybackControl(recorded)
+        clock = clock or control.clock
         self._show = show
         self._stop = threading.Event()
         self._guard = Guard("", strict, shown_s=FAILURE_S, clock=clock)
@@ -115,7 +119,12 @@ class FrameLoop:
             own_names(config, self._guard),
             tuple(allow_publish),
         )
-        gate = Gate(source, rights, lambda: self._settings.settings.publish)
+        gate = Gate(
+            source,
+            rights,
+            lambda: self._settings.settings.publish,
+            lambda: "" if control.is_live else REWOUND,
+        )
         core = self._core = Core(source, gate, scene, self._guard, clock)
         services = Services(
             scene,
@@ -134,11 +143,13 @@ class FrameLoop:
         self._owed: list[Callable[[], None]] = []
         displays = self._displays = DisplaysPart(core, services)
         settings = self._settings = SettingsPart(core)
-        self._playback = PlaybackPart(core, settings, control, self._time.start_over, autoplay)
+        self.helms = Helms(gate, live_ns)
+        """Of the vehicles that tools drive; they do not wait for the loop."""
+        self._playback = PlaybackPart(
+            core, settings, control, self._time.start_over, self.helms.halt, autoplay
+        )
         views = ViewsPart(core, settings, displays)
         goals = GoalsPart(core)
-        self.helms = Helms(gate, source.now_ns)
-        """Of the vehicles that tools drive; they do not wait for the loop."""
         panels = PanelsPart(core)
         tools = ToolsPart(core, goals, self.helms, lambda: {*displays.outlets(), *panels.outlets()})
         files = self._files = FilesPart(
@@ -160,7 +171,7 @@ class FrameLoop:
             files,
             history,
             TopicsPart(core),
-            RecordingPart(core, settings, control is None),
+            RecordingPart(core, settings, memory),
             SelectionPart(core, displays),
             HandlesPart(core, displays),
             PluginsPart(core, displays, [tools.list, panels.list], settings),

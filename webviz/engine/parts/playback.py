@@ -14,6 +14,7 @@ from webviz.engine.commands import (
     Command,
     Play,
     RemoveBookmark,
+    ReturnToLive,
     SaveBookmark,
     Seek,
     SelectSpan,
@@ -30,9 +31,13 @@ from webviz.files.config import nearest
 from webviz.sources.past_state import Event, PlaybackState
 
 MIN_RATE, MAX_RATE = 0.01, 1000.0
+MAX_S = 1e9
+"""Of a recording."""
 BUCKETS = 500
 """Parts of the span whose messages are counted: about one for each three pixels of a wide page."""
-LIVE = "Live topics have no past to play. Start the viewer with --bag to play a recording."
+LIVE = "Topics are live, so there is nothing to play. Seek to a past moment first."
+REWOUND = "Nothing is sent to the robot while the page shows the past. Return to live first (L)."
+STOPPED = "The vehicle was stopped, since the page shows the past."
 
 
 class PlaybackPart(Part):
@@ -41,8 +46,9 @@ class PlaybackPart(Part):
     Args:
         core: shared by all parts.
         settings: has the bookmarks.
-        control: of the source, None if it has no past.
+        control: of the source.
         start_over: discards the received data of all parts.
+        stop: stops all vehicles that are driven; whether any was.
         autoplay: play as soon as a browser is connected, so that nobody misses the beginning.
     """
 
@@ -52,16 +58,17 @@ class PlaybackPart(Part):
         self,
         core: Core,
         settings: SettingsPart,
-        control: PlaybackControl | None,
+        control: PlaybackControl,
         start_over: Callable[[], None],
+        stop: Callable[[], bool],
         autoplay: bool = False,
     ) -> None:
         super().__init__(core)
-        if control is not None:
-            control.is_ready = autoplay
+        control.is_ready = autoplay and not control.is_live
         self._settings = settings
         self._control = control
         self._start_over = start_over
+        self._stop = stop
         self._display_events = DisplayEvents()
 
     @property
@@ -69,6 +76,7 @@ class PlaybackPart(Part):
         """The handler of each command."""
         return {
             Play: self._play,
+            ReturnToLive: self._return_to_live,
             Seek: self._seek,
             SetRate: self._set_rate,
             SetLoop: self._set_loop,
@@ -81,7 +89,7 @@ class PlaybackPart(Part):
     @property
     def is_seeking(self) -> bool:
         """Return whether a position is being approached, so that nothing is to be drawn yet."""
-        return self._control is not None and self._control.is_seeking
+        return self._control.is_seeking
 
     def advance(self, is_busy: bool) -> None:
         """Play what is due, before the messages of a turn are taken.
@@ -89,8 +97,6 @@ class PlaybackPart(Part):
         Args:
             is_busy: whether displays have to catch up first.
         """
-        if self._control is None:
-            return
         if self._control.is_ready and self.core.is_watched():
             self._control.play()
         if self._control.advance(is_busy):
@@ -98,9 +104,9 @@ class PlaybackPart(Part):
 
     def state(self) -> Mapping[str, Any]:
         """The state of the control, and what is recorded when."""
-        if self._control is None:
-            return {"playback": None, "recorded": {}, "logged": ()}
         playback = self._control.playback
+        if playback.absence:
+            return {"playback": None, "recorded": {}, "logged": ()}
         return {
             "playback": _state_of(self._control),
             "recorded": playback.histogram(BUCKETS),
@@ -111,26 +117,30 @@ class PlaybackPart(Part):
         """Note which displays began to warn at the position, and return all notes."""
         control, found = self._control, self._display_events
         # On the way to a position, and before the first message, displays lack their messages.
-        if (
-            control
-            and not control.is_seeking
-            and control.playback.position_ns >= control.playback.start_ns
-        ):
+        if not control.is_seeking and control.playback.position_ns >= control.playback.start_ns:
             found.note(control.position_ns, rows)
         return found.events
 
     def statuses(self) -> Mapping[str, Status]:
         """Return what is missing, unusual or damaged in the recording."""
-        remarks = self._control.playback.remarks if self._control else ()
+        remarks = self._control.playback.remarks
         return {"Bag": Status(Level.WARN, joined(*remarks))} if remarks else {}
 
     # Commands
 
     def _play(self, command: Play, sender: Sender) -> None:
-        self._known().play()
+        control = self._known()
+        if control.is_live:
+            raise Error(LIVE)
+        control.play()
 
-    def _seek(self, command: Seek, sender: Sender) -> None:
-        self._known().seek(self._at_ns(command.at_s))
+    def _seek(self, command: Seek, sender: Sender) -> str:
+        control = self._known()
+        control.seek(self._at_ns(command.at_s))
+        return self._stopped(control)
+
+    def _return_to_live(self, command: ReturnToLive, sender: Sender) -> None:
+        self._known().return_to_live()
 
     def _set_rate(self, command: SetRate, sender: Sender) -> None:
         control, rate = self._known(), command.rate
@@ -152,12 +162,12 @@ class PlaybackPart(Part):
             return
         first, last = command.first_s, command.last_s
         first_ns = playback.start_ns if first is None else self._at_ns(first)
-        last_ns = playback.end_ns if last is None else self._at_ns(last)
+        last_ns = playback.end_ns if last is None else min(self._at_ns(last), playback.end_ns)
         if first_ns >= last_ns:
             raise Error("The selected span is empty. Choose an end later than its start.")
         control.selected = first_ns, last_ns
 
-    def _step(self, command: StepMessage, sender: Sender) -> None:
+    def _step(self, command: StepMessage, sender: Sender) -> str:
         control = self._known()
         topic = command.topic
         try:
@@ -171,12 +181,18 @@ class PlaybackPart(Part):
             what = f"message on {topic}" if topic else "message of a displayed topic"
             raise Error(f"There is no {where} {what}. Step in the other direction.")
         control.seek(at_ns)
+        return self._stopped(control)
+
+    def _stopped(self, control: PlaybackControl) -> str:
+        """Stop vehicles, whose drivers see the past from now on; a sentence if any moved."""
+        return STOPPED if not control.is_live and self._stop() else ""
 
     def _save_bookmark(self, command: SaveBookmark, sender: Sender) -> None:
         control, at_s = self._known(), command.at_s
         if problem := problem_of(command.name):
             raise Error(problem)
-        at_ns = control.position_ns if at_s is None else self._at_ns(at_s)
+        end_ns = control.playback.end_ns
+        at_ns = control.position_ns if at_s is None else min(self._at_ns(at_s), end_ns)
         bookmarks = {**self._settings.settings.bookmarks, command.name: at_ns / 1e9}
         self._settings.set("bookmarks", bookmarks)
 
@@ -187,22 +203,22 @@ class PlaybackPart(Part):
         self._settings.set("bookmarks", bookmarks)
 
     def _known(self) -> PlaybackControl:
-        if self._control is None:
-            raise Error(LIVE)
+        if absence := self._control.playback.absence:
+            raise Error(absence)
         return self._control
 
     def _at_ns(self, seconds: float) -> int:
-        """A position, limited to the recording."""
+        """A position, not before the first message."""
         playback = self._known().playback
-        duration_s = (playback.end_ns - playback.start_ns) / 1e9
         if math.isnan(seconds):
             raise Error("NaN is not a valid time. Give seconds from the start of the recording.")
-        return playback.start_ns + round(min(max(seconds, 0.0), duration_s) * 1e9)
+        first_s = (playback.start_ns - playback.origin_ns) / 1e9
+        return playback.origin_ns + round(min(max(seconds, first_s), MAX_S) * 1e9)
 
 
 def _state_of(control: PlaybackControl) -> PlaybackState:
     playback = control.playback
-    start_ns = playback.start_ns
+    start_ns, is_bag = playback.origin_ns, bool(playback.names)
     selected = None
     if control.selected:
         first_ns, last_ns = control.selected
@@ -211,6 +227,8 @@ def _state_of(control: PlaybackControl) -> PlaybackState:
         names=tuple(playback.names),
         start_ns=start_ns,
         end_ns=playback.end_ns,
+        first_s=(playback.start_ns - start_ns) / 1e9,
+        is_live=None if is_bag else control.is_live,
         position_s=(control.position_ns - start_ns) / 1e9,
         rate=control.rate,
         is_playing=control.is_playing,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,8 @@ from webviz.engine.commands.requests import Job
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.parts.settings import SettingsPart
 from webviz.sources.past_state import MemoryState, RecordingState
-from webviz.sources.recording import Channels, RecentMessages, Recorder, library, new_name
+from webviz.sources.recording import Recorder, library, new_name
+from webviz.sources.rewindable import Rewindable
 
 MEGABYTE = 1_000_000
 FROM_BAG = "A bag is a recording already. Copy its files."
@@ -29,17 +31,15 @@ class RecordingPart(Part):
     Args:
         core: shared by all parts.
         settings: bound what is remembered.
-        is_live: whether the source is live; a bag is neither remembered nor recorded.
+        live: has the memory; None for a bag, which is neither remembered nor recorded.
     """
 
     name = "Recording"
 
-    def __init__(self, core: Core, settings: SettingsPart, is_live: bool) -> None:
+    def __init__(self, core: Core, settings: SettingsPart, live: Rewindable | None) -> None:
         super().__init__(core)
         self._settings = settings
-        self._is_live = is_live
-        self._channels = Channels(core.source.offers)
-        self._memory = RecentMessages(self._channels.is_latched)
+        self._live = live
         self._recorder: Recorder | None = None
         self._problem = ""
         self._read()
@@ -55,10 +55,11 @@ class RecordingPart(Part):
 
     def keep_up(self, commanded: bool) -> None:
         """Follow the settings, and notice that a recording has ended by itself."""
-        bounds = self._settings.settings.memory
-        if self._is_live:
-            self._memory.seconds = bounds.seconds
-            self._memory.max_bytes = round(bounds.megabytes * MEGABYTE)
+        if self._live is not None:
+            bounds, memory = self._settings.settings.memory, self._live.memory
+            memory.seconds = bounds.seconds
+            memory.max_bytes = round(bounds.megabytes * MEGABYTE)
+            self._live.channels.look()
         if self._recorder is not None and self._recorder.problem:
             self._problem = joined(self._recorder.problem, "The recording has ended.")
             self._recorder = None
@@ -66,9 +67,10 @@ class RecordingPart(Part):
 
     def state(self) -> Mapping[str, Any]:
         """The memory and the recording."""
-        if not self._is_live:
+        if self._live is None:
             return {"memory": None, "recording": None}
-        seconds, size = self._memory.size()
+        memory = self._live.memory
+        seconds, size = memory.size()
         recorder = self._recorder
         recording = recorder and RecordingState(
             path=recorder.path,
@@ -77,7 +79,8 @@ class RecordingPart(Part):
             size=recorder.bytes_written,
             dropped=recorder.dropped,
         )
-        return {"memory": MemoryState(seconds, size), "recording": recording}
+        remembered = MemoryState(seconds, size, memory.is_full, memory.pinned())
+        return {"memory": remembered, "recording": recording}
 
     def statuses(self) -> Mapping[str, Status]:
         """Messages that are missing in the recording."""
@@ -97,20 +100,23 @@ class RecordingPart(Part):
 
     def _read(self) -> None:
         """Read along with the inbox."""
-        if self._is_live:
+        if self._live is not None:
             recorder = self._recorder
-            readers = (self._memory.put, *((recorder.put,) if recorder else ()))
+            readers = (self._live.memory.put, *((recorder.put,) if recorder else ()))
             self.core.source.inbox.readers = readers
 
     # Commands
 
     def _start(self, command: StartRecording, sender: Sender) -> Job[RecordingFolder]:
-        path = self._new_path(command.path, sender)
+        live, path = self._known(), self._new_path(command.path, sender)
         if self._recorder is not None:
             raise Error(f"{self._recorder.path.name} is being recorded already. Stop it first.")
 
         def then(folder: RecordingFolder) -> str:
-            self._recorder = Recorder(folder, self._channels, self._memory.last(0.0))
+            now_ns = live.live.now_ns()
+            latched = live.memory.last(0.0).latched
+            past = [(topic, replace(raw, received_ns=now_ns)) for topic, raw in latched]
+            self._recorder = Recorder(folder, live.channels, past)
             self._problem = ""
             self._read()
             return f"Recording to {path.name}."
@@ -132,18 +138,18 @@ class RecordingPart(Part):
         return Job(recorder.close, then)
 
     def _save(self, command: SaveMemory, sender: Sender) -> Job[Recorder]:
-        path = self._new_path(command.path, sender)
+        live, path = self._known(), self._new_path(command.path, sender)
         seconds = math.inf if command.seconds is None else command.seconds
         if not seconds > 0:
             raise Error(f"The last {seconds:g} s are nothing. Give a positive number.")
-        past = self._memory.last(seconds)
+        past = live.memory.last(seconds)
         if not past.messages:
             raise Error(
                 "Nothing is remembered. Show a topic, or raise memory.seconds in the config."
             )
 
         def work() -> Recorder:
-            recorder = Recorder(_new(path), self._channels, past)
+            recorder = Recorder(_new(path), live.channels, past.whole)
             recorder.close()
             return recorder
 
@@ -156,9 +162,12 @@ class RecordingPart(Part):
 
         return Job(work, then)
 
-    def _new_path(self, path: str, sender: Sender) -> Path:
-        if not self._is_live:
+    def _known(self) -> Rewindable:
+        if self._live is None:
             raise Error(FROM_BAG)
+        return self._live
+
+    def _new_path(self, path: str, sender: Sender) -> Path:
         if path and sender.browser is not None:
             raise Error("A page cannot choose the folder of a recording.")
         return Path(path) if path else Path(new_name())

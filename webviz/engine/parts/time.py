@@ -22,14 +22,12 @@ class TimePart(Part):
     Args:
         core: shared by all parts.
         reset: discards the received data of all parts.
-        control: of the source, which is paused instead of the inbox; None if it has no past.
+        control: of the past, which is paused instead of the inbox unless topics are live.
     """
 
     name = "Time"
 
-    def __init__(
-        self, core: Core, reset: Callable[[], None], control: PlaybackControl | None = None
-    ) -> None:
+    def __init__(self, core: Core, reset: Callable[[], None], control: PlaybackControl) -> None:
         super().__init__(core)
         self._control = control
         self._reset_all = reset
@@ -63,7 +61,8 @@ class TimePart(Part):
         if not 0 < self._began_ns <= ros_ns:  # time may have gone back while paused
             self._began_ns = ros_ns
         messages = self.core.source.clock_messages()
-        is_paused = self.is_paused if self._control is None else not self._control.is_playing
+        control = self._control
+        is_paused = self.is_paused if control.is_live else not control.is_playing
         clock = PanelTimes(
             ros_ns,
             ros_ns - self._began_ns,
@@ -89,7 +88,8 @@ class TimePart(Part):
         self._start()
 
     def start_over(self) -> None:
-        """Discard all received data, since the recording is played from another position."""
+        """Discard all received data, since another position is played from now on."""
+        self._paused_ns = None
         self.core.buffer.forget()  # also static transforms that come later in the recording
         self._reset_all()
         self.ros.restart(self.core.source.now_ns())
@@ -102,9 +102,10 @@ class TimePart(Part):
         self._reset_all()
 
     def _pause(self, command: Pause, sender: Sender) -> None:
-        if self._control is None:
+        control = self._control
+        if control.is_live:
             self._paused_ns = self.core.frames.now_ns if command.paused else None
         elif command.paused:
-            self._control.pause()
+            control.pause()
         else:
-            self._control.play()
+            control.play()

@@ -86,10 +86,11 @@ class ToolsPart(Part):
         self._helms.equip(vehicles)
         wanted |= self._helms.outlets()
         stopping = self._helms.stopping()
-        wanted = {each for each in wanted if not self.core.gate.refusal(each.topic)} | stopping
+        gate = self.core.gate
+        wanted = {each for each in wanted if not gate.lasting_refusal(each.topic)} | stopping
         if wanted != self._advertised:
             self._advertised = wanted
-            self.core.gate.advertise(wanted, stopping)
+            gate.advertise(wanted, stopping)
 
     def state(self) -> Mapping[str, Any]:
         """The buttons of the toolbar; a key belongs to the first tool that asks for it."""

@@ -1,4 +1,4 @@
-"""Plays a recording in step with the clock on the wall."""
+"""Plays a recording, or the past of live topics, in step with the clock on the wall."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ from webviz.sources.playable import Playable
 
 NEAR_NS = 1_000_000_000
 """A position this far ahead is played to; one that is further on or back is looked up."""
+END_NS = 2**63
+"""A position after all others."""
 MAX_STEP_S = 0.25
 """Wall time that one step makes up for: playing slows down where drawing is slow."""
 
@@ -32,6 +34,7 @@ class PlaybackControl:
         """True to play as soon as a browser is connected, until somebody plays or pauses."""
         self._is_playing = False
         self._target_ns: int | None = None
+        self._is_returning = False
         self._has_to_jump = False
         self._stepped_s = 0.0
         self._offset_ns = 0
@@ -45,6 +48,11 @@ class PlaybackControl:
     def is_seeking(self) -> bool:
         """Return whether a position is being approached; until then there is nothing to draw."""
         return self._target_ns is not None
+
+    @property
+    def is_live(self) -> bool:
+        """Return whether what arrives is shown, and nothing else is on its way."""
+        return self.playback.is_live and self._target_ns is None
 
     @property
     def span_ns(self) -> tuple[int, int]:
@@ -74,10 +82,23 @@ class PlaybackControl:
         self._is_playing = self.is_ready = False
 
     def seek(self, at_ns: int) -> None:
-        """Approach a position; `advance` until `is_seeking` is False."""
-        at_ns = min(max(at_ns, self.playback.start_ns), self.playback.end_ns)
+        """Approach a position; `advance` until `is_seeking` is False.
+
+        The end of live topics is now, so that they are live again.
+        """
+        playback = self.playback
+        self._is_returning = at_ns >= playback.end_ns
+        at_ns = min(max(at_ns, playback.start_ns), playback.end_ns)
+        if playback.is_live and self._is_returning:
+            self._target_ns = None
+            return
         self._target_ns = at_ns
-        self._has_to_jump = not 0 <= at_ns - self.playback.position_ns <= NEAR_NS
+        self._has_to_jump = playback.is_live or not 0 <= at_ns - playback.position_ns <= NEAR_NS
+
+    def return_to_live(self) -> None:
+        """Show what arrives again, after all that was missed of it; nothing happens for a bag."""
+        if not self.is_live:
+            self.seek(END_NS)
 
     def advance(self, is_busy: bool = False) -> bool:
         """Play what is due since the last call.
@@ -98,12 +119,20 @@ class PlaybackControl:
             return True
         if self._target_ns is not None:
             self.playback.play_step(self._target_ns)
-            if self.playback.position_ns >= self._target_ns:
-                self._target_ns = None
+            if self._is_returning and self.playback.rejoin():
+                self._end_replay()
+            elif self.playback.position_ns >= self._target_ns:
+                end_ns = self.playback.end_ns
+                is_late = self._is_returning and self.playback.position_ns < end_ns
+                self._target_ns = end_ns if is_late else None
             return False
-        if self._is_playing:
+        if self._is_playing and not self.playback.is_live:
             self._play_on(passed_s)
         return False
+
+    def _end_replay(self) -> None:
+        self._target_ns = self.selected = None
+        self._is_playing = False
 
     def _jump(self, at_ns: int) -> None:
         """Go to where playing leads to a position, once for all that were asked for meanwhile."""
@@ -115,7 +144,9 @@ class PlaybackControl:
     def _play_on(self, passed_s: float) -> None:
         playback = self.playback
         first_ns, last_ns = self.span_ns
-        if playback.position_ns >= last_ns:
+        if playback.rejoin():
+            self._end_replay()
+        elif playback.position_ns >= last_ns:
             if self.loop and first_ns < last_ns:
                 self.seek(first_ns)
             else:

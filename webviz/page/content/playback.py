@@ -20,7 +20,7 @@ def playback(state: State, _: str) -> Mapping[str, Any]:
     first and last second to play, or None.
     """
     recording = state.playback
-    if recording is None:
+    if recording is None or recording.is_live is not None:
         return {}
     return {
         "names": recording.names,

@@ -37,6 +37,7 @@ COMMANDS: Mapping[type[Command], Role] = {
     commands.RenameView: Role.OPERATOR,
     commands.Reset: Role.OPERATOR,
     commands.ResetDisplay: Role.OPERATOR,
+    commands.ReturnToLive: Role.OPERATOR,
     commands.SaveBookmark: Role.OPERATOR,
     commands.SaveView: Role.OPERATOR,
     commands.Seek: Role.OPERATOR,

@@ -76,6 +76,16 @@ class BagSource:
         """Types by topic, of subscriptions that get their past from the seek before."""
         self._counting: Future[Mapping[str, Sequence[int]]] | None = None
 
+    absence = ""
+    """A bag has a past,"""
+    is_live = False
+    """and nothing else."""
+
+    @property
+    def origin_ns(self) -> int:
+        """The start."""
+        return self.start_ns
+
     @property
     def start_ns(self) -> int:
         """Stamp of the first message."""
@@ -135,6 +145,10 @@ class BagSource:
         for extra in self._extras:
             self._put(Recorded(extra.topic, extra.type, extra.cdr, self._file.start_ns))
         self._served = _types(self._wanted)
+
+    def rejoin(self) -> bool:
+        """Do nothing."""
+        return False
 
     def neighbour(self, topic: str, is_forward: bool) -> int | None:
         """`Playable.neighbour`."""

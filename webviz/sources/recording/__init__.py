@@ -1,7 +1,7 @@
 """Recording of what arrives: the last minutes in memory, and files."""
 
 from webviz.sources.recording.channels import Channels, library, new_name
-from webviz.sources.recording.recent import RecentMessages, Remembered
+from webviz.sources.recording.recent import Entry, RecentMessages, Remembered
 from webviz.sources.recording.recorder import Recorder
 
-__all__ = ["Channels", "RecentMessages", "Recorder", "Remembered", "library", "new_name"]
+__all__ = ["Channels", "Entry", "RecentMessages", "Recorder", "Remembered", "library", "new_name"]

@@ -33,6 +33,8 @@ class Channels:
     def __init__(self, offers: Callable[[], Mapping[str, Offer]]) -> None:
         self._offers = offers
         self._known: dict[str, RecordedChannel] = {}
+        self._seen: Mapping[str, Offer] = {}
+        self._latched: dict[str, int] = {}
 
     def __len__(self) -> int:
         return len(self._known)
@@ -49,11 +51,25 @@ class Channels:
             channel = self._known[topic] = _channel(topic, type_, publishers)
         return channel
 
+    def look(self) -> None:
+        """Note which topics are latched; to be called now and then, since publishers may end."""
+        offers = self._offers()
+        if offers is self._seen:
+            return
+        for topic, offer in offers.items():
+            count = sum(each.durability == "transient_local" for each in offer.publishers)
+            if count:
+                self._latched[topic] = max(count, self._latched.get(topic, 0))
+        self._seen = offers
+
+    def latched(self, topic: str) -> int:
+        """The number of publishers of a topic whose newest message late subscribers receive."""
+        self.look()
+        return self._latched.get(topic, 0)
+
     def is_latched(self, topic: str) -> bool:
         """Return whether late subscribers receive the newest message of a topic."""
-        offer = self._offers().get(topic)
-        publishers = offer.publishers if offer else ()
-        return any(each.durability == "transient_local" for each in publishers)
+        return self.latched(topic) > 0
 
 
 def _type_of(publishers: Sequence[Publisher]) -> str:

@@ -2,52 +2,77 @@
 
 from __future__ import annotations
 
+import itertools
 import threading
 import time
 from bisect import bisect_left
 from collections import deque
 from collections.abc import Callable
+from dataclasses import replace
 from typing import NamedTuple
 
+from webviz.data.messages import MessageError, TFMessage, decode
 from webviz.sources.inbox import Raw
 
 OVERHEAD = 200
 """Bytes of a message besides its own."""
+MAX_PINNED = 1000
+"""Latched messages of one topic that are kept beyond the bounds."""
+STATIC_TF = "tf_static"
+TF = "tf2_msgs/msg/TFMessage"
+
+Entry = tuple[str, Raw]
+"""Topic and message."""
 
 
 class Remembered(NamedTuple):
     """A slice of the past.
 
     Args:
-        latched: the newest message before the slice of each latched topic, by topic.
+        latched: the newest messages before the slice of each latched topic.
         messages: topics and messages, in the order of arrival.
     """
 
-    latched: dict[str, Raw]
-    messages: list[tuple[str, Raw]]
+    latched: list[Entry]
+    messages: list[Entry]
+
+    @property
+    def whole(self) -> list[Entry]:
+        """All of them, the latched ones as if they had arrived with the first of the slice."""
+        if not self.messages:
+            return self.latched
+        first = self.messages[0][1]
+        times = {"received_ns": first.received_ns, "arrived_s": first.arrived_s}
+        return [*((topic, replace(raw, **times)) for topic, raw in self.latched), *self.messages]
 
 
 class RecentMessages:
     """Keeps raw messages of all topics for some seconds, as far as they fit; for any thread.
 
-    The newest message of a latched topic is kept beyond that: without the map, the robot and static
+    The newest latched messages are kept beyond that: without the map, the robot and static
     transforms, a slice of the past would show nothing.
 
     Args:
-        is_latched: whether late subscribers receive the newest message of a topic.
+        latched: number of messages of a topic that late subscribers receive.
         seconds, max_bytes: whichever is reached first.
     """
 
     def __init__(
-        self, is_latched: Callable[[str], bool], seconds: float = 0.0, max_bytes: int = 0
+        self, latched: Callable[[str], int], seconds: float = 0.0, max_bytes: int = 0
     ) -> None:
-        self._is_latched = is_latched
+        self._depth = latched
         self._lock = threading.Lock()
-        self._messages: deque[tuple[str, Raw]] = deque()
-        self._latched: dict[str, Raw] = {}
+        self._messages: deque[Entry] = deque()
+        self._latched: dict[str, dict[object, Raw]] = {}
         self._bytes = 0
+        self._full_s: float | None = None
         self.seconds = seconds
         self.max_bytes = max_bytes
+
+    @property
+    def is_on(self) -> bool:
+        """Return whether anything is kept."""
+        return self.seconds > 0 and self.max_bytes > 0
 
     def put(self, topic: str, raw: Raw) -> None:
         """Add a message, and forget the oldest that do not fit any more."""
@@ -61,27 +86,98 @@ class RecentMessages:
         now_s = time.monotonic()
         with self._lock:
             self._forget(now_s)
-            latched = sum(len(raw.cdr) for raw in self._latched.values())
+            latched = sum(len(raw.cdr) for own in self._latched.values() for raw in own.values())
             oldest_s = self._messages[0][1].arrived_s if self._messages else now_s
             return now_s - oldest_s, self._bytes + latched
+
+    @property
+    def oldest_s(self) -> float | None:
+        """Return when the oldest message arrived, in monotonic seconds; None without any."""
+        with self._lock:
+            return self._messages[0][1].arrived_s if self._messages else None
+
+    @property
+    def newest_s(self) -> float | None:
+        """Return when the newest message arrived, in monotonic seconds; None without any."""
+        with self._lock:
+            return self._messages[-1][1].arrived_s if self._messages else None
+
+    @property
+    def is_full(self) -> bool:
+        """Return whether messages younger than `seconds` were forgotten for their size."""
+        full_s = self._full_s
+        return full_s is not None and time.monotonic() - full_s < self.seconds
+
+    def pinned(self) -> tuple[str, ...]:
+        """The topics whose latched messages are kept although they are old."""
+        with self._lock:
+            return tuple(sorted(self._latched))
 
     def last(self, seconds: float) -> Remembered:
         """The messages of the last seconds, as far as they are remembered."""
         begin_s = time.monotonic() - seconds
         with self._lock:
-            messages, latched = list(self._messages), dict(self._latched)
+            messages = list(self._messages)
+            latched = {topic: dict(own) for topic, own in self._latched.items()}
         first = bisect_left(messages, begin_s, key=lambda message: message[1].arrived_s)
-        newest = dict(messages[:first])
-        latched |= {topic: raw for topic, raw in newest.items() if self._is_latched(topic)}
-        return Remembered(latched, messages[first:])
+        for topic, raw in messages[:first]:
+            self._pin(latched, topic, raw)
+        return Remembered(_flat(latched), messages[first:])
+
+    def after(self, arrived_s: float) -> list[Entry]:
+        """The messages that arrived later than a time in monotonic seconds.
+
+        Latched ones that were forgotten since are among them.
+        """
+        with self._lock:
+            newest = reversed(self._messages)
+            found = list(itertools.takewhile(lambda each: each[1].arrived_s > arrived_s, newest))
+            latched = _flat(self._latched)
+        found.reverse()
+        return [*(entry for entry in latched if entry[1].arrived_s > arrived_s), *found]
 
     def _forget(self, now_s: float) -> None:
         begin_s = now_s - self.seconds
         while self._messages:
             topic, raw = self._messages[0]
-            if raw.arrived_s > begin_s and self._bytes <= self.max_bytes:
-                return
+            if raw.arrived_s > begin_s:
+                if self._bytes <= self.max_bytes:
+                    return
+                self._full_s = now_s
             self._messages.popleft()
             self._bytes -= len(raw.cdr) + OVERHEAD
-            if self._is_latched(topic):
-                self._latched[topic] = raw
+            self._pin(self._latched, topic, raw)
+
+    def _pin(self, latched: dict[str, dict[object, Raw]], topic: str, raw: Raw) -> None:
+        """Keep a latched message instead of the one of its publisher before it."""
+        depth = self._depth(topic)
+        if not depth:
+            return
+        own = latched.setdefault(topic, {})
+        key = _publisher_of(topic, raw)
+        own.pop(key, None)
+        own[key] = raw
+        most = MAX_PINNED if topic.endswith(STATIC_TF) else min(depth, MAX_PINNED)
+        while len(own) > most:
+            del own[next(iter(own))]
+
+
+def _publisher_of(topic: str, raw: Raw) -> object:
+    """A key that tells the latched messages of several publishers apart, as DDS does not.
+
+    Each publisher of static transforms has frames of its own; other messages are told apart by
+    their bytes.
+    """
+    if topic.endswith(STATIC_TF):
+        try:
+            message: TFMessage = decode(TF, raw.cdr)
+        except MessageError:
+            return raw.cdr
+        return frozenset(transform.child for transform in message.transforms)
+    return raw.cdr
+
+
+def _flat(latched: dict[str, dict[object, Raw]]) -> list[Entry]:
+    """All latched messages in the order of arrival."""
+    found = [(topic, raw) for topic, own in latched.items() for raw in own.values()]
+    return sorted(found, key=lambda entry: entry[1].arrived_s)

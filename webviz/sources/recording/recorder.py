@@ -5,13 +5,14 @@ from __future__ import annotations
 import threading
 import time
 from collections import deque
+from collections.abc import Iterable
 from pathlib import Path
 
 from webviz.data.recordings import RecordingError
 from webviz.data.recordings.folder_writing import RecordingFolder
 from webviz.sources.inbox import Raw
 from webviz.sources.recording.channels import Channels
-from webviz.sources.recording.recent import Remembered
+from webviz.sources.recording.recent import Entry
 
 MAX_BYTES = 256 << 20
 """Of messages that wait for the disk."""
@@ -30,13 +31,15 @@ class Recorder:
         past: what the recording begins with.
     """
 
-    def __init__(self, folder: RecordingFolder, channels: Channels, past: Remembered) -> None:
+    def __init__(
+        self, folder: RecordingFolder, channels: Channels, past: Iterable[Entry] = ()
+    ) -> None:
         self._folder = folder
         self._channels = channels
         self._lock = threading.Condition()
-        self._waiting: deque[tuple[str, Raw]] = deque(past.messages)
-        self._bytes = sum(len(raw.cdr) for _, raw in past.messages)
-        self._latched = past.latched
+        self._waiting: deque[Entry] = deque(past)
+        self._bytes = sum(len(raw.cdr) for _, raw in self._waiting)
+        self._clock = _ForwardClock()
         self._is_ending = False
         self._began_s = time.monotonic()
         self.dropped = 0
@@ -87,7 +90,6 @@ class Recorder:
 
     def _run(self) -> None:
         try:
-            self._write_latched()
             while self._write_waiting():
                 pass
             self._folder.close()
@@ -96,12 +98,6 @@ class Recorder:
             with self._lock:
                 self._waiting.clear()
                 self._bytes = 0
-
-    def _write_latched(self) -> None:
-        """Begin with what late subscribers receive, as if it had just arrived."""
-        first = self._waiting[0][1].received_ns if self._waiting else None
-        for topic, raw in self._latched.items():
-            self._write(topic, raw, first or raw.received_ns)
 
     def _write_waiting(self) -> bool:
         """Write for a second, then flush.
@@ -119,11 +115,11 @@ class Recorder:
                     continue
                 topic, raw = self._waiting.popleft()
                 self._bytes -= len(raw.cdr)
-            self._write(topic, raw, raw.received_ns)
+            self._write(topic, raw)
         self._folder.flush()
         return True
 
-    def _write(self, topic: str, raw: Raw, stamp_ns: int) -> None:
+    def _write(self, topic: str, raw: Raw) -> None:
         channel = self._channels.find(topic)
         while channel is None and time.monotonic() - raw.arrived_s < UNKNOWN_S:
             time.sleep(0.05)  # the source says soon what it subscribes to
@@ -131,4 +127,27 @@ class Recorder:
         if channel is None:
             self.dropped += 1
             return
-        self._folder.add(channel, stamp_ns, raw.cdr, self._channels.is_latched(topic))
+        self._folder.add(channel, self._clock.at(raw), raw.cdr, self._channels.is_latched(topic))
+
+
+class _ForwardClock:
+    """Times of recording, which never go back: readers sort by them.
+
+    If ROS time goes back, as with a simulator that starts over or a clock that is corrected, they
+    go on by the time that passed since.
+    """
+
+    def __init__(self) -> None:
+        self._shift_ns = 0
+        self._last_ns: int | None = None
+        self._arrived_s = 0.0
+
+    def at(self, raw: Raw) -> int:
+        """The time of recording of the next message."""
+        stamp_ns = raw.received_ns + self._shift_ns
+        if self._last_ns is not None and stamp_ns < self._last_ns:
+            passed_ns = max(0, round((raw.arrived_s - self._arrived_s) * 1e9))
+            self._shift_ns += self._last_ns + passed_ns - stamp_ns
+            stamp_ns = self._last_ns + passed_ns
+        self._last_ns, self._arrived_s = stamp_ns, raw.arrived_s
+        return stamp_ns

@@ -1,0 +1,278 @@
+"""Live topics that are rewound: what is shown of the past, and what is refused meanwhile."""
+
+from __future__ import annotations
+
+import contextlib
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from bags import START_NS, Bag, ns
+from bench import Bench, benches
+from drives import CONFIG, recorded
+
+from webviz.api.nodes import Lines
+from webviz.data.messages import encode
+from webviz.engine.commands import (
+    Command,
+    Pause,
+    Play,
+    Refresh,
+    ReturnToLive,
+    SaveMemory,
+    Seek,
+    SetProperty,
+    SetRate,
+    StepMessage,
+)
+from webviz.engine.loop import FrameLoop
+from webviz.engine.parts.playback import LIVE
+from webviz.engine.state import State
+from webviz.files.config.model import MemorySettings
+from webviz.files.opening import parse
+from webviz.shell.testing import BagViewer
+from webviz.shell.testing.recording import RecordingScene
+from webviz.shell.testing.source import HandFedSource
+from webviz.sources import Offer, Publisher, Raw
+from webviz.sources.bag.files import BagFiles
+from webviz.sources.past_state import PlaybackState
+from webviz.sources.rewindable import MEMORY_OFF
+from webviz_displays.path import Path as PathDisplay
+
+PATH = "nav_msgs/msg/Path"
+PUBLISHER = Publisher("/planner", PATH, "reliable", "volatile")
+TURNS = 10_000
+AGO_S = 9.0
+"""When a drive began."""
+
+
+class SteadySource(HandFedSource):
+    """A source whose time is that of the machine, as far as a drive is concerned."""
+
+    began_s = 0.0
+    """When the drive began, in monotonic seconds."""
+
+    def now_ns(self) -> int:
+        return START_NS + ns(time.monotonic() - self.began_s)
+
+
+class Drive:
+    """A viewer of live topics that have just carried a recorded drive."""
+
+    def __init__(self, path: Path, config: str) -> None:
+        self.source = SteadySource()
+        self.source.began_s = self.began_s = time.monotonic() - AGO_S
+        self.scene = RecordingScene()
+        self.files = BagFiles([path])
+        for channel in self.files.channels:
+            self.source.known[channel.topic] = Offer(channel.publishers, type=channel.type)
+        self.loop = FrameLoop(parse(config, "the config"), self.source, self.scene, strict=True)
+        self.loop.turn()
+        for sent in self.files.messages(self.files.channels, self.files.start_ns):
+            at_s = (sent.stamp_ns - START_NS) / 1e9
+            raw = Raw(sent.cdr, sent.stamp_ns, self.began_s + at_s)
+            self.source.inbox.put(sent.topic, raw)
+            self.loop.turn()
+
+    def do(self, command: Command) -> str:
+        answer = self.loop.enqueue(command)
+        for _ in range(TURNS):
+            self.loop.turn()
+            if answer.done() and not self.loop.is_busy():
+                return answer.result()
+        raise AssertionError("not done")
+
+    def seek(self, at_s: float) -> None:
+        """Show a time of the drive."""
+        shown = self.playback
+        ago_s = AGO_S - at_s + (time.monotonic() - AGO_S - self.began_s)
+        self.do(Seek((shown.end_ns - shown.start_ns) / 1e9 - ago_s))
+
+    @property
+    def playback(self) -> PlaybackState:
+        state = self.loop.state().playback
+        assert state is not None
+        return state
+
+    def shown(self) -> dict[str, Any]:
+        found = {}
+        for row in self.loop.state().rows:
+            nodes = [(pose, node) for _, pose, node in self.scene.visible(f"{row.id}/")]
+            found[f"{row.id} {row.name}"] = sorted(nodes, key=repr)
+        return found
+
+    def close(self) -> None:
+        self.loop.close()
+        self.files.close()
+
+
+@pytest.fixture
+def drive(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., Drive]]:
+    monkeypatch.chdir(tmp_path)
+    with contextlib.ExitStack() as stack:
+
+        def make(bag: Bag, config: str = CONFIG) -> Drive:
+            made = Drive(bag.write(tmp_path / "run"), config)
+            stack.callback(made.close)
+            return made
+
+        yield make
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_a_rewound_viewer_shows_what_the_saved_memory_does(
+    drive: Callable[..., Drive], seed: int
+) -> None:
+    live = drive(recorded(seed))
+    live.do(SaveMemory(path="saved"))
+    with contextlib.closing(BagViewer(Path("saved"), CONFIG)) as played:
+        truth = {}
+        for at_s in (0.58, 2.08, 3.78, 5.58):
+            first_s = (played.source.start_ns - START_NS) / 1e9
+            played.play_to(at_s - first_s)
+            played.settle()
+            truth[at_s] = played.shown()
+    for at_s in (3.78, 0.58, 5.58, 2.08, 3.78):
+        live.seek(at_s)
+        assert live.playback.is_live is False
+        for display, nodes in live.shown().items():
+            assert nodes == truth[at_s][display], (display, at_s)
+
+
+def test_back_at_now_everything_is_shown_that_came_meanwhile(drive: Callable[..., Drive]) -> None:
+    live = drive(recorded(4))
+    live.do(Refresh())
+    before = live.shown()
+    live.seek(1.08)
+    assert live.shown() != before
+    live.do(ReturnToLive())
+    assert live.playback.is_live
+    assert live.shown() == before
+
+
+def test_playing_from_the_past_becomes_live(drive: Callable[..., Drive]) -> None:
+    live = drive(recorded(5))
+    live.do(Refresh())
+    before = live.shown()
+    live.seek(4.08)
+    assert live.loop.state().clock.is_paused
+    live.do(SetRate(0))
+    live.do(Play())
+    while not live.playback.is_live:
+        live.loop.turn()
+    live.do(Refresh())
+    assert live.shown() == before
+    assert not live.loop.state().clock.is_paused
+
+
+@pytest.fixture
+def make() -> Iterator[Callable[..., Bench]]:
+    """A viewer of a path, of which messages arrived 5, 4, 3, 2 and 1 s ago."""
+    with benches() as make_bench:
+
+        def make(**options: Any) -> Bench:
+            bench = make_bench(PathDisplay(), **options)
+            for ago in (5, 4, 3, 2, 1):
+                publish(bench, ago)
+            return bench
+
+        yield make
+
+
+@pytest.fixture
+def bench(make: Callable[..., Bench]) -> Bench:
+    return make()
+
+
+def publish(bench: Bench, ago_s: float, topic: str = "/path") -> None:
+    pose = {"header": {"frame_id": "map"}, "pose": {"position": {"x": float(ago_s)}}}
+    cdr = encode(PATH, {"header": {"frame_id": "map"}, "poses": [pose, pose]})
+    now_s = time.monotonic()
+    bench.source.known.setdefault(topic, Offer((PUBLISHER,), type=PATH))
+    bench.source.inbox.put(topic, Raw(cdr, bench.source.now - ns(ago_s), now_s - ago_s))
+    bench.turn()
+
+
+def rewind(bench: Bench, ago_s: float) -> PlaybackState:
+    shown = bench.do(Refresh()).playback
+    assert shown is not None
+    return playback(bench.do(Seek((shown.end_ns - shown.start_ns) / 1e9 - ago_s)))
+
+
+def playback(state: State) -> PlaybackState:
+    assert state.playback is not None
+    return state.playback
+
+
+def places(bench: Bench) -> set[float]:
+    """The x of what is drawn."""
+    nodes = [node for _, _, node in bench.scene.visible() if isinstance(node, Lines)]
+    return {float(x) for node in nodes for x in node.segments[..., 0].ravel()}
+
+
+def test_new_messages_are_remembered_while_the_past_is_shown(bench: Bench) -> None:
+    assert rewind(bench, 3.5).is_live is False
+    assert places(bench) == {4.0}
+    publish(bench, 0.5)
+    assert places(bench) == {4.0}
+    rewind(bench, 0.4)
+    assert places(bench) == {0.5}
+    assert playback(bench.do(ReturnToLive())).is_live
+    publish(bench, 0)
+    assert places(bench) == {0.0}
+
+
+def test_steps_lead_into_the_past(bench: Bench) -> None:
+    bench.do(StepMessage("/path", is_forward=False))
+    assert places(bench) == {2.0}
+    bench.do(StepMessage("/path", is_forward=False))
+    assert places(bench) == {3.0}
+
+
+def test_a_moment_that_is_shown_is_not_forgotten(make: Callable[..., Bench]) -> None:
+    bench = make(memory=MemorySettings(megabytes=0.002))
+    first_s = rewind(bench, 1.5).first_s
+    for _ in range(20):
+        publish(bench, 0)
+    shown = playback(bench.do(Refresh()))
+    assert (shown.first_s, places(bench)) == (first_s, {2.0})
+    assert playback(bench.do(ReturnToLive())).first_s > first_s
+
+
+def test_nothing_is_remembered_without_a_memory(make: Callable[..., Bench]) -> None:
+    bench = make(memory=MemorySettings(seconds=0))
+    assert bench.do(Refresh()).playback is None
+    assert bench.refused(Seek(0.0)) == MEMORY_OFF
+
+
+def test_live_topics_are_not_played(bench: Bench) -> None:
+    assert bench.refused(Play()) == LIVE
+    assert bench.do(Pause(True)).clock.is_paused
+    assert rewind(bench, 1.5).is_playing is False
+    assert not bench.do(ReturnToLive()).clock.is_paused
+
+
+def test_a_topic_that_was_not_displayed_then_says_so(bench: Bench) -> None:
+    rewind(bench, 1.5)
+    bench.source.known["/late"] = Offer((PUBLISHER,), type=PATH)
+    bench.do(SetProperty(bench.states[-1].rows[0].id, "topic.name", "/late"))
+    publish(bench, 0, "/late")
+    assert bench.statuses()["Topic"] == (
+        "WARN",
+        "No message yet on /late: none was received before this moment, since only displayed "
+        "topics are remembered.",
+    )
+
+
+def test_time_that_went_back_is_shown_as_it_was(bench: Bench) -> None:
+    """A simulator starts over 2.5 s ago."""
+    bench.source.clock_count = 1
+    bench.source.now = ns(3)
+    publish(bench, 0.5)
+    assert "Time went back" in bench.do(Refresh()).statuses["Time"].text
+    rewind(bench, 3.5)
+    assert bench.do(Refresh()).clock.ros_ns == ns(96)
+    rewind(bench, 0.4)
+    assert bench.do(Refresh()).clock.ros_ns == ns(2.5)

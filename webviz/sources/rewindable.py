@@ -1,0 +1,292 @@
+"""Live topics whose last minutes can be played again."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from webviz.api.lookback import Lookback
+from webviz.sources.bag.past import BagPast
+from webviz.sources.graph import Graph
+from webviz.sources.inbox import Raw
+from webviz.sources.memory_past import MemoryChannel, MemoryMessage, MemoryPast, WallClock
+from webviz.sources.past_state import Event
+from webviz.sources.recording import Channels, RecentMessages
+from webviz.sources.replay import Replay
+from webviz.sources.source import Offer, Source, Subscription
+
+NEARLY_NS = 150_000_000
+"""Before now, where playing becomes live: what arrived until then is in memory for sure."""
+BUCKETS_S = 1.0
+"""Minimum time between two counts of what is in memory."""
+NOT_REMEMBERED = "none was received before this moment, since only displayed topics are remembered"
+"""Why a topic has no message in the past."""
+MEMORY_OFF = (
+    "Live topics are not remembered, so there is no past to show. Raise memory.seconds and "
+    "memory.megabytes in the config, or start webviz with --memory 60s."
+)
+
+
+class Rewindable:
+    """A live source and its memory, as one source with a past.
+
+    While it is rewound, live messages go to the memory only, and those of the past to the inbox.
+    What was in memory when it was rewound stays until it is live again, besides the last minutes:
+    the moment that people look at is not forgotten.
+
+    Args:
+        live: the source.
+    """
+
+    def __init__(self, live: Source) -> None:
+        self.live = live
+        self.inbox = live.inbox
+        self.channels = Channels(live.offers)
+        self.memory = RecentMessages(self.channels.latched)
+        self._clock = WallClock()
+        self._origin_ns = self._clock.now_ns()
+        self._held: list[tuple[str, Raw]] = []
+        self._replay: Replay[MemoryChannel, MemoryMessage] | None = None
+        """None while live."""
+        self._wanted: dict[str, Subscription] = {}
+        self._told: dict[str, Subscription] = {}
+        """As the live source knows them."""
+        self._asked: dict[str, tuple[int, int]] = {}
+        """By topic: `asked` of the wish, and of what the live source was told."""
+        self._served: dict[str, str] = {}
+        """Types by topic, of subscriptions that get their past from the seek before."""
+        self._offers: tuple[object, object, Mapping[str, Offer]] = None, None, {}
+        self._counted: tuple[float, Mapping[str, Sequence[int]]] = 0.0, {}
+
+    # The interface of webviz.engine.playback.Playable
+
+    @property
+    def absence(self) -> str:
+        """Return why there is no past, "" if there is one."""
+        return "" if self.memory.is_on or not self.is_live else MEMORY_OFF
+
+    @property
+    def is_live(self) -> bool:
+        """Return whether what arrives is shown."""
+        return self._replay is None
+
+    @property
+    def origin_ns(self) -> int:
+        """The beginning of the viewer."""
+        return self._origin_ns
+
+    @property
+    def start_ns(self) -> int:
+        """Time of the oldest message."""
+        if self._held:
+            return self._clock.stamp_ns(self._held[0][1].arrived_s)
+        oldest_s = self.memory.oldest_s
+        return self.end_ns if oldest_s is None else self._clock.stamp_ns(oldest_s)
+
+    @property
+    def end_ns(self) -> int:
+        """Now."""
+        return self._clock.now_ns()
+
+    @property
+    def position_ns(self) -> int:
+        """The position; now while live."""
+        return self.end_ns if self._replay is None else self._replay.position_ns
+
+    @property
+    def names(self) -> Sequence[str]:
+        """None: topics have names of their own."""
+        return ()
+
+    @property
+    def remarks(self) -> Sequence[str]:
+        """None."""
+        return ()
+
+    def play(self, until_ns: int) -> None:
+        """`Playable.play`."""
+        if self._replay is not None:
+            self._catch_up_with_memory()
+            self._replay.play(min(until_ns, self.end_ns - NEARLY_NS))
+            self.inbox.arrived.set()
+
+    def play_step(self, until_ns: int) -> None:
+        """`Playable.play_step`."""
+        if self._replay is not None:
+            self._catch_up_with_memory()
+            self._replay.play_step(min(until_ns, self.end_ns - NEARLY_NS))
+            self.inbox.arrived.set()
+
+    def seek(self, at_ns: int) -> None:
+        """`Playable.seek`; what is live goes to the memory only from now on."""
+        if self._replay is None:
+            self.inbox.divert()
+            self._held = self.memory.last(float("inf")).whole
+        if not self._held:
+            self._become_live()
+            return
+        self.inbox.drain()
+        past = self._past()
+        if self._replay is None:
+            self._replay = Replay(past, self._deliver)
+        self._replay.past = past
+        at_ns = min(at_ns, self.end_ns - NEARLY_NS)
+        self._replay.seek(at_ns, self._channels_to_read(), self._wanted)
+        self._served = {topic: wish.type for topic, wish in self._wanted.items()}
+
+    def rejoin(self) -> bool:
+        """`Playable.rejoin`."""
+        if self._replay is not None and self.end_ns - self._replay.position_ns <= 2 * NEARLY_NS:
+            self._become_live()
+        return self.is_live
+
+    def neighbour(self, topic: str, is_forward: bool) -> int | None:
+        """`Playable.neighbour`."""
+        entries = self._held or self.memory.last(float("inf")).whole
+        if not entries:
+            return None
+        channels = [c for c in self._channels_to_read() if c.topic == topic or not topic]
+        if not topic:
+            channels = [c for c in channels if c.type != "tf2_msgs/msg/TFMessage"]
+        past = self._past() if self._held else MemoryPast(entries, self._clock)
+        replay = Replay(past, self._deliver)
+        replay.position_ns = self.position_ns
+        return replay.neighbour(channels, is_forward)
+
+    def histogram(self, buckets: int) -> Mapping[str, Sequence[int]]:
+        """`Playable.histogram`, of what is held while rewound; live, it would never be the same."""
+        if self._replay is None:
+            return {}
+        at_s, counted = self._counted
+        if time.monotonic() - at_s > BUCKETS_S:
+            past = self._past()
+            counted = past.histogram(self._origin_ns, self.end_ns, buckets)
+            self._counted = time.monotonic(), counted
+        return counted
+
+    def logged(self) -> Sequence[Event]:
+        """None: the log is not remembered unless it is displayed."""
+        return ()
+
+    # The interface of webviz.sources.Source
+
+    @property
+    def graph(self) -> Graph:
+        """For output."""
+        return self.live.graph
+
+    def want(self, subscriptions: Mapping[str, Subscription]) -> None:
+        """Make the subscriptions exactly these, also of the live source.
+
+        While rewound, that is not asked to repeat what is latched: the memory has it.
+        """
+        before = self._wanted
+        if subscriptions != before:
+            self._wanted = dict(subscriptions)
+            self._told = {topic: self._passed_on(topic, w) for topic, w in subscriptions.items()}
+            self._asked = {topic: self._asked[topic] for topic in subscriptions}
+        self.live.want(self._told)
+        if self._replay is None or self._wanted is before:
+            return
+        served, self._served = self._served, {}
+        for topic, wish in self._wanted.items():
+            known = before.get(topic)
+            asked = known.asked if known is not None and known.type == wish.type else -1
+            if asked < wish.asked and served.get(topic) != wish.type:
+                self._repeat(topic, wish, is_new=asked < 0)
+        if _types(before) != _types(self._wanted):
+            self._replay.read_on(self._channels_to_read())
+
+    def offers(self) -> Mapping[str, Offer]:
+        """Those of the live source; while rewound, they say why a topic may have no message."""
+        live = self.live.offers()
+        if self._replay is None:
+            return live
+        known, wanted, offers = self._offers
+        if known is not live or wanted is not self._wanted:
+            offers = {
+                topic: replace(offer, begins=NOT_REMEMBERED) if topic in self._wanted else offer
+                for topic, offer in live.items()
+            }
+            self._offers = live, self._wanted, offers
+        return offers
+
+    def now_ns(self) -> int:
+        """ROS time at the position."""
+        if self._replay is None:
+            return self.live.now_ns()
+        is_simulated = self.live.clock_messages() is not None
+        past = self._replay.past
+        assert isinstance(past, MemoryPast)
+        return max(1, past.ros_time_ns(self._replay.position_ns, is_simulated))
+
+    def clock_messages(self) -> int | None:
+        """Those of the live source."""
+        return self.live.clock_messages()
+
+    def resolve(self, topic: str) -> str:
+        """The full name of a topic; raises ValueError."""
+        return self.live.resolve(topic)
+
+    def close(self) -> None:
+        """Close the live source."""
+        self.live.close()
+
+    # Internal
+
+    def _past(self) -> MemoryPast:
+        """The messages that were held when it was rewound, and those since."""
+        newest = self.memory.after(self._held[-1][1].arrived_s)
+        return MemoryPast([*self._held, *newest], self._clock)
+
+    def _catch_up_with_memory(self) -> None:
+        """Read what has arrived since the memory was read."""
+        replay = self._replay
+        if replay is None or not replay.is_exhausted or self.memory.newest_s is None:
+            return
+        if self._clock.stamp_ns(self.memory.newest_s) > replay.past.end_ns:
+            replay.past = self._past()
+            replay.read_on(self._channels_to_read())
+
+    def _become_live(self) -> None:
+        replay, self._replay = self._replay, None
+        after_s = None if replay is None else self._clock.arrived_s(replay.position_ns)
+        self.inbox.rejoin(lambda: () if after_s is None else self.memory.after(after_s))
+        self._held, self._served = [], {}
+
+    def _channels_to_read(self) -> list[MemoryChannel]:
+        """The subscribed channels that are remembered as this type."""
+        return [
+            MemoryChannel(topic, wish.type)
+            for topic, wish in self._wanted.items()
+            if (channel := self.channels.find(topic)) and channel.type == wish.type
+        ]
+
+    def _repeat(self, topic: str, wish: Subscription, is_new: bool) -> None:
+        """Deliver what a new subscription would hold, or what is latched for one made anew."""
+        replay, latched = self._replay, self.channels.latched(topic)
+        channels = [channel for channel in self._channels_to_read() if channel.topic == topic]
+        lookbacks = wish.lookbacks if is_new else ()
+        if latched:
+            lookbacks = (*lookbacks, Lookback() if wish.latched else Lookback(count=latched))
+        if replay is None or not channels or not lookbacks:
+            return
+        wanted = {**self._wanted, topic: replace(wish, lookbacks=lookbacks)}
+        for message in BagPast(replay.past, channels, wanted, replay.position_ns).messages():
+            self._deliver(message)
+
+    def _passed_on(self, topic: str, wish: Subscription) -> Subscription:
+        """The wish for the live source: nothing is repeated while the past is shown."""
+        asked, told = self._asked.get(topic, (-1, -1))
+        is_repeated = asked >= 0 and (wish.asked == asked or self._replay is not None)
+        told = told if is_repeated else wish.asked
+        self._asked[topic] = wish.asked, told
+        return replace(wish, asked=told)
+
+    def _deliver(self, message: MemoryMessage) -> None:
+        self.inbox.replay(message.topic, Raw(message.cdr, message.received_ns))
+
+
+def _types(wishes: Mapping[str, Subscription]) -> dict[str, str]:
+    return {topic: wish.type for topic, wish in wishes.items()}
