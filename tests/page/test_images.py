@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -190,7 +191,9 @@ def test_two_images_of_one_topic_have_their_names_too(tab: Any) -> None:
 
 def width(tab: Any) -> float:
     """That of the picture "Color" on the screen, in pixels."""
-    return float(pane(tab, "Color").locator("canvas").bounding_box()["width"])
+    canvas = pane(tab, "Color").locator("canvas")
+    canvas.wait_for()
+    return float(canvas.bounding_box()["width"])
 
 
 def pixel_at(tab: Any, x: float, y: float) -> list[float]:
@@ -199,7 +202,7 @@ def pixel_at(tab: Any, x: float, y: float) -> list[float]:
     tab.page.mouse.move(0, 0)
     value.wait_for(state="hidden")
     tab.page.mouse.move(x, y)
-    value.wait_for()
+    tab.wait_for(lambda: re.match(r"x \d+ . y \d+", value.inner_text()))
     words = value.inner_text().split()
     return [float(words[1]), float(words[4])]
 

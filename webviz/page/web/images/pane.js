@@ -48,6 +48,7 @@ export function makePane(id, changed, withScene) {
   let mouse = null;
   let last = {};
   let asked = 0;
+  let later = 0;
   let times = [];
   let scale = null;
   let size = "";
@@ -133,11 +134,16 @@ export function makePane(id, changed, withScene) {
 
   function read() {
     const pixel = mouse && picture.pixelAt(mouse);
+    if (pixel && value.hidden) tell(pixel, "");
     value.hidden = !pixel;
     if (!pixel) return;
     if (!last.readable) return tell(pixel, `rgb ${picture.colorAt(pixel).join(" ")}`);
     const now = performance.now();
-    if (now - asked < READ_MS) return;
+    clearTimeout(later);
+    if (now - asked < READ_MS) {
+      later = setTimeout(read, asked + READ_MS - now); // else a mouse that rests has an old value
+      return;
+    }
     asked = now;
     channel.send({ type: "ReadPixel", display: id, x: pixel[0], y: pixel[1] });
   }
