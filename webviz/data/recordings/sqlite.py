@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import contextlib
+import math
 import sqlite3
 import struct
 import time
 from collections import deque
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -23,11 +25,15 @@ from webviz.data.recordings.recording import (
     TextAllowance,
     TimeParts,
 )
-from webviz.data.recordings.unpacking import MAX_BYTES
+from webviz.data.recordings.sqlite_times import TopicTimes, connected, damaged
 
 MAX_TOPICS = 65_536
-PATIENCE_S = 0.3
-"""For finding out which topics have messages, when a file is opened."""
+PATIENCE_S = 0.1
+"""For finding the next message of some topics, or all topics that have messages."""
+PROGRESS = 10_000
+"""Instructions of SQLite between two looks at the clock."""
+BATCHES = (1, 16, 256, 4096, -1)
+"""Rows of one query after the other; -1 is no limit."""
 MAX_MISSES = 10_000
 """Consecutive rows that are missing or damaged, after which a damaged table counts as ended."""
 IN_ONE_PAGE = 400
@@ -36,7 +42,60 @@ MAX_ROW = 2**63 - 1
 _TABLES = """\
 SELECT count(*) FROM sqlite_master
 WHERE type = 'table' AND rootpage > 0 AND name IN ('messages', 'topics')"""
-_COLUMNS = "topic_id, timestamp, data FROM messages"
+_COLUMNS = "id, topic_id, timestamp, data FROM messages"
+
+
+class _Row(NamedTuple):
+    """A message as it is in the table, which may hold values of any type."""
+
+    id: Any
+    topic_id: Any
+    stamp_ns: Any
+    data: Any
+
+
+@dataclass(frozen=True)
+class _Query:
+    """Messages to read.
+
+    Args:
+        topics: their ids.
+        start_ns, end_ns: times of recording, both included.
+        is_backwards: newest first.
+        last: stamp and id of a message up to which all are known.
+    """
+
+    topics: Collection[int]
+    start_ns: int
+    end_ns: int
+    is_backwards: bool
+    last: tuple[int, int] = (-1, 0)
+
+    def after(self, row: _Row) -> _Query:
+        """The rest behind a row."""
+        stamp_ns = row.stamp_ns
+        if self.is_backwards:
+            return replace(self, end_ns=stamp_ns, last=(stamp_ns, row.id))
+        return replace(self, start_ns=stamp_ns, last=(stamp_ns, row.id))
+
+    def within(self, start_ns: int, end_ns: int) -> _Query:
+        """The part within a span."""
+        return replace(self, start_ns=start_ns, end_ns=end_ns)
+
+    def sql(self, limit: int) -> tuple[str, Sequence[int]]:
+        """The statement and its values; a limit of -1 is none."""
+        marks = ", ".join("?" * len(self.topics))
+        order, known = ("DESC", ">=") if self.is_backwards else ("ASC", "<=")
+        return (
+            f"SELECT {_COLUMNS} WHERE topic_id IN ({marks}) AND timestamp BETWEEN ? AND ? "
+            f"AND NOT (timestamp = ? AND id {known} ?) "
+            f"ORDER BY timestamp {order}, id {order} LIMIT ?",
+            (*self.topics, self.start_ns, self.end_ns, *self.last, limit),
+        )
+
+
+class _TakesLong(Exception):
+    """A row was not found within the given time."""
 
 
 class SqliteRecording:
@@ -55,20 +114,21 @@ class SqliteRecording:
     def __init__(self, path: Path) -> None:
         self.losses = Losses("message", "skipped")
         self._path = path
-        self._db = _connected(path)
+        self._db = connected(path)
         try:
             self._is_cut = _is_cut(path)
             self._numbers = self._topics(path)
             self.span_ns = self._span()
         except sqlite3.Error as error:
             self._db.close()
-            raise _damaged(path, str(error)) from error
+            raise damaged(path, str(error)) from error
         except BaseException:
             self._db.close()
             raise
         self.channels = tuple(dict.fromkeys(self._numbers.values()))
         self.losses.notes += [_unread(path, journal) for journal in _journals(path)]
         self.used = self._used()
+        self._times = TopicTimes(path, self.span_ns or (0, 0))
 
     def messages(
         self, channels: Collection[RecordedChannel], start_ns: int, end_ns: int
@@ -85,14 +145,14 @@ class SqliteRecording:
                 break
             if row is None:
                 return
-            if entry := self._entry(wanted, *row):
+            if entry := self._entry(wanted, row):
                 if newest and newest[0].stamp_ns != entry.stamp_ns:
                     newest.clear()
                 newest.append(entry)
                 yield entry
         start_ns = newest[0].stamp_ns if newest else start_ns
         for row in self._salvaged():
-            entry = self._entry(wanted, *row)
+            entry = self._entry(wanted, row)
             if entry and start_ns <= entry.stamp_ns <= end_ns and entry not in newest:
                 yield entry
 
@@ -101,7 +161,7 @@ class SqliteRecording:
     ) -> Iterator[RecordedMessage]:
         """`Recording.newest`; of a damaged table at most `MAX_MISSES` messages."""
         wanted = {number: each for number, each in self._numbers.items() if each in channels}
-        rows = self._rows(wanted, 0, end_ns, "DESC")
+        rows = self._rows(wanted, 0, end_ns, is_backwards=True)
         while True:
             try:
                 row = next(rows, None)
@@ -109,7 +169,7 @@ class SqliteRecording:
                 break
             if row is None:
                 return
-            if entry := self._entry(wanted, *row):
+            if entry := self._entry(wanted, row):
                 end_ns = min(end_ns, entry.stamp_ns - 1)
                 yield entry
         yield from reversed(deque(self.messages(channels, 0, end_ns), MAX_MISSES))
@@ -117,15 +177,10 @@ class SqliteRecording:
     def histogram(self, parts: TimeParts) -> dict[RecordedChannel, Counts]:
         """`Recording.histogram`, of a damaged table without what it cannot read."""
         found = {channel: np.zeros(parts.count, np.int64) for channel in self.channels}
-        with contextlib.closing(_connected(self._path)) as db, contextlib.suppress(sqlite3.Error):
-            for number, part, count in db.execute(
-                "SELECT topic_id, (timestamp - ?) / ? AS part, count(*) FROM messages "
-                "WHERE typeof(timestamp) = 'integer' AND timestamp BETWEEN ? AND ? "
-                "GROUP BY topic_id, part",
-                (parts.start_ns, parts.length_ns, parts.start_ns, parts.end_ns),
-            ):
+        with contextlib.suppress(sqlite3.Error):
+            for number, counts in self._times.count(parts).items():
                 if number in self._numbers:
-                    found[self._numbers[number]][part] += count
+                    found[self._numbers[number]] += counts
         return found
 
     def close(self) -> None:
@@ -134,21 +189,18 @@ class SqliteRecording:
 
     def _used(self) -> frozenset[RecordedChannel]:
         """The channels that have messages, all if that takes long to find out."""
-        until = time.monotonic() + PATIENCE_S
-        self._db.set_progress_handler(lambda: time.monotonic() > until, 10_000)
         try:
-            numbers = self._db.execute("SELECT DISTINCT topic_id FROM messages").fetchall()
-        except sqlite3.Error:
+            with self._hurrying(PATIENCE_S):
+                numbers = self._db.execute("SELECT DISTINCT topic_id FROM messages").fetchall()
+        except (sqlite3.Error, _TakesLong):
             return frozenset(self.channels)
-        finally:
-            self._db.set_progress_handler(None, 0)
         return frozenset(self._numbers[n] for (n,) in numbers if n in self._numbers)
 
     def _topics(self, path: Path) -> dict[int, RecordedChannel]:
         """The channels by the ids of their topics."""
         if self._db.execute(_TABLES).fetchone() != (2,):
             if self._is_cut:
-                raise _damaged(path, "its end is missing")
+                raise damaged(path, "its end is missing")
             raise RecordingError(
                 f"{path} is a database of something else: give a bag of `ros2 bag record`."
             )
@@ -183,27 +235,90 @@ class SqliteRecording:
     def _span(self) -> tuple[int, int] | None:
         try:
             first, last = self._db.execute(
-                "SELECT min(timestamp), max(timestamp) FROM messages"
+                "SELECT (SELECT min(timestamp) FROM messages), "
+                "(SELECT max(timestamp) FROM messages)"
             ).fetchone()
         except sqlite3.Error:
-            stamps = [row[1] for row in self._salvaged() if isinstance(row[1], int)]
+            rows = self._salvaged()
+            stamps = [row.stamp_ns for row in rows if isinstance(row.stamp_ns, int)]
             return (min(stamps), max(stamps)) if stamps else None
         is_time = isinstance(first, int) and isinstance(last, int)
         return (first, last) if is_time else None
 
     def _rows(
-        self, wanted: Collection[int], start_ns: int, end_ns: int, order: str = "ASC"
-    ) -> Iterator[tuple[Any, Any, Any]]:
-        marks = ", ".join("?" * len(wanted))
-        rows = self._db.execute(
-            f"SELECT {_COLUMNS} WHERE topic_id IN ({marks}) "
-            f"AND timestamp BETWEEN ? AND ? ORDER BY timestamp {order}",
-            (*wanted, start_ns, end_ns),
-        )
-        # Not from the cursor itself: it would be closed with the generator, perhaps after its file.
-        yield from iter(rows.fetchone, None)
+        self, wanted: Collection[int], start_ns: int, end_ns: int, is_backwards: bool = False
+    ) -> Iterator[_Row]:
+        """The rows of some topics within a span, by time or against it.
 
-    def _salvaged(self) -> Iterator[tuple[Any, Any, Any]]:
+        The only index of rosbag2 is one of times. Finding the next message of a rare topic by it
+        takes reading everything in between, so that of such topics it is found out first when
+        they have messages.
+
+        Raises:
+            sqlite3.Error: the table is damaged.
+        """
+        if not wanted:
+            return
+        query = _Query(wanted, start_ns, end_ns, is_backwards)
+        if not self._times.is_known:
+            row = None
+            try:
+                for row in self._queried(query, PATIENCE_S):
+                    yield row
+                return
+            except _TakesLong:
+                query = query.after(row) if row else query
+        for span in self._times.spans(wanted, query.start_ns, query.end_ns, is_backwards):
+            yield from self._queried(query.within(*span))
+
+    def _queried(self, query: _Query, patience_s: float = math.inf) -> Iterator[_Row]:
+        """The rows that answer a query.
+
+        They are taken few by few at first: sqlite3 looks for the next row before it returns one,
+        and may read the whole table for the second of a rare topic.
+
+        Raises:
+            _TakesLong: the next row is not found in time.
+            sqlite3.Error: the table is damaged.
+        """
+        for limit in BATCHES:
+            count, row = 0, None
+            with self._hurrying(patience_s):
+                rows = self._db.execute(*query.sql(limit))
+            while True:
+                with self._hurrying(patience_s):
+                    values = rows.fetchone()
+                if values is None:
+                    break
+                row = _Row(*values)
+                count += 1
+                yield row
+            if row is None or count != limit:
+                return
+            query = query.after(row)
+
+    @contextlib.contextmanager
+    def _hurrying(self, patience_s: float) -> Iterator[None]:
+        """End what the database does after a time.
+
+        Raises:
+            _TakesLong: it was ended.
+        """
+        if math.isinf(patience_s):
+            yield
+            return
+        until = time.monotonic() + patience_s
+        self._db.set_progress_handler(lambda: time.monotonic() > until, PROGRESS)
+        try:
+            yield
+        except sqlite3.OperationalError as error:
+            if error.sqlite_errorcode != sqlite3.SQLITE_INTERRUPT:
+                raise
+            raise _TakesLong from None
+        finally:
+            self._db.set_progress_handler(None, 0)
+
+    def _salvaged(self) -> Iterator[_Row]:
         """The rows of a damaged table that can be read, one by one."""
         try:
             last = self._db.execute("SELECT max(id) FROM messages").fetchone()[0] or 0
@@ -223,7 +338,7 @@ class SqliteRecording:
                 continue
             misses = 0
             self._skip(lost)
-            yield row
+            yield _Row(*row)
         if number == last:
             self._skip(lost)
         elif END_MISSING not in self.losses.others:
@@ -233,37 +348,14 @@ class SqliteRecording:
         self.losses.skipped |= dict.fromkeys(lost, "the database is damaged")
         lost.clear()
 
-    def _entry(
-        self, wanted: dict[int, RecordedChannel], number: Any, stamp_ns: Any, data: Any
-    ) -> RecordedMessage | None:
+    def _entry(self, wanted: dict[int, RecordedChannel], row: _Row) -> RecordedMessage | None:
+        _, number, stamp_ns, data = row
         if not (isinstance(stamp_ns, int) and isinstance(data, bytes) and number in wanted):
             return None
         if self._is_cut and len(data) > IN_ONE_PAGE and data.endswith(bytes(8)):
             self.losses.skipped[number, stamp_ns] = "it may be cut off"
             return None
         return RecordedMessage(wanted[number], stamp_ns, data)
-
-
-def _connected(path: Path) -> sqlite3.Connection:
-    """A connection for one thread at a time, which need not be the same all the time."""
-    uri = f"{path.absolute().as_uri()}?immutable=1&mode=ro"
-    db = sqlite3.connect(uri, uri=True, check_same_thread=False)
-    try:
-        db.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, MAX_BYTES)
-        db.execute("PRAGMA trusted_schema = OFF")
-        # Without it SQLite refuses a file that is shorter than its header says.
-        db.execute("PRAGMA writable_schema = ON")
-    except sqlite3.Error as error:
-        db.close()
-        raise _damaged(path, str(error)) from error
-    return db
-
-
-def _damaged(path: Path, reason: str) -> RecordingError:
-    return RecordingError(
-        f"{path} is damaged ({reason}): recover it with "
-        f"`sqlite3 {path} .recover | sqlite3 recovered.db3`."
-    )
 
 
 def _journals(path: Path) -> list[str]:
