@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import heapq
-import struct
 from array import array
 from collections import deque
-from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Iterator
 from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 
 from webviz.data.recordings.mcap_chunks import INDEX_ENTRY, INDEX_FIELDS, McapChunk, contents_of
+from webviz.data.recordings.mcap_content import ChunkContent
 from webviz.data.recordings.mcap_index import McapIndex
 from webviz.data.recordings.mcap_records import (
     CHANNEL,
@@ -37,7 +36,7 @@ MAX_INDEX = 64 << 20
 """Bytes of the index of messages that a histogram reads, 16 for each message. Real recorders close
 chunks so often that most lie within one part of the span."""
 MAX_REMEMBERED = 32 << 20
-"""Bytes of unpacked chunks that are kept."""
+"""Bytes of messages that are kept of the last chunks."""
 MAX_OPEN = 2 * MAX_BYTES
 """Bytes of unpacked chunks at a time. Of more chunks that overlap, the messages come late."""
 
@@ -66,8 +65,10 @@ class McapRecording:
         self.channels = tuple(dict.fromkeys(self._numbers.values()))
         self._chunks = sorted(index.chunks, key=lambda chunk: chunk.start_ns)
         self._times = ChunkTimes(self._chunks)
-        self._contents: dict[int, _Content] = {}
-        """The last chunks by their offset, the newest at the end."""
+        self._contents: dict[int, ChunkContent] = {}
+        """Of the last chunks by their offset, the newest at the end; see `_content`."""
+        self._remembered = 0
+        """Bytes of them."""
         self.span_ns = None
         if self._chunks:
             self.span_ns = (
@@ -174,35 +175,39 @@ class McapRecording:
         sign: int,
     ) -> Iterator[RecordedMessage]:
         """The wanted messages of a chunk by time, against it with a sign of -1."""
-        content = self._content(chunk)
+        content = self._content(chunk, is_wanted)
         stamps = content.stamps
         inside = is_wanted[content.numbers] & (stamps >= start_ns) & (stamps <= end_ns)
         rows = np.flatnonzero(inside)
         rows = rows[np.argsort(stamps[rows], kind="stable")][::sign]
-        data = content.data
         for row in rows.tolist():
-            start = content.starts[row]
-            (length,) = struct.unpack_from("<Q", data, start - 8)
-            message = data[start + MESSAGE_FIELDS.size : start + length]
+            message = content.data[content.starts[row] : content.ends[row]]
             channel = self._numbers[int(content.numbers[row])]
             yield RecordedMessage(channel, int(stamps[row]), message)
 
-    def _content(self, chunk: McapChunk) -> _Content:
-        """The messages of a chunk; those of the last chunks are remembered, as seeks come near."""
+    def _content(self, chunk: McapChunk, is_wanted: npt.NDArray[np.bool_]) -> ChunkContent:
+        """The messages of a chunk.
+
+        The small ones of the last chunks are remembered: a seek reads the transforms of many chunks
+        that are full of images or clouds, and the next seek is often near.
+        """
         known = self._contents.pop(chunk.offset, None)
-        content = known or self._unpacked(chunk)
-        self._contents[chunk.offset] = content
-        while len(self._contents) > 1 and self._remembered() > MAX_REMEMBERED:
-            del self._contents[next(iter(self._contents))]
+        self._remembered -= len(known.data) if known else 0
+        if known is None or any(is_wanted[number] for number in known.left_out):
+            content = self._unpacked(chunk)
+            known = content.small()
+        else:
+            content = known
+        self._contents[chunk.offset] = known
+        self._remembered += len(known.data)
+        while len(self._contents) > 1 and self._remembered > MAX_REMEMBERED:
+            self._remembered -= len(self._contents.pop(next(iter(self._contents))).data)
         return content
 
-    def _remembered(self) -> int:
-        return sum(len(content.data) for content in self._contents.values())
-
-    def _unpacked(self, chunk: McapChunk) -> _Content:
+    def _unpacked(self, chunk: McapChunk) -> ChunkContent:
         """Unpack a chunk and find its messages."""
         data, fault = contents_of(chunk, self._file)
-        numbers, stamps, starts = array("H"), array("Q"), array("Q")
+        numbers, stamps, starts, ends = array("H"), array("Q"), array("Q"), array("Q")
         at = 0
         while at + PREFIX.size <= len(data):
             opcode, length = PREFIX.unpack_from(data, at)
@@ -215,33 +220,17 @@ class McapRecording:
                 if number in self._numbers:
                     numbers.append(number)
                     stamps.append(stamp_ns)
-                    starts.append(start)
+                    starts.append(start + MESSAGE_FIELDS.size)
+                    ends.append(at)
                 else:
                     fault = "a message in it is of an unknown channel"
         if at != len(data) and not chunk.is_cut:
             fault = fault or "a record in it is damaged"
         if fault:
             self.losses.skipped[chunk.offset] = fault
-        return _Content(
-            data, np.frombuffer(numbers, np.uint16), np.frombuffer(stamps, np.uint64), starts
+        return ChunkContent(
+            data, np.frombuffer(numbers, np.uint16), np.frombuffer(stamps, np.uint64), starts, ends
         )
-
-
-@dataclass(frozen=True)
-class _Content:
-    """The messages of a chunk, in the order of the file.
-
-    Args:
-        data: of the chunk.
-        numbers: uint16 (N,), of their channels.
-        stamps: uint64 (N,), times of recording in ns.
-        starts: offsets in the data.
-    """
-
-    data: bytes
-    numbers: npt.NDArray[np.uint16]
-    stamps: npt.NDArray[np.uint64]
-    starts: Sequence[int]
 
 
 def _first(chunk: McapChunk, sign: int) -> int:
