@@ -12,7 +12,7 @@ import pytest
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.source import SECOND
 from webviz.sources import Raw
-from webviz_displays.markers import Marker, MarkerArray
+from webviz_displays.markers import Marker, MarkerArray, store
 from webviz_displays.markers.blocks import BLOCK
 
 MARKER, ARRAY = "visualization_msgs/msg/Marker", "visualization_msgs/msg/MarkerArray"
@@ -56,6 +56,7 @@ def shown(bench: Benches) -> Callable[..., Any]:
 def send(bench: Any, *markers: dict[str, Any]) -> None:
     bench.send(ARRAY, {"markers": list(markers)})
     bench.turn()
+    bench.settle()
 
 
 def xs(bench: Any) -> list[float]:
@@ -80,6 +81,32 @@ def test_no_message_of_a_turn_is_lost(shown: Benches) -> None:
         bench.send(ARRAY, {"markers": [cube(index, float(index))]})
     bench.turn()
     assert xs(bench) == list(range(50))
+
+
+def test_very_many_markers_are_taken_turn_by_turn_and_shown_together(
+    shown: Benches, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(store, "AT_ONCE", 2)
+    bench = shown([cube(1, 1.0), cube(2, 2.0)])
+    anew = [cube(id, 10.0 + id, ns="b") for id in range(5)]
+    bench.send(ARRAY, {"markers": [cube(0, action=DELETEALL, ns=""), *anew]})
+    for _ in range(3):  # each of which takes two
+        bench.turn()
+        assert (xs(bench), bench.runner.is_busy()) == ([1.0, 2.0], True)
+    bench.turn()
+    assert (xs(bench), bench.runner.is_busy()) == ([10.0, 11.0, 12.0, 13.0, 14.0], False)
+
+
+def test_a_message_after_very_many_markers_is_taken_after_all_of_them(
+    shown: Benches, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(store, "AT_ONCE", 2)
+    bench = shown()
+    bench.send(ARRAY, {"markers": [cube(id, 1.0 + id) for id in range(5)]})
+    bench.turn()
+    assert xs(bench) == []
+    send(bench, cube(4, 9.0))
+    assert xs(bench) == [1.0, 2.0, 3.0, 4.0, 9.0]
 
 
 def test_delete_all_spares_what_comes_after_it(shown: Benches) -> None:

@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 
 from webviz import Context, Display, Input, Sample, Topic
-from webviz.data.messages import encode
+from webviz.data.messages import decode, encode
 from webviz.engine.commands import SetFixedFrame, SetProperty
+from webviz.engine.pipeline import folding
 from webviz.engine.pipeline.folding import MAX_BYTES
 from webviz.shell.testing.messages import header
 
@@ -197,3 +198,67 @@ def test_messages_that_wait_too_long_are_dropped_counted_and_reported(bench: Any
         open_gate(at, number)
     until(at, lambda: not at.viewer.is_busy())
     assert [x for x, _, _ in dots(at)] == [1, 3, 4]
+
+
+class Unthreaded(Display):
+    """A dot at the sum of all widths, and the threads that added them."""
+
+    topic: Annotated[Topic, Input(GRID)] = Topic("/map")
+
+    def fold(self, name: str, sample: Sample, state: tuple[int, ...] | None) -> tuple[int, ...]:
+        assert threading.current_thread() is threading.main_thread()
+        return (*(state or ()), sample.message.info.width)
+
+    def draw(self, sample: Sample, ctx: Context) -> None:
+        ctx.points("dots", [[width, 0, 0] for width in sample.message], (1, 1, 1), 0.1)
+
+
+def test_large_messages_are_decoded_in_a_thread_also_if_they_are_folded_by_the_loop(
+    bench: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def decode_at_gate(type_name: str, cdr: bytes) -> Any:
+        if len(cdr) >= Display.slow_bytes:
+            wait_at_gate()
+        return decode(type_name, cdr)
+
+    monkeypatch.setattr(folding, "decode", decode_at_gate)
+    at = bench(Unthreaded())
+    send(at, 1)
+    send(at, 2, size=1)
+    until(at, lambda: gates)
+    assert (dots(at), at.viewer.is_busy()) == ([], True)
+    open_gate(at, 0)
+    until(at, lambda: [x for x, _, _ in dots(at)] == [1, 2])
+    assert not at.viewer.is_busy()
+
+
+def test_a_large_message_that_a_thread_cannot_decode_is_reported(bench: Any) -> None:
+    at = bench(Unthreaded())
+    at.source.put("/map", GRID, bytes(4) + Display.slow_bytes * b"\xff")
+    until(at, lambda: "Message" in at.statuses())
+    assert at.statuses()["Message"][0] == "ERROR"
+    send(at, 2, size=1)
+    assert [x for x, _, _ in dots(at)] == [2]
+
+
+class Steps(Display):
+    """A dot more in each turn, up to three."""
+
+    topic: Annotated[Topic, Input(GRID)] = Topic("/map")
+
+    def new_state(self) -> list[int]:
+        return []
+
+    def depends(self, ctx: Context) -> object:
+        ctx.state.append(len(ctx.state))
+        ctx.is_unfinished = len(ctx.state) < 3
+        return None
+
+
+def test_what_is_drawn_in_parts_keeps_the_loop_turning_until_it_is_whole(bench: Any) -> None:
+    at = bench(Steps())
+    arrived = at.source.inbox.arrived
+    for is_unfinished in (True, False):
+        arrived.clear()
+        at.turn()
+        assert (at.viewer.is_busy(), arrived.is_set()) == (is_unfinished, is_unfinished)

@@ -254,6 +254,8 @@ class Context(Group):
         self.statuses: dict[str, Status] = {}
         self.color_scale: ColorScale | None = None
         """For the legend in the scene; set it to say which values colours stand for."""
+        self.is_unfinished = False
+        """Set it if the rest is drawn in later turns of the frame loop; the next comes soon."""
         self.offered: dict[str, Mapping[str, int]] = {}
         """For switches by name: by their property, the names, and how many things have each."""
 

@@ -49,6 +49,8 @@ class _State:
 class Markers(Display):
     """Base of both displays: what differs is their topics."""
 
+    slow_bytes = 1_000_000
+
     namespaces: Annotated[
         dict[str, bool],
         Prop(
@@ -84,8 +86,11 @@ class Markers(Display):
         state: _State = ctx.state
         if state.store is None:
             return None
-        state.store.expire(ctx.frames.now_ns)
-        state.store.place(ctx.frames)
+        state.store.advance()
+        ctx.is_unfinished = state.store.is_unfinished
+        if not ctx.is_unfinished:
+            state.store.expire(ctx.frames.now_ns)
+            state.store.place(ctx.frames)
         return state.store.version, state.assets.version()
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
@@ -98,9 +103,13 @@ class Markers(Display):
         if state.store is not store or state.switches != self.namespaces:
             state.blocks.clear()
             state.store, state.switches = store, dict(self.namespaces)
-        store.expire(ctx.frames.now_ns)
-        store.place(ctx.frames)
-        changed, store.changed = store.changed, set()
+        ctx.is_unfinished = store.is_unfinished
+        if ctx.is_unfinished:  # what was drawn before stays
+            changed = set[int]()
+        else:
+            store.expire(ctx.frames.now_ns)
+            store.place(ctx.frames)
+            changed, store.changed = store.changed, set()
         state.blocks.renew(store.table, changed, arrived, self._off, state.assets)
         state.assets.start(ctx)
         state.blocks.draw(ctx)

@@ -115,7 +115,7 @@ def _report_total(store: Store, shown: int, off: Set[str], ctx: Context) -> None
 
 def report_nothing(store: Store, ctx: Context) -> None:
     """Report why there are no markers."""
-    if len(store.table):
+    if len(store.table) or store.is_unfinished:
         return
     last = next(reversed(store.remarks.gone.values()), None)
     if last is None:

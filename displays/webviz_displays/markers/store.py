@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -24,6 +24,8 @@ MAX_BYTES = 256_000_000
 """Of the lists, texts and meshes of a display; markers beyond it are refused."""
 MAX_TEXT = 10_000
 """Characters of one marker; browsers draw each of them as two triangles."""
+AT_ONCE = 3000
+"""Markers of a message that are taken in one turn of the frame loop; each takes 4 µs."""
 SHORTEST_NS = 100_000
 """Lifetimes up to this mean for ever, as in RViz."""
 MAX_LOOKUPS = 1000
@@ -51,6 +53,9 @@ class Store:
         self.waiting: dict[Place, list[int]] = {}
         """Rows that have no pose yet."""
         self.remarks = Remarks()
+        self._steps: Iterator[None] = iter(())
+        self.is_unfinished = False
+        """True while a message is taken only in part; nothing of it is to be drawn yet."""
         self._todo: set[int] = set()
         self._tried = -1
         self._memory = Memory(MAX_BYTES)
@@ -60,23 +65,46 @@ class Store:
     # Messages
 
     def apply(self, markers: MarkerSequence, received_ns: int, is_array: bool = True) -> None:
-        """Take the markers of one message.
+        """Take the markers of one message; `advance` takes very many.
 
         Args:
             markers: in order.
             received_ns: ROS time of arrival, from which lifetimes count.
             is_array: whether they came in one array, in which none may be there twice.
         """
+        while self.is_unfinished:
+            self.advance()
+        self._steps = self._applied(markers, received_ns, is_array)
+        self.is_unfinished = True
+        if len(markers) <= AT_ONCE:
+            self.advance()
+
+    def advance(self) -> None:
+        """Take the next markers of the last message."""
+        if self.is_unfinished:
+            self.is_unfinished = next(self._steps, self) is None
+
+    def _applied(self, markers: MarkerSequence, received_ns: int, is_array: bool) -> Iterator[None]:
+        """Take the markers of one message in steps."""
         self.expire(received_ns)
         effect = effect_of(markers)
-        for key in effect.doomed(self.table.rows):
-            self._remove(key, "Deleted", received_ns)
+        doomed = effect.doomed(self.table.rows)
+        for start in range(0, len(doomed), AT_ONCE):
+            if start:
+                yield
+            for key in doomed[start : start + AT_ONCE]:
+                self._remove(key, "Deleted", received_ns)
         remarks = self.remarks
         for key in effect.doomed(remarks.refused):
             del remarks.refused[key]
-        numbers = [i for same in effect.added.values() for i in same.values()]
-        if numbers:
-            self._put(markers, np.array(numbers, np.intp), received_ns)
+        numbers = np.array([i for same in effect.added.values() for i in same.values()], np.intp)
+        ok = is_valid(markers)
+        for start in range(0, len(numbers), AT_ONCE):
+            if start:
+                yield
+            self._put(markers, numbers[start : start + AT_ONCE], ok, received_ns)
+        if max(len(doomed), len(numbers)) > AT_ONCE:
+            yield  # drawing takes a turn by itself
         if is_array:
             remarks.duplicates = effect.duplicates[:REMEMBERED]
         if effect.unknown:
@@ -95,15 +123,21 @@ class Store:
         self._next_expiry = int(table.wanted["expires_ns"].min())
         self.version += 1
 
-    def _put(self, markers: MarkerSequence, numbers: NDArray[np.intp], received_ns: int) -> None:
-        """Add markers, or new versions of them."""
+    def _put(
+        self,
+        markers: MarkerSequence,
+        numbers: NDArray[np.intp],
+        ok: NDArray[np.bool_],
+        received_ns: int,
+    ) -> None:
+        """Add markers of these numbers, or new versions of them, as far as they are `ok`."""
         table = self.table
-        ok, ids = is_valid(markers).tolist(), markers.ids.tolist()
         rows: list[int] = []
         taken: list[int] = []
-        for i in numbers.tolist():
-            key = markers.namespaces[i], ids[i]
-            if not ok[i]:
+        each = numbers.tolist(), markers.ids[numbers].tolist(), ok[numbers].tolist()
+        for i, id, is_ok in zip(*each, strict=True):
+            key = markers.namespaces[i], id
+            if not is_ok:
                 self.remarks.refuse(key, "It has a number that is not finite, or more than 1e9 m.")
                 continue
             content = markers.contents[i]

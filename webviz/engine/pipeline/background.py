@@ -23,7 +23,7 @@ class Workers:
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._pool = ThreadPoolExecutor(max_workers=4, thread_name_prefix="webviz-worker")
-        self._wake = wake
+        self.wake = wake
         self._stops: dict[Future[Any], Callable[[], None]] = {}
 
     def submit(
@@ -55,7 +55,7 @@ class Workers:
 
     def _on_done(self, future: Future[Any]) -> None:
         self._stops.pop(future, None)
-        self._wake()
+        self.wake()
 
 
 class Tasks:

@@ -39,7 +39,9 @@ class Received:
 
 
 class Folding:
-    """Decodes and merges samples in order. A large one is merged in a worker; later ones wait.
+    """Decodes and merges samples in order; those after one that a worker has wait.
+
+    Large ones are decoded in a worker, and also merged there by displays that are threaded.
 
     Args:
         workers: for large messages.
@@ -57,7 +59,7 @@ class Folding:
 
     @property
     def busy_with(self) -> Received | None:
-        """Return the message being merged in a worker."""
+        """Return the message that a worker decodes or merges."""
         return self._work and self._work[0]
 
     def put(self, received: Received) -> None:
@@ -78,6 +80,9 @@ class Folding:
                     args = copy.copy(display), received, self._state
                     self._work = received, self._workers.submit(_merged, *args)
                     return
+                if received.sample.message is None and received.size >= display.slow_bytes:
+                    self._work = received, self._workers.submit(_decoded, received)
+                    return
                 folded = guard("fold", _merged, display, received, self._state)
             else:
                 received, work = self._work
@@ -85,6 +90,8 @@ class Folding:
                     return
                 self._work = None
                 folded = guard("fold", work.result)
+                if isinstance(folded, Received):
+                    folded = guard("fold", _merged, display, folded, self._state)
             refusal = str(folded) if isinstance(folded, MessageError) else ""
             self._judged(received.sample.input, refusal)
             if folded is not None and folded is not CRASHED and not refusal:
@@ -94,10 +101,19 @@ class Folding:
 
 def _merged(display: Display, received: Received, state: Any) -> Any:
     """The state with a sample merged into it, or why its message is invalid."""
+    decoded = _decoded(received)
+    if isinstance(decoded, MessageError):
+        return decoded
+    return display.fold(decoded.sample.input, decoded.sample, state)
+
+
+def _decoded(received: Received) -> Received | MessageError:
+    """A sample with its message, or why that is invalid."""
     sample = received.sample
-    if sample.message is None:
-        try:
-            sample = replace(sample, message=decode(sample.type, received.raw.cdr))
-        except MessageError as error:
-            return error
-    return display.fold(sample.input, sample, state)
+    if sample.message is not None:
+        return received
+    try:
+        message = decode(sample.type, received.raw.cdr)
+    except MessageError as error:
+        return error
+    return replace(received, sample=replace(sample, message=message))

@@ -77,11 +77,13 @@ class Painter:
         self._draw_job: _DrawJob | None = None
         self._seen: list[tuple[History, int]] | None = None
         self._depended: object = None
+        self._is_unfinished = False
 
     def draw(self, display: Display, guard: Guard, histories: Histories, frames: Frames) -> None:
         """Call the hooks that have something new to draw, and move groups with their frames."""
         if not self._has_state(display, guard):
             return
+        self._is_unfinished = False
         depends = self._depends_on_news(display, guard, frames)
         self.is_stale |= depends or self._tasks.has_news()
         self._version += self.is_stale
@@ -102,6 +104,8 @@ class Painter:
         self._seen = held
         self.is_stale = False
         self._drawing.move(frames)
+        if self._is_unfinished:
+            self._workers.wake()
 
     def hide(self) -> None:
         """Remove everything from the scene until the next call of `draw`."""
@@ -109,6 +113,7 @@ class Painter:
         self._drawn.clear()
         self._drop_job()
         self._points.leave(self._id)
+        self._is_unfinished = False
         self.is_stale = True
 
     def forget(self) -> None:
@@ -159,7 +164,7 @@ class Painter:
 
     def is_busy(self) -> bool:
         """Return whether the result of slow work is not drawn yet."""
-        return self._draw_job is not None or self._tasks.is_busy()
+        return self._draw_job is not None or self._tasks.is_busy() or self._is_unfinished
 
     @property
     def busy_with(self) -> int:
@@ -210,6 +215,7 @@ class Painter:
             return False
         context = self._context(frames)
         before, self._depended = self._depended, guard("depends", display.depends, context)
+        self._is_unfinished |= context.is_unfinished
         return self._depended != before
 
     def _draw_samples(
@@ -303,6 +309,7 @@ class Painter:
         """
         if guard(scope, hook, *args, context) is CRASHED:
             return
+        self._is_unfinished |= context.is_unfinished
         self._drawing.replace(scope, context, samples)
         self._statuses[voice or scope] = context.statuses
         self._scales[voice or scope] = context.color_scale
