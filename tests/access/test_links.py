@@ -85,6 +85,14 @@ os.kill(os.getpid(), signal.SIGKILL)
 """
 
 
+def test_a_viewer_whose_address_cannot_be_written_says_so_and_goes_on(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    (tmp_path / "viewers").write_text("")
+    Announcement("http://robot:80", 80, tmp_path / "viewers").close()
+    assert caplog.messages == ["`webviz token` does not know this viewer: File exists."]
+
+
 def test_a_viewer_that_was_killed_has_no_links(tmp_path: Path) -> None:
     subprocess.run([sys.executable, "-c", KILLED, str(tmp_path)], timeout=120, check=False)
     assert len([*tmp_path.iterdir()]) == 1

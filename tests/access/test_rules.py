@@ -8,6 +8,7 @@ import pytest
 
 from webviz import commands
 from webviz.engine.commands import Command
+from webviz.engine.parts.selection import MAX_SELECTED
 from webviz.page.content import MAKERS
 from webviz.server.access import rules
 from webviz.server.access.roles import LIMITS, LINKS, Role
@@ -138,3 +139,14 @@ def test_every_role_has_limits_and_a_link() -> None:
     shares = [LIMITS[role].share for role in Role]
     assert shares == sorted(shares)
     assert shares[-1] == 1.0
+
+
+def test_the_longest_message_of_a_role_takes_little_of_its_rate() -> None:
+    seconds = {
+        role: limits.max_characters / limits.bytes_per_message / limits.messages_per_second
+        for role, limits in LIMITS.items()
+    }
+    assert max(seconds[Role.OPERATOR], seconds[Role.OWNER]) < 0.5
+    assert LIMITS[Role.WATCHER].max_characters > 100 * MAX_SELECTED
+    watcher = LIMITS[Role.WATCHER]
+    assert watcher.bytes_per_message * watcher.messages_per_second == pytest.approx(100e3, rel=0.1)

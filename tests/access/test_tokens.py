@@ -53,6 +53,10 @@ def test_a_cookie_is_not_the_secret_of_the_link() -> None:
     assert access(made).by_cookie(made.secret) is None
 
 
+def test_a_name_has_forty_characters_at_most() -> None:
+    assert token(40 * "a").name == 40 * "a"
+
+
 @pytest.mark.parametrize(
     "name",
     ["", " ", "a\nb", "a\x1b[2J", "a" * 41, "../a", "a'", "a ", "a\u202eb", "\ud800", "a\n", "-x"],
@@ -208,6 +212,17 @@ def test_programs_that_change_the_file_at_once_lose_nothing(path: Path) -> None:
     for thread in threads:
         thread.join()
     assert {each.name for each in token_file.read(path)} == {str(number) for number in range(8)}
+
+
+def test_a_file_is_read_again_only_if_it_has_changed_and_somebody_asks(
+    path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    token_file.modify(path, lambda _: [token()])
+    asking, free = Access(True, path), Access(False, path)
+    monkeypatch.setattr(token_file, "read", lambda path: pytest.fail("was read"))
+    asking.refresh()
+    os.utime(path, ns=(1, 1))
+    free.refresh()
 
 
 def test_a_token_that_is_revoked_in_the_file_counts_no_more(path: Path) -> None:

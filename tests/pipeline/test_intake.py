@@ -126,6 +126,40 @@ def test_silence_after_a_stream_and_a_publisher_that_left(bench: Callable[..., A
     assert text == "No publisher on /pose any more, last message 5.1 s ago. Restart it."
 
 
+def test_a_slow_stream_is_late_after_five_of_its_gaps(bench: Callable[..., Any]) -> None:
+    b = bench(Dot(name="Dot"))
+    b.transform("map", "base", T, static=True)
+
+    def wait(seconds: int) -> str:
+        b.clock += seconds
+        b.source.now += seconds * SECOND
+        return b.statuses()["Topic"][0]
+
+    for _ in range(6):
+        wait(2)
+        b.pose("/pose", "base", T)
+        b.turn()
+    assert (wait(9), wait(2)) == ("OK", "WARN")
+
+
+def test_messages_without_a_header_are_numbered_as_they_come(bench: Callable[..., Any]) -> None:
+    numbers: list[int] = []
+
+    class Note(Display):
+        """Nothing of a text."""
+
+        topic: Annotated[Topic, Input("std_msgs/msg/String")] = Topic("/note")
+
+        def draw(self, sample: Sample, ctx: Context) -> None:
+            numbers.append(sample.number)
+
+    b = bench(Note(name="Note"))
+    for _ in range(3):
+        b.publish("/note", "std_msgs/msg/String", {"data": "x"})
+        b.turn()
+    assert numbers == [0, 1, 2]
+
+
 def test_a_plan_is_no_stream_and_a_burst_shows_no_rate(bench: Callable[..., Any]) -> None:
     b = bench(Path(name="Path"), Dot(name="Dot"))
     b.transform("map", "base", T, static=True)

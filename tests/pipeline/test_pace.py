@@ -32,6 +32,18 @@ def test_steps_of_a_slow_clock_are_no_changes() -> None:
     assert len(set(paces(1.0, tick_s=0.1))) <= 2
 
 
+def test_a_rate_of_nearly_1_is_1_and_others_are_as_measured() -> None:
+    assert paces(1.016)[-1].rate == 1.0
+    assert paces(0.9)[-1].rate == pytest.approx(0.9, abs=0.02)
+
+
+def test_a_time_that_jumps_back_goes_on_at_1_until_its_rate_is_known_again() -> None:
+    meter = PaceMeter()
+    for i in range(10):
+        meter.step(round((100 + i * 0.2) * 1e9), WALL + i * 0.2)
+    assert meter.step(round(50e9), WALL + 2.0) == ClockPace(round(50e9), WALL + 2.0, 1.0)
+
+
 def test_a_time_that_stands_still_is_told_and_one_that_goes_on_too() -> None:
     meter = PaceMeter()
     for i in range(10):

@@ -53,8 +53,10 @@ def test_the_oldest_go_when_there_are_too_many() -> None:
 
 
 def test_what_is_older_than_some_seconds_is_gone() -> None:
-    now = 0.0
+    now = 1000.0
     kept = Past(lambda: now)
     kept.keep("a", shot())
-    now = KEPT_S + 0.1
+    now = 1000.0 + KEPT_S - 0.1
+    assert len(list(kept.of("a"))) == 1
+    now = 1000.0 + KEPT_S + 0.1
     assert list(kept.of("a")) == []

@@ -19,9 +19,11 @@ from webviz.api.robots import NamespacedRobot, RobotFrames, robot_of
 from webviz.api.wire import Wire
 from webviz.data.transforms import TransformBuffer
 from webviz.engine.commands import Open, Save, SetProperty, Undo
+from webviz.engine.pipeline.transform_layout import MIN_TRANSFORMS
 from webviz.files.config import Branch, Unreadable, document
 from webviz.files.opening import parse
 from webviz.shell.cli.fleet import standard_config
+from webviz.shell.testing.messages import header
 from webviz_displays.interactive_markers.completion import Completed
 from webviz_displays.interactive_markers.feedback import POSE_UPDATE, values_of
 from webviz_displays.interactive_markers.tracked import Tracked
@@ -62,6 +64,31 @@ def test_a_display_belongs_to_the_robot_whose_namespace_its_topics_have() -> Non
     one, ten = NamespacedRobot("robot1"), NamespacedRobot("robot10")
     assert robot_of(["", "/robot10/scan"], (one, ten)) is ten
     assert robot_of(["/scan", "/robot11/scan"], (one, ten)) is None
+
+
+def test_frames_of_a_robot_follow_each_message_whatever_was_named_before(
+    bench: Callable[..., Bench],
+) -> None:
+    b = bench(Pose(topic=Topic("/robot1/pose")), robots=("robot1",))
+
+    def move(names: str, x: float, second: int) -> None:
+        transforms = [
+            {
+                "header": header("map", second * S),
+                "child_frame_id": f"{names}{number}",
+                "transform": {"translation": {"x": x}, "rotation": {"w": 1.0}},
+            }
+            for number in range(MIN_TRANSFORMS)
+        ]
+        b.publish("/robot1/tf", "tf2_msgs/msg/TFMessage", {"transforms": transforms})
+        b.turn()
+
+    for second in (1, 2):  # the second one is read without being decoded
+        for names in ("arm", "leg"):
+            move(names, second, second)
+    for names in ("arm", "leg"):
+        found = b.viewer.buffer.lookup("map", f"robot1/{names}3", 2 * S)
+        assert found.translation[0] == 2.0
 
 
 def test_two_robots_with_equal_frames_are_drawn_where_each_is(

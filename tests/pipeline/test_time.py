@@ -218,6 +218,15 @@ def test_a_bag_that_loops_without_a_clock_is_noticed_and_its_new_loop_is_shown(
     assert "Transforms" not in statuses(b)
 
 
+def test_many_old_transforms_at_once_are_no_new_loop(bench: Callable[..., Any]) -> None:
+    b = bench(Dot(name="Dot"))
+    loop(b, 10, 40, "base")
+    for half in range(20, 60):
+        b.transform("map", "base", half * SECOND // 2)
+        b.turn()
+    assert b.viewer.buffer.tree.caches["base"].newest_stamp == 39.5 * SECOND
+
+
 def test_one_frame_that_goes_back_while_others_go_on_resets_nothing(
     bench: Callable[..., Any],
 ) -> None:

@@ -6,7 +6,7 @@ import random
 from typing import Any
 
 from webviz.data.messages import TFMessage, decode, encode
-from webviz.engine.pipeline.transform_layout import MIN_TRANSFORMS, SAME_SIZE, Layouts
+from webviz.engine.pipeline.transform_layout import MAX_SIZES, MIN_TRANSFORMS, SAME_SIZE, Layouts
 from webviz.shell.testing.messages import header
 
 TYPE = "tf2_msgs/msg/TFMessage"
@@ -83,6 +83,19 @@ def test_robots_of_a_fleet_are_all_known_up_to_a_bound() -> None:
     for cdr in fleet:
         layouts.learn(cdr, decode(TYPE, cdr))
     assert [layouts.read(cdr) is not None for cdr in fleet] == [True] * SAME_SIZE + [False]
+
+
+def test_messages_of_many_sizes_are_known_and_all_forgotten_if_there_are_too_many() -> None:
+    sizes = [
+        message([("map", f"{4 * i * 'x'}{child}") for _, child in NAMES])
+        for i in range(MAX_SIZES + 1)
+    ]
+    layouts = Layouts()
+    for cdr in sizes[:MAX_SIZES]:
+        layouts.learn(cdr, decode(TYPE, cdr))
+    assert all(layouts.read(cdr) for cdr in sizes[:MAX_SIZES])
+    layouts.learn(sizes[MAX_SIZES], decode(TYPE, sizes[MAX_SIZES]))
+    assert [layouts.read(cdr) is not None for cdr in sizes] == [False] * MAX_SIZES + [True]
 
 
 def test_what_is_quickly_decoded_is_not_learnt() -> None:
