@@ -9,6 +9,13 @@ import importlib
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from webviz.api.capabilities import (
+        Comparable,
+        Draggable,
+        ProtocolClient,
+        Selective,
+        Sweep,
+    )
     from webviz.api.check import Check
     from webviz.api.context import ColorScale, Context, Group, Placement
     from webviz.api.declared import Color, Prop, Topic
@@ -53,10 +60,12 @@ __all__ = [
     "Check",
     "Color",
     "ColorScale",
+    "Comparable",
     "Context",
     "Details",
     "Display",
     "DisplaySeen",
+    "Draggable",
     "Error",
     "Finding",
     "FramePoses",
@@ -85,9 +94,11 @@ __all__ = [
     "Points",
     "Pose",
     "Prop",
+    "ProtocolClient",
     "Remedy",
     "Rgb",
     "Sample",
+    "Selective",
     "Send",
     "Severity",
     "Shape",
@@ -95,6 +106,7 @@ __all__ = [
     "State",
     "Status",
     "Stroke",
+    "Sweep",
     "Symptom",
     "Sync",
     "Tool",
@@ -108,6 +120,13 @@ __all__ = [
 
 _HOMES = {
     "webviz.shell.app.viewer": ("Viewer",),
+    "webviz.api.capabilities": (
+        "Comparable",
+        "Draggable",
+        "ProtocolClient",
+        "Selective",
+        "Sweep",
+    ),
     "webviz.api.check": ("Check",),
     "webviz.api.context": ("ColorScale", "Context", "Group", "Placement"),
     "webviz.api.declared": ("Color", "Prop", "Topic"),

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from webviz import (
     Color,
+    Comparable,
     Context,
     Details,
     Display,
@@ -37,7 +38,7 @@ MAX_POSES = 100_000
 """Poses drawn per path; they take up to 50 ms of the frame loop."""
 
 
-class Path(Display):
+class Path(Display, Comparable):
     """The line a planner wants a robot to follow, and its poses."""
 
     rviz = "rviz_default_plugins/Path"

@@ -11,7 +11,21 @@ from typing import Annotated, Any
 
 import pytest
 
-from webviz import Context, Display, Hit, Input, Keep, Lookback, Sample, Topic
+from webviz import (
+    Comparable,
+    Context,
+    Display,
+    Draggable,
+    Hit,
+    Input,
+    Keep,
+    Lookback,
+    Sample,
+    Selective,
+    Sweep,
+    Topic,
+)
+from webviz.api.capabilities import CAPABILITIES
 from webviz.api.handles import Control, Grip, Handle
 from webviz.api.status import Level
 from webviz.api.wire import Wire
@@ -41,7 +55,7 @@ class Sound(Display):
         ctx.points("dot", [[self.turns, 0, 0]], (0, 0, 0), 0.1)
 
 
-class Faulty(Display):
+class Faulty(Display, Comparable, Draggable, Selective, Sweep):
     """Raises in one of its hooks."""
 
     topic: Annotated[Topic, Input("geometry_msgs/msg/PoseStamped")] = Topic("/pose")
@@ -120,7 +134,12 @@ class FaultyFold(Faulty):
         return state
 
 
-HOOKS = sorted({name for name, hook in vars(Display).items() if inspect.isfunction(hook)})
+HOOKS = sorted(
+    name
+    for base in (Display, *CAPABILITIES)
+    for name, hook in vars(base).items()
+    if inspect.isfunction(hook)
+)
 
 
 def feed(b: Any) -> None:

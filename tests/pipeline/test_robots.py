@@ -10,7 +10,7 @@ import pytest
 from bench import Bench
 from ruamel.yaml import YAML
 
-from webviz import Display
+from webviz import Display, ProtocolClient
 from webviz import Pose as At
 from webviz.api.context import Context
 from webviz.api.declared import Topic
@@ -164,7 +164,7 @@ def test_without_robots_a_placeholder_is_an_error_of_its_display() -> None:
     assert isinstance(item, Unreadable)
 
 
-class Follower(Display):
+class Follower(Display, ProtocolClient):
     """Listens on a topic that no input declares, as displays with a protocol of their own."""
 
     def talk(self, wire: Wire, ctx: Context) -> None:

@@ -11,7 +11,16 @@ from typing import Annotated, Any
 
 import pytest
 
-from webviz import Context, Display, Input, Keep, Prop, Sample, Topic
+from webviz import (
+    Context,
+    Display,
+    Input,
+    Keep,
+    Prop,
+    Sample,
+    Selective,
+    Topic,
+)
 from webviz.engine.commands import Reset, SetFixedFrame, SetProperty
 
 SECOND = 1_000_000_000
@@ -37,7 +46,7 @@ class Dot(Display):
         ctx.ok("Dot", f"at {x}")
 
 
-class Trail(Display):
+class Trail(Display, Selective):
     """A line through all poses that are a metre apart."""
 
     topic: Annotated[Topic, Input("geometry_msgs/msg/PoseStamped")] = Topic("/pose")

@@ -17,15 +17,14 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, TypeVar
 
 import msgspec
 
+from webviz.api.capabilities import Selective, capability
 from webviz.api.declared import Declared, Topic
-from webviz.api.evidence import Evidence
-from webviz.api.handles import Grip, Handle
 from webviz.api.lookback import Lookback
 from webviz.api.picking import Details, Hit, noun_of
 from webviz.api.ports import Input, Namespace
@@ -34,7 +33,6 @@ from webviz.api.properties import properties_of
 if TYPE_CHECKING:
     from webviz.api.context import Context
     from webviz.api.sample import Sample
-    from webviz.api.wire import Wire
 
 
 @dataclass(frozen=True, init=False)
@@ -83,7 +81,10 @@ class Keep:
 
 
 class Display(Declared, kw_only=True):
-    """Base of all displays. A subclass declares properties and overrides the hooks it needs."""
+    """Base of all displays. A subclass declares properties and overrides the hooks it needs.
+
+    What few displays need are capabilities, base classes of their own: `webviz.api.capabilities`.
+    """
 
     kind = "display"
 
@@ -119,11 +120,6 @@ class Display(Declared, kw_only=True):
         """
         return None
 
-    @property
-    def uses(self) -> tuple[str, ...]:
-        """The topics it publishes on: they may be written unless the config says otherwise."""
-        return ()
-
     def history(self) -> Keep:
         """Return the amount of history to hold; all held samples stay drawn.
 
@@ -135,9 +131,9 @@ class Display(Declared, kw_only=True):
         """Return which past messages of the input `name` make up what is shown.
 
         A seek in a recording reads these instead of all from the beginning. By default those that
-        `history` holds; all if `fold` or `accept` is overridden.
+        `history` holds; all if it has `fold` or `accept`.
         """
-        if overrides(self, "fold") or overrides(self, "accept"):
+        if overrides(self, "fold") or capability(self, Selective):
             return Lookback()
         keep = self.history()
         return Lookback(keep.count, keep.seconds)
@@ -154,20 +150,6 @@ class Display(Declared, kw_only=True):
 
         A display that follows the frame itself returns False; its samples have the current pose
         of the frame, or the identity without one.
-        """
-        return True
-
-    def duration_ns(self, message: Any) -> int:
-        """Return the duration of a message after its stamp; it waits for transforms until then.
-
-        Messages of a display that defines this are decoded as they arrive, all others when drawn.
-        """
-        return 0
-
-    def accept(self, new: Sample, kept: Sequence[Sample]) -> bool | str:
-        """Return whether to hold a new sample, given those held of its input (oldest first).
-
-        A text reports why the message cannot be shown.
         """
         return True
 
@@ -202,32 +184,6 @@ class Display(Declared, kw_only=True):
 
     def tick(self, ctx: Context) -> None:
         """Draw what depends on transforms or time; called on every turn of the frame loop."""
-
-    def talk(self, wire: Wire, ctx: Context) -> None:
-        """Follow a protocol of its own, such as that of a server that has to be asked first.
-
-        Called on every turn of the frame loop while a browser is connected, before the hooks that
-        draw; nodes and statuses added to `ctx` are ignored.
-        """
-
-    def handles(self, ctx: Context) -> Mapping[str, Handle]:
-        """Return the handles browsers can drag, by key; the same mapping until something changes.
-
-        Called on every turn of the frame loop, after `talk`.
-        """
-        return {}
-
-    def grip(self, grip: Grip, wire: Wire, ctx: Context) -> None:
-        """Take up what a browser does with a handle. One at a time holds it."""
-
-    def evidence(self, samples: Sequence[Sample], ctx: Context) -> Evidence | None:
-        """Return the held samples, oldest first, as inputs of the consistency check.
-
-        The viewer compares it with that of other displays and reports contradictions. Called once
-        a second while something of the display is drawn; nodes and statuses added to `ctx` are
-        ignored.
-        """
-        return None
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
         """Return the details of a selected item; None if it does not exist any more.

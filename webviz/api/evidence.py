@@ -1,7 +1,7 @@
 """Inputs of the consistency check between displays.
 
 A laser scan that lies beside the walls of the map, or a path that leads through what the scan sees,
-is a fault that no display finds alone. A display returns one of these from `Display.evidence`.
+is a fault that no display finds alone. A display returns one of these from `Comparable.evidence`.
 """
 
 from __future__ import annotations

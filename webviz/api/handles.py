@@ -1,6 +1,6 @@
 """Handles that browsers drag: controls, and the events of people.
 
-A display that has some overrides `Display.handles` and `Display.grip`. Pages follow a drag at their
+A display that has some is `Draggable` (`webviz.api.capabilities`). Pages follow a drag at their
 own frame rate, with the rules of `Control`, and report it as grips.
 """
 

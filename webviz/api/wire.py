@@ -30,7 +30,7 @@ class Heard:
 
 
 class Wire(Protocol):
-    """Passed to `Display.talk` and `Display.grip`; names are resolved like those of topics.
+    """Passed to `ProtocolClient.talk` and `Draggable.grip`; it resolves names like those of topics.
 
     Topics that one call of `talk` does not name any more are unsubscribed and not published.
     """

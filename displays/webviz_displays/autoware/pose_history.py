@@ -9,7 +9,20 @@ from typing import Annotated
 import msgspec
 import numpy as np
 
-from webviz import Color, Context, Details, Display, Hit, Input, Keep, Pose, Prop, Sample, Topic
+from webviz import (
+    Color,
+    Context,
+    Details,
+    Display,
+    Hit,
+    Input,
+    Keep,
+    Pose,
+    Prop,
+    Sample,
+    Selective,
+    Topic,
+)
 from webviz.data.words import counted
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import LONGEST, origin_near
@@ -39,7 +52,7 @@ class _State:
     trail: GrowingTrail = field(default_factory=lambda: GrowingTrail(lambda message: message.pose))
 
 
-class PoseHistory(Display):
+class PoseHistory(Display, Selective):
     """The way along the newest poses of a topic, such as those of a localization."""
 
     rviz = "rviz_plugins::PoseHistory"

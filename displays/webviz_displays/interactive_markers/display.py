@@ -7,7 +7,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Annotated
 
-from webviz import Context, Details, Display, Hit, Prop, Sample, Status
+from webviz import (
+    Context,
+    Details,
+    Display,
+    Draggable,
+    Hit,
+    Prop,
+    Sample,
+    Status,
+)
 from webviz.api.handles import Grip, Handle
 from webviz.api.ports import Namespace
 from webviz.api.wire import Wire
@@ -51,7 +60,7 @@ class _State:
     """The last statuses, and when they were made of what."""
 
 
-class InteractiveMarkers(Display):
+class InteractiveMarkers(Display, Draggable):
     """Objects of a server that people move, turn and click, such as goals for a robot arm."""
 
     rviz = "rviz_default_plugins/InteractiveMarkers"

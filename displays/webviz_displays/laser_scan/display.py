@@ -9,7 +9,19 @@ from typing import Annotated, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Context, Details, Hit, Input, Pose, Prop, Rgb, Sample, Topic
+from webviz import (
+    Comparable,
+    Context,
+    Details,
+    Hit,
+    Input,
+    Pose,
+    Prop,
+    Rgb,
+    Sample,
+    Sweep,
+    Topic,
+)
 from webviz.api.evidence import Hits
 from webviz.data import messages
 from webviz.data.rotations import conjugate
@@ -31,7 +43,7 @@ _ENDLESS_SCAN_S = 3600.0
 """A longer duration is not a valid scan, and its stamps may overflow."""
 
 
-class LaserScan(PointsDisplay):
+class LaserScan(PointsDisplay, Comparable, Sweep):
     """Points where a planar laser scanner hit something."""
 
     rviz = "rviz_default_plugins/LaserScan"

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz import (
+    Comparable,
     Context,
     Details,
     Display,
@@ -252,7 +253,7 @@ class MapDisplay(Display):
             ctx.ok("Update", f"{counted(folded.updates, 'update')} since the last whole map.")
 
 
-class Map(MapDisplay):
+class Map(MapDisplay, Comparable):
     """An occupancy grid as a flat picture: free, occupied and unknown cells.
 
     A map that cannot be drawn is an error, and the previous map stays: a robot that drives by it

@@ -17,6 +17,7 @@ from webviz import (
     Keep,
     Pose,
     Prop,
+    ProtocolClient,
     Remedy,
     Rgb,
     Sample,
@@ -67,7 +68,7 @@ class _State:
     refused: str = ""
 
 
-class MapCloud(PointsDisplay):
+class MapCloud(PointsDisplay, ProtocolClient):
     """The clouds that RTAB-Map has collected, at the places that its graph gives them."""
 
     rviz = "rtabmap_rviz_plugins/MapCloud"

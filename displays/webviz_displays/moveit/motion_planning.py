@@ -8,7 +8,20 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from webviz import Context, Details, Display, Hit, Input, Lookback, Pose, Prop, Rgb, Sample, Topic
+from webviz import (
+    Context,
+    Details,
+    Display,
+    Hit,
+    Input,
+    Lookback,
+    Pose,
+    Prop,
+    ProtocolClient,
+    Rgb,
+    Sample,
+    Topic,
+)
 from webviz.api.wire import Wire
 from webviz_displays.moveit.asking import Asking
 from webviz_displays.moveit.bodies import SLOW_BYTES
@@ -65,7 +78,7 @@ class MotionPlanningDrawing:
         self.view = PathView(self.robots)
 
 
-class MotionPlanning(Display):
+class MotionPlanning(Display, ProtocolClient):
     """The scene of MoveIt, the newest plan, and where it begins and ends."""
 
     rviz = "moveit_rviz_plugin/MotionPlanning"

@@ -6,7 +6,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Annotated
 
-from webviz import Context, Details, Display, Hit, Lookback, Prop, Sample, Topic
+from webviz import (
+    Context,
+    Details,
+    Display,
+    Hit,
+    Lookback,
+    Prop,
+    ProtocolClient,
+    Sample,
+    Topic,
+)
 from webviz.api.wire import Wire
 from webviz.data.words import joined
 from webviz_displays.moveit.asking import Asking
@@ -67,7 +77,7 @@ class PlanningSceneDrawing:
         self.world = DrawnWorld(self.robots)
 
 
-class PlanningScene(Display):
+class PlanningScene(Display, ProtocolClient):
     """MoveIt's planning scene: objects, the robot, and the objects attached to it."""
 
     rviz = "moveit_rviz_plugin/PlanningScene"

@@ -7,7 +7,15 @@ from dataclasses import dataclass, field
 
 import msgspec
 
-from webviz import Context, Details, Display, Hit, Sample, Topic
+from webviz import (
+    Context,
+    Details,
+    Display,
+    Hit,
+    ProtocolClient,
+    Sample,
+    Topic,
+)
 from webviz.api.wire import Wire
 from webviz_displays.moveit.path_view import PREFIX, PathView, playback_of
 from webviz_displays.moveit.properties import (
@@ -45,7 +53,7 @@ class TrajectoryDrawing:
         self.view = PathView(self.robots)
 
 
-class Trajectory(Display):
+class Trajectory(Display, ProtocolClient):
     """A robot on its planned path."""
 
     rviz = "moveit_rviz_plugin/Trajectory"

@@ -8,7 +8,20 @@ from typing import Annotated
 
 import numpy as np
 
-from webviz import Context, Details, Display, Hit, Input, Keep, Lookback, Pose, Prop, Sample, Topic
+from webviz import (
+    Context,
+    Details,
+    Display,
+    Hit,
+    Input,
+    Keep,
+    Lookback,
+    Pose,
+    Prop,
+    Sample,
+    Selective,
+    Topic,
+)
 from webviz.data import messages
 from webviz.data.words import counted
 from webviz_displays.odometry.covariance_marks import MAX_COVARIANCES, draw_covariances
@@ -23,7 +36,7 @@ LOOKBACK_S = 30.0
 """After a seek in a recording the trail begins here: which poses are kept depends on all before."""
 
 
-class Odometry(Display):
+class Odometry(Display, Selective):
     """Where a robot estimates that it was and is, with the uncertainty."""
 
     rviz = "rviz_default_plugins/Odometry"

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
+from webviz.api.capabilities import Draggable, ProtocolClient, capability
 from webviz.api.context import Context
-from webviz.api.display import Display, overrides
+from webviz.api.display import Display
 from webviz.api.frames import Frames
 from webviz.api.handles import Grip, Handle
 from webviz.engine.commands.guard import Guard
@@ -27,10 +28,11 @@ class Gripping:
 
     Args:
         id: of the display.
+        display: that has the hooks, or not.
         services: shared by all.
     """
 
-    def __init__(self, id: str, services: Services) -> None:
+    def __init__(self, id: str, display: Display, services: Services) -> None:
         self.handles: Mapping[str, Handle] = {}
         """Handles browsers can drag, by key; another object only after a change."""
         self._id = id
@@ -40,6 +42,12 @@ class Gripping:
         """Handles, and their frames."""
         self._placed: set[str] = set()
         self._unseen = 0
+        self.replace(display)
+
+    def replace(self, display: Display) -> None:
+        """Continue with another instance."""
+        self._client = capability(display, ProtocolClient)
+        self._draggable = capability(display, Draggable)
 
     def subscriptions(self) -> Mapping[str, Subscription]:
         """Return the subscriptions of the display."""
@@ -71,20 +79,20 @@ class Gripping:
         else:
             self._wire.take(batches, offers)
 
-    def talk(self, display: Display, guard: Guard, ctx: Context) -> None:
+    def talk(self, guard: Guard, ctx: Context) -> None:
         """Let the display send and receive, and take up its handles."""
-        if self._wire is not None and overrides(display, "talk"):
+        if self._wire is not None and self._client is not None:
             self._unseen = 0
-            guard("talk", display.talk, self._wire, ctx)
+            guard("talk", self._client.talk, self._wire, ctx)
             self._wire.forget_unnamed()
-        if overrides(display, "handles"):
-            self.handles = guard.attempt("handles", {}, display.handles, ctx)
+        if self._draggable is not None:
+            self.handles = guard.attempt("handles", {}, self._draggable.handles, ctx)
             self._place(ctx.frames)
 
-    def grip(self, grip: Grip, display: Display, guard: Guard, ctx: Context) -> None:
+    def grip(self, grip: Grip, guard: Guard, ctx: Context) -> None:
         """Pass on what a browser does with a handle."""
-        if self._wire is not None:
-            guard("grip", display.grip, grip, self._wire, ctx)
+        if self._wire is not None and self._draggable is not None:
+            guard("grip", self._draggable.grip, grip, self._wire, ctx)
 
     def hide(self) -> None:
         """Have no handles, and hear nothing, until the next talk."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 
+from webviz.api.capabilities import Selective, capability
 from webviz.api.display import Display, Keep, overrides
 from webviz.api.frames import Frames
 from webviz.api.nodes import Pose
@@ -35,6 +36,7 @@ class Holder:
         self.inputs = Inputs(display, guard, services.resolve)
         self._id = id
         self._display = display
+        self._selective = capability(display, Selective)
         self._guard = guard
         self._services = services
         self.histories = self._no_histories()
@@ -46,6 +48,7 @@ class Holder:
     def replace(self, display: Display, guard: Guard) -> None:
         """Continue with another instance that has the same inputs."""
         self._display = display
+        self._selective = capability(display, Selective)
         self._guard = guard
         self.inputs.replace(display, guard)
 
@@ -65,7 +68,7 @@ class Holder:
         if not arrived and not self._folding.busy_with:
             return
         display, keep = self._display, self._keep()
-        every_one = overrides(display, "fold") or overrides(display, "accept") or keep != Keep()
+        every_one = overrides(display, "fold") or self._selective or keep != Keep()
         for found in arrived:
             name = next(iter(found))
             self._ready_s[name] = clock
@@ -172,7 +175,9 @@ class Holder:
             self._folding.put(received)
             return
         history = self.histories[name]
-        verdict = self._guard("accept", self._display.accept, sample, history.samples())
+        verdict: object = True
+        if self._selective:
+            verdict = self._guard("accept", self._selective.accept, sample, history.samples())
         if isinstance(verdict, str):
             self.inputs.intakes[name].refuse(verdict)
         elif verdict is True:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
+from webviz.api.capabilities import Sweep, capability
 from webviz.api.display import Display, Sync, inputs_of, overrides
 from webviz.api.frames import Frames
 from webviz.api.lookback import Lookback
@@ -40,6 +41,7 @@ class Inputs:
     def replace(self, display: Display, guard: Guard) -> None:
         """Continue with another instance that has the same inputs."""
         self._display = display
+        self._sweep = capability(display, Sweep)
         self._guard = guard
 
     def subscriptions(self) -> dict[str, Subscription]:
@@ -86,7 +88,7 @@ class Inputs:
         """Take the messages of this turn; those that can be drawn now, in order of arrival."""
         active = self.active()
         arrived: list[tuple[str, Arrival]] = []
-        duration_ns = self._duration_ns if overrides(self._display, "duration_ns") else None
+        duration_ns = self._duration_ns if self._sweep else None
         for name, intake in active.items():
             raws, offer = batches.get(intake.name, ()), offers.get(intake.name)
             arrivals = intake.take(raws, frames, offer, clock, self.waits(name), duration_ns)
@@ -140,7 +142,7 @@ class Inputs:
         return replace(lookback, count=count, since=since)
 
     def _duration_ns(self, message: Any) -> int:
-        duration_ns = self._guard("duration", self._display.duration_ns, message)
+        duration_ns = self._sweep and self._guard("duration", self._sweep.duration_ns, message)
         return duration_ns if isinstance(duration_ns, int) else 0
 
     def _is_replaced(self, intake: Intake, offer: Offer | None) -> bool:

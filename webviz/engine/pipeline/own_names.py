@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from webviz.api.capabilities import ProtocolClient, capability
 from webviz.api.declared import make
 from webviz.api.display import Display
 from webviz.api.panel import Panel
@@ -42,7 +43,8 @@ def own_names(config: Config, guard: Guard) -> tuple[str, ...]:
 
 
 def _names_of(plugin: Plugin) -> set[str]:
-    names = set(plugin.uses)
+    user = capability(plugin, ProtocolClient) if isinstance(plugin, Display) else plugin
+    names = set(user.uses if user else ())
     if isinstance(plugin, Tool):
         names |= {topic.name for _, _, topic in outputs(plugin)}
         if (vehicle := plugin.vehicle) is not None:

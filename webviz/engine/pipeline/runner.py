@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
+from webviz.api.capabilities import Comparable, capability
 from webviz.api.context import ColorScale
 from webviz.api.declared import set_property
 from webviz.api.display import Display, inputs, overrides
@@ -48,7 +49,8 @@ class Runner:
         """Statuses from elsewhere, shown with those of the display."""
         self._services = services
         self._painter = Painter(id, services.scene, services.workers, services.points)
-        self._gripping = Gripping(id, services)
+        self._gripping = Gripping(id, display, services)
+        self._comparable = capability(display, Comparable)
         self._guard = self._new_guard()
         self._holder = self._new_holder()
         self._robot: NamespacedRobot | None = None
@@ -80,6 +82,8 @@ class Runner:
         """
         old, self.display = self.display, display
         self._guard = self._new_guard()
+        self._gripping.replace(display)
+        self._comparable = capability(display, Comparable)
         if _sample_source(old) != _sample_source(display):
             self.reset()
             self._holder = self._new_holder()
@@ -166,13 +170,13 @@ class Runner:
 
     def evidence(self, frames: Frames) -> Evidence | None:
         """Return the inputs of the consistency check; None if nothing of it can be seen."""
-        if not overrides(self.display, "evidence") or self._painter.is_empty():
+        if self._comparable is None or self._painter.is_empty():
             return None
         context = self._painter.context(self.display, self._guard, self._own(frames))
         if context is None:
             return None
         samples = held_samples(self._holder.histories)
-        return self._guard.attempt("evidence", None, self.display.evidence, samples, context)
+        return self._guard.attempt("evidence", None, self._comparable.evidence, samples, context)
 
     def observed(self) -> tuple[InputSeen, ...]:
         """Its inputs, as the checks of the doctor see them."""
@@ -187,7 +191,7 @@ class Runner:
     def grip(self, grip: Grip, frames: Frames) -> None:
         """Let the display take up what a browser does with a handle."""
         if context := self._painter.context(self.display, self._guard, self._own(frames)):
-            self._gripping.grip(grip, self.display, self._guard, context)
+            self._gripping.grip(grip, self._guard, context)
 
     # Selection
 
@@ -255,7 +259,7 @@ class Runner:
     def _draw(self, frames: Frames) -> None:
         self._painter.is_stale |= self._holder.prepare(frames)
         if context := self._painter.context(self.display, self._guard, frames):
-            self._gripping.talk(self.display, self._guard, context)
+            self._gripping.talk(self._guard, context)
         self._painter.draw(self.display, self._guard, self._holder.histories, frames)
         if self._services.tracer.wants(self.id) and not self._painter.busy_with:
             self._services.tracer.drawn(self.id)
