@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { following, limited, zoomed } from "../../webviz/page/web/timeline/range.js";
+import { agoText, atMoment, beforeText, isNow } from "../../webviz/page/web/timeline/moment.js";
 import { parseTime } from "../../webviz/page/web/timeline/typed_time.js";
 
 test("a window stays within the recording and keeps its length", () => {
@@ -38,4 +39,27 @@ test("typed times are seconds, minutes and hours, or a date", () => {
   for (const wrong of ["", "soon", "1:2:3:4", "-3", "2023-99-99 00:00", "1e5"]) {
     assert.equal(parseTime(wrong, 0), null, wrong);
   }
+});
+
+test("the past of live topics goes on with time", () => {
+  const live = new Map(Object.entries({ start: 1000, ahead: 2, is_live: true, held: 60 }));
+  const now = atMoment(live, 1102);
+  assert.deepEqual([now.get("first"), now.get("duration"), now.get("position"), now.get("ago")], [40, 100, 100, 0]);
+  const past = new Map(Object.entries({ start: 1000, ahead: 2, is_live: false, first: 40, position: 90 }));
+  assert.equal(atMoment(past, 1102).get("ago"), 10);
+  assert.equal(atMoment(past, 1105.5).get("ago"), 13.5);
+  assert.equal(isNow(atMoment(past, 1102), 99.8, 60), true);
+  assert.equal(isNow(atMoment(past, 1102), 99, 60), false);
+});
+
+test("a bag is nowhere near now", () => {
+  const bag = atMoment(new Map(Object.entries({ start: 0, is_live: null, duration: 5, position: 5 })), 1e9);
+  assert.deepEqual([bag.get("first"), bag.get("ago"), isNow(bag, 5, 5)], [0, 0, false]);
+});
+
+test("times before now are seconds", () => {
+  assert.equal(agoText(12.44), "12.4 s ago");
+  assert.equal(agoText(123.4), "123 s ago");
+  assert.equal(beforeText(-5, 0), "−5 s");
+  assert.equal(beforeText(0), "now");
 });

@@ -12,8 +12,10 @@ import pytest
 from bags import START_NS, Bag, ns
 from bench import Bench, benches
 from drives import CONFIG, recorded
+from remembering_graph import RememberingGraph
 
 from webviz.api.nodes import Lines
+from webviz.api.vehicle import Velocity
 from webviz.data.messages import encode
 from webviz.engine.commands import (
     Command,
@@ -27,21 +29,32 @@ from webviz.engine.commands import (
     SetRate,
     StepMessage,
 )
+from webviz.engine.driving import HelmAnswer
 from webviz.engine.loop import FrameLoop
-from webviz.engine.parts.playback import LIVE
+from webviz.engine.parts.playback import LIVE, REWOUND, STOPPED
 from webviz.engine.state import State
 from webviz.files.config.model import MemorySettings
 from webviz.files.opening import parse
 from webviz.shell.testing import BagViewer
 from webviz.shell.testing.recording import RecordingScene
 from webviz.shell.testing.source import HandFedSource
-from webviz.sources import Offer, Publisher, Raw
+from webviz.sources import Offer, Outlet, Publisher, Raw
 from webviz.sources.bag.files import BagFiles
+from webviz.sources.memory_past import WallClock
 from webviz.sources.past_state import PlaybackState
 from webviz.sources.rewindable import MEMORY_OFF
+from webviz.tools.teleop import Teleop
 from webviz_displays.path import Path as PathDisplay
 
 PATH = "nav_msgs/msg/Path"
+LASTING = """\
+fixed_frame: map
+displays:
+- {type: Odometry, keep: 7}
+- {type: Map}
+- {type: Path, buffer_length: 3}
+"""
+"""Displays that do not depend on how long something is ago."""
 PUBLISHER = Publisher("/planner", PATH, "reliable", "volatile")
 TURNS = 10_000
 AGO_S = 9.0
@@ -86,9 +99,8 @@ class Drive:
 
     def seek(self, at_s: float) -> None:
         """Show a time of the drive."""
-        shown = self.playback
-        ago_s = AGO_S - at_s + (time.monotonic() - AGO_S - self.began_s)
-        self.do(Seek((shown.end_ns - shown.start_ns) / 1e9 - ago_s))
+        began_ns = WallClock().stamp_ns(self.began_s)
+        self.do(Seek((began_ns - self.playback.start_ns) / 1e9 + at_s))
 
     @property
     def playback(self) -> PlaybackState:
@@ -142,7 +154,7 @@ def test_a_rewound_viewer_shows_what_the_saved_memory_does(
 
 
 def test_back_at_now_everything_is_shown_that_came_meanwhile(drive: Callable[..., Drive]) -> None:
-    live = drive(recorded(4))
+    live = drive(recorded(4), LASTING)
     live.do(Refresh())
     before = live.shown()
     live.seek(1.08)
@@ -153,7 +165,7 @@ def test_back_at_now_everything_is_shown_that_came_meanwhile(drive: Callable[...
 
 
 def test_playing_from_the_past_becomes_live(drive: Callable[..., Drive]) -> None:
-    live = drive(recorded(5))
+    live = drive(recorded(5), LASTING)
     live.do(Refresh())
     before = live.shown()
     live.seek(4.08)
@@ -276,3 +288,37 @@ def test_time_that_went_back_is_shown_as_it_was(bench: Bench) -> None:
     assert bench.do(Refresh()).clock.ros_ns == ns(96)
     rewind(bench, 0.4)
     assert bench.do(Refresh()).clock.ros_ns == ns(2.5)
+
+
+def test_nothing_is_sent_while_the_past_is_shown(make: Callable[..., Bench]) -> None:
+    graph = RememberingGraph()
+    bench = make(graph=graph)
+    gate, goal = bench.viewer._core.gate, Outlet("/goal", PATH)
+    gate.publish(goal, encode(PATH, {})).result()
+    advertised = graph.advertised
+    rewind(bench, 1.5)
+    assert str(gate.publish(goal, encode(PATH, {})).exception()) == REWOUND
+    assert gate.refusal("/any_service") == REWOUND
+    assert graph.advertised == advertised, "publishers stay, so that none is missed afterwards"
+    bench.do(ReturnToLive())
+    gate.publish(goal, encode(PATH, {})).result()
+
+
+def test_a_driven_vehicle_stops_first(make: Callable[..., Bench]) -> None:
+    graph = RememberingGraph()
+    bench = make(graph=graph)
+    helms, outlet = bench.viewer.helms, Outlet("/cmd_vel", "geometry_msgs/msg/Twist")
+    helms.equip({"tool": (Teleop(acceleration=1000.0).vehicle, outlet)})
+
+    def drive() -> HelmAnswer:
+        return helms.steer("tool", 1, Velocity(1.0, 0.0, 0.0), time.monotonic())
+
+    drive()
+    while not any(twist.linear.x for _, twist in graph.published):
+        assert not drive().problem
+        time.sleep(0.01)
+    answer = bench.ask(Seek(-1.5))
+    assert answer == STOPPED
+    while graph.published[-1][1].linear.x:
+        time.sleep(0.01)
+    assert not helms.halt(), "it stands still"

@@ -100,17 +100,6 @@ class MemoryPast:
         passed_ns = 0 if is_simulated else at_ns - self._stamp(entry)
         return entry[1].received_ns + passed_ns
 
-    def histogram(self, start_ns: int, end_ns: int, count: int) -> dict[str, list[int]]:
-        """Count the messages of each topic in equal parts of a span."""
-        length_ns = max(1, -(-(end_ns - start_ns + 1) // count))
-        found: dict[str, list[int]] = {}
-        for topic, raws in self._by_topic.items():
-            counts = found[topic] = [0] * count
-            for each in raws:
-                part = (self._stamp(each) - start_ns) // length_ns
-                counts[min(max(part, 0), count - 1)] += 1
-        return found
-
     @functools.cached_property
     def _by_topic(self) -> dict[str, list[tuple[int, Raw]]]:
         """The messages of each topic with their numbers."""

@@ -16,27 +16,29 @@ class PlaybackState:
         names: of the recordings.
         start_ns, end_ns: times of recording of the first and the last message, since 1970; of
             live topics, when the viewer began, and now.
-        first_s: of the first message that there is, in seconds from the start.
-        is_live: whether topics are live, and shown as they arrive; None for a bag.
         position_s: what is shown, in seconds from the start.
         rate: seconds of the recording per second; infinity is as fast as possible.
         is_playing: whether the position moves on.
         is_seeking: whether the position is being approached; the scene still shows another one.
         loop: whether the span starts over at its end.
         selected: the first and the last second to play, None for all.
+        first_s: of the first message that there is, in seconds from the start.
+        is_live: whether topics are live, and shown as they arrive; None for a bag.
+        gap: the first and the last second of what was forgotten while the past was shown.
     """
 
     names: tuple[str, ...]
     start_ns: int
     end_ns: int
-    first_s: float
-    is_live: bool | None
     position_s: float
     rate: float
     is_playing: bool
     is_seeking: bool
     loop: bool
     selected: tuple[float, float] | None
+    first_s: float = 0.0
+    is_live: bool | None = None
+    gap: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True)

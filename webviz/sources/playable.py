@@ -42,6 +42,11 @@ class Playable(Protocol):
         ...
 
     @property
+    def gap_ns(self) -> tuple[int, int] | None:
+        """Return the span in between that was forgotten while the past was shown, if any."""
+        ...
+
+    @property
     def position_ns(self) -> int:
         """The position; just before the start until something is played."""
         ...

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import time
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
@@ -18,8 +18,7 @@ from webviz.sources.source import Offer, Source, Subscription
 
 NEARLY_NS = 150_000_000
 """Before now, where playing becomes live: what arrived until then is in memory for sure."""
-BUCKETS_S = 1.0
-"""Minimum time between two counts of what is in memory."""
+NOT_COUNTED: Mapping[str, Sequence[int]] = {}
 NOT_REMEMBERED = "none was received before this moment, since only displayed topics are remembered"
 """Why a topic has no message in the past."""
 MEMORY_OFF = (
@@ -57,7 +56,6 @@ class Rewindable:
         self._served: dict[str, str] = {}
         """Types by topic, of subscriptions that get their past from the seek before."""
         self._offers: tuple[object, object, Mapping[str, Offer]] = None, None, {}
-        self._counted: tuple[float, Mapping[str, Sequence[int]]] = 0.0, {}
 
     # The interface of webviz.engine.playback.Playable
 
@@ -95,6 +93,15 @@ class Rewindable:
         return self.end_ns if self._replay is None else self._replay.position_ns
 
     @property
+    def gap_ns(self) -> tuple[int, int] | None:
+        """From the newest message that is held to the oldest in memory, if it is older."""
+        oldest_s = self.memory.oldest_s
+        held_s = self._held[-1][1].arrived_s if self._held else math.inf
+        if oldest_s is None or self.memory.forgotten_s <= held_s:
+            return None
+        return self._clock.stamp_ns(held_s), self._clock.stamp_ns(oldest_s)
+
+    @property
     def names(self) -> Sequence[str]:
         """None: topics have names of their own."""
         return ()
@@ -122,7 +129,7 @@ class Rewindable:
         """`Playable.seek`; what is live goes to the memory only from now on."""
         if self._replay is None:
             self.inbox.divert()
-            self._held = self.memory.last(float("inf")).whole
+            self._held = self.memory.last(math.inf).whole
         if not self._held:
             self._become_live()
             return
@@ -143,7 +150,7 @@ class Rewindable:
 
     def neighbour(self, topic: str, is_forward: bool) -> int | None:
         """`Playable.neighbour`."""
-        entries = self._held or self.memory.last(float("inf")).whole
+        entries = self._held or self.memory.last(math.inf).whole
         if not entries:
             return None
         channels = [c for c in self._channels_to_read() if c.topic == topic or not topic]
@@ -155,15 +162,8 @@ class Rewindable:
         return replay.neighbour(channels, is_forward)
 
     def histogram(self, buckets: int) -> Mapping[str, Sequence[int]]:
-        """`Playable.histogram`, of what is held while rewound; live, it would never be the same."""
-        if self._replay is None:
-            return {}
-        at_s, counted = self._counted
-        if time.monotonic() - at_s > BUCKETS_S:
-            past = self._past()
-            counted = past.histogram(self._origin_ns, self.end_ns, buckets)
-            self._counted = time.monotonic(), counted
-        return counted
+        """None: of live topics it would never be the same."""
+        return NOT_COUNTED
 
     def logged(self) -> Sequence[Event]:
         """None: the log is not remembered unless it is displayed."""

@@ -223,6 +223,9 @@ def _state_of(control: PlaybackControl) -> PlaybackState:
     if control.selected:
         first_ns, last_ns = control.selected
         selected = (first_ns - start_ns) / 1e9, (last_ns - start_ns) / 1e9
+    gap = None
+    if playback.gap_ns:
+        gap = (playback.gap_ns[0] - start_ns) / 1e9, (playback.gap_ns[1] - start_ns) / 1e9
     return PlaybackState(
         names=tuple(playback.names),
         start_ns=start_ns,
@@ -235,4 +238,5 @@ def _state_of(control: PlaybackControl) -> PlaybackState:
         is_seeking=control.is_seeking,
         loop=control.loop,
         selected=selected,
+        gap=gap,
     )

@@ -64,9 +64,9 @@ class Settings(msgspec.Struct, forbid_unknown_fields=True):
     ] = ()
     view: Annotated[View, Prop(help="The view new browsers start with.")] = Orbit()
     views: Annotated[dict[str, View], Prop(help="Saved views by name.")] = {}
-    memory: Annotated[MemorySettings, Prop(help="What can be saved of the last minutes.")] = (
-        MemorySettings()
-    )
+    memory: Annotated[
+        MemorySettings, Prop(help="What can be rewound and saved of the last minutes.")
+    ] = MemorySettings()
     bookmarks: Annotated[
         dict[str, float],
         msgspec.Meta(max_length=1000),

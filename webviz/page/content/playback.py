@@ -14,23 +14,37 @@ from webviz.sources.past_state import Event
 
 
 def playback(state: State, _: str) -> Mapping[str, Any]:
-    """The recording, empty for live topics; times in seconds from its start.
+    """The recording, or the memory of live topics; times in seconds from its start.
 
     "start": of the recording, in seconds since 1970. "rate": 0 is as fast as possible. "selected":
-    first and last second to play, or None.
+    first and last second to play, or None. Pages count by themselves how live topics go on: "ahead"
+    is the wall time over that of recording, "held" and "limit" are seconds in memory.
     """
     recording = state.playback
-    if recording is None or recording.is_live is not None:
+    if recording is None:
         return {}
-    return {
+    duration_s = (recording.end_ns - recording.start_ns) / 1e9
+    told = {
         "names": recording.names,
         "start": recording.start_ns / 1e9,
-        "duration": (recording.end_ns - recording.start_ns) / 1e9,
-        "position": round(recording.position_s, 3),
         "rate": 0 if math.isinf(recording.rate) else recording.rate,
         "is_playing": recording.is_playing,
         "loop": recording.loop,
         "selected": recording.selected,
+        "is_live": recording.is_live,
+    }
+    position_s = round(recording.position_s, 3)
+    if recording.is_live is None:
+        return {**told, "duration": duration_s, "position": position_s}
+    told["limit"] = state.settings.memory.seconds
+    told["ahead"] = round(state.clock.wall_s - recording.start_ns / 1e9 - duration_s)
+    if recording.is_live:
+        return {**told, "held": round(duration_s - recording.first_s)}
+    return {
+        **told,
+        "first": round(recording.first_s, 3),
+        "position": position_s,
+        "gap": recording.gap,
     }
 
 

@@ -6,7 +6,13 @@ from collections.abc import Mapping
 from typing import Any
 
 from webviz.engine.state import State
+from webviz.files.config.model import MemorySettings
 from webviz.page.content.forms import sendable
+from webviz.sources.past_state import MemoryState
+from webviz.sources.rewindable import MEMORY_OFF
+
+SHOWN = 4
+"""Topics that are named."""
 
 
 def recording(state: State, _: str) -> Mapping[str, Any]:
@@ -14,9 +20,11 @@ def recording(state: State, _: str) -> Mapping[str, Any]:
     memory, recording = state.memory, state.recording
     if memory is None:
         return {}
+    limits = state.settings.memory
     told: dict[str, Any] = {
         "remembered": [int(memory.seconds), memory.size // 1_000_000],
-        "is_remembering": state.settings.memory.seconds > 0,
+        "is_remembering": limits.seconds > 0 and limits.megabytes > 0,
+        "about": sendable(_about(memory, limits)),
         "recording": None,
     }
     if recording is not None:
@@ -27,3 +35,17 @@ def recording(state: State, _: str) -> Mapping[str, Any]:
             "dropped": recording.dropped,
         }
     return told
+
+
+def _about(memory: MemoryState, limits: MemorySettings) -> str:
+    """Sentences on the memory: its bounds, which of them is reached, and what is kept beyond."""
+    if not (limits.seconds and limits.megabytes):
+        return MEMORY_OFF
+    bound = f"the last {limits.seconds:g} s of the displayed topics, up to {limits.megabytes:g} MB"
+    sentences = [f"Remembers {bound}."]
+    if memory.is_full:
+        sentences.append("Older messages are dropped already: raise memory.megabytes.")
+    if pinned := memory.pinned:
+        names = ", ".join(pinned[:SHOWN]) + (" …" if len(pinned) > SHOWN else "")
+        sentences.append(f"Older latched messages are kept of {names}.")
+    return " ".join(sentences)

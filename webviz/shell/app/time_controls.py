@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import time
 from abc import ABC, abstractmethod
 from pathlib import Path
 
@@ -12,17 +13,18 @@ from webviz.engine.commands import (
     Command,
     Pause,
     Play,
+    ReturnToLive,
     SaveMemory,
     Seek,
     SetRate,
     StartRecording,
     StopRecording,
 )
-from webviz.engine.parts.playback import LIVE
 from webviz.engine.state import State
 from webviz.shell.pictures.times import At, position_ns, seconds_from_start
 from webviz.sources.past_state import PlaybackState
 from webviz.sources.recording import new_name
+from webviz.sources.rewindable import MEMORY_OFF
 
 
 class TimeControls(ABC):
@@ -88,17 +90,37 @@ class TimeControls(ABC):
         self.do(SaveMemory(seconds, str(path)))
         return path
 
+    # The past of live topics
+
+    def rewind(self, seconds: float) -> None:
+        """Show live topics as they were, paused; returns when the scene shows it.
+
+        Args:
+            seconds: before now, as far as they are remembered; see `memory` in the config.
+
+        Raises:
+            Error: nothing is remembered, or a bag is played.
+        """
+        shown = self._playback
+        if shown.is_live is None:
+            raise Error("A bag has no present. Use `seek`.")
+        self.do(Seek((time.time_ns() - shown.start_ns) / 1e9 - seconds))
+
+    def return_to_live(self) -> None:
+        """Show live topics as they are."""
+        self.do(ReturnToLive())
+
     # Bags
 
     def play(self, rate: float | None = None) -> None:
-        """Play the bag on from its position, at its end from the start.
+        """Play the bag, or the past of live topics; at its end from the start.
 
         Args:
-            rate: seconds of the bag per second, 0.01 to 1000; infinity is as fast as possible, None
+            rate: recorded seconds per second, 0.01 to 1000; infinity is as fast as possible, None
                 is the previous rate, at first 1.
 
         Raises:
-            Error: the rate is out of range, or topics are live.
+            Error: the rate is out of range, or topics are live and not rewound.
         """
         if rate is not None:
             self.do(SetRate(0.0 if math.isinf(rate) and rate > 0 else rate or -1.0))
@@ -111,7 +133,7 @@ class TimeControls(ABC):
             at: seconds from its start (seconds since 1970 if above 1e9), "start" or "end".
 
         Raises:
-            Error: the time is outside of the bag, or topics are live.
+            Error: the time is outside of the bag, or nothing of live topics is remembered.
         """
         shown = self._playback
         name = ", ".join(shown.names)
@@ -139,5 +161,5 @@ class TimeControls(ABC):
     @property
     def _playback(self) -> PlaybackState:
         if (shown := self.state.playback) is None:
-            raise Error(LIVE)
+            raise Error(MEMORY_OFF)
         return shown

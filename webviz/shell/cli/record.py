@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import App, Parameter, validators
 
+from webviz.shell.cli.amounts import bytes_of
 from webviz.shell.cli.ending import Stop, say_end, until_signal
 from webviz.shell.cli.options import ROS_ARGS_HELP, RosArgs
 
@@ -22,27 +23,16 @@ Examples:
   webviz record --split 1GB --keep 10GB          keep the newest 10 GB, in files of 1 GB
 
 """
-UNITS = {"kB": 10**3, "MB": 10**6, "GB": 10**9, "TB": 10**12}
 SAY_S = 1.0
 """Time between two lines of progress."""
 
 app = App("record", help_epilogue=EXAMPLES + ROS_ARGS_HELP)
 
 
-def _bytes(text: str) -> int:
-    """A number of bytes, such as 500MB."""
-    for unit, factor in UNITS.items():
-        if text.endswith(unit):
-            number = float(text.removesuffix(unit))
-            if number * factor >= 1:
-                return round(number * factor)
-    raise ValueError(f"`{text}` is not a size. Write it like 500MB or 10GB.")
-
-
 def _size(type_: object, tokens: object) -> int:
     """Convert the value of an option of bytes."""
     (token,) = tokens  # pyright: ignore[reportGeneralTypeIssues]
-    return _bytes(token.value)
+    return bytes_of(token.value)
 
 
 Size = Annotated[int, Parameter(converter=_size, metavar="SIZE", show_default=False)]

@@ -2,11 +2,17 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
+import msgspec
 from cyclopts import Group, Parameter, validators
 
+from webviz.shell.cli.amounts import memory_of
 from webviz.shell.cli.options import ConfigOptions, File, Flag, Repeatable
+
+if TYPE_CHECKING:
+    from webviz.files.config import Config
+    from webviz.sources import Source
 
 LOCAL = "127.0.0.1"
 BAG = Parameter(group=Group("A bag instead of live topics", sort_key=2))
@@ -21,6 +27,12 @@ class BagOptions:
     """Play an MCAP or db3 file, a rosbag2 folder or ROS 1 bag; several are merged (repeatable)."""
     paused: Annotated[Flag, BAG] = False
     """Stay at the start of the bag, instead of playing once a browser connects."""
+
+
+def _check_memory(type_: object, text: str) -> None:
+    """Raise ValueError for what is not an amount of memory."""
+    if text:
+        memory_of(text)
 
 
 @Parameter(name="*")
@@ -48,6 +60,10 @@ class ViewingOptions(ConfigOptions):
     """Also ask browsers on this machine for a link with a token, see `webviz token`."""
     journal: File | None = None
     """Append to this file who published, saved and opened what; kept to 2 MB, in two files."""
+    memory: Annotated[
+        str, Parameter(metavar="TIME[,SIZE]", show_default=False, validator=_check_memory)
+    ] = ""
+    """Remember live topics, such as 120s,512MB, to rewind and save them; 0s keeps nothing."""
     config_folder: Annotated[Repeatable[Path], Parameter(metavar="FOLDER")] = ()
     """Also let the ROS parameter config_file open configs in this folder (repeatable)."""
     allow_publish: Annotated[Repeatable[str], Parameter(metavar="NAME")] = ()
@@ -64,3 +80,11 @@ class ViewingOptions(ConfigOptions):
     """Open the page in a browser of this machine."""
     debug: Flag = False
     """Show viser's own panel beside the page."""
+
+    def read(self, path: Path | None, source: "Source | None" = None) -> "Config":
+        """The config, with the overrides of --set and --memory; see `ConfigOptions.read`."""
+        config = super().read(path, source)
+        if self.memory:
+            memory = msgspec.structs.replace(config.settings.memory, **memory_of(self.memory))
+            config.settings.memory = memory
+        return config

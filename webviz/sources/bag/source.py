@@ -79,7 +79,9 @@ class BagSource:
     absence = ""
     """A bag has a past,"""
     is_live = False
-    """and nothing else."""
+    """and nothing else,"""
+    gap_ns = None
+    """of which nothing is forgotten."""
 
     @property
     def origin_ns(self) -> int:

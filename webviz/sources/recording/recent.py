@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 import threading
 import time
 from bisect import bisect_left
@@ -66,6 +67,8 @@ class RecentMessages:
         self._latched: dict[str, dict[object, Raw]] = {}
         self._bytes = 0
         self._full_s: float | None = None
+        self.forgotten_s = -math.inf
+        """Arrival of the newest message that was forgotten, in monotonic seconds."""
         self.seconds = seconds
         self.max_bytes = max_bytes
 
@@ -145,6 +148,7 @@ class RecentMessages:
                     return
                 self._full_s = now_s
             self._messages.popleft()
+            self.forgotten_s = raw.arrived_s
             self._bytes -= len(raw.cdr) + OVERHEAD
             self._pin(self._latched, topic, raw)
 

@@ -13,6 +13,7 @@ import * as header from "./header.js";
 import * as history from "./history.js";
 import * as layout from "./layout.js";
 import * as timeBar from "./time_bar.js";
+import { banner } from "../timeline/rewound.js";
 import { tabs } from "./tabs.js";
 import * as toasts from "./toasts.js";
 import * as tooltips from "./tooltips.js";
@@ -42,6 +43,7 @@ function build() {
   displayCommands.install();
   const side = el("aside", { class: "wv-side", "aria-label": "Panels" });
   const scene = el("div", { class: "wv-over" }, Object.values(places).slice(0, -1));
+  scene.append(banner());
   toasts.install(scene);
   timeBar.build(places.time);
   side.append(header.build(), ...tabs(), layout.border(side));

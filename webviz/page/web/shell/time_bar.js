@@ -61,7 +61,8 @@ export function build(place) {
     const format = inSeconds ? (time) => time.toFixed(isRunning ? 1 : 3) : timeOfDay;
     setText(ros, isKnown ? format(now, !isRunning) : "No time yet");
     set(ros, { "data-tip": hintOf(isKnown, isSimulated, inSeconds) });
-    setText(badge, recording.isThere() ? "bag" : badgeOf(isSimulated, clock.get("hz")));
+    const past = recording.isLive() ? "past" : "bag";
+    setText(badge, recording.isThere() ? past : badgeOf(isSimulated, clock.get("hz")));
     set(badge, { "data-tip": recording.names() ?? null });
     set(badge, { "data-simulated": isSimulated });
     const [beganRos, beganWall] = clock.get("began");
@@ -76,7 +77,7 @@ export function build(place) {
   function showPause(paused) {
     isPaused = paused;
     const [name, tip] = recording.isThere()
-      ? [paused ? "Play" : "Pause", `${paused ? "Play" : "Pause"} the recording in all browsers (Space)`]
+      ? [paused ? "Play" : "Pause", `${paused ? "Play" : "Pause"} the ${recording.isLive() ? "past" : "recording"} in all browsers (Space)`]
       : [nameOf(paused), `${nameOf(paused)} the scene in all browsers; messages wait meanwhile`];
     if (pause.ariaLabel === name) return;
     const isPressed = recording.isThere() ? null : String(paused);

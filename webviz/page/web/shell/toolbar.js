@@ -75,7 +75,7 @@ export function install(places) {
   }).observe(places.status);
   // In a narrow scene it stands below.
   new ResizeObserver(() => {
-    places.status.style.setProperty("--wv-bar", `${element.offsetHeight}px`);
+    document.documentElement.style.setProperty("--wv-bar", `${element.offsetHeight}px`);
   }).observe(element);
 
   const update = () => {

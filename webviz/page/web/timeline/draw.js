@@ -2,6 +2,7 @@
 
 import { share, ticks } from "../charts/scale.js";
 import { duration } from "../shell/time_text.js";
+import { beforeText } from "./moment.js";
 
 export const MARGIN = 8;
 const TOP = 4;
@@ -23,10 +24,11 @@ export function fitted(canvas) {
 }
 
 /**
- * Draws `{range, whole, counts, selected, bookmarks, events, position, hover}`: times in seconds, `selected`
+ * Draws `{range, whole, counts, selected, bookmarks, events, past, position, hover}`: times in seconds, `selected`
  * and `hover` may be null, `bookmarks` are pairs of name and time, `events` begin with time and level.
+ * `past` is what is remembered of live topics, `{first, now, gap}`, null for a bag.
  */
-export function draw(canvas, { range, whole, counts, selected, bookmarks, events, position, hover }) {
+export function draw(canvas, { range, whole, counts, selected, bookmarks, events, past, position, hover }) {
   const { context, width, color } = fitted(canvas);
   const x = (time) => MARGIN + share(time, range) * (width - 2 * MARGIN);
   context.fillStyle = color("line");
@@ -36,6 +38,7 @@ export function draw(canvas, { range, whole, counts, selected, bookmarks, events
   context.rect(MARGIN, TOP, width - 2 * MARGIN, BAR);
   context.clip();
   bars(context, counts, { x, whole, range, top: TOP, height: BAR, color: color("accent") });
+  if (past) held(context, past, { x, color });
   if (selected) {
     context.fillStyle = color("back");
     context.globalAlpha = 0.7;
@@ -44,7 +47,7 @@ export function draw(canvas, { range, whole, counts, selected, bookmarks, events
     context.globalAlpha = 1;
   }
   context.restore();
-  scale(context, range, { x, width, color });
+  scale(context, range, { x, width, color, origin: past?.now ?? 0 });
   marks(context, events, { range, x, color });
   if (selected) {
     context.fillStyle = color("warn");
@@ -79,17 +82,28 @@ export function bars(context, counts, { x, whole, range, top, height, color }) {
   context.globalAlpha = 1;
 }
 
-function scale(context, range, { x, width, color }) {
+// The messages in memory, but for those forgotten in between.
+function held(context, { first, now, gap }, { x, color }) {
+  context.fillStyle = color("accent");
+  context.globalAlpha = 0.5;
+  context.fillRect(x(first), TOP, x(now) - x(first), BAR);
+  context.globalAlpha = 1;
+  if (!gap) return;
+  context.fillStyle = color("line");
+  context.fillRect(x(gap[0]), TOP, x(gap[1]) - x(gap[0]), BAR);
+}
+
+function scale(context, range, { x, width, color, origin }) {
   context.font = "11px system-ui, sans-serif";
   context.fillStyle = color("quiet");
   context.textBaseline = "top";
   context.textAlign = "center";
   const length = range[1] - range[0];
   const digits = Math.min(3, Math.max(0, Math.ceil(-Math.log10(length / 10))));
-  for (const time of ticks(...range, Math.max(2, width / PER_TICK))) {
-    const text = duration(time, digits);
+  for (const time of ticks(range[0] - origin, range[1] - origin, Math.max(2, width / PER_TICK))) {
+    const text = origin ? beforeText(time, digits) : duration(time, digits);
     const half = context.measureText(text).width / 2;
-    context.fillText(text, Math.min(Math.max(x(time), half), width - half), TOP + BAR + 4);
+    context.fillText(text, Math.min(Math.max(x(time + origin), half), width - half), TOP + BAR + 4);
   }
 }
 

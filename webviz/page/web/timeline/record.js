@@ -20,8 +20,9 @@ export function record() {
   start.append(icon("record", 12), label);
   const save = el("button", { type: "button", class: "wv-button wv-save-last", onclick: saveLast }, icon("save", 14));
   const span = el("span", { class: "wv-number" });
+  const memory = el("span", { class: "wv-quiet wv-memory wv-number", tabindex: 0 });
   save.append(span);
-  const element = el("div", { class: "wv-recorder", hidden: true }, needs("StartRecording", start), needs("SaveMemory", save));
+  const element = el("div", { class: "wv-recorder", hidden: true }, memory, needs("StartRecording", start), needs("SaveMemory", save));
 
   function toggle() {
     return act(recording ? "StopRecording" : "StartRecording");
@@ -47,6 +48,8 @@ export function record() {
         : "Record all topics that are displayed, in the working folder of webviz",
     });
     setText(label, recording ? `${duration(recording.seconds, 0)} · ${recording.megabytes} MB` : "Record");
+    setText(memory, isRemembering ? `memory ${seconds} s, ${megabytes} MB` : "no memory");
+    set(memory, { "data-tip": values.get("about") });
     save.hidden = !isRemembering;
     setText(span, `Save last ${seconds} s`);
     set(save, { "data-tip": `Save what is remembered of the displayed topics: ${seconds} s, ${megabytes} MB` });

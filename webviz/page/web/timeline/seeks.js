@@ -1,14 +1,16 @@
 // Seeks, one at a time: while the scene is on its way to one, only the newest of the others is kept.
 
 import { act } from "../act.js";
+import { returnToLive } from "./rewound.js";
 
 /**
  * Returns `{to(time), wanted()}`: `to` shows a time of the recording, `wanted` is the one that was asked
  * for last, null once the scene shows it. `changed()` is called when that changes.
  *
  * @param {() => void} changed
+ * @param {(time: number) => boolean} isNow whether a time is that of live topics
  */
-export function seeks(changed) {
+export function seeks(changed, isNow = () => false) {
   let underway = false;
   let wanted = null;
 
@@ -20,7 +22,7 @@ export function seeks(changed) {
     let sent = null;
     while (sent !== wanted) {
       sent = wanted;
-      const { level } = await act("Seek", { at_s: sent });
+      const { level } = await (isNow(sent) ? returnToLive() : act("Seek", { at_s: sent }));
       if (level === "error") break;
     }
     underway = false;

@@ -1,12 +1,14 @@
 // The timeline of a recording: a track over the bar of the time, and buttons within it.
 
 import { act } from "../act.js";
+import { wallNow } from "../clock.js";
 import { copy } from "../clipboard.js";
 import { isTyping, provide } from "../shell/commands.js";
 import { toast } from "../shell/toasts.js";
 import { watch } from "../stores.js";
 import { bookmarks as bookmarkMenu } from "./bookmarks.js";
 import { byTime, eventCommand } from "./events.js";
+import { atMoment, isNow, isRewound } from "./moment.js";
 import { shownLength } from "./range.js";
 import { seeks } from "./seeks.js";
 import { topics as topicList } from "./topics.js";
@@ -15,19 +17,23 @@ import { transport as makeTransport } from "./transport.js";
 import { parseTime } from "./typed_time.js";
 
 const JUMP_S = 5;
+const TICK_MS = 200;
 
 /**
- * Puts a track and buttons into elements while a recording is played; `toggle` plays or pauses it.
- * Returns `{isThere(), names()}`.
+ * Puts a track and buttons into elements while there is a past; `toggle` plays or pauses.
+ * Returns `{isThere(), isLive(), names()}`: whether a position is shown instead of what arrives, and
+ * whether topics are live.
  *
  * @param {{ track: Element, buttons: Element, toggle: () => unknown }} places
  */
 export function timeline(places) {
-  let recording = null;
+  let values = null;
+  let recording = null; // at this moment
+  let timer = 0;
   let topic = ""; // of which the next message is shown, "" for all that are displayed
 
   const position = () => seek.wanted() ?? recording.get("position");
-  const seek = seeks(show);
+  const seek = seeks(show, (time) => recording && isNow(recording, time, track.length()));
   const step = {
     topic: () => topic,
     choose(next) {
@@ -46,17 +52,20 @@ export function timeline(places) {
   let ends = [];
 
   function show() {
-    if (!recording) return;
+    if (!values) return;
+    recording = atMoment(values, wallNow());
     track.show(recording);
     buttons.show(recording, position());
   }
 
   function appear(isThere) {
     document.body.classList.toggle("wv-recording", isThere);
+    clearInterval(timer);
     places.track.replaceChildren(...(isThere ? [topics.element, track.element] : []));
     places.buttons.replaceChildren(...(isThere ? [buttons.element] : []));
     for (const end of ends.splice(0)) end();
     if (!isThere) return;
+    if (!isBag()) timer = setInterval(() => document.hidden || show(), TICK_MS);
     ends = [
       watch("density", (density) => track.setCounts(density.get("counts") ?? [])),
       watch("bookmarks", (known) => {
@@ -68,7 +77,7 @@ export function timeline(places) {
         track.setEvents(events);
       }),
     ];
-    begin();
+    if (isBag()) begin();
   }
 
   // A link may name a moment: once, since people go on from there.
@@ -90,10 +99,13 @@ export function timeline(places) {
     toast(isCopied ? "Copied the link to this moment." : `The link to this moment: ${address.href}`);
   }
 
-  watch("playback", (values) => {
-    const isThere = values.has("duration");
-    const isNew = isThere !== (recording !== null);
-    recording = isThere ? values : null;
+  const isBag = () => values?.get("is_live") === null;
+
+  watch("playback", (next) => {
+    const isThere = next.has("start");
+    const isNew = isThere !== (values !== null);
+    values = isThere ? next : null;
+    recording = isThere ? atMoment(next, wallNow()) : null;
     if (isNew) appear(isThere);
     show();
   });
@@ -102,23 +114,36 @@ export function timeline(places) {
     const focused = document.activeElement;
     return !isTyping({ target: focused }) && !focused?.closest("button, [role=option], [role=treeitem], .wv-rows");
   };
-  const jump = (seconds) => seek.to(Math.max(0, Math.min(position() + seconds, recording.get("duration"))));
+  const jump = (seconds) =>
+    seek.to(Math.max(recording.get("first"), Math.min(position() + seconds, recording.get("duration"))));
   const among = { all: () => events, seek, position };
+  const back = { name: `${JUMP_S} s back`, key: "Shift+ArrowLeft", needs: "Seek", run: () => jump(-JUMP_S) };
+  const about = (one) => ({ ...one, group: "Time", isKeyHere: isFree });
   const commands = [
     { name: "Play or pause the recording", icon: "play", key: " ", needs: "Pause", run: places.toggle },
     { name: "Next message", icon: "step", key: "ArrowRight", needs: "StepMessage", run: () => step.run(true) },
     { name: "Previous message", icon: "step-back", key: "ArrowLeft", needs: "StepMessage", run: () => step.run(false) },
     { name: `${JUMP_S} s on`, key: "Shift+ArrowRight", needs: "Seek", run: () => jump(JUMP_S) },
-    { name: `${JUMP_S} s back`, key: "Shift+ArrowLeft", needs: "Seek", run: () => jump(-JUMP_S) },
-    { name: "Start of the recording", key: "Home", needs: "Seek", run: () => seek.to(0) },
+    back,
+    { name: "Start of the recording", key: "Home", needs: "Seek", run: () => seek.to(recording.get("first")) },
     { name: "End of the recording", key: "End", needs: "Seek", run: () => seek.to(recording.get("duration")) },
     eventCommand(true, among),
     eventCommand(false, among),
     { name: "Add bookmark…", icon: "flag", key: "b", needs: "SaveBookmark", run: bookmarks.add },
+  ].map(about);
+  const ofBags = [
     { name: "Copy link to this moment", icon: "copy", run: copyLink },
     { name: "Topics of the recording", icon: "list", run: topics.toggle },
-  ].map((one) => ({ ...one, group: "Time", isKeyHere: isFree }));
-  provide(() => (recording ? commands : []));
+  ].map(about);
+  provide(() => {
+    if (!values) return [];
+    if (isBag()) return [...commands, ...ofBags];
+    return isRewound(values) ? commands : [about(back)];
+  });
 
-  return { isThere: () => recording !== null, names: () => recording?.get("names").join(", ") };
+  return {
+    isThere: () => isBag() || isRewound(values),
+    isLive: () => values !== null && !isBag(),
+    names: () => (isBag() ? values.get("names").join(", ") : null),
+  };
 }

@@ -9,14 +9,23 @@ import { toast } from "../shell/toasts.js";
 import { duration } from "../shell/time_text.js";
 import { draw, MARGIN } from "./draw.js";
 import { eventText } from "./events.js";
+import { beforeText } from "./moment.js";
 import { following, shownLength, zoomed } from "./range.js";
 
 const WHEEL = 1.25;
 const MIN_SPAN_PX = 4;
 const SNAP_PX = 5;
 
+/** The first and the last second of the whole track: of live topics, what the memory can hold. */
+function boundsOf(recording) {
+  const last = recording.get("duration");
+  if (recording.get("is_live") === null) return [0, shownLength(last)];
+  const limit = recording.get("limit");
+  return [Math.min(recording.get("first"), recording.get("is_live") ? last - limit : last), last];
+}
+
 /**
- * Returns `{element, range, show(recording), setCounts(counts), setBookmarks(bookmarks), setEvents(events)}`:
+ * Returns `{element, range, length, show(recording), setCounts(counts), setBookmarks(bookmarks), setEvents(events)}`:
  * `seek` is of `seeks.js`, `recording` the store "playback", a Map, `events` are of `events.js`. `redrawn()`
  * is called when the window is another.
  */
@@ -25,18 +34,17 @@ export function track(seek, redrawn = () => {}) {
   let counts = [];
   let bookmarks = [];
   let events = [];
-  let range = [0, 1]; // the window, in seconds
-  let length = 1; // of the whole track, in seconds
+  let bounds = [0, 1]; // of the whole track, in seconds
+  let range = bounds; // the window
   let hover = null;
   let drag = null; // {pointer, from, isSpan}
   let frame = 0;
 
   const canvas = el("canvas", {
     class: "wv-track", role: "slider", tabindex: 0, "aria-label": "Time of the recording",
-    "aria-valuemin": 0,
     "aria-description": "Click or drag to seek, Shift+drag to select what is played, wheel to zoom",
     onpointerdown: press, onpointermove: move, onpointerup: release, onpointercancel: release,
-    onpointerleave: () => point(null), onwheel: wheel, ondblclick: () => setRange([0, length]),
+    onpointerleave: () => point(null), onwheel: wheel, ondblclick: () => setRange(bounds),
   });
   const label = el("span", { class: "wv-track-label wv-number", hidden: true });
   const element = el("div", { class: "wv-track-place" }, canvas, label);
@@ -46,20 +54,29 @@ export function track(seek, redrawn = () => {}) {
 
   function show(next) {
     recording = next;
-    const whole = shownLength(recording.get("duration"));
-    if (length !== whole) {
-      length = whole;
-      setRange([0, length]);
+    const whole = boundsOf(recording);
+    if (whole[0] !== bounds[0] || whole[1] !== bounds[1]) {
+      const isWhole = range[0] === bounds[0] && range[1] === bounds[1];
+      const isOther = isBag() || whole[0] > range[0];
+      bounds = whole;
+      if (isWhole || isOther) setRange(whole);
     }
     if (recording.get("is_playing") && !drag) follow();
     set(canvas, {
-      "aria-valuemax": length, "aria-valuenow": position(), "aria-valuetext": duration(position()),
+      "aria-valuemin": bounds[0], "aria-valuemax": bounds[1], "aria-valuenow": position(),
+      "aria-valuetext": textOf(position()),
     });
     later();
   }
 
+  const isBag = () => recording.get("is_live") === null;
+  // Live topics are counted back from now.
+  const textOf = (time, digits = 1) =>
+    isBag() ? duration(time, digits) : beforeText(time - recording.get("duration"), digits);
+  const moved = (window, by) => window.map((time) => time + by);
+
   function follow() {
-    const next = following(range, position(), length);
+    const next = moved(following(moved(range, -bounds[0]), position() - bounds[0], bounds[1] - bounds[0]), bounds[0]);
     if (next[0] !== range[0]) setRange(next);
   }
 
@@ -74,7 +91,10 @@ export function track(seek, redrawn = () => {}) {
       frame = 0;
       if (!recording || !canvas.clientWidth) return;
       const selected = drag?.isSpan ? drag.span : recording.get("selected");
-      draw(canvas, { range, whole: length, counts, selected, bookmarks, events, position: position(), hover });
+      const past = isBag() ? null : { first: recording.get("first"), now: recording.get("duration"), gap: recording.get("gap") };
+      draw(canvas, {
+        range, whole: bounds[1], counts, selected, bookmarks, events, past, position: position(), hover,
+      });
     });
   }
 
@@ -82,7 +102,7 @@ export function track(seek, redrawn = () => {}) {
   function timeAt({ clientX }) {
     const { left, width } = canvas.getBoundingClientRect();
     const part = (clientX - left - MARGIN) / Math.max(1, width - 2 * MARGIN);
-    return Math.min(Math.max(at(part, range), 0), length);
+    return Math.min(Math.max(at(part, range), recording.get("first")), bounds[1]);
   }
 
   // The bookmark, or else the nearest warning or error, at a pointer: `{time, text}`.
@@ -137,7 +157,7 @@ export function track(seek, redrawn = () => {}) {
     hover = event && recording ? timeAt(event) : null;
     set(label, { hidden: hover === null });
     if (hover !== null) {
-      const text = duration(hover, range[1] - range[0] < 10 ? 3 : 1);
+      const text = textOf(hover, range[1] - range[0] < 10 ? 3 : 1);
       setText(label, plain(markAt(event)?.text ?? text));
       const { left, width } = canvas.getBoundingClientRect();
       const half = label.offsetWidth / 2;
@@ -154,12 +174,14 @@ export function track(seek, redrawn = () => {}) {
     const around = Math.min(Math.max((event.clientX - left - MARGIN) / (width - 2 * MARGIN), 0), 1);
     const isMove = event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY);
     const sign = Math.sign(event.deltaY || event.deltaX);
-    setRange(zoomed(range, isMove ? { move: 0.1 * sign } : { around, by: WHEEL ** sign }, length));
+    const change = isMove ? { move: 0.1 * sign } : { around, by: WHEEL ** sign };
+    setRange(moved(zoomed(moved(range, -bounds[0]), change, bounds[1] - bounds[0]), bounds[0]));
   }
 
   return {
     element,
     range: () => range,
+    length: () => range[1] - range[0],
     show,
     setCounts(next) {
       counts = next;

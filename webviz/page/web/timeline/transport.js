@@ -7,11 +7,15 @@ import { icon } from "../icons.js";
 import { openMenu } from "../shell/menu.js";
 import { duration } from "../shell/time_text.js";
 import { toast } from "../shell/toasts.js";
-import { parseTime } from "./typed_time.js";
+import { beforeText, isRewound } from "./moment.js";
+import { returnToLive } from "./rewound.js";
+import { isDate, parseTime } from "./typed_time.js";
 
 const RATES = [0.1, 0.25, 0.5, 1, 2, 5, 10, 20];
 const FULL = 0; // as fast as possible
 const HELP = "Seconds, 1:02:03.4, or a date with the time of day";
+
+const AGO_HELP = "Seconds ago, or a date with the time of day";
 
 const rateText = (rate) => (rate === FULL ? "max" : `${rate}×`);
 
@@ -35,10 +39,15 @@ export function transport(seek, step, topics, bookmarks) {
     onfocus: () => field.select(), onkeydown: key,
   });
   const length = el("span", { class: "wv-quiet wv-number" });
+  const live = el("button", {
+    type: "button", class: "wv-button wv-primary wv-live", hidden: true, "data-tip": "Return to live (L)", onclick: returnToLive,
+  }, "Live (L)");
   const element = el("div", { class: "wv-transport" },
     needs("StepMessage", before), needs("StepMessage", after), needs("SetRate", rate), needs("SetLoop", loop),
-    list, bookmarks.element, needs("Seek", el("span", { class: "wv-go" }, field)), length);
+    list, bookmarks.element, needs("Seek", el("span", { class: "wv-go" }, field)), length,
+    needs("ReturnToLive", live));
   let shown = 0;
+  const isBag = () => recording.get("is_live") === null;
 
   function chooseRate() {
     const { left, top } = rate.getBoundingClientRect();
@@ -59,14 +68,16 @@ export function transport(seek, step, topics, bookmarks) {
   }
 
   function go() {
-    const time = parseTime(field.value, recording.get("start"));
-    if (time === null) toast(`${field.value || "Nothing"} is not a time. Type ${HELP.toLowerCase()}.`, { level: "warn" });
-    else seek.to(time);
+    const text = field.value.trim().replace(/^[-−]|\s*s$/g, "");
+    const time = parseTime(text, recording.get("start"));
+    const help = isBag() ? HELP : AGO_HELP;
+    if (time === null) toast(`${field.value || "Nothing"} is not a time. Type ${help.toLowerCase()}.`, { level: "warn" });
+    else seek.to(isBag() || isDate(text) ? time : recording.get("duration") - time);
     field.blur();
   }
 
   const write = () => {
-    const text = duration(shown, 3);
+    const text = isBag() ? duration(shown, 3) : beforeText(shown - recording.get("duration"));
     if (field.value !== text) field.value = text;
   };
 
@@ -74,7 +85,11 @@ export function transport(seek, step, topics, bookmarks) {
     recording = next;
     shown = position;
     if (document.activeElement !== field) write();
-    setText(length, `/ ${duration(recording.get("duration"))}`);
+    setText(length, isBag() ? `/ ${duration(recording.get("duration"))}` : "");
+    set(field, { "data-tip": isBag() ? HELP : AGO_HELP });
+    for (const each of [loop, list]) set(each, { hidden: !isBag() });
+    set(bookmarks.element, { hidden: !isBag() && !isRewound(recording) });
+    set(live, { hidden: !isRewound(recording) });
     setText(rate, rateText(recording.get("rate")));
     set(loop, { "aria-pressed": String(recording.get("loop")) });
     set(list, { "aria-pressed": String(topics.isOpen()) });

@@ -3,6 +3,9 @@
 const CLOCK = /^(?:(?:(\d+):)?(\d{1,2}):)?(\d{1,2}(?:\.\d*)?)$/;
 const DATE = /^\d{4}-\d{2}-\d{2}[ T]\d{2}:\d{2}/;
 
+/** @param {string} text */
+export const isDate = (text) => DATE.test(text.trim());
+
 /**
  * Seconds from the start of a recording: of "12.4", "1:12", "1:02:03.4", or of a date with time of
  * day, in the time zone of this browser unless it names one. Null if it is none of these.

@@ -1,0 +1,95 @@
+"""The timeline of live topics, in a real browser."""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.page.conftest import Loop, Tab
+from webviz.engine.commands import ReturnToLive, Seek
+from webviz.engine.state import PanelTimes
+from webviz.sources.past_state import MemoryState, PlaybackState
+
+SHORT = MemoryState(60.0, 0)
+BEGAN_S = 100
+"""Before now."""
+
+
+def show(loop: Loop, ago_s: float | None, memory: MemoryState = SHORT) -> None:
+    """Show live topics, or what was some seconds ago."""
+    wall_s = time.time()
+    recording = PlaybackState(
+        names=(),
+        start_ns=round((wall_s - BEGAN_S) * 1e9),
+        end_ns=round(wall_s * 1e9),
+        position_s=BEGAN_S - (ago_s or 0),
+        rate=1.0,
+        is_playing=False,
+        is_seeking=False,
+        loop=False,
+        selected=None,
+        first_s=BEGAN_S - memory.seconds,
+        is_live=ago_s is None,
+    )
+    loop.show(playback=recording, memory=memory, clock=PanelTimes(wall_s=wall_s))
+
+
+@pytest.fixture
+def live(loop: Loop, tab: Tab) -> Tab:
+    show(loop, None)
+    tab.wait_for(lambda: tab.page.locator(".wv-track").count() == 1)
+    return tab
+
+
+def test_the_past_cannot_be_overlooked_and_a_key_leads_back(loop: Loop, live: Tab) -> None:
+    banner = live.page.locator(".wv-rewound-banner")
+    expect(banner).to_be_hidden()
+    show(loop, 12.4)
+    expect(banner).to_contain_text("s ago · not live · press L to return")
+    assert 11 < float(banner.inner_text().split()[0]) < 30
+    expect(live.page.get_by_role("button", name="Live (L)")).to_be_visible()
+    assert " s ago · " in live.page.title()
+    live.page.keyboard.press("l")
+    live.wait_for(lambda: loop.commands == [ReturnToLive()])
+    show(loop, None)
+    expect(banner).to_be_hidden()
+    assert "ago" not in live.page.title()
+
+
+def test_a_drag_leads_into_the_past_and_back_to_now(loop: Loop, live: Tab) -> None:
+    box = live.page.locator(".wv-track").bounding_box()
+    assert box
+    middle, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 4
+    live.page.mouse.move(middle, y)
+    live.page.mouse.down()
+    live.wait_for(lambda: bool(loop.commands))
+    (seek,) = loop.commands
+    assert isinstance(seek, Seek)
+    assert seek.at_s == pytest.approx(BEGAN_S - 30, abs=10)
+    live.page.mouse.move(box["x"] + box["width"] - 9, y)
+    live.page.mouse.up()
+    live.wait_for(lambda: loop.commands[-1] == ReturnToLive())
+
+
+def test_a_typed_number_is_seconds_ago(loop: Loop, live: Tab) -> None:
+    field = live.page.get_by_label("Go to time")
+    expect(field).to_have_value("now")
+    field.fill("20")
+    field.press("Enter")
+    live.wait_for(lambda: bool(loop.commands))
+    (seek,) = loop.commands
+    assert isinstance(seek, Seek)
+    assert seek.at_s == pytest.approx(BEGAN_S - 20, abs=10)
+
+
+def test_the_memory_says_what_it_holds(loop: Loop, live: Tab) -> None:
+    memory = live.page.locator(".wv-memory")
+    show(loop, None, MemoryState(12.0, 256_000_000, is_full=True, pinned=("/map",)))
+    expect(memory).to_have_text("memory 12 s, 256 MB")
+    expect(memory).to_have_attribute(
+        "data-tip",
+        "Remembers the last 60 s of the displayed topics, up to 256 MB. Older messages are dropped "
+        "already: raise memory.megabytes. Older latched messages are kept of /map.",
+    )

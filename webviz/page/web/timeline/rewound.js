@@ -1,0 +1,53 @@
+// A banner over the scene while the page shows the past of live topics, and what returns to live.
+
+import { why } from "../access.js";
+import { act } from "../act.js";
+import { wallNow } from "../clock.js";
+import { el, set, setText } from "../dom.js";
+import { command } from "../shell/commands.js";
+import { watch } from "../stores.js";
+import { agoText, atMoment, isRewound } from "./moment.js";
+
+const TICK_MS = 100;
+const COARSE = matchMedia("(pointer: coarse)");
+
+export const returnToLive = () => act("ReturnToLive");
+
+/** The banner; hidden while topics are live. */
+export function banner() {
+  let values = null;
+  let timer = 0;
+  const title = document.title;
+  const ago = el("span", { class: "wv-number" });
+  const how = el("span");
+  const element = el("button", {
+    type: "button", class: "wv-rewound-banner", hidden: true, "aria-live": "polite", onclick: returnToLive,
+  }, ago, how);
+
+  function tick() {
+    const shown = atMoment(values, wallNow());
+    setText(ago, `${agoText(shown.get("ago"))} · not live`);
+    const text = `${shown.get("ago").toFixed(0)} s ago · ${title}`;
+    if (document.title !== text) document.title = text;
+  }
+
+  watch("playback", (next) => {
+    values = next;
+    const isPast = isRewound(next);
+    clearInterval(timer);
+    document.body.classList.toggle("wv-rewound", isPast);
+    set(element, { hidden: !isPast });
+    if (!isPast) {
+      document.title = title;
+      return;
+    }
+    setText(how, why("ReturnToLive") ? "" : ` · ${COARSE.matches ? "tap" : "press L"} to return`);
+    tick();
+    timer = setInterval(tick, TICK_MS);
+  });
+  command({
+    name: "Return to live", icon: "step", key: "l", group: "Time", needs: "ReturnToLive",
+    isThere: () => isRewound(values), run: returnToLive,
+  });
+  return element;
+}
