@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from webviz_displays.shared.colors import RAINBOW, bounds, faded, faded_color, fractions, ramp
+from webviz_displays.shared.colors import RAINBOW, bounds, faded, fractions, ramp
 
 
 @pytest.mark.parametrize(
@@ -68,7 +68,6 @@ def test_bounds_ignore_what_is_not_finite() -> None:
 
 
 def test_alpha_fades_towards_the_background_of_rviz() -> None:
-    assert faded_color((255, 25, 0), 1.0) == (255, 25, 0)
-    assert faded_color((160, 160, 164), 0.5) == (104, 104, 106)
+    assert faded(np.array([[160, 160, 164]], np.uint8), 0.5).tolist() == [[104, 104, 106]]
     assert faded(np.array([[248, 48, 0]], np.uint8), 0.25).tolist() == [[98, 48, 36]]
-    assert faded_color((255, 25, 0), 0.0) == (48, 48, 48)
+    assert faded(np.array([[255, 25, 0]], np.uint8), 0.0).tolist() == [[48, 48, 48]]

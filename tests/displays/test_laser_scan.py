@@ -170,9 +170,10 @@ def test_axis_colour_is_of_the_fixed_frame_or_of_the_laser(bench: Benches) -> No
     assert colors(made) == [GREEN] * 4
 
 
-def test_alpha_fades_points(lab: Benches) -> None:
+def test_flat_points_are_really_transparent(lab: Benches) -> None:
     bench = lab(scan([1]), color_transformer="FlatColor", color=(248, 48, 48), alpha=0.5)
-    assert bench.nodes()["points"].colors == (148, 48, 48)
+    points = bench.nodes()["points"]
+    assert (points.colors, points.opacity) == ((248, 48, 48), 0.5)
 
 
 # Styles

@@ -208,6 +208,21 @@ def test_transparent_lines_blend_with_what_is_behind_them(unit: Any, view: Any) 
     assert view.color_at(drawn) == COLOR
 
 
+def test_translucent_points_blend_with_what_is_behind_them(view: Any) -> None:
+    """Both the first points of a node and those after a change of its opacity."""
+    sheet = Mesh(*square(1.0), (230, 240, 250), is_flat=True)
+    view.scene.upsert("base_link", "sheet", sheet)
+    points = Points(floats((0, 0, 0.1), (2, 0, 0.1)), COLOR, 0.6, opacity=0.25)
+    view.scene.upsert("base_link", "it", points)
+    on_sheet, beside = (0.1, 0.1, 0.1), (2.1, 0.1, 0.1)
+    for opacity in (0.25, 1.0, 0.5):
+        view.scene.upsert("base_link", "it", replace(points, opacity=opacity))
+        view.show()
+        for place, behind in ((on_sheet, (230, 240, 250)), (beside, BACKGROUND)):
+            blended = opacity * np.array(COLOR) + (1 - opacity) * np.array(behind)
+            assert view.color_at(place) == near(blended), (opacity, place)
+
+
 @pytest.mark.parametrize("opacity", [1.0, 0.5], ids=["opaque", "transparent"])
 @pytest.mark.parametrize("line_opacity", [1.0, 0.5], ids=["on a line", "on a faint line"])
 def test_a_flat_mesh_has_its_colour_and_covers_lines_in_its_plane(
@@ -413,7 +428,7 @@ def test_of_a_large_cloud_as_many_points_are_drawn_as_the_page_holds(fresh: View
     fresh.look((0.0, -0.01, 10.0), (0.0, 0.0, 0.0))
     drawn = "() => window.__viserMutable.scene.__r3f.root.getState().gl.info.render"
     near = fresh.evaluate(drawn)
-    assert near["points"] == 2 * POINTS_PER_BLOCK + 4, "one block is in sight, the first always"
+    assert near["points"] == 2 * POINTS_PER_BLOCK + 8, "one block is in sight, the first always"
     fresh.look((0.0, -0.1, 200.0), (0.0, 0.0, 0.0))
     far = fresh.evaluate(drawn)
     assert far["calls"] == near["calls"] + blocks - 2

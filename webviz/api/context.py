@@ -92,9 +92,12 @@ class Group:
         shape: Literal["square", "circle"] = "square",
         ids: Ids | None = None,
         thins: bool = False,
+        opacity: float = 1.0,
     ) -> None:
         """Draw points; see `webviz.api.nodes.Points`."""
-        self.nodes[key] = nodes.Points(_f32(xyz, 3), _colors(colors), size, shape, ids, thins)
+        self.nodes[key] = nodes.Points(
+            _f32(xyz, 3), _colors(colors), size, shape, ids, thins, opacity
+        )
 
     def lines(
         self,

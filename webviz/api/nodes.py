@@ -74,6 +74,7 @@ class Points(_Node):
         thins: whether browsers may draw only some of them, fewer of those that are far away: all of
             the first block of `POINTS_PER_BLOCK`, and the first points of each further block,
             which must stand for all of the block.
+        opacity: 0 to 1, drawn in steps of 1/255.
     """
 
     xyz: F32
@@ -82,6 +83,7 @@ class Points(_Node):
     shape: Literal["square", "circle"] = "square"
     ids: Ids | None = field(default=None, compare=False)
     thins: bool = False
+    opacity: float = 1.0
 
 
 @dataclass(frozen=True, eq=False)

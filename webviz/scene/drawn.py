@@ -13,6 +13,9 @@ from viser import SceneApi, SceneNodeHandle
 from webviz.api.nodes import U8, Rgb, same
 from webviz.scene.adapter import Adapter
 
+OPACITY_BIT = 40
+"""Binary place of the opacity in widths and sizes: far below what float32 resolves."""
+
 Props = dict[str, Any]
 NodeT = TypeVar("NodeT")
 NodeT_contra = TypeVar("NodeT_contra", contravariant=True)
@@ -71,6 +74,16 @@ def rgb_array(colors: U8 | Rgb, count: int) -> U8:
     """
     array = np.ascontiguousarray(colors, dtype=np.uint8)
     return array if count else np.zeros(3, dtype=np.uint8)
+
+
+def marked(size: float, opacity: float, more: int = 0) -> float:
+    """Return a size whose last bits are an opacity in steps of 1/255, and a multiple of 256.
+
+    viser's lines and points are opaque. Their sizes reach the page as doubles, which the modules
+    lines.js and points.js make use of.
+    """
+    mark = round(255 * (1.0 - opacity)) + more
+    return float(np.float32(size)) * (1.0 + mark * 2.0**-OPACITY_BIT)
 
 
 def finite(*arrays: NDArray[np.floating[Any]], along: Sequence[Any] = ()) -> list[Any]:

@@ -6,14 +6,11 @@ import numpy as np
 from viser import SceneApi, SceneNodeHandle
 
 from webviz.api.nodes import F32, U8, Arrows, Lines, Rgb
-from webviz.scene.drawn import Props, SingleNode, finite, rgb_array
+from webviz.scene.drawn import Props, SingleNode, finite, marked, rgb_array
 from webviz.scene.schemes import SCHEMES
 
 _NOTHING = np.zeros((0, 2, 3), np.float32)
 _BLACK = np.zeros(3, np.uint8)
-
-OPACITY_BIT = 40
-"""Binary place of the opacity in the width of lines: far below what float32 resolves."""
 
 _OF_THEME = 256
 """Added to it for lines in the colour that each page has for grids."""
@@ -35,7 +32,7 @@ class LinesDrawn(SingleNode[Lines]):
         return (
             props,
             {
-                "thickness": _marked(node.width, node.opacity, node.colors is None),
+                "thickness": marked(node.width, node.opacity, _OF_THEME * (node.colors is None)),
                 "thickness_units": "screen" if node.unit == "px" else "world",
             },
         )
@@ -60,15 +57,6 @@ class ArrowsDrawn(SingleNode[Arrows]):
                 "head_length": float(node.head_length),
             },
         )
-
-
-def _marked(width: float, opacity: float, follows_theme: bool) -> float:
-    """Return a width whose last bits are an opacity, in steps of 1/255, and a mark of the theme.
-
-    viser's lines are opaque. Their width reaches the page as a double, which lines.js makes use of.
-    """
-    mark = round(255 * (1.0 - opacity)) + _OF_THEME * follows_theme
-    return float(np.float32(width)) * (1.0 + mark * 2.0**-OPACITY_BIT)
 
 
 def linear(colors: U8) -> U8:

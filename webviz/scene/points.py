@@ -10,7 +10,7 @@ from viser import SceneApi, SceneNodeHandle
 
 from webviz.api.nodes import F32, POINTS_PER_BLOCK, U8, Points, Rgb, same
 from webviz.scene.adapter import Adapter
-from webviz.scene.drawn import Props, SingleNode, rgb_array
+from webviz.scene.drawn import Props, SingleNode, marked, rgb_array
 from webviz.scene.names import BLOCK_PREFIX, PART_PREFIX
 from webviz.server.sending.outbox import CLOUD
 
@@ -86,22 +86,27 @@ class _Part(SingleNode[Points]):
         return (
             places,
             # viser draws a point twice as wide as its size (measured).
-            {"point_size": node.size / 2.0, "point_shape": node.shape},
+            {"point_size": marked(node.size / 2.0, node.opacity), "point_shape": node.shape},
         )
 
 
 def keep_shaders(scene: SceneApi, root: str) -> None:
-    """Adds two clouds out of sight, which keep the point shaders alive.
+    """Adds clouds out of sight, which keep the point shaders alive.
 
     viser creates a new material for each update with colours, and three.js compiles its shader
     again (0.4 s without a GPU) unless another node uses it. There is one shader for a colour per
-    point and one for a single colour.
+    point and one for a single colour, each for opaque and for translucent points.
     """
-    _add(scene, f"{root}/%shader of coloured points", _OUT_OF_SIGHT, np.zeros((2, 3), np.uint8))
-    _add(scene, f"{root}/%shader of plain points", _OUT_OF_SIGHT, np.zeros(3, np.uint8))
+    for look, opacity in (("", 1.0), ("translucent ", 0.5)):
+        kind = f"{root}/%shader of {look}"
+        each, one = np.zeros((2, 3), np.uint8), np.zeros(3, np.uint8)
+        _add(scene, f"{kind}coloured points", _OUT_OF_SIGHT, each, marked(0.01, opacity))
+        _add(scene, f"{kind}plain points", _OUT_OF_SIGHT, one, marked(0.01, opacity))
 
 
-def _add(scene: SceneApi, name: str, points: np.ndarray, colors: np.ndarray) -> SceneNodeHandle:
+def _add(
+    scene: SceneApi, name: str, points: np.ndarray, colors: np.ndarray, size: float = 0.01
+) -> SceneNodeHandle:
     return scene.add_point_cloud(
-        name, points, colors, precision="float32", point_shading="flat", point_size=0.01
+        name, points, colors, precision="float32", point_shading="flat", point_size=size
     )

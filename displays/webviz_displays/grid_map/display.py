@@ -57,10 +57,7 @@ class GridMap(Display):
     ] = Topic("/grid_map")
     alpha: Annotated[
         Alpha,
-        Prop(
-            help="Opacity of the surface; lines are opaque in the browser and fade towards dark "
-            "grey."
-        ),
+        Prop(help="Opacity of the surface and of its lines."),
     ] = 1.0
     history_length: Annotated[
         int, Prop(ge=1, le=100, help="How many of the newest messages to show.")

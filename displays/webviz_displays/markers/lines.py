@@ -64,8 +64,11 @@ def points_of(batch: MarkerBatch) -> dict[str, Node]:
         chosen = slice(None) if is_visible.all() else is_visible
         if is_visible.any():
             xyz, ids = items.xyz[chosen].astype(np.float32), batch.ids[items.rows[chosen]]
-            colors = _opaque(items.colors[chosen])
-            nodes[f"points {size:.6g}"] = Points(xyz, colors, size, "square", ids)
+            alphas = opacities(items.colors[chosen][:, 3])
+            is_even = bool((alphas == alphas[0]).all())
+            colors = _one(rgb(items.colors[chosen])) if is_even else _opaque(items.colors[chosen])
+            opacity = float(alphas[0]) if is_even else 1.0
+            nodes[f"points {size:.6g}"] = Points(xyz, colors, size, "square", ids, opacity=opacity)
     return nodes
 
 

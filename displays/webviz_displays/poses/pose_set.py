@@ -34,8 +34,7 @@ ArrowAlpha = Annotated[
     Alpha,
     Prop(
         when=_BY_ARROWS,
-        help="Opacity of solid arrows; flat ones are opaque in the browser and fade towards dark "
-        "grey.",
+        help="Opacity of the arrows.",
     ),
 ]
 

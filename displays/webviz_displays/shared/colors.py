@@ -96,15 +96,10 @@ def _table(stops: tuple[Rgb, ...]) -> NDArray[np.void]:
 def faded(colors: U8, alpha: float | F64) -> U8:
     """Colours (..., 3) blended with RViz's background; `alpha` is a scalar or (..., 1).
 
-    The browser draws points and arrows opaque, so this stands in for their transparency.
+    The browser draws some points and flat arrows with one opacity, so this stands in for
+    an opacity of each.
     """
     if np.min(alpha, initial=1.0) >= 1.0:
         return colors
     mixed = alpha * np.asarray(colors, dtype=np.float64) + (1.0 - alpha) * np.array(BACKGROUND)
     return np.round(mixed).astype(np.uint8)
-
-
-def faded_color(color: Rgb, alpha: float) -> Rgb:
-    """`faded` for one colour."""
-    red, green, blue = faded(np.array(color, dtype=np.uint8), alpha).tolist()
-    return red, green, blue

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from webviz import Color, ColorScale, Context, Display, Group, Keep, Pose, Prop, Rgb, Solid, Topic
-from webviz_displays.shared.colors import RAINBOW, Alpha, bounds, faded, faded_color, ramp
+from webviz_displays.shared.colors import RAINBOW, Alpha, bounds, ramp
 from webviz_displays.shared.geometry import Metres, coordinate
 from webviz_displays.shared.point_sizes import by_size
 
@@ -70,10 +70,7 @@ class PointStyle(Display):
     ] = 3.0
     alpha: Annotated[
         Alpha,
-        Prop(
-            help="Opacity of Spheres, Boxes and Tiles; other styles stay opaque in the browser and "
-            "fade towards dark grey."
-        ),
+        Prop(help="Opacity of each point; those that lie over each other add up."),
     ] = 1.0
     selectable: Annotated[bool, Prop(help="Let the tool Select pick points.")] = True
     decay_time: Annotated[
@@ -127,10 +124,6 @@ class PointStyle(Display):
                 colors = np.repeat(colors[:, None], 2, axis=1)
             group.lines("points", dots, colors, self.size_pixels, ids=ids, opacity=self.alpha)
             return
-        if isinstance(colors, tuple):
-            colors = faded_color(colors, self.alpha)
-        else:
-            colors = faded(colors, self.alpha)
         outline = "circle" if self.style == "Spheres" else "square"
         if self.style in _SOLIDS:
             ctx.ok(
@@ -142,13 +135,14 @@ class PointStyle(Display):
             ctx.ok("Style", f"{self.style} are drawn as flat squares that face the camera.")
         if not isinstance(size, np.ndarray):
             key = "blocks" if thins else "points"  # nodes do not begin or cease to be thinned
-            group.points(key, xyz, colors, size, outline, ids, thins)
+            group.points(key, xyz, colors, size, outline, ids, thins, self.alpha)
             return
         for name, rows, one in by_size(size):
             # `take` is four times as fast as an index for each row.
             chosen = colors if isinstance(colors, tuple) else colors.take(rows, axis=0)
             own = rows if ids is None else ids[rows]
-            group.points(f"points {name}", xyz.take(rows, axis=0), chosen, one, outline, own)
+            places = xyz.take(rows, axis=0)
+            group.points(f"points {name}", places, chosen, one, outline, own, False, self.alpha)
 
 
 InvertRainbow = Annotated[

@@ -89,9 +89,7 @@ class Effort(Display):
     ] = Topic("/robot_description")
     alpha: Annotated[
         Alpha,
-        Prop(
-            help="Opacity of the heads; rings are opaque in the browser and fade towards dark grey."
-        ),
+        Prop(help="Opacity of rings and heads."),
     ] = 1.0
     width: Annotated[Length, Prop(help="Width of the rings.")] = 0.02
     scale: Annotated[Length, Prop(help="Diameter of the ring of the largest effort.")] = 1.0

@@ -43,10 +43,7 @@ class VectorDisplay(Display):
     topic: Annotated[Topic, Prop(help="Topic of the vectors.")] = Topic()
     alpha: Annotated[
         Alpha,
-        Prop(
-            help="Opacity of the arrows; circles are opaque in the browser and fade towards "
-            "dark grey."
-        ),
+        Prop(help="Opacity of arrows and circles."),
     ] = 1.0
     arrow_width: Annotated[Length, Prop(help="Width of the arrows; a head takes 0.2 of it.")] = 0.5
 

@@ -15,6 +15,7 @@ import * as lines from "./scene/lines.js";
 import * as mouse from "./scene/mouse.js";
 import * as overlay from "./overlay/overlay.js";
 import * as page from "./page.js";
+import * as points from "./scene/points.js";
 import * as pieces from "./scene/pieces.js";
 import * as saveImage from "./scene/save_image.js";
 import * as scheme from "./scene/scheme.js";
@@ -31,7 +32,7 @@ import * as whole from "./scene/whole.js";
 // Before viser's page handles the first messages: it draws with what it has then.
 async function install() {
   await viser.until(viser.hasScene);
-  const ofScene = [scheme, batches, textures, tiles, labels, lines, shade, colors, flat, whole, pieces];
+  const ofScene = [scheme, batches, textures, tiles, labels, lines, points, shade, colors, flat, whole, pieces];
   for (const part of [shell, page, inStep, ...ofScene, contact]) part.install();
   await viser.until(() => viser.hasCamera() && viser.node(constants.ROOT));
   for (const part of [view, mouse, handles, saveImage, overlay, holding, blocks]) part.install();

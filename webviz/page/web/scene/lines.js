@@ -1,7 +1,7 @@
 // Appearance of lines.
 //
 // Lines with an opacity blend; viser's are opaque. The opacity is in the last bits of the width, see
-// scene/lines.py, with a mark of those that have the colour of the theme. The ends of lines with a width in metres are square, as RViz's, where viser's are
+// marks.js, with a mark of those that have the colour of the theme. The ends of lines with a width in metres are square, as RViz's, where viser's are
 // round; their joints are mitred, so that the segments next to each other share an edge and none of
 // them is blended twice, but round where a line turns back. And a segment that passes by the camera
 // is cut where it is well off the screen. viser cuts it next to the camera, where its projection is
@@ -9,11 +9,10 @@
 // and went. Between the ends, colours are mixed as in RViz, in sRGB. Shaders and attributes are those
 // of LineMaterial and LineSegmentsGeometry in three-stdlib.
 
-import constants from "../constants.js";
+import { markOf } from "./marks.js";
 import { paint, scheme } from "./scheme.js";
 import * as viser from "../viser_page.js";
 
-const { OPACITY_BIT } = constants;
 const OF_THEME = 256;
 
 // Where the segment leaves a pyramid four times as wide as what is seen.
@@ -113,7 +112,7 @@ function direction(xyz, number, into) {
 // only then. Grids without a colour of their own have that of the theme.
 function blend(material) {
   const { linewidth, worldUnits, defines } = material;
-  const mark = Math.round((linewidth / (Math.fround(linewidth) || 1) - 1) * 2 ** OPACITY_BIT) || 0;
+  const mark = markOf(linewidth);
   const clear = mark % OF_THEME;
   if (mark >= OF_THEME) paint(material.color, scheme().grid);
   material.opacity = 1 - clear / 255;
