@@ -11,8 +11,9 @@ from webviz.engine.commands import Command
 from webviz.engine.parts.selection import MAX_SELECTED
 from webviz.page.content import MAKERS
 from webviz.server.access import rules
+from webviz.server.access.requests import Dismiss, Invite, Revoke, UseWidget
 from webviz.server.access.roles import LIMITS, LINKS, Role
-from webviz.server.channel import invitation_messages, messages
+from webviz.server.channel import messages
 from webviz.server.channel.messages import FromPage
 from webviz.server.channel.refusals import answer
 from webviz.server.http.viser_types import message_type
@@ -25,7 +26,6 @@ NOT_OF_PAGES = {
     "Command": "base class",
     "FileCommand": "base class",
     "ViewCommand": "base class",
-    "GripHandle": "a page sends a Gripped",
     "InspectSelections": "follows from the stores that pages watch",
     "InspectTopic": "of programs",
     "InspectTopics": "follows from the stores that pages watch",
@@ -34,7 +34,6 @@ NOT_OF_PAGES = {
     "Restore": "of the start of a viewer",
     "ReloadPlugin": "runs code of a file",
     "TraceDisplay": "of programs",
-    "UseTool": "a page sends a StrokeDone",
 }
 """Commands that no page may send, and why."""
 
@@ -51,11 +50,15 @@ WATCHING = {
     "WriteDisplays",
 }
 OWNING = {"Load", "Open", "Save", "SaveMemory", "StartRecording", "StopRecording"}
+OWNING |= {"Dismiss", "Invite", "Revoke"}
+OF_THE_SERVER = (Dismiss, Invite, Revoke, UseWidget)
+"""Done by itself, without the frame loop."""
 
 
 def every_command() -> set[str]:
     public = [getattr(commands, name) for name in commands.__all__]
-    return {c.__name__ for c in public if isinstance(c, type) and issubclass(c, Command)}
+    found = {c.__name__ for c in public if isinstance(c, type) and issubclass(c, Command)}
+    return found | {each.__name__ for each in OF_THE_SERVER}
 
 
 def every_message() -> set[str]:
@@ -125,12 +128,8 @@ def test_a_store_of_owners_is_for_owners(monkeypatch: pytest.MonkeyPatch) -> Non
 def test_what_is_answered_is_refused_in_words() -> None:
     drive = messages.Drive("tool", 1, 0.0, 0.0, 0.0)
     assert answer(drive, "No.") == messages.HelmReport("tool", 0, None, "No.")
-    stroke = messages.StrokeDone("tool", (), 0.0, (), number=3)
-    assert answer(stroke, "No.") == messages.Result(3, "error", "No.")
-    for asked in (messages.Do(7, "Save", {}), messages.Use(7, "panel", "button")):
-        assert answer(asked, "No.") == messages.Done(7, "error", "No.", "")
-    invite = invitation_messages.Invite(7, "Ada", "owner", None, "http://robot")
-    assert answer(invite, "No.") == invitation_messages.Invitation(7, "No.", "", "")
+    save = messages.Do(7, "Save", {})
+    assert answer(save, "No.") == messages.Done(7, "Save", "error", "No.", {})
     assert answer(messages.Ping(), "No.") is None
 
 

@@ -478,22 +478,22 @@ def test_a_pen_makes_a_stroke_as_well(page: Page, graph: RememberingGraph) -> No
 @pytest.mark.parametrize(
     "stroke",
     [
-        '{"type":"StrokeDone","tool":"TOOL","points":[[1e308,0,0]],"yaw":0,"keys":[]}',
-        '{"type":"StrokeDone","tool":"TOOL","points":[],"yaw":0,"keys":[]}',
-        '{"type":"StrokeDone","tool":"no tool","points":[[0,0,0]],"yaw":0,"keys":[]}',
-        '{"type":"StrokeDone","tool":"TOOL","points":[[null,0,0]],"yaw":0,"keys":[]}',
-        '{"type":"StrokeDone","tool":"TOOL","points":[[0,0,0]],"yaw":1e308,"keys":[]}',
-        '{"type":"StrokeDone","tool":5}',
+        {"tool": "TOOL", "points": [[1e308, 0, 0]], "yaw": 0, "keys": []},
+        {"tool": "TOOL", "points": [], "yaw": 0, "keys": []},
+        {"tool": "no tool", "points": [[0, 0, 0]], "yaw": 0, "keys": []},
+        {"tool": "TOOL", "points": [[None, 0, 0]], "yaw": 0, "keys": []},
+        {"tool": "TOOL", "points": [[0, 0, 0]], "yaw": 1e308, "keys": []},
+        {"tool": 5},
     ],
 )
 def test_a_stroke_that_is_not_valid_publishes_nothing(
-    page: Page, graph: RememberingGraph, viewer: webviz.Viewer, stroke: str
+    page: Page, graph: RememberingGraph, viewer: webviz.Viewer, stroke: dict[str, Any]
 ) -> None:
     goal = next(tool for tool in viewer.state.tools if tool.name == "2D Goal Pose")
-    text = stroke.replace("TOOL", goal.id)
-    page.tab.evaluate(
-        "async (text) => (await import('./webviz/channel.js')).send(JSON.parse(text))", text
-    )
+    if stroke["tool"] == "TOOL":
+        stroke = {**stroke, "tool": goal.id}
+    send = "async (stroke) => void (await import('./webviz/act.js')).send('UseTool', stroke)"
+    page.tab.evaluate(send, stroke)
     drag_works(page, graph)
 
 

@@ -46,6 +46,11 @@ WORDS = (
 FROM_PAGE = sorted(MESSAGES)
 REQUIRED = {class_.__name__: role for class_, role in COMMANDS.items()}
 
+SILENT = ("GripHandle", "UseTool")
+"""Commands of which only refusals and what tools say are answered."""
+DRAWN = sorted(REQUIRED.keys() - {"Dismiss"})
+"""Of these; an owner would end the other attackers."""
+
 
 def kind_of(role: Role | None) -> str:
     """The kind of attacks by somebody of a role."""
@@ -110,9 +115,12 @@ class Sockets(Attack):
             return Outcome.SURVIVED
         if not is_do:
             return Outcome.SURVIVED
-        level, answer = self._visitor.answer(do.number, ANSWER_S)
         required = REQUIRED.get(do.command)
-        if level != "error" and (required is None or self._role is None or self._role < required):
+        is_allowed = required is not None and self._role is not None and self._role >= required
+        if is_allowed and do.command in SILENT:
+            return Outcome.SURVIVED
+        level, answer = self._visitor.answer(do.number, ANSWER_S)
+        if level != "error" and not is_allowed:
             raise Violation(f"{do.command} was done for one who may not")
         if len(answer) > 1000:
             raise Violation(f"an answer of {len(answer)} characters")
@@ -125,7 +133,7 @@ class Sockets(Attack):
         if random.random() < 0.3:
             said = {"type": random.choice(FROM_PAGE), **fields}
         else:
-            command = random.choice(sorted(REQUIRED))
+            command = random.choice(DRAWN)
             arguments = {**commands.arguments(random, command)}
             if random.random() < 0.25:
                 arguments |= fields

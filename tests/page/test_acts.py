@@ -69,7 +69,7 @@ def test_the_page_that_asks_gets_the_answer(tab: Tab) -> None:
     tab.page.evaluate(f"(hz) => {{ window.answer = ({ask})(hz) }}", 30)
     tab.wait_for_command(commands.SetFrameRate(30.0))
     assert tab.loop.senders[-1].browser is not None
-    assert tab.page.evaluate("window.answer") == {"level": "ok", "text": "", "display": ""}
+    assert tab.page.evaluate("window.answer") == {"level": "ok", "text": ""}
     tab.loop.answer = ValueError("Not changed: too fast.")
     tab.page.evaluate(f"(hz) => {{ window.answer = ({ask})(hz) }}", 1000)
     tab.wait_for(lambda: "Not changed: too fast." in tab.text())

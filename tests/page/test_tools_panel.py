@@ -112,7 +112,7 @@ def test_a_flood_of_gestures_is_refused_and_hidden_commands_are_unknown(tab: Tab
     tab.wait_for(lambda: text in tab.text())
     tab.page.evaluate(
         "async () => { const { act } = await import('/webviz/act.js');"
-        "act('UseTool', { tool: 't1', points: [[0, 0, 0]] }); }"
+        "act('ReloadPlugin', { path: 'a.py' }); }"
     )
     tab.wait_for(lambda: "this page does not fit the viewer" in tab.text())
     assert len(tab.loop.commands) < 200

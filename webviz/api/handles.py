@@ -7,7 +7,9 @@ own frame rate, with the rules of `Control`, and report it as grips.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Annotated, Literal
+
+import msgspec
 
 from webviz.api.nodes import Pose
 
@@ -130,4 +132,4 @@ class Grip:
     pose: Pose | None = None
     turned: float = 0.0
     point: Position | None = None
-    entry: int = 0
+    entry: Annotated[int, msgspec.Meta(ge=0, lt=1 << 32)] = 0

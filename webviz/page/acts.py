@@ -1,30 +1,38 @@
-"""Dispatcher of the pages' commands, each answered in the page that sent it."""
+"""Dispatcher of the pages' commands: their limits, their journal, and who carries them out."""
 
 from __future__ import annotations
 
 import dataclasses
 import functools
-from collections.abc import Callable
+import time
+from collections import deque
+from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from typing import Any, get_type_hints
 
 import msgspec
 
-from webviz.engine.commands import Command, Load, Open, Save, Sender
+from webviz.engine.commands import Command, GripHandle, Load, Open, Save, Sender, UseTool
 from webviz.files.config import MAX_DEPTH, MAX_VALUES
-from webviz.page.content.forms import MAX_TEXT, brief
+from webviz.page.asked import Asked
+from webviz.page.content.forms import MAX_TEXT
+from webviz.server.access.requests import Dismiss, Invite, Revoke
 from webviz.server.access.rules import COMMANDS, UNKNOWN
 from webviz.server.channel.channel import Channel
-from webviz.server.channel.messages import Do, Done, Download
+from webviz.server.channel.messages import Do, Download
 
-NOT_OF_PAGES = frozenset({"browser", "made", "deliver"})
+NOT_OF_PAGES = frozenset({"browser", "made", "deliver", "report", "published"})
 """Fields that the server fills in: a page acts for itself and gets what it made with the answer."""
 
-NOTED = (Load, Open, Save)
+NOTED = (Dismiss, Invite, Load, Open, Revoke, Save, UseTool)
 """Commands noted for the owner."""
 
-MAX_ERROR = 1000
-"""Characters of what is answered to a page that is refused: it may quote what the page sent."""
+MAX_STROKES, MAX_GRIPS = 20, 50
+"""Strokes of tools, and grips of handles other than moves, of a browser within a second; people
+make one or two."""
+
+Handler = Callable[[Asked, Any], object]
+"""Carries out a command that a page has asked for, on the event loop."""
 
 
 class Acts:
@@ -33,7 +41,9 @@ class Acts:
     Args:
         channel: to the pages.
         enqueue: takes commands, from any thread.
-        note: is told what browsers did with files, from any thread.
+        note: is told what browsers did that owners may want to know, from any thread.
+        handlers: of commands that do not simply wait for the frame loop.
+        clock: monotonic time in seconds.
     """
 
     def __init__(
@@ -41,39 +51,71 @@ class Acts:
         channel: Channel,
         enqueue: Callable[[Command, Sender], Future[str]],
         note: Callable[[int, str], None],
+        handlers: Mapping[type[Any], Handler],
+        clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._channel = channel
         self._enqueue = enqueue
         self._note = note
+        self._handlers = handlers
+        self._clock = clock
+        self._recent: dict[tuple[int, str], deque[float]] = {}
+        """When each browser sent its last commands that are limited."""
         channel.on(Do, self._do)
 
     def _do(self, browser: int, do: Do) -> None:
-        made: list[str] = []
-        deliver = functools.partial(self._deliver, browser, do)
+        made: dict[str, str] = {}
         try:
-            command = command_of(do.command, do.arguments, made=made.append, deliver=deliver)
+            command = command_of(
+                do.command,
+                do.arguments,
+                made=functools.partial(made.__setitem__, "display"),
+                deliver=functools.partial(self._deliver, browser, do),
+            )
         except ValueError as error:
-            self._channel.send(Done(do.number, "error", brief(str(error), MAX_ERROR), ""), browser)
+            Asked(self._channel, browser, do).refuse(str(error))
             return
+        note = functools.partial(self._note, browser) if isinstance(command, NOTED) else None
+        asked = Asked(self._channel, browser, do, note)
+        if (most := _most_per_second(command)) and self._is_flood(browser, do.command, most):
+            asked.refuse(f"Not sent: more than {most} gestures within a second. Wait a moment.")
+        elif (handler := self._handlers.get(type(command))) is not None:
+            handler(asked, command)
+        elif isinstance(command, Command):
 
-        def tell(done: Future[str]) -> None:
-            if done.cancelled():
-                return
-            if error := done.exception():  # a sentence for people
-                level, text = "error", brief(str(error), MAX_ERROR)
-            else:
-                level, text = "ok", done.result()
-            self._channel.send(Done(do.number, level, text, "".join(made)), browser)
-            if level == "ok" and isinstance(command, NOTED):
-                self._note(browser, text)
+            def tell(done: Future[str]) -> None:
+                if not asked.refused_by(done):
+                    asked.answer(done.result(), **made)
 
-        self._enqueue(command, Sender(browser, do.step)).add_done_callback(tell)
+            self._enqueue(command, asked.sender).add_done_callback(tell)
 
     def _deliver(self, browser: int, do: Do, text: str) -> None:
         self._channel.send(Download(do.arguments.get("name") or "webviz.yaml", text), browser)
 
+    def _is_flood(self, browser: int, command: str, most: int) -> bool:
+        """Return whether a browser is faster than people are; if not, counts this command."""
+        now = self._clock()
+        recent = {key: times for key, times in self._recent.items() if times[-1] > now - 1.0}
+        times = recent.setdefault((browser, command), deque(maxlen=most))
+        self._recent = recent
+        is_flood = len(times) == most and times[0] > now - 1.0
+        if not is_flood:
+            times.append(now)
+        return is_flood
 
-def command_of(name: str, arguments: dict[str, Any], **own: Any) -> Command:
+
+def _most_per_second(command: Any) -> int:
+    """Return how many such commands a browser may send within a second, 0 for no limit."""
+    match command:
+        case UseTool():
+            return MAX_STROKES
+        case GripHandle(grip=grip) if grip.kind != "move":  # of moves, only the newest is done
+            return MAX_GRIPS
+        case _:
+            return 0
+
+
+def command_of(name: str, arguments: dict[str, Any], **own: Any) -> object:
     """The command that a page asks for.
 
     Args:

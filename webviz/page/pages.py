@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from concurrent.futures import Future
 from dataclasses import replace
+from typing import Any
 
 from webviz.api.registry import display_types
-from webviz.engine.commands import Command, Refresh, Sender
+from webviz.engine.commands import Command, GripHandle, Refresh, Sender, UseTool
 from webviz.engine.commands.guard import Guard
 from webviz.engine.state import State
-from webviz.page.acts import Acts
+from webviz.page.acts import Acts, Handler
 from webviz.page.content import MAKERS
 from webviz.page.driving import DrivingMessages, Steer
 from webviz.page.gripping import GripMessages
@@ -21,6 +22,7 @@ from webviz.page.toolbar import Toolbar
 from webviz.page.wishes import Wishes
 from webviz.server.access.access import Access
 from webviz.server.access.journal import Journal
+from webviz.server.access.requests import Dismiss, Invite, Revoke, UseWidget
 from webviz.server.access.roles import Role
 from webviz.server.channel.channel import Channel
 from webviz.server.channel.messages import Shell, ShowPictures
@@ -58,13 +60,20 @@ class Pages:
         def request(command: Command, sender: Sender) -> Future[str]:
             return enqueue(command, _ranked(channel, sender))
 
-        self._toolbar = Toolbar(channel, request, note)
-        self._acts = Acts(channel, request, note)
-        self._driving = DrivingMessages(channel, steer, note)
+        self._toolbar = toolbar = Toolbar(channel, request)
+        self._panels = panels = PluginPanels(request)
         people = People(channel, journal, access or Access())
-        self._gripping = GripMessages(channel, request)
+        handlers: dict[type[Any], Handler] = {
+            Dismiss: people.dismiss,
+            GripHandle: GripMessages(request).grip,
+            Invite: people.invite,
+            Revoke: people.revoke,
+            UseTool: toolbar.use,
+            UseWidget: panels.use,
+        }
+        self._acts = Acts(channel, request, note, handlers)
+        self._driving = DrivingMessages(channel, steer, note)
         self._wishes = Wishes(request)
-        self._panels = panels = PluginPanels(channel, request)
         self._of_panels = {
             "addresses": people.addresses,
             "journal": people.journal,

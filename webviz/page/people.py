@@ -12,15 +12,16 @@ from typing import Any, TypeVar
 from webviz.api.errors import Error
 from webviz.data.disk import DiskThreads
 from webviz.engine.state import State
+from webviz.page.asked import Asked
 from webviz.server.access import token_file
 from webviz.server.access.access import Access
 from webviz.server.access.journal import Journal
+from webviz.server.access.requests import Dismiss, Invite, Revoke
 from webviz.server.access.roles import Role
 from webviz.server.access.starting import link
 from webviz.server.access.tokens import Token, TokenError, make
 from webviz.server.channel.channel import Channel
-from webviz.server.channel.invitation_messages import Dismiss, Dismissed, Invitation, Invite, Revoke
-from webviz.server.channel.messages import Done
+from webviz.server.channel.messages import Dismissed
 
 NOT_ASKED = (
     "Not made: this viewer asks for no tokens. Start webviz with --token, or with --host for "
@@ -47,9 +48,6 @@ class People:
         self._channel = channel
         self._journal = journal
         self._access = access
-        channel.on(Invite, self._invite)
-        channel.on(Dismiss, self._dismiss)
-        channel.on(Revoke, lambda browser, asked: self._revoke(browser, asked, asked.name))
         self._dismissing: set[asyncio.Task[None]] = set()
         self._disk = DiskThreads(MAX_THREADS)
 
@@ -88,55 +86,57 @@ class People:
 
     # Called on the event loop
 
-    def _invite(self, browser: int, invite: Invite) -> None:
+    def invite(self, asked: Asked, invite: Invite) -> None:
+        """Make a link for somebody else."""
+
         def answer(done: Future[Token]) -> None:
             try:
                 address = link(invite.url, done.result())
             except Error as error:
-                self._channel.send(Invitation(invite.number, str(error), "", ""), browser)
+                asked.refuse(str(error))
                 return
             import segno  # here, as it would slow down the start
 
             code = segno.make(address, micro=False).svg_data_uri(scale=5, border=4, light="#fff")
-            self._channel.send(Invitation(invite.number, "", address, code), browser)
             text = f"Invited {invite.name} as {Role[invite.role.upper()].phrase}."
-            self._journal.note(self._channel.visitors().get(browser), text)
+            asked.answer(text, link=address, code=code)
 
         self._begin(lambda: self._make(invite)).add_done_callback(answer)
 
-    def _dismiss(self, browser: int, dismiss: Dismiss) -> None:
-        visitor = self._channel.visitors().get(dismiss.browser)
-        grant = self._channel.grant_of(dismiss.browser)
+    def dismiss(self, asked: Asked, dismiss: Dismiss) -> None:
+        """End the visit of somebody else."""
+        visitor = self._channel.visitors().get(dismiss.visitor)
+        grant = self._channel.grant_of(dismiss.visitor)
         if visitor is None or grant is None:
-            self._answer(browser, dismiss, "", "They are gone already.")
-        elif dismiss.browser == browser:
-            self._answer(browser, dismiss, "", "Not done: this is your own page. Close it.")
+            asked.refuse("They are gone already.")
+        elif dismiss.visitor == asked.browser:
+            asked.refuse("Not done: this is your own page. Close it.")
         elif dismiss.revokes:
-            self._revoke(browser, dismiss, grant.name)
+            self.revoke(asked, Revoke(grant.name))
         else:
             text = (
                 "The owner has ended your visit. Open the address of the viewer again to come back."
             )
-            self._channel.send(Dismissed(text), dismiss.browser)
-            task = asyncio.get_running_loop().create_task(self._channel.dismiss(dismiss.browser))
+            self._channel.send(Dismissed(text), dismiss.visitor)
+            task = asyncio.get_running_loop().create_task(self._channel.dismiss(dismiss.visitor))
             self._dismissing.add(task)
             task.add_done_callback(self._dismissing.discard)
-            who = visitor.name or visitor.address
-            self._answer(browser, dismiss, f"Ended a visit of {who}.")
+            asked.answer(f"Ended a visit of {visitor.name or visitor.address}.")
 
-    def _revoke(self, browser: int, asked: Dismiss | Revoke, name: str) -> None:
-        own = self._channel.grant_of(browser)
+    def revoke(self, asked: Asked, revoke: Revoke) -> None:
+        """End a link, and all visits by it."""
+        name, own = revoke.name, self._channel.grant_of(asked.browser)
         if name and own is not None and own.name == name:
-            self._answer(browser, asked, "", OWN_LINK)
+            asked.refuse(OWN_LINK)
             return
 
         def answer(done: Future[None]) -> None:
             try:
                 done.result()
             except Error as error:
-                self._answer(browser, asked, "", str(error))
+                asked.refuse(str(error))
             else:
-                self._answer(browser, asked, f"Revoked the link of {name}.")
+                asked.answer(f"Revoked the link of {name}.")
 
         self._begin(lambda: self._remove(name)).add_done_callback(answer)
 
@@ -148,12 +148,6 @@ class People:
             refused: Future[T] = Future()
             refused.set_exception(TokenError("Not done: too many at once. Try again later."))
             return refused
-
-    def _answer(self, browser: int, asked: Dismiss | Revoke, done: str, problem: str = "") -> None:
-        level = "error" if problem else "ok"
-        self._channel.send(Done(asked.number, level, problem or done, ""), browser)
-        if done:
-            self._journal.note(self._channel.visitors().get(browser), done)
 
     def _remove(self, name: str) -> None:
         """Remove a token from the file; its pages are closed soon."""

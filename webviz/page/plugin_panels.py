@@ -15,12 +15,12 @@ from webviz.api.registry import broken_types, plugin_types
 from webviz.engine.commands import Command, Sender
 from webviz.engine.commands.guard import Guard
 from webviz.engine.state import State
+from webviz.page.asked import Asked
 from webviz.page.chart import ChartWidget
 from webviz.page.content.forms import form, values_of
 from webviz.page.recorded_ui import RecordedUi
 from webviz.page.widgets import Widget, clean
-from webviz.server.channel.channel import Channel
-from webviz.server.channel.messages import Done, Use
+from webviz.server.access.requests import UseWidget
 
 log = logging.getLogger("webviz")
 
@@ -37,17 +37,14 @@ class PluginPanels:
     of each panel, so that no act stops the viewer or another panel.
 
     Args:
-        channel: to the pages.
         enqueue: takes commands, from any thread.
     """
 
-    def __init__(self, channel: Channel, enqueue: Callable[[Command, Sender], Future[str]]) -> None:
-        self._channel = channel
+    def __init__(self, enqueue: Callable[[Command, Sender], Future[str]]) -> None:
         self._enqueue = enqueue
         self._tabs: dict[str, _Tab] = {}
         self._order: list[str] = []
         self._broken = broken_types(Panel)
-        channel.on(Use, self._use)
 
     def update(self, state: State, watched: Collection[str]) -> None:
         """Let the panels show the viewer whose stores are watched."""
@@ -105,17 +102,21 @@ class PluginPanels:
 
     # Called on the event loop
 
-    def _use(self, browser: int, use: Use) -> None:
-        def answer(text: str) -> None:
-            level = "error" if text else "ok"
-            self._channel.send(Done(use.number, level, text, ""), browser)
+    def use(self, asked: Asked, command: UseWidget) -> None:
+        """Let a panel act on the use of one of its widgets."""
 
-        tab = self._tabs.get(use.panel)
-        widget = tab.ui.find(use.widget) if tab else None
+        def act(tab: _Tab, widget: Widget) -> None:
+            if problem := tab.use(widget, command.value, asked.browser):
+                asked.refuse(problem)
+            else:
+                asked.answer()
+
+        tab = self._tabs.get(command.panel)
+        widget = tab.ui.find(command.widget) if tab else None
         if tab is None or widget is None:
-            answer("Not done: this panel has changed.")
-        elif not tab.hands.do(lambda: answer(tab.use(widget, use.value, browser))):
-            answer(f"Not done: the panel {tab.title} is busy.")
+            asked.refuse("Not done: this panel has changed.")
+        elif not tab.hands.do(lambda: act(tab, widget)):
+            asked.refuse(f"Not done: the panel {tab.title} is busy.")
 
     def _send(self, command: Any, browser: int | None = None) -> None:
         self._enqueue(command, Sender(browser)).add_done_callback(_note_refusal)

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import threading
-import time
-from collections import deque
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
-from dataclasses import fields
+from dataclasses import fields, replace
 from typing import Any
 
 import msgspec
@@ -15,11 +12,9 @@ import msgspec
 from webviz.api.status import Level, Status
 from webviz.engine.commands import Command, Sender, UseTool
 from webviz.engine.state import State, ToolButton
+from webviz.page.asked import Asked
 from webviz.server.channel.channel import Channel
-from webviz.server.channel.messages import Published, Result, StrokeDone, Tools
-
-MAX_PER_SECOND = 20
-"""Strokes of a browser within a second; people make one or two."""
+from webviz.server.channel.messages import Published, Tools
 
 _SENT = [field.name for field in fields(ToolButton) if field.name != "tool"]
 
@@ -30,25 +25,16 @@ class Toolbar:
     Args:
         channel: to the pages.
         enqueue: takes commands, from any thread.
-        note: is told what browsers sent with tools, from any thread.
-        clock: monotonic time in seconds.
     """
 
     def __init__(
         self,
         channel: Channel,
         enqueue: Callable[[Command, Sender], Future[str]],
-        note: Callable[[int, str], None],
-        clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._channel = channel
         self._enqueue = enqueue
-        self._note = note
-        self._clock = clock
-        self._recent: dict[int, deque[float]] = {}
-        """When each browser made its last strokes."""
         self._shown: Tools | None = None
-        channel.on(StrokeDone, self._use)
 
     def update(self, state: State) -> None:
         """Show the tools of a viewer; sends only what is new."""
@@ -57,51 +43,18 @@ class Toolbar:
             self._shown = tools
             self._channel.send(tools)
 
-    def _use(self, browser: int, stroke: StrokeDone) -> None:
-        is_noted = threading.Event()
+    def use(self, asked: Asked, stroke: UseTool) -> None:
+        """Pass a stroke on to the frame loop; the tool answers, maybe more than once."""
 
         def tell(status: Status) -> None:
-            level = Level(status.level).name.lower()
-            if status.level is not Level.ERROR and not is_noted.is_set():
-                is_noted.set()  # what comes later is how it goes on
-                self._note(browser, status.text)
-            self._channel.send(Result(stroke.number, level, status.text), browser)
+            asked.answer(status.text, Level(status.level).name.lower())
 
         def published(topic: str, type: str, values: Mapping[str, Any]) -> None:
             encoded = msgspec.Raw(msgspec.json.encode(values, enc_hook=_plain))
-            self._channel.send(Published(stroke.number, topic, type, encoded), browser)
+            self._channel.send(Published(asked.number, topic, type, encoded), asked.browser)
 
-        def finish(used: Future[str]) -> None:
-            if not used.cancelled() and (error := used.exception()):
-                tell(Status(Level.ERROR, str(error)))
-
-        if self._is_flood(browser):
-            text = f"Not sent: more than {MAX_PER_SECOND} gestures within a second. Wait a moment."
-            tell(Status(Level.ERROR, text))
-            return
-        keys = frozenset(stroke.keys)
-        command = UseTool(
-            stroke.tool,
-            stroke.points,
-            stroke.yaw,
-            keys,
-            stroke.yaws,
-            stroke.several,
-            report=tell,
-            published=published,
-        )
-        self._enqueue(command, Sender(browser)).add_done_callback(finish)
-
-    def _is_flood(self, browser: int) -> bool:
-        """Return whether a browser makes strokes faster than people do; if not, counts this one."""
-        now = self._clock()
-        recent = {id: times for id, times in self._recent.items() if times[-1] > now - 1.0}
-        times = recent.setdefault(browser, deque(maxlen=MAX_PER_SECOND))
-        self._recent = recent
-        is_flood = len(times) == MAX_PER_SECOND and times[0] > now - 1.0
-        if not is_flood:
-            times.append(now)
-        return is_flood
+        command = replace(stroke, report=tell, published=published)
+        self._enqueue(command, asked.sender).add_done_callback(asked.refused_by)
 
 
 def _plain(value: Any) -> Any:

@@ -18,21 +18,15 @@ export interface Dismissed {
 export interface Done {
   type: "Done";
   number: number;
+  command: string;
   level: string;
   text: string;
-  display: string;
+  result: Record<string, string>;
 }
 
 export interface Download {
   type: "Download";
   name: string;
-  text: string;
-}
-
-export interface GripRefused {
-  type: "GripRefused";
-  handle: string;
-  kind: string;
   text: string;
 }
 
@@ -42,14 +36,6 @@ export interface HelmReport {
   beat: number;
   driver: number | null;
   problem: string;
-}
-
-export interface Invitation {
-  type: "Invitation";
-  number: number;
-  problem: string;
-  link: string;
-  code: string;
 }
 
 export interface PixelValue {
@@ -82,13 +68,6 @@ export interface Published {
   topic: string;
   message_type: string;
   values: unknown;
-}
-
-export interface Result {
-  type: "Result";
-  number: number;
-  level: string;
-  text: string;
 }
 
 export interface SaveCanvas {
@@ -142,21 +121,6 @@ export interface Answer {
   token: string;
 }
 
-export interface Dismiss {
-  type: "Dismiss";
-  number: number;
-  browser: number;
-  revokes: boolean;
-}
-
-export interface Do {
-  type: "Do";
-  number: number;
-  command: string;
-  arguments: Record<string, unknown>;
-  step?: number;
-}
-
 export interface Drive {
   type: "Drive";
   tool: string;
@@ -171,19 +135,6 @@ export interface FramesShown {
   numbers: Record<string, number>;
 }
 
-export interface Gripped {
-  type: "Gripped";
-  display: string;
-  handle: string;
-  control: number;
-  kind: "choose" | "hold" | "move" | "press" | "release";
-  position?: [number, number, number] | null;
-  wxyz?: [number, number, number, number] | null;
-  turned?: number;
-  point?: [number, number, number] | null;
-  entry?: number;
-}
-
 export interface Hello {
   type: "Hello";
   key: string;
@@ -192,15 +143,6 @@ export interface Hello {
 export interface Holds {
   type: "Holds";
   points: number;
-}
-
-export interface Invite {
-  type: "Invite";
-  number: number;
-  name: string;
-  role: "operator" | "owner" | "watcher";
-  days: number | null;
-  url: string;
 }
 
 export interface Ping {
@@ -214,39 +156,14 @@ export interface ReadPixel {
   y: number;
 }
 
-export interface Revoke {
-  type: "Revoke";
-  number: number;
-  name: string;
-}
-
 export interface ShowPictures {
   type: "ShowPictures";
   widths: Record<string, number>;
 }
 
-export interface StrokeDone {
-  type: "StrokeDone";
-  tool: string;
-  points: Array<[number, number, number]>;
-  yaw: number;
-  keys: Array<string>;
-  yaws?: Array<number>;
-  several?: string;
-  number?: number;
-}
-
 export interface Unwatch {
   type: "Unwatch";
   store: string;
-}
-
-export interface Use {
-  type: "Use";
-  number: number;
-  panel: string;
-  widget: string;
-  value?: boolean | string | null;
 }
 
 export interface ViewReport {
@@ -263,20 +180,78 @@ export interface Watch {
   store: string;
 }
 
+/** The fields of each command that a page may send. */
+export interface Commands {
+  AddDisplay: { type: string; values?: Record<string, unknown>; group?: string };
+  AddPanel: { type: string; values?: Record<string, unknown> };
+  CancelGoal: { goal: string };
+  ChangeView: { key: string; value: unknown };
+  Dismiss: { visitor: number; revokes: boolean };
+  DismissGoal: { goal: string };
+  DuplicateDisplay: { display: string };
+  Export: { name?: string };
+  FocusDisplay: { display: string };
+  FocusFrame: { frame: string };
+  GripHandle: { display: string; grip: { handle: string; control: number; kind: "choose" | "hold" | "move" | "press" | "release"; pose?: { position?: [number, number, number]; wxyz?: [number, number, number, number] } | null; turned?: number; point?: [number, number, number] | null; entry?: number } };
+  Identify: { picks: { group: string; key: string; items: Array<[number, number | null, [number, number, number], [number, number, number] | null]> } };
+  Invite: { name: string; role: "operator" | "owner" | "watcher"; days: number | null; url: string };
+  Load: { text: string; name: string };
+  MoveDisplay: { display: string; group?: string; before?: string };
+  Open: { path: string };
+  Pause: { paused?: boolean };
+  Play: Record<string, never>;
+  Redo: { steps?: number; own?: boolean };
+  RemoveBookmark: { name: string };
+  RemoveDisplay: { display: string };
+  RemovePanel: { panel: string };
+  RemoveView: { name: string };
+  RenameView: { name: string; new_name: string };
+  Reset: Record<string, never>;
+  ResetDisplay: { display: string };
+  ResetView: Record<string, never>;
+  Revoke: { name: string };
+  Save: { path?: string };
+  SaveBookmark: { name: string; at_s?: number | null };
+  SaveImage: { name?: string };
+  SaveMemory: { seconds?: number | null; path?: string };
+  SaveView: { name: string; view?: { type: "Orbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "XYOrbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "ThirdPersonFollower"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "FPS"; target_frame?: string; yaw?: number; pitch?: number; position?: [number, number, number] } | { type: "TopDownOrtho"; target_frame?: string; scale?: number; angle?: number; x?: number; y?: number } | null };
+  Seek: { at_s: number };
+  Select: { picks?: Array<{ group: string; key: string; items: Array<[number, number | null, [number, number, number], [number, number, number] | null]> }>; keep?: Array<number>; total?: number };
+  SelectSpan: { first_s?: number | null; last_s?: number | null };
+  SetBackground: { color: [number, number, number] | null };
+  SetFixedFrame: { frame: string };
+  SetFrameRate: { hz: number };
+  SetLoop: { loop?: boolean };
+  SetPanelProperty: { panel: string; path: string; value: unknown };
+  SetProperty: { display: string; path: string; value: unknown };
+  SetRate: { rate: number };
+  SetToolProperty: { tool: string; path: string; value: unknown };
+  ShowView: { view: { type: "Orbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "XYOrbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "ThirdPersonFollower"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "FPS"; target_frame?: string; yaw?: number; pitch?: number; position?: [number, number, number] } | { type: "TopDownOrtho"; target_frame?: string; scale?: number; angle?: number; x?: number; y?: number } | string };
+  StartRecording: { path?: string };
+  StartWithView: { view?: { type: "Orbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "XYOrbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "ThirdPersonFollower"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "FPS"; target_frame?: string; yaw?: number; pitch?: number; position?: [number, number, number] } | { type: "TopDownOrtho"; target_frame?: string; scale?: number; angle?: number; x?: number; y?: number } | string | null };
+  StepMessage: { topic?: string; is_forward?: boolean };
+  StopRecording: Record<string, never>;
+  Undo: { steps?: number; own?: boolean };
+  UseTool: { tool: string; points: Array<[number, number, number]>; yaw?: number; keys?: Array<string>; yaws?: Array<number>; several?: string };
+  UseWidget: { panel: string; widget: string; value?: boolean | string | null };
+  WriteDisplays: { displays: Array<string> };
+}
+
+export type Do = { [C in keyof Commands]: {
+  type: "Do"; number: number; command: C; arguments: Commands[C]; step?: number;
+} }[keyof Commands];
+
 export type ToPage =
   | Ask
   | Beat
   | Dismissed
   | Done
   | Download
-  | GripRefused
   | HelmReport
-  | Invitation
   | PixelValue
   | PlaceCamera
   | Pong
   | Published
-  | Result
   | SaveCanvas
   | Shell
   | SlowLink
@@ -287,20 +262,14 @@ export type ToPage =
 
 export type FromPage =
   | Answer
-  | Dismiss
   | Do
   | Drive
   | FramesShown
-  | Gripped
   | Hello
   | Holds
-  | Invite
   | Ping
   | ReadPixel
-  | Revoke
   | ShowPictures
-  | StrokeDone
   | Unwatch
-  | Use
   | ViewReport
   | Watch;

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 from webviz.engine import commands
-from webviz.engine.commands import Command
+from webviz.server.access import requests
 from webviz.server.access.roles import Role
 
-COMMANDS: Mapping[type[Command], Role] = {
+COMMANDS: Mapping[type[Any], Role] = {
     # A page's own camera, selection and pictures, and texts of what everybody sees.
     commands.ChangeView: Role.WATCHER,
     commands.Export: Role.WATCHER,
@@ -26,6 +27,7 @@ COMMANDS: Mapping[type[Command], Role] = {
     commands.CancelGoal: Role.OPERATOR,
     commands.DismissGoal: Role.OPERATOR,
     commands.DuplicateDisplay: Role.OPERATOR,
+    commands.GripHandle: Role.OPERATOR,
     commands.MoveDisplay: Role.OPERATOR,
     commands.Pause: Role.OPERATOR,
     commands.Play: Role.OPERATOR,
@@ -53,6 +55,8 @@ COMMANDS: Mapping[type[Command], Role] = {
     commands.StartWithView: Role.OPERATOR,
     commands.StepMessage: Role.OPERATOR,
     commands.Undo: Role.OPERATOR,
+    commands.UseTool: Role.OPERATOR,
+    requests.UseWidget: Role.OPERATOR,
     # Files of the machine that runs the viewer, and the config as a whole.
     commands.Load: Role.OWNER,
     commands.Open: Role.OWNER,
@@ -60,26 +64,24 @@ COMMANDS: Mapping[type[Command], Role] = {
     commands.SaveMemory: Role.OWNER,
     commands.StartRecording: Role.OWNER,
     commands.StopRecording: Role.OWNER,
+    # Who may come.
+    requests.Dismiss: Role.OWNER,
+    requests.Invite: Role.OWNER,
+    requests.Revoke: Role.OWNER,
 }
 """Of the commands that pages may send; see `webviz.page.acts`."""
 
 MESSAGES: Mapping[str, Role | None] = {
     "Answer": Role.WATCHER,
-    "Dismiss": Role.OWNER,
     "Do": None,
     "Drive": Role.OPERATOR,
     "FramesShown": Role.WATCHER,
-    "Gripped": Role.OPERATOR,
     "Hello": Role.WATCHER,
     "Holds": Role.OPERATOR,
-    "Invite": Role.OWNER,
     "Ping": Role.WATCHER,
     "ReadPixel": Role.WATCHER,
     "ShowPictures": Role.WATCHER,
-    "Revoke": Role.OWNER,
-    "StrokeDone": Role.OPERATOR,
     "Unwatch": Role.WATCHER,
-    "Use": Role.OPERATOR,
     "ViewReport": Role.WATCHER,
     "Watch": Role.WATCHER,
 }

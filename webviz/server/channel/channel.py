@@ -11,7 +11,7 @@ import time
 from collections.abc import Awaitable, Callable, Iterable, Mapping
 from functools import partial, reduce
 from operator import or_
-from typing import Any, Protocol, TypeVar
+from typing import Annotated, Any, Protocol, TypeVar
 
 import msgspec
 from websockets.exceptions import ConnectionClosed
@@ -328,8 +328,9 @@ class Channel:
     def _refuse_excess(self, browser: int, text: str, excess: str) -> None:
         """Answer a command that is too long, without reading all of it."""
         with contextlib.suppress(msgspec.MsgspecError, RecursionError):
-            number = msgspec.json.decode(text, type=_Long).number
-            self.send(Done(number, "error", f"Not done: {excess}.", ""), browser)
+            long = msgspec.json.decode(text, type=_Long)
+            reason = f"Not done: {excess}."
+            self.send(Done(long.number, long.command, "error", reason, {}), browser)
 
     @staticmethod
     def _refusal(role: Role, message: FromPage) -> str:
@@ -379,6 +380,7 @@ class _Long(msgspec.Struct, tag="Do"):
     """Readable part of a command that is too long."""
 
     number: Number
+    command: Annotated[str, msgspec.Meta(max_length=100)]
 
 
 def _excess(text: str, limits: Limits) -> str:

@@ -6,8 +6,6 @@ from typing import Annotated, Any, ClassVar
 
 import msgspec
 
-from webviz.api.handles import GripKind
-
 Number = Annotated[int, msgspec.Meta(ge=0, lt=1 << 53)]
 """Integers both JavaScript and JSON can hold."""
 
@@ -187,23 +185,11 @@ class Tools(ToPage, frozen=True):
     tools: tuple[dict[str, Any], ...]
 
 
-class Result(ToPage, frozen=True):
-    """Outcome of a stroke: a sentence, and its level "ok", "warn" or "error".
-
-    Args:
-        number: of the stroke.
-    """
-
-    number: int
-    level: str
-    text: str
-
-
 class Published(ToPage, frozen=True):
     """A message that a stroke published.
 
     Args:
-        number: of the stroke.
+        number: of the `Do` with the stroke.
         topic, message_type: as chosen.
         values: by field.
     """
@@ -212,22 +198,6 @@ class Published(ToPage, frozen=True):
     topic: str
     message_type: str
     values: msgspec.Raw
-
-
-class StrokeDone(FromPage, frozen=True):
-    """A finished gesture; see `webviz.api.tool.Stroke`.
-
-    Args:
-        number: for the page to know what came of it.
-    """
-
-    tool: str
-    points: tuple[tuple[float, float, float], ...]
-    yaw: float
-    keys: tuple[str, ...]
-    yaws: tuple[float, ...] = ()
-    several: str = ""
-    number: int = 0
 
 
 Share = Annotated[float, msgspec.Meta(ge=-1, le=1)]
@@ -266,28 +236,6 @@ class HelmReport(ToPage, frozen=True):
     beat: Number
     driver: int | None
     problem: str
-
-
-class Gripped(FromPage, frozen=True):
-    """Something that a page does with a handle of a display; see `webviz.api.handles.Grip`."""
-
-    display: str
-    handle: str
-    control: Number
-    kind: GripKind
-    position: tuple[float, float, float] | None = None
-    wxyz: tuple[float, float, float, float] | None = None
-    turned: float = 0.0
-    point: tuple[float, float, float] | None = None
-    entry: Annotated[int, msgspec.Meta(ge=0, lt=1 << 32)] = 0
-
-
-class GripRefused(ToPage, frozen=True):
-    """Says in a sentence why a grip is refused; the handle is named as in the store `handles`."""
-
-    handle: str
-    kind: str
-    text: str
 
 
 class Shell(ToPage, frozen=True):
@@ -331,11 +279,11 @@ class Values(ToPage, frozen=True):
 
 
 class Do(FromPage, frozen=True):
-    """Asks for a change of the viewer.
+    """Asks for a change; the only message by which a page does something that others notice.
 
     Args:
         number: of the request, for the page to know its `Done`.
-        command: name of a class of `webviz.commands`.
+        command: name of a class of `webviz.server.access.rules.COMMANDS`.
         arguments: its fields.
         step: of several that are undone together, the number of the first; else 0.
     """
@@ -346,36 +294,32 @@ class Do(FromPage, frozen=True):
     step: Number = 0
 
 
-class Use(FromPage, frozen=True):
-    """Reports the use of a widget in a plug-in's panel.
-
-    Args:
-        number: of the request, for the page to know its `Done`.
-        panel: its name in the registry.
-        widget: its id.
-        value: what was entered, None for a button.
-    """
-
-    number: Number
-    panel: str
-    widget: str
-    value: bool | str | None = None
-
-
 class Done(ToPage, frozen=True):
-    """Outcome of a `Do` or a `Use`.
+    """Outcome of a `Do`; a command that goes on, such as a tool with a goal, has several.
 
     Args:
-        number: of the request.
-        level: "ok" or "error".
+        number, command: of the request.
+        level: "ok", "warn" or "error".
         text: a sentence, "" if there is nothing to say.
-        display: id of the display that it made, or "".
+        result: what it made, by name: the id of a new `display`; the `link` and `code` of an
+            invitation.
     """
 
     number: int
+    command: str
     level: str
     text: str
-    display: str
+    result: dict[str, str]
+
+
+class Dismissed(ToPage, frozen=True):
+    """The last message to a page whose visit the owner has ended.
+
+    Args:
+        text: for its user, sentences without markup.
+    """
+
+    text: str
 
 
 class Download(ToPage, frozen=True):

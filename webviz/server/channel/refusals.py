@@ -6,20 +6,7 @@ import re
 
 import msgspec
 
-from webviz.server.channel.invitation_messages import Dismiss, Invitation, Invite, Revoke
-from webviz.server.channel.messages import (
-    Do,
-    Done,
-    Drive,
-    FromPage,
-    Gripped,
-    GripRefused,
-    HelmReport,
-    Result,
-    StrokeDone,
-    ToPage,
-    Use,
-)
+from webviz.server.channel.messages import Do, Done, Drive, FromPage, HelmReport, ToPage
 
 HALF = "Not done: the text contains half of a letter, such as of an emoji. Remove it."
 _ESCAPE = re.compile(r"(\\\\)|\\u[dD][89a-fA-F][0-9a-fA-F]{2}")
@@ -34,14 +21,8 @@ def answer(message: FromPage, reason: str) -> ToPage | None:
         reason: a sentence.
     """
     match message:
-        case Do() | Use() | Dismiss() | Revoke():
-            return Done(message.number, "error", reason, "")
-        case StrokeDone():
-            return Result(message.number, "error", reason)
-        case Gripped():
-            return GripRefused(f"{message.display}/{message.handle}", message.kind, reason)
-        case Invite():
-            return Invitation(message.number, reason, "", "")
+        case Do():
+            return Done(message.number, message.command, "error", reason, {})
         case Drive():
             return HelmReport(message.tool, 0, None, reason)
         case _:

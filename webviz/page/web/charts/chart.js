@@ -197,7 +197,7 @@ export function chart(_, send) {
       type: "button", class: "wv-icon", "aria-label": `Remove ${name}`, "data-tip": "Remove", onclick: () => send(name),
     }, icon("close", 12));
     const label = el("span", { class: "wv-chart-name" }, name);
-    const line = el("div", { class: "wv-chart-entry" }, swatch, label, value, needs("Use", remove));
+    const line = el("div", { class: "wv-chart-entry" }, swatch, label, value, needs("UseWidget", remove));
     return { element: el("li", {}, line, problem), value, problem };
   }
 

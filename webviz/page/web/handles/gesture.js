@@ -1,6 +1,7 @@
 // Gestures of the pointer on handles while the tool Interact is active.
 
 import { why } from "../access.js";
+import * as act from "../act.js";
 import * as channel from "../channel.js";
 import { pickAt } from "../scene/picking/pick.js";
 import { tell, tellLive } from "../tools/hint.js";
@@ -35,9 +36,9 @@ export function install() {
     if (drag && (!handle || (drag.wasMine && handle.holder !== window.webviz.browser))) lose();
     else if (drag) drag.wasMine ||= handle.holder === window.webviz.browser;
   });
-  channel.on("GripRefused", ({ handle, kind, text }) => {
+  act.onAnswer("GripHandle", ({ number, text }) => {
     tell("warn", text);
-    if (drag?.id === handle && kind !== "choose") lose();
+    if (drag && number >= drag.first) lose();
   });
   channel.onOpen(() => drag && lose());
   window.addEventListener("keydown", (event) => {
@@ -84,7 +85,7 @@ export function pointer(event) {
 
 function press(part, event) {
   const handle = known.all().get(part.id);
-  const refusal = why("Gripped") || handle.refusal
+  const refusal = why("GripHandle") || handle.refusal
     || (handle.holder !== null && `Browser ${handle.holder} holds it.`);
   if (refusal) {
     tell("warn", refusal);
@@ -108,7 +109,7 @@ function press(part, event) {
   canvas().setPointerCapture(event.pointerId);
   glow.light(part, "pressed");
   glow.dim(part.id);
-  send("press");
+  drag.first = send("press");
   showAid();
   return true;
 }
@@ -160,8 +161,10 @@ function step() {
   drag.now = now;
   poses.put(drag.id, drag.control, now);
   showAid();
-  send("move", now);
+  send("move", placed(now));
 }
+
+const placed = (now) => (now ? { pose: { position: now.position, wxyz: now.wxyz }, turned: now.turned } : {});
 
 const isSane = ({ position, wxyz }) =>
   position.every((value) => Math.abs(value) < 1e9) && wxyz.every(Number.isFinite);
@@ -170,7 +173,7 @@ function release() {
   if (drag.at !== drag.before) step();
   const { id, control, now, at } = drag;
   const point = pointAt(at);
-  send("release", { ...now, point });
+  send("release", { ...placed(now), point });
   end();
   poses.letGo(id);
   if (known.controlOf({ id, control })?.mode === "menu") show({ id, control, at, point });
@@ -239,7 +242,7 @@ function point(part) {
 
 function wordsOf(part) {
   const handle = known.all().get(part.id);
-  const reason = why("Gripped");
+  const reason = why("GripHandle");
   if (reason) return `${handle.name}: ${reason}`;
   const { mode, help } = known.controlOf(part);
   const does = DOES[mode] ?? (TURNS.test(mode) ? "Rotate" : "Move");
@@ -255,10 +258,10 @@ function showAid() {
 
 function send(kind, more = {}) {
   drag.sent = performance.now();
-  sendTo(drag, kind, kind === "press" ? { point: pointAt(drag.at), ...more } : more);
+  return sendTo(drag, kind, kind === "press" ? { point: pointAt(drag.at), ...more } : more);
 }
 
 function sendTo({ id, control }, kind, more) {
   const [display, handle] = [id.slice(0, id.indexOf("/")), id.slice(id.indexOf("/") + 1)];
-  channel.send({ type: "Gripped", display, handle, control, kind, ...more });
+  return act.send("GripHandle", { display, grip: { handle, control, kind, ...more } });
 }

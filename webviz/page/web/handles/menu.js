@@ -12,6 +12,6 @@ const itemsOf = (entries, choose) =>
     disabled: Boolean(refusal),
     tip: refusal,
     items: below.length ? itemsOf(below, choose) : undefined,
-    needs: "Gripped",
+    needs: "GripHandle",
     run: () => choose(id),
   }));

@@ -11,10 +11,9 @@ export async function plotField(topic, path) {
   const curve = `${topic.startsWith("/") ? "" : "/"}${topic}.${path}`;
   const { id, curves } = await firstPlot();
   if (curves?.includes(curve)) return toast(`${curve} is plotted already.`);
-  const fields = id
-    ? ["SetPanelProperty", { panel: id, path: "curves", value: [...curves, curve] }]
-    : ["AddPanel", { type: TYPE, values: { curves: [curve] } }];
-  const { level } = await act(...fields, { quiet: true });
+  const { level } = await (id
+    ? act("SetPanelProperty", { panel: id, path: "curves", value: [...curves, curve] }, { quiet: true })
+    : act("AddPanel", { type: TYPE, values: { curves: [curve] } }, { quiet: true }));
   if (level === "ok") toast(`Added ${curve} to the panel Plot.`);
 }
 

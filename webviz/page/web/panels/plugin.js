@@ -1,7 +1,7 @@
 // The panels of plug-ins: what a Python program has recorded of widgets, drawn.
 
 import { needs } from "../access.js";
-import { act, use } from "../act.js";
+import { act } from "../act.js";
 import { form } from "../controls/form.js";
 import { el, set, setChildren, setText } from "../dom.js";
 import { provide } from "../shell/commands.js";
@@ -22,7 +22,7 @@ export function followPlugins(offer, types) {
     commands = values;
   });
   provide(() => [...commands.values()].map(({ panel, widget, label, key }) => ({
-    name: label, key: key || undefined, group: "Panels", needs: "Use", run: () => use(panel, widget),
+    name: label, key: key || undefined, group: "Panels", needs: "UseWidget", run: () => act("UseWidget", { panel, widget }),
   })));
 }
 
@@ -42,9 +42,9 @@ function open(element, name) {
       // A panel that was loaded again may have another widget under the same id.
       if (drawn.get(id)?.kind !== widget.kind) {
         drawn.get(id)?.close?.();
-        drawn.set(id, makeWidget(widget, (value) => use(name, id, value)));
+        drawn.set(id, makeWidget(widget, (value) => act("UseWidget", { panel: name, widget: id, value })));
         drawn.get(id).update(widget, values, id);
-        if (!LOOKED_AT.has(widget.kind)) needs("Use", drawn.get(id).element);
+        if (!LOOKED_AT.has(widget.kind)) needs("UseWidget", drawn.get(id).element);
       } else if (changed.has(id) || [...changed].some((key) => key.startsWith(`${id}/`))) drawn.get(id).update(widget, values, id);
     }
     setChildren(place, order.map((id) => drawn.get(id).element));

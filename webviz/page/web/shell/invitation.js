@@ -1,6 +1,6 @@
 // A form that makes a link for somebody else, and shows it with its QR code.
 
-import * as channel from "../channel.js";
+import { act } from "../act.js";
 import { el, setText } from "../dom.js";
 
 /** @type {[string, number | null][]} */
@@ -10,14 +10,6 @@ const LOCAL = "Only this machine can open this link. For others, start webviz wi
   + "under the address that they use, and invite them there.";
 
 const isOfThisMachine = () => /^(localhost|127\..*|\[::1\])$/.test(location.hostname);
-
-const waiting = new Map();
-let count = 0;
-
-channel.on("Invitation", (made) => {
-  waiting.get(made.number)?.(made);
-  waiting.delete(made.number);
-});
 
 /** The form; `copy(link)` is called to copy the link. */
 export function invitation(copy) {
@@ -35,20 +27,16 @@ export function invitation(copy) {
     invite();
   });
 
-  function invite() {
-    count += 1;
-    waiting.set(count, show);
+  async function invite() {
     setText(problem, "");
-    channel.send({
-      type: "Invite", number: count, name: name.value.trim(), role: role.value,
+    const { level, text, link, code } = await act("Invite", {
+      name: name.value.trim(), role: role.value,
       days: ENDS[end.selectedIndex][1], url: location.origin + location.pathname,
-    });
-  }
-
-  function show({ problem: reason, link, code }) {
-    setText(problem, reason);
-    result.hidden = reason !== "";
-    if (reason) return;
+    }, { quiet: true, errors: "caller" });
+    const isRefused = level === "error";
+    setText(problem, isRefused ? text : "");
+    result.hidden = isRefused;
+    if (isRefused) return;
     result.replaceChildren(
       el("img", { src: code, alt: "QR code of the link" }),
       el("div", {}, el("p", {}, el("code", {}, link)), isOfThisMachine() ? el("p", { role: "note" }, LOCAL) : null,

@@ -1,7 +1,7 @@
 // Who is connected and what they did, and how the owner invites others.
 
 import { onRole, self, why } from "../access.js";
-import { dismiss, revoke } from "../act.js";
+import { act } from "../act.js";
 import { copy } from "../clipboard.js";
 import { el, setText } from "../dom.js";
 import { watch } from "../stores.js";
@@ -105,11 +105,14 @@ function endings(id, { name }) {
     el("button", { type: "button", class: "wv-button", "data-tip": tip, onclick }, label);
   const end = async () => {
     const question = `End this visit of ${who}? They may come back${name ? " with their link" : ""}.`;
-    if (await ask(question, { title: "End visit", confirm: "End", danger: true })) dismiss(id, false);
+    if (await ask(question, { title: "End visit", confirm: "End", danger: true })) {
+      act("Dismiss", { visitor: id, revokes: false });
+    }
   };
   return el("span", { class: "wv-people-ends" },
     button("End visit", "Close this page of theirs", end),
-    name ? button("Revoke link", CLOSES_ALL, async () => await isSure(name) && dismiss(id, true)) : null);
+    name ? button("Revoke link", CLOSES_ALL, async () =>
+      await isSure(name) && act("Dismiss", { visitor: id, revokes: true })) : null);
 }
 
 const CLOSES_ALL = "Close all their pages, for good";
@@ -121,7 +124,7 @@ const isSure = (name) =>
 function linkRow([name, { role, expires_s }]) {
   const isOwn = name === self().name;
   const row = cells(isOwn ? `${name} (you)` : name, role, expires_s === null ? "never" : new Date(expires_s * 1000).toLocaleString());
-  const onclick = async () => await isSure(name) && revoke(name);
+  const onclick = async () => await isSure(name) && act("Revoke", { name });
   const button = el("button", { type: "button", class: "wv-button", "data-tip": CLOSES_ALL, onclick }, "Revoke link");
   row.append(el("td", {}, isOwn ? null : button));
   return row;

@@ -1,13 +1,12 @@
 // History of what this page has sent by tools, with the results: the newest first.
 
-import * as channel from "../channel.js";
+import * as act from "../act.js";
 import { watch } from "../stores.js";
 
 const MAX_KEPT = 20;
 
 const listeners = new Set();
 let sent = [];
-let count = 0;
 let frame = "";
 
 export function install() {
@@ -25,12 +24,11 @@ export function onChange(listener) {
 
 /** Sends a finished gesture of a tool, `{id, name, gesture}`, or poses that were collected. */
 export function send(tool, { points, yaw, keys, yaws = [], several = "" }) {
-  count += 1;
   const stroke = { points, yaw, keys, yaws, several };
   const result = { level: "", text: "", messages: [] };
-  const entry = { number: count, tool, ...stroke, frame, time: new Date(), ...result };
+  const number = act.send("UseTool", { tool: tool.id, ...stroke });
+  const entry = { number, tool, ...stroke, frame, time: new Date(), ...result };
   sent = [entry, ...sent].slice(0, MAX_KEPT);
-  channel.send({ type: "StrokeDone", tool: tool.id, ...stroke, number: count });
   tellAll();
 }
 

@@ -1,6 +1,7 @@
 // The tools of the viewer: this page follows their gestures, the server acts on what they became.
 
 import { why } from "../access.js";
+import { onAnswer } from "../act.js";
 import * as channel from "../channel.js";
 import { canvas } from "../viser_page.js";
 import { tell, tellLive } from "./hint.js";
@@ -22,7 +23,7 @@ const HINTS = {
 export function install() {
   teleop.install();
   channel.on("Tools", ({ tools }) => provide("viewer", tools.map(toolOf)));
-  channel.on("Result", ({ number, level, text }) => {
+  onAnswer("UseTool", ({ number, level, text }) => {
     history.told(number, level, text);
     tell(level, text);
   });
@@ -32,7 +33,7 @@ export function install() {
 
 function toolOf(tool, index) {
   const isDriven = tool.gesture === "drive";
-  const known = { ...tool, refusal: why(isDriven ? "Drive" : "StrokeDone") || tool.refusal };
+  const known = { ...tool, refusal: why(isDriven ? "Drive" : "UseTool") || tool.refusal };
   return isDriven ? teleop.tool(known, FIRST + index) : strokeTool(known, index);
 }
 

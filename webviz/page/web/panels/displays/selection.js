@@ -26,7 +26,7 @@ export function reveal(id) {
 }
 
 // The row of what was added is there before the answer, or comes after it.
-channel.on("Done", ({ display }) => display && reveal(display));
+channel.on("Done", ({ result }) => result.display && reveal(result.display));
 channel.onOpen(() => {
   restored = new Set(recall(KEY, []));
   selected.clear();
