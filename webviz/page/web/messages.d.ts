@@ -209,6 +209,7 @@ export interface Commands {
   Reset: Record<string, never>;
   ResetDisplay: { display: string };
   ResetView: Record<string, never>;
+  ReturnToLive: Record<string, never>;
   Revoke: { name: string };
   Save: { path?: string };
   SaveBookmark: { name: string; at_s?: number | null };
