@@ -13,7 +13,7 @@ import pytest
 
 import webviz
 from webviz.api.registry import display_types
-from webviz.shell import docs, typings
+from webviz.shell import check_docs, docs, typings
 from webviz.shell.reference import ENVIRONMENT
 
 GUIDES = [docs.ROOT / name for name in ("README.md", "CONTRIBUTING.md", "ARCHITECTURE.md")]
@@ -42,6 +42,14 @@ def anchors(text: str) -> set[str]:
 def test_a_page_is_as_the_declarations_say(name: str) -> None:
     written = (docs.PAGES / name).read_text(encoding="utf-8")
     assert written == GENERATED[name], f"run {docs.COMMAND} and commit displays/docs"
+
+
+def test_every_check_has_a_page() -> None:
+    found = check_docs.pages()
+    folder = docs.PAGES / check_docs.FOLDER
+    written = {path.name: path.read_text(encoding="utf-8") for path in folder.iterdir()}
+    assert written.keys() == {"README.md", *found}
+    assert [name for name in found if written[name] != found[name]] == [], f"run {docs.COMMAND}"
 
 
 def test_the_types_of_the_page_are_those_of_python() -> None:

@@ -2,8 +2,41 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True)
+class NetworkInterface:
+    """An interface of the network that is up.
+
+    Args:
+        name: such as eth0.
+        addresses: IPv4 addresses.
+        has_multicast: whether it may send and receive multicast.
+        is_loopback: whether it only reaches this machine.
+        mtu: largest packet in bytes.
+    """
+
+    name: str
+    addresses: Sequence[str]
+    has_multicast: bool
+    is_loopback: bool
+    mtu: int
+
+
+@dataclass(frozen=True)
+class SharedMemory:
+    """The file system of shared memory.
+
+    Args:
+        size, free: bytes.
+        foreign: names of segments of Fast DDS that belong to other users.
+    """
+
+    size: int
+    free: int
+    foreign: Sequence[str] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -12,6 +45,22 @@ class Environment:
 
     Args:
         variables: of the environment of this program.
+        python: version, such as "3.12".
+        ros_error: why ROS did not start, "" if it runs or was not tried.
+        profiles: problem of each file of the middleware that variables name, by path; "" for none.
+        interfaces: that are up.
+        multicast_returns: whether a multicast packet to this machine arrives; None if untried.
+        shared_memory: None if there is none.
+        receive_buffer: largest buffer of a socket in bytes (net.core.rmem_max); 0 if unknown.
+        lost_datagrams: dropped since the last look because a receive buffer was full.
     """
 
     variables: Mapping[str, str] = field(default_factory=dict)
+    python: str = ""
+    ros_error: str = ""
+    profiles: Mapping[str, str] = field(default_factory=dict)
+    interfaces: Sequence[NetworkInterface] = ()
+    multicast_returns: bool | None = None
+    shared_memory: SharedMemory | None = None
+    receive_buffer: int = 0
+    lost_datagrams: int = 0

@@ -27,7 +27,7 @@ from webviz.api.registry import plugin_types
 from webviz.api.tool import Tool, outputs_of
 from webviz.files.rviz import docs as rviz
 from webviz.files.rviz.docs import table
-from webviz.shell import reference, typings
+from webviz.shell import check_docs, reference, typings
 from webviz.shell.cli import schema
 
 ROOT = Path(__file__).parents[2]
@@ -153,6 +153,7 @@ def index(types: Mapping[str, type[Display]], notes: Notes) -> str:
         rows = [(f"[{n}]({page_name(n)})", next(iter(paragraphs(types[n])))) for n in names]
         lines += [f"## {title}", "", *table(("display", "shows"), rows), ""]
     lines += ["## More", "", "- [The tools](tools.md)"]
+    lines += ["- [The doctor: why something is not shown](doctor/README.md)"]
     lines += ["- [Displays, tools and panels of your own](examples/README.md)"]
     lines += ["- [Commands, keys of the config, environment variables](reference.md)"]
     lines += ["- [The Python API](api.md)"]
@@ -328,6 +329,8 @@ def main() -> None:
         (typings.FOLDER / name).write_text(text, encoding="utf-8")
     for name, text in pages().items():
         (PAGES / name).write_text(text, encoding="utf-8")
+    for name, text in check_docs.pages().items():
+        (PAGES / check_docs.FOLDER / name).write_text(text, encoding="utf-8")
     write_small_pictures()
     schema.SHIPPED.write_text(schema.text(), encoding="utf-8")
     if files := [Path(name) for name in sys.argv[1:]]:

@@ -19,15 +19,23 @@ class ConflictCheck(Check):
     """On which one of the publishers is found."""
 
     def find(self, seen: Observation) -> Iterator[Finding]:
-        """Yield a finding for each frame with this sign."""
+        """Yield a finding for the frames with this sign that have the same parents."""
+        found: dict[tuple[str, ...], list[tuple[str, str]]] = {}
         for frame, conflict in seen.conflicts(self.kind):
             cause, _, _ = conflict.sentence.partition(":")
-            nodes = seen.nodes_of(self.topic)
+            found.setdefault(conflict.parents, []).append((frame, cause))
+        for parents, several in found.items():
+            frame, cause = several[0]
+            more = f", and so have {len(several) - 1} other frames" if len(several) > 1 else ""
             yield self.found(
-                f"{cause}.",
+                f"{cause}{more}.",
                 "Stop one of the publishers.",
                 subject=frame,
-                evidence={"frame": frame, "parents": conflict.parents, "nodes": nodes},
+                evidence={
+                    "frames": tuple(name for name, _ in several),
+                    "parents": parents,
+                    "nodes": seen.nodes_of(self.topic),
+                },
                 command=f"ros2 topic info {self.topic} --verbose",
                 explains=seen.symptom("Transforms"),
             )

@@ -18,7 +18,7 @@ LAUNCH = "ros2 launch nav2_bringup localization_launch.py"
 class LocalisationMissing(Check):
     """Localisation is missing.
 
-    The fixed frame is the map, and no transform leads from it to the robot.
+    Displays need the map, and no transform leads from it to the robot.
 
     Why:
         The odometry only knows where the robot has moved since it was started. Localisation (AMCL)
@@ -38,10 +38,15 @@ class LocalisationMissing(Check):
             is_unknown = reason.kind is Kind.UNKNOWN_FIXED_FRAME and not reason.near
             if is_unknown or reason.cause == f"odom {seen.fixed_frame}":
                 explains.append(symptom)
+        is_wanted = seen.fixed_frame == "map"
+        for symptom, reason in seen.lost(Kind.UNKNOWN_FRAME):
+            if reason.frame == "map":
+                explains.append(symptom)
+                is_wanted = True
         robot = next(
             (name for name in ("odom", "base_footprint", "base_link") if name in frames), ""
         )
-        if seen.fixed_frame != "map" or not robot or not explains:
+        if not is_wanted or not robot or not explains:
             return
         amcl = next((node for node in seen.nodes if node.rpartition("/")[2] == "amcl"), "")
         start = "Give AMCL the initial pose (2D Pose Estimate)." if amcl else "Start AMCL or SLAM."

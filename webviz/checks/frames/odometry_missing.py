@@ -35,6 +35,10 @@ class OdometryMissing(Check):
             if root.startswith("base") and known:
                 explains.append(symptom)
                 base = root
+        for symptom, reason in seen.lost(Kind.UNKNOWN_FRAME):
+            if reason.frame == "odom":
+                explains.append(symptom)
+                base = seen.fixed_frame
         if explains:
             yield self.found(
                 f'Nothing publishes the transform from "odom" to "{base}".',

@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from webviz.api.check import Check
-from webviz.api.finding import Finding
+from webviz.api.finding import Finding, Severity
 from webviz.api.observation import Observation
+
+COMMANDS = ("geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
+"""Types that are only sent while somebody drives."""
 
 
 class StoppedPublisher(Check):
@@ -34,6 +37,7 @@ class StoppedPublisher(Check):
                 f"{who} has stopped sending {each.topic}, which came at {each.rate_hz:.1f} Hz.",
                 "Look at the log of the node and at its sensor.",
                 subject=each.topic,
+                severity=Severity.NOTE if each.type in COMMANDS else Severity.WARNING,
                 evidence={
                     "topic": each.topic,
                     "rate_hz": round(each.rate_hz, 3),

@@ -2,22 +2,31 @@
 
 from __future__ import annotations
 
+import contextlib
 import time
 from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import Future
 from dataclasses import replace
 
+from webviz.api.environment import Environment
 from webviz.api.finding import Finding
+from webviz.data.disk import in_thread
+from webviz.engine.doctor.environment import look_around, lost_datagrams
 from webviz.engine.doctor.observing import observe
 from webviz.engine.doctor.ordering import ordered
 from webviz.engine.doctor.registry import installed_checks
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core
 from webviz.engine.state import State
+from webviz.sources.playable import Playable
 
 EVERY_S = 1.0
 """Interval between the beginnings of two rounds."""
 SLICE_S = 0.001
 """Time for checks in one turn; the one that exceeds it still ends."""
+
+LOOK_S = 10.0
+"""Interval between two looks at this machine."""
 
 Key = tuple[str, str]
 """Id and subject, by which a finding is known again."""
@@ -42,6 +51,11 @@ class Doctor:
         self._since: Mapping[Key, int] = {}
         self.slice_s = SLICE_S
         """Time for checks in one turn."""
+        self.environment: Environment | None = None
+        """This machine, None until it was looked at."""
+        self._looking: Future[Environment] | None = None
+        self._next_look_s = 0.0
+        self._lost_before = lost_datagrams()
         self.rounds = 0
         """Number of completed rounds."""
         self.findings: Sequence[Finding] = ()
@@ -60,6 +74,21 @@ class Doctor:
             self._continue(self._round)
         return self.findings
 
+    def _environment(self) -> Environment | None:
+        """This machine as it was some seconds ago, None with a bag; a thread looks at it."""
+        if isinstance(self._core.source, Playable):
+            return None
+        looking = self._looking
+        if looking is not None and looking.done():
+            self._looking = None
+            if looking.exception() is None:
+                self.environment = looking.result()
+        if self._looking is None and time.monotonic() >= self._next_look_s:
+            self._next_look_s = time.monotonic() + LOOK_S
+            with contextlib.suppress(OSError):  # no thread is free; another time
+                self._looking = in_thread(lambda: look_around(lost_before=self._lost_before))
+        return self.environment
+
     def _is_due(self) -> bool:
         now_s = self._core.clock()
         if 0.0 < self._next_s - now_s <= EVERY_S:
@@ -77,7 +106,7 @@ class Doctor:
     def _examined(self, state: State) -> Iterator[None]:
         """Run all checks on what is seen now, with a pause after each."""
         core = self._core
-        seen = observe(core, self._displays, state)
+        seen = observe(core, self._displays, state, self._environment())
         found: list[Finding] = []
         for check in self._checks:
             found += core.guard.attempt(f"Check {check.id}", [], lambda c=check: list(c.find(seen)))

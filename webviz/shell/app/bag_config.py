@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from webviz.api.declared import make
 from webviz.api.display import Display
+from webviz.api.offer import Offer
 from webviz.api.ports import TRANSPORTS
 from webviz.api.registry import display_types
 from webviz.engine.commands.by_topic import Pick, picks
@@ -29,11 +30,20 @@ FRAMES = ("map", "odom", "world")
 
 def config_of(bag: BagSource) -> Config:
     """The displays that fit the topics of a bag, in a frame that it has."""
+    offers = {topic: offer for topic, offer in bag.offers().items() if bag.has(topic)}
+    config, shown = displays_of(offers)
+    links = bag.links() or [(frame, frame) for frame in bag.frames(shown)]
+    if frame := fixed_frame_of(links):
+        config.set_fixed_frame(frame)
+    return config
+
+
+def displays_of(offers: Mapping[str, Offer]) -> tuple[Config, set[str]]:
+    """The displays that fit published topics, and the topics that they show."""
     types = display_types()
     topics = {
         topic: tuple(dict.fromkeys(publisher.type for publisher in offer.publishers))
-        for topic, offer in bag.offers().items()
-        if bag.has(topic)
+        for topic, offer in offers.items()
     }
     found = sorted(_chosen(picks(topics, types)), key=_place)[:MOST_DISPLAYS]
     names = ["Grid"]
@@ -41,10 +51,7 @@ def config_of(bag: BagSource) -> Config:
         names.append("TF")
     config = Config(displays=[make(types[name], {}) for name in names if name in types])
     config.displays += _displays(found, types)
-    links = bag.links() or [(frame, frame) for frame in bag.frames({p.topic for p in found})]
-    if frame := _fixed_frame(links):
-        config.set_fixed_frame(frame)
-    return config
+    return config, {pick.topic for pick in found}
 
 
 def _chosen(fits: Iterable[Pick]) -> Iterable[Pick]:
@@ -83,7 +90,7 @@ def _displays(found: Sequence[Pick], types: Mapping[str, type[Display]]) -> Iter
         yield make(types[pick.display], values)
 
 
-def _fixed_frame(links: Sequence[tuple[str, str]]) -> str:
+def fixed_frame_of(links: Sequence[tuple[str, str]]) -> str:
     """The frame in which most can be drawn, "" without any.
 
     Args:

@@ -1,0 +1,81 @@
+"""The command `webviz doctor`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import msgspec
+import pytest
+from bags import START_NS, Bag, ns
+
+from webviz.engine.doctor.registry import installed_checks
+from webviz.shell.cli import main
+from webviz.shell.doctor.report import DoctorReport, schema_text
+
+SCAN = "sensor_msgs/msg/LaserScan"
+
+
+@pytest.fixture
+def run_bag(tmp_path: Path) -> Path:
+    """A bag of a robot whose laser is misspelt."""
+    bag = Bag()
+    bag.add("/scan", SCAN)
+    bag.transform(0.0, "base_link", "laser", static=True)
+    for number in range(60):
+        at_s = number / 10
+        bag.transform(at_s, "odom", "base_link", at_s)
+        seconds, rest = divmod(START_NS + ns(at_s), 1_000_000_000)
+        values = {
+            "header": {"frame_id": "lasr", "stamp": {"sec": seconds, "nanosec": rest}},
+            "angle_max": 1.0,
+            "angle_increment": 0.5,
+            "range_max": 10.0,
+            "ranges": [1.0, 2.0, 1.5],
+        }
+        bag.put(at_s + 0.05, "/scan", values)
+    return bag.write(tmp_path / "run")
+
+
+def test_a_bag_is_examined_for_a_program(run_bag: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["doctor", "--bag", str(run_bag), "--json"]) == 3
+    report = msgspec.json.decode(capsys.readouterr().out, type=DoctorReport)
+    (finding,) = report.findings
+    assert (finding.id, finding.level, finding.severity) == ("TF016", "frames", "error")
+    assert finding.evidence == {"frame": "lasr", "nearest": "laser"}
+    assert [(each.display, each.status) for each in finding.explains] == [
+        ("LaserScan", "Transform")
+    ]
+    assert START_NS / 1e9 <= finding.first <= finding.last <= START_NS / 1e9 + 6.0
+    assert not [each for each in report.unexplained if each.display == "LaserScan"]
+    assert {*msgspec.json.decode(schema_text())["$defs"]} >= {"DoctorReport", "ReportedFinding"}
+
+
+def test_a_bag_is_examined_for_a_person(run_bag: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["doctor", "--bag", str(run_bag)]) == 3
+    said = capsys.readouterr().out
+    assert said.startswith('error[TF016]: The frame "lasr" does not exist, but "laser" does.\n')
+    assert "help: Set the frame id of the data" in said
+    assert "explains: LaserScan, Transform" in said
+
+
+def test_a_finding_is_explained(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["doctor", "--explain", "tf003"]) == 0
+    said = capsys.readouterr().out
+    assert said.startswith("TF003: Localisation is missing\n")
+    assert "Why:\n\n" in said
+    assert "Repair:\n\n" in said
+    assert main(["doctor", "--explain", "all"]) == 0
+    assert len(capsys.readouterr().out.splitlines()) == len(installed_checks())
+    assert main(["doctor", "--explain", "TF999"]) == 1
+    assert "Unknown finding TF999" in capsys.readouterr().err
+
+
+def test_every_check_is_documented() -> None:
+    from webviz.api.check import CheckText
+
+    for check in installed_checks():
+        text = CheckText(check)
+        assert text.title, check
+        assert text.what, check
+        assert text.why, check
+        assert text.repair, check

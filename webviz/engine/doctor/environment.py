@@ -1,0 +1,154 @@
+"""A look at this machine, for the checks of machine, network and shared memory."""
+
+from __future__ import annotations
+
+import os
+import platform
+import socket
+import struct
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from xml.etree import ElementTree
+
+import psutil
+
+from webviz.api.environment import Environment, NetworkInterface, SharedMemory
+
+PREFIXES = ("ROS", "RMW", "FASTRTPS", "FASTDDS", "CYCLONEDDS", "ZENOH", "AMENT", "PYTHONPATH")
+PROFILES = ("FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE", "CYCLONEDDS_URI")
+NET = Path("/sys/class/net")
+IFF_MULTICAST, IFF_LOOPBACK = 0x1000, 0x8
+SHM = Path("/dev/shm")
+SEGMENTS = "fastrtps_*", "fastdds_*"
+RMEM_MAX = Path("/proc/sys/net/core/rmem_max")
+SNMP = Path("/proc/net/snmp")
+GROUP = "239.255.0.1"
+"""Multicast group of DDS, for a probe on a port that nobody else uses."""
+PROBE_S = 0.5
+MAX_PROFILE = 1 << 20
+"""Bytes of a file of the middleware that are read."""
+
+
+def look_around(ros_error: str = "", lost_before: int = 0) -> Environment:
+    """Look at this machine; takes up to half a second.
+
+    Args:
+        ros_error: why ROS did not start, "" if it did.
+        lost_before: datagrams that were lost before, see `lost_datagrams`.
+    """
+    names = sorted(name for name in os.environ if name.startswith(PREFIXES))
+    variables = {name: os.environ[name] for name in names}
+    interfaces = _interfaces()
+    return Environment(
+        variables=variables,
+        python=".".join(platform.python_version_tuple()[:2]),
+        ros_error=ros_error,
+        profiles=_profiles(variables),
+        interfaces=interfaces,
+        multicast_returns=_multicast_returns() if interfaces else None,
+        shared_memory=_shared_memory(),
+        receive_buffer=_receive_buffer(),
+        lost_datagrams=max(0, lost_datagrams() - lost_before),
+    )
+
+
+def lost_datagrams() -> int:
+    """Return the UDP datagrams that this machine dropped since its start as buffers were full."""
+    try:
+        lines = [line.split() for line in SNMP.read_text().splitlines() if line[:4] == "Udp:"]
+        return int(dict(zip(lines[0], lines[1], strict=True))["RcvbufErrors"])
+    except (OSError, ValueError, KeyError, IndexError):
+        return 0
+
+
+def _interfaces() -> Sequence[NetworkInterface]:
+    stats, addresses = psutil.net_if_stats(), psutil.net_if_addrs()
+    return [
+        NetworkInterface(
+            name,
+            tuple(a.address for a in addresses.get(name, ()) if a.family == socket.AF_INET),
+            bool(_flags(name) & IFF_MULTICAST),
+            bool(_flags(name) & IFF_LOOPBACK),
+            each.mtu,
+        )
+        for name, each in sorted(stats.items())
+        if each.isup
+    ]
+
+
+def _flags(name: str) -> int:
+    """The flags of an interface, see netdevice(7)."""
+    try:
+        return int((NET / name / "flags").read_text(), 16)
+    except (OSError, ValueError):
+        return 0
+
+
+def _multicast_returns() -> bool | None:
+    """Return whether a packet to a multicast group comes back, None if it cannot be tried."""
+    try:
+        with (
+            socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as receiver,
+            socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender,
+        ):
+            receiver.bind((GROUP, 0))
+            membership = struct.pack("4sl", socket.inet_aton(GROUP), socket.INADDR_ANY)
+            receiver.settimeout(PROBE_S)
+            sender.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, 0)  # this machine only
+            probe = os.urandom(16)
+            try:
+                receiver.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, membership)
+                sender.sendto(probe, receiver.getsockname())
+                return receiver.recv(64) == probe
+            except OSError:  # no route, no group, or nothing within the time
+                return False
+    except OSError:
+        return None
+
+
+def _shared_memory() -> SharedMemory | None:
+    try:
+        status = os.statvfs(SHM)
+        own = os.geteuid()
+        foreign = [
+            path.name
+            for pattern in SEGMENTS
+            for path in SHM.glob(pattern)
+            if path.stat().st_uid != own
+        ]
+    except OSError:
+        return None
+    size, free = status.f_blocks * status.f_frsize, status.f_bavail * status.f_frsize
+    return SharedMemory(size, free, tuple(sorted(foreign)))
+
+
+def _receive_buffer() -> int:
+    try:
+        return int(RMEM_MAX.read_text())
+    except (OSError, ValueError):
+        return 0
+
+
+def _profiles(variables: Mapping[str, str]) -> Mapping[str, str]:
+    """The problems of the files that variables name."""
+    found: dict[str, str] = {}
+    for name in PROFILES:
+        for entry in filter(None, variables.get(name, "").split(",")):
+            if entry.lstrip().startswith("<"):
+                found[name] = _xml_problem(entry)
+                continue
+            path = Path(entry.removeprefix("file://"))
+            try:
+                with path.open("rb") as file:
+                    found[str(path)] = _xml_problem(file.read(MAX_PROFILE))
+            except OSError as error:
+                found[str(path)] = error.strerror or str(error)
+    return found
+
+
+def _xml_problem(text: str | bytes) -> str:
+    try:
+        ElementTree.fromstring(text)
+    except (ElementTree.ParseError, ValueError) as error:
+        return f"not valid XML: {error}"
+    return ""

@@ -1,0 +1,116 @@
+"""`webviz doctor`: finds the causes of what is not shown, live or in a bag, without a browser."""
+
+import contextlib
+import os
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import App, Parameter, validators
+
+from webviz.shell.cli.ending import Stop, until_signal
+from webviz.shell.cli.options import ROS_ARGS_HELP, File, Flag, RosArgs
+
+if TYPE_CHECKING:
+    from webviz.shell.doctor.report import DoctorReport
+
+EXAMPLES = """\
+Examples:
+  webviz doctor                      examine the ROS graph for some seconds
+  webviz doctor --bag run.mcap       examine a bag
+  webviz doctor -d nav2.rviz --json  examine the displays of a config, for a program
+  webviz doctor --explain TF003      explain a finding
+
+Exit status: 0 if all is well, 1 after an error, 2 for invalid arguments, 3 with findings.
+
+"""
+FOUND = 3
+
+app = App("doctor", help_epilogue=EXAMPLES + ROS_ARGS_HELP)
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class DoctorOptions:
+    """Subject of the examination, and the form of the report."""
+
+    bag: Annotated[File | None, Parameter(alias="-b")] = None
+    """Examine a bag instead of the ROS graph."""
+    display_config: Annotated[File | None, Parameter(alias="-d")] = None
+    """Examine the displays of this config (default: those that fit the topics)."""
+    seconds: Annotated[
+        float, Parameter(validator=validators.Number(gt=0, lte=3600), metavar="SECONDS")
+    ] = 5.0
+    """Time for the examination of live topics, after their discovery."""
+    json: Flag = False
+    """Write the report as JSON."""
+    explain: Annotated[str, Parameter(metavar="ID", show_default=False)] = ""
+    """Explain a finding: what it is, why it matters, how to repair it; `all` lists all checks."""
+
+
+@app.default
+def doctor(*, options: DoctorOptions = DoctorOptions(), ros: RosArgs) -> int:
+    """Examine the ROS graph or a bag, and print the causes of what is wrong."""
+    if options.explain:
+        return _explain(options.explain)
+
+    def work(stop: Stop) -> int:
+        from webviz.shell.doctor.report import to_json, to_text
+
+        report = _examine(options, ros)
+        is_colored = sys.stdout.isatty() and not os.environ.get("NO_COLOR")
+        print(to_json(report) if options.json else to_text(report, is_colored), flush=True)
+        return 0 if report.is_well else FOUND
+
+    return until_signal(work)
+
+
+def _examine(options: DoctorOptions, ros: Sequence[str]) -> "DoctorReport":
+    from webviz.api.errors import Error
+    from webviz.engine.doctor.environment import look_around
+    from webviz.shell.app.reading import read_config
+    from webviz.shell.bag_source import bag_source
+    from webviz.shell.doctor.examination import examine_bag, examine_live, examine_machine
+    from webviz.shell.ros_source import ros_source
+
+    path = options.display_config
+    if options.bag is not None:
+        with contextlib.closing(bag_source(options.bag, ros_args=ros)) as bag:
+            config = read_config(path, bag)
+            return examine_bag(bag, config, str(options.bag), _progress)
+    config = read_config(path) if path else None
+    _progress("starting ROS", 0.0)
+    try:
+        source = ros_source(ros)
+    except Error as error:
+        return examine_machine(look_around(str(error)))
+    with contextlib.closing(source):
+        return examine_live(source, config, options.seconds, _progress)
+
+
+def _progress(what: str, share: float) -> None:
+    """Show a line of progress in a terminal, and clear it at the end."""
+    if sys.stderr.isatty():
+        bar = "█" * round(20 * share)
+        print(f"\r{what} {bar:░<20}\x1b[K\r", end="", file=sys.stderr, flush=True)
+
+
+def _explain(id: str) -> int:
+    """Print the documentation of a check, or a list of all."""
+    from webviz.api.check import CheckText
+    from webviz.api.errors import Error
+    from webviz.engine.doctor.registry import installed_checks
+    from webviz.files.config import nearest
+
+    texts = {check.id: CheckText(check) for check in installed_checks()}
+    if id == "all":
+        for text in texts.values():
+            print(f"{text.id:9} {text.title}")
+        return 0
+    if (text := texts.get(id.upper())) is None:
+        raise Error(f"Unknown finding {id}: {nearest(id.upper(), texts)}")
+    print(f"{text.id}: {text.title}\n")
+    for title, parts in (("", text.what), ("Why", text.why), ("Repair", text.repair)):
+        print("\n\n".join((*([f"{title}:"] if title else []), *parts)) + "\n")
+    return 0

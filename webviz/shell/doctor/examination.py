@@ -1,0 +1,167 @@
+"""Examinations of the ROS graph and of bags."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+
+from webviz.api.environment import Environment
+from webviz.api.finding import Finding
+from webviz.api.observation import Observation
+from webviz.data.transforms import TransformBuffer
+from webviz.engine.commands import Play, SetFixedFrame, SetRate
+from webviz.engine.doctor.ordering import ordered
+from webviz.engine.doctor.registry import installed_checks
+from webviz.engine.loop import FrameLoop
+from webviz.engine.state import State
+from webviz.files.config import Config
+from webviz.shell.app.bag_config import displays_of, fixed_frame_of
+from webviz.shell.doctor.report import DoctorReport, report_of
+from webviz.shell.doctor.scene import NoScene
+from webviz.sources import Offer, Source
+from webviz.sources.bag.source import BagSource
+
+DISCOVERY_S = 2.5
+"""Time for the graph: it is read every two seconds."""
+REST_S = 0.05
+MAP = "/map"
+"""A robot that publishes it is to be seen in its frame, so that a missing localisation is found."""
+FRAME_S = 1.5
+"""After which the fixed frame is chosen by the transforms that have arrived."""
+LASTING_S = 3.0
+"""Findings in a bag that are gone after less, before its end, are left out."""
+
+Progress = Callable[[str, float], object]
+"""Called with what is done and the share of it that is."""
+
+
+class Examination:
+    """Findings of a frame loop that nobody looks at.
+
+    Args:
+        config: the displays to examine.
+        source: of messages.
+        progress: called now and then.
+    """
+
+    def __init__(self, config: Config, source: Source, progress: Progress) -> None:
+        self._source = source
+        self._progress = progress
+        self._loop = FrameLoop(config, source, NoScene())
+        self._loop.doctor.slice_s = math.inf
+        self._seen: dict[tuple[str, str], Finding] = {}
+
+    def watch(self, seconds: float, is_frame_given: bool) -> DoctorReport:
+        """Examine live topics for some seconds."""
+        began = time.monotonic()
+        state = self._turn()
+        while (passed := time.monotonic() - began) < seconds:
+            self._progress("examining", passed / seconds)
+            if not is_frame_given and passed > FRAME_S:
+                is_frame_given = True
+                self._choose_frame()
+            self._source.inbox.arrived.wait(REST_S)
+            self._source.inbox.arrived.clear()
+            state = self._turn()
+        return report_of("live", state, state.findings, len(installed_checks()))
+
+    def play(self, bag: BagSource, name: str) -> DoctorReport:
+        """Examine a bag from its beginning to its end."""
+        self._loop.enqueue(SetRate(math.inf))
+        self._loop.enqueue(Play())
+        state = self._turn()
+        while state.playback is not None and state.playback.is_playing:
+            share = (bag.position_ns - bag.start_ns) / max(1, bag.end_ns - bag.start_ns)
+            self._progress("playing", min(1.0, max(0.0, share)))
+            state = self._turn()
+        ending = {(each.id, each.subject) for each in state.findings}
+        lasting = [
+            each
+            for key, each in self._seen.items()
+            if key in ending or each.last_ns - each.first_ns >= LASTING_S * 1e9
+        ]
+        return report_of(name, state, ordered(lasting), len(installed_checks()))
+
+    def close(self) -> None:
+        """End all threads."""
+        self._loop.close()
+
+    def _turn(self) -> State:
+        self._loop.turn()
+        state = self._loop.state()
+        for each in state.findings:
+            key = each.id, each.subject
+            known = self._seen.get(key, each)
+            self._seen[key] = replace(each, first_ns=known.first_ns or each.first_ns)
+        return state
+
+    def _choose_frame(self) -> None:
+        buffer = self._loop.buffer
+        links = {child: buffer.link(child) for child in buffer.publishers}
+        if frame := fixed_frame_of([(link.parent, c) for c, link in links.items() if link]):
+            self._loop.enqueue(SetFixedFrame(frame))
+
+
+def examine_live(
+    source: Source, config: Config | None, seconds: float, progress: Progress
+) -> DoctorReport:
+    """Examine the ROS graph.
+
+    Args:
+        source: of messages.
+        config: the displays to examine; None for those that fit the published topics.
+        seconds: for the examination, after the discovery of topics.
+        progress: called now and then.
+    """
+    until = time.monotonic() + DISCOVERY_S
+    while (left := until - time.monotonic()) > 0.0:
+        progress("discovering", 1.0 - left / DISCOVERY_S)
+        time.sleep(REST_S)
+    is_given = config is not None or MAP in source.offers()
+    if config is None:
+        offers = {topic: offer for topic, offer in source.offers().items() if offer.publishers}
+        config = live_config(offers)
+    examination = Examination(config, source, progress)
+    try:
+        return examination.watch(seconds, is_given)
+    finally:
+        examination.close()
+
+
+def examine_bag(bag: BagSource, config: Config, name: str, progress: Progress) -> DoctorReport:
+    """Examine a bag from its beginning to its end.
+
+    Args:
+        bag: the bag.
+        config: the displays to examine.
+        name: of the bag, for the report.
+        progress: called now and then.
+    """
+    examination = Examination(config, bag, progress)
+    try:
+        return examination.play(bag, name)
+    finally:
+        examination.close()
+
+
+def examine_machine(environment: Environment) -> DoctorReport:
+    """Examine this machine alone, such as when ROS does not start."""
+    seen = Observation(
+        now_ns=0,
+        fixed_frame="",
+        buffer=TransformBuffer(),
+        displays=(),
+        environment=environment,
+    )
+    checks = installed_checks()
+    found = [finding for check in checks for finding in check().find(seen)]
+    return report_of("live", None, ordered(found), len(checks))
+
+
+def live_config(offers: Mapping[str, Offer]) -> Config:
+    """Displays for published topics, without those of panes, whose messages are large."""
+    config, _ = displays_of(offers)
+    config.displays = [each for each in config.displays if not getattr(each, "has_pane", False)]
+    return config

@@ -1,0 +1,168 @@
+"""Reports of the doctor: for people, and as JSON."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Annotated
+
+import msgspec
+
+from webviz.api.finding import Fact, Finding, Severity
+from webviz.api.status import Level
+from webviz.data.words import counted
+from webviz.engine.state import State
+
+WIDTH = 90
+COLORS = {"error": "31;1", "warning": "33;1", "note": "36", "id": "1", "faint": "2", "ok": "32;1"}
+"""Codes of ANSI terminals."""
+Meta = msgspec.Meta
+
+
+class ReportedStatus(msgspec.Struct):
+    """A status of a display, or of the viewer as a whole."""
+
+    display: Annotated[str, Meta(description='Name of the display; "" for the whole viewer.')]
+    status: Annotated[str, Meta(description="Name of the status.")]
+    text: Annotated[str, Meta(description="What it says.")] = ""
+
+
+class ReportedFinding(msgspec.Struct, kw_only=True):
+    """A cause with its evidence and its remedy."""
+
+    id: Annotated[str, Meta(description="Of the check; `webviz doctor --explain ID` explains it.")]
+    level: Annotated[str, Meta(description="Level of the cause, such as network or frames.")]
+    severity: Annotated[str, Meta(description="error, warning or note; a note breaks nothing.")]
+    subject: Annotated[str, Meta(description="The topic, frame or device that it is about.")]
+    cause: Annotated[str, Meta(description="One sentence.")]
+    remedy: Annotated[str, Meta(description="What to do, a sentence.")]
+    command: Annotated[str, Meta(description='To type in a terminal; "" if there is none.')]
+    evidence: Annotated[Mapping[str, Fact], Meta(description="What was observed, by name.")]
+    explains: Annotated[
+        Sequence[ReportedStatus], Meta(description="The statuses that follow from it.")
+    ]
+    first: Annotated[float, Meta(description="ROS time when it was first seen in s; 0: unknown.")]
+    last: Annotated[float, Meta(description="ROS time when it was last seen in s; 0: unknown.")]
+
+
+class DoctorReport(msgspec.Struct, kw_only=True):
+    """The report of an examination."""
+
+    version: Annotated[int, Meta(description="Of this format; 1.")] = 1
+    source: Annotated[str, Meta(description='"live", or the path of the bag.')]
+    checks: Annotated[int, Meta(description="Number of checks that were run.")]
+    displays: Annotated[int, Meta(description="Number of displays that were examined.")]
+    findings: Annotated[
+        Sequence[ReportedFinding], Meta(description="The one to repair first comes first.")
+    ]
+    unexplained: Annotated[
+        Sequence[ReportedStatus],
+        Meta(description="Warnings and errors of displays that no finding explains."),
+    ]
+
+    @property
+    def is_well(self) -> bool:
+        """Return whether no finding is more than a note."""
+        return all(finding.severity == "note" for finding in self.findings)
+
+
+def report_of(
+    source: str, state: State | None, findings: Sequence[Finding], checks: int
+) -> DoctorReport:
+    """Make a report.
+
+    Args:
+        source: "live", or the path of a bag.
+        state: of the viewer at the end, None if there was none.
+        findings: in their order.
+        checks: number of checks that were run.
+    """
+    rows = [row for row in state.rows if row.type != "Group"] if state else []
+    names = {row.id: row.name for row in rows}
+    statuses = {("", key): status for key, status in (state.statuses if state else {}).items()}
+    statuses |= {(row.id, key): status for row in rows for key, status in row.statuses.items()}
+
+    def reported(place: tuple[str, str]) -> ReportedStatus:
+        status = statuses.get(place)
+        return ReportedStatus(names.get(place[0], ""), place[1], status.text if status else "")
+
+    explained = {symptom for finding in findings for symptom in finding.explains}
+    return DoctorReport(
+        source=source,
+        checks=checks,
+        displays=len(rows),
+        findings=[
+            ReportedFinding(
+                id=each.id,
+                level=each.level.title,
+                severity=each.severity.name.lower(),
+                subject=each.subject,
+                cause=each.cause,
+                remedy=each.remedy,
+                command=each.command,
+                evidence=dict(each.evidence),
+                explains=[reported(symptom) for symptom in each.explains],
+                first=each.first_ns / 1e9,
+                last=each.last_ns / 1e9,
+            )
+            for each in findings
+        ],
+        unexplained=[
+            reported(place)
+            for place, status in statuses.items()
+            if status.level >= Level.WARN and place not in explained
+        ],
+    )
+
+
+def schema_text() -> str:
+    """The JSON Schema of reports."""
+    schema = msgspec.json.schema(DoctorReport)
+    return msgspec.json.format(msgspec.json.encode(schema), indent=2).decode() + "\n"
+
+
+def to_json(report: DoctorReport) -> str:
+    """The report as JSON."""
+    return msgspec.json.format(msgspec.json.encode(report), indent=2).decode()
+
+
+def to_text(report: DoctorReport, is_colored: bool) -> str:
+    """The report for a person.
+
+    Args:
+        report: the report.
+        is_colored: whether the terminal knows ANSI colours.
+    """
+    return "\n".join(_lines(report, is_colored))
+
+
+def _lines(report: DoctorReport, is_colored: bool) -> Iterator[str]:
+    def paint(text: str, color: str) -> str:
+        return f"\x1b[{COLORS[color]}m{text}\x1b[0m" if is_colored else text
+
+    for finding in report.findings:
+        head = f"{paint(finding.severity, finding.severity)}[{paint(finding.id, 'id')}]"
+        yield f"{head}: {finding.cause}"
+        yield from _wrapped("  help: ", finding.remedy)
+        if finding.command:
+            yield f"        $ {finding.command}"
+        for status in finding.explains:
+            where = status.display or "viewer"
+            yield paint(f"  explains: {where}, {status.status}", "faint")
+        yield ""
+    for status in report.unexplained:
+        where = f"{status.display or 'viewer'}, {status.status}: "
+        yield from _wrapped(f"{paint('status', 'faint')}: {where}", status.text)
+    if report.unexplained:
+        yield ""
+    severe = sum(finding.severity != Severity.NOTE.name.lower() for finding in report.findings)
+    scope = f"{counted(report.checks, 'check')}, {counted(report.displays, 'display')}"
+    if severe:
+        first = next(each.id for each in report.findings)
+        yield f"{counted(severe, 'finding')} ({scope}). More: webviz doctor --explain {first}"
+    else:
+        yield f"{paint('All is well', 'ok')} ({scope})."
+
+
+def _wrapped(lead: str, text: str) -> Sequence[str]:
+    return textwrap.wrap(text, WIDTH, initial_indent=lead, subsequent_indent="        ") or [lead]
