@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import io
 import struct
 from collections.abc import Callable
@@ -14,9 +15,10 @@ from PIL import Image as Pillow
 
 from webviz.api.nodes import Pane
 from webviz.api.pictures import Encoded, Pixels, Video
+from webviz.data.memory import MemoryBudget
 from webviz.data.messages import encode
 from webviz.sources import Offer, Publisher
-from webviz_displays.image import Image
+from webviz_displays.image import Image, video
 from webviz_displays.image.video import FFMPEG, FOXGLOVE
 
 Benches = Callable[..., Any]
@@ -162,6 +164,30 @@ def test_a_video_holds_what_a_browser_needs_that_joins_now(bench: Benches) -> No
     at.send_bytes(FOXGLOVE, packet(KEY, "mjpeg2000"))
     at.turn()
     assert "Unsupported video codec 'mjpeg2000'" in at.statuses()["Image"][1]
+
+
+def test_packets_of_a_video_count_as_memory_while_they_are_kept(
+    bench: Benches, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    budget = MemoryBudget(1000, 150)
+    monkeypatch.setattr(video, "DECODING", budget)
+    at = bench(Image())
+
+    def send(data: bytes) -> int:
+        at.send_bytes(FOXGLOVE, packet(data))
+        at.turn()
+        gc.collect()
+        return budget.room
+
+    assert [send(KEY + bytes(40)) for _ in range(3)] == 3 * [1000 - len(KEY) - 40]
+    send(DELTA + bytes(100))
+    level, text = at.statuses()["Image"]
+    assert (level, text.startswith("A packet of the h264 video takes 0 MB of memory;")) == (
+        "WARN",
+        True,
+    )
+    assert send(KEY) == 1000 - len(KEY)
+    assert isinstance(shown(at), Video)
 
 
 def test_packets_of_ffmpeg_say_which_are_keys(bench: Benches) -> None:

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import pytest
 
 from webviz import Context, Display, Input, Keep, Prop, Sample, Topic
-from webviz.engine.commands import SetProperty
+from webviz.engine.commands import RemoveDisplay, SetProperty
 from webviz.engine.pipeline import history
 
 SECOND = 1_000_000_000
@@ -38,9 +38,9 @@ def lengths(bench: Any) -> list[int]:
     return [round(float(node.xyz[0][0])) for _, _, node in bench.scene.visible()]
 
 
-def note(bench: Any, length: int, second: float) -> None:
+def note(bench: Any, length: int, second: float, topic: str = "/note") -> None:
     bench.source.now = T + round(second * SECOND)
-    bench.publish("/note", "std_msgs/msg/String", {"data": "x" * length})
+    bench.publish(topic, "std_msgs/msg/String", {"data": "x" * length})
     bench.turn()
 
 
@@ -49,7 +49,7 @@ def test_the_oldest_go_when_messages_take_too_many_bytes(bench: Callable[..., An
     for second in range(6):
         note(b, 600_000 + second, second)
     assert sorted(lengths(b)) == [600_003, 600_004, 600_005]
-    assert b.statuses()["History"] == ("WARN", "Keeps 2.0 of 10 s: limit of 2 MB.")
+    assert b.statuses()["History"] == ("WARN", "Keeps 2.0 of 10 s: limit of 2 MB for all displays.")
 
 
 def test_the_newest_stays_however_large_it_is(bench: Callable[..., Any]) -> None:
@@ -57,9 +57,34 @@ def test_the_newest_stays_however_large_it_is(bench: Callable[..., Any]) -> None
     note(b, 1000, 0)
     note(b, 3_000_000, 1)
     assert lengths(b) == [3_000_000]
-    assert b.statuses()["History"] == ("WARN", "Keeps 1 of 5 messages: limit of 2 MB.")
+    assert b.statuses()["History"] == (
+        "WARN",
+        "Keeps 1 of 5 messages: limit of 2 MB for all displays.",
+    )
     note(b, 1001, 2)
     assert lengths(b) == [1001]
+
+
+def test_displays_share_the_limit_and_whichever_holds_most_drops_its_oldest(
+    bench: Callable[..., Any],
+) -> None:
+    more = Note(name="More", count=0, seconds=10.0, topic=Topic("/more"))
+    newest = Note(name="Newest", topic=Topic("/newest"))
+    b = bench(Note(name="Note", count=0, seconds=10.0), more, newest)
+    for second in range(3):
+        note(b, 600_000 + second, second)
+    note(b, 1_900_000, 3, "/newest")  # which counts for nothing
+    note(b, 300_000, 4, "/more")
+    note(b, 300_001, 5, "/more")
+    assert sorted(lengths(b)) == [300_000, 300_001, 600_001, 600_002, 1_900_000]
+    assert b.statuses()["History"] == ("WARN", "Keeps 4.0 of 10 s: limit of 2 MB for all displays.")
+    assert "History" not in b.statuses(1)
+    b.viewer.enqueue(SetProperty(b.states[-1].rows[0].id, "enabled", False))
+    b.viewer.enqueue(RemoveDisplay(b.states[-1].rows[0].id))
+    b.turn()
+    for second in range(4):
+        note(b, 300_010 + second, 6 + second, "/more")
+    assert sorted(lengths(b))[:-1] == [300_000, 300_001, *range(300_010, 300_014)]
 
 
 def test_nothing_is_said_while_all_that_was_asked_for_is_kept(bench: Callable[..., Any]) -> None:

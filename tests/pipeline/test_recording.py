@@ -14,7 +14,7 @@ from webviz.engine.commands import SaveMemory, Sender, StartRecording, StopRecor
 from webviz.files.config import Settings
 from webviz.files.config.model import MemorySettings
 from webviz.sources import Offer, Publisher, Raw
-from webviz.sources.recording import RecentMessages
+from webviz.sources.recording import RecentMessages, recent
 from webviz_displays.path import Path as PathDisplay
 from webviz_displays.robot_model import RobotModel
 
@@ -72,6 +72,18 @@ def test_the_newest_latched_message_is_not_forgotten() -> None:
     past = memory.last(1e9)
     assert {topic: m.received_ns // 10**9 for topic, m in past.latched} == {"/map": 1}
     assert [topic for topic, _ in past.messages] == ["/scan"]
+
+
+def test_latched_messages_are_forgotten_the_oldest_first_if_they_are_too_large_together(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(recent, "MAX_PINNED_BYTES", 2500)
+    memory = RecentMessages(lambda topic: 1)
+    for second, topic in enumerate(("/a", "/b", "/c", "/b")):
+        memory.put(topic, raw(second, size=1000))
+    assert memory.pinned() == ("/b", "/c")
+    memory.put("/large", raw(9, size=9000))
+    assert memory.pinned() == ("/large",)
 
 
 def test_the_last_seconds_are_saved_with_what_is_latched(bench: Bench) -> None:

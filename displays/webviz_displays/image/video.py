@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from webviz import Sample
 from webviz.api.pictures import Packet, Video
 from webviz.data.images import ImageError
+from webviz.data.memory import DECODING, OverBudgetError
 
 FOXGLOVE = "foxglove_msgs/msg/CompressedVideo"
 FFMPEG = "ffmpeg_image_transport_msgs/msg/FFMPEGPacket"
@@ -56,7 +57,10 @@ class Clip:
 
 
 def extended(clip: Clip | None, sample: Sample) -> Clip:
-    """A clip with the packet of one more message; a key frame begins a new one."""
+    """A clip with the packet of one more message; a key frame begins a new one.
+
+    The memory of each packet is counted while it lives.
+    """
     clip = clip or Clip()
     message, number = sample.message, next(_numbers)
     name = message.format if sample.type == FOXGLOVE else message.encoding
@@ -66,22 +70,27 @@ def extended(clip: Clip | None, sample: Sample) -> Clip:
     except ImageError as error:
         return Clip(None, str(error))
     flags = int(message.flags) if sample.type == FFMPEG else None
-    if is_key(codec, data, flags):
-        return Clip(Video(codec, (Packet(number, data),)), size=len(data))
-    if clip.video is None:
+    begins = is_key(codec, data, flags)
+    if clip.video is None and not begins:
         wait = clip.problem or (
             f"Waiting for a key frame of the {codec} video. Shorten the publisher's key frame "
             "interval if this takes long."
         )
         return Clip(None, wait)
-    size = clip.size + len(data)
-    if len(clip.video.packets) >= MAX_PACKETS or size > MAX_BYTES:
+    before = () if begins or clip.video is None else clip.video.packets
+    size = len(data) + (clip.size if before else 0)
+    if before and (len(before) >= MAX_PACKETS or size > MAX_BYTES):
         problem = (
             f"No key frame within {MAX_PACKETS} packets or {MAX_BYTES >> 20} MB of the {codec} "
             "video. Shorten the publisher's key frame interval."
         )
         return Clip(None, problem)
-    return Clip(Video(codec, (*clip.video.packets, Packet(number, data))), size=size)
+    packet = Packet(number, data)
+    try:
+        DECODING.hold(packet, len(data))
+    except OverBudgetError as error:
+        return Clip(None, f"A packet of the {codec} video {error}. Remove other displays.")
+    return Clip(Video(codec, (*before, packet)), size=size)
 
 
 def codec_of(name: str) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import heapq
 import itertools
+import weakref
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
@@ -15,7 +16,27 @@ from webviz.api.sample import Sample
 MAX_SAMPLES = 10_000
 """Per display, whatever its properties request."""
 MAX_BYTES = 256_000_000
-"""Of serialised messages per display; the newest is always held, however large."""
+"""Of the serialised messages of all displays that hold several; the newest is, however large."""
+
+
+class HistoryBudget:
+    """Limits the bytes of the messages that all displays hold."""
+
+    def __init__(self) -> None:
+        self._histories: weakref.WeakSet[History] = weakref.WeakSet()
+
+    def add(self, history: History) -> None:
+        """Count the samples of a history as long as it exists."""
+        self._histories.add(history)
+
+    def make_room(self) -> None:
+        """Drop samples of the histories that hold most, the oldest first, until all fit."""
+        histories = [history for history in self._histories if len(history.held) > 1]
+        excess = sum(history.bytes for history in histories) - MAX_BYTES
+        for largest in sorted(histories, key=lambda history: -history.bytes):
+            if excess <= 0:
+                return
+            excess -= largest.shrink(excess)
 
 
 @dataclass
@@ -40,17 +61,20 @@ class History:
     """Holds samples of one input in order of arrival, as many as the display requests.
 
     Args:
-        inputs: number of inputs of the display, which share its limits.
+        budget: shared by the histories of all displays.
+        inputs: number of inputs of the display, which share its limit of samples.
     """
 
-    def __init__(self, inputs: int = 1) -> None:
+    def __init__(self, budget: HistoryBudget, inputs: int = 1) -> None:
         self._max_samples = MAX_SAMPLES // inputs
-        self._max_bytes = MAX_BYTES // inputs
+        self._budget = budget
+        budget.add(self)
         self.held: list[Held] = []
         self.version = 0
         """Changes whenever the samples do."""
+        self.bytes = 0
+        """Of the messages of all samples."""
         self._free: list[int] = []
-        self._bytes = 0
         self._missed_ns: int | None = None
         """Arrival of the newest sample that was dropped for its size."""
         self._samples: list[Sample] | None = []
@@ -68,24 +92,33 @@ class History:
         Samples beyond `keep.count` or the limit of bytes are dropped first to free their slots.
         """
         self._drop(len(self.held) - self._most(keep) + 1)
-        rest, too_large = self._bytes + size, 0
-        while rest > self._max_bytes and too_large < len(self.held):
-            rest -= self.held[too_large].size
-            too_large += 1
-        if too_large:
-            self._missed_ns = self.held[too_large - 1].sample.received_ns
-            self._drop(too_large)
         slot = heapq.heappop(self._free) if self._free else len(self.held)
         self.held.append(Held(sample, size, slot))
-        self._bytes += size
+        self.bytes += size
         self._samples = None if self._samples is None else [*self._samples, sample]
         self.version += 1
+        if len(self.held) > 1:
+            self._budget.make_room()
+
+    def shrink(self, size: int) -> int:
+        """Drop the oldest samples, except the newest, until `size` bytes are free.
+
+        Returns:
+            The bytes that are free now.
+        """
+        count = freed = 0
+        while freed < size and count < len(self.held) - 1:
+            self._missed_ns = self.held[count].sample.received_ns
+            freed += self.held[count].size
+            count += 1
+        self._drop(count)
+        return freed
 
     def shortage(self, keep: Keep, now_ns: int) -> str:
         """A sentence if samples within `keep` were dropped for their size, else ""."""
         if self._missed_ns is None or not self.held or len(self.held) >= self._most(keep):
             return ""
-        limit = f"limit of {self._max_bytes // 1_000_000} MB"
+        limit = f"limit of {MAX_BYTES // 1_000_000} MB for all displays"
         if not keep.seconds:
             return f"Keeps {len(self.held)} of {self._most(keep)} messages: {limit}."
         if self._missed_ns < now_ns - keep.seconds * 1e9:
@@ -108,7 +141,7 @@ class History:
             self._samples = self._samples[count:] if self._samples and is_whole else None
             for held in self.held[:count]:
                 heapq.heappush(self._free, held.slot)
-                self._bytes -= held.size
+                self.bytes -= held.size
             del self.held[:count]
             self.version += 1
 

@@ -134,7 +134,7 @@ class Holder:
         names = list(self.inputs.intakes)
         if overrides(self._display, "fold"):
             names = names[:1]  # all inputs are folded into one sample
-        return {name: History(len(names)) for name in names}
+        return {name: History(self._services.histories, len(names)) for name in names}
 
     def _new_folding(self) -> Folding:
         return Folding(self._services.workers, self._judge)

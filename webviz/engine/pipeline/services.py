@@ -10,6 +10,7 @@ from webviz.api.nodes import POINTS_HELD
 from webviz.api.robots import NamespacedRobot
 from webviz.engine.pipeline.background import Workers
 from webviz.engine.pipeline.drawing import DrawingScene
+from webviz.engine.pipeline.history import HistoryBudget
 from webviz.engine.pipeline.point_budget import PointBudget
 from webviz.engine.state.trace import Tracer
 from webviz.sources import Gate
@@ -30,6 +31,7 @@ class Services:
         wake: makes the frame loop turn again soon.
         robots: whose topics and frames have a name of their own.
         points: how many points each display may show.
+        histories: how many bytes of messages all displays hold.
     """
 
     scene: DrawingScene
@@ -42,3 +44,4 @@ class Services:
     wake: Callable[[], None] = lambda: None
     robots: Callable[[], Sequence[NamespacedRobot]] = tuple
     points: PointBudget = field(default_factory=lambda: PointBudget(lambda: POINTS_HELD))
+    histories: HistoryBudget = field(default_factory=HistoryBudget)

@@ -19,6 +19,8 @@ OVERHEAD = 200
 """Bytes of a message besides its own."""
 MAX_PINNED = 1000
 """Latched messages of one topic that are kept beyond the bounds."""
+MAX_PINNED_BYTES = 128_000_000
+"""Of all latched messages that are kept beyond the bounds; the newest is, however large."""
 STATIC_TF = "tf_static"
 TF = "tf2_msgs/msg/TFMessage"
 
@@ -151,6 +153,20 @@ class RecentMessages:
             self.forgotten_s = raw.arrived_s
             self._bytes -= len(raw.cdr) + OVERHEAD
             self._pin(self._latched, topic, raw)
+            if topic in self._latched:
+                self._bound_pinned()
+
+    def _bound_pinned(self) -> None:
+        """Forget the oldest latched messages that are too large together."""
+        size = sum(len(raw.cdr) for own in self._latched.values() for raw in own.values())
+        if size <= MAX_PINNED_BYTES:
+            return
+        for topic, raw in _flat(self._latched)[:-1]:
+            del self._latched[topic][_publisher_of(topic, raw)]
+            size -= len(raw.cdr)
+            if size <= MAX_PINNED_BYTES:
+                break
+        self._latched = {topic: own for topic, own in self._latched.items() if own}
 
     def _pin(self, latched: dict[str, dict[object, Raw]], topic: str, raw: Raw) -> None:
         """Keep a latched message instead of the one of its publisher before it."""
