@@ -70,8 +70,11 @@ class Server:
         publishers = ("/server",) * len(self.endpoints)
         return Heard(messages, publishers, self.endpoints, self.is_ready, self.has_gap)
 
-    def query(self, service: str, type: str, timeout_s: float) -> Future[bytes]:
+    def query(
+        self, service: str, type: str, timeout_s: float, request: Mapping[str, Any] | None = None
+    ) -> Future[bytes]:
         assert (service, type, timeout_s) == ("/arm/get_interactive_markers", SERVICE, ANSWER_S)
+        assert request is None
         self.asked.append(Future())
         return self.asked[-1]
 
