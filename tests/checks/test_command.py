@@ -79,3 +79,12 @@ def test_every_check_is_documented() -> None:
         assert text.what, check
         assert text.why, check
         assert text.repair, check
+
+
+def test_a_fault_that_would_end_ros_is_found_before_it_starts(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("ROS_DOMAIN_ID", "233")
+    assert main(["doctor", "--json"]) == 3
+    report = msgspec.json.decode(capsys.readouterr().out, type=DoctorReport)
+    assert report.findings[0].id == "ENV001"

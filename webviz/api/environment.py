@@ -46,6 +46,7 @@ class Environment:
     Args:
         variables: of the environment of this program.
         python: version, such as "3.12".
+        middlewares: names of the implementations that are installed.
         ros_error: why ROS did not start, "" if it runs or was not tried.
         profiles: problem of each file of the middleware that variables name, by path; "" for none.
         interfaces: that are up.
@@ -57,6 +58,7 @@ class Environment:
 
     variables: Mapping[str, str] = field(default_factory=dict)
     python: str = ""
+    middlewares: Sequence[str] = ()
     ros_error: str = ""
     profiles: Mapping[str, str] = field(default_factory=dict)
     interfaces: Sequence[NetworkInterface] = ()

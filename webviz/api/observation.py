@@ -131,6 +131,16 @@ class Observation:
             if display.problem(each.status):
                 yield display, each, self.offers.get(each.topic, NO_OFFER)
 
+    def undiscovered(self) -> tuple[Symptom, ...]:
+        """The statuses of topics that have no publisher."""
+        found = [(d, each) for d, each, offer in self.starved() if not offer.publishers]
+        return tuple(symptom for display, each in found for symptom in display.symptom(each.status))
+
+    def unreceived(self) -> tuple[Symptom, ...]:
+        """The statuses of topics that have a publisher and no message."""
+        found = [(d, each) for d, each, o in self.starved() if o.publishers and not each.received]
+        return tuple(symptom for display, each in found for symptom in display.symptom(each.status))
+
     def samples(self, *types: str) -> Iterator[tuple[DisplaySeen, InputSeen]]:
         """The inputs with a message of one of these types."""
         for display, each in self.inputs():

@@ -31,7 +31,7 @@ class EmptyGraph(Check):
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding if the graph has one node and displays lack topics."""
-        explains = [s for display, each, _ in seen.starved() for s in display.symptom(each.status)]
+        explains = seen.undiscovered()
         if seen.is_recorded or len(seen.nodes) != 1 or not explains:
             return
         variables = seen.environment.variables if seen.environment else {}
@@ -42,5 +42,5 @@ class EmptyGraph(Check):
             severity=Severity.ERROR,
             evidence={"domain": domain, "nodes": tuple(seen.nodes)},
             command="ros2 multicast receive",
-            explains=tuple(explains),
+            explains=explains,
         )

@@ -6,6 +6,7 @@ import os
 import platform
 import socket
 import struct
+import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from xml.etree import ElementTree
@@ -16,8 +17,7 @@ from webviz.api.environment import Environment, NetworkInterface, SharedMemory
 
 PREFIXES = ("ROS", "RMW", "FASTRTPS", "FASTDDS", "CYCLONEDDS", "ZENOH", "AMENT", "PYTHONPATH")
 PROFILES = ("FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE", "CYCLONEDDS_URI")
-NET = Path("/sys/class/net")
-IFF_MULTICAST, IFF_LOOPBACK = 0x1000, 0x8
+RMW_INDEX = "share/ament_index/resource_index/rmw_typesupport_cpp"
 SHM = Path("/dev/shm")
 SEGMENTS = "fastrtps_*", "fastdds_*"
 RMEM_MAX = Path("/proc/sys/net/core/rmem_max")
@@ -42,6 +42,7 @@ def look_around(ros_error: str = "", lost_before: int = 0) -> Environment:
     return Environment(
         variables=variables,
         python=".".join(platform.python_version_tuple()[:2]),
+        middlewares=_middlewares(),
         ros_error=ros_error,
         profiles=_profiles(variables),
         interfaces=interfaces,
@@ -61,27 +62,26 @@ def lost_datagrams() -> int:
         return 0
 
 
+def _middlewares() -> Sequence[str]:
+    """The implementations of ROS's middleware that are installed, by ament's index."""
+    prefixes = [*os.environ.get("AMENT_PREFIX_PATH", "").split(":"), sys.prefix]
+    folders = [Path(prefix) / RMW_INDEX for prefix in prefixes if prefix]
+    return tuple(sorted({path.name for folder in folders for path in folder.glob("rmw_*")}))
+
+
 def _interfaces() -> Sequence[NetworkInterface]:
     stats, addresses = psutil.net_if_stats(), psutil.net_if_addrs()
     return [
         NetworkInterface(
             name,
             tuple(a.address for a in addresses.get(name, ()) if a.family == socket.AF_INET),
-            bool(_flags(name) & IFF_MULTICAST),
-            bool(_flags(name) & IFF_LOOPBACK),
+            "multicast" in each.flags,
+            "loopback" in each.flags,
             each.mtu,
         )
         for name, each in sorted(stats.items())
         if each.isup
     ]
-
-
-def _flags(name: str) -> int:
-    """The flags of an interface, see netdevice(7)."""
-    try:
-        return int((NET / name / "flags").read_text(), 16)
-    except (OSError, ValueError):
-        return 0
 
 
 def _multicast_returns() -> bool | None:

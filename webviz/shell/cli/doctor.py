@@ -80,6 +80,10 @@ def _examine(options: DoctorOptions, ros: Sequence[str]) -> "DoctorReport":
             config = read_config(path, bag)
             return examine_bag(bag, config, str(options.bag), _progress)
     config = read_config(path) if path else None
+    # Some faults end the program when ROS starts.
+    machine = examine_machine(look_around())
+    if any(finding.severity == "error" for finding in machine.findings):
+        return machine
     _progress("starting ROS", 0.0)
     try:
         source = ros_source(ros)

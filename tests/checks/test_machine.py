@@ -1,0 +1,157 @@
+"""Faults of this machine, its network and its shared memory, provoked for real."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from webviz.engine.doctor.environment import look_around
+from webviz.shell.doctor.examination import examine_machine
+from webviz.shell.doctor.report import DoctorReport
+
+EXAMINE = """
+from webviz.engine.doctor.environment import look_around
+from webviz.shell.doctor.examination import examine_machine
+from webviz.shell.doctor.report import to_json
+print(to_json(examine_machine(look_around())))
+"""
+OWN = ("ROS", "RMW", "FASTRTPS", "FASTDDS", "CYCLONEDDS", "AMENT")
+
+
+def in_namespaces(commands: str) -> Mapping[str, str]:
+    """The findings of a program in namespaces of its own, by id, with their severity.
+
+    Args:
+        commands: of a shell, which are run there before.
+    """
+    script = f'{commands}\nexec "$0" -c "$1"'
+    program = ["unshare", "-rnm", "sh", "-ec", script, sys.executable, EXAMINE]
+    done = subprocess.run(program, capture_output=True, text=True, check=True)
+    report = msgspec.json.decode(done.stdout, type=DoctorReport)
+    return {each.id: each.severity for each in report.findings}
+
+
+def examined() -> Mapping[str, str]:
+    """The findings of this machine, by id, with their severity."""
+    return {each.id: each.severity for each in examine_machine(look_around()).findings}
+
+
+@pytest.fixture
+def well(monkeypatch: pytest.MonkeyPatch) -> set[str]:
+    """Findings of this machine without the variables of ROS."""
+    for name in os.environ:
+        if name.startswith(OWN):
+            monkeypatch.delenv(name)
+    return {*examined()}
+
+
+RANGE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
+
+
+@pytest.mark.parametrize(
+    ("id", "severity", "variables", "cured"),
+    [
+        ("ENV001", "error", {"ROS_DOMAIN_ID": "233"}, {"ROS_DOMAIN_ID": "232"}),
+        ("ENV001", "error", {"ROS_DOMAIN_ID": "robot"}, {"ROS_DOMAIN_ID": "0"}),
+        ("ENV002", "note", {"ROS_DOMAIN_ID": "102"}, {"ROS_DOMAIN_ID": "101"}),
+        ("ENV003", "error", {RANGE: "OFF"}, {RANGE: "OFF", "ROS_STATIC_PEERS": "10.0.0.1"}),
+        ("ENV004", "warning", {RANGE: "LAN"}, {RANGE: "LOCALHOST"}),
+        ("ENV005", "warning", {RANGE: "SUBNET", "ROS_LOCALHOST_ONLY": "1"}, {RANGE: "SUBNET"}),
+        ("ENV006", "error", {"RMW_IMPLEMENTATION": "rmw_none_cpp"}, {}),
+        ("ENV007", "warning", {"CYCLONEDDS_URI": "<CycloneDDS>"}, {"CYCLONEDDS_URI": "<A/>"}),
+        ("ENV007", "warning", {"FASTRTPS_DEFAULT_PROFILES_FILE": "/missing.xml"}, {}),
+        (
+            "ENV008",
+            "warning",
+            {"ROS_DISCOVERY_SERVER": "10.0.0.1:11811"},
+            {"ROS_DISCOVERY_SERVER": "10.0.0.1:11811", "ROS_SUPER_CLIENT": "TRUE"},
+        ),
+        (
+            "ENV009",
+            "warning",
+            {"AMENT_PREFIX_PATH": "/opt/ros/humble:/opt/ros/jazzy"},
+            {"AMENT_PREFIX_PATH": "/opt/ros/jazzy"},
+        ),
+    ],
+)
+def test_variables(
+    monkeypatch: pytest.MonkeyPatch,
+    well: set[str],
+    id: str,
+    severity: str,
+    variables: Mapping[str, str],
+    cured: Mapping[str, str],
+) -> None:
+    for name, value in variables.items():
+        monkeypatch.setenv(name, value)
+    found = examined()
+    assert found.get(id) == severity
+    assert {*found} - well == {id}
+    for name in variables:
+        monkeypatch.delenv(name)
+    for name, value in cured.items():
+        monkeypatch.setenv(name, value)
+    assert {*examined()} <= well
+
+
+def test_ros_that_does_not_start_is_a_finding() -> None:
+    report = examine_machine(look_around(ros_error="ROS did not start: no RMW. Source it."))
+    found = {each.id: each for each in report.findings}
+    assert found["ENV010"].cause == "ROS did not start: no RMW."
+    assert found["ENV010"].remedy == "Source it."
+
+
+LO = "ip link set lo up"
+ETH = (
+    f"{LO}; ip link add eth0 type veth peer name eth1; ip address add 192.0.2.9/24 dev eth0; "
+    "ip link set eth0 up; ip link set eth1 up; ip route add default dev eth0"
+)
+OTHER = "ip link set eth1 down; ip link set eth1 name docker0; ip link set docker0 up"
+NO_MULTICAST = "ip link set eth0 multicast off; ip link set eth1 multicast off"
+SHM = "mount -t tmpfs none /dev/shm -o"
+
+
+@pytest.mark.parametrize(
+    ("id", "faulty", "cured"),
+    [
+        ("NET001", f"{ETH}; {NO_MULTICAST}", ETH),
+        ("NET002", LO, ETH),
+        ("NET003", LO, ETH),
+        ("NET004", f"{ETH}; {OTHER}", ETH),
+        ("NET005", f"{ETH}; ip link set eth0 mtu 1400", ETH),
+        ("SHM002", f"{SHM} size=64m", f"{SHM} size=1g"),
+        (
+            "SHM003",
+            f"{SHM} size=100m; head -c 99m /dev/zero > /dev/shm/full",
+            f"{SHM} size=100m",
+        ),
+    ],
+)
+def test_namespaces(id: str, faulty: str, cured: str) -> None:
+    assert can_unshare(), "This machine has no network namespaces for users."
+    assert id in in_namespaces(faulty)
+    assert id not in in_namespaces(cured)
+
+
+def can_unshare() -> bool:
+    """Return whether namespaces can be made."""
+    done = subprocess.run(["unshare", "-rnm", "true"], capture_output=True, check=False)
+    return done.returncode == 0
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root can give files to another user")
+def test_segments_of_another_user() -> None:
+    path = Path("/dev/shm") / f"fastrtps_{os.getpid()}_webviz_test"
+    path.touch()
+    try:
+        assert "SHM001" not in examined()
+        os.chown(path, 65534, -1)
+        assert "SHM001" in examined()
+    finally:
+        path.unlink()

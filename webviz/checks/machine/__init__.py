@@ -1,0 +1,1 @@
+"""Checks of this machine: variables, ROS and its middleware."""

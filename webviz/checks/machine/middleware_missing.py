@@ -1,0 +1,42 @@
+"""Middleware that is not installed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from webviz.api.check import Check
+from webviz.api.finding import Finding, Severity
+from webviz.api.observation import Observation
+
+
+class MiddlewareMissing(Check):
+    """Middleware is not installed.
+
+    RMW_IMPLEMENTATION names a middleware whose library is not found.
+
+    Why:
+        ROS loads the library when a program starts, and ends the program without it.
+
+    Repair:
+        Install it and source ROS, or remove the variable to use the default:
+
+            sudo apt install ros-$ROS_DISTRO-rmw-cyclonedds-cpp
+    """
+
+    id = "ENV006"
+
+    def find(self, seen: Observation) -> Iterator[Finding]:
+        """Yield a finding if so."""
+        environment = seen.environment
+        wanted = environment.variables.get("RMW_IMPLEMENTATION", "") if environment else ""
+        if not environment or not wanted or wanted in (environment.middlewares or (wanted,)):
+            return
+        package = wanted.replace("_", "-")
+        yield self.found(
+            f"The middleware {wanted} is not installed.",
+            "Install it, or remove RMW_IMPLEMENTATION to use the default.",
+            subject=wanted,
+            severity=Severity.ERROR,
+            evidence={"RMW_IMPLEMENTATION": wanted, "installed": tuple(environment.middlewares)},
+            command=f"sudo apt install ros-$ROS_DISTRO-{package}",
+        )

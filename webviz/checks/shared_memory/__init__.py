@@ -1,0 +1,1 @@
+"""Checks of the shared memory that the middleware uses."""
