@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 import ssl
 import threading
@@ -18,9 +19,11 @@ from webviz.server.access.proxies import Proxies
 from webviz.server.channel.channel import Channel
 from webviz.server.channel.modules import Modules
 from webviz.server.http.connections import ConnectionLimits
-from webviz.server.http.guard import guarded_serve
+from webviz.server.http.expelling import Expelling
+from webviz.server.http.guard import RequestGuard
 from webviz.server.http.hosts import HostList
 from webviz.server.http.listener import Handshakes, listen
+from webviz.server.http.steps import at, behind, page, with_link, within
 from webviz.server.http.viser_server import Server, replaced
 
 _opening = threading.Lock()
@@ -60,23 +63,19 @@ def open_server(
     listener = listen(host, port)
     if tls is not None:
         listener.handshakes = Handshakes()
-    gate = ConnectionLimits(listener.handshakes)
-    hosts, channel = HostList(host, allowed_hosts), Channel()
-    modules = Modules(CONSTANTS)
-    serve = guarded_serve(
-        websocket.serve,
-        listener,
-        gate,
-        hosts,
-        proxies,
-        tls,
-        channel,
-        modules,
-        access or Access(),
-        link_rate,
+    limits, access = ConnectionLimits(listener.handshakes), access or Access()
+    channel, modules = Channel(), Modules(CONSTANTS)
+    steps = (
+        behind(proxies),
+        at(HostList(host, allowed_hosts)),
+        with_link(access, listener.getsockname()[1]),
+        within(limits),
+        page(modules.added_to),
     )
-    with _opening, replaced(websocket, "serve", serve):
-        server = Server(channel, modules, gate.close, host=host, port=port, verbose=False)
+    begin = Expelling(access, limits).begin
+    guard = RequestGuard(listener, steps, limits, tls, channel, begin, link_rate)
+    with _opening, replaced(websocket, "serve", functools.partial(guard.serve, websocket.serve)):
+        server = Server(channel, modules, limits.close, host=host, port=port, verbose=False)
     greet(server, channel, modules)
     _prepare(server)
     return server

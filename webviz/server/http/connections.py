@@ -8,7 +8,7 @@ import functools
 import resource
 import select
 from collections.abc import AsyncIterator, Callable, Iterator
-from typing import Any
+from typing import Any, Protocol
 
 import websockets.asyncio.server as websocket
 from websockets.exceptions import ConnectionClosed
@@ -46,6 +46,17 @@ FAREWELL = 1.0
 """Seconds for a browser to close its connection when the server stops."""
 
 
+class Newcomer(Protocol):
+    """A browser that asks to connect."""
+
+    address: str
+
+    @property
+    def grant(self) -> Grant:
+        """Return what it may do."""
+        ...
+
+
 class ConnectionLimits:
     """Limits the connections of a server: opening ones, those of browsers, and their channels.
 
@@ -62,7 +73,7 @@ class ConnectionLimits:
         """With the network of each."""
         self._open: set[Connection] = set()
 
-    def refusal(self, newcomer: Connection) -> str:
+    def refusal(self, newcomer: Newcomer) -> str:
         """Why one more browser may not connect: a sentence, "" if it may."""
         role = newcomer.grant.role
         limits = LIMITS[role]

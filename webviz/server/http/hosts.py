@@ -36,12 +36,11 @@ class HostList:
         self._names |= {name.strip("[]").lower() for name in (bound, *names)}
         self._any_address = bound in ("", "0.0.0.0", "::")
 
-    def refusal(self, hosts: Sequence[str], origins: Iterable[str]) -> str | None:
+    def refusal(self, hosts: Sequence[str]) -> str | None:
         """The reason to refuse a request, as a sentence, or None.
 
         Args:
             hosts: values of its Host header, of which there should be one.
-            origins: values of its Origin header.
         """
         host = hosts[0].lower() if len(hosts) == 1 else ""
         match = _HOST.fullmatch(host)
@@ -50,10 +49,20 @@ class HostList:
         name = match["name"] or match["ipv6"]
         if name not in self._names and not (self._any_address and _is_address(name)):
             return f"The host name {name!r} is not allowed. Start webviz with --allow-host {name}."
-        own = (f"http://{host}", f"https://{host}")
-        if any(origin.lower() not in own for origin in origins):
-            return "Requests from pages of other sites are not allowed."
         return None
+
+
+def origin_refusal(host: str, origins: Iterable[str]) -> str | None:
+    """The reason to refuse a request of a page of another site, as a sentence, or None.
+
+    Args:
+        host: of the request, in lower case.
+        origins: values of its Origin header.
+    """
+    own = (f"http://{host}", f"https://{host}")
+    if any(origin.lower() not in own for origin in origins):
+        return "Requests from pages of other sites are not allowed."
+    return None
 
 
 def _is_address(name: str) -> bool:

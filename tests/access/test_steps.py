@@ -1,0 +1,99 @@
+"""The steps of a request, each by itself, without a socket."""
+
+from __future__ import annotations
+
+import gzip
+from http import HTTPStatus
+
+import pytest
+from websockets.datastructures import Headers
+from websockets.http11 import Request, Response
+
+from webviz.server.access.access import Access
+from webviz.server.access.proxies import Proxies
+from webviz.server.channel.modules import CHANNEL
+from webviz.server.http.hosts import HostList
+from webviz.server.http.steps import Visit, answer_of, at, behind, page, with_link, within
+
+SOCKET = {"Upgrade": "websocket"}
+
+
+def visit(path: str = "/", peer: str = "10.0.0.1", **headers: str) -> Visit:
+    given = {"Host": "localhost:1", **{k.replace("_", "-"): v for k, v in headers.items()}}
+    return Visit(Request(path, Headers(given)), fetched, peer)
+
+
+def fetched(request: Request) -> Response | None:
+    """viser's page; it would pack it by itself if it knew that the browser can unpack."""
+    assert "Accept-Encoding" not in request.headers
+    return Response(200, "OK", Headers(ETag="1"), b"page")
+
+
+class Full:
+    """No room for anybody."""
+
+    def refusal(self, newcomer: Visit, /) -> str:
+        return "No room."
+
+
+def test_a_trusted_proxy_says_who_asks_and_by_what_name() -> None:
+    asked = visit(peer="10.0.0.1", X_Forwarded_For="192.0.2.7", X_Forwarded_Host="robot")
+    assert behind(Proxies(["10.0.0.1"]))(asked) is None
+    assert (asked.address, asked.hosts) == ("192.0.2.7", ("robot",))
+
+
+@pytest.mark.parametrize(
+    ("host", "origin", "status"),
+    [
+        ("LOCALHOST:1", "http://localhost:1", None),
+        ("evil.example", "http://evil.example", HTTPStatus.FORBIDDEN),
+        ("localhost:1", "http://evil.example", HTTPStatus.FORBIDDEN),
+    ],
+)
+def test_only_pages_of_this_server_under_its_names_pass(
+    host: str, origin: str, status: HTTPStatus | None
+) -> None:
+    asked = visit(Origin=origin)
+    asked.hosts = [host]
+    reply = at(HostList("127.0.0.1"))(asked)
+    assert (reply and reply.status) == status
+    assert asked.host == ("" if status else "localhost:1")
+
+
+def test_who_has_no_link_gets_a_page_and_no_grant() -> None:
+    reply = with_link(Access(True), 1)(visit())
+    assert reply is not None
+    assert (reply.status, reply.headers["Cache-Control"]) == (HTTPStatus.FORBIDDEN, "no-store")
+    assert b"<h1>webviz</h1>" in reply.body
+
+
+def test_a_channel_needs_no_room_besides_that_of_its_page() -> None:
+    step = within(Full())
+    for asked in (visit(), visit(**SOCKET)):
+        reply = step(asked)
+        assert reply is not None
+        assert (reply.status, reply.body) == (HTTPStatus.SERVICE_UNAVAILABLE, b"No room.\n")
+    assert step(visit(CHANNEL, **SOCKET)) is None
+
+
+def test_the_page_is_the_only_file_and_packed_for_those_that_unpack_it() -> None:
+    step = page(lambda body: body + b" of webviz")
+    plain, packed = step(visit()), step(visit("/index.html?a", Accept_Encoding="gzip"))
+    assert plain is not None
+    assert packed is not None
+    assert plain.body == gzip.decompress(packed.body) == b"page of webviz"
+    assert "Content-Encoding" not in plain.headers
+    assert (packed.headers["Content-Encoding"], packed.headers["ETag"]) == ("gzip", "1")
+    missing = step(visit("/etc/passwd"))
+    assert missing is not None
+    assert missing.status == HTTPStatus.NOT_FOUND
+    assert step(visit(**SOCKET)) is None
+
+
+def test_the_first_step_with_an_answer_ends_the_row() -> None:
+    asked = visit(peer="10.0.0.1", Host="evil.example")
+    row = (behind(Proxies()), at(HostList("127.0.0.1")), with_link(Access(True), 1))
+    reply = answer_of(row, asked)
+    assert reply is not None
+    assert b"'evil.example' is not allowed" in reply.body
+    assert answer_of((behind(Proxies()), at(HostList("127.0.0.1"))), visit()) is None

@@ -1,0 +1,190 @@
+"""The steps of a request, in a row: each notes something of it, answers it, or lets it pass."""
+
+from __future__ import annotations
+
+import functools
+import gzip
+import http
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from websockets.http11 import Request, Response
+
+from webviz.server.access import login
+from webviz.server.access.access import EVERYBODY, Access, Grant
+from webviz.server.access.proxies import Proxies
+from webviz.server.channel.modules import CHANNEL
+from webviz.server.http.hosts import HostList, origin_refusal
+from webviz.server.http.requests import NOT_FOUND, PAGES, is_upgrade
+
+HTML = "text/html; charset=utf-8"
+
+
+@dataclass
+class Visit:
+    """A request on its way.
+
+    Args:
+        request: what was asked.
+        fetch: makes viser's response to it, None if viser opens a websocket.
+        address: IP address of the other end of the connection, then of the browser.
+        is_secure: whether the connection uses TLS, then whether the browser does.
+        hosts: by what names the server was addressed.
+        host: the one name, if it is allowed, in lower case.
+        grant: what the browser may do.
+    """
+
+    request: Request
+    fetch: Callable[[Request], Response | None]
+    address: str
+    is_secure: bool = False
+    hosts: Sequence[str] = ()
+    host: str = ""
+    grant: Grant = EVERYBODY
+
+    @property
+    def path(self) -> str:
+        """Its path, without parameters."""
+        return self.request.path.partition("?")[0]
+
+    @property
+    def is_channel(self) -> bool:
+        """True if it opens the channel of a page."""
+        return is_upgrade(self.request) and self.path == CHANNEL
+
+
+@dataclass(frozen=True)
+class Reply:
+    """An answer.
+
+    Args:
+        status: of HTTP.
+        body: a page, or a sentence with its end of line.
+        headers: besides those of every response.
+    """
+
+    status: http.HTTPStatus
+    body: bytes = b""
+    headers: dict[str, str] = field(default_factory=dict[str, str])
+
+
+Step = Callable[[Visit], Reply | None]
+
+
+class Room(Protocol):
+    """Room for browsers."""
+
+    def refusal(self, newcomer: Visit, /) -> str:
+        """Return why one more may not connect: a sentence, or ""."""
+        ...
+
+
+def answer_of(steps: Iterable[Step], visit: Visit) -> Reply | None:
+    """The answer of the first step that has one, None to let viser open a websocket."""
+    return next((reply for step in steps if (reply := step(visit)) is not None), None)
+
+
+def behind(proxies: Proxies) -> Step:
+    """Note who asks: the browser, if a trusted proxy says which."""
+
+    def step(visit: Visit) -> None:
+        headers = visit.request.headers
+        caller = proxies.caller(visit.address, headers, is_secure=visit.is_secure)
+        visit.address, visit.is_secure, visit.hosts = caller.address, caller.is_secure, caller.hosts
+
+    return step
+
+
+def at(hosts: HostList) -> Step:
+    """Refuse other names than those of the server, and pages of other sites."""
+
+    def step(visit: Visit) -> Reply | None:
+        origins = visit.request.headers.get_all("Origin")
+        reason = hosts.refusal(visit.hosts) or origin_refusal(visit.hosts[0].lower(), origins)
+        if reason is not None:
+            return _sentence(http.HTTPStatus.FORBIDDEN, reason)
+        visit.host = visit.hosts[0].lower()
+        return None
+
+    return step
+
+
+def with_link(access: Access, port: int) -> Step:
+    """Let those in who have a link, or its cookie; a link is exchanged for the cookie.
+
+    Args:
+        access: knows the tokens.
+        port: of the server, after which the cookie is named.
+    """
+
+    def step(visit: Visit) -> Reply | None:
+        path, headers = visit.request.path, visit.request.headers
+        if visit.path in PAGES and login.token_in(path) and access.asks:
+            try:
+                welcome = login.welcome(access, path, headers, port, visit.is_secure)
+            except login.NoCookies:
+                return _turned_away(login.NO_COOKIES)
+            if welcome is None:
+                return _turned_away(login.INVALID_LINK)
+            return Reply(welcome.status, headers=welcome.headers)
+        grant = login.grant_of(access, headers, port)
+        if grant is None:
+            return _turned_away(login.NO_LINK)
+        visit.grant = grant
+        return None
+
+    return step
+
+
+def within(limits: Room) -> Step:
+    """Refuse one browser more than there may be; each has a channel besides."""
+
+    def step(visit: Visit) -> Reply | None:
+        reason = "" if visit.is_channel else limits.refusal(visit)
+        return _sentence(http.HTTPStatus.SERVICE_UNAVAILABLE, reason) if reason else None
+
+    return step
+
+
+def page(added_to: Callable[[bytes], bytes]) -> Step:
+    """Serve the one file of the page, packed for browsers that take it so.
+
+    Args:
+        added_to: makes our page of viser's.
+    """
+
+    @functools.lru_cache(maxsize=2)
+    def whole(body: bytes, is_packed: bool) -> bytes:
+        text = added_to(body)
+        return gzip.compress(text) if is_packed else text
+
+    def step(visit: Visit) -> Reply | None:
+        request = visit.request
+        if is_upgrade(request):
+            return None
+        if visit.path not in PAGES:
+            return _sentence(*NOT_FOUND)
+        encodings = ", ".join(request.headers.get_all("Accept-Encoding"))
+        if encodings:
+            del request.headers["Accept-Encoding"]
+        if (response := visit.fetch(request)) is None:
+            return None
+        is_packed = "gzip" in encodings
+        headers = dict(response.headers.raw_items())
+        headers.pop("Content-Encoding", None)
+        if is_packed:
+            headers["Content-Encoding"] = "gzip"
+        body = whole(bytes(response.body), is_packed)
+        return Reply(http.HTTPStatus(response.status_code), body, {**headers, "Content-Type": HTML})
+
+    return step
+
+
+def _sentence(status: http.HTTPStatus, text: str) -> Reply:
+    return Reply(status, f"{text}\n".encode())
+
+
+def _turned_away(reason: str) -> Reply:
+    headers = {"Content-Type": HTML, "Cache-Control": "no-store"}
+    return Reply(http.HTTPStatus.FORBIDDEN, login.page(reason), headers)
