@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from contextlib import closing
 from pathlib import Path
 
 import pytest
-from bags import Bag, ns
+from bags import START_NS, Bag, ns
 
+from webviz.api.status import Level
+from webviz.engine.commands import Seek
 from webviz.engine.loop import FrameLoop
 from webviz.files.opening import parse
+from webviz.shell.testing import BagViewer, header
 from webviz.shell.testing.recording import RecordingScene
 from webviz.sources.bag.source import BagSource
 
@@ -87,3 +91,19 @@ def test_a_bag_whose_time_begins_at_zero_needs_no_clock(tmp_path, monkeypatch, s
     bag.put(0, "/words", {"data": "first"})
     path = bag.write(tmp_path / "bag")
     assert not [text for text in texts(path, 0.0) if "/clock" in text or "use_sim_time" in text]
+
+
+def test_waiting_for_transforms_that_a_bag_does_not_have_is_an_error_after_a_seek_too(tmp_path):
+    bag = Bag()
+    bag.add("/imu", "sensor_msgs/msg/Imu")
+    for number in range(250):
+        at_s = number / 50
+        imu = {"header": header("imu", START_NS + ns(at_s)), "orientation": {"w": 1.0}}
+        bag.put(at_s, "/imu", imu)
+    path = bag.write(tmp_path / "bag")
+    config = "fixed_frame: map\ndisplays: [{type: Imu, topic: /imu}]\n"
+    with closing(BagViewer(path, config)) as sought, closing(BagViewer(path, config)) as played:
+        sought.do(Seek(4.0))
+        played.play_to(4.0)
+        levels = [v.rows[0].statuses["Transform"].level for v in (sought, played)]
+    assert levels == [Level.ERROR, Level.ERROR]

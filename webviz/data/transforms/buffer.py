@@ -46,6 +46,7 @@ class TransformBuffer:
         nodes: the node of each authority, if known; sentences name it.
         recorded: when the first transforms of a bag come, such as "the bag's first is at 0.8 s"; ""
             for live ones.
+        none_recorded: whether the source is a bag without transforms, so that none will come.
         version: changes whenever something is stored or cleared.
         structure_version: changes when a frame, a parent, a static pose or the kind of a frame
             changes: results that depend only on the tree's shape can be cached until then.
@@ -55,6 +56,7 @@ class TransformBuffer:
         self.cache_time_ns = cache_time_ns
         self.nodes: Mapping[str, str] = {}
         self.recorded = ""
+        self.none_recorded = False
         self.version = 0
         self.structure_version = 0
         self._tree = FrameTree()

@@ -263,7 +263,8 @@ class Intake:
     def _transform_status(self, frames: Frames, clock: float) -> Status | None:
         waiting = self._filter.explanation(frames.buffer, frames.fixed_frame, frames.now_ns)
         since = self._waiting_since
-        if waiting and since is not None and clock - since > PATIENCE_S:
+        is_late = since is not None and clock - since > PATIENCE_S
+        if waiting and (is_late or frames.buffer.none_recorded):
             size, remedy = waiting.filter_size, OtherFixedFrame.of(waiting)
             if size:
                 label = f"Set the filter size to {size}"

@@ -96,6 +96,7 @@ class TransformListener:
             is_recorded = any(offer.is_recorded for offer in offers.values())
             none = "the bag has none" if is_recorded else ""
             self._buffer.recorded = next((b for b in begins if b and b != none), none)
+            self._buffer.none_recorded = is_recorded and self._buffer.recorded == none
             self._buffer.nodes = {
                 topic: nodes[0] for topic, nodes in self._publishers.items() if len(nodes) == 1
             }
