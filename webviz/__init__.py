@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     )
     from webviz.api.observation import DisplaySeen, InputSeen, Observation
     from webviz.api.panel import Panel, Send, Ui
-    from webviz.api.picking import Details, Hit
+    from webviz.api.picking import Details, Hit, Quantity
     from webviz.api.ports import Input, Output
     from webviz.api.sample import Sample
     from webviz.api.status import Level, OtherFixedFrame, Remedy, Status
@@ -95,6 +95,7 @@ __all__ = [
     "Pose",
     "Prop",
     "ProtocolClient",
+    "Quantity",
     "Remedy",
     "Rgb",
     "Sample",
@@ -155,7 +156,7 @@ _HOMES = {
     ),
     "webviz.api.observation": ("DisplaySeen", "InputSeen", "Observation"),
     "webviz.api.panel": ("Panel", "Send", "Ui"),
-    "webviz.api.picking": ("Details", "Hit"),
+    "webviz.api.picking": ("Details", "Hit", "Quantity"),
     "webviz.api.ports": ("Input", "Output"),
     "webviz.api.sample": ("Sample",),
     "webviz.api.status": ("Level", "OtherFixedFrame", "Remedy", "Status"),

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 import numpy as np
 import pytest
 
-from webviz import Context, Details, Display, Hit, Input, Sample, Topic
+from webviz import Context, Details, Display, Hit, Input, Quantity, Sample, Topic
 from webviz.engine.commands import (
     Identify,
     InspectSelections,
@@ -41,7 +41,8 @@ class Dots(Display):
     def inspect(self, hit: Hit, ctx: Context) -> Details:
         self.asked += 1
         x = hit.sample.message.pose.position.x
-        return Details(f"Dot {hit.id}", {"x": x, "Now": f"{ctx.frames.now_ns}"})
+        now = f"{ctx.frames.now_ns}"
+        return Details(f"Dot {hit.id}", {"x": x, "Way": Quantity(x / 2, "km"), "Now": now})
 
 
 class Moving(Display):
@@ -204,6 +205,7 @@ def test_statistics_are_of_the_numbers_of_each_display(shown: Any) -> None:
         ("y in map", "m", 0.0, 1.0, pytest.approx(2 / 3)),
         ("z in map", "m", 0.0, 0.0, 0.0),
         ("x", "", 1.0, 4.0, 2.0),
+        ("Way", "km", 0.5, 2.0, 1.0),
     ]
 
 

@@ -210,7 +210,10 @@ def test_any_hook_may_raise_or_return_nonsense_and_the_viewer_goes_on(
 ) -> None:
     for body in ("raise RuntimeError('out of ink')", "return object()"):
         text = plugin.path.read_text()
-        plugin.path.write_text(f"{text}\n    def {hook}:\n        {body}\n")
+        changed = text.replace("Sample, Topic", "Sample, Selective, Topic").replace(
+            "(Display)", "(Display, Selective)"
+        )
+        plugin.path.write_text(f"{changed}\n    def {hook}:\n        {body}\n")
         shown(b, plugin)
         publish(b)
         if "raise" in body:

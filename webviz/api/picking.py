@@ -9,7 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from webviz.api.nodes import Arrows, Axes, Image, Instances, Labels, Lines, Node, Points
 from webviz.api.sample import Sample
@@ -43,14 +45,26 @@ class Hit:
         return self.samples[-1]
 
 
+class Quantity(NamedTuple):
+    """A number with its unit; of several selected items, pages show the extent and mean.
+
+    Attributes:
+        value: a float32 is shown with the digits that identify it.
+        unit: such as "m".
+    """
+
+    value: float | np.generic
+    unit: str
+
+
 @dataclass(frozen=True)
 class Details:
     """Details of a selected item.
 
     Args:
         title: what it is, such as "Point 12".
-        values: by name, the most telling first: texts, numbers, arrays, poses, messages, or
-            mappings of these. A float32 is shown with the digits that identify it.
+        values: by name, the most telling first: texts, numbers, quantities, arrays, poses,
+            messages, or mappings of these. A float32 is shown with the digits that identify it.
     """
 
     title: str

@@ -17,6 +17,7 @@ from webviz import (
     Input,
     Pose,
     Prop,
+    Quantity,
     Rgb,
     Sample,
     Sweep,
@@ -110,13 +111,14 @@ class LaserScan(PointsDisplay, Comparable, Sweep):
     def inspect(self, hit: Hit, ctx: Context) -> Details:
         """A beam: its range, intensity and angle."""
         scan: messages.LaserScan = hit.sample.message
-        values: dict[str, object] = {"Range": f"{scan.ranges[hit.id]!s} m"}
+        values: dict[str, object] = {"Range": Quantity(np.float32(scan.ranges[hit.id]), "m")}
         if len(scan.intensities) == len(scan.ranges):
             values["Intensity"] = scan.intensities[hit.id]
         angle = scan.angle_min + hit.id * scan.angle_increment
         values["Angle"] = f"{angle:.6f} rad, {math.degrees(angle):.2f}°"
         if scan.time_increment:
-            values["Time after the first beam"] = f"{1e3 * hit.id * scan.time_increment:.3f} ms"
+            time_ms = round(1e3 * hit.id * scan.time_increment, 3)
+            values["Time after the first beam"] = Quantity(time_ms, "ms")
         return Details(f"Beam {hit.id}", values | {"Beams in the scan": len(scan.ranges)})
 
     def _place(self, hits: beams.BeamHits, sample: Sample, ctx: Context) -> F64:

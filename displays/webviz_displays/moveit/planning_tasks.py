@@ -8,7 +8,19 @@ from typing import Annotated, Any
 
 import msgspec
 
-from webviz import Color, Context, Details, Display, Hit, Input, Lookback, Prop, Sample, Topic
+from webviz import (
+    Color,
+    Context,
+    Details,
+    Display,
+    Hit,
+    Input,
+    Lookback,
+    Prop,
+    ProtocolClient,
+    Sample,
+    Topic,
+)
 from webviz.api.wire import Wire
 from webviz.data.words import counted
 from webviz_displays.moveit.bodies import SLOW_BYTES, named
@@ -117,7 +129,7 @@ class TasksDrawing:
         return self.solution
 
 
-class MotionPlanningTasks(Display):
+class MotionPlanningTasks(Display, ProtocolClient):
     """The stages of MoveIt Task Constructor's tasks, and a robot that plays a solution."""
 
     rviz = "moveit_task_constructor/Motion Planning Tasks"

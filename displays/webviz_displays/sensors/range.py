@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from webviz import Color, Context, Details, Display, Hit, Input, Keep, Prop, Sample, Topic
+from webviz import Color, Context, Details, Display, Hit, Input, Keep, Prop, Quantity, Sample, Topic
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import FARTHEST
 from webviz_displays.shared.opaque import opaque
@@ -63,7 +63,7 @@ class Range(Display):
         return Details(
             f"Range {hit.sample.number}",
             {
-                "Range": f"{np.float32(message.range)!s} m",
+                "Range": Quantity(np.float32(message.range), "m"),
                 "Field of view": f"{math.degrees(message.field_of_view):.4g}°",
                 "Limits": f"{message.min_range:g} to {message.max_range:g} m",
                 "Radiation": RADIATION.get(message.radiation_type, message.radiation_type),

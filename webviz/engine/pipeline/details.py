@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from webviz.api.nodes import Pose
+from webviz.api.picking import Quantity
 from webviz.data.messages import to_tree
 from webviz.data.messages.tree import Tree
 from webviz.data.rotations import to_rpy
@@ -56,6 +57,8 @@ class _Maker:
                 return self.fields(value)
             case Pose():
                 return self.fields(_of_pose(value))
+            case Quantity():
+                return f"{self.tree(value.value)} {value.unit}"
             case np.ndarray() if value.ndim == 1 and len(value) <= MAX_VALUES:
                 return spaced(value)
             case tuple() | list() if all(isinstance(each, float | int) for each in value):

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
+from webviz.api.picking import Quantity
 from webviz.engine.pipeline.baking import Position
 
 MAX_NAMES = 20
@@ -57,8 +57,8 @@ class Statistics:
         if position is not None:
             frame, xyz = position
             told = {f"{a} in {frame}": (v, "m") for a, v in zip("xyz", xyz, strict=True)}
-        for name, value in _numbers(values):
-            told.setdefault(name, (value, ""))
+        for name, number in _numbers(values):
+            told.setdefault(name, number)
         for name, (value, unit) in told.items():
             self._values.setdefault((name, unit), []).append(value)
 
@@ -74,8 +74,10 @@ class Statistics:
         return found
 
 
-def _numbers(values: Mapping[str, object], above: str = "") -> Iterator[tuple[str, float]]:
-    """All numbers by their names, such as "x in map" for the x of a "Position in map"."""
+def _numbers(
+    values: Mapping[str, object], above: str = ""
+) -> Iterator[tuple[str, tuple[float, str]]]:
+    """All numbers with their units by name: "x in map" is the x of a "Position in map"."""
     for name, value in values.items():
         place = above.removeprefix("Position ")
         own = f"{name} {place}" if place != above else f"{above} {name}".strip()
@@ -85,10 +87,12 @@ def _numbers(values: Mapping[str, object], above: str = "") -> Iterator[tuple[st
         elif isinstance(value, bool | np.bool_):
             continue
         elif isinstance(value, int | float | np.integer | np.floating):
-            yield own, _real(value)
+            yield own, (_real(value), "")
+        elif isinstance(value, Quantity):
+            yield own, (_real(value.value), value.unit)
 
 
-def _real(value: float | np.integer[Any] | np.floating[Any]) -> float:
+def _real(value: float | np.generic) -> float:
     """Return an integer beyond all floats as infinite."""
     try:
         return float(value)
