@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
-from webviz import Context, Error, Frames, Group, Instances, Level, Pose
+from webviz import Axes, Context, Error, Frames, Group, Hit, Instances, Level, Pose
 from webviz.api.handles import Grip, GripKind, Handle
 from webviz.api.wire import Heard
 from webviz.data.messages import decode, encode, interfaces
@@ -26,7 +27,7 @@ from webviz_displays.interactive_markers.client import (
     Client,
 )
 from webviz_displays.interactive_markers.completion import Completed, completed
-from webviz_displays.interactive_markers.drawing import MarkerLook
+from webviz_displays.interactive_markers.drawing import AXES_RADIUS, MarkerLook
 from webviz_displays.interactive_markers.feedback import (
     BUTTON_CLICK,
     MENU_SELECT,
@@ -47,7 +48,7 @@ from webviz_displays.interactive_markers.server import MAX_IGNORED, InteractiveM
 from webviz_displays.interactive_markers.tracked import Place, Tracked
 
 KEEP_ALIVE, CHANGE = 0, 1
-MENU, BUTTON, MOVE_AXIS = 1, 2, 3
+MENU, BUTTON, MOVE_AXIS, ROTATE_AXIS = 1, 2, 3, 5
 MARKER = "visualization_msgs/msg/InteractiveMarker"
 
 
@@ -487,8 +488,10 @@ def test_only_successive_poses_of_one_control_replace_each_other() -> None:
 class Shown:
     """A display with one marker of a server, which records what is sent to it."""
 
-    def __init__(self, server: Server, **values: Any) -> None:
-        self.display = InteractiveMarkers(interactive_markers_namespace="/arm")
+    def __init__(
+        self, server: Server, display: Mapping[str, Any] | None = None, **values: Any
+    ) -> None:
+        self.display = InteractiveMarkers(interactive_markers_namespace="/arm", **(display or {}))
         self.state, self.wire, self.around = self.display.new_state(), server, frames("map")
         self.display.talk(server, self.context())
         cdr = encode(MARKER, {"name": "a", "header": {"frame_id": "odom"}, **values})
@@ -546,6 +549,78 @@ def test_a_gesture_is_reported_to_the_server_event_by_event(server: Server) -> N
     assert chosen.grip("choose", entry=5) == []
     still = Shown(server, controls=[{"interaction_mode": 0}])
     assert still.grip("press") == []
+
+
+def test_what_nobody_has_pressed_stays_when_it_is_released(server: Server) -> None:
+    shown = Shown(server, controls=[{"interaction_mode": MOVE_AXIS}])
+    assert shown.grip("release", 5.0) == [(POSE_UPDATE, 0.0), (MOUSE_UP, 0.0)]
+
+
+def test_the_point_under_the_pointer_is_that_of_presses_and_clicks(server: Server) -> None:
+    shown = Shown(server, controls=[{"interaction_mode": MOVE_AXIS}])
+    grips = (
+        Grip("m1", 0, "press", point=(1.0, 2.0, 3.0)),
+        Grip("m1", 0, "move", Pose((4.0, 0, 0))),
+    )
+    for grip in grips:
+        shown.display.grip(replace(grip, point=(1.0, 2.0, 3.0)), server, shown.context())
+    sent = list(iter(shown.known.outgoing.next, None))
+    assert [each["mouse_point_valid"] for each in sent] == [False, True, False]
+
+
+def test_a_server_is_known_as_long_as_its_namespace_is_that_of_the_display(server: Server) -> None:
+    shown = Shown(server)
+    known = shown.known
+    shown.display.talk(server, shown.context())
+    assert shown.known is known
+
+
+def test_a_marker_that_is_picked_is_inspected(server: Server) -> None:
+    controls = [{"interaction_mode": MOVE_AXIS, "markers": [{"type": 1, "color": {"a": 1.0}}]}]
+    shown = Shown(server, description="An arm", controls=controls)
+    node = shown.groups()["m1"].nodes["c0/m1/box"]
+
+    def inspect(key: str) -> Any:
+        hit = Hit(key, node, 0, (0.0, 0.0, 0.0), "odom", ())
+        return shown.display.inspect(hit, shown.context())
+
+    assert "An arm" in str(inspect("c0/m1/box"))
+    assert inspect("c0/m9/box") is None
+
+
+def test_axes_are_as_long_as_the_marker_and_only_texts_have_a_ball_to_grip(server: Server) -> None:
+    solid = {"type": 1, "color": {"a": 1.0}}
+    controls = [{"interaction_mode": BUTTON, "markers": [solid]}]
+    nodes = Shown(server, {"show_axes": True}, scale=2.0, controls=controls).groups()["m1"].nodes
+    assert "c0/m1/grip" not in nodes
+    axes = nodes["axes/m1"]
+    assert isinstance(axes, Axes)
+    assert (axes.length, axes.radius) == (2.0, 2.0 * AXES_RADIUS)
+    assert (axes.positions.tolist(), axes.wxyzs.tolist()) == ([[0, 0, 0]], [[1, 0, 0, 0]])
+
+
+def test_without_transparency_all_that_is_visible_is_opaque(server: Server) -> None:
+    shapes = [{"type": 1, "color": {"a": alpha}} for alpha in (0.0, 0.25)]
+    controls = [{"interaction_mode": BUTTON, "markers": shapes}]
+    for is_transparent, opacity in ((True, 0.25), (False, 1.0)):
+        display = {"enable_transparency": is_transparent}
+        nodes = Shown(server, display, controls=controls).groups()["m1"].nodes
+        (box,) = (node for key, node in nodes.items() if "/box" in key)
+        assert isinstance(box, Instances)
+        assert len(box.positions) == 1
+        assert box.opacity == pytest.approx(opacity, abs=0.01)
+
+
+def test_a_fixed_control_turns_about_its_own_axis(server: Server) -> None:
+    shapes = [{"type": 1, "color": {"a": 1.0}}]
+    control = {"orientation_mode": 1, "interaction_mode": ROTATE_AXIS, "markers": shapes}
+    up = {"w": math.sqrt(0.5), "y": -math.sqrt(0.5)}
+    for orientation, axis in (({"w": 1.0}, (1.0, 0.0, 0.0)), (up, (0.0, 0.0, 1.0))):
+        shown = Shown(server, controls=[{"orientation": orientation, **control}])
+        shown.grip("press")
+        shown.grip("move", 0.0, turned=0.5)
+        wanted = [math.cos(0.25), *(math.sin(0.25) * each for each in axis)]
+        assert shown.groups()["m1.0"].placement.offset.wxyz == pytest.approx(wanted)
 
 
 def test_handles_are_made_anew_only_if_something_changes(server: Server) -> None:

@@ -15,7 +15,7 @@ from webviz_displays.interactive_markers.completion import (
     completed,
     unique_names,
 )
-from webviz_displays.interactive_markers.menus import can_choose, menu_of
+from webviz_displays.interactive_markers.menus import MAX_DEPTH, can_choose, menu_of
 from webviz_displays.interactive_markers.reading import UPDATE, read_update
 
 MARKER = "visualization_msgs/msg/InteractiveMarker"
@@ -169,3 +169,7 @@ def test_menus_are_nested_checked_and_free_of_shell_commands() -> None:
     assert menu_of(entries((1, 0, "x" * 10_000, 0)))[0][0].title == "x" * 199 + "…"
     menu, problems = menu_of(entries(*((n, n - 1, "", 0) for n in range(1, 2000))))
     assert "1000 of its 1999" in problems[0]
+    depth = 0
+    while menu:
+        menu, depth = menu[0].entries, depth + 1
+    assert depth == MAX_DEPTH

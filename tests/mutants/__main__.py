@@ -28,10 +28,13 @@ TESTS = {
     "webviz/engine/driving": "tests/pipeline/test_helm.py tests/pipeline/test_driving.py",
     "webviz/engine/pipeline": "tests/pipeline",
     "webviz/sources": "tests/sources tests/playback tests/pipeline/test_rights.py",
-    "webviz/sources/gate.py": "tests/pipeline/test_rights.py tests/pipeline/test_driving.py",
+    "webviz/sources/gate.py": (
+        "tests/pipeline/test_rights.py tests/pipeline/test_driving.py "
+        "tests/pipeline/test_kept_sessions.py"
+    ),
     "displays/webviz_displays/interactive_markers": (
         "tests/displays/test_interactive_markers.py "
-        "tests/displays/test_interactive_marker_client.py"
+        "tests/displays/test_interactive_marker_client.py tests/ros/test_interactive_markers.py"
     ),
 }
 """The nearest tests of a room, the fastest first."""

@@ -1,12 +1,14 @@
 """Why a frame has no pose: every reason in words and numbers, and what to do next."""
 
+import math
 from collections.abc import Callable
 from itertools import pairwise
 
 import pytest
 
 from webviz.data.transforms import Explanation, Kind, TransformBuffer, explain
-from webviz.data.transforms.reasons import in_words
+from webviz.data.transforms.geometry import REACH_M, is_within_reach
+from webviz.data.transforms.reasons import in_words, listed
 
 S = 1_000_000_000
 Put = Callable[..., bool]
@@ -16,6 +18,20 @@ def why(
     buffer: TransformBuffer, frame: str, stamp_s: float, now_s: float = 0.0, fixed: str = "map"
 ) -> Explanation:
     return explain(buffer, fixed, frame, round(stamp_s * S), round(now_s * S))
+
+
+def test_ten_frames_are_listed_and_more_are_counted() -> None:
+    frames = [f"f{number}" for number in range(12)]
+    assert listed(frames[:2], " and ") == "f0 and f1"
+    assert listed(frames[:10]) == "f0, f1, f2, f3, f4, f5, f6, f7, f8, f9"
+    assert listed(frames) == "f0, f1, f2, f3, f4, f5, f6, f7, f8, f9 and 2 more"
+
+
+@pytest.mark.parametrize(
+    ("value", "is_near"), [(REACH_M, True), (-2 * REACH_M, False), (math.nan, False)]
+)
+def test_what_is_too_far_away_is_out_of_reach(value: float, is_near: bool) -> None:
+    assert is_within_reach((0.0, value, 0.0, 0.0, 0.0, 0.0, 1.0)) == is_near
 
 
 def test_an_available_transform_is_ok(buffer: TransformBuffer, put: Put) -> None:

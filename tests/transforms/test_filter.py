@@ -196,6 +196,15 @@ def test_a_message_older_than_anything_that_can_come_is_given_up(
     assert explanation.sentence.endswith("1 message was given up.")
 
 
+def test_a_stamp_before_1970_is_older_than_anything_that_can_come(
+    buffer: TransformBuffer, messages: MessageFilter[str], put: Put
+) -> None:
+    put("map", "laser", 100.0)
+    messages.add("m", "laser", -S)
+    assert messages.ready(buffer, "map") == []
+    assert messages.drops == {Kind.BEHIND: 1}
+
+
 def test_the_state_clears_when_data_flows_again(
     buffer: TransformBuffer, messages: MessageFilter[str], put: Put
 ) -> None:
