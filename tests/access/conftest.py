@@ -15,7 +15,7 @@ import pytest
 from tests.support.guest import Guest
 from webviz.api.vehicle import Velocity
 from webviz.engine.commands import Command, Sender
-from webviz.engine.driving import HelmAnswer
+from webviz.engine.driving import DrivingAnswer
 from webviz.page.pages import Pages
 from webviz.scene import open_server
 from webviz.server.access import token_file
@@ -80,9 +80,9 @@ class House:
         done.set_result("")
         return done
 
-    def _steer(self, tool: str, browser: int, share: Velocity, seen: float | None) -> HelmAnswer:
+    def _steer(self, tool: str, browser: int, share: Velocity, seen: float | None) -> DrivingAnswer:
         self.reached.append("Drive")
-        return HelmAnswer()
+        return DrivingAnswer()
 
 
 @pytest.fixture

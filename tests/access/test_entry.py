@@ -21,7 +21,7 @@ from tests.scene.conftest import Peer
 from tests.support.guest import Guest
 from webviz.engine.commands import Command, GripHandle, UseTool
 from webviz.engine.parts.selection import MAX_SELECTED
-from webviz.page.acts import NOT_OF_PAGES
+from webviz.page.dispatcher import NOT_OF_PAGES
 from webviz.scene import open_server
 from webviz.server.access import roles, rules, token_file
 from webviz.server.access.access import CHECK_S, Access
@@ -117,7 +117,7 @@ def test_everything_that_a_page_sends_is_held_against_its_role(
         answer = guest.do(command.__name__, **some_fields(command))
         assert answer.startswith("Not allowed: ") == (role < required), (command, answer)
     guest.send("Drive", tool="t", beat=0, linear=1, lateral=0, angular=0)
-    problem = guest.receive("HelmReport")["problem"]
+    problem = guest.receive("DrivingReport")["problem"]
     assert problem.startswith("Not allowed: ") == (role is Role.WATCHER)
     allowed = {c.__name__ for c, required in rules.COMMANDS.items() if role >= required}
     allowed -= {"Dismiss", "Invite", "Revoke", "UseWidget"}  # the server does these itself

@@ -127,7 +127,7 @@ def test_a_store_of_owners_is_for_owners(monkeypatch: pytest.MonkeyPatch) -> Non
 
 def test_what_is_answered_is_refused_in_words() -> None:
     drive = messages.Drive("tool", 1, 0.0, 0.0, 0.0)
-    assert answer(drive, "No.") == messages.HelmReport("tool", 0, None, "No.")
+    assert answer(drive, "No.") == messages.DrivingReport("tool", 0, None, "No.")
     save = messages.Do(7, "Save", {})
     assert answer(save, "No.") == messages.Done(7, "Save", "error", "No.", {})
     assert answer(messages.Ping(), "No.") is None

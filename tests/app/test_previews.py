@@ -20,7 +20,7 @@ from webviz.files.config import Config
 from webviz.files.opening import parse
 from webviz.shell.app.running import checked_view
 from webviz.shell.pictures.browser import Page
-from webviz.shell.testing.pictures import Album
+from webviz.shell.testing.pictures import ReferenceImages
 from webviz.shell.testing.source import HandFedSource
 
 CONFIG = """\
@@ -70,10 +70,10 @@ def page(browser: playwright.Browser, viewer: webviz.Viewer) -> Iterator[Page]:
 
 
 @pytest.fixture
-def album(request: pytest.FixtureRequest) -> Album:
+def album(request: pytest.FixtureRequest) -> ReferenceImages:
     root = request.config.rootpath
     update = bool(request.config.getoption("--update-pictures"))
-    return Album(Path(__file__).parent / "pictures", root / "tests/output", root, update)
+    return ReferenceImages(Path(__file__).parent / "pictures", root / "tests/output", root, update)
 
 
 def capture(page: Page) -> np.ndarray:
@@ -115,7 +115,9 @@ def leave(page: Page) -> None:
     page.tab.mouse.up()
 
 
-def test_the_preview_of_a_pose_is_where_the_pose_will_be(page: Page, album: Album) -> None:
+def test_the_preview_of_a_pose_is_where_the_pose_will_be(
+    page: Page, album: ReferenceImages
+) -> None:
     press(page, "g", (-60.0, 60.0), (40.0, 90.0))
     album.check("pose", capture(page), tolerance=TOLERANCE)
     page.tab.keyboard.down("Control")
@@ -127,7 +129,7 @@ def test_the_preview_of_a_pose_is_where_the_pose_will_be(page: Page, album: Albu
 
 
 def test_a_pose_that_waits_can_be_sent_or_cancelled(
-    page: Page, viewer: webviz.Viewer, album: Album
+    page: Page, viewer: webviz.Viewer, album: ReferenceImages
 ) -> None:
     viewer.do(SetToolProperty("2D Pose Estimate", "confirm", True))
     knows = "async () => (await import('/webviz/tools/registry.js')).all().some((one) => one.asks)"
@@ -141,7 +143,7 @@ def test_a_pose_that_waits_can_be_sent_or_cancelled(
 
 
 def test_a_point_is_on_the_surface_and_lines_measure_between_surfaces(
-    page: Page, album: Album
+    page: Page, album: ReferenceImages
 ) -> None:
     press(page, "u", (60.0, 5.0))
     album.check("point", capture(page), tolerance=TOLERANCE)

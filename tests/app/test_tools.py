@@ -18,7 +18,7 @@ from webviz.files.opening import parse
 from webviz.shell.app.running import checked_view
 from webviz.shell.pictures.browser import Page
 from webviz.shell.testing.source import HandFedSource
-from webviz.sources import Outlet
+from webviz.sources import Advertisement
 
 SCALE = 50.0
 """Pixels of a metre."""
@@ -112,8 +112,8 @@ def test_a_drag_publishes_the_pose_under_the_pointer(
     assert is_active(page)
     drag(page, (100.0, -50.0), (100.0, -150.0))
     page.wait_for(lambda: answer(page) == "Published to /goal_pose, 1 subscription.", "the answer")
-    ((outlet, goal),) = graph.published
-    assert outlet == Outlet("/goal_pose", "geometry_msgs/msg/PoseStamped")
+    ((advertisement, goal),) = graph.published
+    assert advertisement == Advertisement("/goal_pose", "geometry_msgs/msg/PoseStamped")
     assert (goal.header.frame_id, goal.header.stamp.sec, goal.header.stamp.nanosec) == (
         "map",
         12,
@@ -207,8 +207,8 @@ def test_a_point_is_published_with_its_true_height(
     page.tab.keyboard.press("u")
     drag(page, (2.0 * SCALE, 0.0), (2.0 * SCALE, 0.0))
     page.wait_for(lambda: len(graph.published) == 1, "the point")
-    ((outlet, point),) = graph.published
-    assert outlet == Outlet("/clicked_point", "geometry_msgs/msg/PointStamped")
+    ((advertisement, point),) = graph.published
+    assert advertisement == Advertisement("/clicked_point", "geometry_msgs/msg/PointStamped")
     expected = pytest.approx((2.0, 0.0, 1.0), abs=0.05)
     assert (point.point.x, point.point.y, point.point.z) == expected
     assert not is_active(page)
@@ -248,8 +248,8 @@ def test_a_pose_estimate_is_published_by_a_drag(page: Page, graph: RememberingGr
     page.tab.keyboard.press("p")
     drag(page, (0.0, 50.0), (-50.0, 50.0))
     page.wait_for(lambda: len(graph.published) == 1, "the estimate")
-    ((outlet, estimate),) = graph.published
-    assert outlet.topic == "/initialpose"
+    ((advertisement, estimate),) = graph.published
+    assert advertisement.topic == "/initialpose"
     assert estimate.pose.pose.position.y == pytest.approx(-1.0, abs=0.5 / SCALE)
     assert abs(estimate.pose.pose.orientation.z) == pytest.approx(1.0, abs=1e-3)
     assert estimate.pose.covariance[35] == pytest.approx((math.pi / 12) ** 2)

@@ -12,7 +12,7 @@ from webviz.api.panel import Panel
 from webviz.api.properties import Property, properties_of
 from webviz.api.registry import display_types, plugin_types
 from webviz.api.tool import Tool
-from webviz.page.acts import form_of
+from webviz.page.dispatcher import form_of
 
 FRAMES = ("map", "odom", "base_link", "laser", "no such frame", "")
 VIEWS = ("Home", "a", "", "<b>", "\N{SNOWMAN}" * 50)

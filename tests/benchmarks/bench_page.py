@@ -33,7 +33,7 @@ from webviz.api.registry import display_types
 from webviz.api.status import Level, Status
 from webviz.api.vehicle import Velocity
 from webviz.engine.commands import Command, Sender
-from webviz.engine.driving import HelmAnswer
+from webviz.engine.driving import DrivingAnswer
 from webviz.engine.state import Row, State, Traffic
 from webviz.page.pages import Pages
 from webviz.scene import open_server
@@ -41,7 +41,7 @@ from webviz.scene.server import Server
 from webviz.server.access.access import EVERYBODY
 from webviz.server.channel.channel import Channel
 from webviz.server.channel.messages import Hello, Watch
-from webviz.server.sending.pace import LinkPace, Stretch
+from webviz.server.sending.congestion import CongestionControl, InFlightWindow
 from webviz.shell.pictures.browser import launched
 from webviz.sources import Offer, Publisher
 
@@ -97,7 +97,7 @@ class Reader:
         self.logger = logging.getLogger(__name__)
         self.transport = self
         self.latency = 0.0
-        self.stretch = Stretch(LinkPace())
+        self.window = InFlightWindow(CongestionControl())
         self.is_expelled = False
         self.grant = EVERYBODY
         self.address = ""
@@ -127,7 +127,7 @@ def watched(count: int) -> Iterator[Channel]:
     channel, ended = Channel(), asyncio.Event()
 
     async def serve() -> None:
-        keys = [channel.join(number, LinkPace()) for number in range(count)]
+        keys = [channel.join(number, CongestionControl()) for number in range(count)]
         pages = [
             asyncio.create_task(channel.serve(Reader(key), contextlib.nullcontext)) for key in keys
         ]
@@ -200,9 +200,9 @@ def ignored(command: Command, sender: Sender) -> Future[str]:
     return Future()
 
 
-def unsteered(tool: str, browser: int, share: Velocity, seen: float | None) -> HelmAnswer:
+def unsteered(tool: str, browser: int, share: Velocity, seen: float | None) -> DrivingAnswer:
     """Leave a vehicle alone."""
-    return HelmAnswer()
+    return DrivingAnswer()
 
 
 class Viewer:

@@ -119,8 +119,8 @@ def measure(mbit: float, seconds: float) -> None:
     def note() -> None:
         nonlocal said
         for browser in server.channel.browsers():
-            if (pace := server.channel.pace(browser)) is not None:
-                said = reduced(pace) or said
+            if (congestion := server.channel.congestion(browser)) is not None:
+                said = reduced(congestion) or said
 
     timer = threading.Timer(SETTLE_S + seconds / 2, note)
     timer.start()

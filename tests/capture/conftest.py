@@ -14,7 +14,7 @@ from bags import START_NS, Bag, ns
 
 from webviz.shell.cli import main as cli
 from webviz.shell.pictures import capture
-from webviz.shell.pictures.studio import Studio
+from webviz.shell.pictures.headless_renderer import HeadlessRenderer
 from webviz.shell.testing import header
 
 SIZE = (320, 240)
@@ -50,11 +50,11 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="session")
-def studio(browser: playwright.Browser) -> Iterator[Studio]:
+def renderer(browser: playwright.Browser) -> Iterator[HeadlessRenderer]:
     """One tab for all pictures."""
-    studio = Studio(browser, *SIZE)
-    yield studio
-    studio.close()
+    renderer = HeadlessRenderer(browser, *SIZE)
+    yield renderer
+    renderer.close()
 
 
 @dataclass(frozen=True)

@@ -27,9 +27,9 @@ MARGIN_PX = 3
 
 
 @pytest.fixture
-def capture(run, studio) -> Any:
+def capture(run, renderer) -> Any:
     """`webviz.capture` of the run in small pictures."""
-    return functools.partial(webviz.capture, bag=run, size=SIZE, studio=studio)
+    return functools.partial(webviz.capture, bag=run, size=SIZE, renderer=renderer)
 
 
 def scan(pixels: NDArray[np.uint8]) -> NDArray[np.float64]:
@@ -188,18 +188,18 @@ def test_a_config_that_shows_nothing_is_refused(capture, displays):
         capture(f"fixed_frame: map\n{displays}")
 
 
-def test_a_picture_waits_for_all_letters_of_labels(studio):
+def test_a_picture_waits_for_all_letters_of_labels(renderer):
     # viser makes the letters that are new for some milliseconds a frame.
     texts = tuple(chr(letter) * 2 for letter in range(0x3B1, 0x3F0))
     places = np.array([(i % 8 - 4, i // 8 - 4, 0) for i in range(len(texts))], np.float32)
-    studio.look(Orbit(distance=12.0))
-    empty = studio.capture()
-    studio.scene.upsert("labels", "letters", Labels(places, texts, 0.5))
-    studio.scene.flush()
-    first = studio.capture()
-    studio.page.draw(3 * len(texts))
-    last = studio.capture()
-    studio.clear()
+    renderer.look(Orbit(distance=12.0))
+    empty = renderer.capture()
+    renderer.scene.upsert("labels", "letters", Labels(places, texts, 0.5))
+    renderer.scene.flush()
+    first = renderer.capture()
+    renderer.page.draw(3 * len(texts))
+    last = renderer.capture()
+    renderer.clear()
     assert (last != empty).any(axis=2).sum() > 1000
     assert (first == last).all()
 

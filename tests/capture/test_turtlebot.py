@@ -20,7 +20,7 @@ DIFFERENT = 0.01
 
 
 @pytest.mark.skipif(not BAG.exists(), reason="the bag of the TurtleBot 4 is not here")
-def test_a_turtlebot_its_map_and_its_config_are_one_picture(studio):
+def test_a_turtlebot_its_map_and_its_config_are_one_picture(renderer):
     shot = webviz.capture(
         DATA / "rviz/turtlebot_bag_files.rviz",
         bag=BAG,
@@ -32,7 +32,7 @@ def test_a_turtlebot_its_map_and_its_config_are_one_picture(studio):
             map_of_file(DATA / "maps/mac_1st_floor_final.yaml"),
             static_transform("map", "odom", -0.32, 0.04, 0.077),
         ],
-        studio=studio,
+        renderer=renderer,
     )
     assert shot.is_ok, shot.statuses
     with PIL.Image.open(ROOT / "tests/pictures/turtlebot.png") as image:
@@ -41,7 +41,7 @@ def test_a_turtlebot_its_map_and_its_config_are_one_picture(studio):
 
 
 @pytest.mark.skipif(not BAG.exists(), reason="the bag of the TurtleBot 4 is not here")
-def test_without_the_transform_that_the_bag_lacks_the_fixed_frame_is_missed(studio):
-    shot = webviz.capture(DATA / "rviz/turtlebot_bag_files.rviz", bag=BAG, studio=studio)
+def test_without_the_transform_that_the_bag_lacks_the_fixed_frame_is_missed(renderer):
+    shot = webviz.capture(DATA / "rviz/turtlebot_bag_files.rviz", bag=BAG, renderer=renderer)
     assert not shot.is_ok
     assert 'Fixed frame "map" does not exist' in shot.pictures[0].shown.general["Fixed Frame"].text

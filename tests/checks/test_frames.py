@@ -12,8 +12,8 @@ from examining import display
 from webviz import Display, Finding, OtherFixedFrame, Symptom, Topic
 from webviz.api.finding import CauseLevel
 from webviz.api.offer import Offer, Publisher
+from webviz.shell.testing.harness import Harness
 from webviz.shell.testing.source import SECOND
-from webviz.shell.testing.stage import Stage
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.robot_model import RobotModel
 
@@ -23,18 +23,18 @@ LINKS = """<robot name="r"><link name="base_link"/><link name="arm"/>
 <joint name="j" type="revolute"><parent link="base_link"/><child link="arm"/>
 <limit lower="0" upper="1" effort="1" velocity="1"/></joint></robot>"""
 
-Make = Callable[..., Stage]
+Make = Callable[..., Harness]
 
 
 @pytest.fixture
-def robot(webviz_stage: Make) -> Stage:
+def robot(webviz_harness: Make) -> Harness:
     """A viewer of a robot that is well."""
-    stage = viewer(webviz_stage)
+    stage = viewer(webviz_harness)
     drive(stage)
     return stage
 
 
-def viewer(make: Make, display: Display | None = None) -> Stage:
+def viewer(make: Make, display: Display | None = None) -> Harness:
     """A viewer whose static transforms are latched."""
     stage = make(display or LaserScan(name="Scan"), fixed_frame="map")
     latched = Publisher("/test", "tf2_msgs/msg/TFMessage", "reliable", "transient_local")
@@ -42,12 +42,12 @@ def viewer(make: Make, display: Display | None = None) -> Stage:
     return stage
 
 
-def drive(stage: Stage, stamp_ns: int = 0, child: str = "odom") -> None:
+def drive(stage: Harness, stamp_ns: int = 0, child: str = "odom") -> None:
     """Publish where the robot is."""
     stage.transform("map", child, stamp_ns=stamp_ns or stage.source.now)
 
 
-def scan(stage: Stage, frame: str = "laser", stamp_ns: int | None = None) -> None:
+def scan(stage: Harness, frame: str = "laser", stamp_ns: int | None = None) -> None:
     """Publish a scan."""
     values = {
         "header": {
@@ -67,14 +67,14 @@ def stamp(ns: int) -> dict[str, int]:
     return {"sec": ns // SECOND, "nanosec": ns % SECOND}
 
 
-def mount(stage: Stage) -> None:
+def mount(stage: Harness) -> None:
     """Publish where the laser is mounted."""
     stage.transform("odom", "base_link")
     stage.transform("base_link", "laser", AWAY)
     stage.turn()
 
 
-def examined(stage: Stage, seconds: float = 1.1) -> dict[str, Finding]:
+def examined(stage: Harness, seconds: float = 1.1) -> dict[str, Finding]:
     """The findings about frames."""
     return examining.examined(stage, CauseLevel.FRAMES, seconds)
 
@@ -85,7 +85,7 @@ def only(found: dict[str, Finding]) -> Finding:
     return finding
 
 
-def test_a_robot_that_is_well_has_no_finding(robot: Stage) -> None:
+def test_a_robot_that_is_well_has_no_finding(robot: Harness) -> None:
     mount(robot)
     for _ in range(5):
         robot.source.now += SECOND // 10
@@ -96,8 +96,8 @@ def test_a_robot_that_is_well_has_no_finding(robot: Stage) -> None:
     assert examined(robot, seconds=0.4) == {}
 
 
-def test_no_transforms(webviz_stage: Make) -> None:
-    stage = webviz_stage(LaserScan(), LaserScan(topic=Topic("/front")), fixed_frame="map")
+def test_no_transforms(webviz_harness: Make) -> None:
+    stage = webviz_harness(LaserScan(), LaserScan(topic=Topic("/front")), fixed_frame="map")
     scan(stage)
     finding = only(examined(stage))
     assert finding.id == "TF001"
@@ -112,7 +112,7 @@ def test_no_transforms(webviz_stage: Make) -> None:
         ("camera", "TF017 camera", 'No transform leads to the frame "camera".'),
     ],
 )
-def test_the_frame_id_of_data(robot: Stage, frame: str, id: str, cause: str) -> None:
+def test_the_frame_id_of_data(robot: Harness, frame: str, id: str, cause: str) -> None:
     mount(robot)
     scan(robot, frame)
     drive(robot)
@@ -123,7 +123,7 @@ def test_the_frame_id_of_data(robot: Stage, frame: str, id: str, cause: str) -> 
     assert found[id].explains == (Symptom(display(robot, "Scan"), "Transform"),)
 
 
-def test_a_leading_slash(robot: Stage) -> None:
+def test_a_leading_slash(robot: Harness) -> None:
     mount(robot)
     scan(robot, "/laser")
     robot.turn()
@@ -131,14 +131,14 @@ def test_a_leading_slash(robot: Stage) -> None:
     assert (finding.id, finding.subject) == ("TF014", "/laser")
 
 
-def test_static_transforms_that_are_not_latched(robot: Stage) -> None:
+def test_static_transforms_that_are_not_latched(robot: Harness) -> None:
     volatile = Publisher("/mount", "tf2_msgs/msg/TFMessage", "reliable", "volatile")
     robot.source.known["/tf_static"] = Offer((volatile,), ("reliable", "volatile"))
     finding = only(examined(robot))
     assert (finding.id, finding.subject) == ("TF024", "/mount")
 
 
-def test_a_misspelt_fixed_frame(robot: Stage) -> None:
+def test_a_misspelt_fixed_frame(robot: Harness) -> None:
     mount(robot)
     robot.set_fixed_frame("mapp")
     scan(robot)
@@ -149,15 +149,15 @@ def test_a_misspelt_fixed_frame(robot: Stage) -> None:
     assert examined(robot, 0.5) == {}
 
 
-def test_an_unknown_fixed_frame(robot: Stage) -> None:
+def test_an_unknown_fixed_frame(robot: Harness) -> None:
     robot.set_fixed_frame("utm")
     drive(robot)
     assert only(examined(robot)).id == "TF004"
 
 
 @pytest.mark.parametrize("is_known", [False, True])
-def test_localisation_is_missing(webviz_stage: Make, is_known: bool) -> None:
-    stage = viewer(webviz_stage)
+def test_localisation_is_missing(webviz_harness: Make, is_known: bool) -> None:
+    stage = viewer(webviz_harness)
     stage.transform("odom", "base_link", stamp_ns=stage.source.now)
     stage.transform("base_link", "laser")
     if is_known:
@@ -170,7 +170,7 @@ def test_localisation_is_missing(webviz_stage: Make, is_known: bool) -> None:
     assert finding.button == OtherFixedFrame("odom")
 
 
-def test_odometry_is_missing(robot: Stage) -> None:
+def test_odometry_is_missing(robot: Harness) -> None:
     robot.transform("base_link", "laser")
     robot.turn()
     scan(robot)
@@ -178,7 +178,7 @@ def test_odometry_is_missing(robot: Stage) -> None:
     assert (finding.id, finding.subject) == ("TF005", "base_link")
 
 
-def test_two_trees(robot: Stage) -> None:
+def test_two_trees(robot: Harness) -> None:
     robot.transform("sensors", "laser")
     robot.turn()
     scan(robot)
@@ -186,7 +186,7 @@ def test_two_trees(robot: Stage) -> None:
     assert (finding.id, finding.subject) == ("TF006", "sensors")
 
 
-def test_a_loop(robot: Stage) -> None:
+def test_a_loop(robot: Harness) -> None:
     mount(robot)
     for parent, child in (("base_link", "odom"), ("odom", "base_link")):
         robot.transform(parent, child, stamp_ns=robot.source.now)
@@ -196,7 +196,7 @@ def test_a_loop(robot: Stage) -> None:
     assert "base_link" in finding.cause
 
 
-def alternating(stage: Stage, *publish: Callable[[], None]) -> None:
+def alternating(stage: Harness, *publish: Callable[[], None]) -> None:
     """Let publishers take turns."""
     for _ in range(10):
         for each in publish:
@@ -216,7 +216,7 @@ def alternating(stage: Stage, *publish: Callable[[], None]) -> None:
     ],
 )
 def test_two_publishers_of_a_frame(
-    robot: Stage,
+    robot: Harness,
     id: str,
     first: tuple[str, tuple[float, float, float], bool],
     second: tuple[str, tuple[float, float, float], bool],
@@ -232,15 +232,15 @@ def test_two_publishers_of_a_frame(
     assert [*examined(robot)] == [id]
 
 
-def test_robot_state_publisher_is_missing(robot: Stage) -> None:
+def test_robot_state_publisher_is_missing(robot: Harness) -> None:
     del robot.source.known["/tf_static"]
     scan(robot)
     drive(robot)
     assert only(examined(robot)).id == "TF012"
 
 
-def test_joint_states_are_missing(webviz_stage: Make) -> None:
-    stage = viewer(webviz_stage, RobotModel(name="Robot"))
+def test_joint_states_are_missing(webviz_harness: Make) -> None:
+    stage = viewer(webviz_harness, RobotModel(name="Robot"))
     stage.transform("map", "base_link")
     stage.publish("/robot_description", "std_msgs/msg/String", {"data": LINKS})
     stage.settle()
@@ -248,7 +248,7 @@ def test_joint_states_are_missing(webviz_stage: Make) -> None:
     assert (finding.id, finding.evidence["links"]) == ("TF013", ("arm",))
 
 
-def test_a_link_that_has_stopped(robot: Stage) -> None:
+def test_a_link_that_has_stopped(robot: Harness) -> None:
     mount(robot)
     scan(robot)
     robot.turn()
@@ -261,7 +261,7 @@ def test_a_link_that_has_stopped(robot: Stage) -> None:
     assert (finding.id, finding.evidence["link"]) == ("TF018", "odom")
 
 
-def test_refused_transforms(robot: Stage) -> None:
+def test_refused_transforms(robot: Harness) -> None:
     mount(robot)
     for _ in range(3):
         robot.transform("base_link", "arm", (math.nan, 0.0, 0.0), stamp_ns=robot.source.now)
@@ -270,7 +270,7 @@ def test_refused_transforms(robot: Stage) -> None:
     assert (finding.id, finding.subject) == ("TF023", "arm")
 
 
-def test_a_frame_that_is_too_far(robot: Stage) -> None:
+def test_a_frame_that_is_too_far(robot: Harness) -> None:
     mount(robot)
     robot.transform("base_link", "laser", (1e13, 0.0, 0.0))
     drive(robot)

@@ -297,7 +297,7 @@ INPUTS = [
 @pytest.fixture(autouse=True)
 def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
     """Statuses name a missing transform at once."""
-    monkeypatch.setattr("webviz.engine.pipeline.intake.PATIENCE_S", -1.0)
+    monkeypatch.setattr("webviz.engine.pipeline.input_subscription.PATIENCE_S", -1.0)
 
 
 @pytest.mark.parametrize(("make", "name"), INPUTS)

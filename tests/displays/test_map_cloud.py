@@ -140,8 +140,8 @@ def test_data_that_came_before_is_asked_for_until_it_comes(shown: Callable) -> N
     places = {-4: (0.0, 0.0), 1: (0.0, 0.0), 2: (1.0, 0.0)}
     at = shown(map_data(places, {2: BOTH}), download_namespace="/rtabmap")
     at.turn()
-    ((outlet, message),) = at.graph.published
-    assert outlet.topic == "/rtabmap/republish_node_data"
+    ((advertisement, message),) = at.graph.published
+    assert advertisement.topic == "/rtabmap/republish_node_data"
     assert message.data.tolist() == [1], "neither what came nor a landmark"
     sentence = "1 node asked for on /rtabmap/republish_node_data."
     assert at.statuses()["Nodes"] == ("OK", sentence)

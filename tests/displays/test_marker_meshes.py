@@ -189,5 +189,5 @@ def test_what_came_in_a_message_is_forgotten_with_it(bench: Benches) -> None:
         made.turn()
         made.settle()
         made.turn()
-    context = made.runner._painter._state
+    context = made.runner._renderer._state
     assert len(context.assets._known) <= 2

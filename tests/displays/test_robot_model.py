@@ -303,7 +303,7 @@ def test_a_robot_that_was_loaded_before_its_transforms_came_is_not_grey_with_the
     at.send("std_msgs/msg/String", {"data": ARM})
     at.turn()
     for _ in range(1000):
-        if at.runner._painter._tasks.has_news():
+        if at.runner._renderer._tasks.has_news():
             break
         time.sleep(0.005)
     at.turn()

@@ -164,7 +164,7 @@ def test_a_held_key_drives_and_letting_go_ends_in_silence_while_the_frame_loop_s
         hold(page, robot)
         page.tab.keyboard.up("w")
         wait_until_stopped(page, robot)
-        until(lambda: not viewer._loop.helms._is_moving())
+        until(lambda: not viewer._loop.controllers._is_moving())
         page.tab.wait_for_timeout(100)
         speeds = robot.speeds()
         # 1 m/s² from the first step of 50 ms on; a busy machine leaves out commands.

@@ -25,7 +25,9 @@ TESTS = {
     "webviz/data/transforms": "tests/transforms",
     "webviz/server/access": "tests/access/test_tokens.py tests/access/test_proxies.py tests/access",
     "webviz/page/driving.py": "tests/page/test_driving.py",
-    "webviz/engine/driving": "tests/pipeline/test_helm.py tests/pipeline/test_driving.py",
+    "webviz/engine/driving": (
+        "tests/pipeline/test_velocity_controller.py tests/pipeline/test_driving.py"
+    ),
     "webviz/engine/pipeline": "tests/pipeline",
     "webviz/sources": "tests/sources tests/playback tests/pipeline/test_rights.py",
     "webviz/sources/gate.py": (

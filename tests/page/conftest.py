@@ -26,7 +26,7 @@ from webviz.engine.commands import (
     Sender,
     SetProperty,
 )
-from webviz.engine.driving import HelmAnswer
+from webviz.engine.driving import DrivingAnswer
 from webviz.engine.state import Row, State
 from webviz.page.pages import Pages
 from webviz.scene import open_server
@@ -85,7 +85,7 @@ class Loop:
         """The id that commands answer with which make a display."""
         self.steered: list[tuple[str, int, Velocity | None]] = []
         """The set-points of vehicles."""
-        self.helm = HelmAnswer()
+        self.controller = DrivingAnswer()
         """To all of them."""
         self._queue: queue.SimpleQueue[tuple[Command, Sender, Future[str]]] = queue.SimpleQueue()
         self.pages = Pages(server.channel, self._enqueue, self._steer, access)
@@ -95,9 +95,9 @@ class Loop:
         self._queue.put((command, sender, answer))
         return answer
 
-    def _steer(self, tool: str, browser: int, share: Velocity, seen: float | None) -> HelmAnswer:
+    def _steer(self, tool: str, browser: int, share: Velocity, seen: float | None) -> DrivingAnswer:
         self.steered.append((tool, browser, None if seen is None else share))
-        return self.helm
+        return self.controller
 
     def show(self, *rows: Row, **changes: Any) -> None:
         """Show these displays."""

@@ -10,7 +10,7 @@ import pytest
 
 from tests.page.conftest import Tab
 from webviz import commands
-from webviz.page.acts import command_of
+from webviz.page.dispatcher import command_of
 from webviz.server.access.rules import COMMANDS
 
 

@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 
 from webviz.api.vehicle import Velocity
-from webviz.engine.driving import HelmAnswer
+from webviz.engine.driving import DrivingAnswer
 from webviz.page.driving import BEAT_S, FRESH_S, SLOW, DrivingMessages
 from webviz.server.channel.channel import Channel
-from webviz.server.channel.messages import Drive, HelmReport
+from webviz.server.channel.messages import Drive, DrivingReport
 
 HEARTBEAT_S = 0.05
 """Between two of a page."""
@@ -22,7 +22,7 @@ class Pages(Channel):
 
     def __init__(self) -> None:
         super().__init__()
-        self.answers: list[HelmReport] = []
+        self.answers: list[DrivingReport] = []
         self.seen: list[float | None] = []
         self.now = 100.0
         self.noted: list[int] = []
@@ -37,11 +37,11 @@ class Pages(Channel):
     def _at(self) -> float:
         return self.now
 
-    def _steer(self, tool: str, browser: int, share: Velocity, seen: float | None) -> HelmAnswer:
+    def _steer(self, tool: str, browser: int, share: Velocity, seen: float | None) -> DrivingAnswer:
         self.seen.append(seen)
-        return HelmAnswer(browser if seen is not None else None)
+        return DrivingAnswer(browser if seen is not None else None)
 
-    def drive(self, beat: int, after: float = 0.0) -> HelmReport:
+    def drive(self, beat: int, after: float = 0.0) -> DrivingReport:
         """Send a set-point after some seconds; the answer."""
         self.now += after
         self._hear_drive(1, Drive("drive", beat, 1.0, 0.0, 0.0))

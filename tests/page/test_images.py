@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from webviz.api.declared import Topic
 from webviz.api.nodes import Labels, Pane, Points, Pose
-from webviz.api.pictures import Encoded, Packet, Pixels, Sight, Video, Warp
+from webviz.api.pictures import Encoded, OverlayCamera, Packet, Pixels, Video, Warp
 from webviz.api.status import Level, Status
 from webviz.data.images import CameraModel, Lens, RawImage, Tone
 from webviz.engine.state import Row
@@ -336,7 +336,7 @@ def test_the_scene_is_over_the_image_where_the_camera_sees_it(
     camera = CameraModel.whole(info)
     grid = Lens.of(info).grid(camera)
     assert grid is not None
-    sight = Sight(
+    sight = OverlayCamera(
         position=(5.0, 6.0, 7.0),
         wxyz=(1.0, 0.0, 0.0, 0.0),
         size=(camera.width, camera.height),

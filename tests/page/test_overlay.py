@@ -161,11 +161,11 @@ def test_rates_are_told_and_explained_on_a_click(tab: Tab) -> None:
 
 def test_the_page_says_what_is_reduced_because_of_a_slow_link(tab: Tab, server: Server) -> None:
     note = tab.page.locator(".wv-slow-link")
-    pace = server.channel.pace(max(server.channel.browsers()))
-    assert pace is not None
-    pace.rate, pace.every, pace.shrink = 0.6e6, 8, 2
+    congestion = server.channel.congestion(max(server.channel.browsers()))
+    assert congestion is not None
+    congestion.rate, congestion.every, congestion.shrink = 0.6e6, 8, 2
     tab.wait_for(note.is_visible)
     text = "Slow link, 4.8 Mbit/s: clouds show every 8th point, images at half size"
     assert note.text_content() == text
-    pace.rate, pace.every, pace.shrink = None, 1, 1
+    congestion.rate, congestion.every, congestion.shrink = None, 1, 1
     tab.wait_for(note.is_hidden)

@@ -9,7 +9,7 @@ import pytest
 
 from tests.page.conftest import Tab
 from webviz.api.vehicle import STILL, Velocity
-from webviz.engine.driving import HelmAnswer
+from webviz.engine.driving import DrivingAnswer
 from webviz.engine.state import Driving, ToolButton
 from webviz.scene.server import Server
 from webviz.tools.teleop import Teleop
@@ -31,11 +31,11 @@ def driver(tab: Tab) -> Iterator[Tab]:
     yield tab
     tab.page.keyboard.press("Escape")
     playwright.expect(card(tab)).to_have_count(0)
-    tab.loop.helm = HelmAnswer()
+    tab.loop.controller = DrivingAnswer()
 
 
 def open_card(tab: Tab, lateral: float = 0.0) -> None:
-    tab.loop.helm = HelmAnswer()
+    tab.loop.controller = DrivingAnswer()
     tab.loop.show(tools=(button(lateral),), driving={"drive": Driving(None, -0.25, 1.5)})
     tab.wait_for(lambda: tab.page.locator(".wv-tool[aria-label=Teleop]").count() == 1)
     tab.page.locator(".wv-tool[aria-label=Teleop]").click()
@@ -187,11 +187,11 @@ def test_the_card_shows_the_robot_who_drives_and_why_nothing_moves(driver: Tab) 
     readout = card(driver).locator("dd")
     assert readout.all_inner_texts() == ["\u22120.25m/s", "1.50rad/s"]
     note = card(driver).get_by_role("status")
-    driver.loop.helm = HelmAnswer(99)
+    driver.loop.controller = DrivingAnswer(99)
     driver.wait_for(lambda: "Browser 99 is driving. You can drive once" in note.inner_text())
-    driver.loop.helm = HelmAnswer(None, "This bag can only be read. <b>")
+    driver.loop.controller = DrivingAnswer(None, "This bag can only be read. <b>")
     driver.wait_for(lambda: note.inner_text() == "This bag can only be read. <b>")
-    driver.loop.helm = HelmAnswer(driver.page.evaluate("window.webviz.browser"))
+    driver.loop.controller = DrivingAnswer(driver.page.evaluate("window.webviz.browser"))
     driver.wait_for(lambda: not note.is_visible())
     driver.loop.show(tools=(button(),), driving={})
     driver.wait_for(lambda: readout.first.inner_text() == "\u2013m/s")

@@ -6,7 +6,7 @@ import time
 
 from tests.page.conftest import Loop, Tab
 from webviz.engine.commands import Pause, Reset
-from webviz.engine.state import ClockPace, PanelTimes
+from webviz.engine.state import ClockRate, PanelTimes
 
 CHANGES = """() => {
   window.changes = 0;
@@ -31,8 +31,8 @@ def shows_seconds(tab: Tab) -> bool:
 
 def running(ros_s: float, **more: object) -> PanelTimes:
     """A simulation that has run for 5 s and goes on."""
-    pace = ClockPace(round(ros_s * 1e9), time.time(), 1.0)
-    values = {"pace": pace, "is_simulated": True, **more}
+    clock_rate = ClockRate(round(ros_s * 1e9), time.time(), 1.0)
+    values = {"pace": clock_rate, "is_simulated": True, **more}
     return PanelTimes(round(ros_s * 1e9), 5_000_000_000, time.time(), 5.0, **values)  # pyright: ignore[reportArgumentType]
 
 
@@ -54,8 +54,8 @@ def test_wall_time_is_shown_as_date_and_time_and_on_a_click_as_seconds(
     loop: Loop, tab: Tab
 ) -> None:
     now = time.time()
-    pace = ClockPace(round(now * 1e9), now, 1.0)
-    loop.show(clock=PanelTimes(round(now * 1e9), 0, now, 0.0, pace=pace))
+    clock_rate = ClockRate(round(now * 1e9), now, 1.0)
+    loop.show(clock=PanelTimes(round(now * 1e9), 0, now, 0.0, clock_rate=clock_rate))
     tab.wait_for(lambda: "wall time" in bar(tab))
     assert time.strftime("%Y-%m-%d ") in bar(tab)
     assert "Wall 20" not in bar(tab), "it is the same time"
@@ -69,7 +69,9 @@ def test_wall_time_is_shown_as_date_and_time_and_on_a_click_as_seconds(
 
 def test_a_paused_time_changes_nothing_on_the_page(loop: Loop, tab: Tab) -> None:
     loop.show(
-        clock=running(100.25, is_paused=True, pace=ClockPace(100_250_000_000, time.time(), 0.0))
+        clock=running(
+            100.25, is_paused=True, clock_rate=ClockRate(100_250_000_000, time.time(), 0.0)
+        )
     )
     tab.page.mouse.move(450, 300)  # no tooltip
     tab.wait_for(lambda: "0:01:40.250" in bar(tab))

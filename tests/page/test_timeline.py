@@ -25,7 +25,7 @@ from webviz.engine.commands import (
     StepMessage,
     StopRecording,
 )
-from webviz.engine.state import ClockPace, PanelTimes
+from webviz.engine.state import ClockRate, PanelTimes
 from webviz.files.config import Settings
 from webviz.files.config.model import MemorySettings
 from webviz.sources.past_state import Event, MemoryState, PlaybackState, RecordingState
@@ -54,7 +54,7 @@ def show(pages: Loop, /, **changes: object) -> None:
     ros_ns = recording.start_ns + round(recording.position_s * 1e9)
     clock = PanelTimes(
         ros_ns,
-        pace=ClockPace(ros_ns, 0.0, 0.0),
+        clock_rate=ClockRate(ros_ns, 0.0, 0.0),
         is_simulated=True,
         is_paused=not recording.is_playing,
     )

@@ -13,7 +13,7 @@ from webviz.api.group import DisplayGroup
 from webviz.api.status import Level, OtherFixedFrame, Remedy, Status
 from webviz.engine.state import Row, State, Traffic
 from webviz.page.content import MAKERS
-from webviz.page.reading import StateReading
+from webviz.page.dependency_tracking import DependencyTracker
 from webviz.server.channel.stores import Stores
 
 MakeRow = Callable[..., Row]
@@ -105,7 +105,7 @@ def test_a_rate_has_two_digits_so_that_it_changes_seldom(
 
 def test_a_store_is_made_anew_only_if_what_it_was_made_of_is_new(make_row: MakeRow) -> None:
     state = State(rows=(make_row("a"),))
-    reading = StateReading(state)
+    reading = DependencyTracker(state)
     MAKERS["displays"](reading.state, "")
     assert reading.is_as_in(replace(state, fixed_frame="odom"))
     assert not reading.is_as_in(replace(state, rows=(make_row("a"),)))

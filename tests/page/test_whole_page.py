@@ -24,13 +24,13 @@ from webviz.api.declared import Topic
 from webviz.api.nodes import Image, Points, Pose
 from webviz.api.status import Level, Status
 from webviz.api.views import Orbit
-from webviz.engine.state import ClockPace, ConfigFile, PanelTimes, Row, State, ToolButton, Traffic
+from webviz.engine.state import ClockRate, ConfigFile, PanelTimes, Row, State, ToolButton, Traffic
 from webviz.files.config import Settings
 from webviz.scene import ViserScene, open_server
 from webviz.scene.server import Server
 from webviz.shell.pictures.browser import Pixels
 from webviz.shell.testing import share_of_difference
-from webviz.shell.testing.pictures import Album
+from webviz.shell.testing.pictures import ReferenceImages
 from webviz.sources import Offer, Publisher
 from webviz.sources.past_state import PlaybackState
 from webviz_displays.grid import Grid
@@ -132,7 +132,11 @@ def show(tab: Tab, scan: dict[str, Status] | None = None) -> None:
         file=ConfigFile("/home/me/lab.yaml", is_changed=True),
         tools=TOOLS,
         clock=PanelTimes(
-            START_NS, int(83.2e9), START_NS / 1e9, 83.2, pace=ClockPace(START_NS, START_NS / 1e9)
+            START_NS,
+            int(83.2e9),
+            START_NS / 1e9,
+            83.2,
+            clock_rate=ClockRate(START_NS, START_NS / 1e9),
         ),
     )
 
@@ -196,11 +200,11 @@ def still(tab: Tab) -> Tab:
 
 
 @pytest.fixture
-def album(request: pytest.FixtureRequest) -> Album:
+def album(request: pytest.FixtureRequest) -> ReferenceImages:
     """The reference pictures beside this module."""
     root = request.config.rootpath
     update = bool(request.config.getoption("--update-pictures"))
-    return Album(Path(__file__).parent / "pictures", root / "tests/output", root, update)
+    return ReferenceImages(Path(__file__).parent / "pictures", root / "tests/output", root, update)
 
 
 def capture(tab: Tab) -> Pixels:
@@ -218,7 +222,7 @@ def capture(tab: Tab) -> Pixels:
 
 
 def test_the_page_is_as_in_its_pictures_and_a_missing_row_or_another_color_shows(
-    open_still: Callable[..., Tab], album: Album
+    open_still: Callable[..., Tab], album: ReferenceImages
 ) -> None:
     tab = open_still(DESK, color_scheme="dark")
     tab.wait_for(lambda: tab.page.get_by_role("treeitem").count() == 7)
@@ -254,7 +258,7 @@ def test_the_page_is_as_in_its_pictures_and_a_missing_row_or_another_color_shows
 
 
 def test_on_a_phone_the_scene_is_free_until_the_side_lies_over_it(
-    open_still: Callable[..., Tab], album: Album
+    open_still: Callable[..., Tab], album: ReferenceImages
 ) -> None:
     phone = open_still(PHONE, has_touch=True, is_mobile=True, color_scheme="dark")
     album.check("phone", capture(phone), tolerance=TOLERANCE)
@@ -264,7 +268,7 @@ def test_on_a_phone_the_scene_is_free_until_the_side_lies_over_it(
 
 
 def test_a_lost_connection_greys_the_page_and_says_so(
-    browser: playwright.Browser, album: Album
+    browser: playwright.Browser, album: ReferenceImages
 ) -> None:
     server = open_server(port=0)
     draw(server)

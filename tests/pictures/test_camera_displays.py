@@ -7,7 +7,7 @@ from collections.abc import Callable
 import photos
 
 from webviz.api.views import Orbit
-from webviz.shell.testing import Stage
+from webviz.shell.testing import Harness
 from webviz_displays.axes import Axes
 from webviz_displays.camera import Camera
 from webviz_displays.camera_info import CameraInfo
@@ -15,15 +15,15 @@ from webviz_displays.depth_cloud import DepthCloud
 from webviz_displays.grid import Grid
 from webviz_displays.image_plane import ImagePlane
 
-Stages = Callable[..., Stage]
+Stages = Callable[..., Harness]
 
 VIEW = Orbit(distance=5.5, yaw=-2.2, pitch=0.5, focal_point=(1.5, 0.0, 0.5))
 FACING_X = (-0.5, 0.5, -0.5, 0.5)
 
 
-def test_a_camera_has_a_pyramid_with_its_image(webviz_stage: Stages) -> None:
+def test_a_camera_has_a_pyramid_with_its_image(webviz_harness: Stages) -> None:
     camera = CameraInfo(far_clip=2.0, show_image=True, edge_color=(85, 255, 255))
-    seen = webviz_stage(camera, Grid(plane_cell_count=6), view=VIEW)
+    seen = webviz_harness(camera, Grid(plane_cell_count=6), view=VIEW)
     seen.transform("map", "camera", (0.0, 0.0, 0.6), FACING_X)
     seen.publish(camera.topic.name, photos.INFO, photos.info(), frame="camera")
     values = photos.raw(photos.room()[0], "rgb8")
@@ -32,19 +32,21 @@ def test_a_camera_has_a_pyramid_with_its_image(webviz_stage: Stages) -> None:
     seen.check_picture("camera_info/default")
 
 
-def test_an_image_stands_at_its_frame(webviz_stage: Stages) -> None:
+def test_an_image_stands_at_its_frame(webviz_harness: Stages) -> None:
     plane = ImagePlane(width=2.4, alpha=0.9)
-    seen = webviz_stage(plane, Grid(plane_cell_count=6), Axes(reference_frame="camera"), view=VIEW)
+    seen = webviz_harness(
+        plane, Grid(plane_cell_count=6), Axes(reference_frame="camera"), view=VIEW
+    )
     seen.transform("map", "camera", (1.5, 0.0, 1.0), FACING_X)
     seen.publish(plane.topic.name, photos.COMPRESSED, photos.jpeg(photos.room()[0]), frame="camera")
     seen.turn()
     seen.check_picture("image_plane/default")
 
 
-def test_the_scene_is_over_the_image_of_its_camera(webviz_stage: Stages) -> None:
+def test_the_scene_is_over_the_image_of_its_camera(webviz_harness: Stages) -> None:
     camera = Camera(overlay_alpha=0.2, zoom_factor=0.9)
     frame = Axes(reference_frame="box", length=0.5, radius=0.03)
-    seen = webviz_stage(
+    seen = webviz_harness(
         CameraInfo(show_polygons=False), camera, frame, Grid(plane_cell_count=6), view=VIEW
     )
     seen.transform("map", "camera", (0.0, 0.0, 0.6), FACING_X)
@@ -58,9 +60,9 @@ def test_the_scene_is_over_the_image_of_its_camera(webviz_stage: Stages) -> None
     seen.check_picture("camera/default")
 
 
-def test_depths_are_points_in_color(webviz_stage: Stages) -> None:
+def test_depths_are_points_in_color(webviz_harness: Stages) -> None:
     cloud = DepthCloud()
-    seen = webviz_stage(cloud, Grid(plane_cell_count=6), view=VIEW)
+    seen = webviz_harness(cloud, Grid(plane_cell_count=6), view=VIEW)
     seen.transform("map", "camera", (0.0, 0.0, 0.6), FACING_X)
     seen.publish("/camera/depth/camera_info", photos.INFO, photos.info(), frame="camera")
     _, depths = photos.room()

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from webviz.api.views import Orbit
-from webviz.shell.testing import Stage, turned
+from webviz.shell.testing import Harness, turned
 from webviz_displays.axes import Axes
 from webviz_displays.grid import Grid
 
-Stages = Callable[..., Stage]
+Stages = Callable[..., Harness]
 
 
-def test_a_grid_has_cells_lines_and_a_plane(webviz_stage: Stages) -> None:
-    seen = webviz_stage(Grid(), view=Orbit(distance=17.0, yaw=-1.2, pitch=0.6))
+def test_a_grid_has_cells_lines_and_a_plane(webviz_harness: Stages) -> None:
+    seen = webviz_harness(Grid(), view=Orbit(distance=17.0, yaw=-1.2, pitch=0.6))
     seen.check_picture("grid/default")
     seen.set("line_style", "Billboards")
     seen.set("line_width", 0.15)
@@ -30,8 +30,8 @@ def test_a_grid_has_cells_lines_and_a_plane(webviz_stage: Stages) -> None:
     seen.check_picture("grid/normal_cells")
 
 
-def test_a_grid_lies_in_its_reference_frame(webviz_stage: Stages) -> None:
-    seen = webviz_stage(
+def test_a_grid_lies_in_its_reference_frame(webviz_harness: Stages) -> None:
+    seen = webviz_harness(
         Grid(plane_cell_count=4), Axes(), view=Orbit(distance=9.0, yaw=-1.2, pitch=0.6)
     )
     seen.transform("map", "ramp", (1.5, 0.0, 0.5), turned(pitch=-0.4, yaw=0.6))
@@ -39,11 +39,11 @@ def test_a_grid_lies_in_its_reference_frame(webviz_stage: Stages) -> None:
     seen.check_picture("grid/reference_frame")
 
 
-def test_axes_have_a_length_a_radius_and_a_frame(webviz_stage: Stages) -> None:
+def test_axes_have_a_length_a_radius_and_a_frame(webviz_harness: Stages) -> None:
     view = Orbit(distance=6.0, yaw=0.9, pitch=0.5)
-    seen = webviz_stage(Axes(), Grid(), view=view)
+    seen = webviz_harness(Axes(), Grid(), view=view)
     seen.check_picture("axes/default")
-    seen = webviz_stage(Axes(length=2.0, radius=0.03), Grid(), view=view)
+    seen = webviz_harness(Axes(length=2.0, radius=0.03), Grid(), view=view)
     seen.check_picture("axes/length_and_radius")
     seen.transform("map", "camera", (0.0, 0.0, 1.0), turned(roll=-1.5708, yaw=-1.0))
     seen.set("reference_frame", "camera")

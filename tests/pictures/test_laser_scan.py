@@ -7,19 +7,19 @@ from collections.abc import Callable
 import building
 
 from webviz.api.views import Orbit
-from webviz.shell.testing import Stage, turned
+from webviz.shell.testing import Harness, turned
 from webviz.shell.testing.source import SECOND
 from webviz_displays.axes import Axes
 from webviz_displays.laser_scan import LaserScan
 from webviz_sim.pose import Pose2D
 
-Stages = Callable[..., Stage]
+Stages = Callable[..., Harness]
 
 LASER = Pose2D(-2.0, 0.0, 0.3)
 VIEW = Orbit(distance=13.5, yaw=-1.5708, pitch=1.2, focal_point=(0.0, -0.2, 0.0))
 
 
-def send(seen: Stage, laser: Pose2D = LASER) -> None:
+def send(seen: Harness, laser: Pose2D = LASER) -> None:
     """A scan of the building, by a laser 0.3 m above the floor."""
     seen.transform("map", "laser", (laser.x, laser.y, 0.3), turned(yaw=laser.yaw))
     seen.publish("/scan", "sensor_msgs/msg/LaserScan", building.scan(laser), frame="laser")
@@ -31,8 +31,8 @@ def axes() -> Axes:
     return Axes(reference_frame="laser", length=0.6, radius=0.04)
 
 
-def test_points_have_styles_and_sizes(webviz_stage: Stages) -> None:
-    seen = webviz_stage(LaserScan(size=0.1), axes(), view=VIEW)
+def test_points_have_styles_and_sizes(webviz_harness: Stages) -> None:
+    seen = webviz_harness(LaserScan(size=0.1), axes(), view=VIEW)
     send(seen)
     seen.check_picture("laser_scan/default")
     seen.set("style", "Spheres")
@@ -45,8 +45,8 @@ def test_points_have_styles_and_sizes(webviz_stage: Stages) -> None:
     seen.check_picture("laser_scan/points")
 
 
-def test_colours_follow_the_transformer(webviz_stage: Stages) -> None:
-    seen = webviz_stage(LaserScan(size=0.12), axes(), view=VIEW)
+def test_colours_follow_the_transformer(webviz_harness: Stages) -> None:
+    seen = webviz_harness(LaserScan(size=0.12), axes(), view=VIEW)
     send(seen)
     seen.set("use_rainbow", False)
     seen.set("min_color", (0, 60, 255))
@@ -70,8 +70,8 @@ def test_colours_follow_the_transformer(webviz_stage: Stages) -> None:
     seen.check_picture("laser_scan/flat_color_faded_by_alpha")
 
 
-def test_scans_stay_for_the_decay_time(webviz_stage: Stages) -> None:
-    seen = webviz_stage(
+def test_scans_stay_for_the_decay_time(webviz_harness: Stages) -> None:
+    seen = webviz_harness(
         LaserScan(size=0.08, decay_time=2.0, color_transformer="FlatColor"), view=VIEW
     )
     for laser in (Pose2D(-4.0, 2.5), Pose2D(0.0, 0.0), Pose2D(4.0, -2.0)):

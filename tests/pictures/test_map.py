@@ -9,11 +9,11 @@ import numpy as np
 from scipy.ndimage import distance_transform_edt
 
 from webviz.api.views import Orbit
-from webviz.shell.testing import Stage, turned
+from webviz.shell.testing import Harness, turned
 from webviz_displays.grid import Grid
 from webviz_displays.map import Map
 
-Stages = Callable[..., Stage]
+Stages = Callable[..., Harness]
 
 GRID = "nav_msgs/msg/OccupancyGrid"
 VIEW = Orbit(distance=12.5, yaw=-1.5708, pitch=1.1, focal_point=(0.0, -0.2, 0.0))
@@ -30,8 +30,8 @@ def costs() -> np.ndarray:
     return inflated.astype(np.int8)
 
 
-def test_a_map_has_schemes_alpha_and_updates(webviz_stage: Stages) -> None:
-    seen = webviz_stage(Map(), Grid(), view=VIEW)
+def test_a_map_has_schemes_alpha_and_updates(webviz_harness: Stages) -> None:
+    seen = webviz_harness(Map(), Grid(), view=VIEW)
     seen.transform("map", "elsewhere")
     seen.publish("/map", GRID, building.grid(), frame="map")
     seen.turn()
@@ -52,8 +52,8 @@ def test_a_map_has_schemes_alpha_and_updates(webviz_stage: Stages) -> None:
     seen.check_picture("map/update_of_40_rows")
 
 
-def test_cells_are_sharp_and_the_origin_may_be_turned(webviz_stage: Stages) -> None:
-    seen = webviz_stage(
+def test_cells_are_sharp_and_the_origin_may_be_turned(webviz_harness: Stages) -> None:
+    seen = webviz_harness(
         Map(alpha=1.0),
         Grid(),
         view=Orbit(distance=4.0, yaw=-1.2, pitch=1.0, focal_point=(0.5, 0.0, 0.0)),
@@ -67,10 +67,10 @@ def test_cells_are_sharp_and_the_origin_may_be_turned(webviz_stage: Stages) -> N
     seen.check_picture("map/turned_origin_in_a_turned_frame")
 
 
-def test_maps_stack_by_their_place_in_the_list(webviz_stage: Stages) -> None:
+def test_maps_stack_by_their_place_in_the_list(webviz_harness: Stages) -> None:
     costmap = Map(name="Costmap", color_scheme="costmap", alpha=0.6)
     costmap.topic = type(costmap.topic)("/costmap")
-    seen = webviz_stage(Map(alpha=1.0), costmap, view=VIEW)
+    seen = webviz_harness(Map(alpha=1.0), costmap, view=VIEW)
     seen.transform("map", "elsewhere")
     seen.publish("/map", GRID, building.grid(), frame="map")
     half = costs()

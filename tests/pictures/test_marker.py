@@ -13,11 +13,11 @@ from PIL import Image
 from trimesh.visual import ColorVisuals
 
 from webviz.api.views import Orbit
-from webviz.shell.testing import Stage
+from webviz.shell.testing import Harness
 from webviz_displays.grid import Grid
 from webviz_displays.markers import Marker, MarkerArray
 
-Stages = Callable[..., Stage]
+Stages = Callable[..., Harness]
 
 VIEW = Orbit(distance=6.0, yaw=-math.pi / 2, pitch=0.75)
 TURN = {"z": math.sin(0.2), "w": math.cos(0.2)}
@@ -52,8 +52,8 @@ ZIGZAG = points((0, 0, 0), (0.3, 0.5, 0), (0.6, 0, 0), (0.9, 0.5, 0.2))
 RAINBOW = colors((1, 0, 0, 1), (1, 1, 0, 1), (0, 1, 0, 1), (0.2, 0.4, 1, 1))
 
 
-def test_shapes_and_arrows(webviz_stage: Stages) -> None:
-    seen = webviz_stage(Marker(), Grid(plane_cell_count=6), view=VIEW)
+def test_shapes_and_arrows(webviz_harness: Stages) -> None:
+    seen = webviz_harness(Marker(), Grid(plane_cell_count=6), view=VIEW)
     seen.transform("map", "elsewhere")
     for y, alpha in ((1.2, 1.0), (0.0, 0.4)):
         for x, type_, scale, rgb in (
@@ -76,8 +76,8 @@ def test_shapes_and_arrows(webviz_stage: Stages) -> None:
     seen.check_picture("marker/default")
 
 
-def test_lists_meshes_and_textures(webviz_stage: Stages) -> None:
-    seen = webviz_stage(MarkerArray(), Grid(plane_cell_count=6), view=VIEW)
+def test_lists_meshes_and_textures(webviz_harness: Stages) -> None:
+    seen = webviz_harness(MarkerArray(), Grid(plane_cell_count=6), view=VIEW)
     seen.transform("map", "elsewhere")
     fading = colors(*((1, 1, 0, 1 - 0.25 * i) for i in range(4)))
     lists = [

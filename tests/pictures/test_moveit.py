@@ -10,7 +10,7 @@ import numpy as np
 
 from webviz import Topic
 from webviz.api.views import Orbit
-from webviz.shell.testing import Stage, turned
+from webviz.shell.testing import Harness, turned
 from webviz_displays.grid import Grid
 from webviz_displays.moveit import (
     MotionPlanning,
@@ -133,7 +133,7 @@ URDF = Topic("/robot_description")
 STATES = Topic("/display_robot_state")
 
 
-def test_each_display_has_a_picture_of_its_own(webviz_stage: Callable[..., Stage]) -> None:
+def test_each_display_has_a_picture_of_its_own(webviz_harness: Callable[..., Harness]) -> None:
     shown = {
         "planning_scene": PlanningScene(),
         "trajectory": Trajectory(paused=True, position=1.0, show_trail=True, trail_step_size=2),
@@ -148,7 +148,7 @@ def test_each_display_has_a_picture_of_its_own(webviz_stage: Callable[..., Stage
     for display in shown.values():
         display.enabled = False
     view = Orbit(distance=3.2, yaw=-1.1, pitch=0.45, focal_point=(0.1, 0.0, 0.45))
-    seen = webviz_stage(*shown.values(), Grid(plane_cell_count=4), view=view)
+    seen = webviz_harness(*shown.values(), Grid(plane_cell_count=4), view=view)
     seen.transform("map", "foot")
     for picture, display in shown.items():
         name = type(display).__name__

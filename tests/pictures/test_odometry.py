@@ -8,18 +8,18 @@ from collections.abc import Callable
 import numpy as np
 
 from webviz.api.views import Orbit
-from webviz.shell.testing import Stage, turned
+from webviz.shell.testing import Harness, turned
 from webviz_displays.grid import Grid
 from webviz_displays.odometry import Odometry
 from webviz_displays.shared.pose_properties import Covariance, PoseShape
 
-Stages = Callable[..., Stage]
+Stages = Callable[..., Harness]
 
 ARROW = PoseShape(shaft_length=0.5, shaft_radius=0.03, head_length=0.2, head_radius=0.08)
 NONE = Covariance(value=False)
 
 
-def drive(seen: Stage, variances: tuple[float, ...], steps: int = 9) -> None:
+def drive(seen: Harness, variances: tuple[float, ...], steps: int = 9) -> None:
     """A robot drives along an arc and gets less sure of where it is.
 
     Args:
@@ -41,9 +41,9 @@ def drive(seen: Stage, variances: tuple[float, ...], steps: int = 9) -> None:
     seen.turn()
 
 
-def test_poses_are_arrows_or_axes_and_are_as_many_as_wanted(webviz_stage: Stages) -> None:
+def test_poses_are_arrows_or_axes_and_are_as_many_as_wanted(webviz_harness: Stages) -> None:
     view = Orbit(distance=5.5, yaw=-0.3, pitch=0.8, focal_point=(0.4, 0.0, 0.0))
-    seen = webviz_stage(Odometry(covariance=NONE), Grid(plane_cell_count=6), view=view)
+    seen = webviz_harness(Odometry(covariance=NONE), Grid(plane_cell_count=6), view=view)
     drive(seen, (0.0,) * 6)
     seen.check_picture("odometry/without_covariance")
     seen.set("shape.shaft_length", 0.5)
@@ -61,9 +61,9 @@ def test_poses_are_arrows_or_axes_and_are_as_many_as_wanted(webviz_stage: Stages
     seen.check_picture("odometry/axes")
 
 
-def test_covariances_in_the_plane_are_ellipses_and_wedges(webviz_stage: Stages) -> None:
+def test_covariances_in_the_plane_are_ellipses_and_wedges(webviz_harness: Stages) -> None:
     view = Orbit(distance=5.5, yaw=-0.3, pitch=0.9, focal_point=(0.4, 0.0, 0.0))
-    seen = webviz_stage(Odometry(shape=ARROW), Grid(plane_cell_count=6), view=view)
+    seen = webviz_harness(Odometry(shape=ARROW), Grid(plane_cell_count=6), view=view)
     drive(seen, (0.03, 0.12, 0.0, 0.0, 0.0, 0.06), steps=5)
     seen.check_picture("odometry/default")
     seen.set("covariance.orientation.value", False)
@@ -78,9 +78,9 @@ def test_covariances_in_the_plane_are_ellipses_and_wedges(webviz_stage: Stages) 
     seen.check_picture("odometry/orientation_covariance_at_0.5_m")
 
 
-def test_covariances_in_space_are_ellipsoids_and_discs(webviz_stage: Stages) -> None:
+def test_covariances_in_space_are_ellipsoids_and_discs(webviz_harness: Stages) -> None:
     view = Orbit(distance=5.0, yaw=-0.6, pitch=0.6, focal_point=(0.5, 1.2, 0.3))
-    seen = webviz_stage(Odometry(shape=ARROW, keep=1), Grid(plane_cell_count=6), view=view)
+    seen = webviz_harness(Odometry(shape=ARROW, keep=1), Grid(plane_cell_count=6), view=view)
     drive(seen, (0.05, 0.2, 0.1, 0.1, 0.05, 0.2), steps=6)
     seen.check_picture("odometry/default_in_space")
     seen.set("covariance.orientation.color_style", "RGB")

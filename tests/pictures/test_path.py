@@ -8,16 +8,16 @@ import building
 import numpy as np
 
 from webviz.api.views import Orbit
-from webviz.shell.testing import Stage
+from webviz.shell.testing import Harness
 from webviz_displays.grid import Grid
 from webviz_displays.path import Path
 
-Stages = Callable[..., Stage]
+Stages = Callable[..., Harness]
 
 VIEW = Orbit(distance=6.5, yaw=-1.3, pitch=0.9)
 
 
-def send(seen: Stage, height: float) -> None:
+def send(seen: Harness, height: float) -> None:
     """A path like a wave, `height` metres high."""
     x = np.linspace(-2.5, 2.5, 14)
     seen.transform("map", "elsewhere")
@@ -26,8 +26,8 @@ def send(seen: Stage, height: float) -> None:
     seen.turn()
 
 
-def test_a_path_has_a_line_and_poses(webviz_stage: Stages) -> None:
-    seen = webviz_stage(Path(), Grid(plane_cell_count=6), view=VIEW)
+def test_a_path_has_a_line_and_poses(webviz_harness: Stages) -> None:
+    seen = webviz_harness(Path(), Grid(plane_cell_count=6), view=VIEW)
     send(seen, 1.0)
     seen.check_picture("path/default")
     seen.set("line_style", "Billboards")
@@ -49,8 +49,8 @@ def test_a_path_has_a_line_and_poses(webviz_stage: Stages) -> None:
     seen.check_picture("path/thinner_arrows_offset_1_m_up")
 
 
-def test_the_newest_paths_stay(webviz_stage: Stages) -> None:
-    seen = webviz_stage(Path(buffer_length=3), Grid(plane_cell_count=6), view=VIEW)
+def test_the_newest_paths_stay(webviz_harness: Stages) -> None:
+    seen = webviz_harness(Path(buffer_length=3), Grid(plane_cell_count=6), view=VIEW)
     for height in (2.0, 1.4, 0.8, 0.2):
         send(seen, height)
     seen.check_picture("path/buffer_length_3")

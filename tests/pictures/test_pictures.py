@@ -14,7 +14,7 @@ from robots import DEMO, place_links
 from webviz import Display
 from webviz.api.views import Orbit
 from webviz.shell.pictures.browser import Pixels
-from webviz.shell.testing import TOLERANCE, Stage, share_of_difference, turned
+from webviz.shell.testing import TOLERANCE, Harness, share_of_difference, turned
 from webviz.shell.testing.comparing import load
 from webviz_displays.axes import Axes
 from webviz_displays.grid import Grid
@@ -71,7 +71,7 @@ def test_a_shade_does_not_count_but_a_shift_does() -> None:
         assert share_of_difference(pixels, np.roll(pixels, 2, axis=1)) > TOLERANCE
 
 
-def everything(seen: Stage) -> None:
+def everything(seen: Harness) -> None:
     """Something to see for every display."""
     place = Pose2D(-2.0, 0.0, 0.5)
     seen.transform("map", "base_link", (place.x, place.y, 0.0), turned(yaw=place.yaw))
@@ -88,9 +88,9 @@ def everything(seen: Stage) -> None:
 
 
 def test_without_any_one_of_its_displays_a_scene_has_another_picture(
-    webviz_stage: Callable[..., Stage],
+    webviz_harness: Callable[..., Harness],
 ) -> None:
     view = Orbit(distance=5.0, yaw=-2.0, pitch=0.7, focal_point=(-2.0, 0.0, 0.0))
-    seen = webviz_stage(*(cls() for cls in EVERYTHING), view=view)
+    seen = webviz_harness(*(cls() for cls in EVERYTHING), view=view)
     everything(seen)
     seen.check_picture("all_displays/together", each_display=True)

@@ -19,7 +19,7 @@ from rtabmap_scenes import map_data, rgbd
 from webviz import Display
 from webviz.api.display import inputs_of
 from webviz.api.views import Orbit
-from webviz.shell.testing import Stage, turned
+from webviz.shell.testing import Harness, turned
 from webviz_displays.areas import GridCells, Polygon
 from webviz_displays.autoware import (
     AutowarePath,
@@ -349,12 +349,12 @@ CASES = [
 ]
 
 
-def test_each_display_has_a_picture_of_its_own(webviz_stage: Callable[..., Stage]) -> None:
+def test_each_display_has_a_picture_of_its_own(webviz_harness: Callable[..., Harness]) -> None:
     view = Orbit(distance=4.5, yaw=-0.7, pitch=0.8, focal_point=(0.2, 0.0, 0.2))
     for case in CASES:
         case.display.enabled = False
     shown = (case.display for case in CASES)
-    seen = webviz_stage(*shown, Grid(plane_cell_count=4), view=view)
+    seen = webviz_harness(*shown, Grid(plane_cell_count=4), view=view)
     seen.transform("map", "sensor")
     for case in CASES:
         name = type(case.display).__name__

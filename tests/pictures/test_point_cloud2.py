@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 
 from webviz.api.views import Orbit
-from webviz.shell.testing import Stage
+from webviz.shell.testing import Harness
 from webviz_displays.grid import Grid
 from webviz_displays.point_cloud2 import PointCloud2
 
-Stages = Callable[..., Stage]
+Stages = Callable[..., Harness]
 
 FLOAT32 = 7
 """sensor_msgs/PointField.FLOAT32"""
@@ -41,9 +41,9 @@ def cloud() -> dict[str, Any]:
     }
 
 
-def test_points_have_colours_styles_and_fewer_of_them(webviz_stage: Stages) -> None:
+def test_points_have_colours_styles_and_fewer_of_them(webviz_harness: Stages) -> None:
     view = Orbit(distance=8.0, yaw=-1.2, pitch=0.7)
-    seen = webviz_stage(PointCloud2(size=0.12), Grid(plane_cell_count=8), view=view)
+    seen = webviz_harness(PointCloud2(size=0.12), Grid(plane_cell_count=8), view=view)
     seen.transform("map", "camera")
     seen.publish("/points", "sensor_msgs/msg/PointCloud2", cloud(), frame="camera")
     seen.turn()

@@ -14,7 +14,7 @@ from rosbags.typesys import Stores, get_typestore
 
 from webviz import Level
 from webviz.api.views import Orbit
-from webviz.shell.testing import Stage
+from webviz.shell.testing import Harness
 from webviz_displays.grid import Grid
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Map
@@ -53,7 +53,7 @@ def cells() -> np.ndarray:
     return read.astype(np.int8)
 
 
-def test_the_scan_lies_on_the_walls_of_the_map(webviz_stage: Callable[..., Stage]) -> None:
+def test_the_scan_lies_on_the_walls_of_the_map(webviz_harness: Callable[..., Harness]) -> None:
     grid = cells()
     height, width = grid.shape
     x, y = ORIGIN
@@ -61,7 +61,7 @@ def test_the_scan_lies_on_the_walls_of_the_map(webviz_stage: Callable[..., Stage
     info = {"resolution": RESOLUTION, "width": width, "height": height, "origin": origin}
     odometry = Odometry(keep=1, covariance=Covariance(value=False))
     view = Orbit(distance=16.0, yaw=-1.5708, pitch=1.3, focal_point=(6.0, -9.0, 0.0))
-    seen = webviz_stage(Grid(), LaserScan(size=0.05), odometry, Map(), view=view)
+    seen = webviz_harness(Grid(), LaserScan(size=0.05), odometry, Map(), view=view)
     seen.transform("map", "odom", *ODOM)
     map_ = {"info": info, "data": grid.ravel()}
     seen.publish("/map", "nav_msgs/msg/OccupancyGrid", map_, frame="map")

@@ -10,12 +10,12 @@ from robots import DEMO, place_links, robots_folder
 
 from webviz import Level
 from webviz.api.views import Orbit
-from webviz.shell.testing import Stage
+from webviz.shell.testing import Harness
 from webviz_displays.grid import Grid
 from webviz_displays.robot_model import RobotModel
 from webviz_displays.robot_model.parts import LinkSettings
 
-Stages = Callable[..., Stage]
+Stages = Callable[..., Harness]
 
 # Each with a view of the whole of it: mirrored parts, textures, units and colours of all kinds.
 ROBOTS: dict[str, tuple[str, Orbit]] = {
@@ -39,9 +39,9 @@ ROBOTS: dict[str, tuple[str, Orbit]] = {
 }
 
 
-def test_the_demo_robot_shows_what_is_chosen_of_it(webviz_stage: Stages) -> None:
+def test_the_demo_robot_shows_what_is_chosen_of_it(webviz_harness: Stages) -> None:
     view = Orbit(distance=1.1, yaw=0.7, pitch=0.4, focal_point=(0.0, 0.0, 0.1))
-    seen = webviz_stage(RobotModel(), Grid(cell_size=0.1, plane_cell_count=8), view=view)
+    seen = webviz_harness(RobotModel(), Grid(cell_size=0.1, plane_cell_count=8), view=view)
     place_links(seen, DEMO)
     seen.publish("/robot_description", "std_msgs/msg/String", {"data": DEMO.read_text()})
     seen.turn()
@@ -67,9 +67,9 @@ def test_the_demo_robot_shows_what_is_chosen_of_it(webviz_stage: Stages) -> None
     seen.check_picture("robot_model/two_links_only")
 
 
-def test_links_without_a_transform_are_grey_where_they_were(webviz_stage: Stages) -> None:
+def test_links_without_a_transform_are_grey_where_they_were(webviz_harness: Stages) -> None:
     view = Orbit(distance=1.1, yaw=0.7, pitch=0.4, focal_point=(0.0, 0.0, 0.1))
-    seen = webviz_stage(RobotModel(), Grid(cell_size=0.1, plane_cell_count=8), view=view)
+    seen = webviz_harness(RobotModel(), Grid(cell_size=0.1, plane_cell_count=8), view=view)
     place_links(seen, DEMO)
     seen.publish("/robot_description", "std_msgs/msg/String", {"data": DEMO.read_text()})
     seen.settle()
@@ -83,11 +83,11 @@ def test_links_without_a_transform_are_grey_where_they_were(webviz_stage: Stages
 
 
 @pytest.mark.parametrize("name", ROBOTS)
-def test_real_robots_are_whole_and_coloured(webviz_stage: Stages, name: str) -> None:
+def test_real_robots_are_whole_and_coloured(webviz_harness: Stages, name: str) -> None:
     file, view = ROBOTS[name]
     path = robots_folder() / file
     robot = RobotModel(description_source="File", description_file=str(path))
-    seen = webviz_stage(robot, view=view)
+    seen = webviz_harness(robot, view=view)
     place_links(seen, path)
     seen.check_picture(f"robot_model/robots/{name}")
     assert seen.statuses()["URDF"].level is Level.OK

@@ -10,7 +10,7 @@ from robots import DEMO, place_links
 
 from webviz import Level, Status
 from webviz.api.views import Orbit
-from webviz.shell.testing import Stage, turned
+from webviz.shell.testing import Harness, turned
 from webviz.shell.testing.source import SECOND
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Map
@@ -20,7 +20,7 @@ from webviz_displays.tf import TF
 from webviz_sim.planner import Planner
 from webviz_sim.pose import Pose2D
 
-Stages = Callable[..., Stage]
+Stages = Callable[..., Harness]
 
 VIEW = Orbit(distance=11.0, yaw=-1.5708, pitch=1.15, focal_point=(0.0, -0.2, 0.0))
 START = Pose2D(-2.0, 0.0)
@@ -34,7 +34,7 @@ def displays() -> tuple[Map, RobotModel, LaserScan, TF]:
     return Map(), RobotModel(), scan, frames
 
 
-def robot(seen: Stage, odom: Pose2D = START, laser_yaw: float = 0.0) -> None:
+def robot(seen: Harness, odom: Pose2D = START, laser_yaw: float = 0.0) -> None:
     """The demo robot with its map, its laser and its description.
 
     Args:
@@ -51,7 +51,7 @@ def robot(seen: Stage, odom: Pose2D = START, laser_yaw: float = 0.0) -> None:
     look_around(seen)
 
 
-def look_around(seen: Stage) -> None:
+def look_around(seen: Harness) -> None:
     """A scan from where the robot really is."""
     measured = building.scan(START)
     seen.clock += 1.0
@@ -59,8 +59,8 @@ def look_around(seen: Stage) -> None:
     seen.turn()
 
 
-def test_a_robot_misplaced_by_a_static_transform(webviz_stage: Stages) -> None:
-    seen = webviz_stage(*displays(), view=VIEW)
+def test_a_robot_misplaced_by_a_static_transform(webviz_harness: Stages) -> None:
+    seen = webviz_harness(*displays(), view=VIEW)
     robot(seen, odom=Pose2D(START.y, START.x))  # x and y are exchanged
     seen.check_picture("stories/misplaced")
     assert seen.statuses("TF")["odom"] == Status(
@@ -77,8 +77,8 @@ def test_a_robot_misplaced_by_a_static_transform(webviz_stage: Stages) -> None:
     assert "position (-2.000, 0.000, 0.000) m" in seen.statuses("TF")["odom"].text
 
 
-def test_a_laser_turned_on_the_robot(webviz_stage: Stages) -> None:
-    seen = webviz_stage(*displays(), view=VIEW)
+def test_a_laser_turned_on_the_robot(webviz_harness: Stages) -> None:
+    seen = webviz_harness(*displays(), view=VIEW)
     robot(seen, laser_yaw=math.radians(15))
     seen.check_picture("stories/turned_laser")
     text = seen.statuses("TF")["base_scan"].text
@@ -91,10 +91,10 @@ def test_a_laser_turned_on_the_robot(webviz_stage: Stages) -> None:
     assert seen.statuses("LaserScan")["Transform"] == Status(Level.OK, "Transform OK")
 
 
-def test_a_path_that_leads_through_an_obstacle(webviz_stage: Stages) -> None:
+def test_a_path_that_leads_through_an_obstacle(webviz_harness: Stages) -> None:
     map_, model, scan, _ = displays()
     path = Path(line_style="Billboards", line_width=0.06)
-    seen = webviz_stage(map_, model, scan, path, view=VIEW)
+    seen = webviz_harness(map_, model, scan, path, view=VIEW)
     goal = Pose2D(4.5, 0.0)
     plan = Planner(building.WORLD).plan(START, goal)
     robot(seen)

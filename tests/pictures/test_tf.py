@@ -6,15 +6,15 @@ from collections.abc import Callable
 
 from webviz import Level
 from webviz.api.views import Orbit
-from webviz.shell.testing import Stage, turned
+from webviz.shell.testing import Harness, turned
 from webviz.shell.testing.source import SECOND
 from webviz_displays.grid import Grid
 from webviz_displays.tf import TF
 
-Stages = Callable[..., Stage]
+Stages = Callable[..., Harness]
 
 
-def frames(seen: Stage, stamp_ns: int) -> None:
+def frames(seen: Harness, stamp_ns: int) -> None:
     """A robot that moves, with what is fixed to it, and a dock that stands still."""
     seen.transform("map", "dock", (1.0, 0.8, 0.0), turned(yaw=2.2))
     seen.transform("map", "base", (0.3, -0.6, 0.0), turned(yaw=0.5), stamp_ns=stamp_ns)
@@ -23,9 +23,9 @@ def frames(seen: Stage, stamp_ns: int) -> None:
     seen.turn()
 
 
-def test_frames_have_axes_arrows_and_names(webviz_stage: Stages) -> None:
+def test_frames_have_axes_arrows_and_names(webviz_harness: Stages) -> None:
     view = Orbit(distance=2.9, yaw=-0.9, pitch=0.5, focal_point=(0.5, 0.0, 0.3))
-    seen = webviz_stage(TF(), Grid(plane_cell_count=4), view=view)
+    seen = webviz_harness(TF(), Grid(plane_cell_count=4), view=view)
     frames(seen, seen.source.now)
     seen.check_picture("tf/default")
     seen.set("show_names", True)
@@ -43,9 +43,9 @@ def test_frames_have_axes_arrows_and_names(webviz_stage: Stages) -> None:
     seen.check_picture("tf/arrows_and_names")
 
 
-def test_frames_that_are_not_updated_turn_grey_and_disappear(webviz_stage: Stages) -> None:
+def test_frames_that_are_not_updated_turn_grey_and_disappear(webviz_harness: Stages) -> None:
     view = Orbit(distance=2.9, yaw=-0.9, pitch=0.5, focal_point=(0.5, 0.0, 0.3))
-    seen = webviz_stage(TF(marker_scale=2.0), Grid(plane_cell_count=4), view=view)
+    seen = webviz_harness(TF(marker_scale=2.0), Grid(plane_cell_count=4), view=view)
     frames(seen, seen.source.now)
     seen.source.now += 10 * SECOND
     seen.check_picture("tf/old_frames_are_grey")

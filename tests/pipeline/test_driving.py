@@ -15,15 +15,15 @@ from remembering_graph import RememberingGraph
 
 from webviz.api.vehicle import STILL, Velocity
 from webviz.commands import Load, SetToolProperty, Undo
-from webviz.engine.driving import HelmAnswer, Helms
-from webviz.engine.driving.helm import PERIOD_S, TAIL
+from webviz.engine.driving import DrivingAnswer, VelocityControllers
+from webviz.engine.driving.velocity_controller import PERIOD_S, TAIL
 from webviz.engine.state import Driving
 from webviz.shell.testing.source import HandFedSource
-from webviz.sources import Gate, NotConnected, Outlet, Rights
+from webviz.sources import Advertisement, Gate, NotConnected, Rights
 from webviz.tools.teleop import Teleop
 
 TWIST, ODOMETRY = "geometry_msgs/msg/Twist", "nav_msgs/msg/Odometry"
-CMD_VEL = Outlet("/cmd_vel", TWIST, depth=1)
+CMD_VEL = Advertisement("/cmd_vel", TWIST, depth=1)
 AHEAD = Velocity(linear=1.0)
 PATIENCE_S = 60.0
 
@@ -33,7 +33,7 @@ class Hand:
 
     def __init__(self, b: Any, browser: int, held: Velocity = AHEAD) -> None:
         self._set_point = teleop(b), browser, held
-        self._steer = b.viewer.helms.steer
+        self._steer = b.viewer.controllers.steer
         self._let_go = threading.Event()
         self._thread = threading.Thread(target=self._hold)
         self._thread.start()
@@ -60,16 +60,18 @@ class Lone:
         """Of publishing a command."""
         publish = self.graph.publish
 
-        def publish_or_fail(outlet: Outlet, cdr: bytes) -> Future[int]:
+        def publish_or_fail(advertisement: Advertisement, cdr: bytes) -> Future[int]:
             if self.outcome is None:
-                return publish(outlet, cdr)
+                return publish(advertisement, cdr)
             failed: Future[int] = Future()
             failed.set_exception(self.outcome)
             return failed
 
         self.graph.publish = publish_or_fail
         source = HandFedSource(graph=self.graph)  # pyright: ignore[reportArgumentType]
-        self.helms = Helms(Gate(source, Rights(), lambda: tuple(self.allowed)), lambda: 0)
+        self.controllers = VelocityControllers(
+            Gate(source, Rights(), lambda: tuple(self.allowed)), lambda: 0
+        )
         self.equip()
 
     def equip(self) -> None:
@@ -81,10 +83,10 @@ class Lone:
                 raise self.fault
             return vehicle.message(velocity, now_ns)
 
-        self.helms.equip({"tool": (replace(vehicle, message=message), CMD_VEL)})
+        self.controllers.equip({"tool": (replace(vehicle, message=message), CMD_VEL)})
 
-    def steer(self, share: Velocity) -> HelmAnswer:
-        return self.helms.steer("tool", 1, share, time.monotonic())
+    def steer(self, share: Velocity) -> DrivingAnswer:
+        return self.controllers.steer("tool", 1, share, time.monotonic())
 
     @property
     def speeds(self) -> list[float]:
@@ -95,7 +97,7 @@ class Lone:
 def lone() -> Iterator[Lone]:
     lone = Lone()
     yield lone
-    lone.helms.close()
+    lone.controllers.close()
 
 
 @pytest.fixture
@@ -121,13 +123,17 @@ def teleop(b: Any) -> str:
     return next(button.id for button in b.states[-1].tools if button.name == "Teleop")
 
 
-def steer(b: Any, tool: str, browser: int, share: Velocity) -> HelmAnswer:
+def steer(b: Any, tool: str, browser: int, share: Velocity) -> DrivingAnswer:
     """The answer to a set-point of a browser that has just received something."""
-    return b.viewer.helms.steer(tool, browser, share, time.monotonic())
+    return b.viewer.controllers.steer(tool, browser, share, time.monotonic())
 
 
 def speeds(b: Any) -> list[float]:
-    return [twist.linear.x for outlet, twist in b.source.graph.published if outlet == CMD_VEL]
+    return [
+        twist.linear.x
+        for advertisement, twist in b.source.graph.published
+        if advertisement == CMD_VEL
+    ]
 
 
 def until(condition: Callable[[], Any]) -> None:
@@ -143,10 +149,14 @@ def stands(b: Any) -> bool:
     return ended[-TAIL:] == [0.0] * TAIL and ended[-TAIL - 1] > 0.0
 
 
-def advertised(b: Any) -> set[Outlet]:
+def advertised(b: Any) -> set[Advertisement]:
     b.viewer._next_panel = 0.0
     b.turn()
-    return {outlet for outlet in b.source.graph.advertised if outlet.type.startswith(TWIST)}
+    return {
+        advertisement
+        for advertisement in b.source.graph.advertised
+        if advertisement.type.startswith(TWIST)
+    }
 
 
 def test_commands_are_published_without_the_frame_loop_until_the_page_is_silent(
@@ -156,8 +166,8 @@ def test_commands_are_published_without_the_frame_loop_until_the_page_is_silent(
     until(lambda: speeds(b)[-1:] == [0.5])  # no turn of the loop since the press
     hand.vanish()
     until(lambda: stands(b))
-    outlets = {outlet for outlet, _ in b.source.graph.published}
-    assert outlets == {CMD_VEL}
+    advertisements = {advertisement for advertisement, _ in b.source.graph.published}
+    assert advertisements == {CMD_VEL}
     (angular, lateral) = b.source.graph.published[0][1].angular.z, b.source.graph.published[0][1]
     assert (angular, lateral.linear.y) == (0.0, 0.0)
 
@@ -165,7 +175,7 @@ def test_commands_are_published_without_the_frame_loop_until_the_page_is_silent(
 def test_a_silent_driver_is_stopped_between_two_commands(
     b: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("webviz.engine.driving.helms.PERIOD_S", 3600.0)
+    monkeypatch.setattr("webviz.engine.driving.velocity_controllers.PERIOD_S", 3600.0)
     steer(b, teleop(b), 1, AHEAD)
     until(lambda: speeds(b)[-1:] == [0.0])
     assert len(speeds(b)) <= 3
@@ -212,7 +222,7 @@ def test_what_is_driven_stops_when_it_is_taken_away(
     change(b)
     until(lambda: stands(b))
     # What is still held was not meant for another robot.
-    assert {outlet for outlet, _ in b.source.graph.published} == {CMD_VEL}
+    assert {advertisement for advertisement, _ in b.source.graph.published} == {CMD_VEL}
     hand.vanish()
     steer(b, tool, 1, STILL)
     assert (steer(b, tool, 1, AHEAD).driver == 1) == goes_on
@@ -234,7 +244,7 @@ def test_a_command_that_could_not_be_published_in_time_is_not_published_late(
 ) -> None:
     sent: list[Future[int]] = []
 
-    def publish(outlet: Outlet, cdr: bytes) -> Future[int]:
+    def publish(advertisement: Advertisement, cdr: bytes) -> Future[int]:
         sent.append(Future())
         return sent[-1]
 
@@ -242,7 +252,7 @@ def test_a_command_that_could_not_be_published_in_time_is_not_published_late(
     hand = hold()
     until(lambda: len(sent) > 1)
     hand.vanish()
-    until(lambda: not b.viewer.helms._is_moving())
+    until(lambda: not b.viewer.controllers._is_moving())
     until(lambda: all(each.cancelled() for each in sent[:-1]))
     assert not sent[-1].cancelled()
     sent[-1].set_result(1)
@@ -251,15 +261,15 @@ def test_a_command_that_could_not_be_published_in_time_is_not_published_late(
 def test_whoever_closes_a_viewer_waits_until_its_last_commands_are_published(
     b: Any, hold: Callable[..., Hand], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("webviz.engine.driving.helms.ENDING_S", PATIENCE_S)
+    monkeypatch.setattr("webviz.engine.driving.velocity_controllers.ENDING_S", PATIENCE_S)
     publish, sent = b.source.graph.publish, list[Future[int]]()
 
-    def publish_slowly(outlet: Outlet, cdr: bytes) -> int:
+    def publish_slowly(advertisement: Advertisement, cdr: bytes) -> int:
         time.sleep(0.1)  # a slow network
-        return publish(outlet, cdr).result()
+        return publish(advertisement, cdr).result()
 
-    def begin(outlet: Outlet, cdr: bytes) -> Future[int]:
-        sent.append(network.submit(publish_slowly, outlet, cdr))
+    def begin(advertisement: Advertisement, cdr: bytes) -> Future[int]:
+        sent.append(network.submit(publish_slowly, advertisement, cdr))
         return sent[-1]
 
     hold()
@@ -277,7 +287,7 @@ def test_only_zeros_pass_a_list_that_was_narrowed(lone: Lone, way: Velocity) -> 
     until(lambda: lone.speeds)
     lone.allowed.clear()
     before = len(lone.speeds)
-    until(lambda: not lone.helms._is_moving())
+    until(lambda: not lone.controllers._is_moving())
     late = lone.speeds[before:]
     assert sum(speed != 0.0 for speed in late) <= 1  # which was on its way
     assert late[-TAIL:] == [0.0] * TAIL
@@ -286,12 +296,12 @@ def test_only_zeros_pass_a_list_that_was_narrowed(lone: Lone, way: Velocity) -> 
 def test_a_topic_gets_another_type_once_its_vehicle_has_stopped(lone: Lone) -> None:
     lone.steer(AHEAD)
     until(lambda: lone.speeds)
-    stamped = Outlet("/cmd_vel", f"{TWIST}Stamped")
-    lone.helms.equip({"tool": (Teleop().vehicle, stamped)})
-    until(lambda: lone.steer(STILL) and lone.helms.outlets())
-    assert lone.helms.stopping() == set()
+    stamped = Advertisement("/cmd_vel", f"{TWIST}Stamped")
+    lone.controllers.equip({"tool": (Teleop().vehicle, stamped)})
+    until(lambda: lone.steer(STILL) and lone.controllers.advertisements())
+    assert lone.controllers.stopping() == set()
     lone.steer(STILL)
-    assert lone.helms.outlets() == {stamped}
+    assert lone.controllers.advertisements() == {stamped}
 
 
 @pytest.mark.parametrize(
@@ -309,10 +319,10 @@ def test_commands_keep_a_distance_in_time(lone: Lone, change: float, seconds: fl
 def test_the_zeros_of_the_end_do_not_wait_for_their_turn(
     lone: Lone, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("webviz.engine.driving.helms.PERIOD_S", 3600.0)
+    monkeypatch.setattr("webviz.engine.driving.velocity_controllers.PERIOD_S", 3600.0)
     lone.steer(AHEAD)
     until(lambda: lone.speeds)
-    lone.helms.stop()
+    lone.controllers.stop()
     until(lambda: lone.speeds[-TAIL:] == [0.0] * TAIL)
 
 
@@ -330,9 +340,9 @@ def test_a_command_that_fails_is_reported_until_one_succeeds(
     until(lambda: lone.speeds and not problem())
     lone.outcome = NotConnected("The node is gone.")
     until(lambda: problem() == "The node is gone.")
-    lone.helms.equip({})
+    lone.controllers.equip({})
     lone.equip()
-    assert lone.helms.steer("tool", 2, STILL, None).problem == ""
+    assert lone.controllers.steer("tool", 2, STILL, None).problem == ""
 
 
 def test_undo_of_a_property_changes_the_limits_of_the_next_moment(
@@ -353,7 +363,7 @@ def test_the_second_driver_learns_who_has_control_also_through_another_tool(
     until(lambda: speeds(b)[-1:] == [0.5])
     other = next(button.id for button in b.states[-1].tools if button.name == "Slow")
     assert [steer(b, tool, 8, AHEAD).driver for tool in (teleop(b), other)] == [7, 7]
-    assert b.viewer.helms.drivers() == {teleop(b): 7}
+    assert b.viewer.controllers.drivers() == {teleop(b): 7}
     first.vanish()
     until(lambda: steer(b, other, 8, AHEAD).driver == 8)
     until(lambda: speeds(b)[-1:] == [0.0])

@@ -30,7 +30,7 @@ def wait_at_gate() -> None:
     assert gate.wait(60)
 
 
-class Drawing(Display):
+class SceneDiff(Display):
     """A dot at the width of the map it is drawn of."""
 
     is_threaded = True
@@ -97,7 +97,7 @@ def open_gate(at: Any, number: int) -> None:
 
 
 def test_the_loop_goes_on_while_a_large_message_is_drawn_and_then_shows_it(bench: Any) -> None:
-    at = bench(Drawing())
+    at = bench(SceneDiff())
     send(at, 1)
     until(at, lambda: gates)
     assert dots(at) == []
@@ -113,7 +113,7 @@ def test_the_loop_goes_on_while_a_large_message_is_drawn_and_then_shows_it(bench
 def test_what_was_drawn_stays_while_the_next_is_drawn_and_only_the_newest_waits(
     bench: Any,
 ) -> None:
-    at = bench(Drawing())
+    at = bench(SceneDiff())
     send(at, 1)
     open_gate(at, 0)
     until(at, lambda: dots(at) == [[1, 0, 0]])
@@ -131,7 +131,7 @@ def test_what_was_drawn_stays_while_the_next_is_drawn_and_only_the_newest_waits(
 
 
 def test_a_large_message_is_drawn_anew_when_a_property_changes_meanwhile(bench: Any) -> None:
-    at = bench(Drawing())
+    at = bench(SceneDiff())
     send(at, 1)
     until(at, lambda: gates)
     at.viewer.enqueue(SetProperty("display1", "height", 5.0))
@@ -143,7 +143,7 @@ def test_a_large_message_is_drawn_anew_when_a_property_changes_meanwhile(bench: 
 
 def test_nothing_is_shown_of_work_that_a_change_has_made_wrong(bench: Any) -> None:
     """Another fixed frame, or a display that was switched off."""
-    at = bench(Drawing())
+    at = bench(SceneDiff())
     at.transform("odom", "map", T, 10.0, static=True)
     send(at, 1)
     until(at, lambda: gates)
@@ -163,7 +163,7 @@ def test_nothing_is_shown_of_work_that_a_change_has_made_wrong(bench: Any) -> No
 
 
 def test_what_a_thread_raises_is_the_fault_of_its_display_and_not_tried_again(bench: Any) -> None:
-    at = bench(Drawing(), strict=False)
+    at = bench(SceneDiff(), strict=False)
     send(at, 13)
     open_gate(at, 0)
     until(at, lambda: "thirteen" in str(at.statuses()))

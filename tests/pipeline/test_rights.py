@@ -20,7 +20,7 @@ from webviz.files.opening import parse
 from webviz.panels.nav2 import Nav2
 from webviz.shell.app.allow_list import report_everything
 from webviz.shell.testing.source import HandFedSource
-from webviz.sources import Gate, NotConnected, Outlet, Rights
+from webviz.sources import Advertisement, Gate, NotConnected, Rights
 
 POINT = ((1.0, 2.0, 0.0),)
 TYPE = "geometry_msgs/msg/PointStamped"
@@ -96,10 +96,10 @@ def test_what_is_refused_never_reaches_the_source() -> None:
     graph = RememberingGraph()
     source = HandFedSource(graph=graph)  # pyright: ignore[reportArgumentType]
     gate = Gate(source, Rights(may_publish=False), lambda: ("/*",))
-    gate.advertise({Outlet("/a", TYPE)})
+    gate.advertise({Advertisement("/a", TYPE)})
     goal = gate.send_goal("/go", "nav2_msgs/action/NavigateToPose", b"", lambda _: None)
     answers = (
-        gate.publish(Outlet("/a", TYPE), encode(TYPE, {})),
+        gate.publish(Advertisement("/a", TYPE), encode(TYPE, {})),
         gate.call("/empty", "std_srvs/srv/Empty", b"", 1.0),
         goal.accepted,
         goal.result,
@@ -115,7 +115,7 @@ def test_what_has_still_to_stop_keeps_its_publisher_and_no_other_refused_topic_d
     graph = RememberingGraph()
     source = HandFedSource(graph=graph)  # pyright: ignore[reportArgumentType]
     gate = Gate(source, Rights(), lambda: ("/c",))
-    a, b, c = (Outlet(topic, TYPE) for topic in ("/a", "/b", "/c"))
+    a, b, c = (Advertisement(topic, TYPE) for topic in ("/a", "/b", "/c"))
     gate.advertise({a, b, c}, {a})
     assert set(graph.advertised) == {a, c}
 
@@ -138,7 +138,7 @@ def test_a_list_refuses_the_tools_it_does_not_name(make: Callable[..., Any]) -> 
     b = make(publish=("/goal_pose", "/clicked*", "/navigate*"))
     refusal = OF_START.format("/initialpose")
     assert refusals(b) == {"2D Pose Estimate": refusal}
-    assert {outlet.topic for outlet in b.source.graph.advertised} == {
+    assert {advertisement.topic for advertisement in b.source.graph.advertised} == {
         "/goal_pose",
         "/clicked_point",
     }

@@ -11,7 +11,7 @@ from remembering_graph import RememberingGraph
 
 from webviz.api.status import Level, Status
 from webviz.engine.commands import SetToolProperty, UseTool
-from webviz.sources import Outlet
+from webviz.sources import Advertisement
 
 QUARTER = math.pi / 2
 
@@ -30,15 +30,17 @@ def use(b: Any, tool: str, x: float, y: float, z: float = 0.0, yaw: float = 0.0)
     answer = b.viewer.enqueue(UseTool(tool, ((x, y, z),), yaw))
     b.turn()
     assert answer.result() == ""
-    ((outlet, message),) = b.source.graph.published
+    ((advertisement, message),) = b.source.graph.published
     stamp = message.header.stamp
     assert (message.header.frame_id, stamp.sec, stamp.nanosec) == ("map", 112, 345)
-    return outlet, message
+    return advertisement, message
 
 
 def test_a_pose_estimate_has_the_covariance_of_rviz(b: Any) -> None:
-    outlet, estimate = use(b, "2D Pose Estimate", 1.0, 2.0, yaw=QUARTER)
-    assert outlet == Outlet("/initialpose", "geometry_msgs/msg/PoseWithCovarianceStamped")
+    advertisement, estimate = use(b, "2D Pose Estimate", 1.0, 2.0, yaw=QUARTER)
+    assert advertisement == Advertisement(
+        "/initialpose", "geometry_msgs/msg/PoseWithCovarianceStamped"
+    )
     pose = estimate.pose.pose
     assert (pose.position.x, pose.position.y, pose.position.z) == (1.0, 2.0, 0.0)
     assert (pose.orientation.x, pose.orientation.y) == (0.0, 0.0)
@@ -62,8 +64,8 @@ def test_a_goal_and_an_estimate_may_be_lifted(b: Any) -> None:
 
 
 def test_a_clicked_point_has_its_true_height(b: Any) -> None:
-    outlet, point = use(b, "Publish Point", 1.0, 2.0, -0.75)
-    assert outlet == Outlet("/clicked_point", "geometry_msgs/msg/PointStamped")
+    advertisement, point = use(b, "Publish Point", 1.0, 2.0, -0.75)
+    assert advertisement == Advertisement("/clicked_point", "geometry_msgs/msg/PointStamped")
     assert (point.point.x, point.point.y, point.point.z) == (1.0, 2.0, -0.75)
 
 

@@ -60,10 +60,10 @@ def test_one_message_is_kept_however_large(
 def test_what_a_display_names_no_longer_is_given_up(heard: DisplayWire) -> None:
     heard.advertise("/answers", "std_msgs/msg/String", 7)
     heard.forget_unnamed()
-    assert (heard.topics(), [each.depth for each in heard.outlets()]) == ((WORDS,), [7])
+    assert (heard.topics(), [each.depth for each in heard.advertisements()]) == ((WORDS,), [7])
     listen(heard)
     heard.forget_unnamed()
-    assert (heard.topics(), heard.outlets()) == ((WORDS,), [])
+    assert (heard.topics(), heard.advertisements()) == ((WORDS,), [])
     heard.forget_unnamed()
     assert heard.topics() == ()
 

@@ -29,7 +29,7 @@ from webviz.engine.commands import (
     SetRate,
     StepMessage,
 )
-from webviz.engine.driving import HelmAnswer
+from webviz.engine.driving import DrivingAnswer
 from webviz.engine.loop import FrameLoop
 from webviz.engine.parts.playback import LIVE, REWOUND, STOPPED
 from webviz.engine.state import State
@@ -38,7 +38,7 @@ from webviz.files.opening import parse
 from webviz.shell.testing import BagViewer
 from webviz.shell.testing.recording import RecordingScene
 from webviz.shell.testing.source import HandFedSource
-from webviz.sources import Offer, Outlet, Publisher, Raw
+from webviz.sources import Advertisement, Offer, Publisher, Raw
 from webviz.sources.bag.files import BagFiles
 from webviz.sources.memory_past import WallClock
 from webviz.sources.past_state import PlaybackState
@@ -293,7 +293,7 @@ def test_time_that_went_back_is_shown_as_it_was(bench: Bench) -> None:
 def test_nothing_is_sent_while_the_past_is_shown(make: Callable[..., Bench]) -> None:
     graph = RememberingGraph()
     bench = make(graph=graph)
-    gate, goal = bench.viewer._core.gate, Outlet("/goal", PATH)
+    gate, goal = bench.viewer._core.gate, Advertisement("/goal", PATH)
     gate.publish(goal, encode(PATH, {})).result()
     advertised = graph.advertised
     rewind(bench, 1.5)
@@ -307,11 +307,14 @@ def test_nothing_is_sent_while_the_past_is_shown(make: Callable[..., Bench]) -> 
 def test_a_driven_vehicle_stops_first(make: Callable[..., Bench]) -> None:
     graph = RememberingGraph()
     bench = make(graph=graph)
-    helms, outlet = bench.viewer.helms, Outlet("/cmd_vel", "geometry_msgs/msg/Twist")
-    helms.equip({"tool": (Teleop(acceleration=1000.0).vehicle, outlet)})
+    controllers, advertisement = (
+        bench.viewer.controllers,
+        Advertisement("/cmd_vel", "geometry_msgs/msg/Twist"),
+    )
+    controllers.equip({"tool": (Teleop(acceleration=1000.0).vehicle, advertisement)})
 
-    def drive() -> HelmAnswer:
-        return helms.steer("tool", 1, Velocity(1.0, 0.0, 0.0), time.monotonic())
+    def drive() -> DrivingAnswer:
+        return controllers.steer("tool", 1, Velocity(1.0, 0.0, 0.0), time.monotonic())
 
     drive()
     while not any(twist.linear.x for _, twist in graph.published):
@@ -321,4 +324,4 @@ def test_a_driven_vehicle_stops_first(make: Callable[..., Bench]) -> None:
     assert answer == STOPPED
     while graph.published[-1][1].linear.x:
         time.sleep(0.01)
-    assert not helms.halt(), "it stands still"
+    assert not controllers.halt(), "it stands still"

@@ -91,7 +91,7 @@ class Bench:
 
     def published(self) -> list[dict[str, float]]:
         found = self.viewer.source.graph.published
-        assert all(outlet.topic == "/joint_states" for outlet, _ in found)
+        assert all(advertisement.topic == "/joint_states" for advertisement, _ in found)
         return [dict(zip(each.name, each.position.tolist(), strict=True)) for _, each in found]
 
 

@@ -137,15 +137,15 @@ def test_an_open_panel_reads_topics_and_is_advertised(
         assert wired.heard == []
         b.do(OpenPanels(frozenset({"Wired"})))
         assert b.source.wanted["/words"].type == "std_msgs/msg/String"
-        assert "/answers" in {outlet.topic for outlet in b.source.graph.advertised}
+        assert "/answers" in {advertisement.topic for advertisement in b.source.graph.advertised}
         b.publish(*said)
         b.publish("/words", "std_msgs/msg/String", {"data": "two"})
         b.source.put("/words", "std_msgs/msg/String", b"\x00\x01\x00\x00\xff")
         b.turn()
         assert wired.heard == [("/words", "one"), ("/words", "two")]
         b.do(Publish("/answers", "std_msgs/msg/String", {"data": "yes"}))
-        ((outlet, message),) = b.source.graph.published
-        assert (outlet.topic, message.data) == ("/answers", "yes")
+        ((advertisement, message),) = b.source.graph.published
+        assert (advertisement.topic, message.data) == ("/answers", "yes")
         b.do(OpenPanels(frozenset()))
         assert "/words" not in b.source.wanted
     finally:

@@ -103,9 +103,9 @@ def test_plug_ins_are_those_of_the_servers_and_the_choice_is_latched(
     b.show()
     assert len(b.graph.requests) == count, "all servers have answered"
     b.widget("Controller").use("RPP", 1)
-    ((outlet, message),) = b.graph.published
-    assert (outlet.topic, message.data) == ("/robot1/controller_selector", "RPP")
-    assert (outlet.durability, outlet.depth) == ("transient_local", 1)
+    ((advertisement, message),) = b.graph.published
+    assert (advertisement.topic, message.data) == ("/robot1/controller_selector", "RPP")
+    assert (advertisement.durability, advertisement.depth) == ("transient_local", 1)
     b.show()
     assert b.widget("Controller").values["options"] == ["MPPI", "RPP"]
     assert b.widget("Controller").value == "RPP"

@@ -25,7 +25,7 @@ from webviz.data.messages import decode, encode, interfaces
 from webviz.ros.node import RosSource
 from webviz.ros.types import MessageTypeError, learn, message_class
 from webviz.ros.types.composing import composed_service
-from webviz.sources import NotConnected, Outlet, ReadOnly
+from webviz.sources import Advertisement, NotConnected, ReadOnly
 
 STRING = "std_msgs/msg/String"
 FIBONACCI = "test_msgs/action/Fibonacci"
@@ -138,19 +138,19 @@ def test_a_message_reaches_a_subscription_that_knew_the_publisher(
         heard.append(message.data)
 
     peer.node.create_subscription(String, "/said", hear, 10)
-    outlet = Outlet("/said", STRING)
-    source.graph.advertise([outlet]).result(30.0)
+    advertisement = Advertisement("/said", STRING)
+    source.graph.advertise([advertisement]).result(30.0)
     until(lambda: peer.node.count_publishers("/said"), peer.turn)
     hello = encode(STRING, {"data": "hello"})
-    until(lambda: source.graph.publish(outlet, hello).result(30.0) == 1, peer.turn)
+    until(lambda: source.graph.publish(advertisement, hello).result(30.0) == 1, peer.turn)
     until(lambda: "hello" in heard, peer.turn)
 
 
 def test_the_publisher_of_a_topic_that_is_no_longer_advertised_is_destroyed(
     source: RosSource, peer: Peer
 ) -> None:
-    old, new = Outlet("/old_goal", STRING), Outlet("/new_goal", STRING)
-    unknown = Outlet("/unknown_goal", "no_msgs/msg/No")
+    old, new = Advertisement("/old_goal", STRING), Advertisement("/new_goal", STRING)
+    unknown = Advertisement("/unknown_goal", "no_msgs/msg/No")
     source.graph.advertise([old]).result(30.0)
     until(lambda: peer.node.count_publishers("/old_goal"), peer.turn)
     source.graph.advertise([unknown, new]).result(30.0)
@@ -163,23 +163,23 @@ def test_a_message_does_not_wait_for_what_arrives(
 ) -> None:
     monkeypatch.setattr("webviz.ros.node.REST_S", 3600.0)
     source = RosSource(domain_id=webviz_domain)
-    outlet = Outlet("/lonely", STRING)
+    advertisement = Advertisement("/lonely", STRING)
     for _ in range(5):
-        assert source.graph.publish(outlet, encode(STRING)).result(60.0) == 0
+        assert source.graph.publish(advertisement, encode(STRING)).result(60.0) == 0
     monkeypatch.undo()
-    source.graph.publish(outlet, encode(STRING)).result(60.0)  # begins another wait
+    source.graph.publish(advertisement, encode(STRING)).result(60.0)  # begins another wait
     source.close()
 
 
 def test_a_message_that_no_subscription_gets_says_so(source: RosSource) -> None:
-    assert source.graph.publish(Outlet("/lonely", STRING), encode(STRING)).result(30.0) == 0
+    assert source.graph.publish(Advertisement("/lonely", STRING), encode(STRING)).result(30.0) == 0
 
 
 def test_an_unknown_type_is_refused_and_the_node_goes_on(source: RosSource) -> None:
-    failed = source.graph.publish(Outlet("/unknown", "no_msgs/msg/No"), b"")
+    failed = source.graph.publish(Advertisement("/unknown", "no_msgs/msg/No"), b"")
     with pytest.raises(MessageTypeError, match="Install its package"):
         failed.result(30.0)
-    assert source.graph.publish(Outlet("/lonely", STRING), encode(STRING)).result(30.0) == 0
+    assert source.graph.publish(Advertisement("/lonely", STRING), encode(STRING)).result(30.0) == 0
 
 
 def test_a_service_answers(source: RosSource, peer: Peer) -> None:
@@ -295,7 +295,9 @@ def test_a_goal_that_is_no_longer_followed_frees_its_place(
     for _ in range(5):  # the peer is not spun, so that none is answered
         answer = source.graph.call("/waiting", "std_srvs/srv/SetBool", request, 600.0)
         assert answer.cancel()
-        assert source.graph.publish(Outlet("/lonely", STRING), encode(STRING)).result(30.0) == 0
+        assert (
+            source.graph.publish(Advertisement("/lonely", STRING), encode(STRING)).result(30.0) == 0
+        )
     pending = source.graph.call("/waiting", "std_srvs/srv/SetBool", request, 600.0)
     until(pending.done, peer.turn)
     assert pending.exception(0.0) is None
@@ -305,7 +307,7 @@ def test_a_graph_that_only_reads_refuses_in_one_sentence() -> None:
     graph = ReadOnly("A bag can only be read.")
     goal = graph.send_goal("/count", FIBONACCI, b"", lambda _: None)
     futures: list[Future[Any]] = [
-        graph.publish(Outlet("/a", STRING), b""),
+        graph.publish(Advertisement("/a", STRING), b""),
         graph.call("/b", "", b"", 1.0),
         goal.accepted,
     ]
@@ -323,4 +325,4 @@ def test_what_waits_is_refused_when_the_node_ends(webviz_domain: int) -> None:
     with pytest.raises(NotConnected, match="has ended"):
         future.result(30.0)
     with pytest.raises(NotConnected, match="has ended"):
-        source.graph.publish(Outlet("/said", STRING), b"").result(30.0)
+        source.graph.publish(Advertisement("/said", STRING), b"").result(30.0)

@@ -27,7 +27,7 @@ from webviz.engine.commands.guard import Guard
 from webviz.engine.pipeline.inputs import Inputs
 from webviz.ros import node
 from webviz.ros.node import RosSource
-from webviz.sources import Gate, Outlet, Rights, Subscription, merged
+from webviz.sources import Advertisement, Gate, Rights, Subscription, merged
 
 STRING = "std_msgs/msg/String"
 
@@ -291,7 +291,7 @@ def test_subscriptions_end_while_events_of_incompatible_publishers_wait(
             # Its thread would have ended, which fails the test.
             until(lambda wanted=wanted: source._held.keys() == wanted.keys(), "subscribed", 20)
     # Publishers, too, are destroyed while the node spins.
-    advertised = source.graph.advertise({Outlet("/out", STRING, "reliable", "volatile", 1)})
+    advertised = source.graph.advertise({Advertisement("/out", STRING, "reliable", "volatile", 1)})
     advertised.result(20)
     assert set(source._node.waitables) == own, "events would wait in the executor"
 

@@ -79,15 +79,15 @@ def hello(key: str) -> str:
 def test_a_message_reaches_the_listener_with_the_browser_that_sent_it(
     server: Server, call: Callable[..., Any], wait_until: Callable[[Callable[[], bool]], None]
 ) -> None:
-    heard: list[tuple[int, Wish]] = []
-    server.channel.on(Wish, lambda browser, wish: heard.append((browser, wish)))
+    acknowledged: list[tuple[int, Wish]] = []
+    server.channel.on(Wish, lambda browser, wish: acknowledged.append((browser, wish)))
     call().replay()
     browser, key = key_of(call())
     with channel(server) as page:
         page.send(hello(key))
         page.send('{"type":"Wish","text":"rain"}')
-        wait_until(lambda: bool(heard))
-    assert heard == [(browser, Wish("rain"))]
+        wait_until(lambda: bool(acknowledged))
+    assert acknowledged == [(browser, Wish("rain"))]
 
 
 def test_a_page_receives_what_waited_for_it_and_only_the_newest_of_what_is_kept(
@@ -175,15 +175,15 @@ def test_nonsense_is_ignored(
     wait_until: Callable[[Callable[[], bool]], None],
     nonsense: str | bytes,
 ) -> None:
-    heard: list[Wish] = []
-    server.channel.on(Wish, lambda _, wish: heard.append(wish))
+    acknowledged: list[Wish] = []
+    server.channel.on(Wish, lambda _, wish: acknowledged.append(wish))
     _, key = key_of(call())
     with channel(server) as page:
         page.send(hello(key))
         page.send(nonsense)
         page.send('{"type":"Wish","text":"sense"}')
-        wait_until(lambda: bool(heard))
-    assert heard == [Wish("sense")]
+        wait_until(lambda: bool(acknowledged))
+    assert acknowledged == [Wish("sense")]
 
 
 @pytest.mark.parametrize(("count", "size"), [(40 * MAX_WAITING, 10_000), (60, 1 << 20)])

@@ -207,12 +207,12 @@ def test_a_message_that_is_too_large_is_dropped_and_one_without_bounds_ends_the_
     assert clicked == ["/short"]
     peer.send({"type": "SceneNodeClickMessage", "name": 5_000_000 * "x"})
 
-    def hear() -> None:
+    def acknowledge() -> None:
         while True:
             peer.receive()
 
     with pytest.raises(websockets.exceptions.ConnectionClosed, match="message too big"):
-        hear()
+        acknowledge()
 
 
 def test_a_server_that_stops_waits_for_no_browser(

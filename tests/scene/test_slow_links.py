@@ -19,8 +19,8 @@ from webviz.scene.adapter.acknowledging import AcknowledgementRequest
 from webviz.scene.points import PART
 from webviz.server.channel.links import reduced
 from webviz.server.http.listener import SEND_BUFFER_BYTES, UNSENT_BYTES
+from webviz.server.sending.congestion import CongestionControl, InFlightWindow
 from webviz.server.sending.outbox import WINDOW_BYTES, Outbox, bulk
-from webviz.server.sending.pace import LinkPace, Stretch
 from webviz.server.sending.pieces import Piece
 
 PLENTY = 1e9
@@ -33,8 +33,8 @@ class Queue:
     def __init__(self, rate: float = PLENTY) -> None:
         self.live: dict[int, Any] = {}
         self.now = 100.0
-        self.pace = LinkPace(rate, lambda: self.now)
-        self.outbox = Outbox(AcknowledgementRequest, self.pace)
+        self.congestion = CongestionControl(rate, lambda: self.now)
+        self.outbox = Outbox(AcknowledgementRequest, self.congestion)
         self._count = 0
 
     def push(self, message: Any) -> None:
@@ -236,7 +236,7 @@ def test_a_slow_link_gets_fewer_points_of_a_cloud_and_all_of_them_once_it_rests(
     assert (last["points"] == full["points"].ravel()).all()
     assert (last["colors"] == full["colors"].ravel()).all()
     assert not queue.outbox.is_waiting()
-    assert queue.pace.every == 1
+    assert queue.congestion.every == 1
 
 
 def test_scans_and_thinned_clouds_go_on_beside_a_map() -> None:
@@ -252,7 +252,7 @@ def test_scans_and_thinned_clouds_go_on_beside_a_map() -> None:
     assert names.count("/lidar") >= 5
     assert names.count("/map") == 1
     assert max(len(values["points"]) for name, values in completed(sent) if name == "/lidar") < 50e3
-    assert reduced(queue.pace) == "Slow link, 8 Mbit/s: clouds show every 8th point"
+    assert reduced(queue.congestion) == "Slow link, 8 Mbit/s: clouds show every 8th point"
 
 
 def image(name: str, size: int, value: int = 0) -> wire.SceneNodeUpdateMessage:
@@ -342,15 +342,15 @@ def test_pieces_of_a_node_that_was_removed_are_not_sent() -> None:
 
 def test_a_link_that_makes_nobody_wait_reduces_nothing() -> None:
     now = [0.0]
-    stretch = Stretch(LinkPace(None, lambda: now[0]))
+    window = InFlightWindow(CongestionControl(None, lambda: now[0]))
     for _ in range(100):
-        stretch.send(1000)
-        if (mark := stretch.end()) is not None:
+        window.send(1000)
+        if (mark := window.end()) is not None:
             now[0] += 0.3  # a busy browser
-            stretch.pace.hear(mark)
+            window.congestion.acknowledge(mark)
         now[0] += 0.05
-    assert stretch.pace.rate is None
-    assert stretch.pace.room() > 0
+    assert window.congestion.rate is None
+    assert window.congestion.room() > 0
 
 
 def test_on_a_link_of_5_mbit_the_pose_stays_fresh_and_the_cloud_is_thinned(
@@ -381,10 +381,10 @@ def test_on_a_link_of_5_mbit_the_pose_stays_fresh_and_the_cloud_is_thinned(
             if poses and now > began + 3.0:
                 ages.append(time.monotonic() - poses[-1])
                 (browser,) = scene.link.server.channel.browsers()
-                pace = scene.link.server.channel.pace(browser)
-                assert pace is not None
-                texts.add(reduced(pace))
-                assert pace.in_flight < 5e5
+                congestion = scene.link.server.channel.congestion(browser)
+                assert congestion is not None
+                texts.add(reduced(congestion))
+                assert congestion.in_flight < 5e5
         ended.set()
         robot.join()
     finally:
@@ -397,8 +397,8 @@ def test_on_a_link_of_5_mbit_the_pose_stays_fresh_and_the_cloud_is_thinned(
 
 def test_the_page_puts_pieces_together(view: Any) -> None:
     channel = view.scene.link.server.channel
-    pace = channel.pace(max(channel.browsers()))
-    pace.rate = SLOW
+    congestion = channel.congestion(max(channel.browsers()))
+    congestion.rate = SLOW
     cells = np.random.default_rng(0).integers(0, 255, (400, 400, 4), np.uint8)
     cells[200:, :, :] = (200, 100, 50, 255)
     view.scene.upsert("map", "grid", Image(cells, 4.0, 4.0))
@@ -409,4 +409,4 @@ def test_the_page_puts_pieces_together(view: Any) -> None:
     view.show()
     view.wait_for(lambda: view.draw(1) or view.color_at((1.0, 3.0, 0.0)) == (200, 100, 50))
     view.wait_for(lambda: view.draw(1) or view.color_at((-2.0, -2.0, 0.0)) == (0, 0, 255))
-    pace.rate = None
+    congestion.rate = None

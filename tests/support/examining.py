@@ -7,9 +7,9 @@ from collections.abc import Sequence
 
 from webviz import Finding, Severity
 from webviz.api.finding import CauseLevel
+from webviz.shell.testing.harness import Harness
 from webviz.shell.testing.live import LiveViewer
 from webviz.shell.testing.source import SECOND
-from webviz.shell.testing.stage import Stage
 
 ROUNDS = 4
 """Two in a row make a finding; one may be under way, and messages have to wait for a while."""
@@ -26,7 +26,7 @@ def live_findings(viewer: LiveViewer, level: CauseLevel) -> dict[str, Finding]:
     return by_key(viewer.viewer.snapshot().findings, level)
 
 
-def examined(stage: Stage, level: CauseLevel, seconds: float = 1.1) -> dict[str, Finding]:
+def examined(stage: Harness, level: CauseLevel, seconds: float = 1.1) -> dict[str, Finding]:
     """The findings of a viewer on one level after some rounds, between which time passes."""
     doctor = stage.viewer.doctor
     doctor.slice_s = math.inf
@@ -39,6 +39,6 @@ def examined(stage: Stage, level: CauseLevel, seconds: float = 1.1) -> dict[str,
     return by_key(state.findings, level)
 
 
-def display(viewer: Stage | LiveViewer, name: str) -> str:
+def display(viewer: Harness | LiveViewer, name: str) -> str:
     """The id of a display."""
     return next(row.id for row in viewer.viewer.snapshot().rows if row.name == name)

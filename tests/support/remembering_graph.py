@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from webviz.data.messages import decode
-from webviz.sources import Goal, NotConnected, Outlet
+from webviz.sources import Advertisement, Goal, NotConnected
 
 
 @dataclass
@@ -33,20 +33,20 @@ class RememberingGraph:
     """Remembers what is published; each topic has as many subscriptions as a test says."""
 
     subscriptions: int = 1
-    published: list[tuple[Outlet, Any]] = field(default_factory=list)
-    advertised: Collection[Outlet] = ()
+    published: list[tuple[Advertisement, Any]] = field(default_factory=list)
+    advertised: Collection[Advertisement] = ()
     responses: dict[str, bytes] = field(default_factory=dict)
     """By service, encoded."""
     requests: list[tuple[str, str, bytes]] = field(default_factory=list)
     """Service, type and encoded request."""
     goals: list[SentGoal] = field(default_factory=list)
 
-    def advertise(self, outlets: Collection[Outlet]) -> Future[None]:
-        self.advertised = outlets
+    def advertise(self, advertisements: Collection[Advertisement]) -> Future[None]:
+        self.advertised = advertisements
         return done(None)
 
-    def publish(self, outlet: Outlet, cdr: bytes) -> Future[int]:
-        self.published.append((outlet, decode(outlet.type, cdr)))
+    def publish(self, advertisement: Advertisement, cdr: bytes) -> Future[int]:
+        self.published.append((advertisement, decode(advertisement.type, cdr)))
         return done(self.subscriptions)
 
     def call(self, service: str, type: str, request: bytes, timeout_s: float) -> Future[bytes]:

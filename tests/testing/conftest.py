@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 
 from webviz import Topic
-from webviz.shell.testing import Stage
+from webviz.shell.testing import Harness
 from webviz_displays.grid import Grid
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.tf import TF
@@ -21,13 +21,13 @@ SCAN = {
 
 
 @pytest.fixture
-def stage(webviz_stage: Callable[..., Stage]) -> Stage:
+def stage(webviz_harness: Callable[..., Harness]) -> Harness:
     """Grid, a scan and the frames, with nothing published yet."""
-    return webviz_stage(Grid(), LaserScan(name="Scan", topic=Topic("/scan"), size=0.2), TF())
+    return webviz_harness(Grid(), LaserScan(name="Scan", topic=Topic("/scan"), size=0.2), TF())
 
 
 @pytest.fixture
-def filled(stage: Stage) -> Stage:
+def filled(stage: Harness) -> Harness:
     """The same with a scan of seven points, 2 m around a laser at (1, 0, 0.5)."""
     stage.transform("map", "laser", (1.0, 0.0, 0.5))
     stage.publish("/scan", "sensor_msgs/msg/LaserScan", SCAN, frame="laser")

@@ -16,30 +16,30 @@ from processes import command_lines
 from webviz.api.errors import Error
 from webviz.api.views import Orbit
 from webviz.shell.pictures.browser import BrowserDied, NoBrowser
-from webviz.shell.testing import TOLERANCE, Stage, share_of_difference
+from webviz.shell.testing import TOLERANCE, Harness, share_of_difference
 from webviz.shell.testing.comparing import load, masked, store
-from webviz.shell.testing.darkroom import Darkroom
-from webviz.shell.testing.pictures import Album
+from webviz.shell.testing.pictures import ReferenceImages
+from webviz.shell.testing.shared_renderer import SharedRenderer
 
 VIEW = Orbit(distance=7.0)
 
 
-def with_album(stage: Stage, folder: Path, *, update: bool = False) -> Album:
+def with_album(stage: Harness, folder: Path, *, update: bool = False) -> ReferenceImages:
     """Let a stage compare with pictures in a folder of the test."""
-    album = Album(folder / "pictures", folder / "output", folder, update)
+    album = ReferenceImages(folder / "pictures", folder / "output", folder, update)
     stage._photographer = dataclasses.replace(stage._photographer, album=album, view=VIEW)
     return album
 
 
 @pytest.fixture
-def album(filled: Stage, tmp_path: Path) -> Album:
+def album(filled: Harness, tmp_path: Path) -> ReferenceImages:
     """Holds the picture `scan` of `filled`."""
     with_album(filled, tmp_path, update=True)
     filled.check_picture("scan")
     return with_album(filled, tmp_path)
 
 
-def test_the_same_input_gives_the_same_picture_to_the_bit(filled: Stage) -> None:
+def test_the_same_input_gives_the_same_picture_to_the_bit(filled: Harness) -> None:
     once = filled.picture()
     filled.look(Orbit(distance=3.0))
     other = filled.picture()
@@ -49,7 +49,7 @@ def test_the_same_input_gives_the_same_picture_to_the_bit(filled: Stage) -> None
 
 
 def test_another_stage_with_the_same_input_gives_the_same_picture(
-    filled: Stage, request: pytest.FixtureRequest
+    filled: Harness, request: pytest.FixtureRequest
 ) -> None:
     once = filled.picture()
     filled.set("enabled", False, "Scan")
@@ -58,9 +58,9 @@ def test_another_stage_with_the_same_input_gives_the_same_picture(
     assert (filled.picture() == once).all()
 
 
-def test_another_browser_gives_the_same_picture(filled: Stage) -> None:
+def test_another_browser_gives_the_same_picture(filled: Harness) -> None:
     once = filled.picture()
-    other = Darkroom()
+    other = SharedRenderer()
     try:
         again = other.capture(filled.scene, filled._photographer.view, (400, 300))
     finally:
@@ -68,7 +68,7 @@ def test_another_browser_gives_the_same_picture(filled: Stage) -> None:
     assert (again == once).all()
 
 
-def test_a_transparent_picture_has_no_background(filled: Stage) -> None:
+def test_a_transparent_picture_has_no_background(filled: Harness) -> None:
     opaque, clear = filled.picture(), filled.picture(transparent=True)
     assert clear.shape == (300, 400, 4)
     assert clear[0, 0].tolist() == [0, 0, 0, 0]
@@ -79,12 +79,12 @@ def test_a_transparent_picture_has_no_background(filled: Stage) -> None:
     assert share_of_difference(over.round().astype(np.uint8), opaque) <= TOLERANCE
 
 
-def test_pictures_have_the_size_that_is_asked_for(filled: Stage) -> None:
+def test_pictures_have_the_size_that_is_asked_for(filled: Harness) -> None:
     filled.resize(320, 200)
     assert filled.picture().shape == (200, 320, 3)
 
 
-def test_a_missing_picture_says_how_to_make_it(filled: Stage, tmp_path: Path) -> None:
+def test_a_missing_picture_says_how_to_make_it(filled: Harness, tmp_path: Path) -> None:
     with_album(filled, tmp_path)
     with pytest.raises(
         AssertionError, match=r"pictures/scan\.png is missing\. Run pytest with --up"
@@ -92,7 +92,7 @@ def test_a_missing_picture_says_how_to_make_it(filled: Stage, tmp_path: Path) ->
         filled.check_picture("scan")
 
 
-def test_a_wrong_picture_leaves_the_difference(filled: Stage, album: Album) -> None:
+def test_a_wrong_picture_leaves_the_difference(filled: Harness, album: ReferenceImages) -> None:
     filled.check_picture("scan")
     filled.set("size", 0.5, "Scan")
     with pytest.raises(AssertionError, match=r"See output/scan\.png and output/scan\.diff"):
@@ -102,7 +102,7 @@ def test_a_wrong_picture_leaves_the_difference(filled: Stage, album: Album) -> N
     assert load(album.output / "scan.png").shape == (300, 400, 3)
 
 
-def test_what_is_masked_does_not_matter(filled: Stage, album: Album) -> None:
+def test_what_is_masked_does_not_matter(filled: Harness, album: ReferenceImages) -> None:
     reference = load(album.folder / "scan.png")
     filled.set("size", 0.25, "Scan")
     actual = filled.picture()
@@ -120,7 +120,7 @@ def test_a_mask_is_grey_and_may_reach_over_the_edge() -> None:
     assert (masked(picture, [(-5, -5, -1, -1)]) == 0).all()
 
 
-def test_a_picture_of_another_size_says_so(filled: Stage, album: Album) -> None:
+def test_a_picture_of_another_size_says_so(filled: Harness, album: ReferenceImages) -> None:
     filled._photographer.album = dataclasses.replace(album, size=(320, 240))
     with pytest.raises(
         AssertionError, match=r"has 320 x 240 pixels, pictures/scan.png has 400 x 3"
@@ -128,7 +128,9 @@ def test_a_picture_of_another_size_says_so(filled: Stage, album: Album) -> None:
         filled.check_picture("scan")
 
 
-def test_an_update_leaves_what_still_passes(filled: Stage, tmp_path: Path, album: Album) -> None:
+def test_an_update_leaves_what_still_passes(
+    filled: Harness, tmp_path: Path, album: ReferenceImages
+) -> None:
     path = album.folder / "scan.png"
     before = path.stat().st_ino
     with_album(filled, tmp_path, update=True)
@@ -140,7 +142,9 @@ def test_an_update_leaves_what_still_passes(filled: Stage, tmp_path: Path, album
     assert path.stat().st_size < 15_000
 
 
-def test_a_display_that_makes_no_difference_is_named(filled: Stage, album: Album) -> None:
+def test_a_display_that_makes_no_difference_is_named(
+    filled: Harness, album: ReferenceImages
+) -> None:
     filled.check_picture("scan", each_display=True)
     filled.set("style", "Points", "Scan")
     filled.set("size_pixels", 1.0, "Scan")
@@ -164,11 +168,11 @@ def test_a_disk_that_is_full_leaves_the_old_picture(tmp_path: Path) -> None:
 
 
 @pytest.fixture
-def darkroom() -> Iterator[Darkroom]:
+def shared_renderer() -> Iterator[SharedRenderer]:
     """One of its own, for tests in which its browser dies."""
-    darkroom = Darkroom()
-    yield darkroom
-    darkroom.close()
+    shared_renderer = SharedRenderer()
+    yield shared_renderer
+    shared_renderer.close()
 
 
 def browsers() -> list[psutil.Process]:
@@ -182,10 +186,10 @@ def browsers() -> list[psutil.Process]:
 
 
 def test_a_browser_that_dies_is_reported_and_replaced(
-    filled: Stage, darkroom: Darkroom, tmp_path: Path
+    filled: Harness, shared_renderer: SharedRenderer, tmp_path: Path
 ) -> None:
     before = browsers()
-    filled._photographer.darkroom = darkroom
+    filled._photographer.shared_renderer = shared_renderer
     picture = filled.picture()
     (ours,) = set(browsers()) - set(before)
     helpers = ours.children(recursive=True)
@@ -198,14 +202,17 @@ def test_a_browser_that_dies_is_reported_and_replaced(
     assert alive == []
     filled.look(Orbit())
     assert (filled.picture() == picture).all()
-    darkroom.close()
+    shared_renderer.close()
     assert set(browsers()) - set(before) == set()
 
 
 def test_without_a_browser_one_sentence_says_how_to_get_one(
-    filled: Stage, darkroom: Darkroom, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+    filled: Harness,
+    shared_renderer: SharedRenderer,
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
 ) -> None:
-    filled._photographer.darkroom = darkroom
+    filled._photographer.shared_renderer = shared_renderer
     monkeypatch.setenv("PATH", "")
     monkeypatch.setenv("PLAYWRIGHT_BROWSERS_PATH", str(tmp_path))
     with pytest.raises(NoBrowser, match=r"No browser found\. Install Chromium"):

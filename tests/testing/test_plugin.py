@@ -18,13 +18,13 @@ displays:
 - {type: Axes, length: 2.0, radius: 0.2}
 """
 TESTS = """\
-def test_axes(webviz_stage):
-    stage = webviz_stage("robot.yaml")
+def test_axes(webviz_harness):
+    stage = webviz_harness("robot.yaml")
     assert stage.axes("Axes").tolist() == [[0, 0, 0]]
     stage.check_picture("axes", each_display=True)
 
-def test_axes_that_are_masked(webviz_stage):
-    stage = webviz_stage("robot.yaml", size=(200, 150))
+def test_axes_that_are_masked(webviz_harness):
+    stage = webviz_harness("robot.yaml", size=(200, 150))
     stage.check_picture("masked", mask=[(20, 0, 190, 150)])
 """
 
@@ -88,13 +88,13 @@ def test_without_a_browser_scenes_are_read_and_failures_are_one_sentence(
     monkeypatch.setenv("PLAYWRIGHT_BROWSERS_PATH", str(package.path))
     package.makepyfile(
         test_first="""
-        def test_grid(webviz_stage):
+        def test_grid(webviz_harness):
             import sys
-            assert len(webviz_stage("test/robot.yaml").lines("Grid")) == 22
+            assert len(webviz_harness("test/robot.yaml").lines("Grid")) == 22
             assert "playwright" not in sys.modules
 
-        def test_missing(webviz_stage):
-            webviz_stage("robt.yaml")
+        def test_missing(webviz_harness):
+            webviz_harness("robt.yaml")
         """
     )
     result = run(package, "test_first.py", "test", "--update-pictures")
@@ -107,7 +107,7 @@ def test_without_a_browser_scenes_are_read_and_failures_are_one_sentence(
 
 def test_the_fixtures_are_listed_with_what_they_do(package: pytest.Pytester) -> None:
     text = run(package, "--fixtures", "-v").stdout.str()
-    for name in ("webviz_stage", "webviz_viewer", "webviz_domain"):
+    for name in ("webviz_harness", "webviz_viewer", "webviz_domain"):
         assert name in text
     assert "--update-pictures" in run(package, "--help").stdout.str()
 

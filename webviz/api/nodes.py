@@ -13,7 +13,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz.api.pictures import Picture, Sight
+from webviz.api.pictures import OverlayCamera, Picture
 
 F32 = NDArray[np.float32]
 U8 = NDArray[np.uint8]
@@ -297,7 +297,7 @@ class Pane(_Node):
     picture: Picture
     stamp_ns: int = 0
     order: int = 0
-    sight: Sight | None = None
+    sight: OverlayCamera | None = None
 
 
 Node = Points | Lines | Arrows | Axes | Labels | Mesh | Instances | Models | Glb | Image | Pane

@@ -159,7 +159,7 @@ class Warp:
 
 
 @dataclass(frozen=True)
-class Sight:
+class OverlayCamera:
     """Overlay camera: a page draws the scene through it over and under a picture.
 
     Args:

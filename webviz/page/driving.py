@@ -9,9 +9,9 @@ from collections.abc import Callable
 from typing import TypeAlias
 
 from webviz.api.vehicle import Velocity
-from webviz.engine.driving import HelmAnswer
+from webviz.engine.driving import DrivingAnswer
 from webviz.server.channel.channel import Channel
-from webviz.server.channel.messages import Drive, HelmReport
+from webviz.server.channel.messages import Drive, DrivingReport
 
 FRESH_S = 0.5
 """A heartbeat counts if it answers a beat no older than this: the slowest link that can drive."""
@@ -20,7 +20,7 @@ BEAT_S = 0.02
 
 SLOW = "The connection to webviz is too slow to drive."
 
-Steer: TypeAlias = Callable[[str, int, Velocity, float | None], HelmAnswer]
+Steer: TypeAlias = Callable[[str, int, Velocity, float | None], DrivingAnswer]
 
 
 class DrivingMessages:
@@ -68,4 +68,4 @@ class DrivingMessages:
             self._beats.append((now, 1 + secrets.randbits(52)))
         beat = self._beats[-1][1]
         problem = answer.problem or (SLOW if drive.beat and seen is None else "")
-        self._channel.send(HelmReport(drive.tool, beat, answer.driver, problem), browser)
+        self._channel.send(DrivingReport(drive.tool, beat, answer.driver, problem), browser)

@@ -11,15 +11,15 @@ from webviz.api.registry import display_types
 from webviz.engine.commands import Command, GripHandle, Refresh, Sender, UseTool
 from webviz.engine.commands.guard import Guard
 from webviz.engine.state import State
-from webviz.page.acts import Acts, Handler
 from webviz.page.content import MAKERS
+from webviz.page.dependency_tracking import DependencyTracker
+from webviz.page.derived_subscriptions import DerivedSubscriptions
+from webviz.page.dispatcher import Dispatcher, Handler
 from webviz.page.driving import DrivingMessages, Steer
 from webviz.page.gripping import GripMessages
 from webviz.page.people import People
 from webviz.page.plugin_panels import PluginPanels
-from webviz.page.reading import StateReading
 from webviz.page.toolbar import Toolbar
-from webviz.page.wishes import Wishes
 from webviz.server.access.access import Access
 from webviz.server.access.journal import Journal
 from webviz.server.access.requests import Dismiss, Invite, Revoke, UseWidget
@@ -37,7 +37,7 @@ class Pages:
     Args:
         channel: to the pages.
         enqueue: takes commands and their senders, from any thread.
-        steer: takes set-points of vehicles, see `webviz.engine.driving.Helms`.
+        steer: takes set-points of vehicles, see `webviz.engine.driving.VelocityControllers`.
         access: knows the tokens; None if none are asked for.
         keep: called with each line of the journal, from any thread.
     """
@@ -71,9 +71,9 @@ class Pages:
             UseTool: toolbar.use,
             UseWidget: panels.use,
         }
-        self._acts = Acts(channel, request, note, handlers)
+        self._dispatcher = Dispatcher(channel, request, note, handlers)
         self._driving = DrivingMessages(channel, steer, note)
-        self._wishes = Wishes(request)
+        self._derived = DerivedSubscriptions(request)
         self._of_panels = {
             "addresses": people.addresses,
             "journal": people.journal,
@@ -84,7 +84,7 @@ class Pages:
             "panel_properties": panels.properties,
             "panels": panels.panels,
         }
-        self._read: dict[str, StateReading] = {}
+        self._read: dict[str, DependencyTracker] = {}
         """Dependencies of the stores that are kept."""
         self._types = display_types()
         # A store that a page begins to watch is filled on the next turn of the frame loop.
@@ -103,7 +103,7 @@ class Pages:
         self._toolbar.update(state)
         watched = self._channel.watched()
         self._panels.update(state, watched)
-        self._wishes.update(watched)
+        self._derived.update(watched)
         self._forget(watched)
         for store in watched:
             read = self._read.get(store)
@@ -115,7 +115,7 @@ class Pages:
         if (make := self._of_panels.get(name)) is not None:
             self._channel.show(store, make(state, argument))
         elif (make := MAKERS.get(name)) is not None:
-            reading = StateReading(state)
+            reading = DependencyTracker(state)
             self._channel.show(store, make(reading.state, argument))
             self._read[store] = reading
 

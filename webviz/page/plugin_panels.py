@@ -25,7 +25,7 @@ from webviz.server.access.requests import UseWidget
 log = logging.getLogger("webviz")
 
 MAX_WAITING = 16
-"""Acts of one panel that wait for one that takes long."""
+"""Actions of one panel that wait for one that takes long."""
 _SHARED = ("name",)
 """Properties of all panels, which their tab does not show."""
 

@@ -10,8 +10,8 @@ from rclpy.node import Node
 from webviz.ros.calls import Calls
 from webviz.ros.goals import Goals
 from webviz.ros.jobs import Jobs
-from webviz.ros.publishers import OutletPublishers
-from webviz.sources.graph import Goal, Outlet
+from webviz.ros.publishers import AdvertisedPublishers
+from webviz.sources.graph import Advertisement, Goal
 
 
 class RosGraph:
@@ -25,21 +25,21 @@ class RosGraph:
     def __init__(self, node: Node, wake: Callable[[], None]) -> None:
         self._node = node
         self._jobs = Jobs(wake)
-        self._publishers = OutletPublishers(node)
+        self._publishers = AdvertisedPublishers(node)
         self._calls = Calls(node)
         self._goals = Goals(node, self._calls, self.call)
         self._nodes: tuple[str, ...] = ()
 
     # From any thread
 
-    def advertise(self, outlets: Collection[Outlet]) -> Future[None]:
+    def advertise(self, advertisements: Collection[Advertisement]) -> Future[None]:
         """Create these publishers ahead of their first messages, and destroy the previous ones."""
-        wanted = frozenset(outlets)
+        wanted = frozenset(advertisements)
         return self._jobs.put(lambda: self._publishers.advertise(wanted))
 
-    def publish(self, outlet: Outlet, cdr: bytes) -> Future[int]:
+    def publish(self, advertisement: Advertisement, cdr: bytes) -> Future[int]:
         """Publish a message; the number of matched subscriptions."""
-        return self._jobs.put(lambda: self._publishers.publish(outlet, cdr))
+        return self._jobs.put(lambda: self._publishers.publish(advertisement, cdr))
 
     def call(self, service: str, type: str, request: bytes, timeout_s: float) -> Future[bytes]:
         """Call a service; the serialised response."""

@@ -11,13 +11,13 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 from webviz.ros.qos import NO_EVENTS_OF_PUBLISHERS
 from webviz.ros.types import MessageTypeError, message_class
-from webviz.sources.graph import Outlet
+from webviz.sources.graph import Advertisement
 
 MAX_PUBLISHERS = 100
 
 
-class OutletPublishers:
-    """Publishers by outlet, made when they are needed. All calls come from the node's thread.
+class AdvertisedPublishers:
+    """Publishers by advertisement, made when needed; all calls come from the node's thread.
 
     Args:
         node: that has them.
@@ -25,41 +25,41 @@ class OutletPublishers:
 
     def __init__(self, node: Node) -> None:
         self._node = node
-        self._publishers: dict[Outlet, Publisher] = {}
-        self._advertised: frozenset[Outlet] = frozenset()
+        self._publishers: dict[Advertisement, Publisher] = {}
+        self._advertised: frozenset[Advertisement] = frozenset()
 
-    def advertise(self, outlets: Collection[Outlet]) -> None:
+    def advertise(self, advertisements: Collection[Advertisement]) -> None:
         """Create these ahead of their first messages, and destroy the ones advertised before."""
-        before, self._advertised = self._advertised, frozenset(outlets)
-        for outlet in before - self._advertised:
-            self._destroy(outlet)
-        for outlet in self._advertised:
+        before, self._advertised = self._advertised, frozenset(advertisements)
+        for advertisement in before - self._advertised:
+            self._destroy(advertisement)
+        for advertisement in self._advertised:
             with contextlib.suppress(MessageTypeError):  # reported by `publish`
-                self._find(outlet)
+                self._find(advertisement)
 
-    def publish(self, outlet: Outlet, cdr: bytes) -> int:
+    def publish(self, advertisement: Advertisement, cdr: bytes) -> int:
         """Publish a message; the number of matched subscriptions."""
-        publisher = self._find(outlet)
+        publisher = self._find(advertisement)
         publisher.publish(cdr)
         return publisher.get_subscription_count()
 
-    def _find(self, outlet: Outlet) -> Publisher:
-        if outlet not in self._publishers:
+    def _find(self, advertisement: Advertisement) -> Publisher:
+        if advertisement not in self._publishers:
             for _ in range(len(self._publishers) - MAX_PUBLISHERS + 1):
                 self._destroy(next(iter(self._publishers)))
             profile = QoSProfile(
-                depth=outlet.depth,
-                reliability=ReliabilityPolicy[outlet.reliability.upper()],
-                durability=DurabilityPolicy[outlet.durability.upper()],
+                depth=advertisement.depth,
+                reliability=ReliabilityPolicy[advertisement.reliability.upper()],
+                durability=DurabilityPolicy[advertisement.durability.upper()],
             )
-            self._publishers[outlet] = self._node.create_publisher(
-                message_class(outlet.type),
-                outlet.topic,
+            self._publishers[advertisement] = self._node.create_publisher(
+                message_class(advertisement.type),
+                advertisement.topic,
                 profile,
                 event_callbacks=NO_EVENTS_OF_PUBLISHERS,
             )
-        return self._publishers[outlet]
+        return self._publishers[advertisement]
 
-    def _destroy(self, outlet: Outlet) -> None:
-        if publisher := self._publishers.pop(outlet, None):
+    def _destroy(self, advertisement: Advertisement) -> None:
+        if publisher := self._publishers.pop(advertisement, None):
             self._node.destroy_publisher(publisher)

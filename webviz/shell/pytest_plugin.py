@@ -6,6 +6,7 @@ pytest imports this module whenever webviz is installed, so fixtures import the 
 from __future__ import annotations
 
 import contextlib
+import warnings
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,11 +17,11 @@ if TYPE_CHECKING:
     from webviz.api.display import Display
     from webviz.api.views import View
     from webviz.files.config import Config
-    from webviz.shell.testing.darkroom import Darkroom, Size
+    from webviz.shell.testing.harness import Harness
     from webviz.shell.testing.live import LiveViewer
-    from webviz.shell.testing.pictures import Photographer
+    from webviz.shell.testing.pictures import SnapshotFixture
     from webviz.shell.testing.recording import RecordingScene
-    from webviz.shell.testing.stage import Stage
+    from webviz.shell.testing.shared_renderer import SharedRenderer, Size
 
 SIZE = (400, 300)
 """Width and height of pictures in pixels."""
@@ -52,13 +53,13 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 @pytest.fixture(scope="session")
-def webviz_darkroom() -> Iterator[Darkroom]:
+def webviz_renderer() -> Iterator[SharedRenderer]:
     """The browser of all pictures, launched for the first one."""
-    from webviz.shell.testing.darkroom import Darkroom
+    from webviz.shell.testing.shared_renderer import SharedRenderer
 
-    darkroom = Darkroom()
-    yield darkroom
-    darkroom.close()
+    shared_renderer = SharedRenderer()
+    yield shared_renderer
+    shared_renderer.close()
 
 
 @pytest.fixture(scope="session")
@@ -71,30 +72,37 @@ def webviz_domain() -> Iterator[int]:
 
 
 @pytest.fixture
-def webviz_stage(
-    webviz_darkroom: Darkroom, request: pytest.FixtureRequest
-) -> Iterator[Callable[..., Stage]]:
-    """Creates viewers without ROS: `webviz_stage("my.yaml")` or `webviz_stage(Grid(), Map())`.
+def webviz_harness(
+    webviz_renderer: SharedRenderer, request: pytest.FixtureRequest
+) -> Iterator[Callable[..., Harness]]:
+    """Creates viewers without ROS: `webviz_harness("my.yaml")` or `webviz_harness(Grid(), Map())`.
 
     Keyword arguments: `view`, `fixed_frame`, `size` of pictures.
     """
     with contextlib.ExitStack() as stack:
 
-        def make(*what: str | Path | Display, **options: Any) -> Stage:
-            from webviz.shell.testing.stage import Stage
+        def make(*what: str | Path | Display, **options: Any) -> Harness:
+            from webviz.shell.testing.harness import Harness
 
-            config, scene, photographer = _set_up(webviz_darkroom, request, what, **options)
-            stage = Stage(config, scene, photographer)
-            stack.callback(webviz_darkroom.forget, scene)
-            stack.callback(stage.close)
-            return stage
+            config, scene, snapshot = _set_up(webviz_renderer, request, what, **options)
+            harness = Harness(config, scene, snapshot)
+            stack.callback(webviz_renderer.forget, scene)
+            stack.callback(harness.close)
+            return harness
 
         yield make
 
 
 @pytest.fixture
+def webviz_stage(webviz_harness: Callable[..., Harness]) -> Callable[..., Harness]:
+    """The former name of `webviz_harness`."""
+    warnings.warn("webviz_stage is webviz_harness now.", DeprecationWarning, stacklevel=2)
+    return webviz_harness
+
+
+@pytest.fixture
 def webviz_viewer(
-    webviz_darkroom: Darkroom, webviz_domain: int, request: pytest.FixtureRequest
+    webviz_renderer: SharedRenderer, webviz_domain: int, request: pytest.FixtureRequest
 ) -> Iterator[Callable[..., LiveViewer]]:
     """Creates viewers on an isolated ROS domain: `webviz_viewer("my.yaml", simulator=True)`.
 
@@ -110,10 +118,10 @@ def webviz_viewer(
         ) -> LiveViewer:
             from webviz.shell.testing.live import LiveViewer
 
-            config, scene, photographer = _set_up(webviz_darkroom, request, what, **options)
+            config, scene, snapshot = _set_up(webviz_renderer, request, what, **options)
             parameters = None if simulator is False else {} if simulator is True else simulator
-            viewer = LiveViewer(config, scene, photographer, webviz_domain, parameters)
-            stack.callback(webviz_darkroom.forget, scene)
+            viewer = LiveViewer(config, scene, snapshot, webviz_domain, parameters)
+            stack.callback(webviz_renderer.forget, scene)
             stack.callback(viewer.close)
             return viewer
 
@@ -121,15 +129,15 @@ def webviz_viewer(
 
 
 def _set_up(
-    darkroom: Darkroom,
+    shared_renderer: SharedRenderer,
     request: pytest.FixtureRequest,
     what: tuple[str | Path | Display, ...],
     view: View | None = None,
     fixed_frame: str | None = None,
     size: Size = SIZE,
-) -> tuple[Config, RecordingScene, Photographer]:
+) -> tuple[Config, RecordingScene, SnapshotFixture]:
     """The config, scene and photographer of a viewer."""
-    from webviz.shell.testing.pictures import Album, Photographer
+    from webviz.shell.testing.pictures import ReferenceImages, SnapshotFixture
     from webviz.shell.testing.recording import RecordingScene
 
     config = _config(what, request.path.parent)
@@ -137,7 +145,7 @@ def _set_up(
         config.settings.fixed_frame = fixed_frame
     options, root = request.config, request.config.rootpath
     pictures = str(options.getini("webviz_pictures"))
-    album = Album(
+    album = ReferenceImages(
         root / pictures if pictures else request.path.parent / "pictures",
         root / str(options.getini("webviz_output")),
         root,
@@ -146,7 +154,11 @@ def _set_up(
         size,
     )
     scene = RecordingScene()
-    return config, scene, Photographer(scene, darkroom, album, view or config.settings.view)
+    return (
+        config,
+        scene,
+        SnapshotFixture(scene, shared_renderer, album, view or config.settings.view),
+    )
 
 
 def _config(what: tuple[str | Path | Display, ...], folder: Path) -> Config:

@@ -12,7 +12,7 @@ import msgspec
 from msgspec import inspect
 
 from webviz import page
-from webviz.page.acts import form_of
+from webviz.page.dispatcher import form_of
 from webviz.scene import holding
 from webviz.scene.constants import CONSTANTS
 from webviz.server.access.rules import COMMANDS

@@ -2,12 +2,13 @@
 
 from webviz.api.offer import Offer, Publisher
 from webviz.sources.gate import AllowList, Gate, Rights
-from webviz.sources.graph import Goal, Graph, Missing, NotConnected, Outlet, ReadOnly
+from webviz.sources.graph import Advertisement, Goal, Graph, Missing, NotConnected, ReadOnly
 from webviz.sources.inbox import Inbox, Raw
 from webviz.sources.source import Source, Subscription, merged
 from webviz.sources.subscriber import Subscriber
 
 __all__ = [
+    "Advertisement",
     "AllowList",
     "Gate",
     "Goal",
@@ -16,7 +17,6 @@ __all__ = [
     "Missing",
     "NotConnected",
     "Offer",
-    "Outlet",
     "Publisher",
     "Raw",
     "ReadOnly",

@@ -9,7 +9,7 @@ from collections.abc import Callable, Collection
 from concurrent.futures import Future
 from dataclasses import dataclass
 
-from webviz.sources.graph import Goal, Graph, Outlet, ReadOnly
+from webviz.sources.graph import Advertisement, Goal, Graph, ReadOnly
 from webviz.sources.source import Source
 
 ALL = "webviz_all"
@@ -109,28 +109,28 @@ class Gate:
         )
 
     def advertise(
-        self, outlets: Collection[Outlet], stopping: Collection[Outlet] = ()
+        self, advertisements: Collection[Advertisement], stopping: Collection[Advertisement] = ()
     ) -> Future[None]:
         """Make the advertised publishers these, without those that are refused.
 
         Args:
-            outlets: to advertise.
+            advertisements: to advertise.
             stopping: which of them stay although they are refused, see `halt`.
         """
         allowed = {
-            outlet
-            for outlet in outlets
-            if outlet in stopping or not self.lasting_refusal(outlet.topic)
+            advertisement
+            for advertisement in advertisements
+            if advertisement in stopping or not self.lasting_refusal(advertisement.topic)
         }
         return self._source.graph.advertise(allowed)
 
-    def publish(self, outlet: Outlet, cdr: bytes) -> Future[int]:
+    def publish(self, advertisement: Advertisement, cdr: bytes) -> Future[int]:
         """Publish a message; the number of matched subscriptions."""
-        return self._graph(outlet.topic).publish(outlet, cdr)
+        return self._graph(advertisement.topic).publish(advertisement, cdr)
 
-    def halt(self, outlet: Outlet, cdr: bytes) -> Future[int]:
+    def halt(self, advertisement: Advertisement, cdr: bytes) -> Future[int]:
         """Publish a zero that stops what was driven, even if that is refused by now."""
-        return self._source.graph.publish(outlet, cdr)
+        return self._source.graph.publish(advertisement, cdr)
 
     def call(self, service: str, type: str, request: bytes, timeout_s: float) -> Future[bytes]:
         """Call a service; the serialised response."""

@@ -29,7 +29,7 @@ class Missing(NotConnected):
 
 
 @dataclass(frozen=True)
-class Outlet:
+class Advertisement:
     """A topic to publish, with its type and the offered QoS.
 
     Args:
@@ -70,14 +70,14 @@ class Graph(Protocol):
     Futures raise `NotConnected`. Bytes are CDR with the encapsulation header.
     """
 
-    def advertise(self, outlets: Collection[Outlet]) -> Future[None]:
+    def advertise(self, advertisements: Collection[Advertisement]) -> Future[None]:
         """Make the advertised publishers exactly these.
 
         Subscriptions match an advertised publisher before its first message.
         """
         ...
 
-    def publish(self, outlet: Outlet, cdr: bytes) -> Future[int]:
+    def publish(self, advertisement: Advertisement, cdr: bytes) -> Future[int]:
         """Publish a message; the number of matched subscriptions."""
         ...
 
@@ -114,11 +114,11 @@ class ReadOnly:
     def __init__(self, reason: str) -> None:
         self.reason = reason
 
-    def advertise(self, outlets: Collection[Outlet]) -> Future[None]:
+    def advertise(self, advertisements: Collection[Advertisement]) -> Future[None]:
         """Refuse."""
         return _failed(self.reason)
 
-    def publish(self, outlet: Outlet, cdr: bytes) -> Future[int]:
+    def publish(self, advertisement: Advertisement, cdr: bytes) -> Future[int]:
         """Refuse."""
         return _failed(self.reason)
 

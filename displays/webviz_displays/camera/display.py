@@ -11,7 +11,7 @@ import msgspec
 
 from webviz import Context, Input, Pane, Pose, Prop, Sample, Topic
 from webviz.api.frames import compose
-from webviz.api.pictures import Encoded, Pixels, Sight, Warp
+from webviz.api.pictures import Encoded, OverlayCamera, Pixels, Warp
 from webviz.data.images import CameraModel, ImageError, Lens, optical_problem
 from webviz_displays.camera.infos import Infos
 from webviz_displays.image.base import ImageDisplay, ImageState
@@ -119,7 +119,7 @@ class Camera(ImageDisplay):
 
     def _sight(
         self, picture: Pixels | Encoded, image: Sample, pose: Pose, ctx: Context
-    ) -> Sight | None:
+    ) -> OverlayCamera | None:
         """Return the overlay camera for the scene, None without a camera info."""
         try:
             info, late = ctx.state.infos.of(image.stamp_ns)
@@ -138,7 +138,7 @@ class Camera(ImageDisplay):
         warp, remark = self._warp(info, whole, picture.size, ctx.state)
         self._report(picture, model, late, image.frame, remark, ctx)
         eye = compose(pose, Pose((*whole.center, 0.0)))
-        return Sight(
+        return OverlayCamera(
             eye.position,
             eye.wxyz,
             (whole.width, whole.height),

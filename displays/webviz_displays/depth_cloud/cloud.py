@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from webviz.api.decoded import opened
 from webviz.api.pictures import Encoded
-from webviz.api.stills import opened
 from webviz.data.images import CameraModel, ImageError, RawImage, Tone, decoding, to_rgb, values
 from webviz.data.memory import DECODING, OverBudgetError
 from webviz.data.words import counted

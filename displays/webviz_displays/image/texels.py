@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from webviz.api.decoded import opened
 from webviz.api.pictures import Encoded, Pixels
-from webviz.api.stills import opened
 from webviz.data.images import render
 
 MAX_TEXELS = 320

@@ -7,8 +7,8 @@ import zlib
 import numpy as np
 from numpy.typing import NDArray
 
+from webviz.api.decoded import PIXEL_BYTES, opened
 from webviz.api.pictures import Encoded
-from webviz.api.stills import PIXEL_BYTES, opened
 from webviz.data.images import ImageError, decoding, inspect_compressed, open_compressed
 from webviz.data.images.compressed import read_png16
 from webviz.data.images.rvl import decode_rvl

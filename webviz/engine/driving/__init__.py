@@ -1,6 +1,6 @@
 """Driving: set-points of browsers become velocity commands, beside the frame loop."""
 
-from webviz.engine.driving.helm import HelmAnswer
-from webviz.engine.driving.helms import Helms
+from webviz.engine.driving.velocity_controller import DrivingAnswer
+from webviz.engine.driving.velocity_controllers import VelocityControllers
 
-__all__ = ["HelmAnswer", "Helms"]
+__all__ = ["DrivingAnswer", "VelocityControllers"]

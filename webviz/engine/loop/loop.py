@@ -16,7 +16,7 @@ from webviz.engine.commands import PROGRAM, Command, Sender
 from webviz.engine.commands.guard import Guard
 from webviz.engine.commands.requests import Requests
 from webviz.engine.doctor import Doctor
-from webviz.engine.driving import Helms
+from webviz.engine.driving import VelocityControllers
 from webviz.engine.loop.arrivals import Arrivals
 from webviz.engine.loop.showing import Showing
 from webviz.engine.parts import Core, Part, Parts
@@ -45,7 +45,7 @@ from webviz.engine.pipeline.point_budget import PointBudget
 from webviz.engine.pipeline.scene import Scene
 from webviz.engine.playback import Playable, PlaybackControl
 from webviz.engine.state import State
-from webviz.engine.state.settled import settled
+from webviz.engine.state.memoizing import reuse_unchanged
 from webviz.engine.state.statuses import failures
 from webviz.files.config import Config, Settings
 from webviz.sources import Gate, Rights, Source
@@ -143,15 +143,20 @@ class FrameLoop:
         self._owed: list[Callable[[], None]] = []
         displays = self._displays = DisplaysPart(core, services)
         settings = self._settings = SettingsPart(core)
-        self.helms = Helms(gate, live_ns)
+        self.controllers = VelocityControllers(gate, live_ns)
         """Of the vehicles that tools drive; they do not wait for the loop."""
         self._playback = PlaybackPart(
-            core, settings, control, self._time.start_over, self.helms.halt, autoplay
+            core, settings, control, self._time.start_over, self.controllers.halt, autoplay
         )
         views = ViewsPart(core, settings, displays)
         goals = GoalsPart(core)
         panels = PanelsPart(core)
-        tools = ToolsPart(core, goals, self.helms, lambda: {*displays.outlets(), *panels.outlets()})
+        tools = ToolsPart(
+            core,
+            goals,
+            self.controllers,
+            lambda: {*displays.advertisements(), *panels.advertisements()},
+        )
         files = self._files = FilesPart(
             core, displays, settings, views, tools.list, panels.list, config, path
         )
@@ -167,7 +172,7 @@ class FrameLoop:
             tools,
             panels,
             goals,
-            DrivingPart(core, self.helms, tools.odometry),
+            DrivingPart(core, self.controllers, tools.odometry),
             files,
             history,
             TopicsPart(core),
@@ -214,7 +219,7 @@ class FrameLoop:
 
     def stop(self) -> None:
         """End `run`, from any thread or a signal handler."""
-        self.helms.stop()
+        self.controllers.stop()
         self._stop.set()
         self._wake()
 
@@ -235,7 +240,7 @@ class FrameLoop:
 
     def close(self) -> None:
         """Stop all vehicles, and end all threads and autosave."""
-        self.helms.close()
+        self.controllers.close()
         self._requests.end()
         self._parts.close()
         self._workers.close()
@@ -295,7 +300,7 @@ class FrameLoop:
         return self._files.config()
 
     def _show_state(self) -> None:
-        self._shown = settled(self.state(), self._shown)
+        self._shown = reuse_unchanged(self.state(), self._shown)
         self._show(self._shown)
 
     def _move_on(self) -> None:

@@ -51,7 +51,7 @@ class Comparison:
         self._next = self._core.clock() + EVERY_S
         for runner in self._displays.runners():
             for key in (ON_MAP, ON_WAY):
-                runner.remarks.pop(key, None)
+                runner.external_statuses.pop(key, None)
         self.fits, self.blocked = {}, {}
         if self._core.is_watched():
             self._compare()
@@ -73,7 +73,7 @@ class Comparison:
         is_placed = any(found and found[0].is_good for found in fits)
         for (runner, hits), found in zip(scans, fits, strict=True):
             if found is not None:
-                runner.remarks[ON_MAP] = _status(*found, hits, is_placed)
+                runner.external_statuses[ON_MAP] = _status(*found, hits, is_placed)
                 best, walls = found
                 self.fits[runner.id] = MapFit(best, hits.frame, walls.topic, walls.frame, is_placed)
             if found is None or found[0].is_good:
@@ -82,7 +82,7 @@ class Comparison:
             if (count := sum(self._in_the_way(hits, way) for hits in trusted)) >= FEWEST:
                 age_s = (self._core.now_ns - way.received_ns) / 1e9
                 self.blocked[runner.id] = count
-                runner.remarks[ON_WAY] = Status(Level.WARN, _blocked(count, age_s))
+                runner.external_statuses[ON_WAY] = Status(Level.WARN, _blocked(count, age_s))
 
     def _on_map(self, hits: Hits, maps: list[Walls]) -> tuple[Fit, Walls] | None:
         """Return the fit of a scan to the best map; None if it is unknown."""

@@ -21,11 +21,11 @@ def copy_of(item: Item, names: set[str]) -> Item:
         item: to copy.
         names: of all displays.
     """
-    twin = _copy(item)
-    if not isinstance(twin, Unreadable):
-        own = twin.group if isinstance(twin, Branch) else twin
+    copied = _copy(item)
+    if not isinstance(copied, Unreadable):
+        own = copied.group if isinstance(copied, Branch) else copied
         own.name = _fresh(own.name, names)
-    return twin
+    return copied
 
 
 def _copy(item: Item) -> Item:

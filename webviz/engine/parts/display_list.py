@@ -85,10 +85,10 @@ class DisplayList:
         self._make_room(len(self.within(id)))
         names = {entry.declared.name for entry in self._entries}
         copied = copy_of(self._item(original), names)
-        twin, *_ = self.add([copied], original.parent)
+        copied, *_ = self.add([copied], original.parent)
         siblings = [entry for entry in self._entries if entry.parent is original.parent]
-        self.move(twin.id, _id(original.parent), siblings[siblings.index(original) + 1].id)
-        return twin
+        self.move(copied.id, _id(original.parent), siblings[siblings.index(original) + 1].id)
+        return copied
 
     def move(self, id: str, group: str = "", before: str = "") -> None:
         """Move a display, or a group with its contents.

@@ -28,7 +28,7 @@ from webviz.engine.parts.display_rows import rows
 from webviz.engine.parts.part import Batches, Core, Handler, Part
 from webviz.engine.pipeline import Runner, Services
 from webviz.files.config import ConfigError, mistakes, nearest, sentences
-from webviz.sources import Outlet, Subscription, merged
+from webviz.sources import Advertisement, Subscription, merged
 
 UNSEEN = Status(
     Level.IDLE,
@@ -70,9 +70,13 @@ class DisplaysPart(Part):
         active = self.list.active()
         return merged(each.subscriptions() for each in active if not self._is_unseen(each))
 
-    def outlets(self) -> set[Outlet]:
+    def advertisements(self) -> set[Advertisement]:
         """Return the publishers of the displays."""
-        return {outlet for runner in self.list.active() for outlet in runner.outlets()}
+        return {
+            advertisement
+            for runner in self.list.active()
+            for advertisement in runner.advertisements()
+        }
 
     def take(self, batches: Batches) -> None:
         """Pass messages to the displays."""
@@ -117,8 +121,8 @@ class DisplaysPart(Part):
         self.list.remove(command.display)
 
     def _duplicate(self, command: DuplicateDisplay, sender: Sender) -> None:
-        if twin := self.list.duplicate(command.display):
-            command.made(twin.id)
+        if copied := self.list.duplicate(command.display):
+            command.made(copied.id)
 
     def _move(self, command: MoveDisplay, sender: Sender) -> None:
         self.list.move(command.display, command.group, command.before)

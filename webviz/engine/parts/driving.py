@@ -9,7 +9,7 @@ from typing import Any
 from webviz.api.declared import Topic
 from webviz.data.messages import MessageError, decode
 from webviz.data.words import joined
-from webviz.engine.driving import Helms
+from webviz.engine.driving import VelocityControllers
 from webviz.engine.parts.part import Batches, Core, Part
 from webviz.engine.state import Driving
 from webviz.sources import Raw, Subscriber, Subscription
@@ -27,17 +27,20 @@ class DrivingPart(Part):
 
     Args:
         core: shared by all parts.
-        helms: of the vehicles.
+        controllers: of the vehicles.
         odometry: the topic of each vehicle's odometry, by id of its tool.
     """
 
     name = "Driving"
 
     def __init__(
-        self, core: Core, helms: Helms, odometry: Callable[[], Mapping[str, Topic]]
+        self,
+        core: Core,
+        controllers: VelocityControllers,
+        odometry: Callable[[], Mapping[str, Topic]],
     ) -> None:
         super().__init__(core)
-        self._helms = helms
+        self._controllers = controllers
         self._odometry = odometry
         self._newest: dict[str, tuple[Raw, float]] = {}
         self._subscriber = Subscriber()
@@ -64,17 +67,17 @@ class DrivingPart(Part):
 
     def state(self) -> Mapping[str, Any]:
         """Return the state of attended vehicles."""
-        drivers, topics = self._helms.drivers(), self._topics()
+        drivers, topics = self._controllers.drivers(), self._topics()
         return {
             "driving": {
                 tool: self._driving(drivers.get(tool), *topics[tool])
-                for tool in self._helms.attended() & topics.keys()
+                for tool in self._controllers.attended() & topics.keys()
             }
         }
 
     def _topics(self) -> dict[str, tuple[str, Topic]]:
         """Full name and QoS of the odometry of attended vehicles, by tool."""
-        attended = self._helms.attended()
+        attended = self._controllers.attended()
         found = {}
         for tool, topic in self._odometry().items() if attended else ():
             if tool in attended and topic.name:

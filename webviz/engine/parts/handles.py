@@ -71,12 +71,15 @@ class HandlesPart(Part):
 
     def state(self) -> Mapping[str, Any]:
         """All handles, with the browsers that hold them."""
-        holders = {place: hold.browser for place, hold in self._holds.items()}
-        of = [(runner.id, runner.handles()) for runner in self._displays.list.active()], holders
+        sample_buffers = {place: hold.browser for place, hold in self._holds.items()}
+        of = (
+            [(runner.id, runner.handles()) for runner in self._displays.list.active()],
+            sample_buffers,
+        )
         if self._found_of != of:  # quick, as unchanged handles are the same mapping
             self._found_of = of
             self._found = {
-                (display, key): (handle, holders.get((display, key)))
+                (display, key): (handle, sample_buffers.get((display, key)))
                 for display, handles in of[0]
                 for key, handle in handles.items()
             }

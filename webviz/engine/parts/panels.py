@@ -23,12 +23,12 @@ from webviz.engine.commands import (
     Sender,
     SetPanelProperty,
 )
-from webviz.engine.parts.outlets import outlet_of, publish
+from webviz.engine.parts.advertisements import advertisement_of, publish
 from webviz.engine.parts.part import Batches, Core, Handler, Part
 from webviz.engine.parts.plugin_list import PluginList
 from webviz.engine.state import PanelTab
 from webviz.files.config import MAX_PLUGINS, ConfigError, mistakes, nearest, sentences
-from webviz.sources import Outlet, Subscriber, Subscription, merged
+from webviz.sources import Advertisement, Subscriber, Subscription, merged
 
 
 class PanelsPart(Part):
@@ -81,14 +81,18 @@ class PanelsPart(Part):
         for subscriber in self._subscribers.values():
             subscriber.ask()
 
-    def outlets(self) -> Collection[Outlet]:
+    def advertisements(self) -> Collection[Advertisement]:
         """Where the open panels publish."""
         topics = [
             (type_, Topic(topic))
             for panel in self._panels()
             for topic, type_ in self._topics(panel, "publications").items()
         ]
-        return {outlet for each in topics if (outlet := outlet_of(self.core, *each))}
+        return {
+            advertisement
+            for each in topics
+            if (advertisement := advertisement_of(self.core, *each))
+        }
 
     def state(self) -> Mapping[str, Any]:
         """The tabs."""

@@ -10,7 +10,7 @@ from webviz.api.status import Level, Status
 from webviz.data.words import counted
 from webviz.engine.commands import Command, Pause, Reset, Sender
 from webviz.engine.parts.part import Core, Handler, Part
-from webviz.engine.pipeline.pace import PaceMeter, Rate
+from webviz.engine.pipeline.clock_rate import ClockRateMeter, Rate
 from webviz.engine.pipeline.ros_time import RosTime
 from webviz.engine.playback import PlaybackControl
 from webviz.engine.state import PanelTimes
@@ -32,7 +32,7 @@ class TimePart(Part):
         self._control = control
         self._reset_all = reset
         self._paused_ns: int | None = None
-        self._pace = PaceMeter()
+        self._time_rate = ClockRateMeter()
         self._clock_rate = Rate()
         self._start()
         self.missed = 0
@@ -69,7 +69,7 @@ class TimePart(Part):
             wall_s,
             wall_s - self._began_s,
             is_paused,
-            self._pace.step(ros_ns, wall_s, is_paused),
+            self._time_rate.step(ros_ns, wall_s, is_paused),
             messages is not None,
             self._clock_rate.step(messages or 0, self.core.clock()),
         )

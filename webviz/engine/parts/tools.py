@@ -17,15 +17,15 @@ from webviz.api.tool import Stroke, Tool, ToolContext, outputs
 from webviz.api.vehicle import Vehicle
 from webviz.data.transforms.geometry import REACH_M
 from webviz.engine.commands import Command, Sender, SetToolProperty, UseTool
-from webviz.engine.driving import Helms
+from webviz.engine.driving import VelocityControllers
+from webviz.engine.parts.advertisements import advertisement_of
+from webviz.engine.parts.advertisements import publish as publish_on
 from webviz.engine.parts.goals import GoalsPart
-from webviz.engine.parts.outlets import outlet_of
-from webviz.engine.parts.outlets import publish as publish_on
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.parts.plugin_list import PluginList
 from webviz.engine.state import ToolButton
 from webviz.files.config import ConfigError
-from webviz.sources import Outlet
+from webviz.sources import Advertisement
 
 log = logging.getLogger("webviz")
 
@@ -41,7 +41,7 @@ class ToolsPart(Part):
     Args:
         core: shared by all parts.
         goals: takes the goals of tools.
-        helms: of the vehicles that tools drive.
+        controllers: of the vehicles that tools drive.
         others: what else is to be advertised.
     """
 
@@ -51,15 +51,15 @@ class ToolsPart(Part):
         self,
         core: Core,
         goals: GoalsPart,
-        helms: Helms,
-        others: Callable[[], Collection[Outlet]],
+        controllers: VelocityControllers,
+        others: Callable[[], Collection[Advertisement]],
     ) -> None:
         super().__init__(core)
         self._goals = goals
-        self._helms = helms
+        self._controllers = controllers
         self._others = others
         self.list = PluginList(Tool)
-        self._advertised: set[Outlet] = set()
+        self._advertised: set[Advertisement] = set()
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
@@ -76,16 +76,18 @@ class ToolsPart(Part):
 
         Those of vehicles only while browsers attend to them: it is the robot's own topic.
         """
-        vehicles: dict[str, tuple[Vehicle, Outlet]] = {}
+        vehicles: dict[str, tuple[Vehicle, Advertisement]] = {}
         wanted = set(self._others())
         for id, tool in self.list.usable().items():
             if (vehicle := tool.vehicle) is None:
-                wanted.update(self._outlets(tool))
-            elif outlet := outlet_of(self.core, vehicle.type, vehicle.topic, DRIVING_DEPTH):
-                vehicles[id] = vehicle, outlet
-        self._helms.equip(vehicles)
-        wanted |= self._helms.outlets()
-        stopping = self._helms.stopping()
+                wanted.update(self._advertisements(tool))
+            elif advertisement := advertisement_of(
+                self.core, vehicle.type, vehicle.topic, DRIVING_DEPTH
+            ):
+                vehicles[id] = vehicle, advertisement
+        self._controllers.equip(vehicles)
+        wanted |= self._controllers.advertisements()
+        stopping = self._controllers.stopping()
         gate = self.core.gate
         wanted = {each for each in wanted if not gate.lasting_refusal(each.topic)} | stopping
         if wanted != self._advertised:
@@ -138,17 +140,19 @@ class ToolsPart(Part):
 
     def _refusal(self, tool: Tool) -> str:
         """Why a tool can send nothing, "" if it can or is not known to send anything."""
-        names = [outlet.topic for outlet in self._outlets(tool)]
+        names = [advertisement.topic for advertisement in self._advertisements(tool)]
         for name in tool.uses:
             with contextlib.suppress(ValueError):
                 names.append(self.core.source.resolve(name))
         refusals = [self.core.gate.refusal(name) for name in names]
         return refusals[0] if refusals and all(refusals) else ""
 
-    def _outlets(self, tool: Tool) -> list[Outlet]:
-        """The outlets of a tool whose topics have valid names."""
-        found = [outlet_of(self.core, output.type, topic) for _, output, topic in outputs(tool)]
-        return [outlet for outlet in found if outlet]
+    def _advertisements(self, tool: Tool) -> list[Advertisement]:
+        """The advertisements of a tool whose topics have valid names."""
+        found = [
+            advertisement_of(self.core, output.type, topic) for _, output, topic in outputs(tool)
+        ]
+        return [advertisement for advertisement in found if advertisement]
 
     def _set(self, command: SetToolProperty, sender: Sender) -> None:
         self.list.set(command.tool, command.path, command.value)

@@ -12,7 +12,7 @@ from webviz.api.handles import Grip, Handle
 from webviz.engine.commands.guard import Guard
 from webviz.engine.pipeline.services import Services
 from webviz.engine.pipeline.wire import DisplayWire
-from webviz.sources import Offer, Outlet, Raw, Subscription
+from webviz.sources import Advertisement, Offer, Raw, Subscription
 
 UNSEEN_TURNS = 2
 """Turns without drawing, after which no messages are kept: no browser is connected."""
@@ -57,9 +57,9 @@ class Gripping:
         """The names of these topics."""
         return self._wire.topics() if self._wire else ()
 
-    def outlets(self) -> list[Outlet]:
+    def advertisements(self) -> list[Advertisement]:
         """Return the publishers of the display."""
-        return self._wire.outlets() if self._wire else []
+        return self._wire.advertisements() if self._wire else []
 
     def followed(self) -> set[str]:
         """The frames whose poses `talk` needs."""

@@ -14,7 +14,12 @@ from webviz.api.status import Level, Status
 from webviz.data.transforms.reasons import in_words
 from webviz.data.words import counted
 from webviz.engine.commands.guard import Guard
-from webviz.engine.pipeline.intake import PATIENCE_S, Arrival, Intake, intakes_of
+from webviz.engine.pipeline.input_subscription import (
+    PATIENCE_S,
+    Arrival,
+    InputSubscription,
+    input_subscriptions_of,
+)
 from webviz.engine.pipeline.synchronizer import Gap, Synchronizer
 from webviz.sources import Offer, Raw, Subscriber, Subscription, merged
 
@@ -32,7 +37,7 @@ class Inputs:
     """
 
     def __init__(self, display: Display, guard: Guard, resolve: Callable[[str], str]) -> None:
-        self.intakes = intakes_of(display, resolve)
+        self.input_subscriptions = input_subscriptions_of(display, resolve)
         self._subscriber = Subscriber()
         self._synchronizer: Synchronizer[Arrival] | None = None
         self._waiting_since: float | None = None
@@ -47,12 +52,12 @@ class Inputs:
     def subscriptions(self) -> dict[str, Subscription]:
         """The subscriptions by topic."""
         wanted: dict[str, Subscription] = {}
-        for name, intake in self.active().items():
-            if intake.name and intake.type:
+        for name, input_subscription in self.active().items():
+            if input_subscription.name and input_subscription.type:
                 is_placed = self.waits(name)
-                lookback = self._lookback(name, intake, is_placed)
-                own = intake.subscription(lookback, is_placed)
-                wanted = dict(merged([wanted, {intake.name: own}]))
+                lookback = self._lookback(name, input_subscription, is_placed)
+                own = input_subscription.subscription(lookback, is_placed)
+                wanted = dict(merged([wanted, {input_subscription.name: own}]))
         return self._subscriber.subscribe(wanted)
 
     def ask(self) -> None:
@@ -61,11 +66,11 @@ class Inputs:
 
     def topics(self) -> list[str]:
         """The full names of the topics."""
-        return [intake.name for intake in self.intakes.values()]
+        return [input_subscription.name for input_subscription in self.input_subscriptions.values()]
 
     def is_waiting(self) -> bool:
         """Return whether the newest message of an input waits for its transform."""
-        return any(intake.is_waiting for intake in self.active().values())
+        return any(input_subscription.is_waiting for input_subscription in self.active().values())
 
     def waits(self, name: str) -> bool:
         """Return whether messages of an input wait for the transform at their stamp."""
@@ -73,8 +78,8 @@ class Inputs:
 
     def reset(self) -> None:
         """Discard waiting messages."""
-        for intake in self.intakes.values():
-            intake.reset()
+        for input_subscription in self.input_subscriptions.values():
+            input_subscription.reset()
         self.ask()
         self._synchronizer = self._waiting_since = None
 
@@ -89,9 +94,14 @@ class Inputs:
         active = self.active()
         arrived: list[tuple[str, Arrival]] = []
         duration_ns = self._duration_ns if self._sweep else None
-        for name, intake in active.items():
-            raws, offer = batches.get(intake.name, ()), offers.get(intake.name)
-            arrivals = intake.take(raws, frames, offer, clock, self.waits(name), duration_ns)
+        for name, input_subscription in active.items():
+            raws, offer = (
+                batches.get(input_subscription.name, ()),
+                offers.get(input_subscription.name),
+            )
+            arrivals = input_subscription.take(
+                raws, frames, offer, clock, self.waits(name), duration_ns
+            )
             arrived += [(name, arrival) for arrival in arrivals]
         arrived.sort(key=lambda item: item[1].raw.received_ns)
         synchronizer = self._synchronizer = self._renewed(active)
@@ -118,25 +128,33 @@ class Inputs:
         """Statuses of topics, messages, transforms and stamps."""
         result: dict[str, Status] = {}
         active = self.active()
-        for name, intake in active.items():
-            if self._is_replaced(intake, offers.get(intake.name)):
+        for name, input_subscription in active.items():
+            if self._is_replaced(input_subscription, offers.get(input_subscription.name)):
                 continue
-            said = intake.statuses(offers, dropped(intake.name), frames, clock)
+            said = input_subscription.statuses(
+                offers, dropped(input_subscription.name), frames, clock
+            )
             title = "" if name == "topic" else f" ({name})"
             result |= {f"{key}{title}": status for key, status in said.items()}
         if status := self._sync_status(clock):
             result["Sync"] = status
         return result
 
-    def _lookback(self, name: str, intake: Intake, is_placed: bool) -> Lookback:
+    def _lookback(
+        self, name: str, input_subscription: InputSubscription, is_placed: bool
+    ) -> Lookback:
         """The declared lookback of an input, and the messages that wait for others."""
         lookback = self._guard("lookback", self._display.lookback, name)
         if not isinstance(lookback, Lookback):
             return Lookback()
-        since = self.intakes[lookback.since].name if lookback.since in self.intakes else ""
+        since = (
+            self.input_subscriptions[lookback.since].name
+            if lookback.since in self.input_subscriptions
+            else ""
+        )
         count, sync = lookback.count, type(self._display).sync
         if count and is_placed:
-            count += intake.topic.filter_size
+            count += input_subscription.topic.filter_size
         if count and sync and name in sync.inputs:
             count += sync.queue_size
         return replace(lookback, count=count, since=since)
@@ -145,21 +163,23 @@ class Inputs:
         duration_ns = self._sweep and self._guard("duration", self._sweep.duration_ns, message)
         return duration_ns if isinstance(duration_ns, int) else 0
 
-    def _is_replaced(self, intake: Intake, offer: Offer | None) -> bool:
+    def _is_replaced(self, input_subscription: InputSubscription, offer: Offer | None) -> bool:
         """Return whether nobody publishes an input, but another one that serves as well."""
-        other = self.intakes.get(intake.spec.unless)
-        is_silent = not intake.has_received and not (offer and offer.publishers)
+        other = self.input_subscriptions.get(input_subscription.spec.unless)
+        is_silent = not input_subscription.has_received and not (offer and offer.publishers)
         return is_silent and other is not None and other.has_received
 
-    def active(self) -> dict[str, Intake]:
+    def active(self) -> dict[str, InputSubscription]:
         """The intakes that the display listens to, by input."""
         if not overrides(self._display, "listens"):
-            return self.intakes
+            return self.input_subscriptions
         listens = self._display.listens
-        active = {name: self._guard("listens", listens, name) for name in self.intakes}
-        return {name: i for name, i in self.intakes.items() if active[name] is not False}
+        active = {name: self._guard("listens", listens, name) for name in self.input_subscriptions}
+        return {
+            name: i for name, i in self.input_subscriptions.items() if active[name] is not False
+        }
 
-    def _renewed(self, active: Mapping[str, Intake]) -> Synchronizer[Arrival] | None:
+    def _renewed(self, active: Mapping[str, InputSubscription]) -> Synchronizer[Arrival] | None:
         """The synchronizer of the inputs that currently take part."""
         sync = type(self._display).sync
         if sync is None:
@@ -183,7 +203,7 @@ class Inputs:
             return None
         gap, since = synchronizer.gap(), self._waiting_since
         is_late = since is not None and clock - since > PATIENCE_S
-        if gap and is_late and not self.intakes[gap.missing].is_waiting:
+        if gap and is_late and not self.input_subscriptions[gap.missing].is_waiting:
             return Status(Level.WARN, self._waiting_for(gap, sync))
         if not synchronizer.sets:
             return None
@@ -210,4 +230,4 @@ class Inputs:
     def _title(self, name: str) -> str:
         """Type and topic of an input."""
         type_name = inputs_of(type(self._display))[name].type.rpartition("/")[2]
-        return f"{type_name} on {self.intakes[name].name or 'no topic'}"
+        return f"{type_name} on {self.input_subscriptions[name].name or 'no topic'}"

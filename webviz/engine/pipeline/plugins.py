@@ -80,7 +80,7 @@ def reload(path: Path, runners: Iterable[Runner]) -> None:
     except PluginError as error:
         log.warning("%s Keeping the previous version.", error)
         for runner in own:
-            runner.remarks[STATUS] = Status(Level.ERROR, str(error))
+            runner.external_statuses[STATUS] = Status(Level.ERROR, str(error))
         return
     log.info("Reloaded %s.", path)
     displays = {name: cls for name, cls in types.items() if issubclass(cls, Display)}
@@ -194,17 +194,17 @@ def _line(path: Path, trace: TracebackType | None) -> int | None:
 def _renew(runner: Runner, types: Mapping[str, type[Display]], path: Path) -> None:
     old = runner.display
     name = type(old).__name__
-    runner.remarks.pop(STATUS, None)
+    runner.external_statuses.pop(STATUS, None)
     if name not in types:
         text = f"{path} no longer has a display {name}. Keeping the previous version."
-        runner.remarks[STATUS] = Status(Level.ERROR, text)
+        runner.external_statuses[STATUS] = Status(Level.ERROR, text)
         log.warning("%s (%s)", text, old.name)
         return
     display, lost = made_new(old, types[name])
     runner.replace(display)
     if lost:
         text = f"{path} has changed, values were dropped: {'; '.join(lost)}."
-        runner.remarks[STATUS] = Status(Level.WARN, text)
+        runner.external_statuses[STATUS] = Status(Level.WARN, text)
         log.warning("%s (%s)", text, old.name)
 
 

@@ -20,11 +20,11 @@ from webviz.engine.commands import Picks
 from webviz.engine.commands.guard import Guard
 from webviz.engine.pipeline.gripping import Gripping
 from webviz.engine.pipeline.history import held_samples
-from webviz.engine.pipeline.holder import Holder
-from webviz.engine.pipeline.painter import Painter
 from webviz.engine.pipeline.picking import Found
+from webviz.engine.pipeline.renderer import Renderer
+from webviz.engine.pipeline.sample_buffer import SampleBuffer
 from webviz.engine.pipeline.services import Services
-from webviz.sources import Offer, Outlet, Raw, Subscription, merged
+from webviz.sources import Advertisement, Offer, Raw, Subscription, merged
 
 NOTHING_TO_DRAW = Status(
     Level.WARN,
@@ -45,14 +45,14 @@ class Runner:
     def __init__(self, id: str, display: Display, services: Services) -> None:
         self.id = id
         self.display = display
-        self.remarks: dict[str, Status] = {}
+        self.external_statuses: dict[str, Status] = {}
         """Statuses from elsewhere, shown with those of the display."""
         self._services = services
-        self._painter = Painter(id, services.scene, services.workers, services.points)
+        self._renderer = Renderer(id, services.scene, services.workers, services.points)
         self._gripping = Gripping(id, display, services)
         self._comparable = capability(display, Comparable)
         self._guard = self._new_guard()
-        self._holder = self._new_holder()
+        self._sample_buffer = self._new_sample_buffer()
         self._robot: NamespacedRobot | None = None
         self._known_by: object = None
         """Key by which the robot was found."""
@@ -70,10 +70,10 @@ class Runner:
         set_property(self.display, path, value)
         if topics != {name: topic for name, _, topic in inputs(self.display)}:
             self.reset()
-            self._holder = self._new_holder()
+            self._sample_buffer = self._new_sample_buffer()
         if not self.display.enabled:
             self.hide()
-        self._painter.is_stale = True
+        self._renderer.is_stale = True
 
     def replace(self, display: Display) -> None:
         """Continue as an instance of another class, keeping messages and what is drawn.
@@ -86,48 +86,48 @@ class Runner:
         self._comparable = capability(display, Comparable)
         if _sample_source(old) != _sample_source(display):
             self.reset()
-            self._holder = self._new_holder()
+            self._sample_buffer = self._new_sample_buffer()
         else:
-            self._holder.replace(display, self._guard)
-        self._painter.replace(display)
+            self._sample_buffer.replace(display, self._guard)
+        self._renderer.replace(display)
 
     @property
     def order(self) -> int:
         """Place of the display in the list of displays."""
-        return self._painter.order
+        return self._renderer.order
 
     @order.setter
     def order(self, order: int) -> None:
-        self._painter.is_stale |= order != self._painter.order
-        self._painter.order = order
+        self._renderer.is_stale |= order != self._renderer.order
+        self._renderer.order = order
 
     def hide(self) -> None:
         """Draw nothing until the next call of `draw`; messages are kept, latched ones read anew."""
-        self._holder.inputs.ask()
-        self._painter.hide()
+        self._sample_buffer.inputs.ask()
+        self._renderer.hide()
         self._gripping.hide()
 
     def subscriptions(self) -> dict[str, Subscription]:
         """The subscriptions by topic, none while the display is disabled."""
         if not self.display.enabled:
             return {}
-        return merged([self._holder.inputs.subscriptions(), self._gripping.subscriptions()])
+        return merged([self._sample_buffer.inputs.subscriptions(), self._gripping.subscriptions()])
 
-    def outlets(self) -> list[Outlet]:
+    def advertisements(self) -> list[Advertisement]:
         """Return the publishers of the display, none while it is disabled."""
-        return self._gripping.outlets() if self.display.enabled else []
+        return self._gripping.advertisements() if self.display.enabled else []
 
     def reset(self) -> None:
         """Discard all messages, such as after a jump of time."""
-        self._holder.reset()
+        self._sample_buffer.reset()
         self._services.tracer.forget(self.id)
-        self._painter.forget()
+        self._renderer.forget()
         self._gripping.hide()
 
     def close(self) -> None:
         """Remove everything from the scene, and end the slow work."""
         self._gripping.hide()
-        self._painter.close()
+        self._renderer.close()
         self._services.tracer.forget(self.id)
 
     # One turn
@@ -137,7 +137,7 @@ class Runner:
     ) -> None:
         """Take the messages of this turn; cheap, also called without browsers."""
         if self.display.enabled:
-            self._guard("take", self._holder.take, batches, self._own(frames), offers)
+            self._guard("take", self._sample_buffer.take, batches, self._own(frames), offers)
             self._gripping.take(batches, offers)
 
     def draw(self, frames: Frames) -> None:
@@ -147,40 +147,42 @@ class Runner:
 
     def is_waiting(self) -> bool:
         """Return whether the newest message of an input waits for its transform."""
-        return self.display.enabled and self._holder.inputs.is_waiting()
+        return self.display.enabled and self._sample_buffer.inputs.is_waiting()
 
     def is_late(self) -> bool:
         """Return whether messages wait until a large one is merged."""
-        return self.display.enabled and bool(self._holder.busy_with)
+        return self.display.enabled and bool(self._sample_buffer.busy_with)
 
     def is_busy(self) -> bool:
         """Return whether the result of slow work is not drawn yet."""
-        is_busy = self._holder.busy_with or self._painter.is_busy() or self._gripping.is_busy()
+        is_busy = (
+            self._sample_buffer.busy_with or self._renderer.is_busy() or self._gripping.is_busy()
+        )
         return self.display.enabled and bool(is_busy)
 
     def followed(self) -> set[str]:
         """The frames whose poses `draw` needs."""
         if not self.display.enabled:
             return set()
-        return self._painter.followed() | self._gripping.followed()
+        return self._renderer.followed() | self._gripping.followed()
 
     def color_scale(self) -> ColorScale | None:
         """Return the range of values that colours stand for, None if none is visible."""
-        return None if self._painter.is_empty() else self._painter.color_scale()
+        return None if self._renderer.is_empty() else self._renderer.color_scale()
 
     def evidence(self, frames: Frames) -> Evidence | None:
         """Return the inputs of the consistency check; None if nothing of it can be seen."""
-        if self._comparable is None or self._painter.is_empty():
+        if self._comparable is None or self._renderer.is_empty():
             return None
-        context = self._painter.context(self.display, self._guard, self._own(frames))
+        context = self._renderer.context(self.display, self._guard, self._own(frames))
         if context is None:
             return None
-        samples = held_samples(self._holder.histories)
+        samples = held_samples(self._sample_buffer.histories)
         return self._guard.attempt("evidence", None, self._comparable.evidence, samples, context)
 
     def observed(self) -> tuple[InputSeen, ...]:
         """Its inputs, as the checks of the doctor see them."""
-        return self._holder.observed()
+        return self._sample_buffer.observed()
 
     # Handles
 
@@ -190,31 +192,31 @@ class Runner:
 
     def grip(self, grip: Grip, frames: Frames) -> None:
         """Let the display take up what a browser does with a handle."""
-        if context := self._painter.context(self.display, self._guard, self._own(frames)):
+        if context := self._renderer.context(self.display, self._guard, self._own(frames)):
             self._gripping.grip(grip, self._guard, context)
 
     # Selection
 
     def remember(self, is_wanted: bool) -> None:
         """Keep what is replaced for some seconds, so that `find` knows what browsers still show."""
-        self._painter.remember(is_wanted)
+        self._renderer.remember(is_wanted)
 
     def offered(self) -> Mapping[str, Mapping[str, int]]:
         """See `Context.offered`."""
-        return self._painter.offered()
+        return self._renderer.offered()
 
     def find(self, picks: Picks) -> dict[int, Found]:
         """Return the items browsers picked, by id; none that was on no recent screen."""
-        return self._guard.attempt("selection", {}, self._painter.find, picks)
+        return self._guard.attempt("selection", {}, self._renderer.find, picks)
 
     def inspect(self, found: Found, frames: Frames) -> Details | None:
         """Return the details the display reports of a selected item, if it still exists."""
-        return self._painter.inspect(self.display, self._guard, found.hit, self._own(frames))
+        return self._renderer.inspect(self.display, self._guard, found.hit, self._own(frames))
 
     def shows(self, found: Found) -> bool:
         """Return whether the message that something was drawn from is still drawn."""
         samples = found.hit.samples
-        return not samples or self._painter.has(samples[-1])
+        return not samples or self._renderer.has(samples[-1])
 
     def statuses(
         self,
@@ -230,8 +232,8 @@ class Runner:
         result = self._guard.attempt("statuses", {}, self._statuses, offers, own, dropped)
         for text in self._guard.crashes.values():
             result["Display"] = Status(Level.ERROR, text)
-        result |= self.remarks
-        is_missing = self._painter.is_empty() and not type(self.display).reports_only
+        result |= self.external_statuses
+        is_missing = self._renderer.is_empty() and not type(self.display).reports_only
         if worst(result.values()) is Level.OK and is_missing:
             result["Display"] = NOTHING_TO_DRAW if is_watched else NO_BROWSER
         return result
@@ -243,42 +245,42 @@ class Runner:
         robots = self._services.robots()
         if not robots:
             return frames
-        known_by = robots, self._holder, self._gripping.topics()
+        known_by = robots, self._sample_buffer, self._gripping.topics()
         if known_by != self._known_by:
             self._known_by = known_by
-            self._robot = robot_of([*self._holder.inputs.topics(), *known_by[-1]], robots)
+            self._robot = robot_of([*self._sample_buffer.inputs.topics(), *known_by[-1]], robots)
         return RobotFrames(frames, self._robot) if self._robot else frames
 
     def _new_guard(self) -> Guard:
         who = type(self.display).__name__
         return Guard(who, self._services.strict, name=lambda: self.display.name)
 
-    def _new_holder(self) -> Holder:
-        return Holder(self.id, self.display, self._guard, self._services)
+    def _new_sample_buffer(self) -> SampleBuffer:
+        return SampleBuffer(self.id, self.display, self._guard, self._services)
 
     def _draw(self, frames: Frames) -> None:
-        self._painter.is_stale |= self._holder.prepare(frames)
-        if context := self._painter.context(self.display, self._guard, frames):
+        self._renderer.is_stale |= self._sample_buffer.prepare(frames)
+        if context := self._renderer.context(self.display, self._guard, frames):
             self._gripping.talk(self._guard, context)
-        self._painter.draw(self.display, self._guard, self._holder.histories, frames)
-        if self._services.tracer.wants(self.id) and not self._painter.busy_with:
+        self._renderer.draw(self.display, self._guard, self._sample_buffer.histories, frames)
+        if self._services.tracer.wants(self.id) and not self._renderer.busy_with:
             self._services.tracer.drawn(self.id)
 
     def _statuses(
         self, offers: Mapping[str, Offer], frames: Frames, dropped: Callable[[str], int]
     ) -> dict[str, Status]:
-        result = self._holder.statuses(offers, frames, dropped)
-        if lost := self._painter.lost(frames):
+        result = self._sample_buffer.statuses(offers, frames, dropped)
+        if lost := self._renderer.lost(frames):
             reason = frames.explain(lost[0])
             remedy = OtherFixedFrame.of(reason)
             result["Transform"] = Status(Level.ERROR, reason.sentence, remedy, reason)
-        size = self._holder.busy_with or self._painter.busy_with
+        size = self._sample_buffer.busy_with or self._renderer.busy_with
         if size:
-            level = Level.WARN if self._painter.is_empty() else Level.OK
+            level = Level.WARN if self._renderer.is_empty() else Level.OK
             result["Loading"] = Status(level, f"Loading a message of {round(size / 1e6, 1):g} MB.")
-        if self._holder.busy_with and self._holder.is_empty:
+        if self._sample_buffer.busy_with and self._sample_buffer.is_empty:
             return result  # the display would say that no message was received
-        return result | self._painter.statuses()
+        return result | self._renderer.statuses()
 
 
 def _sample_source(display: Display) -> tuple[object, ...]:

@@ -8,7 +8,7 @@ from typing import Protocol
 from webviz.api.bounds import Box
 from webviz.api.declared import Color
 from webviz.api.views import View
-from webviz.engine.pipeline.drawing import DrawingScene
+from webviz.engine.pipeline.scene_diff import SceneWriter
 
 
 class Cameras(Protocol):
@@ -64,7 +64,7 @@ class NoCameras:
         """No effect."""
 
 
-class Scene(DrawingScene, Protocol):
+class Scene(SceneWriter, Protocol):
     """A scene with browsers; see `webviz.scene.ViserScene`."""
 
     @property

@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 from webviz.api.nodes import POINTS_HELD
 from webviz.api.robots import NamespacedRobot
 from webviz.engine.pipeline.background import Workers
-from webviz.engine.pipeline.drawing import DrawingScene
 from webviz.engine.pipeline.history import HistoryBudget
 from webviz.engine.pipeline.point_budget import PointBudget
+from webviz.engine.pipeline.scene_diff import SceneWriter
 from webviz.engine.state.trace import Tracer
 from webviz.sources import Gate
 
@@ -34,7 +34,7 @@ class Services:
         histories: how many bytes of messages all displays hold.
     """
 
-    scene: DrawingScene
+    scene: SceneWriter
     workers: Workers
     resolve: Callable[[str], str]
     strict: bool = False

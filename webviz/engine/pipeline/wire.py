@@ -12,7 +12,7 @@ from webviz.api.declared import Topic
 from webviz.api.wire import Heard
 from webviz.data.messages import encode, interfaces
 from webviz.engine.pipeline.services import Services
-from webviz.sources import Gate, Offer, Outlet, Raw, Subscription
+from webviz.sources import Advertisement, Gate, Offer, Raw, Subscription
 
 T = TypeVar("T")
 
@@ -52,7 +52,7 @@ class DisplayWire:
         self._gate = gate
         self._offers: Mapping[str, Offer] = {}
         self._lines: dict[str, _Line] = {}
-        self._outlets: dict[str, Outlet] = {}
+        self._advertisements: dict[str, Advertisement] = {}
         self._named: set[str] = set()
         self._jobs: list[Future[Any]] = []
 
@@ -103,13 +103,13 @@ class DisplayWire:
         """Create a publisher ahead of its first message; see `webviz.api.wire.Wire`."""
         name = self._services.resolve(topic)
         self._named.add(name)
-        self._outlets[name] = Outlet(name, type, "reliable", "volatile", depth)
+        self._advertisements[name] = Advertisement(name, type, "reliable", "volatile", depth)
         return self._gate.refusal(name)
 
     def publish(self, topic: str, values: Mapping[str, Any]) -> None:
         """Publish a message on a topic that is advertised."""
-        outlet = self._outlets[self._services.resolve(topic)]
-        self._gate.publish(outlet, encode(outlet.type, values))
+        advertisement = self._advertisements[self._services.resolve(topic)]
+        self._gate.publish(advertisement, encode(advertisement.type, values))
 
     def run(self, fn: Callable[..., T], *args: Any) -> Future[T]:
         """Run slow work in a thread; see `webviz.api.wire.Wire`."""
@@ -131,9 +131,9 @@ class DisplayWire:
         """The names of these topics."""
         return tuple(self._lines)
 
-    def outlets(self) -> list[Outlet]:
+    def advertisements(self) -> list[Advertisement]:
         """Return its publishers."""
-        return list(self._outlets.values())
+        return list(self._advertisements.values())
 
     def is_busy(self) -> bool:
         """Return whether slow work is under way."""
@@ -153,7 +153,9 @@ class DisplayWire:
         """Drop the topics that `talk` has not named since the last call."""
         named, self._named = self._named, set()
         self._lines = {name: line for name, line in self._lines.items() if name in named}
-        self._outlets = {name: each for name, each in self._outlets.items() if name in named}
+        self._advertisements = {
+            name: each for name, each in self._advertisements.items() if name in named
+        }
 
     def pause(self) -> None:
         """Keep no messages until the display listens again."""
@@ -163,7 +165,7 @@ class DisplayWire:
     def close(self) -> None:
         """Drop all topics, and work that has not begun."""
         self._lines.clear()
-        self._outlets.clear()
+        self._advertisements.clear()
         for job in self._jobs:
             self._services.workers.cancel(job)
         self._jobs.clear()

@@ -2,7 +2,7 @@
 
 from webviz.engine.state.state import (
     Between,
-    ClockPace,
+    ClockRate,
     ConfigFile,
     Driving,
     GoalProgress,
@@ -19,7 +19,7 @@ from webviz.engine.state.state import (
 
 __all__ = [
     "Between",
-    "ClockPace",
+    "ClockRate",
     "ConfigFile",
     "Driving",
     "GoalProgress",

@@ -73,7 +73,7 @@ class ConfigFile:
 
 
 @dataclass(frozen=True)
-class ClockPace:
+class ClockRate:
     """Rate of ROS time, for pages that count by themselves.
 
     Args:
@@ -110,7 +110,7 @@ class PanelTimes:
     wall_s: float = 0.0
     wall_elapsed_s: float = 0.0
     is_paused: bool = False
-    pace: ClockPace = ClockPace()
+    clock_rate: ClockRate = ClockRate()
     is_simulated: bool = False
     clock_hz: float = 0.0
 

@@ -15,9 +15,9 @@ def clock(state: State, _: str) -> Mapping[str, Any]:
     both times at the start or the last reset. "hz": rate of /clock to two digits.
     """
     clock = state.clock
-    pace = clock.pace
+    clock_rate = clock.clock_rate
     return {
-        "pace": [pace.ros_ns / 1e9, pace.wall_s, pace.rate],
+        "pace": [clock_rate.ros_ns / 1e9, clock_rate.wall_s, clock_rate.rate],
         "began": [
             round((clock.ros_ns - clock.ros_elapsed_ns) / 1e9, 3),
             round(clock.wall_s - clock.wall_elapsed_s, 3),

@@ -30,8 +30,8 @@ export interface Download {
   text: string;
 }
 
-export interface HelmReport {
-  type: "HelmReport";
+export interface DrivingReport {
+  type: "DrivingReport";
   tool: string;
   beat: number;
   driver: number | null;
@@ -248,7 +248,7 @@ export type ToPage =
   | Dismissed
   | Done
   | Download
-  | HelmReport
+  | DrivingReport
   | PixelValue
   | PlaceCamera
   | Pong

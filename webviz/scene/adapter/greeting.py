@@ -16,7 +16,7 @@ from webviz.server.channel.links import Links
 from webviz.server.channel.messages import Beat
 from webviz.server.channel.modules import Modules
 from webviz.server.http.connections import Connection
-from webviz.server.sending.pace import LinkPace
+from webviz.server.sending.congestion import CongestionControl
 
 FAREWELL_S = 1.0
 """For a page to close its connection when its visit is ended."""
@@ -24,10 +24,10 @@ BEAT_PERIOD = 1.0
 """Seconds between two heartbeats."""
 
 
-def pace_of(connection: ServerConnection) -> LinkPace:
+def pace_of(connection: ServerConnection) -> CongestionControl:
     """The pace of a browser, by its connection for viser."""
     assert isinstance(connection, Connection)
-    return connection.stretch.pace
+    return connection.window.congestion
 
 
 def greet(server: viser.ViserServer, channel: Channel, modules: Modules) -> None:
@@ -44,8 +44,8 @@ def greet(server: viser.ViserServer, channel: Channel, modules: Modules) -> None
     socket = server._websock_server
 
     def join(client: WebsockClientConnection) -> None:
-        pace = pace_of(socket._live_connections[client.client_id])
-        key = channel.join(client.client_id, pace)
+        congestion = pace_of(socket._live_connections[client.client_id])
+        key = channel.join(client.client_id, congestion)
         source = modules.connect(client.client_id, key)
         client.queue_message(wire.RunJavascriptMessage(source=source))
 

@@ -13,8 +13,8 @@ from viser.infra._messages import Message
 
 from webviz.scene.adapter.packing import Packer
 from webviz.server.http.connections import Connection
+from webviz.server.sending.congestion import CongestionControl
 from webviz.server.sending.outbox import URGENT, Outbox, Progress
-from webviz.server.sending.pace import LinkPace
 from webviz.server.sending.pieces import Piece
 
 
@@ -60,7 +60,7 @@ class SceneSender:
         self._thread = threading.get_ident()
         connection = self._connections[client_id]
         assert isinstance(connection, Connection)
-        outbox = Outbox(self._last, connection.stretch.pace)
+        outbox = Outbox(self._last, connection.window.congestion)
         browser = _Browser(client_id, connection, outbox, backlog_last_id, backlog_done_message)
         self._browsers[client_id] = browser
         self._buffer.generator_cursors[client_id] = outbox.cursor
@@ -100,13 +100,13 @@ class SceneSender:
 
     def _serve(self, browser: _Browser, shared: dict[tuple[Progress, bool], _Step]) -> bool:
         """Sends a frame to a browser; whether there is another one that it can take now."""
-        if browser.pace.room(URGENT) < 1:
+        if browser.congestion.room(URGENT) < 1:
             self._rest(browser)
             return False
         outbox, before = browser.outbox, browser.outbox.progress
         is_live = browser.end_of_backlog is None
         is_shared = is_live and outbox.is_common
-        key = before, browser.pace.room() > 0
+        key = before, browser.congestion.room() > 0
         step = shared.get(key) if is_shared else None
         if step is None:
             step = _Step(self._window(browser), outbox.progress)
@@ -131,7 +131,7 @@ class SceneSender:
             browser.resting = asyncio.ensure_future(self._resume(browser))
 
     async def _resume(self, browser: _Browser) -> None:
-        await browser.pace.wait()
+        await browser.congestion.wait()
         browser.resting = None
         self._go_on()
 
@@ -191,9 +191,9 @@ class _Browser:
     resting: asyncio.Future[None] | None = None
 
     @property
-    def pace(self) -> LinkPace:
+    def congestion(self) -> CongestionControl:
         """Return the congestion control of its link."""
-        return self.connection.stretch.pace
+        return self.connection.window.congestion
 
 
 class _Step:

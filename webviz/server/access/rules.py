@@ -69,7 +69,7 @@ COMMANDS: Mapping[type[Any], Role] = {
     requests.Invite: Role.OWNER,
     requests.Revoke: Role.OWNER,
 }
-"""Of the commands that pages may send; see `webviz.page.acts`."""
+"""Of the commands that pages may send; see `webviz.page.dispatcher`."""
 
 MESSAGES: Mapping[str, Role | None] = {
     "Answer": Role.WATCHER,

@@ -36,7 +36,7 @@ from webviz.server.channel.messages import (
 from webviz.server.channel.outgoing import PageQueue
 from webviz.server.channel.refusals import answer, answer_to_halves
 from webviz.server.channel.stores import Stores
-from webviz.server.sending.pace import LinkPace, Stretch
+from webviz.server.sending.congestion import CongestionControl, InFlightWindow
 
 MAX_QUOTED = 200
 """Characters of a message that the log quotes."""
@@ -56,7 +56,7 @@ class Websocket(Protocol):
     transport: Any
     is_expelled: bool
     """True if nothing that it sends counts any more."""
-    stretch: Stretch
+    window: InFlightWindow
     """Bytes sent that may not have arrived."""
     latency: float
     """Of the last ping in seconds, 0 before the first."""
@@ -149,11 +149,11 @@ class Channel:
             with contextlib.suppress(RuntimeError):  # the server has stopped
                 loop.call_soon_threadsafe(call)
 
-    def pace(self, browser: int) -> LinkPace | None:
+    def congestion(self, browser: int) -> CongestionControl | None:
         """Return the congestion control of a browser; None if it is gone. From any thread."""
         with self._lock:
             outbox = self._outboxes.get(browser)
-        return None if outbox is None else outbox.pace
+        return None if outbox is None else outbox.congestion
 
     def browsers(self) -> set[int]:
         """The ids of all pages."""
@@ -217,7 +217,7 @@ class Channel:
 
     # Called on the event loop
 
-    def join(self, browser: int, pace: LinkPace) -> str:
+    def join(self, browser: int, congestion: CongestionControl) -> str:
         """Expects the page of a browser, and returns the key that it has to name.
 
         Args:
@@ -227,7 +227,7 @@ class Channel:
         key = secrets.token_urlsafe(32)
         with self._lock:
             self._loop, self._thread = asyncio.get_running_loop(), threading.get_ident()
-            outbox = self._outboxes[browser] = PageQueue(key, pace)
+            outbox = self._outboxes[browser] = PageQueue(key, congestion)
             for message in self._kept.values():
                 outbox.put(message, msgspec.json.encode(message))
         return key
@@ -255,7 +255,7 @@ class Channel:
             await connection.close(1008, "This is no page of webviz")
             return
         outbox.abort = connection.transport.abort
-        connection.stretch.join(outbox.pace)
+        connection.window.join(outbox.congestion)
         grant = connection.grant
         visitor = Visitor(grant.name, grant.role, connection.address, time.time())
         with self._lock:

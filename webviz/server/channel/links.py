@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from webviz.server.channel.channel import Channel
 from webviz.server.channel.messages import ToPage
-from webviz.server.sending.pace import LinkPace
+from webviz.server.sending.congestion import CongestionControl
 
 ORDINALS = {1: "st", 2: "nd", 3: "rd"}
 SIZES = {2: "half size", 4: "a quarter of their size", 8: "an eighth of their size"}
@@ -35,23 +35,23 @@ class Links:
         """Sends each page what has changed for it."""
         told: dict[int, str] = {}
         for browser in self._channel.browsers():
-            pace = self._channel.pace(browser)
-            told[browser] = "" if pace is None else reduced(pace)
+            congestion = self._channel.congestion(browser)
+            told[browser] = "" if congestion is None else reduced(congestion)
             if told[browser] != self._told.get(browser, ""):
                 self._channel.send(SlowLink(told[browser]), browser)
         self._told = told
 
 
-def reduced(pace: LinkPace) -> str:
+def reduced(congestion: CongestionControl) -> str:
     """Return a sentence on what is reduced because of a link; "" if nothing is."""
     parts = []
-    if pace.every > 1:
-        parts.append(f"clouds show every {pace.every}{_ordinal(pace.every)} point")
-    if pace.shrink > 1:
-        parts.append(f"images at {SIZES[pace.shrink]}")
-    if not parts or pace.rate is None:
+    if congestion.every > 1:
+        parts.append(f"clouds show every {congestion.every}{_ordinal(congestion.every)} point")
+    if congestion.shrink > 1:
+        parts.append(f"images at {SIZES[congestion.shrink]}")
+    if not parts or congestion.rate is None:
         return ""
-    return f"Slow link, {_rate(pace.rate)}: {', '.join(parts)}"
+    return f"Slow link, {_rate(congestion.rate)}: {', '.join(parts)}"
 
 
 def _rate(bytes_per_second: float) -> str:

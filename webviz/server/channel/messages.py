@@ -209,7 +209,7 @@ class Drive(FromPage, frozen=True):
 
     Args:
         tool: id of the tool.
-        beat: the newest that the page has received in a `HelmReport`, 0 for none.
+        beat: the newest that the page has received in a `DrivingReport`, 0 for none.
         linear, lateral, angular: ahead, to the left and counter-clockwise.
     """
 
@@ -220,7 +220,7 @@ class Drive(FromPage, frozen=True):
     angular: Share
 
 
-class HelmReport(ToPage, frozen=True):
+class DrivingReport(ToPage, frozen=True):
     """Answers a `Drive`.
 
     Args:

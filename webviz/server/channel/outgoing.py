@@ -10,7 +10,7 @@ import msgspec
 
 from webviz.server.channel.messages import ToPage
 from webviz.server.channel.stores import Watched
-from webviz.server.sending.pace import LinkPace
+from webviz.server.sending.congestion import CongestionControl
 
 MAX_WAITING = 256
 """Messages that may wait for one page; a page that takes none of them has to connect again."""
@@ -26,9 +26,9 @@ class PageQueue:
         pace: of its link.
     """
 
-    def __init__(self, key: str, pace: LinkPace) -> None:
+    def __init__(self, key: str, congestion: CongestionControl) -> None:
         self.key: str | None = key
-        self.pace = pace
+        self.congestion = congestion
         self.abort: Callable[[], None] = lambda: None
         """Ends the connection of the page, if it has one."""
         self.waiting: dict[object, bytes] = {}

@@ -6,7 +6,7 @@ import re
 
 import msgspec
 
-from webviz.server.channel.messages import Do, Done, Drive, FromPage, HelmReport, ToPage
+from webviz.server.channel.messages import Do, Done, Drive, DrivingReport, FromPage, ToPage
 
 HALF = "Not done: the text contains half of a letter, such as of an emoji. Remove it."
 _ESCAPE = re.compile(r"(\\\\)|\\u[dD][89a-fA-F][0-9a-fA-F]{2}")
@@ -24,7 +24,7 @@ def answer(message: FromPage, reason: str) -> ToPage | None:
         case Do():
             return Done(message.number, message.command, "error", reason, {})
         case Drive():
-            return HelmReport(message.tool, 0, None, reason)
+            return DrivingReport(message.tool, 0, None, reason)
         case _:
             return None
 

@@ -21,8 +21,8 @@ from webviz.server.http.crowding import network_of, oldest_of_most_crowded
 from webviz.server.http.listener import Handshakes
 from webviz.server.http.requests import add_policy, as_get, is_complete, is_head, refusal
 from webviz.server.http.viser_messages import objection
+from webviz.server.sending.congestion import CongestionControl, InFlightWindow, SentMarker
 from webviz.server.sending.frame_header import header
-from webviz.server.sending.pace import LinkPace, Mark, Stretch
 
 MAX_BROWSERS = 128
 
@@ -167,7 +167,7 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
         self, gate: ConnectionLimits, rate: float | None, *arguments: Any, **options: Any
     ) -> None:
         super().__init__(*arguments, **options)
-        self.stretch = Stretch(LinkPace(rate))
+        self.window = InFlightWindow(CongestionControl(rate))
         """Bytes sent that may not have arrived."""
         self._asking: asyncio.Task[None] | None = None
         # websockets fails, and logs it, if a browser is gone before it is answered.
@@ -214,7 +214,7 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
     def connection_lost(self, exc: Exception | None) -> None:
         """Removes the connection from the gate."""
         self._gate.leave(self)
-        self.stretch.drop()
+        self.window.drop()
         super().connection_lost(exc)
 
     def get_buffer(self, sizehint: int) -> memoryview:
@@ -281,7 +281,7 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
     async def send(self, message: Any, text: bool | None = None) -> None:
         """Sends a message, or fragments of one as they come, and measures when it arrives."""
         if isinstance(message, str | bytes):
-            self.stretch.send(len(message))
+            self.window.send(len(message))
         await super().send(message, text)
         await self._ping()
 
@@ -290,8 +290,8 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
         if self.state is not State.OPEN:
             return
         self.transport.write(frame)
-        self.stretch.send(len(frame))
-        if self.stretch.is_due and self._asking is None:
+        self.window.send(len(frame))
+        if self.window.is_due and self._asking is None:
             self._asking = self.loop.create_task(self._ask())
 
     async def _ask(self) -> None:
@@ -301,8 +301,8 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
 
     async def send_in_time(self, message: bytes) -> None:
         """Sends a message in fragments, each when there is room for it on the link."""
-        piece = self.stretch.pace.piece()
-        if len(message) <= piece and self.stretch.pace.room() > 0:
+        piece = self.window.congestion.piece()
+        if len(message) <= piece and self.window.congestion.room() > 0:
             # A third of what `send` takes, which copies the message twice.
             self.write(b"".join((header(len(message)), message)))
             with contextlib.suppress(OSError):  # it is gone
@@ -312,31 +312,33 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
 
     async def _fragments(self, message: bytes, size: int) -> AsyncIterator[bytes]:
         for start in range(0, len(message), size):
-            while self.stretch.pace.room() < 1:
-                await self.stretch.pace.wait()
+            while self.window.congestion.room() < 1:
+                await self.window.congestion.wait()
             fragment = message[start : start + size]
-            self.stretch.send(len(fragment))
+            self.window.send(len(fragment))
             yield fragment
             await self._ping()
 
     async def _ping(self) -> None:
         """Asks the browser to say when it has got here, if that is worth asking."""
-        if (mark := self.stretch.end()) is None:
+        if (marker := self.window.end()) is None:
             return
-        heard = functools.partial(self._heard, self.stretch.pace, mark)
+        acknowledged = functools.partial(self._acknowledged, self.window.congestion, marker)
         try:
             pong = await self.ping()
         except ConnectionClosed:
-            self.stretch.pace.lose(mark)
+            self.window.congestion.lose(marker)
             raise
-        asyncio.ensure_future(pong).add_done_callback(heard)
+        asyncio.ensure_future(pong).add_done_callback(acknowledged)
 
     @staticmethod
-    def _heard(pace: LinkPace, mark: Mark, pong: asyncio.Future[float]) -> None:
+    def _acknowledged(
+        congestion: CongestionControl, marker: SentMarker, pong: asyncio.Future[float]
+    ) -> None:
         if pong.cancelled() or pong.exception() is not None:
-            pace.lose(mark)
+            congestion.lose(marker)
         else:
-            pace.hear(mark)
+            congestion.acknowledge(marker)
 
     async def recv(self, decode: bool | None = None) -> Any:
         """The next valid message, at the allowed rate."""

@@ -12,9 +12,9 @@ import msgspec
 import numpy as np
 
 from webviz.api.nodes import Pane
-from webviz.api.pictures import Packet, Pixels, Readout, Sight, Video, Warp
-from webviz.api.stills import File
+from webviz.api.pictures import OverlayCamera, Packet, Pixels, Readout, Video, Warp
 from webviz.data.images import COLOR_MAPS
+from webviz.server.images.encoding import File
 
 
 @dataclass(frozen=True)
@@ -70,7 +70,7 @@ def frame(
     warp = None
     if pane.sight is not None:
         warp = pane.sight.warp
-        head["sight"] = sight_values(pane.sight)
+        head["sight"] = overlay_camera_values(pane.sight)
         if warp is not sent.warp:
             head["warp"] = warp_values(warp)
     return _joined(head, [file.data]), Sent(sent.packet, warp)
@@ -98,7 +98,7 @@ def _legend(picture: Pixels) -> dict[str, Any]:
     }
 
 
-def sight_values(sight: Sight) -> dict[str, Any]:
+def overlay_camera_values(sight: OverlayCamera) -> dict[str, Any]:
     """A sight as JSON, without its warp."""
     return {each.name: getattr(sight, each.name) for each in fields(sight) if each.name != "warp"}
 

@@ -12,10 +12,10 @@ from functools import partial
 
 from webviz.api.nodes import Pane
 from webviz.api.pictures import Encoded, Pixels, Video
-from webviz.api.stills import File, factor_for, file_of
 from webviz.data.images import ImageError
 from webviz.server.channel.channel import Channel
 from webviz.server.channel.messages import FramesShown, PixelValue, ReadPixel, ShowPictures
+from webviz.server.images.encoding import File, factor_for, file_of
 from webviz.server.images.frames import Sent, frame
 from webviz.server.images.pixel_values import pixel_text
 
@@ -228,11 +228,11 @@ class Pictures:
     def _rate(self, browser: int) -> float | None:
         """Bytes a second for each picture of a page; None on a link that is fast enough."""
         looks = self._looks.get(browser, {})
-        pace = self._channel.pace(browser)
-        if pace is None:
+        congestion = self._channel.congestion(browser)
+        if congestion is None:
             return None
-        pace.shrink = max((look.shrink for look in looks.values()), default=1)
-        return None if pace.rate is None else pace.rate / max(1, len(looks))
+        congestion.shrink = max((look.shrink for look in looks.values()), default=1)
+        return None if congestion.rate is None else congestion.rate / max(1, len(looks))
 
     @staticmethod
     def _fit(look: _Look, shown: _Shown, size: int, rate: float | None) -> bool:

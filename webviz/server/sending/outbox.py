@@ -9,7 +9,7 @@ from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
-from webviz.server.sending.pace import LinkPace
+from webviz.server.sending.congestion import CongestionControl
 from webviz.server.sending.pieces import Piece, Pieces
 from webviz.server.sending.thinning import Thinning, is_cloud, thinned
 
@@ -85,16 +85,16 @@ class Outbox:
         pace: of the link.
     """
 
-    def __init__(self, last: type, pace: LinkPace) -> None:
+    def __init__(self, last: type, congestion: CongestionControl) -> None:
         self._last = last
-        self._pace = pace
+        self._congestion = congestion
         self.cursor = -1
         """Number of the last message that was sent or put in the line."""
         self._line: dict[object, int] = {}
         self._begun: Mapping[int, Any] = MappingProxyType({})
         self._pieces: dict[object, _Begun] = {}
         self._turn = 0
-        self._thinning = Thinning(pace.clock)
+        self._thinning = Thinning(congestion.clock)
         self._thin: dict[object, int] = {}
         """Clouds of which the browser has only some of the points."""
         self._whole: set[object] = set()
@@ -114,7 +114,7 @@ class Outbox:
     @property
     def is_common(self) -> bool:
         """Return whether it sends what other outboxes with the same progress send, and has room."""
-        return self._pace.rate is None and not (self._pieces or self._thin)
+        return self._congestion.rate is None and not (self._pieces or self._thin)
 
     def is_waiting(self) -> bool:
         """Return whether messages are in the line, or thinned clouds to be sent whole."""
@@ -136,7 +136,7 @@ class Outbox:
             numbers = numbers[:limit]
             newest = numbers[-1]
         self.cursor = max(self.cursor, newest)
-        rate = self._pace.rate
+        rate = self._congestion.rate
         large = BULK_BYTES if rate is None else max(LEAST_BULK_BYTES, int(rate * BULK_S))
         large = min(large, BULK_BYTES)
         window = []
@@ -158,20 +158,20 @@ class Outbox:
     def large(self, live: Mapping[int, M]) -> list[M | Piece]:
         """The next messages of the line that still exist: as many as there is room for."""
         if self._thin and not self._line and not self._pieces:
-            if self._pace.clock() - self._rested > REST_S:
+            if self._congestion.clock() - self._rested > REST_S:
                 self._make_whole(live)
         else:
-            self._rested = self._pace.clock()
+            self._rested = self._congestion.clock()
         window: list[M | Piece] = []
-        room = self._pace.room()
+        room = self._congestion.room()
         room = WINDOW_BYTES if room > 0 and self.is_common else min(room, WINDOW_BYTES)
         if not (self._line or self._pieces) or room < 1:
             return window
         self._turn = (self._turn + 1) % TURNS
         if self._pieces and not self._turn:
             return self._piece(live)
-        piece = self._pace.piece()
-        every = self._thinning.choose(self._pace.rate)
+        piece = self._congestion.piece()
+        every = self._thinning.choose(self._congestion.rate)
         for key, number in self._order(live):
             if self._line.get(key) != number:
                 continue  # its cloud was begun
@@ -198,7 +198,7 @@ class Outbox:
                 self._begin(whole, live)
         if self._begun:
             self._begun = {n: self._begun[n] for n in self._line.values() if n in self._begun}
-        self._pace.every = every if self._thin else 1
+        self._congestion.every = every if self._thin else 1
         return window or self._piece(live)
 
     def _cut(self, key: object, number: int, message: Message) -> bool:
@@ -280,7 +280,7 @@ class Outbox:
                 self._line[key] = number
                 self._whole.add(key)
         self._thin = {key: number for key, number in self._thin.items() if number in live}
-        self._pace.every = self._thinning.every if self._thin else 1
+        self._congestion.every = self._thinning.every if self._thin else 1
 
     def _piece(self, live: Mapping[int, Message]) -> list[Any]:
         """A piece of a message that was begun and whose node is not gone, each in turn."""
@@ -289,7 +289,7 @@ class Outbox:
             del self._pieces[key]
             if begun.number not in live and (begun.is_whole or key not in self._line):
                 continue
-            piece = begun.pieces.take(min(self._pace.piece(), WINDOW_BYTES))
+            piece = begun.pieces.take(min(self._congestion.piece(), WINDOW_BYTES))
             if not begun.pieces.is_over:
                 self._pieces[key] = begun
             return [piece]

@@ -159,7 +159,7 @@ class Running:
             self._pages = Pages(
                 server.channel,
                 self._loop.enqueue,
-                self._loop.helms.steer,
+                self._loop.controllers.steer,
                 self.access,
                 kept and kept.write,
             )

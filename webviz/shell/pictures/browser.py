@@ -17,8 +17,8 @@ import PIL.Image
 from numpy.typing import NDArray
 
 from webviz.api.errors import Error
-from webviz.api.pictures import Sight
-from webviz.server.images.frames import sight_values, warp_values
+from webviz.api.pictures import OverlayCamera
+from webviz.server.images.frames import overlay_camera_values, warp_values
 from webviz.shell.pictures.browser_scripts import (
     CANVAS,
     COUNT_UNPACKING,
@@ -253,7 +253,11 @@ class Page:
         return np.asarray(PIL.Image.open(io.BytesIO(png)).convert("RGBA" if transparent else "RGB"))
 
     def pane(
-        self, picture: PIL.Image.Image, sight: Sight, size: tuple[int, int], hidden: Sequence[str]
+        self,
+        picture: PIL.Image.Image,
+        sight: OverlayCamera,
+        size: tuple[int, int],
+        hidden: Sequence[str],
     ) -> PIL.Image.Image:
         """A picture with the scene over and under it.
 
@@ -266,7 +270,7 @@ class Page:
         file = io.BytesIO()
         picture.save(file, "PNG")
         url = f"data:image/png;base64,{base64.b64encode(file.getvalue()).decode()}"
-        found = [*size, sight_values(sight), warp_values(sight.warp), [*hidden], url]
+        found = [*size, overlay_camera_values(sight), warp_values(sight.warp), [*hidden], url]
         png = base64.b64decode(self.evaluate(PANE, found).split(",")[1])
         return PIL.Image.open(io.BytesIO(png)).convert("RGB")
 

@@ -22,8 +22,8 @@ from webviz.files.config import Config, Settings, nearest
 from webviz.files.opening import load, parse
 from webviz.shell.bag_source import bag_source
 from webviz.shell.pictures.browser import Pixels, check_size, launched
+from webviz.shell.pictures.headless_renderer import HeadlessRenderer
 from webviz.shell.pictures.offline_viewer import OfflineViewer, Readiness
-from webviz.shell.pictures.studio import Studio
 from webviz.shell.pictures.times import At, position_ns, seconds_from_start
 from webviz.shell.ros_source import ros_source
 from webviz.sources import Source
@@ -145,7 +145,7 @@ def capture(
     plugin: Sequence[str | Path] = (),
     extras: Sequence[Extra] = (),
     ros_args: Sequence[str] = (),
-    studio: Studio | None = None,
+    renderer: HeadlessRenderer | None = None,
 ) -> Capture:
     """Make pictures of a config, live or from a bag.
 
@@ -166,7 +166,7 @@ def capture(
         plugin: Python files with displays.
         extras: messages to add to the bag, see `webviz.sources.bag.extras`.
         ros_args: for the ROS node: `["--ros-args", "-r", "/scan:=/front/scan"]`.
-        studio: to reuse for many pictures; by default a browser is launched.
+        renderer: to reuse for many pictures; by default a browser is launched.
 
     Raises:
         Error: no picture can be made.
@@ -193,32 +193,32 @@ def capture(
                     wait_for=wait_for,
                     timeout=timeout,
                 )
-                return Capture(tuple(pictures(order, studio)))
+                return Capture(tuple(pictures(order, renderer)))
 
-    if studio is None and _is_in_event_loop():
+    if renderer is None and _is_in_event_loop():
         # For example in a notebook: playwright needs a thread without a loop.
         with ThreadPoolExecutor(1) as thread:
             return thread.submit(run).result()
     return run()
 
 
-def pictures(order: Order, studio: Studio | None = None) -> Generator[Picture]:
+def pictures(order: Order, renderer: HeadlessRenderer | None = None) -> Generator[Picture]:
     """Makes the pictures of an order one by one, in order of time.
 
     Args:
         order: what to make.
-        studio: to reuse; by default a browser is launched, and closed with the iterator.
+        renderer: to reuse; by default a browser is launched, and closed with the iterator.
     """
     check_size(order.size)
     positions, looks = order.positions(), order.looks()
     with contextlib.ExitStack() as stack:
-        if studio is None:
+        if renderer is None:
             browser = stack.enter_context(launched())
-            studio = Studio(browser, *order.size)
-            stack.callback(studio.close)
+            renderer = HeadlessRenderer(browser, *order.size)
+            stack.callback(renderer.close)
         else:
-            studio.resize(*order.size)
-        viewer = OfflineViewer(order.config, order.source, studio)
+            renderer.resize(*order.size)
+        viewer = OfflineViewer(order.config, order.source, renderer)
         stack.callback(viewer.close)
         awaited = viewer.names() if order.wait_for is None else order.wait_for
         if not viewer.names():
@@ -231,13 +231,13 @@ def pictures(order: Order, studio: Studio | None = None) -> Generator[Picture]:
                 at_s = seconds_from_start(position, order.source)
             shown = viewer.wait(awaited, deadline)
             for name, view in looks:
-                studio.look(viewer.focused(view, order.focus) if order.focus else view)
-                pixels = studio.image() if order.is_image else None
+                renderer.look(viewer.focused(view, order.focus) if order.focus else view)
+                pixels = renderer.image() if order.is_image else None
                 if pixels is None:
                     if order.is_image:
                         reasons = [status.text for status in shown.statuses.values()]
                         raise Error(joined("No image to write.", *reasons))
-                    pixels = studio.capture(order.transparent, viewer.hidden())
+                    pixels = renderer.capture(order.transparent, viewer.hidden())
                 yield Picture(pixels, name, at_s, shown)
 
 

@@ -7,9 +7,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from PIL import Image
 
+from webviz.api.decoded import opened
 from webviz.api.nodes import Pane
 from webviz.api.pictures import Encoded, Pixels, Readout, Video
-from webviz.api.stills import opened
 from webviz.shell.pictures import browser
 from webviz.shell.pictures.readouts import written
 

@@ -18,7 +18,7 @@ from webviz.engine.loop import FrameLoop
 from webviz.engine.state import State
 from webviz.files.config import Config, nearest
 from webviz.page.content.visibility import enabled, hidden_in
-from webviz.shell.pictures.studio import Studio
+from webviz.shell.pictures.headless_renderer import HeadlessRenderer
 from webviz.shell.pictures.times import seconds_from_start
 from webviz.sources import Source
 from webviz.sources.bag.source import BagSource
@@ -55,18 +55,18 @@ class Readiness:
 
 
 class OfflineViewer:
-    """A viewer that draws in a studio, without a thread of its own."""
+    """A viewer that draws in a headless renderer, without a thread of its own."""
 
-    def __init__(self, config: Config, source: Source, studio: Studio) -> None:
+    def __init__(self, config: Config, source: Source, renderer: HeadlessRenderer) -> None:
         self._source = source
-        self._studio = studio
-        self._viewer = FrameLoop(config, source, studio.scene)
+        self._renderer = renderer
+        self._viewer = FrameLoop(config, source, renderer.scene)
         self._viewer.turn()
 
     def close(self) -> None:
-        """Stop the displays and clear the studio."""
+        """Stop the displays and clear the renderer."""
         self._viewer.close()
-        self._studio.clear()
+        self._renderer.clear()
 
     def seek(self, source: BagSource, at_ns: int, deadline: float) -> None:
         """Show a bag at a time of recording.

@@ -3,26 +3,36 @@
 They are created by the fixtures of `webviz.shell.pytest_plugin`; import them for annotations.
 """
 
+import warnings
+
 from webviz.data.messages import encode as serialized
 from webviz.shell.testing.comparing import NOTICEABLE, TOLERANCE, share_of_difference
+from webviz.shell.testing.harness import Harness
 from webviz.shell.testing.live import LiveViewer
 from webviz.shell.testing.messages import header, turned
 from webviz.shell.testing.seeking import BagViewer, check_seeks
 from webviz.shell.testing.shown import Shown
 from webviz.shell.testing.source import SECOND
-from webviz.shell.testing.stage import Stage
 
 __all__ = [
     "NOTICEABLE",
     "SECOND",
     "TOLERANCE",
     "BagViewer",
+    "Harness",
     "LiveViewer",
     "Shown",
-    "Stage",
     "check_seeks",
     "header",
     "serialized",
     "share_of_difference",
     "turned",
 ]
+
+
+def __getattr__(name: str) -> type[Harness]:
+    """Return what has another name now."""
+    if name != "Stage":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    warnings.warn("webviz.testing.Stage is Harness now.", DeprecationWarning, stacklevel=2)
+    return Harness

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from webviz.files.config import Config
-from webviz.shell.testing.pictures import Photographer
+from webviz.shell.testing.pictures import SnapshotFixture
 from webviz.shell.testing.recording import RecordingScene
 from webviz.shell.testing.shown import Shown
 from webviz.shell.testing.watched import WatchedViewer
@@ -67,7 +67,7 @@ class LiveViewer(Shown):
         self,
         config: Config,
         scene: RecordingScene,
-        photographer: Photographer,
+        snapshot: SnapshotFixture,
         domain: int,
         simulator: Mapping[str, Any] | None = None,
     ) -> None:
@@ -84,7 +84,7 @@ class LiveViewer(Shown):
             self.source: RosSource = RosSource(domain_id=domain)
             stack.callback(self.source.close)
             self.source.inbox = self._inbox
-            super().__init__(WatchedViewer(config, self.source, scene), scene, photographer)
+            super().__init__(WatchedViewer(config, self.source, scene), scene, snapshot)
             self._thread = threading.Thread(target=self._run, name="webviz-viewer", daemon=True)
             stack.callback(self._thread.join)
             stack.callback(self.viewer.stop)

@@ -17,8 +17,8 @@ from webviz.shell.testing.comparing import (
     share_of_difference,
     store,
 )
-from webviz.shell.testing.darkroom import Darkroom, Size
 from webviz.shell.testing.recording import RecordingScene
+from webviz.shell.testing.shared_renderer import SharedRenderer, Size
 
 __tracebackhide__ = True  # failures are shown where the test calls
 
@@ -26,7 +26,7 @@ UPDATE = "--update-pictures"
 
 
 @dataclass(frozen=True)
-class Album:
+class ReferenceImages:
     """The reference pictures of a test.
 
     Args:
@@ -113,24 +113,24 @@ class Album:
 
 
 @dataclass
-class Photographer:
+class SnapshotFixture:
     """Makes and checks the pictures of a scene.
 
     Args:
         scene: to draw.
-        darkroom: makes the pictures.
+        shared_renderer: makes the pictures.
         album: has the reference pictures.
         view: of the camera.
     """
 
     scene: RecordingScene
-    darkroom: Darkroom
-    album: Album
+    shared_renderer: SharedRenderer
+    album: ReferenceImages
     view: View
 
     def capture(self, transparent: bool = False) -> Pixels:
         """A picture of the scene."""
-        return self.darkroom.capture(self.scene, self.view, self.album.size, transparent)
+        return self.shared_renderer.capture(self.scene, self.view, self.album.size, transparent)
 
     def check(
         self,
@@ -164,7 +164,9 @@ class Photographer:
         """Raise AssertionError if a display makes no visible difference."""
         unseen: list[str] = []
         for prefix, display in displays.items():
-            rest = self.darkroom.capture(self.scene, self.view, self.album.size, hidden=prefix)
+            rest = self.shared_renderer.capture(
+                self.scene, self.view, self.album.size, hidden=prefix
+            )
             if share_of_difference(masked(rest, mask), whole) <= tolerance:
                 unseen.append(display)
         if unseen:

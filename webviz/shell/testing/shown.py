@@ -13,7 +13,7 @@ from webviz.engine.commands import SetFixedFrame, SetProperty
 from webviz.shell.pictures.browser import Pixels
 from webviz.shell.testing.comparing import TOLERANCE, PixelBox
 from webviz.shell.testing.messages import header
-from webviz.shell.testing.pictures import Photographer
+from webviz.shell.testing.pictures import SnapshotFixture
 from webviz.shell.testing.recording import RecordingScene
 from webviz.shell.testing.seen import Seen, Vector
 from webviz.shell.testing.watched import WatchedViewer
@@ -33,10 +33,10 @@ class Shown(Seen, ABC):
     """
 
     def __init__(
-        self, viewer: WatchedViewer, scene: RecordingScene, photographer: Photographer
+        self, viewer: WatchedViewer, scene: RecordingScene, snapshot: SnapshotFixture
     ) -> None:
         super().__init__(viewer, scene)
-        self._photographer = photographer
+        self._photographer = snapshot
 
     # Changes
 

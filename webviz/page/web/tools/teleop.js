@@ -46,7 +46,7 @@ export function install() {
   document.addEventListener("focusin", (event) => {
     if (isTyping(event) || /** @type {Element} */ (event.target).closest("dialog")) release();
   });
-  channel.on("HelmReport", hear);
+  channel.on("DrivingReport", hear);
   channel.onOpen(() => {
     if (driven) driven.beat = 0;
     release();

@@ -35,7 +35,7 @@ Handler = Callable[[Asked, Any], object]
 """Carries out a command that a page has asked for, on the event loop."""
 
 
-class Acts:
+class Dispatcher:
     """Does what pages ask for.
 
     Args:

@@ -7,7 +7,7 @@ from typing import Any, cast
 from webviz.engine.state import State
 
 
-class StateReading:
+class DependencyTracker:
     """Notes which fields of a state are read.
 
     Args:

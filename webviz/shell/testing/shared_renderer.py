@@ -9,7 +9,7 @@ from typing import TypeVar
 
 from webviz.api.views import View
 from webviz.shell.pictures.browser import BrowserDied, NoBrowser, Pixels, launched
-from webviz.shell.pictures.studio import Studio
+from webviz.shell.pictures.headless_renderer import HeadlessRenderer
 from webviz.shell.testing.recording import RecordingScene
 
 __tracebackhide__ = True  # failures are shown where the test calls
@@ -18,7 +18,7 @@ Size = tuple[int, int]
 T = TypeVar("T")
 
 
-class Darkroom:
+class SharedRenderer:
     """Makes pictures of scenes; the browser is launched for the first one.
 
     playwright must be called from one thread without an asyncio loop, and other plug-ins of pytest
@@ -28,7 +28,7 @@ class Darkroom:
     def __init__(self) -> None:
         self._thread: ThreadPoolExecutor | None = None
         self._open = contextlib.ExitStack()
-        self._studio: Studio | None = None
+        self._renderer: HeadlessRenderer | None = None
         self._shown: RecordingScene | None = None
         self._look: tuple[View, Size] | None = None
 
@@ -65,10 +65,10 @@ class Darkroom:
         """
 
         def capture() -> Pixels:
-            studio = self._show(scene, view, size)
-            with self._hidden(studio, scene, hidden):
-                pixels = studio.capture(transparent)
-            if errors := studio.page.errors:
+            renderer = self._show(scene, view, size)
+            with self._hidden(renderer, scene, hidden):
+                pixels = renderer.capture(transparent)
+            if errors := renderer.page.errors:
                 text = " ".join(errors)
                 errors.clear()
                 raise AssertionError(f"Scripts of the page failed: {text}")
@@ -98,24 +98,26 @@ class Darkroom:
         except (NoBrowser, BrowserDied) as error:
             raise type(error)(str(error)) from None
 
-    def _show(self, scene: RecordingScene, view: View, size: Size) -> Studio:
-        if self._studio is None:
+    def _show(self, scene: RecordingScene, view: View, size: Size) -> HeadlessRenderer:
+        if self._renderer is None:
             browser = self._open.enter_context(launched())
-            self._studio = Studio(browser, *size)
-            self._open.callback(self._studio.close)
+            self._renderer = HeadlessRenderer(browser, *size)
+            self._open.callback(self._renderer.close)
         if self._shown is not scene:
             self._leave()
             self._shown = scene
-            scene.attach(self._studio.scene)
+            scene.attach(self._renderer.scene)
         if self._look is None or self._look[1] != size:
-            self._studio.resize(*size)
+            self._renderer.resize(*size)
         if self._look is None or self._look[0] != view:
-            self._studio.look(view)
+            self._renderer.look(view)
         self._look = view, size
-        return self._studio
+        return self._renderer
 
     @contextlib.contextmanager
-    def _hidden(self, studio: Studio, scene: RecordingScene, prefix: str | None) -> Iterator[None]:
+    def _hidden(
+        self, renderer: HeadlessRenderer, scene: RecordingScene, prefix: str | None
+    ) -> Iterator[None]:
         if prefix is None:
             yield
             return
@@ -123,13 +125,13 @@ class Darkroom:
             groups = [g for g in scene.groups if g.startswith(prefix) and g not in scene.hidden]
             try:
                 for group in groups:
-                    studio.scene.set_visible(group, False)
-                studio.scene.flush()
+                    renderer.scene.set_visible(group, False)
+                renderer.scene.flush()
                 yield
             finally:
                 for group in groups:
-                    studio.scene.set_visible(group, True)
-                studio.scene.flush()
+                    renderer.scene.set_visible(group, True)
+                renderer.scene.flush()
 
     def _leave(self) -> None:
         if self._shown is not None:
@@ -138,5 +140,5 @@ class Darkroom:
 
     def _forget(self) -> None:
         self._leave()
-        self._studio = self._look = None
+        self._renderer = self._look = None
         self._open.close()

@@ -40,7 +40,7 @@ REST_S = 5.0
 
 
 @dataclass(frozen=True, eq=False)
-class Mark:
+class SentMarker:
     """A ping on its way.
 
     Args:
@@ -58,11 +58,11 @@ class Mark:
     sent: float
     in_flight: int
     delivered: int
-    heard: float
+    acknowledged: float
     is_limited: bool
 
 
-class LinkPace:
+class CongestionControl:
     """The link to one browser, over all of its connections; belongs to the event loop.
 
     Only `rate`, `every` and `shrink` are for other threads, too.
@@ -88,9 +88,9 @@ class LinkPace:
         self._window = float(FIRST_WINDOW if limit is None else limit * QUEUE_S)
         self._is_starting = limit is None
         self._paid_until = 0.0
-        self._marks: dict[Mark, None] = {}
+        self._marks: dict[SentMarker, None] = {}
         self._delivered = 0
-        self._heard = 0.0
+        self._acknowledged = 0.0
         self._pinged = -REST_S
         self._trip: float | None = None
         self._rates: deque[tuple[float, float]] = deque()
@@ -144,64 +144,64 @@ class LinkPace:
             or self.clock() - self._pinged >= REST_S
         )
 
-    def mark(self, size: int, began: float) -> Mark:
-        """Notes a ping that is being sent; see `Mark`."""
+    def marker(self, size: int, began: float) -> SentMarker:
+        """Notes a ping that is being sent; see `SentMarker`."""
         now = self._pinged = self.clock()
-        mark = Mark(
-            size, began, now, self.in_flight, self._delivered, self._heard, self._is_limited
+        marker = SentMarker(
+            size, began, now, self.in_flight, self._delivered, self._acknowledged, self._is_limited
         )
-        self._marks[mark] = None
+        self._marks[marker] = None
         self._is_limited = False
-        return mark
+        return marker
 
-    def lose(self, mark: Mark) -> None:
+    def lose(self, marker: SentMarker) -> None:
         """Forgets a ping whose connection has ended."""
-        del self._marks[mark]
-        self.in_flight -= mark.size
+        del self._marks[marker]
+        self.in_flight -= marker.size
         self._freed.set()
 
-    def hear(self, mark: Mark) -> None:
+    def acknowledge(self, marker: SentMarker) -> None:
         """Learns from the pong of a ping."""
-        self.lose(mark)
+        self.lose(marker)
         now = self.clock()
-        self._delivered += mark.size
-        self._heard = now
-        trip = now - mark.sent
+        self._delivered += marker.size
+        self._acknowledged = now
+        trip = now - marker.sent
         if self._trip is None or trip < self._trip:
             self._trip = trip
-        elif mark.in_flight <= MIN_WINDOW:  # the way itself has become longer
+        elif marker.in_flight <= MIN_WINDOW:  # the way itself has become longer
             self._trip += (trip - self._trip) / 8
-        if mark.is_limited:
-            rate = (self._delivered - mark.delivered) / max(now - mark.heard, 1e-4)
+        if marker.is_limited:
+            rate = (self._delivered - marker.delivered) / max(now - marker.acknowledged, 1e-4)
         else:
-            rate = mark.size / max(now - mark.began, 1e-4)
+            rate = marker.size / max(now - marker.began, 1e-4)
         queue_s = trip - self._trip
-        rate = self._limit or self._learn(rate, queue_s, mark)
+        rate = self._limit or self._learn(rate, queue_s, marker)
         fitting = min(max(MIN_WINDOW, rate * (self._trip + QUEUE_S)), MAX_WINDOW)
         if self._is_starting:
-            self._is_starting = not (mark.is_limited and queue_s > QUEUE_S)
+            self._is_starting = not (marker.is_limited and queue_s > QUEUE_S)
         if self._is_starting:
-            grown = self._window + (mark.size if mark.is_limited else 0)
+            grown = self._window + (marker.size if marker.is_limited else 0)
             self._window = min(max(grown, fitting), MAX_WINDOW)
         else:
             self._window = fitting
             self.rate = rate if rate < FAST else None
 
-    def _learn(self, rate: float, queue_s: float, mark: Mark) -> float:
+    def _learn(self, rate: float, queue_s: float, marker: SentMarker) -> float:
         """The rate of late; `queue_s` is by how much longer a pong took than the shortest."""
         known = self._known()
-        if mark.is_limited:
-            self._limited_at = self._heard
+        if marker.is_limited:
+            self._limited_at = self._acknowledged
         elif (
-            self._heard - self._limited_at > MEMORY_S
-            and mark.in_flight > self._window / 4
+            self._acknowledged - self._limited_at > MEMORY_S
+            and marker.in_flight > self._window / 4
             and queue_s < QUEUE_S / 2
         ):
             rate = max(rate, known * 1.25)  # nobody waits: the link may have become faster
-        if mark.is_limited or rate > known:
-            while self._rates and self._rates[0][0] < self._heard - MEMORY_S:
+        if marker.is_limited or rate > known:
+            while self._rates and self._rates[0][0] < self._acknowledged - MEMORY_S:
                 self._rates.popleft()
-            self._rates.append((self._heard, rate))
+            self._rates.append((self._acknowledged, rate))
         return self._known()
 
     def _known(self) -> float:
@@ -209,44 +209,44 @@ class LinkPace:
         return rates[int(GOOD * len(rates))] if rates else 0.0
 
 
-class Stretch:
+class InFlightWindow:
     """In-flight window: bytes one connection of a browser has sent since its last ping.
 
     Args:
         pace: of the browser.
     """
 
-    def __init__(self, pace: LinkPace) -> None:
-        self.pace = pace
+    def __init__(self, congestion: CongestionControl) -> None:
+        self.congestion = congestion
         self._size = 0
         self._began = 0.0
 
-    def join(self, pace: LinkPace) -> None:
+    def join(self, congestion: CongestionControl) -> None:
         """Counts for another pace from now on: that of all connections of its browser."""
-        pace.send(self._size)
-        self.pace = pace
+        congestion.send(self._size)
+        self.congestion = congestion
 
     def send(self, size: int) -> None:
         """Counts bytes that are being sent."""
         if not self._size:
-            self._began = self.pace.clock()
+            self._began = self.congestion.clock()
         self._size += size
-        self.pace.send(size)
+        self.congestion.send(size)
 
     @property
     def is_due(self) -> bool:
         """Return whether a ping should follow."""
-        return self.pace.wants_ping(self._size)
+        return self.congestion.wants_ping(self._size)
 
-    def end(self) -> Mark | None:
+    def end(self) -> SentMarker | None:
         """Ends it if a ping should follow: what is to be heard with the pong."""
         if not self.is_due:
             return None
-        mark = self.pace.mark(self._size, self._began)
+        marker = self.congestion.marker(self._size, self._began)
         self._size = 0
-        return mark
+        return marker
 
     def drop(self) -> None:
         """Forgets what was sent, as the connection has ended."""
-        self.pace.in_flight -= self._size
+        self.congestion.in_flight -= self._size
         self._size = 0

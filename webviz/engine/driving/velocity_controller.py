@@ -1,4 +1,4 @@
-"""The helm of one vehicle: who drives it, and how fast it should move now."""
+"""The controller of one vehicle: who drives it, and how fast it should move now."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from webviz.api.vehicle import STILL, Vehicle, Velocity
-from webviz.sources.graph import Outlet
+from webviz.sources.graph import Advertisement
 
 BEAT_S = 0.2
 """A driver who acknowledges nothing new for so long has lost control."""
@@ -19,7 +19,7 @@ TAIL = 5
 
 
 @dataclass(frozen=True)
-class HelmAnswer:
+class DrivingAnswer:
     """Answer to a browser about its velocity controller.
 
     Args:
@@ -31,18 +31,20 @@ class HelmAnswer:
     problem: str = ""
 
 
-class Helm:
+class VelocityController:
     """Turns the set-points of one browser at a time into velocities. Times are monotonic, in s.
 
     Args:
         vehicle: what is driven; may be replaced by one with other limits.
-        outlet: where its commands go.
+        advertisement: where its commands go.
         holding: id of a browser that has to let go first: what it holds was meant for another one.
     """
 
-    def __init__(self, vehicle: Vehicle, outlet: Outlet, holding: int | None = None) -> None:
+    def __init__(
+        self, vehicle: Vehicle, advertisement: Advertisement, holding: int | None = None
+    ) -> None:
         self.vehicle = vehicle
-        self.outlet = outlet
+        self.advertisement = advertisement
         self._holding = holding
         self._driver: int | None = None
         self._wanted = STILL
@@ -87,7 +89,7 @@ class Helm:
             self._holding = None if wanted == STILL else browser
             return False
         if wanted == STILL and self._driver != browser:
-            return False  # only looks at the helm
+            return False  # only looks at the controller
         if self._driver != browser or seen > self._seen:
             self._seen, self._heard = seen, now
         elif now >= self._heard + BEAT_S:

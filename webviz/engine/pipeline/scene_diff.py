@@ -19,7 +19,7 @@ from webviz.engine.pipeline.picking import Found, Shot, found_in
 _IDENTITY = Pose()
 
 
-class DrawingScene(Protocol):
+class SceneWriter(Protocol):
     """Draws groups of nodes; see `webviz.scene.ViserScene`."""
 
     def set_pose(self, group: str, pose: Pose) -> None:
@@ -86,7 +86,7 @@ def groups_of(context: Context) -> dict[str, Group]:
     return {"": context, **context.groups}
 
 
-class Drawing:
+class SceneDiff:
     """The groups that one display draws, by scope; each call of a hook fills one scope.
 
     Args:
@@ -94,7 +94,7 @@ class Drawing:
         prefix: of group names, unique to the display.
     """
 
-    def __init__(self, scene: DrawingScene, prefix: str) -> None:
+    def __init__(self, scene: SceneWriter, prefix: str) -> None:
         self._scene = scene
         self._prefix = prefix
         self._scopes: dict[str, dict[str, _Drawn]] = {}

@@ -14,17 +14,17 @@ _COMPARED = (
 """Fields that are made anew for each state, and cannot change within."""
 
 
-def settled(state: State, before: State) -> State:
+def reuse_unchanged(state: State, before: State) -> State:
     """The same state, of the very objects of the one before wherever they are equal."""
     kept: dict[str, Any] = {
         name: old for name in _COMPARED if (old := getattr(before, name)) == getattr(state, name)
     }
     known = {row.id: row for row in before.rows}
-    rows = tuple(_settled(row, known.get(row.id)) for row in state.rows)
+    rows = tuple(_reuse_row(row, known.get(row.id)) for row in state.rows)
     return replace(state, rows=before.rows if rows == before.rows else rows, **kept)
 
 
-def _settled(row: Row, before: Row | None) -> Row:
+def _reuse_row(row: Row, before: Row | None) -> Row:
     if before is None or row.display is not before.display or row != before:
         return row
     return before

@@ -22,7 +22,7 @@ FEWEST = 5
 """Messages that show a rate; fewer may be a burst."""
 
 
-class Reception:
+class TopicStatistics:
     """Counts the messages of one input, and explains which are missing.
 
     Args:

@@ -18,7 +18,7 @@ from webviz.api.status import Level, OtherFixedFrame, Remedy, Status
 from webviz.data.messages import MessageError, decode, peek_header
 from webviz.data.transforms import MessageFilter
 from webviz.data.words import counted, joined
-from webviz.engine.pipeline.reception import Reception
+from webviz.engine.pipeline.topic_statistics import TopicStatistics
 from webviz.sources import Offer, Raw, Subscription
 
 PATIENCE_S = 1.0
@@ -67,7 +67,7 @@ class Drops:
         return total - self._before
 
 
-class Intake:
+class InputSubscription:
     """Counts and filters the messages of one input, and explains what is missing.
 
     Args:
@@ -85,7 +85,7 @@ class Intake:
         self.name = name
         self.type = "" if spec.type == ANY else spec.type
         """Of the messages: the one of `spec.types` that is published; "" of `ANY` until one is."""
-        self._reception = Reception(path, spec, topic, name, problem)
+        self._topic_statistics = TopicStatistics(path, spec, topic, name, problem)
         self._filter: MessageFilter[Arrival] = MessageFilter(topic.filter_size)
         self._fault = ""
         self._placed_at = 0.0
@@ -99,7 +99,7 @@ class Intake:
     @property
     def has_received(self) -> bool:
         """Return whether any message has arrived."""
-        return self._reception.count > 0
+        return self._topic_statistics.count > 0
 
     @property
     def is_waiting(self) -> bool:
@@ -141,8 +141,8 @@ class Intake:
                 if not at all.
         """
         arrivals: list[Arrival] = []
-        reception = self._reception
-        first_new = reception.count
+        topic_statistics = self._topic_statistics
+        first_new = topic_statistics.count
         self._follow(offer)
         if offer and offer.type not in ("", self.type):
             raws = ()  # another display reads the topic as another type
@@ -153,10 +153,10 @@ class Intake:
             and not self.spec.every
         )
         for raw in raws:
-            last = reception.last
+            last = topic_statistics.last
             if is_latched and last and raw.cdr == last.cdr:
                 continue  # delivered again, by a second publisher or a new subscription
-            reception.note(raw, clock, is_latched)
+            topic_statistics.note(raw, clock, is_latched)
             message, lasts_ns = None, 0
             try:
                 header = peek_header(self.type, raw.cdr)
@@ -167,12 +167,14 @@ class Intake:
                 self.refuse(str(error))
                 continue
             if header is None:
-                arrivals.append(Arrival(raw, "", 0, reception.count - 1))
+                arrivals.append(Arrival(raw, "", 0, topic_statistics.count - 1))
                 continue
             frame, stamp_ns = header
             self._frame = frame
             self._stamps.append((stamp_ns, raw.received_ns))
-            arrival = Arrival(raw, frames.named(frame), stamp_ns, reception.count - 1, message)
+            arrival = Arrival(
+                raw, frames.named(frame), stamp_ns, topic_statistics.count - 1, message
+            )
             if not waits:
                 arrivals.append(arrival)
                 continue
@@ -200,7 +202,7 @@ class Intake:
             readable = (offer.type, self.type, *sorted(published))
         type_ = next((each for each in readable if each in published), self.type)
         if type_ != self.type:
-            self.type = self._reception.type = type_
+            self.type = self._topic_statistics.type = type_
             self.reset()
 
     def refuse(self, reason: str) -> None:
@@ -214,7 +216,7 @@ class Intake:
     def reset(self) -> None:
         """Forget all messages and their statuses, such as after a jump of time."""
         self._filter.clear()
-        self._reception.reset()
+        self._topic_statistics.reset()
         self._fault = ""
         self._placed_at = self._late_s = 0.0
         self._waiting_since = None
@@ -234,8 +236,8 @@ class Intake:
             qos=self.topic,
             latched=self.spec.latched,
             status="Topic" if self.path == "topic" else f"Topic ({self.path})",
-            received=self._reception.count,
-            rate_hz=self._reception.rate(),
+            received=self._topic_statistics.count,
+            rate_hz=self._topic_statistics.rate(),
             stamps=tuple(self._stamps),
             frame=self._frame,
             type=self.type,
@@ -248,7 +250,7 @@ class Intake:
         """Statuses of the topic, its messages and their transforms."""
         result = {}
         if self.has_received or not self.spec.optional:
-            result["Topic"] = self._reception.status(offers, frames.now_ns, clock)
+            result["Topic"] = self._topic_statistics.status(offers, frames.now_ns, clock)
         if self._fault:
             result["Message"] = Status(Level.ERROR, self._fault)
         elif recent := self._drops.recent(dropped, clock):
@@ -283,14 +285,16 @@ class Intake:
         return Status(Level.OK, "Transform OK")
 
 
-def intakes_of(display: Display, resolve: Callable[[str], str]) -> dict[str, Intake]:
-    """The intakes of a display by input.
+def input_subscriptions_of(
+    display: Display, resolve: Callable[[str], str]
+) -> dict[str, InputSubscription]:
+    """The subscriptions of a display by input.
 
     Args:
         display: has the topics.
         resolve: the full name of a topic; raises ValueError.
     """
-    result: dict[str, Intake] = {}
+    result: dict[str, InputSubscription] = {}
     for name, spec, topic in inputs(display):
         full, problem = "", ""
         first = next(iter(result.values()), None)
@@ -300,5 +304,5 @@ def intakes_of(display: Display, resolve: Callable[[str], str]) -> dict[str, Int
             problem = "" if full else "No topic. Choose one."
         except ValueError as error:
             problem = str(error)
-        result[name] = Intake(name, spec, topic, full, problem)
+        result[name] = InputSubscription(name, spec, topic, full, problem)
     return result

@@ -16,7 +16,7 @@ from webviz.engine.commands import (
 from webviz.page.content.transforms import pair_of
 
 
-class Wishes:
+class DerivedSubscriptions:
     """Follows which stores are watched: work for stores that no page watches ends automatically.
 
     Args:
@@ -25,17 +25,17 @@ class Wishes:
 
     def __init__(self, enqueue: Callable[[Command, Sender], object]) -> None:
         self._enqueue = enqueue
-        self._wished = _wishes(set())
+        self._wished = _derived(set())
 
     def update(self, watched: set[str]) -> None:
         """Ask for what these stores need, if that is something else than before."""
-        wished = _wishes(watched)
+        wished = _derived(watched)
         for command in wished - self._wished:
             self._enqueue(command, PROGRAM)
         self._wished = wished
 
 
-def _wishes(stores: set[str]) -> set[Command]:
+def _derived(stores: set[str]) -> set[Command]:
     """Return the commands that these stores need."""
     pairs = map(pair_of, _arguments("between", stores))
     return {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 
-from webviz.engine.state import ClockPace
+from webviz.engine.state import ClockRate
 
 SPAN_S = 3.0
 """Over how long the rate is measured."""
@@ -16,15 +16,15 @@ NEARLY = 0.02
 """A rate that differs by less is 1."""
 
 
-class PaceMeter:
-    """Follows ROS time, and makes a new `ClockPace` only if the last one is no longer right."""
+class ClockRateMeter:
+    """Follows ROS time, and makes a new `ClockRate` only if the last one is no longer right."""
 
     def __init__(self) -> None:
         self._samples: deque[tuple[int, float]] = deque()
         self._moved_s = 0.0
-        self._pace = ClockPace()
+        self._time_rate = ClockRate()
 
-    def step(self, ros_ns: int, wall_s: float, is_paused: bool = False) -> ClockPace:
+    def step(self, ros_ns: int, wall_s: float, is_paused: bool = False) -> ClockRate:
         """Take both times of one moment; how ROS time goes on from there."""
         samples = self._samples
         if is_paused or (samples and not 0.0 <= wall_s - samples[-1][1] <= SPAN_S):
@@ -35,11 +35,13 @@ class PaceMeter:
         while len(samples) > 2 and wall_s - samples[0][1] > SPAN_S:
             samples.popleft()
         rate = 0.0 if is_paused else self._rate(ros_ns, wall_s)
-        pace = self._pace
-        is_right = abs(pace.at(wall_s) - ros_ns) <= TOLERANCE_NS and (rate == 0) == (pace.rate == 0)
-        if not is_right or (rate == 0 and pace.ros_ns != ros_ns):
-            self._pace = ClockPace(ros_ns, wall_s, rate)
-        return self._pace
+        clock_rate = self._time_rate
+        is_right = abs(clock_rate.at(wall_s) - ros_ns) <= TOLERANCE_NS and (rate == 0) == (
+            clock_rate.rate == 0
+        )
+        if not is_right or (rate == 0 and clock_rate.ros_ns != ros_ns):
+            self._time_rate = ClockRate(ros_ns, wall_s, rate)
+        return self._time_rate
 
     def _rate(self, ros_ns: int, wall_s: float) -> float:
         """Seconds of ROS time per second; 1 until it is known better."""

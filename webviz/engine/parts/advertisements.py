@@ -9,14 +9,16 @@ from webviz.api.declared import Topic
 from webviz.api.errors import Error
 from webviz.api.status import Level, Status
 from webviz.engine.parts.part import Core
-from webviz.sources import Outlet
+from webviz.sources import Advertisement
 
 DEPTH = 5
 """Queue depth of a publisher, RViz's."""
 Report = Callable[[Status], None]
 
 
-def outlet_of(core: Core, type: str, topic: Topic, depth: int = DEPTH) -> Outlet | None:
+def advertisement_of(
+    core: Core, type: str, topic: Topic, depth: int = DEPTH
+) -> Advertisement | None:
     """Where messages of a type are published; None if the topic has no valid name."""
     try:
         name = core.source.resolve(topic.name) if topic.name else ""
@@ -24,7 +26,7 @@ def outlet_of(core: Core, type: str, topic: Topic, depth: int = DEPTH) -> Outlet
         return None
     if not name:
         return None
-    return Outlet(
+    return Advertisement(
         name,
         type,
         "best_effort" if topic.reliability == "best_effort" else "reliable",
@@ -35,13 +37,13 @@ def outlet_of(core: Core, type: str, topic: Topic, depth: int = DEPTH) -> Outlet
 
 def publish(core: Core, type: str, topic: Topic, payload: bytes, report: Report) -> bool:
     """Publish a message, and report the result; whether it may be published."""
-    outlet = outlet_of(core, type, topic)
-    if outlet is None:
+    advertisement = advertisement_of(core, type, topic)
+    if advertisement is None:
         report(Status(Level.ERROR, f"`{topic.name}` is not a valid topic. Choose another one."))
         return False
-    sent = core.gate.publish(outlet, payload)
+    sent = core.gate.publish(advertisement, payload)
     sent.add_done_callback(lambda sent: report(_outcome(topic.name, sent)))
-    return not core.gate.refusal(outlet.topic)
+    return not core.gate.refusal(advertisement.topic)
 
 
 def _outcome(topic: str, sent: Future[int]) -> Status:

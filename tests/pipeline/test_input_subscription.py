@@ -12,7 +12,7 @@ from webviz import Context, Display, Input, Sample, Topic
 from webviz.api.status import OtherFixedFrame, Remedy
 from webviz.data.transforms import filter as transform_filter
 from webviz.engine.commands import SetFixedFrame, SetProperty
-from webviz.engine.pipeline.reception import Reception
+from webviz.engine.pipeline.topic_statistics import TopicStatistics
 from webviz.shell.testing.messages import header
 from webviz.sources import Offer, Publisher, Raw
 from webviz_displays.path import Path
@@ -193,10 +193,10 @@ def test_messages_that_waited_together_have_the_rate_they_arrived_at(
 
 @pytest.mark.parametrize(("is_latched", "kept"), [(False, b""), (True, b"1234")])
 def test_only_the_bytes_of_latched_messages_are_kept(is_latched: bool, kept: bytes) -> None:
-    reception = Reception("topic", Input(POSE), Topic("/pose"), "/pose", "")
-    reception.note(Raw(b"1234", 0), 0.0, is_latched)
-    assert reception.last is not None
-    assert reception.last.cdr == kept
+    topic_statistics = TopicStatistics("topic", Input(POSE), Topic("/pose"), "/pose", "")
+    topic_statistics.note(Raw(b"1234", 0), 0.0, is_latched)
+    assert topic_statistics.last is not None
+    assert topic_statistics.last.cdr == kept
 
 
 def test_one_latched_message_is_not_silence(bench: Callable[..., Any]) -> None:

@@ -1,4 +1,4 @@
-"""Still pictures as files for browsers, and as pixels for those without one."""
+"""Encoding of images for browsers."""
 
 from __future__ import annotations
 
@@ -9,13 +9,12 @@ import msgspec
 import numpy as np
 from PIL import Image
 
+from webviz.api.decoded import PIXEL_BYTES
 from webviz.api.pictures import Encoded, Picture, Pixels, Readout
-from webviz.data.images import ImageError, decoding, jpeg, open_compressed, render
+from webviz.data.images import decoding, jpeg, open_compressed
 
 LONGEST_EDGE = 16_384
 """Pixels along an edge that browsers can show."""
-PIXEL_BYTES = 8
-"""Of a compressed image while it is decoded: Pillow has four, and copies them."""
 QUALITY = 75
 """Of pictures that are encoded once more."""
 
@@ -66,24 +65,3 @@ def _smaller(picture: Encoded, factor: int) -> File:
     except (OSError, SyntaxError, ValueError, Warning):
         return file  # the page says what is wrong with it
     return File("image/jpeg", made.getvalue())
-
-
-def opened(picture: Pixels | Encoded) -> Image.Image:
-    """A picture as Pillow's.
-
-    Raises:
-        ImageError: its file is damaged.
-    """
-    if isinstance(picture, Pixels):
-        return render(picture.image, picture.tone)
-    try:
-        with open_compressed(picture.data) as image, decoding(*image.size, PIXEL_BYTES):
-            rgb = image.convert("RGB")
-    except ImageError:
-        raise
-    except (OSError, SyntaxError, ValueError, Warning) as error:
-        raise ImageError(f"The {picture.mime} is damaged: {str(error)[:80]}.") from error
-    if picture.swaps_red_and_blue:
-        red, green, blue = rgb.split()
-        return Image.merge("RGB", (blue, green, red))
-    return rgb

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from webviz.api import pictures
+from webviz.api.decoded import opened
 from webviz.api.nodes import Rgb
-from webviz.api.stills import opened
 from webviz.api.views import View
 from webviz.scene import ViserScene, open_server
 from webviz.scene.schemes import BACKGROUND
@@ -25,7 +25,7 @@ PATIENCE_S = 60.0
 """A browser without a GPU needs seconds for the meshes of some robots."""
 
 
-class StudioScene(ViserScene):
+class RenderedScene(ViserScene):
     """A scene that is updated only while a picture is wanted."""
 
     is_watched = True
@@ -40,7 +40,7 @@ class StudioScene(ViserScene):
         return False
 
 
-class Studio:
+class HeadlessRenderer:
     """Makes pictures of `scene`, which may be filled by any code.
 
     Opening takes seconds, so reuse it for many pictures. All methods belong to the thread that
@@ -58,7 +58,7 @@ class Studio:
         with contextlib.ExitStack() as stack:
             self.server = open_server(port=0)
             stack.callback(self.server.stop)
-            self.scene = StudioScene(self.server)
+            self.scene = RenderedScene(self.server)
             self.scene.set_background(background)
             self.page = Page(browser, f"http://127.0.0.1:{self.server.get_port()}", width, height)
             stack.callback(self.page.close)

@@ -19,10 +19,10 @@ from webviz.engine.commands import Picks
 from webviz.engine.commands.guard import CRASHED, Guard
 from webviz.engine.pipeline.background import Tasks, Workers, is_slow
 from webviz.engine.pipeline.baking import bake
-from webviz.engine.pipeline.drawing import Drawing, DrawingScene, groups_of
 from webviz.engine.pipeline.history import Held, Histories, History, held_samples
 from webviz.engine.pipeline.picking import Found
 from webviz.engine.pipeline.point_budget import PointBudget
+from webviz.engine.pipeline.scene_diff import SceneDiff, SceneWriter, groups_of
 
 _NO_STATE = object()
 
@@ -48,7 +48,7 @@ class _DrawJob:
     done: Future[None]
 
 
-class Painter:
+class Renderer:
     """The drawing of one display: its nodes, its statuses and its slow work.
 
     Args:
@@ -58,14 +58,14 @@ class Painter:
         points: how many points each display may show.
     """
 
-    def __init__(self, id: str, scene: DrawingScene, workers: Workers, points: PointBudget) -> None:
+    def __init__(self, id: str, scene: SceneWriter, workers: Workers, points: PointBudget) -> None:
         self.order = 0
         self.is_stale = True
         """True if everything must be redrawn, such as after a property changed."""
         self._id = id
         self._workers = workers
         self._points = points
-        self._drawing = Drawing(scene, id)
+        self._diff = SceneDiff(scene, id)
         self._tasks = Tasks(workers)
         self._state: Any = _NO_STATE
         self._statuses: dict[str, dict[str, Status]] = {}
@@ -103,13 +103,13 @@ class Painter:
             self._tasks.cancel_unrequested()
         self._seen = held
         self.is_stale = False
-        self._drawing.move(frames)
+        self._diff.move(frames)
         if self._is_unfinished:
             self._workers.wake()
 
     def hide(self) -> None:
         """Remove everything from the scene until the next call of `draw`."""
-        self._drawing.clear()
+        self._diff.clear()
         self._drawn.clear()
         self._drop_job()
         self._points.leave(self._id)
@@ -140,16 +140,16 @@ class Painter:
         samples = [_scope(name, slot) for name, drawn in self._drawn.items() for slot in drawn]
         for hook, scopes in (("draw", samples), ("draw_all", ["all"]), ("tick", ["tick"])):
             for scope in () if overrides(display, hook) else scopes:
-                self._drawing.remove(scope)
+                self._diff.remove(scope)
         self.is_stale = True
 
     def remember(self, is_wanted: bool) -> None:
         """Keep what is replaced for some seconds, for `find`."""
-        self._drawing.remember(is_wanted)
+        self._diff.remember(is_wanted)
 
     def find(self, picks: Picks) -> dict[int, Found]:
-        """Return the items browsers picked; see `Drawing.find`."""
-        return self._drawing.find(picks)
+        """Return the items browsers picked; see `SceneDiff.find`."""
+        return self._diff.find(picks)
 
     def inspect(self, display: Display, guard: Guard, hit: Hit, frames: Frames) -> Details | None:
         """Return the details the display reports of a selected item, if it still exists."""
@@ -173,15 +173,15 @@ class Painter:
 
     def followed(self) -> set[str]:
         """The frames whose poses `draw` needs."""
-        return self._drawing.followed()
+        return self._diff.followed()
 
     def lost(self, frames: Frames) -> list[str]:
         """The frames without a pose that hidden groups follow."""
-        return self._drawing.lost(frames)
+        return self._diff.lost(frames)
 
     def is_empty(self) -> bool:
         """Return whether nothing of the display is visible."""
-        return self._drawing.is_empty()
+        return self._diff.is_empty()
 
     def statuses(self) -> dict[str, Status]:
         """The statuses of the last call of each hook; the worst per key."""
@@ -225,7 +225,7 @@ class Painter:
         drawn = self._drawn.setdefault(name, {})
         samples = {held.slot: held for held in history.held if held.has_pose}
         for slot in drawn.keys() - samples.keys():
-            self._drawing.remove(_scope(name, slot))
+            self._diff.remove(_scope(name, slot))
             del drawn[slot]
         for slot, held in samples.items():
             look = held.sample, self._version
@@ -243,19 +243,19 @@ class Painter:
                     context,
                     sample,
                     samples=(sample,),
-                    voice=_voice(name),
+                    source=_status_source(name),
                 )
             elif self._draw_job is None:
                 self._send(name, display, held, look, frames)
         if not samples:
-            self._statuses.pop(_voice(name), None)
-            self._scales.pop(_voice(name), None)
-            self._offered.pop(_voice(name), None)
+            self._statuses.pop(_status_source(name), None)
+            self._scales.pop(_status_source(name), None)
+            self._offered.pop(_status_source(name), None)
 
     def _send(self, name: str, display: Display, held: Held, look: Look, frames: Frames) -> None:
         """Draw a sample in a worker."""
         context = self._context(frames, Placement(offset=held.sample.pose))
-        origins = self._drawing.origins(_scope(name, held.slot))
+        origins = self._diff.origins(_scope(name, held.slot))
         display = copy.copy(display)  # its properties may be set meanwhile
 
         def draw() -> None:
@@ -280,8 +280,8 @@ class Painter:
         if is_held and job.context.frames.fixed_frame == frames.fixed_frame:
             self._drawn[name][slot] = job.look
             samples = (job.held.sample,)
-            scope, context, voice = _scope(name, slot), job.context, _voice(name)
-            self._call(scope, guard, _result, context, job.done, samples=samples, voice=voice)
+            scope, context, source = _scope(name, slot), job.context, _status_source(name)
+            self._call(scope, guard, _result, context, job.done, samples=samples, source=source)
         return True
 
     def _drop_job(self) -> None:
@@ -301,7 +301,7 @@ class Painter:
         context: Context,
         *args: Any,
         samples: Sequence[Sample] = (),
-        voice: str = "",
+        source: str = "",
     ) -> None:
         """Call a hook that draws and update the scene; after a crash the previous nodes stay.
 
@@ -310,10 +310,10 @@ class Painter:
         if guard(scope, hook, *args, context) is CRASHED:
             return
         self._is_unfinished |= context.is_unfinished
-        self._drawing.replace(scope, context, samples)
-        self._statuses[voice or scope] = context.statuses
-        self._scales[voice or scope] = context.color_scale
-        self._offered[voice or scope] = context.offered
+        self._diff.replace(scope, context, samples)
+        self._statuses[source or scope] = context.statuses
+        self._scales[source or scope] = context.color_scale
+        self._offered[source or scope] = context.offered
 
 
 def _result(done: Future[None], context: Context) -> None:
@@ -321,7 +321,7 @@ def _result(done: Future[None], context: Context) -> None:
     done.result()
 
 
-def _voice(name: str) -> str:
+def _status_source(name: str) -> str:
     return f"sample of {name}"
 
 

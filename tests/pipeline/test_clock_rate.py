@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import pytest
 
-from webviz.engine.pipeline.pace import PaceMeter, Rate
-from webviz.engine.state import ClockPace
+from webviz.engine.pipeline.clock_rate import ClockRateMeter, Rate
+from webviz.engine.state import ClockRate
 
 WALL = 1_700_000_000.0
 
 
-def paces(rate: float, step_s: float = 0.2, tick_s: float = 0.01) -> list[ClockPace]:
+def paces(rate: float, step_s: float = 0.2, tick_s: float = 0.01) -> list[ClockRate]:
     """Return the rates a simulation yields in 10 s, given the ticks of its /clock."""
-    meter = PaceMeter()
+    meter = ClockRateMeter()
     found = []
     for i in range(int(10 / step_s)):
         ros_s = 100 + (i * step_s * rate) // tick_s * tick_s
@@ -38,14 +38,14 @@ def test_a_rate_of_nearly_1_is_1_and_others_are_as_measured() -> None:
 
 
 def test_a_time_that_jumps_back_goes_on_at_1_until_its_rate_is_known_again() -> None:
-    meter = PaceMeter()
+    meter = ClockRateMeter()
     for i in range(10):
         meter.step(round((100 + i * 0.2) * 1e9), WALL + i * 0.2)
-    assert meter.step(round(50e9), WALL + 2.0) == ClockPace(round(50e9), WALL + 2.0, 1.0)
+    assert meter.step(round(50e9), WALL + 2.0) == ClockRate(round(50e9), WALL + 2.0, 1.0)
 
 
 def test_a_time_that_stands_still_is_told_and_one_that_goes_on_too() -> None:
-    meter = PaceMeter()
+    meter = ClockRateMeter()
     for i in range(10):
         meter.step(round((100 + i * 0.2) * 1e9), WALL + i * 0.2)
     still = [meter.step(round(101.8e9), WALL + 1.8 + i * 0.2) for i in range(10)]
@@ -56,7 +56,7 @@ def test_a_time_that_stands_still_is_told_and_one_that_goes_on_too() -> None:
 
 
 def test_a_paused_time_stands_still_at_once() -> None:
-    meter = PaceMeter()
+    meter = ClockRateMeter()
     meter.step(100, WALL)
     assert meter.step(100, WALL + 0.001, is_paused=True).rate == 0.0
 

@@ -16,13 +16,13 @@ from webviz.data.messages import MessageError, decode
 from webviz.engine.commands.guard import Guard
 from webviz.engine.pipeline.folding import Folding, Received
 from webviz.engine.pipeline.history import Histories, History, held_samples
+from webviz.engine.pipeline.input_subscription import Arrival
 from webviz.engine.pipeline.inputs import Inputs, Set
-from webviz.engine.pipeline.intake import Arrival
 from webviz.engine.pipeline.services import Services
 from webviz.sources import Offer, Raw
 
 
-class Holder:
+class SampleBuffer:
     """Takes the messages of one display, decodes them and holds them.
 
     Args:
@@ -111,7 +111,8 @@ class Holder:
             for sample in held_samples(self.histories):
                 newest |= {sample.input: sample, **sample.synced}
         return tuple(
-            intake.observed(newest.get(name)) for name, intake in self.inputs.active().items()
+            input_subscription.observed(newest.get(name))
+            for name, input_subscription in self.inputs.active().items()
         )
 
     def statuses(
@@ -121,7 +122,11 @@ class Holder:
         waited_in_vain = self._folding.dropped
 
         def all_dropped(topic: str) -> int:
-            names = [name for name in waited_in_vain if self.inputs.intakes[name].name == topic]
+            names = [
+                name
+                for name in waited_in_vain
+                if self.inputs.input_subscriptions[name].name == topic
+            ]
             return dropped(topic) + sum(waited_in_vain[name] for name in names)
 
         result = self.inputs.statuses(offers, frames, all_dropped, self._services.clock())
@@ -131,7 +136,7 @@ class Holder:
         return result
 
     def _no_histories(self) -> Histories:
-        names = list(self.inputs.intakes)
+        names = list(self.inputs.input_subscriptions)
         if overrides(self._display, "fold"):
             names = names[:1]  # all inputs are folded into one sample
         return {name: History(self._services.histories, len(names)) for name in names}
@@ -141,8 +146,8 @@ class Holder:
 
     def _judge(self, name: str, refusal: str) -> None:
         """Note whether a message could be read."""
-        intake = self.inputs.intakes[name]
-        intake.refuse(refusal) if refusal else intake.accepted()
+        input_subscription = self.inputs.input_subscriptions[name]
+        input_subscription.refuse(refusal) if refusal else input_subscription.accepted()
 
     def _keep(self) -> Keep:
         keep = self._guard("history", self._display.history)
@@ -179,7 +184,7 @@ class Holder:
         if self._selective:
             verdict = self._guard("accept", self._selective.accept, sample, history.samples())
         if isinstance(verdict, str):
-            self.inputs.intakes[name].refuse(verdict)
+            self.inputs.input_subscriptions[name].refuse(verdict)
         elif verdict is True:
             self._add(history, received, keep)
 
@@ -195,7 +200,7 @@ class Holder:
         self, name: str, arrival: Arrival, frames: Frames, is_decoded_later: bool
     ) -> Sample | None:
         """A message with its pose, None if it cannot be shown."""
-        intake = self.inputs.intakes[name]
+        input_subscription = self.inputs.input_subscriptions[name]
         if not arrival.frame:
             pose = Pose()
         elif self.inputs.waits(name):
@@ -207,11 +212,11 @@ class Holder:
         raw, message = arrival.raw, arrival.message
         try:
             if message is None and not is_decoded_later:
-                message = decode(intake.type, raw.cdr)
+                message = decode(input_subscription.type, raw.cdr)
         except MessageError as error:
-            intake.refuse(str(error))
+            input_subscription.refuse(str(error))
             return None
-        intake.accepted()
+        input_subscription.accepted()
         return Sample(
             message,
             arrival.frame,
@@ -220,5 +225,5 @@ class Holder:
             arrival.number,
             pose,
             name,
-            type=intake.type,
+            type=input_subscription.type,
         )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 
 from webviz.files.config import Config
-from webviz.shell.testing.pictures import Photographer
+from webviz.shell.testing.pictures import SnapshotFixture
 from webviz.shell.testing.recording import RecordingScene
 from webviz.shell.testing.shown import Shown
 from webviz.shell.testing.source import HandFedSource
@@ -17,7 +17,7 @@ LOADING_S = 60.0
 """For the meshes of large robots."""
 
 
-class Stage(Shown):
+class Harness(Shown):
     """A viewer that only runs in `turn`, one turn of its frame loop.
 
     Args:
@@ -26,12 +26,12 @@ class Stage(Shown):
         photographer: of the scene.
     """
 
-    def __init__(self, config: Config, scene: RecordingScene, photographer: Photographer) -> None:
+    def __init__(self, config: Config, scene: RecordingScene, snapshot: SnapshotFixture) -> None:
         self.source = HandFedSource()
         self.clock = 1000.0
         """Monotonic time in seconds, for the ages of messages."""
         viewer = WatchedViewer(config, self.source, scene, clock=lambda: self.clock)
-        super().__init__(viewer, scene, photographer)
+        super().__init__(viewer, scene, snapshot)
         self.turn()
 
     def close(self) -> None:
