@@ -162,6 +162,9 @@ def test_what_does_not_fit_is_in_a_menu_but_frames_and_tools_stay(
     wide.page.get_by_role("menuitem", name="Full screen").wait_for()
     wide.page.keyboard.press("Escape")
     assert overflow(bar) == []
+    box = bar.bounding_box()
+    assert box is not None
+    assert box["height"] < 80, "more than two lines"
     for name in ("Fixed frame", "Follow"):
         box = bar.get_by_role("combobox", name=name)
         playwright.expect(box).to_be_in_viewport(ratio=1)

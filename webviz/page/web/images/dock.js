@@ -1,4 +1,4 @@
-// The dock beside the scene, below it on a phone: a pane for each display with a picture.
+// The dock beside the scene, below it where there is little room: a pane for each display with a picture.
 
 import { el, setChildren } from "../dom.js";
 import { recall, remember } from "../remember.js";
@@ -13,6 +13,7 @@ const FAIR_SHARE = 0.5;
 const MAX_SHARE = 0.75;
 const STEP = 16;
 const FOLDED = 34;
+const LEAST_ROOM = 400; // for scene and images beside each other
 
 const narrow = matchMedia("(max-width: 640px)");
 
@@ -55,7 +56,8 @@ export function install(page) {
   new ResizeObserver(layOut).observe(side);
 
   // What the panels leave; on a phone they lie over it.
-  const room = () => (narrow.matches ? innerHeight : innerWidth - side.offsetWidth);
+  const isBelow = () => narrow.matches || innerWidth - side.offsetWidth < LEAST_ROOM;
+  const room = () => (isBelow() ? innerHeight : innerWidth - side.offsetWidth);
   const wanted = () =>
     Math.max(MIN_SIZE, Math.min(size ?? STANDARD, (size === null ? FAIR_SHARE : MAX_SHARE) * room()));
 
@@ -66,20 +68,22 @@ export function install(page) {
     const low = open ? full : Math.min(full, FOLDED * panes.size);
     const style = document.documentElement.style;
     const isShown = panes.size > 0;
-    style.setProperty("--wv-dock-width", `${isShown && !narrow.matches ? full : 0}px`);
-    style.setProperty("--wv-dock-height", `${isShown && narrow.matches ? low : 0}px`);
-    border.setAttribute("aria-orientation", narrow.matches ? "horizontal" : "vertical");
+    const below = isBelow();
+    dock.toggleAttribute("data-below", below);
+    style.setProperty("--wv-dock-width", `${isShown && !below ? full : 0}px`);
+    style.setProperty("--wv-dock-height", `${isShown && below ? low : 0}px`);
+    border.setAttribute("aria-orientation", below ? "horizontal" : "vertical");
     frames.refresh();
   }
 
   function drag(event) {
     if (!border.hasPointerCapture(event.pointerId)) return;
     const box = dock.getBoundingClientRect();
-    resize(narrow.matches ? box.bottom - event.clientY : box.right - event.clientX);
+    resize(isBelow() ? box.bottom - event.clientY : box.right - event.clientX);
   }
 
   function step(event) {
-    const keys = narrow.matches ? ["ArrowUp", "ArrowDown"] : ["ArrowLeft", "ArrowRight"];
+    const keys = isBelow() ? ["ArrowUp", "ArrowDown"] : ["ArrowLeft", "ArrowRight"];
     const change = { [keys[0]]: STEP, [keys[1]]: -STEP }[event.key];
     if (!change) return;
     event.preventDefault();
