@@ -126,6 +126,16 @@ def test_a_camera_that_cannot_be_right_is_named(
     assert told in at.statuses()["Camera Info"][1]
 
 
+def test_the_camera_info_beside_the_images_is_offered_for_a_wrong_one(bench: Benches) -> None:
+    at = bench(Camera(camera_info_topic=Topic("/camera/camera_info")))
+    at.transform("map", "camera")
+    send(at)
+    send_info(at, width=32)
+    at.turn()
+    at.press("Camera Info")
+    assert at.display.camera_info_topic.name == ""
+
+
 def test_an_image_has_the_camera_info_of_its_stamp(bench: Benches) -> None:
     at = bench(Camera())
     at.transform("map", "camera")

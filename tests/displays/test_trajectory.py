@@ -197,6 +197,9 @@ def test_an_invalid_speed_is_named(rail: Any) -> None:
     rail.set("state_display_time", "fast")
     rail.turn()
     assert "State Display Time 'fast' is invalid" in rail.statuses()["Speed"][1]
+    rail.press("Speed")
+    rail.set("state_display_time", "REALTIME")
+    assert "Speed" not in rail.statuses()
 
 
 def test_a_floating_robot_moves_with_its_joint(bench: Benches) -> None:

@@ -9,12 +9,14 @@ from typing import Annotated, Any, Literal
 
 import msgspec
 
-from webviz import Context, Input, Pane, Pose, Prop, Sample, Topic
+from webviz import Context, Input, Pane, Pose, Prop, Remedy, Sample, Topic
 from webviz.api.frames import compose
 from webviz.api.pictures import Encoded, OverlayCamera, Pixels, Warp
 from webviz.data.images import CameraModel, ImageError, Lens, optical_problem
 from webviz_displays.camera.infos import Infos
 from webviz_displays.image.base import ImageDisplay, ImageState
+
+BESIDE = Remedy("camera_info_topic.name", "", "Use camera_info beside the images")
 
 _RECTIFIED = re.compile(r"(?:^|[/_])rect[^/]*(?:/[^/]*)?$")
 
@@ -186,6 +188,7 @@ class Camera(ImageDisplay):
                 "Camera Info",
                 f"The image has {width} x {height} pixels, the camera info {size}: they belong to "
                 "different cameras or modes. Choose the camera info of this camera.",
+                BESIDE if self.camera_info_topic.name else None,
             )
         elif remark.endswith("."):
             ctx.warn("Camera Info", remark)

@@ -196,7 +196,7 @@ class MotionPlanning(Display, ProtocolClient):
         return state.world.inspect(hit) or state.view.inspect(hit, ctx)
 
     def _playback(self) -> Any:
-        return playback_of(self.planned_path, self.scene_robot.attached_body_color)
+        return playback_of(self.planned_path, self.scene_robot.attached_body_color, "planned_path.")
 
     def _draw_ends(
         self, plans: Plans, path: JointPath | None, model: PosedRobot, frame: str, ctx: Context

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from webviz import Context, Details, Hit, Rgb
+from webviz import Context, Details, Hit, Remedy, Rgb
 from webviz.data.words import counted, joined, listed
 from webviz_displays.moveit.bodies import named
 from webviz_displays.moveit.drawing import HeldObjects, with_alpha
@@ -37,6 +37,7 @@ class Playback:
         step: points between its states.
         share: of the point that is held, None to play.
         attached: colour of what the robot holds.
+        speed_path: of the property that says the speed.
     """
 
     look: RobotLook
@@ -48,10 +49,17 @@ class Playback:
     step: int
     share: float | None
     attached: Rgb = ATTACHED
+    speed_path: str = "state_display_time"
 
 
-def playback_of(path: Any, attached: Rgb = ATTACHED) -> Playback:
-    """From the properties of Trajectory or of a planned path, which have the same names."""
+def playback_of(path: Any, attached: Rgb = ATTACHED, above: str = "") -> Playback:
+    """From the properties of Trajectory or of a planned path, which have the same names.
+
+    Args:
+        path: has the properties.
+        attached: colour of what the robot holds.
+        above: the path of the properties in their display, such as "planned_path.".
+    """
     look = RobotLook(
         path.show_robot_visual,
         path.show_robot_collision,
@@ -70,6 +78,7 @@ def playback_of(path: Any, attached: Rgb = ATTACHED) -> Playback:
         path.trail_step_size,
         path.position if path.paused else None,
         attached,
+        f"{above}state_display_time",
     )
 
 
@@ -128,6 +137,7 @@ class PathView:
                 "Speed",
                 f"State Display Time {named(playback.speed)} is invalid. Write a factor such as "
                 f"3x or a time such as 0.05s. {DEFAULT_SPEED} is used.",
+                Remedy(playback.speed_path, DEFAULT_SPEED, f"Use {DEFAULT_SPEED}"),
             )
         if model is None or path is None:
             return
