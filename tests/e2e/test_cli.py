@@ -177,3 +177,18 @@ def test_installing_brings_what_pictures_need_and_says_if_a_browser_is_missing()
         "webviz is ready, but cannot make pictures yet. WEBVIZ_BROWSER is"
     )
     assert result.stderr == ""
+
+
+def test_a_pipe_that_is_closed_ends_a_command_quietly(tmp_path: Path) -> None:
+    files = [tmp_path / f"{number}.rviz" for number in range(2)]
+    for file in files:
+        file.write_text("Visualization Manager: {Displays: []}")
+    command = subprocess.Popen(
+        [sys.executable, "-m", "webviz", "convert", "--check", *map(str, files)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    )
+    assert command.stdout is not None
+    command.stdout.close()
+    _, said = command.communicate()
+    assert (command.returncode, said) == (1, b"")

@@ -9,10 +9,10 @@ from collections.abc import Sequence
 def program() -> None:
     """Run `webviz` and exit. A signal before a command has begun ends the program at once."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # no traceback of the following imports
-    from webviz.shell.cli.ending import finish, leave, on_signal
+    from webviz.shell.cli.ending import finish, leave, on_signal, piped
 
     on_signal(leave)
-    finish(main())
+    finish(piped(main))
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -38,6 +38,17 @@ def on_signal(action: Callable[[], object]) -> None:
         signal.signal(number, handle)
 
 
+def piped(command: Callable[[], int]) -> int:
+    """Run a command; one whose output nothing reads any more, as before `head`, ends quietly."""
+    try:
+        status = command()
+        sys.stdout.flush()
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+    return status
+
+
 def say(line: str) -> None:
     """Write a line to standard error, if that is still open."""
     with contextlib.suppress(OSError):
