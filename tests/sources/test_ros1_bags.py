@@ -14,6 +14,7 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from webviz.data.messages import decode
 from webviz.data.recordings import RecordingError, open_recording
 from webviz.shell.testing import check_seeks
+from webviz.sources.bag.log import read_log
 from webviz.sources.bag.source import BagSource
 
 SECOND = 1_000_000_000
@@ -127,6 +128,22 @@ def test_what_was_latched_is_known_as_such(tmp_path: Path) -> None:
     (publisher,) = source.offers()["/tf_static"].publishers
     assert publisher.durability == "transient_local"
     source.close()
+
+
+def test_warnings_of_rosout_are_events(tmp_path: Path) -> None:
+    path, name = tmp_path / "run.bag", "rosgraph_msgs/msg/Log"
+    with Writer(path) as writer:
+        connection = writer.add_connection("/rosout", name, typestore=STORE)
+        for number, level in enumerate((1, 2, 4, 8, 16)):
+            log = T[name](head("", number), level, "driver", f"level {level}", "a.cpp", "f", 1, [])
+            raw = STORE.serialize_ros1(log, name)
+            writer.write(connection, (1000 + number) * SECOND, raw)
+    events = read_log([path]).events
+    assert [(event.at_ns // SECOND, event.level.name, event.text) for event in events] == [
+        (1002, "WARN", "level 4"),
+        (1003, "ERROR", "level 8"),
+        (1004, "ERROR", "level 16"),
+    ]
 
 
 def test_one_flipped_bit_ends_in_a_sentence(tmp_path: Path) -> None:

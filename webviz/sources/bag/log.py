@@ -23,6 +23,9 @@ WARN, ERROR = 30, 40
 """Levels of rcl_interfaces/msg/Log; FATAL is above."""
 LEVEL_AT = 12
 """Offset of the level in CDR: the encapsulation header and a stamp precede it."""
+ROS_1_LOG = "rosgraph_msgs/msg/Log"
+ROS_1_LEVELS = {4: WARN, 8: ERROR, 16: 50}
+"""Levels of rosgraph_msgs/Log that are shown, and those of rcl_interfaces/msg/Log."""
 MAX_EVENTS = 1000
 MAX_NAME, MAX_TEXT = 100, 200
 """Characters of a node's name and of the first line of its message."""
@@ -108,20 +111,24 @@ def _read(files: BagFiles) -> BagLog:
                 "all takes too long. Split the bag to see the rest."
             )
             break
-        if len(recorded.cdr) <= LEVEL_AT or recorded.cdr[LEVEL_AT] < WARN:
+        is_short = len(recorded.cdr) <= LEVEL_AT
+        if recorded.type == LOG and (is_short or recorded.cdr[LEVEL_AT] < WARN):
             continue
         try:
-            message = decode(LOG, recorded.cdr)
+            message = decode(recorded.type, recorded.cdr)
         except MessageError:
+            continue
+        level = message.level if recorded.type == LOG else ROS_1_LEVELS.get(message.level, 0)
+        if level < WARN:
             continue
         event = Event(
             recorded.stamp_ns,
-            Level.ERROR if message.level >= ERROR else Level.WARN,
+            Level.ERROR if level >= ERROR else Level.WARN,
             shortened(message.name, MAX_NAME),
             _first_line(message.msg),
         )
         count += 1
-        entry = (message.level, chance.random(), count, event)
+        entry = (level, chance.random(), count, event)
         if len(kept) < MAX_EVENTS:
             heapq.heappush(kept, entry)
         else:
@@ -131,7 +138,7 @@ def _read(files: BagFiles) -> BagLog:
 
 
 def _channels(files: BagFiles) -> Sequence[BagChannel]:
-    return [c for c in files.channels if (c.topic, c.type) == (ROSOUT, LOG)]
+    return [c for c in files.channels if c.topic == ROSOUT and c.type in (LOG, ROS_1_LOG)]
 
 
 def _is_read(reading: Future[BagLog]) -> bool:
