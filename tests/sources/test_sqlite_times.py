@@ -120,3 +120,14 @@ def test_what_a_histogram_read_is_not_searched_again(
     assert list(recording.newest(channels, recording.span_ns[1])) == []
     assert asked == []
     recording.close()
+
+
+def test_a_message_that_is_no_valid_text_is_skipped(tmp_path: Path) -> None:
+    (file,) = files(strings(0, 1, 2).write(tmp_path / "run", StoragePlugin.SQLITE3), ".db3")
+    with closing(sqlite3.connect(file)) as db, db:
+        db.execute("UPDATE messages SET data = CAST(x'ff' AS TEXT) WHERE id = 2")
+    recording = SqliteRecording(file)
+    found = recording.messages(recording.channels, START_NS, START_NS + ns(2))
+    assert [each.stamp_ns - START_NS for each in found] == [0, ns(2)]
+    assert "the database is damaged" in str(recording.losses)
+    recording.close()

@@ -312,7 +312,8 @@ class SqliteRecording:
         try:
             yield
         except sqlite3.OperationalError as error:
-            if error.sqlite_errorcode != sqlite3.SQLITE_INTERRUPT:
+            # Errors of the module itself, such as of invalid text, have no code.
+            if getattr(error, "sqlite_errorcode", 0) != sqlite3.SQLITE_INTERRUPT:
                 raise
             raise _TakesLong from None
         finally:
