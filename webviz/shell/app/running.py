@@ -6,9 +6,7 @@ import atexit
 import contextlib
 import itertools
 import logging
-import math
 import os
-import ssl
 import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -22,36 +20,29 @@ import PIL.Image
 from webviz.api.errors import Error
 from webviz.api.views import View, with_type
 from webviz.engine.commands import Command, Refresh, ShowView, StartWithView
-from webviz.engine.pipeline import plugins as plugin_files
 from webviz.engine.state import State
 from webviz.files import config as config_file
 from webviz.files.config import Config
 from webviz.files.sessions import Sessions
-from webviz.server.access.journal_file import JournalFile
 from webviz.server.access.login import cookie_name
-from webviz.server.access.tls import doubts, server_context
+from webviz.shell.app import starting
 from webviz.shell.app.allow_list import check_names, report_everything
+from webviz.shell.app.closing import Closing
 from webviz.shell.app.link_rate import bytes_per_second
 from webviz.shell.app.reading import read_config
-from webviz.shell.bag_source import bag_source
+from webviz.shell.app.starting import BagPaths
 from webviz.shell.pictures import files as picture_files
 from webviz.shell.ros_source import ros_source
 
 if TYPE_CHECKING:
+    from webviz.server.http.viser_server import Server
     from webviz.shell.pictures.browser import Pixels
     from webviz.sources import Source
 
 log = logging.getLogger("webviz")
 
-BagPaths = str | os.PathLike[str] | Sequence[str | os.PathLike[str]]
-"""A bag, or several to merge by time."""
-
 PATIENCE_S = 30.0
 """For a command in the frame loop; opening a config of hundreds of displays takes seconds."""
-CLOSING_S, ALL_CLOSING_S = 1.5, 2.0
-"""For a part to close, and for all: a program that is asked to end has three seconds."""
-LAST_S = 0.1
-"""For each part that remains after that."""
 
 
 class Running:
@@ -85,32 +76,19 @@ class Running:
         read: Callable[[Path | None, Source | None], Config] = read_config,
     ) -> None:
         with contextlib.ExitStack() as stack:
-            closing = _Closing(stack)
+            self._closing = closing = Closing(stack)
             check_names(allow_publish)
             link_rate = bytes_per_second(link) if link else None
-            kept = None if journal is None else JournalFile(Path(journal))
-            if kept is not None:
-                closing.add("The journal", kept.close)
-            if bag is not None:
-                if source is not None:
-                    raise Error("Give either `bag` or `source`.")
-                source = bag_source(_paths(bag), ros_args=ros_args)
-            if source is not None:
-                closing.add("The source of messages", source.close)
-            files = [Path(file) for file in plugins]
-            watcher = plugin_files.Watcher(files)
-            for file in files:
-                plugin_files.load(file)
-            path = Path(config) if config is not None else None
+            keep = starting.journal(journal, closing)
+            source = starting.given_source(bag, source, ros_args, closing)
+            watcher = starting.loaded_plugins(plugins)
+            path = None if config is None else Path(config)
             # Report errors in files before importing viser, which is slow.
-            shown = read(path, None) if path is not None else None
-            tls = _tls(certfile, keyfile)
+            shown = None if path is None else read(path, None)
+            tls = starting.tls_context(certfile, keyfile)
             from webviz.engine.loop import FrameLoop
-            from webviz.page.pages import Pages
             from webviz.scene import ViserScene, open_server
-            from webviz.server.access.announcing import Announcement, reachable
             from webviz.server.access.starting import access_to, make_missing
-            from webviz.shell.pictures.snapshots import Snapshots
 
             # A proxy on this machine brings others.
             self.access = access_to(host, token or bool(trust_proxies))
@@ -126,13 +104,15 @@ class Running:
             )
             closing.add("The server of the page", server.stop)
             make_missing(self.access)  # until then, nobody can connect
+            self._host, self.port = host, server.get_port()
+            self._scheme = "http" if tls is None else "https"
             node_control = None
             if source is None:
                 source = ros_source(ros_args)
                 closing.add("The ROS node", source.close)
                 node_control = source.control
-                if path is None and node_control.initial["config_file"]:
-                    path = Path(node_control.initial["config_file"])
+                file = node_control.initial["config_file"]
+                path = path or (Path(file) if file else None)
                 fixed_frame = fixed_frame or node_control.initial["fixed_frame"]
             shown = shown or read(path, source)
             if publish:
@@ -142,11 +122,11 @@ class Running:
             session = sessions.claim(path) if sessions else None
             if session is not None:
                 closing.add("The session", session.close)
-            scene = self._scene = ViserScene(server)
+            self._scene = ViserScene(server)
             self._loop = FrameLoop(
                 shown,
                 source,
-                scene,
+                self._scene,
                 self._show,
                 path=path,
                 autoplay=autoplay,
@@ -156,26 +136,8 @@ class Running:
                 session=session and session.path,
                 restore=bool(sessions and sessions.restore),
             )
-            self._pages = Pages(
-                server.channel,
-                self._loop.enqueue,
-                self._loop.controllers.steer,
-                self.access,
-                kept and kept.write,
-            )
-            self._scheme = "http" if tls is None else "https"
-            self._host, self.port = host, server.get_port()
-            if self.access.asks:
-                page = reachable(self.url, host, allow_hosts)
-                closing.add("The announcement", Announcement(page, self.port).close)
-            self._ended: Future[None] = Future()
-            thread = threading.Thread(target=self._run, name="webviz-viewer", daemon=True)
-            thread.start()
-            closing.add("The frame loop", thread.join)
-            stack.callback(self._loop.stop)
-            scene.link.late.wake = source.inbox.arrived.set
-            self._snapshots = Snapshots(scene, self._drawn, self._look, self._cookie())
-            closing.add("The browser of pictures", self._snapshots.close)
+            self._open_pages(server, allow_hosts, keep)
+            self._run_loop(source)
             watcher.start(self._loop.enqueue)
             closing.add("The plug-in watcher", watcher.stop)
             self.do(Refresh())  # so that there is a state
@@ -186,6 +148,32 @@ class Running:
                 node_control.open(self, folders, may_change=control)
             self._stack = stack.pop_all()
         atexit.register(self.close)
+
+    def _open_pages(
+        self, server: Server, allow_hosts: Sequence[str], keep: Callable[[str], object] | None
+    ) -> None:
+        """Show the viewer on all pages, and announce their address to `webviz links`."""
+        from webviz.page.pages import Pages
+        from webviz.server.access.announcing import Announcement, reachable
+
+        loop = self._loop
+        self._pages = Pages(server.channel, loop.enqueue, loop.controllers.steer, self.access, keep)
+        if self.access.asks:
+            page = reachable(self.url, self._host, allow_hosts)
+            self._closing.add("The announcement", Announcement(page, self.port).close)
+
+    def _run_loop(self, source: Source) -> None:
+        """Start the thread of the frame loop, and what takes pictures of what it shows."""
+        from webviz.shell.pictures.snapshots import Snapshots
+
+        self._ended: Future[None] = Future()
+        thread = threading.Thread(target=self._run, name="webviz-viewer", daemon=True)
+        thread.start()
+        self._closing.add("The frame loop", thread.join)
+        self._closing.before(self._loop.stop)
+        self._scene.link.late.wake = source.inbox.arrived.set
+        self._snapshots = Snapshots(self._scene, self._drawn, self._look, self._cookie())
+        self._closing.add("The browser of pictures", self._snapshots.close)
 
     @property
     def restored(self) -> str:
@@ -327,52 +315,6 @@ class Running:
     def _show(self, state: State) -> None:
         self._state = state
         self._pages.update(state)
-
-
-class _Closing:
-    """Closes the parts of a viewer in the reverse order; those that hang are reported and left.
-
-    They share one time limit, so that a program ends in time however many of them are slow.
-    """
-
-    def __init__(self, stack: contextlib.ExitStack) -> None:
-        self._stack = stack
-        self._until = math.inf
-
-    def add(self, what: str, close: Callable[[], object]) -> None:
-        """Close a part when the stack is closed."""
-        self._stack.callback(self._close, what, close)
-
-    def _close(self, what: str, close: Callable[[], object]) -> None:
-        self._until = min(self._until, time.monotonic() + ALL_CLOSING_S)
-        thread = threading.Thread(target=close, name="webviz-closing", daemon=True)
-        thread.start()
-        patience_s = min(CLOSING_S, max(LAST_S, self._until - time.monotonic()))
-        thread.join(patience_s)
-        if thread.is_alive():
-            log.warning("%s did not close within %.1f s.", what, patience_s)
-
-
-def _paths(bag: BagPaths) -> list[Path]:
-    """The files and folders of a bag, or of several."""
-    several = [bag] if isinstance(bag, str | os.PathLike) else bag
-    if not several:
-        raise Error("`bag` is empty. Give a file or folder, or None for the ROS graph.")
-    return [Path(path) for path in several]
-
-
-def _tls(
-    certfile: str | os.PathLike[str] | None, keyfile: str | os.PathLike[str] | None
-) -> ssl.SSLContext | None:
-    """The context of a server with TLS, if there is a certificate; doubts about it are logged."""
-    if certfile is None:
-        if keyfile is not None:
-            raise Error("`keyfile` needs `certfile`.")
-        return None
-    context = server_context(Path(certfile), None if keyfile is None else Path(keyfile))
-    for doubt in doubts(context, Path(certfile)):
-        log.warning("%s", doubt)
-    return context
 
 
 def checked_view(view: View | Mapping[str, Any]) -> View:

@@ -1,0 +1,80 @@
+"""The parts of a viewer that are opened before its server."""
+
+from __future__ import annotations
+
+import logging
+import os
+import ssl
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from webviz.api.errors import Error
+from webviz.engine.pipeline import plugins
+from webviz.server.access.journal_file import JournalFile
+from webviz.server.access.tls import doubts, server_context
+from webviz.shell.app.closing import Closing
+from webviz.shell.bag_source import bag_source
+
+if TYPE_CHECKING:
+    from webviz.sources import Source
+
+log = logging.getLogger("webviz")
+
+BagPaths = str | os.PathLike[str] | Sequence[str | os.PathLike[str]]
+"""A bag, or several to merge by time."""
+
+
+def journal(
+    path: str | os.PathLike[str] | None, closing: Closing
+) -> Callable[[str], object] | None:
+    """Open the file of the journal; returns its writer of lines, None without a file."""
+    if path is None:
+        return None
+    file = JournalFile(Path(path))
+    closing.add("The journal", file.close)
+    return file.write
+
+
+def given_source(
+    bag: BagPaths | None, source: Source | None, ros_args: Sequence[str], closing: Closing
+) -> Source | None:
+    """The bag or other source that was asked for, None for the ROS graph."""
+    if bag is not None:
+        if source is not None:
+            raise Error("Give either `bag` or `source`.")
+        source = bag_source(_paths(bag), ros_args=ros_args)
+    if source is not None:
+        closing.add("The source of messages", source.close)
+    return source
+
+
+def loaded_plugins(files: Sequence[str | os.PathLike[str]]) -> plugins.Watcher:
+    """Load files with plug-ins; returns what watches them for changes."""
+    paths = [Path(file) for file in files]
+    watcher = plugins.Watcher(paths)
+    for path in paths:
+        plugins.load(path)
+    return watcher
+
+
+def _paths(bag: BagPaths) -> list[Path]:
+    """The files and folders of a bag, or of several."""
+    several = [bag] if isinstance(bag, str | os.PathLike) else bag
+    if not several:
+        raise Error("`bag` is empty. Give a file or folder, or None for the ROS graph.")
+    return [Path(path) for path in several]
+
+
+def tls_context(
+    certfile: str | os.PathLike[str] | None, keyfile: str | os.PathLike[str] | None
+) -> ssl.SSLContext | None:
+    """The context of a server with TLS, if there is a certificate; doubts about it are logged."""
+    if certfile is None:
+        if keyfile is not None:
+            raise Error("`keyfile` needs `certfile`.")
+        return None
+    context = server_context(Path(certfile), None if keyfile is None else Path(keyfile))
+    for doubt in doubts(context, Path(certfile)):
+        log.warning("%s", doubt)
+    return context
