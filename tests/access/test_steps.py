@@ -15,6 +15,7 @@ from webviz.server.channel.modules import CHANNEL
 from webviz.server.http.hosts import HostList
 from webviz.server.http.steps import Visit, answer_of, at, behind, page, with_link, within
 
+PAGE = b"<html><head><script>(async()=>{  const d=document.currentScript.dataset;"
 SOCKET = {"Upgrade": "websocket"}
 
 
@@ -26,7 +27,7 @@ def visit(path: str = "/", peer: str = "10.0.0.1", **headers: str) -> Visit:
 def fetched(request: Request) -> Response | None:
     """viser's page; it would pack it by itself if it knew that the browser can unpack."""
     assert "Accept-Encoding" not in request.headers
-    return Response(200, "OK", Headers(ETag="1"), b"page")
+    return Response(200, "OK", Headers(ETag="1"), PAGE)
 
 
 class Full:
@@ -77,11 +78,17 @@ def test_a_channel_needs_no_room_besides_that_of_its_page() -> None:
 
 
 def test_the_page_is_the_only_file_and_packed_for_those_that_unpack_it() -> None:
-    step = page(lambda body: body + b" of webviz")
+    step = page(b"<style>")
     plain, packed = step(visit()), step(visit("/index.html?a", Accept_Encoding="gzip"))
     assert plain is not None
     assert packed is not None
-    assert plain.body == gzip.decompress(packed.body) == b"page of webviz"
+    assert (
+        plain.body
+        == gzip.decompress(packed.body)
+        == PAGE.replace(b"<head>", b"<head><style>").replace(
+            b"dataset;", b"dataset;await window.webvizModules;"
+        )
+    )
     assert "Content-Encoding" not in plain.headers
     assert (packed.headers["Content-Encoding"], packed.headers["ETag"]) == ("gzip", "1")
     missing = step(visit("/etc/passwd"))

@@ -70,7 +70,7 @@ def open_server(
         at(HostList(host, allowed_hosts)),
         with_link(access, listener.getsockname()[1]),
         within(limits),
-        page(modules.added_to),
+        page(modules.head),
     )
     begin = Expelling(access, limits).begin
     guard = RequestGuard(listener, steps, limits, tls, channel, begin, link_rate)

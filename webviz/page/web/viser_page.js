@@ -108,6 +108,21 @@ export const node = (name) => page().nodeRefFromName[name];
 export const positionOf = (name) => page().nodePoseData[name]?.position;
 
 export const requestRender = () => page().requestRender();
+
+/** Draws a frame now, as viser does by itself; whether that asked for another one. */
+export function advance() {
+  const { requestRender } = page();
+  let isAsked = false;
+  page().requestRender = () => {
+    isAsked = true;
+    requestRender();
+  };
+  three().advance(performance.now());
+  page().requestRender = requestRender;
+  return isAsked;
+}
+
+export const hasMessages = () => page().messageQueue.length > 0;
 export const sendCamera = () => page().sendCamera();
 export const setMaxOrbitDistance = (meters) => (page().configuredMaxOrbitDistance = meters);
 

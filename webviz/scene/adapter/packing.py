@@ -8,12 +8,13 @@ from collections.abc import Sequence
 
 import msgspec
 import zstandard
-from viser.infra._infra import _append_aligned_buffers
 from viser.infra._messages import Message
 
 from webviz.server.sending.frame_header import header
 from webviz.server.sending.pieces import Piece
 
+ALIGNMENT = 8
+"""Bytes; typed arrays of JavaScript begin at multiples of their items' size."""
 _packer = msgspec.msgpack.Encoder()
 
 
@@ -27,7 +28,7 @@ class Packer:
         """A websocket frame without mask, which is the same for all browsers.
 
         It contains the size of the msgpack before and after compression, the msgpack, and the
-        arrays, each aligned to 8 bytes.
+        arrays, each at a multiple of `ALIGNMENT`.
         """
         arrays: list[memoryview] = []
         packed = _packer.encode(
@@ -40,6 +41,10 @@ class Packer:
         compressed = self._zstd.compress(packed)
         sizes = struct.pack("<QQ", len(packed), len(compressed))
         parts: list[bytes | memoryview] = [b"", sizes, compressed]
-        _append_aligned_buffers(parts, arrays, len(sizes) + len(compressed))
-        parts[0] = header(sum(memoryview(part).nbytes for part in parts))
+        size = len(sizes) + len(compressed)
+        for array in arrays:
+            padding = -size % ALIGNMENT
+            parts += [bytes(padding), array]
+            size += padding + array.nbytes
+        parts[0] = header(size)
         return b"".join(parts)

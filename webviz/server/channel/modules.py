@@ -22,8 +22,6 @@ _FOLDER = Path(str(resources.files("webviz.page"))) / "web"
 _STYLE = re.compile(r'<link rel="stylesheet" href="webviz/([^"]+)">')
 _MODULES = "$MODULES"
 """Stands in `head.html` for all modules, as JSON."""
-_OWN = b"(async()=>{  const d=document.currentScript.dataset;"
-"""Beginning of viser's script, which unpacks the rest of it."""
 
 
 class Modules:
@@ -42,19 +40,7 @@ class Modules:
         modules["constants.js"] = f"export default {shared};\n"
         head = _STYLE.sub(lambda link: f"<style>\n{files[link[1]]}</style>", files["head.html"])
         # Nothing in a module may end the element that it is in.
-        self._head = head.replace(_MODULES, json.dumps(modules).replace("<", r"\u003c")).encode()
-
-    def added_to(self, page: bytes) -> bytes:
-        """viser's page with the modules, which run before its own script.
-
-        Raises:
-            ValueError: it is not an HTML page with a head and the script of viser.
-        """
-        start, head, rest = page.partition(b"<head>")
-        before, own, after = rest.partition(_OWN)
-        if not (head and own):
-            raise ValueError("The page of viser has no <head>, or another script than expected.")
-        return start + head + self._head + before + own + b"await window.webvizModules;" + after
+        self.head = head.replace(_MODULES, json.dumps(modules).replace("<", r"\u003c")).encode()
 
     def connect(self, browser: int, key: str) -> str:
         """A script that makes a page open the channel.

@@ -17,6 +17,7 @@ from webviz.server.access.proxies import Proxies
 from webviz.server.channel.modules import CHANNEL
 from webviz.server.http.hosts import HostList, origin_refusal
 from webviz.server.http.requests import NOT_FOUND, PAGES, is_upgrade
+from webviz.server.http.viser_page import with_head
 
 HTML = "text/html; charset=utf-8"
 
@@ -147,16 +148,16 @@ def within(limits: Room) -> Step:
     return step
 
 
-def page(added_to: Callable[[bytes], bytes]) -> Step:
+def page(head: bytes) -> Step:
     """Serve the one file of the page, packed for browsers that take it so.
 
     Args:
-        added_to: makes our page of viser's.
+        head: of the page, besides viser's; see `Modules.head`.
     """
 
     @functools.lru_cache(maxsize=2)
     def whole(body: bytes, is_packed: bool) -> bytes:
-        text = added_to(body)
+        text = with_head(body, head)
         return gzip.compress(text) if is_packed else text
 
     def step(visit: Visit) -> Reply | None:

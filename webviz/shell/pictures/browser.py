@@ -22,9 +22,11 @@ from webviz.server.images.frames import overlay_camera_values, warp_values
 from webviz.shell.pictures.browser_scripts import (
     CANVAS,
     COUNT_UNPACKING,
+    DRAW,
     HOLD,
     OPAQUE,
     PANE,
+    PIXEL,
     SETTLE,
     TRANSPARENT,
 )
@@ -212,15 +214,7 @@ class Page:
 
     def draw(self, count: int = 3) -> None:
         """Make the page draw some frames."""
-        self.evaluate(
-            """async (count) => {
-              for (let i = 0; i < count; i++) {
-                window.__viserMutable.requestRender();
-                await new Promise(requestAnimationFrame);
-              }
-            }""",
-            count,
-        )
+        self.evaluate(DRAW, count)
 
     def hold(self) -> None:
         """Draw only in `pixels` from now on.
@@ -276,20 +270,7 @@ class Page:
 
     def pixel_of(self, x: float, y: float, z: float = 0.0) -> tuple[float, float]:
         """Column and row of a point of the fixed frame."""
-        return tuple(
-            self.evaluate(
-                """(point) => {
-                  const {camera, canvas, nodeRefFromName} = window.__viserMutable;
-                  const root = nodeRefFromName["/webviz"];
-                  root.updateWorldMatrix(true, false);
-                  camera.updateMatrixWorld();
-                  const p = root.position.clone().set(...point).applyMatrix4(root.matrixWorld);
-                  p.project(camera);
-                  return [(p.x + 1) / 2 * canvas.width, (1 - p.y) / 2 * canvas.height];
-                }""",
-                [x, y, z],
-            )
-        )
+        return tuple(self.evaluate(PIXEL, [x, y, z]))
 
     def text(self) -> str:
         """The visible text of the page."""

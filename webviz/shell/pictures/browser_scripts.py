@@ -1,9 +1,28 @@
 """Scripts for the page in a headless browser."""
 
-CANVAS = """() => {
-  const {canvas} = window.__viserMutable;
+VISER = 'const viser = await import(new URL("webviz/viser_page.js", location.href));'
+"""Begins a script that reads what the page alone may: of viser, through its own module."""
+
+CANVAS = f"""async () => {{ {VISER}
+  const canvas = viser.canvas();
   return [canvas.width, canvas.height];
-}"""
+}}"""
+
+DRAW = f"""async (count) => {{ {VISER}
+  for (let i = 0; i < count; i++) {{
+    viser.requestRender();
+    await new Promise(requestAnimationFrame);
+  }}
+}}"""
+
+PIXEL = f"""async (point) => {{ {VISER}
+  const [camera, canvas, root] = [viser.camera(), viser.canvas(), viser.node("/webviz")];
+  root.updateWorldMatrix(true, false);
+  camera.updateMatrixWorld();
+  const p = root.position.clone().set(...point).applyMatrix4(root.matrixWorld);
+  p.project(camera);
+  return [(p.x + 1) / 2 * canvas.width, (1 - p.y) / 2 * canvas.height];
+}}"""
 
 # three.js decodes every texture, including those in GLB files, from an object URL, which it revokes
 # when the texture is ready.
@@ -24,78 +43,59 @@ COUNT_UNPACKING = """
 """
 
 # Everything in a frame except the rendering, since callbacks read and change nodes.
-HOLD = """
-() => {
-  const {canvas, messageQueue, scene} = window.__viserMutable;
-  const {advance, gl} = scene.__r3f.root.getState();
-  canvas.style.visibility = "hidden";  // nor does the browser draw its page anew
+HOLD = f"""async () => {{ {VISER}
+  const gl = viser.gl();
+  viser.canvas().style.visibility = "hidden";  // nor does the browser draw its page anew
   window.webvizRender = gl.render.bind(gl);
-  gl.render = (scene, camera) => {
+  gl.render = (scene, camera) => {{
     scene.updateMatrixWorld();
     camera.updateMatrixWorld();
     scene.onBeforeRender(gl, scene, camera, null);
-  };
-  setInterval(() => messageQueue.length > 0 && advance(performance.now()), 4);
-}
-"""
+  }};
+  setInterval(() => viser.hasMessages() && viser.advance(), 4);
+}}"""
 
 # Decoded data makes React render, whose effects may decode more. Hence wait for some quiet frames
 # in a row, each with a separate task for React. A frame that requests another one is not quiet, as
 # viser renders new glyphs of labels for at most 5 ms per frame.
-SETTLE = """
-async (milliseconds) => {
-  const page = window.__viserMutable;
-  const {advance} = page.scene.__r3f.root.getState();
+SETTLE = f"""async (milliseconds) => {{ {VISER}
   const deadline = performance.now() + milliseconds;
-  for (let quiet = 0; quiet < 4; ) {
-    let busy = false;
-    const {requestRender} = page;
-    page.requestRender = () => {
-      busy = true;
-      requestRender();
-    };
-    advance(performance.now());
-    page.requestRender = requestRender;
-    busy ||= page.messageQueue.length > 0 || window.webvizUnpacking.size > 0;
+  for (let quiet = 0; quiet < 4; ) {{
+    const isAsked = viser.advance();
+    const busy = isAsked || viser.hasMessages() || window.webvizUnpacking.size > 0;
     quiet = busy ? 0 : quiet + 1;
     if (performance.now() > deadline) return false;
     await new Promise((resume) => setTimeout(resume, busy ? 5 : 0));
-  }
+  }}
   return true;
-}
-"""
+}}"""
 
-OPAQUE = """
-() => {
-  const {scene, camera, canvas} = window.__viserMutable;
-  window.webvizRender?.(scene, camera);
-  return canvas.toDataURL("image/png");
-}
-"""
+OPAQUE = f"""async () => {{ {VISER}
+  window.webvizRender?.(viser.scene(), viser.camera());
+  return viser.canvas().toDataURL("image/png");
+}}"""
 
-TRANSPARENT = """
-() => {
-  const {scene, camera, canvas, backgroundMaterial, requestRender} = window.__viserMutable;
-  const {gl} = scene.__r3f.root.getState();
+TRANSPARENT = f"""async () => {{ {VISER}
+  const gl = viser.gl();
   const alpha = gl.getClearAlpha();
-  const {enabled} = backgroundMaterial.uniforms;
+  const enabled = viser.backgroundMaterial().uniforms.enabled;
   const was = enabled.value;
-  try {
+  try {{
     enabled.value = false;
     gl.setClearAlpha(0);
-    (window.webvizRender ?? gl.render)(scene, camera);
-    return canvas.toDataURL("image/png");
-  } finally {
+    (window.webvizRender ?? gl.render)(viser.scene(), viser.camera());
+    return viser.canvas().toDataURL("image/png");
+  }} finally {{
     enabled.value = was;
     gl.setClearAlpha(alpha);
-    requestRender();
-  }
-}
-"""
+    viser.requestRender();
+  }}
+}}"""
 
 # A picture with the scene over and under it, drawn by the modules of the page.
 PANE = """
 async ([width, height, sight, warp, hidden, url]) => {
+  const viser = await import(new URL("webviz/viser_page.js", location.href));
   const load = (name) => import(new URL(`webviz/images/${name}.js`, location.href));
   const [{ paint }, { bend }] = [await load("over"), await load("bend")];
   const picture = new Image();
@@ -110,7 +110,7 @@ async ([width, height, sight, warp, hidden, url]) => {
   if (bent) bend(picture, warp, bent);
   const image = bent ? bent.canvas : picture;
   const context = make(width, height);
-  const {gl} = window.__viserMutable.scene.__r3f.root.getState();
+  const gl = viser.gl();
   const {render} = gl;
   if (window.webvizRender) gl.render = window.webvizRender;
   try {
