@@ -267,6 +267,13 @@ def test_on_a_phone_the_scene_is_free_until_the_side_lies_over_it(
     album.check("phone_with_panels", capture(phone), tolerance=TOLERANCE)
 
 
+HEARD = """async () => {
+  const { on } = await import("/webviz/channel.js");
+  await new Promise((resolve) => on("Beat", resolve));
+}"""
+"""Returns when the server has been heard."""
+
+
 def test_a_lost_connection_greys_the_page_and_says_so(
     browser: playwright.Browser, album: ReferenceImages
 ) -> None:
@@ -276,7 +283,7 @@ def test_a_lost_connection_greys_the_page_and_says_so(
     tab = Tab(page, server, Loop(server), resolution=1)
     still(tab)
     tab.wait_for(lambda: tab.page.get_by_role("treeitem").count() == 7)
-    tab.page.wait_for_timeout(1500)  # until the server was heard in the frozen time
+    tab.page.evaluate(HEARD)  # in the frozen time
     server.stop()
     tab.page.evaluate("setTime(1_764_000_012_000)")
     tab.page.locator(".wv-contact").wait_for()
