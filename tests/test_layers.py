@@ -38,6 +38,7 @@ FOLDERS = {
         "state",
         "commands",
         "driving",
+        "watch",
         "playback",
         "pipeline",
         "parts",

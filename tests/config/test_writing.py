@@ -18,7 +18,7 @@ from webviz.api.display import Display
 from webviz.api.group import DisplayGroup
 from webviz.api.registry import display_types
 from webviz.api.views import Orbit, TopDownOrtho
-from webviz.files.config import Branch, Config, Unreadable, document, dump
+from webviz.files.config import Branch, Config, Unreadable, WatchRule, document, dump
 from webviz.files.config.model import Settings
 from webviz.files.opening import load, parse, save
 
@@ -93,7 +93,17 @@ def numbers(kind: type, bounds: dict[str, Any]) -> st.SearchStrategy[Any]:
     )
 
 
+RULES = (
+    {"display": "Scan", "status": "error", "for": "2s"},
+    {"topic": "/diagnostics", "level": "warn", "name": "bad"},
+    {"topic": "/scan", "rate": "<5.5"},
+)
+"""Rules whose keys go together."""
+
+
 def structs(cls: type[msgspec.Struct]) -> st.SearchStrategy[dict[str, Any]]:
+    if cls is WatchRule:
+        return st.sampled_from(RULES).map(dict)
     hints = typing.get_type_hints(cls, include_extras=True)
     fields = {n: values_of(hints[n], {}) for n in cls.__struct_fields__ if n not in FIXED}
     config = cls.__struct_config__

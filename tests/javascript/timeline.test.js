@@ -3,6 +3,7 @@ import { test } from "node:test";
 
 import { following, limited, zoomed } from "../../webviz/page/web/timeline/range.js";
 import { agoText, atMoment, beforeText, isNow } from "../../webviz/page/web/timeline/moment.js";
+import { savedText } from "../../webviz/page/web/timeline/saved_text.js";
 import { parseTime } from "../../webviz/page/web/timeline/typed_time.js";
 
 test("a window stays within the recording and keeps its length", () => {
@@ -62,4 +63,9 @@ test("times before now are seconds", () => {
   assert.equal(agoText(123.4), "123 s ago");
   assert.equal(beforeText(-5, 0), "−5 s");
   assert.equal(beforeText(0), "now");
+});
+
+test("recordings of rules are named by time and cause", () => {
+  assert.equal(savedText("2026-11-23_05-12-47_Scan_error", 12.3), "2026-11-23 05:12:47 · Scan error · 12.3 MB");
+  assert.equal(savedText("mine", 1), "mine · 1 MB");
 });

@@ -94,7 +94,17 @@ def test_a_part_that_is_added_does_its_commands_and_shows_its_state(
 HOOKS = sorted(
     {name for name, hook in vars(Part).items() if inspect.isfunction(hook)} - {"__init__"}
 )
-PARTS = ["Autosave", "Counter", "Displays", "Driving", "Files", "Goals", "Handles", "History"]
+PARTS = [
+    "Autosave",
+    "Black box",
+    "Counter",
+    "Displays",
+    "Driving",
+    "Files",
+    "Goals",
+    "Handles",
+    "History",
+]
 PARTS += [
     "Panels",
     "Playback",

@@ -83,6 +83,16 @@ class Inbox:
                 read(topic, raw)
         self.arrived.set()
 
+    def read_along(self, make: Callable[[], Callable[[str, Raw], object]]) -> None:
+        """Add a reader, which `make` makes between two messages."""
+        with self._lock:
+            self.readers = (*self.readers, make())
+
+    def forget(self, reader: Callable[[str, Raw], object]) -> None:
+        """Remove a reader."""
+        with self._lock:
+            self.readers = tuple(each for each in self.readers if each != reader)
+
     def divert(self) -> None:
         """Keep new messages out of the queues, which `replay` fills until `rejoin`."""
         with self._lock:

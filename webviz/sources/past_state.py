@@ -75,6 +75,32 @@ class MemoryState:
     pinned: tuple[str, ...] = ()
 
 
+@dataclass(frozen=True)
+class SavedMoment:
+    """A recording that a rule made.
+
+    Args:
+        path: of its folder, whose name has the time and the cause.
+        size: bytes of its files.
+    """
+
+    path: Path
+    size: int
+
+
+@dataclass(frozen=True)
+class BlackBoxState:
+    """Recordings that rules made.
+
+    Args:
+        saved: those in the folder, the newest first.
+        saving: cause of the one that goes on, "" for none.
+    """
+
+    saved: tuple[SavedMoment, ...] = ()
+    saving: str = ""
+
+
 @dataclass(frozen=True, kw_only=True)
 class RecordingState:
     """A recording of live topics that goes on.

@@ -21,6 +21,7 @@ from webviz.engine.loop.arrivals import Arrivals
 from webviz.engine.loop.showing import Showing
 from webviz.engine.parts import Core, Part, Parts
 from webviz.engine.parts.autosave import AutosavePart
+from webviz.engine.parts.black_box import BlackBoxPart
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.driving import DrivingPart
 from webviz.engine.parts.files import FilesPart
@@ -148,6 +149,7 @@ class FrameLoop:
         self._playback = PlaybackPart(
             core, settings, control, self._time.start_over, self.controllers.halt, autoplay
         )
+        self._black_box = BlackBoxPart(core, settings, memory)
         views = ViewsPart(core, settings, displays)
         goals = GoalsPart(core)
         panels = PanelsPart(core)
@@ -177,6 +179,7 @@ class FrameLoop:
             history,
             TopicsPart(core),
             RecordingPart(core, settings, memory),
+            self._black_box,
             SelectionPart(core, displays),
             HandlesPart(core, displays),
             PluginsPart(core, displays, [tools.list, panels.list], settings),
@@ -284,6 +287,7 @@ class FrameLoop:
         """A snapshot for a panel, as of the last turn."""
         state, statuses = self._parts.state(), self._parts.statuses()
         crashed = failures(self._guard.crashes)
+        self._black_box.look(state.rows)
         seen = replace(
             state,
             statuses=statuses | crashed | self._showing.statuses,

@@ -42,7 +42,8 @@ class RecordingPart(Part):
         self._live = live
         self._recorder: Recorder | None = None
         self._problem = ""
-        self._read()
+        if live is not None:
+            core.source.inbox.read_along(lambda: live.memory.put)
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
@@ -62,8 +63,7 @@ class RecordingPart(Part):
             self._live.channels.look()
         if self._recorder is not None and self._recorder.problem:
             self._problem = joined(self._recorder.problem, "The recording has ended.")
-            self._recorder = None
-            self._read()
+            self._end(self._recorder)
 
     def state(self) -> Mapping[str, Any]:
         """The memory and the recording."""
@@ -98,12 +98,10 @@ class RecordingPart(Part):
         if self._recorder is not None:
             self._recorder.close()
 
-    def _read(self) -> None:
-        """Read along with the inbox."""
-        if self._live is not None:
-            recorder = self._recorder
-            readers = (self._live.memory.put, *((recorder.put,) if recorder else ()))
-            self.core.source.inbox.readers = readers
+    def _end(self, recorder: Recorder) -> None:
+        """Let a recorder read no more."""
+        self._recorder = None
+        self.core.source.inbox.forget(recorder.put)
 
     # Commands
 
@@ -116,19 +114,18 @@ class RecordingPart(Part):
             now_ns = live.live.now_ns()
             latched = live.memory.last(0.0).latched
             past = [(topic, replace(raw, received_ns=now_ns)) for topic, raw in latched]
-            self._recorder = Recorder(folder, live.channels, past)
+            self._recorder = recorder = Recorder(folder, live.channels, past)
             self._problem = ""
-            self._read()
+            self.core.source.inbox.read_along(lambda: recorder.put)
             return f"Recording to {path.name}."
 
-        return Job(lambda: _new(path), then)
+        return Job(lambda: new_folder(path), then)
 
     def _stop(self, command: StopRecording, sender: Sender) -> Job[None]:
         recorder = self._recorder
         if recorder is None:
             raise Error("Nothing is being recorded.")
-        self._recorder = None
-        self._read()
+        self._end(recorder)
 
         def then(_: None) -> str:
             if recorder.problem:
@@ -149,7 +146,7 @@ class RecordingPart(Part):
             )
 
         def work() -> Recorder:
-            recorder = Recorder(_new(path), live.channels, past.whole)
+            recorder = Recorder(new_folder(path), live.channels, past.whole)
             recorder.close()
             return recorder
 
@@ -173,7 +170,12 @@ class RecordingPart(Part):
         return Path(path) if path else Path(new_name())
 
 
-def _new(path: Path) -> RecordingFolder:
+def new_folder(path: Path) -> RecordingFolder:
+    """A folder to record to; blocks.
+
+    Raises:
+        Error: it cannot be written.
+    """
     try:
         return RecordingFolder(path.absolute(), library())
     except RecordingError as error:

@@ -71,7 +71,7 @@ class SampleBuffer:
         every_one = overrides(display, "fold") or self._selective or keep != Keep()
         for found in arrived:
             name = next(iter(found))
-            self._ready_s[name] = clock
+            self._ready_s[name] = self._services.tracer.clock()
             if every_one:
                 self._admit(found, keep, frames)
             else:

@@ -18,7 +18,13 @@ from webviz.data.messages.tree import Tree
 from webviz.data.transforms import Diagnosis
 from webviz.files.config import Settings
 from webviz.sources import Offer
-from webviz.sources.past_state import Event, MemoryState, PlaybackState, RecordingState
+from webviz.sources.past_state import (
+    BlackBoxState,
+    Event,
+    MemoryState,
+    PlaybackState,
+    RecordingState,
+)
 
 
 @dataclass(frozen=True)
@@ -313,6 +319,7 @@ class State:
         findings: of the doctor, the one to repair first at the beginning.
         memory: what is remembered of live topics, None for a recording.
         recording: the one that goes on, None for none.
+        black_box: recordings that the rules of the config made, None for a bag.
         selected: ids of what each browser has selected, each with that of its display, and
             whether it moves.
         selections: what is known of it, for the browsers that show it.
@@ -346,6 +353,7 @@ class State:
     findings: Sequence[Finding] = ()
     memory: MemoryState | None = None
     recording: RecordingState | None = None
+    black_box: BlackBoxState | None = None
     selected: Mapping[int, Mapping[int, tuple[str, bool]]] = field(default_factory=dict)
     selections: Mapping[int, Mapping[str, Any]] = field(default_factory=dict)
     more: Mapping[str, Any] = field(default_factory=dict)

@@ -21,6 +21,7 @@ from webviz.files.config.model import (
 from webviz.files.config.reading import MAX_PLUGINS, read, read_display, read_panel, read_tool
 from webviz.files.config.robots import Template
 from webviz.files.config.source import MAX_DEPTH, MAX_VALUES, Location, YamlDocument
+from webviz.files.config.watch import WatchLimits, WatchRule
 from webviz.files.config.writing import document, dump, dump_displays
 
 __all__ = [
@@ -39,6 +40,8 @@ __all__ = [
     "Template",
     "ToolItem",
     "Unreadable",
+    "WatchLimits",
+    "WatchRule",
     "YamlDocument",
     "all_panels",
     "all_tools",

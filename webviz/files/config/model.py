@@ -17,6 +17,7 @@ from webviz.api.robots import Namespace, NamespacedRobot
 from webviz.api.tool import Tool
 from webviz.api.views import Orbit, View
 from webviz.files.config.robots import Template
+from webviz.files.config.watch import WatchLimits, WatchRule
 
 VERSION = 1
 STANDARD = ("Grid", "TF", "RobotModel", "LaserScan", "Map", "Path", "Odometry")
@@ -67,6 +68,14 @@ class Settings(msgspec.Struct, forbid_unknown_fields=True):
     memory: Annotated[
         MemorySettings, Prop(help="What can be rewound and saved of the last minutes.")
     ] = MemorySettings()
+    watch: Annotated[
+        tuple[WatchRule, ...],
+        msgspec.Meta(max_length=100),
+        Prop(help="Rules that save the last minute, and the next 10 s, when they hold."),
+    ] = ()
+    watch_limits: Annotated[WatchLimits, Prop(help="Bounds of what the rules save.")] = (
+        WatchLimits()
+    )
     bookmarks: Annotated[
         dict[str, float],
         msgspec.Meta(max_length=1000),

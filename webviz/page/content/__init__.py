@@ -19,7 +19,7 @@ from webviz.page.content.history import history
 from webviz.page.content.panes import panes
 from webviz.page.content.playback import bookmarks, density, events, playback, recorded
 from webviz.page.content.properties import properties, statuses, topics_of
-from webviz.page.content.recording import recording
+from webviz.page.content.recording import black_box, recording
 from webviz.page.content.scene import legend, watchers
 from webviz.page.content.selection import picking, selected, selection
 from webviz.page.content.tools import driving, tool
@@ -31,6 +31,7 @@ from webviz.page.content.views import view, views
 
 MAKERS: Mapping[str, Callable[[State, str], Mapping[str, Any]]] = {
     "between": between,
+    "black_box": black_box,
     "bookmarks": bookmarks,
     "clock": clock,
     "density": density,

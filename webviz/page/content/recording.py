@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Mapping
 from typing import Any
 
@@ -13,6 +14,8 @@ from webviz.sources.rewindable import MEMORY_OFF
 
 SHOWN = 4
 """Topics that are named."""
+MAX_SAVED = 50
+"""Recordings that are listed."""
 
 
 def recording(state: State, _: str) -> Mapping[str, Any]:
@@ -35,6 +38,24 @@ def recording(state: State, _: str) -> Mapping[str, Any]:
             "dropped": recording.dropped,
         }
     return told
+
+
+def black_box(state: State, _: str) -> Mapping[str, Any]:
+    """Recordings that rules made, the newest first: name, megabytes and the command to open it."""
+    box = state.black_box
+    if box is None or not (box.saved or state.settings.watch):
+        return {}
+    return {
+        "saving": sendable(box.saving),
+        "saved": [
+            [
+                sendable(each.path.name),
+                round(each.size / 1e6, 1),
+                sendable(f"webviz --bag {shlex.quote(str(each.path))}"),
+            ]
+            for each in box.saved[:MAX_SAVED]
+        ],
+    }
 
 
 def _about(memory: MemoryState, limits: MemorySettings) -> str:

@@ -12,7 +12,10 @@ from webviz.files.config import Settings
 from webviz.page.content.forms import form, values_of
 from webviz.page.content.properties import lines
 
-NO_CONTROL = ("version", "view", "views", "memory", "bookmarks", "rviz", "publish")
+NO_CONTROL = (
+    *("version", "view", "views", "memory", "watch", "watch_limits", "bookmarks", "rviz"),
+    "publish",
+)
 """Settings that have another place on the page, or none."""
 
 OF_EVERY_NODE = frozenset({"/rosout", "/parameter_events"})

@@ -89,6 +89,7 @@ MESSAGES: Mapping[str, Role | None] = {
 
 STORES: Mapping[str, Role] = {
     "addresses": Role.OWNER,
+    "black_box": Role.OWNER,
     "journal": Role.OWNER,
     "links": Role.OWNER,
 }

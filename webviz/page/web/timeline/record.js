@@ -5,6 +5,7 @@ import { act } from "../act.js";
 import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
 import { provide } from "../shell/commands.js";
+import { blackBox } from "./black_box.js";
 import { duration } from "../shell/time_text.js";
 import { watch } from "../stores.js";
 
@@ -22,7 +23,7 @@ export function record() {
   const span = el("span", { class: "wv-number" });
   const memory = el("span", { class: "wv-quiet wv-memory wv-number", tabindex: 0 });
   save.append(span);
-  const element = el("div", { class: "wv-recorder", hidden: true }, memory, needs("StartRecording", start), needs("SaveMemory", save));
+  const element = el("div", { class: "wv-recorder", hidden: true }, memory, blackBox(), needs("StartRecording", start), needs("SaveMemory", save));
 
   function toggle() {
     return act(recording ? "StopRecording" : "StartRecording");

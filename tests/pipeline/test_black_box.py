@@ -1,0 +1,197 @@
+"""Rules that save the last minute when they hold."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+import pytest
+from bench import Bench, benches
+
+from webviz.api.status import Level
+from webviz.data.messages import encode
+from webviz.data.recordings import open_recording
+from webviz.engine.commands import Refresh
+from webviz.engine.parts import black_box
+from webviz.engine.state import State
+from webviz.engine.watch import RuleWatcher, TopicObserver, WatchedMoment
+from webviz.engine.watch.observation import DIAGNOSTICS, LOG
+from webviz.engine.watch.rules import REARM_S
+from webviz.files.config import ConfigError, WatchLimits, WatchRule, dump
+from webviz.files.opening import parse
+from webviz.sources import Offer, Publisher, Raw
+from webviz_displays.path import Path as PathDisplay
+
+PATH = "nav_msgs/msg/Path"
+PUBLISHER = Publisher("/planner", PATH, "reliable", "volatile")
+SCAN = WatchRule(display="Scan", status="error", lasting="2s")
+
+
+def fired(watcher: RuleWatcher, levels: dict[float, Level | None]) -> list[float]:
+    """When a rule about the display Scan fires, given its levels by time."""
+    found = []
+    for at_s, level in levels.items():
+        displays = {} if level is None else {"Scan": level}
+        found += [at_s for _ in watcher.fired(WatchedMoment(at_s, displays))]
+    return found
+
+
+def test_a_rule_fires_once_its_condition_has_held_long_enough() -> None:
+    levels = {0: Level.OK, 1: Level.ERROR, 2: Level.WARN, 3: Level.ERROR, 4: Level.ERROR}
+    assert fired(RuleWatcher([SCAN]), {**levels, 5: Level.ERROR, 6: Level.ERROR}) == [5]
+    warn = WatchRule(display="Scan", status="warn", lasting="2s")
+    assert fired(RuleWatcher([warn]), {**levels, 5: Level.OK}) == [3]
+
+
+def test_a_rule_that_flaps_fires_once() -> None:
+    every: dict[float, Level | None] = {
+        at_s: Level.ERROR if at_s % 20 < 10 else Level.OK for at_s in range(200)
+    }
+    watcher = RuleWatcher([SCAN])
+    assert fired(watcher, every) == [2]
+    clear: dict[float, Level | None] = {200: Level.OK, 200 + REARM_S: Level.OK, 240: Level.ERROR}
+    assert fired(watcher, {**clear, 242: Level.ERROR}) == [242]
+
+
+def test_what_is_not_known_neither_fires_nor_clears() -> None:
+    watcher = RuleWatcher([SCAN])
+    assert fired(watcher, {0: Level.ERROR, 2: Level.ERROR}) == [2]
+    assert fired(watcher, dict.fromkeys(range(3, 90))) == []
+    assert fired(watcher, {90: Level.ERROR, 92: Level.ERROR}) == []
+
+
+def test_rates_are_known_after_some_seconds_and_fall_with_silence() -> None:
+    observer = TopicObserver()
+    observer.observe(["/scan"], {})
+    for tenths in range(40):
+        observer.put("/scan", Raw(b"", 0, tenths / 10))
+        observer.put("/other", Raw(b"", 0, tenths / 10))
+    assert observer.rates(2.9) == {}
+    assert observer.rates(4.0) == {"/scan": pytest.approx(10, abs=0.5)}
+    assert observer.rates(60.0) == {"/scan": 0}
+    slow = RuleWatcher([WatchRule(topic="/scan", rate="<5"), WatchRule(topic="/scan", rate="> 5")])
+    assert [rule.rate for rule in slow.fired(WatchedMoment(4.0, rates={"/scan": 10.0}))] == ["> 5"]
+    assert [rule.rate for rule in slow.fired(WatchedMoment(9.0, rates={"/scan": 0.0}))] == ["<5"]
+
+
+@pytest.mark.parametrize(
+    ("type_name", "values", "level"),
+    [
+        (DIAGNOSTICS, {"status": [{"level": 0}, {"level": 2}]}, Level.ERROR),
+        (DIAGNOSTICS, {"status": [{"level": 1}]}, Level.WARN),
+        (DIAGNOSTICS, {"status": [{"level": 3}]}, Level.ERROR),
+        (DIAGNOSTICS, {}, Level.OK),
+        (LOG, {"level": 40}, Level.ERROR),
+        (LOG, {"level": 30}, Level.WARN),
+        (LOG, {"level": 20}, Level.OK),
+    ],
+)
+def test_levels_are_those_of_messages(type_name: str, values: dict[str, Any], level: Level) -> None:
+    observer = TopicObserver()
+    observer.observe([], {"/log": type_name})
+    observer.put("/log", Raw(encode(type_name, values), 0, 10.0))
+    observer.put("/log", Raw(b"\1\2", 0, 10.1))
+    assert observer.levels(11.0) == {"/log": level}
+    assert observer.levels(20.0) == {"/log": Level.OK}
+
+
+@pytest.mark.parametrize(
+    ("rule", "reason"),
+    [
+        ("{display: Scan}", "watch[0]: a rule is about a display or about a topic. Write {display"),
+        ("{topic: /a, rate: '<5', level: warn}", "watch[0]: a rule is about a display or about"),
+        ("{topic: /a, rate: '5'}", "watch[0]: rate `5` is not a condition. Write it like"),
+        ("{topic: /a, rate: '<5', for: soon}", "watch[0]: for `soon` is not a duration."),
+        ("{display: Scan, status: bad}", "watch[0].status: expected warn or error, got `bad`."),
+        ("{display: Scan, state: error}", "watch[0].state: unknown key"),
+    ],
+)
+def test_a_bad_rule_is_an_error_with_file_line_and_key(rule: str, reason: str) -> None:
+    with pytest.raises(ConfigError) as caught:
+        parse(f"version: 1\nwatch:\n- {rule}\n", "lab.yaml")
+    assert str(caught.value).startswith(f"lab.yaml:3: {reason}")
+
+
+def test_rules_are_saved_as_they_were_written() -> None:
+    text = "watch:\n- {display: Scan, status: error, for: 2s}\n- {topic: /scan, rate: <5}\n"
+    assert text in dump(parse(text, "lab.yaml"))
+
+
+@pytest.fixture
+def make(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., Bench]]:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(black_box, "AFTER_S", 0.2)
+    with benches() as make_bench:
+
+        def make(*rules: WatchRule, per_day: int = 20) -> Bench:
+            bench = make_bench(PathDisplay(name="Plan"))
+            bench.viewer.settings.watch = rules
+            bench.viewer.settings.watch_limits = WatchLimits(per_day=per_day)
+            bench.source.known["/path"] = Offer((PUBLISHER,), type=PATH)
+            bench.turn()
+            return bench
+
+        yield make
+
+
+def publish(bench: Bench, x: float) -> None:
+    pose = {"header": {"frame_id": "map"}, "pose": {"position": {"x": x}}}
+    bench.publish("/path", PATH, {"header": {"frame_id": "map"}, "poses": [pose]})
+
+
+def until(bench: Bench, is_reached: Callable[[State], bool]) -> State:
+    """Turn until a state."""
+    for _ in range(1000):
+        if is_reached(state := bench.do(Refresh())):
+            return state
+        time.sleep(0.01)
+    raise AssertionError("not reached")
+
+
+def saved(bench: Bench) -> list[Path]:
+    """The recordings once none is being made."""
+
+    def is_done(state: State) -> bool:
+        shown = state.black_box
+        return shown is not None and bool(shown.saved) and not shown.saving
+
+    shown = until(bench, is_done).black_box
+    return [each.path for each in shown.saved] if shown else []
+
+
+def test_a_rule_saves_what_was_and_what_comes(make: Callable[..., Bench]) -> None:
+    bench = make(WatchRule(display="Plan", status="error"))
+    publish(bench, 1.0)
+    publish(bench, 2.0)
+    bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
+    until(bench, lambda state: state.black_box is not None and bool(state.black_box.saving))
+    publish(bench, 3.0)
+    (path,) = saved(bench)
+    assert path.parent.name == "webviz_black_box"
+    assert path.name.startswith(f"{datetime.now():%Y-%m-%d}_")
+    assert path.name.endswith("_Plan_error")
+    recording = open_recording(path)
+    assert recording.span_ns
+    assert len(list(recording.messages(recording.channels, *recording.span_ns))) == 3
+    recording.close()
+
+
+def test_no_more_is_saved_than_the_limits_allow(make: Callable[..., Bench]) -> None:
+    bench = make(WatchRule(display="Plan", status="error"), per_day=0)
+    bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
+    statuses = until(bench, lambda state: "Black box" in state.statuses).statuses
+    assert statuses["Black box"].text == (
+        "A rule fired, but 0 recordings were made today, which is the limit. Raise "
+        "watch_limits.per_day."
+    )
+    assert not Path("webviz_black_box").exists()
+
+
+def test_a_rule_about_a_display_that_is_not_there_says_so(make: Callable[..., Bench]) -> None:
+    bench = make(WatchRule(display="Plam", status="error"))
+    bench.do(Refresh())
+    text = bench.do(Refresh()).statuses["Black box"].text
+    assert text.startswith("A rule watches the display `Plam`, which is not there.")

@@ -1,0 +1,245 @@
+"""Recordings that the rules of the config make of what was just remembered."""
+
+from __future__ import annotations
+
+import re
+import time
+from collections.abc import Mapping, Sequence
+from concurrent.futures import Future
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+from webviz.api.declared import Topic
+from webviz.api.errors import Error
+from webviz.api.status import Level, Status
+from webviz.data.disk import in_thread
+from webviz.data.recordings.folder_writing import RecordingFolder
+from webviz.data.words import joined
+from webviz.engine.parts.part import Core, Part
+from webviz.engine.parts.recording import new_folder
+from webviz.engine.parts.settings import SettingsPart
+from webviz.engine.state import Row
+from webviz.engine.watch import RuleWatcher, TopicObserver, WatchedMoment
+from webviz.engine.watch.observation import LEVEL_TYPES
+from webviz.files.config import WatchRule
+from webviz.files.config import nearest as nearest_name
+from webviz.sources import Subscriber, Subscription
+from webviz.sources.past_state import BlackBoxState, SavedMoment
+from webviz.sources.recording import Entry, Recorder
+from webviz.sources.rewindable import Rewindable
+
+FOLDER = "webviz_black_box"
+"""In the working folder."""
+BEFORE_S, AFTER_S = 60.0, 10.0
+"""Time around the moment at which a rule fires that is saved, as far as it is remembered."""
+MOMENT = "%Y-%m-%d_%H-%M-%S"
+GIGABYTE = 10**9
+
+
+@dataclass
+class _Saving:
+    """A recording that is being made."""
+
+    title: str
+    until_s: float
+    past: Sequence[Entry]
+    folder: Future[RecordingFolder]
+    recorder: Recorder | None = None
+    closed: Future[None] | None = None
+
+
+class BlackBoxPart(Part):
+    """Saves what led to a problem, and what came of it.
+
+    Args:
+        core: shared by all parts.
+        settings: have the rules.
+        live: has the memory; None for a bag, on which no rule fires.
+    """
+
+    name = "Black box"
+
+    def __init__(self, core: Core, settings: SettingsPart, live: Rewindable | None) -> None:
+        super().__init__(core)
+        self._settings = settings
+        self._live = live
+        self._observer = TopicObserver()
+        self._watcher = RuleWatcher(())
+        self._subscriber = Subscriber()
+        self._rows: Sequence[Row] = ()
+        self._saving: _Saving | None = None
+        self._listing: Future[tuple[SavedMoment, ...]] | None = None
+        self._saved: tuple[SavedMoment, ...] = ()
+        self._problem = ""
+        if live is not None:
+            core.source.inbox.read_along(lambda: self._observer.put)
+
+    def subscriptions(self) -> Mapping[str, Subscription]:
+        """The topics of the rules, as the first type of each that can be read."""
+        wanted: dict[str, Subscription] = {}
+        for rule in self._watcher.rules:
+            name = self._resolved(rule)
+            offer = self.core.offers.get(name)
+            types = [publisher.type for publisher in offer.publishers] if offer else []
+            types = [each for each in types if not rule.level or each in LEVEL_TYPES]
+            if types:
+                wanted[name] = Subscription(types[0], Topic(name))
+        return self._subscriber.subscribe(wanted)
+
+    def look(self, rows: Sequence[Row]) -> None:
+        """Take the displays of the last state."""
+        self._rows = rows
+
+    def keep_up(self, commanded: bool) -> None:
+        """Follow the rules, and what is being saved."""
+        live, settings = self._live, self._settings.settings
+        if live is None:
+            return
+        if self._watcher.rules != settings.watch:
+            self._watcher = RuleWatcher(settings.watch)
+            self._problem = ""
+            self._list()
+        if not self._watcher.rules:
+            return
+        wanted = self._subscriber_types()
+        self._observer.observe([*wanted], {t: w for t, w in wanted.items() if w in LEVEL_TYPES})
+        for rule in self._watcher.fired(self._observation(live.is_live)):
+            self._save(rule, live)
+        self._go_on(live)
+
+    def state(self) -> Mapping[str, Any]:
+        """The recordings."""
+        if self._live is None:
+            return {"black_box": None}
+        listing = self._listing
+        if listing is not None and listing.done():
+            self._listing = None
+            self._saved = () if listing.exception() else listing.result()
+        return {"black_box": BlackBoxState(self._saved, self._saving.title if self._saving else "")}
+
+    def statuses(self) -> Mapping[str, Status]:
+        """Reasons why nothing is saved, and rules that are about nothing."""
+        if self._problem:
+            return {"Black box": Status(Level.WARN, self._problem)}
+        if self._live is None:
+            return {}
+        names = [row.name for row in self._rows]
+        for rule in self._watcher.rules:
+            if rule.display and names and rule.display not in names:
+                text = f"A rule watches the display `{rule.display}`, which is not there."
+                remedy = nearest_name(rule.display, names)
+                return {"Black box": Status(Level.WARN, f"{text} {remedy}")}
+        if self._watcher.rules and not self._live.memory.is_on:
+            text = "Rules have nothing to save, since nothing is remembered. Raise memory.seconds."
+            return {"Black box": Status(Level.WARN, text)}
+        return {}
+
+    def close(self) -> None:
+        """Complete what is being saved."""
+        if self._saving is not None and self._saving.recorder is not None:
+            self._saving.recorder.close()
+
+    def _subscriber_types(self) -> dict[str, str]:
+        return {topic: wish.type for topic, wish in self.subscriptions().items()}
+
+    def _resolved(self, rule: WatchRule) -> str:
+        try:
+            return self.core.source.resolve(rule.topic) if rule.topic else ""
+        except ValueError:
+            return ""
+
+    def _observation(self, is_live: bool) -> WatchedMoment:
+        now_s = time.monotonic()
+        displays: dict[str, Level] = {}
+        for row in self._rows if is_live else ():  # else they are about the past
+            displays[row.name] = max(displays.get(row.name, Level.OK), row.level)
+        rates, levels = self._observer.rates(now_s), self._observer.levels(now_s)
+        for rule in self._watcher.rules:
+            name = self._resolved(rule)
+            if name in rates:
+                rates[rule.topic] = rates[name]
+            if name in levels:
+                levels[rule.topic] = levels[name]
+        return WatchedMoment(now_s, displays, rates, levels)
+
+    def _save(self, rule: WatchRule, live: Rewindable) -> None:
+        """Begin to save, unless that goes on already or is too much."""
+        if self._saving is not None or not live.memory.is_on:
+            return
+        now = datetime.now()
+        self._problem = self._excess(now)
+        if self._problem:
+            return
+        cause = re.sub(r"[^A-Za-z0-9]+", "_", rule.title).strip("_")[:60]
+        path = Path(FOLDER).absolute() / f"{now:{MOMENT}}_{cause}"
+        past = live.memory.last(BEFORE_S)
+        folder = in_thread(lambda: new_folder(path))
+        folder.add_done_callback(lambda _: self.core.source.inbox.arrived.set())
+        self._saving = _Saving(rule.title, time.monotonic() + AFTER_S, past.whole, folder)
+
+    def _excess(self, now: datetime) -> str:
+        """The reason why no more may be saved; "" if more may."""
+        limits = self._settings.settings.watch_limits
+        today = f"{now:{MOMENT}}".partition("_")[0]
+        count = sum(each.path.name.startswith(today) for each in self._saved)
+        size = sum(each.size for each in self._saved)
+        if count >= limits.per_day:
+            return (
+                f"A rule fired, but {count} recordings were made today, which is the limit. Raise "
+                "watch_limits.per_day."
+            )
+        if size >= limits.gigabytes * GIGABYTE:
+            return (
+                f"A rule fired, but {FOLDER} has {size / GIGABYTE:.1f} GB, which is the limit. "
+                "Delete recordings, or raise watch_limits.gigabytes."
+            )
+        return ""
+
+    def _go_on(self, live: Rewindable) -> None:
+        """Record until the time is up, then complete the files."""
+        saving = self._saving
+        if saving is None or not saving.folder.done():
+            return
+        try:
+            folder = saving.folder.result()
+        except (Error, OSError) as error:
+            self._end(str(error))
+            return
+        inbox = self.core.source.inbox
+        if saving.recorder is None:
+            inbox.read_along(lambda: self._recorder(saving, folder, live).put)
+        elif saving.closed is None and (
+            time.monotonic() >= saving.until_s or saving.recorder.problem
+        ):
+            inbox.forget(saving.recorder.put)
+            saving.closed = in_thread(saving.recorder.close)
+            saving.closed.add_done_callback(lambda _: inbox.arrived.set())
+        elif saving.closed is not None and saving.closed.done():
+            self._end(saving.recorder.problem)
+
+    def _recorder(self, saving: _Saving, folder: RecordingFolder, live: Rewindable) -> Recorder:
+        """Between two messages: what came since the rule fired is in memory."""
+        past = list(saving.past)
+        past += live.memory.after(past[-1][1].arrived_s) if past else []
+        saving.recorder = Recorder(folder, live.channels, past)
+        return saving.recorder
+
+    def _end(self, problem: str) -> None:
+        self._saving = None
+        self._problem = problem and joined(problem, "A moment that a rule found was not saved.")
+        self._list()
+
+    def _list(self) -> None:
+        self._listing = in_thread(_saved)
+        self._listing.add_done_callback(lambda _: self.core.source.inbox.arrived.set())
+
+
+def _saved() -> tuple[SavedMoment, ...]:
+    """The recordings in the folder, the newest first."""
+    found = []
+    for path in sorted(Path(FOLDER).absolute().glob("*/metadata.yaml"), reverse=True):
+        files = path.parent.iterdir()
+        found.append(SavedMoment(path.parent, sum(each.stat().st_size for each in files)))
+    return tuple(found)

@@ -1,0 +1,97 @@
+"""Rules that save what is remembered, and their bounds."""
+
+from __future__ import annotations
+
+import re
+from typing import Annotated, Literal
+
+import msgspec
+
+from webviz.api.declared import Prop
+
+FORMS = (
+    "Write {display: NAME, status: error}, {topic: /diagnostics, level: error} or "
+    '{topic: /scan, rate: "<5"}.'
+)
+_NAME = "[A-Za-z_][A-Za-z0-9_]*"
+RATE = re.compile(r"[<>] ?\d+(\.\d+)?")
+DURATION = re.compile(r"\d+(\.\d+)? ?(ms|s|min)")
+_SECONDS = {"ms": 0.001, "s": 1.0, "min": 60.0}
+
+
+class WatchRule(
+    msgspec.Struct,
+    frozen=True,
+    forbid_unknown_fields=True,
+    omit_defaults=True,
+    rename={"lasting": "for"},
+):
+    """A condition; when it holds, the last minute and the next seconds are saved."""
+
+    display: Annotated[
+        str, msgspec.Meta(max_length=256), Prop(help="Name of the display whose status is watched.")
+    ] = ""
+    status: Annotated[
+        Literal["warn", "error"] | None, Prop(help="Status of the display, this or worse.")
+    ] = None
+    topic: Annotated[
+        str,
+        msgspec.Meta(max_length=256, pattern=f"^((~?/)?{_NAME}(/{_NAME})*)?$"),
+        Prop(help="Topic that is watched."),
+    ] = ""
+    level: Annotated[
+        Literal["warn", "error"] | None,
+        Prop(help="Level of diagnostic_msgs/DiagnosticArray or rcl_interfaces/Log, this or worse."),
+    ] = None
+    rate: Annotated[
+        str, msgspec.Meta(max_length=20), Prop(help='Messages per second, such as "<5".')
+    ] = ""
+    lasting: Annotated[
+        str,
+        msgspec.Meta(max_length=20),
+        Prop(help="How long the condition has to hold, such as 2s."),
+    ] = ""
+    name: Annotated[
+        str, msgspec.Meta(max_length=60), Prop(help="Name of what it saves; automatic if empty.")
+    ] = ""
+
+    def __post_init__(self) -> None:
+        """Raise ValueError for keys that do not go together."""
+        of_display = bool(self.display), self.status is not None
+        of_topic = self.level is not None, bool(self.rate)
+        is_display = all(of_display) and not self.topic and not any(of_topic)
+        is_topic = bool(self.topic) and sum(of_topic) == 1 and not any(of_display)
+        if not (is_display or is_topic):
+            raise ValueError(f"a rule is about a display or about a topic. {FORMS}")
+        if self.rate and not RATE.fullmatch(self.rate):
+            raise ValueError(
+                f'rate `{self.rate}` is not a condition. Write it like "<5" or ">100".'
+            )
+        if self.lasting and not DURATION.fullmatch(self.lasting):
+            raise ValueError(f"for `{self.lasting}` is not a duration. Write it like 2s or 500ms.")
+
+    @property
+    def seconds(self) -> float:
+        """Time that the condition has to hold."""
+        unit = self.lasting.lstrip("0123456789. ")
+        return float(self.lasting.removesuffix(unit)) * _SECONDS[unit] if unit else 0.0
+
+    @property
+    def rate_limit(self) -> tuple[str, float] | None:
+        """The comparison, "<" or ">", and messages per second."""
+        return (self.rate[0], float(self.rate[1:])) if self.rate else None
+
+    @property
+    def title(self) -> str:
+        """Its name, or what it is about."""
+        about = self.status or self.level or f"rate {self.rate}"
+        return self.name or f"{self.display or self.topic} {about}"
+
+
+class WatchLimits(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Bounds of what rules save; beyond them, nothing is saved."""
+
+    per_day: Annotated[int, Prop(ge=0, le=1000, help="Recordings per day.")] = 20
+    gigabytes: Annotated[
+        float, Prop(ge=0, le=100_000, unit="GB", help="Of all recordings in the folder.")
+    ] = 5.0

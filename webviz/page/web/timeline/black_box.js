@@ -1,0 +1,48 @@
+// Recordings that the rules of the config made: a button with a menu, for the owner.
+
+import { onRole, self } from "../access.js";
+import { copy } from "../clipboard.js";
+import { el, set, setText } from "../dom.js";
+import { icon } from "../icons.js";
+import { openMenu } from "../shell/menu.js";
+import { toast } from "../shell/toasts.js";
+import { watch } from "../stores.js";
+import { savedText } from "./saved_text.js";
+
+/** The button; hidden while there are neither rules nor recordings. */
+export function blackBox() {
+  let saved = [];
+  const label = el("span");
+  const button = el("button", {
+    type: "button", class: "wv-button wv-black-box", hidden: true, "aria-label": "Black box", onclick: open,
+  }, icon("flag", 14), label);
+
+  async function choose(command) {
+    const isCopied = await copy(command);
+    toast(isCopied ? `Copied: ${command}` : command);
+  }
+
+  function open() {
+    const { left, top } = button.getBoundingClientRect();
+    const items = saved.map(([name, megabytes, command]) => ({
+      label: savedText(name, megabytes), icon: "copy", run: () => choose(command),
+    }));
+    if (items.length) openMenu(left, top, items);
+    else toast("No rule of the config has saved anything yet.");
+  }
+
+  onRole(() => {
+    if (self().role !== "owner") return;
+    watch("black_box", (values) => {
+      saved = values.get("saved") ?? [];
+      button.hidden = !values.has("saved");
+      setText(label, values.get("saving") ? "Saving…" : String(saved.length));
+      set(button, {
+        "data-tip": values.get("saving")
+          ? `Saves ${values.get("saving")}, until 10 s after it`
+          : "What rules of the config have saved: choose one to copy the command that opens it",
+      });
+    });
+  });
+  return button;
+}

@@ -1,0 +1,14 @@
+// Names of recordings that rules made, for people.
+
+/**
+ * Time and cause by the name of the folder, which begins with the time.
+ *
+ * @param {string} name
+ * @param {number} megabytes
+ */
+export function savedText(name, megabytes) {
+  const found = /^(\d{4}-\d\d-\d\d)_(\d\d)-(\d\d)-(\d\d)_(.*)$/.exec(name);
+  if (!found) return `${name} · ${megabytes} MB`;
+  const [, date, hours, minutes, seconds, cause] = found;
+  return `${date} ${hours}:${minutes}:${seconds} · ${cause.replaceAll("_", " ")} · ${megabytes} MB`;
+}
