@@ -166,3 +166,40 @@ def test_a_page_cannot_choose_the_folder(bench: Bench) -> None:
     answer = bench.viewer.enqueue(StartRecording("/etc/run"), PAGE)
     bench.until_done(answer)
     assert str(answer.exception()) == "A page cannot choose the folder of a recording."
+
+
+def test_times_of_a_recording_go_on_when_the_clock_jumps_back(bench: Bench) -> None:
+    bench.ask(StartRecording("run"))
+    publish(bench)
+    bench.source.now -= 50_000_000_000
+    publish(bench)
+    publish(bench)
+    bench.ask(StopRecording())
+    stamps = [stamp_ns for topic, stamp_ns in contents(Path("run")) if topic == "/path"]
+    assert stamps == sorted(stamps)
+    assert stamps[0] == 101_000_000_000
+    assert stamps[2] - stamps[1] == 1_000_000_000, "as far apart as they were"
+    assert stamps[1] - stamps[0] < 50_000_000_000
+
+
+def test_static_transforms_of_all_publishers_are_kept() -> None:
+    memory = RecentMessages(
+        lambda topic: 2 * (topic == "/tf_static"), seconds=10.0, max_bytes=10**6
+    )
+
+    def static(child: str, x: float, at_s: float) -> None:
+        transform = {"child_frame_id": child, "transform": {"translation": {"x": x}}}
+        cdr = encode("tf2_msgs/msg/TFMessage", {"transforms": [transform]})
+        memory.put("/tf_static", Raw(cdr, round(at_s * 1e9), at_s))
+
+    for number, child in enumerate(("base", "laser", "base", "camera")):
+        static(child, float(number), float(number))
+    memory.put("/scan", raw(100))
+    kept = [
+        decode("tf2_msgs/msg/TFMessage", r.cdr).transforms[0] for _, r in memory.last(1e9).latched
+    ]
+    assert [(t.child, t.translation[0]) for t in kept] == [
+        ("laser", 1.0),
+        ("base", 2.0),
+        ("camera", 3.0),
+    ]

@@ -71,3 +71,11 @@ def test_who_fell_silent_is_not_blamed_any_more(buffer: TransformBuffer) -> None
 def test_without_a_time_nothing_can_be_said(buffer: TransformBuffer) -> None:
     hear(buffer, "odom", 2.0, received_ns=0)
     assert clock_problem(buffer, 0) == ""
+
+
+def test_a_bag_comes_without_options_that_it_does_not_have(buffer: TransformBuffer) -> None:
+    hear(buffer, "odom", -3 * 86400.0)
+    assert clock_problem(buffer, NOW, is_recorded=True) == (
+        '"odom" is stamped 3 days behind the time of the bag: the clocks differed when it was '
+        "recorded."
+    )

@@ -13,12 +13,13 @@ RECENT_NS = 10 * NS_PER_S
 SHOWN = 3
 
 
-def clock_problem(buffer: TransformBuffer, now_ns: int) -> str:
+def clock_problem(buffer: TransformBuffer, now_ns: int, is_recorded: bool = False) -> str:
     """Report transforms whose stamps differ from our time, and by how much.
 
     Args:
         buffer: transforms inserted with the time at which they were received.
         now_ns: the current ROS time; 0 if unknown.
+        is_recorded: whether they are of a bag, whose time cannot be chosen.
 
     Returns:
         A sentence, "" if the clocks agree.
@@ -35,6 +36,12 @@ def clock_problem(buffer: TransformBuffer, now_ns: int) -> str:
     if not now_ns or not wrong:
         return ""
     child, worst = max(wrong.items(), key=lambda item: abs(item[1]))
+    if is_recorded:
+        side = "ahead of" if worst > 0 else "behind"
+        return (
+            f'"{child}" is stamped {in_words(worst)} {side} the time of the bag: the clocks '
+            "differed when it was recorded."
+        )
     stamp_ns = buffer.tree.caches[child].newest_stamp
     if stamp_ns < YEAR_NS and now_ns > WALL_NS:
         return (

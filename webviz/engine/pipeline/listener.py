@@ -217,9 +217,10 @@ class TransformListener:
             for child, rejection in buffer.rejections.items()
             if now_ns - rejection.received_ns < REFUSED_NS
         ]
+        is_recorded = any(offer.is_recorded for offer in offers.values())
         found = {
             "Transforms": joined(*problems, *_few(refused)),
-            "Clocks": clock_problem(buffer, now_ns),
+            "Clocks": clock_problem(buffer, now_ns, is_recorded),
         }
         return {key: Status(Level.WARN, text) for key, text in found.items() if text}
 
