@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,8 @@ from bench import Bench, benches
 from drives import CONFIG, recorded
 from remembering_graph import RememberingGraph
 
+from webviz.api.declared import Topic
+from webviz.api.lookback import Lookback
 from webviz.api.nodes import Lines
 from webviz.api.vehicle import Velocity
 from webviz.data.messages import encode
@@ -38,11 +41,11 @@ from webviz.files.opening import parse
 from webviz.shell.testing import BagViewer
 from webviz.shell.testing.recording import RecordingScene
 from webviz.shell.testing.source import HandFedSource
-from webviz.sources import Advertisement, Offer, Publisher, Raw
+from webviz.sources import Advertisement, Offer, Publisher, Raw, Subscription
 from webviz.sources.bag.files import BagFiles
 from webviz.sources.memory_past import WallClock
 from webviz.sources.past_state import PlaybackState
-from webviz.sources.rewindable import MEMORY_OFF
+from webviz.sources.rewindable import MEMORY_OFF, Rewindable
 from webviz.tools.teleop import Teleop
 from webviz_displays.path import Path as PathDisplay
 
@@ -325,3 +328,20 @@ def test_a_driven_vehicle_stops_first(make: Callable[..., Bench]) -> None:
     while graph.published[-1][1].linear.x:
         time.sleep(0.01)
     assert not controllers.halt(), "it stands still"
+
+
+def test_a_seek_looks_back_as_far_as_displays_need_now() -> None:
+    source = HandFedSource()
+    source.known["/path"] = Offer((PUBLISHER,), type=PATH)
+    rewindable = Rewindable(source)
+    rewindable.memory.seconds, rewindable.memory.max_bytes = 60, 10**6
+    source.inbox.read_along(lambda: rewindable.memory.put)
+    short = Subscription(PATH, Topic("/path"))
+    rewindable.want({"/path": short})
+    for ago_s in (5, 4, 3):
+        source.inbox.put("/path", Raw(b"", 1, time.monotonic() - ago_s))
+    rewindable.want({"/path": replace(short, lookbacks=(Lookback(count=3),))})
+    at_ns = rewindable.end_ns - ns(2)
+    rewindable.seek(at_ns)
+    rewindable.play(at_ns)
+    assert len(source.inbox.drain()["/path"]) == 3

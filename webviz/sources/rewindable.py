@@ -181,13 +181,13 @@ class Rewindable:
 
         While rewound, that is not asked to repeat what is latched: the memory has it.
         """
-        before = self._wanted
-        if subscriptions != before:
-            self._wanted = dict(subscriptions)
+        before, self._wanted = self._wanted, dict(subscriptions)  # with their lookbacks
+        is_same = self._wanted == before
+        if not is_same:
             self._told = {topic: self._passed_on(topic, w) for topic, w in subscriptions.items()}
             self._asked = {topic: self._asked[topic] for topic in subscriptions}
         self.live.want(self._told)
-        if self._replay is None or self._wanted is before:
+        if self._replay is None or is_same:
             return
         served, self._served = self._served, {}
         for topic, wish in self._wanted.items():
@@ -204,12 +204,12 @@ class Rewindable:
         if self._replay is None:
             return live
         known, wanted, offers = self._offers
-        if known is not live or wanted is not self._wanted:
+        if known is not live or wanted != self._wanted.keys():
             offers = {
                 topic: replace(offer, begins=NOT_REMEMBERED) if topic in self._wanted else offer
                 for topic, offer in live.items()
             }
-            self._offers = live, self._wanted, offers
+            self._offers = live, set(self._wanted), offers
         return offers
 
     def now_ns(self) -> int:
