@@ -30,7 +30,9 @@ from webviz.engine.commands import (
     Seek,
     SetProperty,
     SetRate,
+    StartRecording,
     StepMessage,
+    StopRecording,
 )
 from webviz.engine.driving import DrivingAnswer
 from webviz.engine.loop import FrameLoop
@@ -345,3 +347,16 @@ def test_a_seek_looks_back_as_far_as_displays_need_now() -> None:
     rewindable.seek(at_ns)
     rewindable.play(at_ns)
     assert len(source.inbox.drain()["/path"]) == 3
+
+
+def test_a_recording_goes_on_while_the_past_is_shown(
+    make: Callable[..., Bench], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    bench = make()
+    bench.do(StartRecording("run"))
+    rewind(bench, 2.5)
+    publish(bench, 0)
+    bench.do(ReturnToLive())
+    publish(bench, 0)
+    assert bench.ask(StopRecording()) == "Recorded 2 messages to run."
