@@ -148,6 +148,40 @@ until_signal(work)
     check_nothing_is_left(family)
 
 
+BUSY = """
+from pathlib import Path
+from typing import Annotated
+from webviz import Display, Input, Topic
+
+class Busy(Display):
+    # Keeps the frame loop busy as soon as there is a file beside this one.
+    topic: Annotated[Topic, Input("std_msgs/msg/String")] = Topic("/busy")
+
+    def listens(self, name):
+        if Path(__file__).with_name("begin").exists():
+            print("at work", flush=True)
+            while True:
+                pass
+        return True
+"""
+
+
+def test_ctrl_c_ends_a_viewer_whose_frame_loop_never_returns(
+    start: Callable[..., Program], tmp_path: Path
+) -> None:
+    plugin, config = tmp_path / "busy.py", tmp_path / "busy.yaml"
+    plugin.write_text(BUSY)
+    config.write_text("version: 1\ndisplays: [{type: Busy}]\n")
+    program = start("webviz", "-d", str(config), "--plugin", str(plugin), "--port", "0")
+    program.url()
+    (tmp_path / "begin").touch()
+    program.wait_for("at work")
+    family = family_of(program)
+    assert program.end(signal.SIGINT) == 1
+    assert program.output().endswith("webviz: still busy after 3 s; exiting by force.\n")
+    check_nothing_is_left(family)
+
+
 def test_a_reader_that_goes_early_is_no_error() -> None:
     command = f"{sys.executable} -m webviz schema | head -n 1"
     result = subprocess.run(command, shell=True, capture_output=True, text=True, timeout=60)
