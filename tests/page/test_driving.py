@@ -26,6 +26,8 @@ class Pages(Channel):
         self.seen: list[float | None] = []
         self.now = 100.0
         self.noted: list[int] = []
+        self.other: int | None = None
+        """Another browser that drives."""
         DrivingMessages(self, self._steer, lambda browser, _: self.noted.append(browser), self._at)
 
     def on(self, kind: Any, listener: Callable[[int, Any], object]) -> None:
@@ -39,7 +41,7 @@ class Pages(Channel):
 
     def _steer(self, tool: str, browser: int, share: Velocity, seen: float | None) -> DrivingAnswer:
         self.seen.append(seen)
-        return DrivingAnswer(browser if seen is not None else None)
+        return DrivingAnswer(self.other if seen is None else browser)
 
     def drive(self, beat: int, after: float = 0.0) -> DrivingReport:
         """Send a set-point after some seconds; the answer."""
@@ -86,3 +88,10 @@ def test_the_beginning_of_each_drive_is_noted_once(pages: Pages) -> None:
     answer = pages.drive(answer.beat, 2 * FRESH_S)  # it has let go
     pages.drive(answer.beat)
     assert pages.noted == [1, 1]
+
+
+@pytest.mark.parametrize("other", [0, 2])
+def test_who_looks_on_while_another_browser_drives_is_not_noted(pages: Pages, other: int) -> None:
+    pages.other = other
+    assert pages.drive(0).driver == other
+    assert pages.noted == []

@@ -95,7 +95,9 @@ def test_a_name_is_compared_with_the_list(
 def test_what_is_refused_never_reaches_the_source() -> None:
     graph = RememberingGraph()
     source = HandFedSource(graph=graph)  # pyright: ignore[reportArgumentType]
-    gate = Gate(source, Rights(may_publish=False), lambda: ("/*",))
+    rights = Rights(may_publish=False)
+    gate = Gate(source, rights, lambda: ("/*",))
+    assert gate.rights is rights
     gate.advertise({Advertisement("/a", TYPE)})
     goal = gate.send_goal("/go", "nav2_msgs/action/NavigateToPose", b"", lambda _: None)
     answers = (
