@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -32,7 +33,10 @@ ARGUMENTS: list[dict[str, Any]] = [
 
 
 @pytest.fixture
-def stranger(viewer: webviz.Viewer) -> Iterator[Guest]:
+def stranger(
+    viewer: webviz.Viewer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[Guest]:
+    monkeypatch.chdir(tmp_path)  # for recordings that it starts
     viewer.config = {"displays": [{"type": "Grid"}]}
     stranger = Guest(viewer._scene.link.server)
     yield stranger
