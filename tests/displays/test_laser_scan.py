@@ -142,6 +142,11 @@ def test_an_intensity_that_is_nan_has_the_lowest_colour(lab: Benches) -> None:
     assert colors(lab(scan([1, 1, 1], intensities=[NAN, 14, 20])))[0] == RED
 
 
+def test_a_signalling_nan_is_a_beam_without_range_and_no_warning(lab: Benches) -> None:
+    ranges = np.frombuffer(b"\x01\x00\xa0\x7f" + np.float32(1.0).tobytes(), np.float32)
+    assert len(lab(scan([]) | {"ranges": ranges}).xyz("points")) == 1
+
+
 def test_without_intensities_colours_show_the_range_and_a_status_says_so(lab: Benches) -> None:
     bench = lab(scan([1, 1.8, 3]))
     assert colors(bench) == [RED, GREEN, MAGENTA]

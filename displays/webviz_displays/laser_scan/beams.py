@@ -73,7 +73,8 @@ def project(scan: messages.LaserScan) -> BeamHits:
     The rules are those of laser_geometry: a range counts if range_min <= range < range_max, and
     beam i points at angle_min + i * angle_increment from x towards y.
     """
-    ranges = scan.ranges.astype(np.float64)
+    with np.errstate(invalid="ignore"):  # numpy warns of a signalling NaN
+        ranges = scan.ranges.astype(np.float64)
     farthest = min(scan.range_max, FARTHEST)
     is_hit = np.isfinite(ranges) & (ranges >= scan.range_min) & (ranges < farthest)
     beams = np.flatnonzero(is_hit)
