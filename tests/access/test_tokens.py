@@ -12,7 +12,7 @@ import pytest
 from websockets.datastructures import Headers
 
 from webviz.server.access import login, token_file
-from webviz.server.access.access import EVERYBODY, Access
+from webviz.server.access.access import EVERYBODY, MAX_MISSED, Access
 from webviz.server.access.roles import Role
 from webviz.server.access.starting import access_to, is_local, link, make_missing
 from webviz.server.access.tokens import MAX_TOKENS, Token, TokenError, make
@@ -172,6 +172,14 @@ def test_what_is_no_file_is_an_error_at_once(path: Path) -> None:
         token_file.read(path)
 
 
+def test_a_file_of_root_is_read(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    if os.geteuid():
+        pytest.skip("only root can make it")
+    token_file.modify(path, lambda _: [token()])
+    monkeypatch.setattr(os, "geteuid", lambda: 4321)
+    assert len(token_file.read(path)) == 1
+
+
 def test_a_file_of_another_user_is_refused(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     token_file.modify(path, lambda _: [token()])
     if os.geteuid() == 0:
@@ -287,6 +295,27 @@ def test_others_need_a_token(host: str, path: Path) -> None:
     before = path.read_bytes()
     make_missing(access_to(host, path=path, environment={}))
     assert path.read_bytes() == before
+
+
+def test_an_address_that_cannot_be_resolved_is_not_only_of_this_machine() -> None:
+    assert not is_local("a..b")
+
+
+def test_a_viewer_that_asks_for_no_tokens_makes_none(path: Path) -> None:
+    make_missing(Access(False, path))
+    assert not path.exists()
+
+
+def test_a_disk_that_does_not_respond_is_logged_once(
+    path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    known, mounted = Access(True, path), threading.Event()
+    monkeypatch.setattr(known, "refresh", lambda: mounted.wait(60.0))
+    for number in range(2 * MAX_MISSED):
+        known.begin_refresh(lambda: None)
+        is_said = number >= MAX_MISSED  # the first look waits for the disk
+        assert ["does not respond" in text for text in caplog.messages] == [True] * is_said
+    mounted.set()
 
 
 def test_a_viewer_that_nobody_could_enter_does_not_start(path: Path) -> None:
