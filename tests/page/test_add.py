@@ -151,9 +151,9 @@ def test_a_topic_that_appears_is_shown_and_a_check_mark_stays(
 
 
 def test_types_have_the_messages_that_they_show_and_a_small_picture() -> None:
-    found = types(State(), "")
-    assert found["LaserScan"]["topics"] == [SCAN]
-    sizes = {name: len(each["picture"]) for name, each in found.items() if "Everything" not in name}
+    found = types(State(), "").types
+    assert found["LaserScan"].topics == [SCAN]
+    sizes = {name: len(each.picture) for name, each in found.items() if "Everything" not in name}
     assert {name for name, size in sizes.items() if not size} == {"Group"}
     assert sum(sizes.values()) < 1500 * len(sizes)
 

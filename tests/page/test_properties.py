@@ -412,7 +412,7 @@ def test_every_property_of_every_display_has_a_control(tab: Tab, name: str) -> N
     rows = tab.page.locator("#bench .wv-property")
     tab.wait_for(lambda: rows.count() == len(values))
     paths = rows.evaluate_all("(rows) => rows.map((row) => row.dataset.path)")
-    assert {f"value.{path}" for path in paths} == values.keys()
+    assert set(paths) == values.keys()
     assert tab.page.locator("#bench [data-changed], #bench [aria-invalid]").count() == 0
     tab.page.evaluate("ended(); document.querySelector('#bench').remove()")
 

@@ -113,10 +113,10 @@ def test_a_property_applies_only_if_the_one_it_depends_on_does(
 
 def test_every_value_has_its_path() -> None:
     values = values_of(Sample(shown={"a": True}), without=("name", "enabled"))
-    assert values["value.shown"] == {"a": True}
-    assert values["value.marker.shape"] == "Sphere"
-    assert values["value.topic.depth"] == 0
-    assert "value.name" not in values
+    assert values["shown"] == {"a": True}
+    assert values["marker.shape"] == "Sphere"
+    assert values["topic.depth"] == 0
+    assert "name" not in values
 
 
 @pytest.mark.parametrize(

@@ -271,5 +271,5 @@ def test_a_name_that_cannot_be_sent_stops_no_other_store(loop: Loop, panel: Tab)
 
 def test_where_publishers_differ_the_qos_is_mixed() -> None:
     made = topics(State(offers={"/scan": Offer((SCAN,)), "/mixed": Offer((SCAN, MAP))}), "")
-    assert made["/scan"]["qos"] == "best effort, volatile"
-    assert made["/mixed"]["qos"] == "mixed, mixed"
+    assert made.topics["/scan"].qos == "best effort, volatile"
+    assert made.topics["/mixed"].qos == "mixed, mixed"

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import msgspec
 import pytest
+from shown_stores import shown_by
 
 from webviz.api.declared import Topic
 from webviz.api.group import DisplayGroup
@@ -26,7 +27,7 @@ STATUSES = {
 
 
 def row_of(row: Row) -> dict[str, object]:
-    return dict(MAKERS["displays"](State(rows=(row,)), "")[row.id])
+    return shown_by("displays", State(rows=(row,)))[row.id]
 
 
 def test_a_row_says_its_worst_status_and_nothing_while_all_is_well(make_row: MakeRow) -> None:
@@ -75,14 +76,14 @@ def test_a_cause_that_the_viewer_names_is_said_once_and_its_remedy_offered_every
         make_row("a", statuses={"Links": few, "Transform": own}),
         make_row("b", statuses=STATUSES),
     )
-    shown = MAKERS["displays"](State(rows=rows, statuses={"Fixed Frame": cause}), "")
+    shown = shown_by("displays", State(rows=rows, statuses={"Fixed Frame": cause}))
     assert (shown["a"]["line"], shown["a"]["level"]) == ("", "error")
     assert shown["b"]["line"] == "No transform."
-    assert MAKERS["displays"](State(rows=rows), "")["a"]["line"] == few.text
+    assert shown_by("displays", State(rows=rows))["a"]["line"] == few.text
     told = {"label": "Use odom", "command": "SetFixedFrame", "arguments": {"frame": "odom"}}
     state = State(rows=rows, statuses={"Fixed Frame": cause})
-    assert MAKERS["statuses"](state, "a")["statuses"][1] == ["Transform", "error", own.text, told]
-    assert MAKERS["settings"](state, "")["statuses"][0][3] == told
+    assert shown_by("statuses", state, "a")["statuses"][1] == ["Transform", "error", own.text, told]
+    assert shown_by("settings", state)["statuses"][0][3] == told
 
 
 def test_a_row_names_the_topics_that_it_listens_to(make_row: MakeRow) -> None:
@@ -98,9 +99,9 @@ def test_a_rate_has_two_digits_so_that_it_changes_seldom(
     make_row: MakeRow, hz: float, shown: float
 ) -> None:
     state = State(rows=(make_row("a"),), traffic={"/scan": Traffic(hz, 1.0)})
-    assert MAKERS["rate"](state, "a") == {"hz": shown}
-    assert MAKERS["rate"](state, "gone") == {}
-    assert MAKERS["rate"](replace(state, traffic={}), "a") == {}
+    assert shown_by("rate", state, "a") == {"hz": shown}
+    assert shown_by("rate", state, "gone") == {}
+    assert shown_by("rate", replace(state, traffic={}), "a") == {}
 
 
 def test_a_store_is_made_anew_only_if_what_it_was_made_of_is_new(make_row: MakeRow) -> None:
@@ -123,8 +124,8 @@ def test_half_a_surrogate_pair_reaches_the_page_as_it_is() -> None:
 def test_of_too_many_statuses_the_worst_are_shown(make_row: MakeRow) -> None:
     statuses = {f"frame {i}": Status(Level.OK, "fine") for i in range(500)}
     statuses["last"] = Status(Level.ERROR, "lost")
-    shown = MAKERS["statuses"](State(rows=(make_row("a", statuses=statuses),)), "a")
-    assert shown["statuses"][0] == ["last", "error", "lost"]
+    shown = shown_by("statuses", State(rows=(make_row("a", statuses=statuses),)), "a")
+    assert shown["statuses"][0] == ["last", "error", "lost", None]
     assert len(shown["statuses"]) + shown["more"] == 501
     assert shown["more"] > 400
 
@@ -133,6 +134,6 @@ def test_an_entry_that_cannot_be_read_says_why_and_has_nothing_to_edit() -> None
     reason = Status(Level.ERROR, "displays[0]: unknown display type `Grd`, did you mean `Grid`?")
     row = Row("a", "Grd", None, "Ground", {"Config": reason})
     assert (row_of(row)["line"], row_of(row)["can_edit"]) == (reason.text, False)
-    properties = MAKERS["properties"](State(rows=(row,)), "a")
+    properties = shown_by("properties", State(rows=(row,)), "a")
     assert properties["worst"]["text"] == reason.text
     assert "declared" not in properties

@@ -9,13 +9,13 @@ from typing import Any
 import pytest
 from bags import START_NS, Bag, ns, strings
 from rosbags.rosbag2 import StoragePlugin
+from shown_stores import shown_by
 
 from webviz.api.status import Level, Status
 from webviz.data.messages import encode
 from webviz.engine.commands import RemoveDisplay, Seek
 from webviz.engine.playback import DisplayEvents
 from webviz.engine.state import Row
-from webviz.page.content import MAKERS
 from webviz.sources.bag.log import MAX_EVENTS, MAX_NAME, MAX_TEXT, read_log
 from webviz.sources.past_state import Event
 
@@ -46,7 +46,7 @@ def test_a_worker_reads_warnings_of_rosout(
         Event(START_NS + ns(4), Level.ERROR, "driver", ""),
     ]
     assert viewer.loop.state().logged is state.logged
-    assert MAKERS["events"](state, "")["logged"][0] == [2.0, "warn", "driver: slow"]
+    assert shown_by("events", state)["logged"][0] == [2.0, "warn", "driver: slow"]
 
 
 def test_of_many_the_most_severe_stay_and_a_sample_of_the_others(tmp_path: Path) -> None:

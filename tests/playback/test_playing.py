@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 import pytest
 from bags import START_NS, Bag, ns, strings
+from shown_stores import shown_by
 
 from webviz.engine.commands import (
     Command,
@@ -25,7 +26,6 @@ from webviz.engine.commands import (
 )
 from webviz.engine.commands.requests import Refused
 from webviz.engine.playback import PlaybackControl
-from webviz.page.content import MAKERS
 
 CONFIG = """\
 fixed_frame: map
@@ -183,12 +183,12 @@ def test_bookmarks_name_moments_and_can_be_undone(theater: Callable, bag: Bag) -
     viewer.do(Seek(2.0))
     viewer.do(SaveBookmark("here"))
     viewer.do(SaveBookmark("later", 3.5))
-    shown = MAKERS["bookmarks"](viewer.loop.state(), "")
+    shown = shown_by("bookmarks", viewer.loop.state())
     assert shown == {"all": [["here", 2.0], ["later", 3.5]]}
     viewer.do(RemoveBookmark("here"))
-    assert MAKERS["bookmarks"](viewer.loop.state(), "") == {"all": [["later", 3.5]]}
+    assert shown_by("bookmarks", viewer.loop.state()) == {"all": [["later", 3.5]]}
     viewer.do(Undo())
-    assert MAKERS["bookmarks"](viewer.loop.state(), "") == shown
+    assert shown_by("bookmarks", viewer.loop.state()) == shown
 
 
 def test_bookmarks_are_read_from_a_config_and_those_of_other_recordings_kept(
@@ -197,7 +197,7 @@ def test_bookmarks_are_read_from_a_config_and_those_of_other_recordings_kept(
     config = f"bookmarks: {{a: {(START_NS + ns(1.5)) / 1e9}, b: 12}}\ndisplays: []\n"
     viewer = theater(bag, config)
     state = viewer.loop.state()
-    assert MAKERS["bookmarks"](state, "") == {"all": [["a", 1.5]]}
+    assert shown_by("bookmarks", state) == {"all": [["a", 1.5]]}
     assert set(state.settings.bookmarks) == {"a", "b"}
 
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from webviz.api.registry import display_types
@@ -12,13 +13,14 @@ from webviz.engine.commands import Command, GripHandle, Refresh, Sender, UseTool
 from webviz.engine.commands.guard import Guard
 from webviz.engine.state import State
 from webviz.page.content import MAKERS
+from webviz.page.content.store import PageStore
 from webviz.page.dependency_tracking import DependencyTracker
 from webviz.page.derived_subscriptions import DerivedSubscriptions
 from webviz.page.dispatcher import Dispatcher, Handler
 from webviz.page.driving import DrivingMessages, Steer
 from webviz.page.gripping import GripMessages
-from webviz.page.people import People
-from webviz.page.plugin_panels import PluginPanels
+from webviz.page.people import MAKERS_OF_PEOPLE, People
+from webviz.page.plugin_panels import MAKERS_OF_PANELS, PluginPanels
 from webviz.page.toolbar import Toolbar
 from webviz.server.access.access import Access
 from webviz.server.access.journal import Journal
@@ -74,15 +76,9 @@ class Pages:
         self._dispatcher = Dispatcher(channel, request, note, handlers)
         self._driving = DrivingMessages(channel, steer, note)
         self._derived = DerivedSubscriptions(request)
-        self._of_panels = {
-            "addresses": people.addresses,
-            "journal": people.journal,
-            "links": people.links,
-            "people": people.people,
-            "commands": panels.commands,
-            "panel": panels.panel,
-            "panel_properties": panels.properties,
-            "panels": panels.panels,
+        self._of_parts: Mapping[str, Callable[[State, str], PageStore | None]] = {
+            **{name: partial(make, people) for name, make in MAKERS_OF_PEOPLE.items()},
+            **{name: partial(make, panels) for name, make in MAKERS_OF_PANELS.items()},
         }
         self._read: dict[str, DependencyTracker] = {}
         """Dependencies of the stores that are kept."""
@@ -112,12 +108,15 @@ class Pages:
 
     def _fill(self, store: str, state: State) -> None:
         name, _, argument = store.partition(":")
-        if (make := self._of_panels.get(name)) is not None:
-            self._channel.show(store, make(state, argument))
+        if (make := self._of_parts.get(name)) is not None:
+            self._show(store, make(state, argument))
         elif (make := MAKERS.get(name)) is not None:
             reading = DependencyTracker(state)
-            self._channel.show(store, make(reading.state, argument))
+            self._show(store, make(reading.state, argument))
             self._read[store] = reading
+
+    def _show(self, store: str, made: PageStore | None) -> None:
+        self._channel.show(store, {} if made is None else made.by_key())
 
     def _forget(self, watched: set[str]) -> None:
         """Have stores made anew that are not watched any more, and all if there are other types."""

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import asyncio
-import dataclasses
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from datetime import UTC, datetime
-from typing import Any, TypeVar
+from typing import ClassVar, TypeVar
+
+import msgspec
 
 from webviz.api.errors import Error
 from webviz.data.disk import DiskThreads
 from webviz.engine.state import State
 from webviz.page.asked import Asked
+from webviz.page.content.store import PageStore
 from webviz.server.access import token_file
 from webviz.server.access.access import Access
 from webviz.server.access.journal import Journal
@@ -35,6 +37,70 @@ MAX_THREADS = 4
 T = TypeVar("T")
 
 
+class Person(msgspec.Struct, frozen=True):
+    """A connected browser.
+
+    Args:
+        name, role: of its visitor.
+        since_s: seconds since 1970.
+        latency_ms: None while it is unknown.
+        drives: names of the tools with which it drives.
+    """
+
+    name: str
+    role: str
+    since_s: int
+    latency_ms: int | None
+    drives: Sequence[str]
+
+
+class PeopleStore(PageStore, frozen=True):
+    """The connected browsers by id."""
+
+    spread: ClassVar = {"people": ""}
+
+    people: Mapping[str, Person]
+
+
+class AddressesStore(PageStore, frozen=True):
+    """The network addresses of browsers by their id."""
+
+    spread: ClassVar = {"addresses": ""}
+
+    addresses: Mapping[str, str]
+
+
+class ValidLink(msgspec.Struct, frozen=True):
+    """A link: its role, and when it ends in seconds since 1970, None for never."""
+
+    role: str
+    expires_s: float | None
+
+
+class LinksStore(PageStore, frozen=True):
+    """The valid links by name."""
+
+    spread: ClassVar = {"links": ""}
+
+    links: Mapping[str, ValidLink]
+
+
+class JournalLine(msgspec.Struct, frozen=True):
+    """Something that was done, see `webviz.server.access.journal.JournalEntry`."""
+
+    time_s: float
+    name: str
+    role: str
+    address: str
+    text: str
+
+
+class JournalStore(PageStore, frozen=True):
+    """People's actions, newest first."""
+
+    entries: Sequence[JournalLine]
+
+
 class People:
     """Stores about people, see `webviz.page.content`, and invitations.
 
@@ -51,38 +117,40 @@ class People:
         self._dismissing: set[asyncio.Task[None]] = set()
         self._disk = DiskThreads(MAX_THREADS)
 
-    def people(self, state: State, _: str) -> Mapping[str, Any]:
-        """Of each browser by its id: name, role, since when, latency in ms, and what it drives."""
+    def people(self, state: State, _: str) -> PeopleStore:
+        """The connected browsers."""
         names = {button.id: button.name for button in state.tools}
         driving = {tool: driving.driver for tool, driving in state.driving.items()}
-        return {
-            str(browser): {
-                "name": visitor.name,
-                "role": visitor.role.label,
-                "since_s": round(visitor.since_s),
-                "latency_ms": round(1000.0 * visitor.latency_s) if visitor.latency_s else None,
-                "drives": [names.get(t, t) for t, driver in driving.items() if driver == browser],
+        return PeopleStore(
+            {
+                str(browser): Person(
+                    name=visitor.name,
+                    role=visitor.role.label,
+                    since_s=round(visitor.since_s),
+                    latency_ms=round(1000.0 * visitor.latency_s) if visitor.latency_s else None,
+                    drives=[names.get(t, t) for t, driver in driving.items() if driver == browser],
+                )
+                for browser, visitor in self._channel.visitors().items()
             }
-            for browser, visitor in self._channel.visitors().items()
-        }
+        )
 
-    def addresses(self, state: State, _: str) -> Mapping[str, Any]:
-        """The network address of each browser by its id."""
-        return {str(id_): visitor.address for id_, visitor in self._channel.visitors().items()}
+    def addresses(self, state: State, _: str) -> AddressesStore:
+        """The network addresses of browsers."""
+        visitors = self._channel.visitors()
+        return AddressesStore({str(id_): visitor.address for id_, visitor in visitors.items()})
 
-    def links(self, state: State, _: str) -> Mapping[str, Any]:
-        """Of each valid link by its name: its role, and when it ends, in seconds since 1970."""
-        return {
-            token.name: {
-                "role": token.role,
-                "expires_s": None if token.expires is None else token.expires.timestamp(),
-            }
-            for token in self._access.tokens
-        }
+    def links(self, state: State, _: str) -> LinksStore:
+        """The valid links."""
+        return LinksStore({token.name: _link(token) for token in self._access.tokens})
 
-    def journal(self, state: State, _: str) -> Mapping[str, Any]:
-        """Return people's actions, newest first."""
-        return {"entries": [dataclasses.asdict(entry) for entry in self._journal.entries]}
+    def journal(self, state: State, _: str) -> JournalStore:
+        """Return people's actions."""
+        return JournalStore(
+            [
+                JournalLine(each.time_s, each.name, each.role, each.address, each.text)
+                for each in self._journal.entries
+            ]
+        )
 
     # Called on the event loop
 
@@ -180,3 +248,17 @@ class People:
         token_file.modify(self._access.path, add)
         self._access.refresh()  # the link works at once
         return made
+
+
+def _link(token: Token) -> ValidLink:
+    expires_s = None if token.expires is None else token.expires.timestamp()
+    return ValidLink(token.role, expires_s)
+
+
+MAKERS_OF_PEOPLE: Mapping[str, Callable[[People, State, str], PageStore]] = {
+    "addresses": People.addresses,
+    "journal": People.journal,
+    "links": People.links,
+    "people": People.people,
+}
+"""Makers of stores, see `webviz.page.content`."""

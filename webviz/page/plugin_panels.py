@@ -6,9 +6,11 @@ import contextlib
 import logging
 import queue
 import threading
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from concurrent.futures import Future
-from typing import Any
+from typing import Any, ClassVar
+
+import msgspec
 
 from webviz.api.panel import Panel
 from webviz.api.registry import broken_types, plugin_types
@@ -17,7 +19,8 @@ from webviz.engine.commands.guard import Guard
 from webviz.engine.state import State
 from webviz.page.asked import Asked
 from webviz.page.chart import ChartWidget
-from webviz.page.content.forms import form, values_of
+from webviz.page.content.forms import Form, form, values_of
+from webviz.page.content.store import PageStore
 from webviz.page.recorded_ui import RecordedUi
 from webviz.page.widgets import Widget, clean
 from webviz.server.access.requests import UseWidget
@@ -28,6 +31,80 @@ MAX_WAITING = 16
 """Actions of one panel that wait for one that takes long."""
 _SHARED = ("name",)
 """Properties of all panels, which their tab does not show."""
+
+
+class PanelType(msgspec.Struct, frozen=True):
+    """A type of panels that can be added."""
+
+    type: str
+    title: str
+
+
+class PanelsStore(PageStore, frozen=True):
+    """The panels of plug-ins.
+
+    Args:
+        titles: by name.
+        order: the names from left to right.
+        types: that can be added.
+    """
+
+    spread: ClassVar = {"titles": ""}
+
+    titles: Mapping[str, str]
+    order: Sequence[str] = msgspec.field(name="/order")
+    types: Sequence[PanelType] = msgspec.field(name="/types")
+
+
+class PanelStore(PageStore, frozen=True):
+    """The widgets of a panel.
+
+    Args:
+        widgets: by id, see `webviz.page.widgets`; the pieces of a chart have its id with a slash
+            and theirs.
+        order: the ids.
+        failure: a sentence or "".
+    """
+
+    spread: ClassVar = {"widgets": ""}
+
+    widgets: Mapping[str, Mapping[str, Any]]
+    order: Sequence[str] = msgspec.field(name="/order")
+    failure: str = msgspec.field(name="/failure")
+
+
+class PanelPropertiesStore(PageStore, frozen=True):
+    """Properties of a panel, as the store `tool` has them of a tool."""
+
+    spread: ClassVar = {"values": "value."}
+
+    id: str
+    type: str
+    declared: Form
+    values: Mapping[str, Any]
+
+
+class PanelCommand(msgspec.Struct, frozen=True):
+    """A command of a panel.
+
+    Args:
+        panel, widget: for `Use`.
+        label: of the command.
+        key: that runs it, "" for none.
+    """
+
+    panel: str
+    widget: str
+    label: str
+    key: str
+
+
+class PanelCommandsStore(PageStore, frozen=True):
+    """The commands of all panels, by panel and widget with a slash between."""
+
+    spread: ClassVar = {"commands": ""}
+
+    commands: Mapping[str, PanelCommand]
 
 
 class PluginPanels:
@@ -60,20 +137,17 @@ class PluginPanels:
 
     # What stores hold, see `webviz.page.content`
 
-    def panels(self, state: State, _: str) -> Mapping[str, Any]:
-        """Title by name, "/order": the names from left to right, and "/types" that can be added."""
+    def panels(self, state: State, _: str) -> PanelsStore:
+        """The panels of plug-ins."""
         titles = {name: tab.title for name, tab in self._tabs.items()}
         broken = {name: clean(name) for name in self._broken}
-        return {**titles, **broken, "/order": [*self._order, *self._broken], "/types": _types()}
+        return PanelsStore(titles | broken, [*self._order, *self._broken], _types())
 
-    def panel(self, state: State, name: str) -> Mapping[str, Any]:
-        """The widgets of a panel by id, "/order", and "/failure": a sentence or "".
-
-        The pieces of a chart have its id with a slash and theirs.
-        """
+    def panel(self, state: State, name: str) -> PanelStore:
+        """The widgets of a panel."""
         tab = self._tabs.get(name)
         if tab is None:
-            return {"/order": [], "/failure": self._broken.get(name, "")}
+            return PanelStore({}, [], self._broken.get(name, ""))
         widgets = dict(tab.ui.widgets)
         values = {id_: widget.values for id_, widget in widgets.items()}
         parts = {
@@ -82,23 +156,25 @@ class PluginPanels:
             if isinstance(widget, ChartWidget)
             for name, part in widget.parts.items()
         }
-        return {**values, **parts, "/order": list(widgets), "/failure": tab.failure}
+        return PanelStore(values | parts, list(widgets), tab.failure)
 
-    def properties(self, state: State, name: str) -> Mapping[str, Any]:
-        """Of a panel, as the store `tool` has them of a tool; nothing if it is gone."""
+    def properties(self, state: State, name: str) -> PanelPropertiesStore | None:
+        """Properties of a panel; None if it is gone."""
         found = next((tab for tab in state.panels if tab.tab == name), None)
         if found is None:
-            return {}
+            return None
         cls, own = type(found.panel), values_of(found.panel, _SHARED)
-        return {"id": found.id, "type": cls.__name__, "declared": form(cls, _SHARED), **own}
+        return PanelPropertiesStore(found.id, cls.__name__, form(cls, _SHARED), own)
 
-    def commands(self, state: State, _: str) -> Mapping[str, Any]:
-        """The commands of all panels: panel, widget, label and key."""
-        return {
-            f"{name}/{id_}": {"panel": name, "widget": id_, **command.values}
-            for name, tab in self._tabs.items()
-            for id_, command in dict(tab.ui.commands).items()
-        }
+    def commands(self, state: State, _: str) -> PanelCommandsStore:
+        """The commands of all panels."""
+        return PanelCommandsStore(
+            {
+                f"{name}/{id_}": PanelCommand(name, id_, **command.values)
+                for name, tab in self._tabs.items()
+                for id_, command in dict(tab.ui.commands).items()
+            }
+        )
 
     # Called on the event loop
 
@@ -122,10 +198,19 @@ class PluginPanels:
         self._enqueue(command, Sender(browser)).add_done_callback(_note_refusal)
 
 
-def _types() -> list[Mapping[str, str]]:
-    """The types of panels: name and title."""
+MAKERS_OF_PANELS: Mapping[str, Callable[[PluginPanels, State, str], PageStore | None]] = {
+    "commands": PluginPanels.commands,
+    "panel": PluginPanels.panel,
+    "panel_properties": PluginPanels.properties,
+    "panels": PluginPanels.panels,
+}
+"""Makers of stores, see `webviz.page.content`."""
+
+
+def _types() -> list[PanelType]:
+    """The types of panels."""
     return [
-        {"type": name, "title": clean(cls.title or name)}
+        PanelType(name, clean(cls.title or name))
         for name, cls in sorted(plugin_types(Panel).items())
     ]
 

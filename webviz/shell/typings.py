@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from inspect import getmembers, isclass
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args, get_type_hints
 
 import msgspec
 from msgspec import inspect
 
 from webviz import page
+from webviz.page.content import MAKERS
+from webviz.page.content.store import PageStore
 from webviz.page.dispatcher import form_of
+from webviz.page.people import MAKERS_OF_PEOPLE
+from webviz.page.plugin_panels import MAKERS_OF_PANELS
 from webviz.scene import holding
 from webviz.scene.constants import CONSTANTS
 from webviz.server.access.rules import COMMANDS
@@ -39,7 +43,8 @@ _NAMED = {
 
 def files() -> dict[str, str]:
     """Return the text of each generated file in `FOLDER`, by name."""
-    return {"constants.d.ts": _constants(), "messages.d.ts": _messages()}
+    made = {"constants": _constants, "contents": _stores, "messages": _messages}
+    return {f"{name}.d.ts": text() for name, text in made.items()}
 
 
 def _constants() -> str:
@@ -58,6 +63,79 @@ def _messages() -> str:
         parts.append(f"export type {name} =\n  " + "\n  ".join(f"| {s.__name__}" for s in structs))
         parts[-1] += ";\n"
     return _HEAD + "\n".join(parts)
+
+
+def _stores() -> str:
+    makers: dict[str, Callable[..., PageStore | None]] = {}
+    for known in (MAKERS, MAKERS_OF_PEOPLE, MAKERS_OF_PANELS):
+        makers |= known
+    names = _Names()
+    lines = [f"  {name}: {_store(makers[name], names)};" for name in sorted(makers)]
+    body = "\n".join(lines)
+    return f"{_HEAD}{names.interfaces()}\nexport interface Stores {{\n{body}\n}}\n"
+
+
+def _store(make: Callable[..., PageStore | None], names: _Names) -> str:
+    """Return the type of a store, as `types.d.ts` reads it: own keys, and items under others."""
+    returned = get_type_hints(make)["return"]
+    types = get_args(returned) or (returned,)
+    store = next(each for each in types if each is not type(None))
+    info = inspect.type_info(store)
+    assert isinstance(info, inspect.StructType)
+    own, items = [], "never"
+    for field in info.fields:
+        prefix = store.spread.get(field.name)
+        if prefix is None:
+            own.append(_field(field, names, may_lack=type(None) in types))
+            continue
+        assert isinstance(field.type, inspect.DictType)
+        value = _of_type(field.type.value_type, names)
+        if prefix:
+            own.append(f"[key: `{prefix}${{string}}`]: {value}")
+        else:
+            items = value
+    return f"{{ own: {{ {'; '.join(own)} }}; items: {items} }}"
+
+
+class _Names:
+    """Interfaces of the structs within others, by name."""
+
+    def __init__(self) -> None:
+        self._known: dict[str, tuple[type, str]] = {}
+
+    def of(self, info: inspect.StructType) -> str:
+        """Return the name of the interface of a struct.
+
+        Raises:
+            TypeError: another struct has this name.
+        """
+        name = info.cls.__name__
+        if name not in self._known:
+            self._known[name] = info.cls, ""
+            fields = [_field(field, self) for field in info.fields]
+            if info.array_like:
+                text = f"export type {name} = [{', '.join(fields)}];\n"
+            else:
+                body = "".join(f"  {each};\n" for each in fields)
+                text = f"export interface {name} {{\n{body}}}\n"
+            self._known[name] = info.cls, text
+        if self._known[name][0] is not info.cls:
+            raise TypeError(f"Two structs have the name {name}. Rename one.")
+        return name
+
+    def interfaces(self) -> str:
+        """Return all, sorted by name."""
+        return "\n".join(text for _, (_, text) in sorted(self._known.items()))
+
+
+def _field(field: inspect.Field, names: _Names, *, may_lack: bool = False) -> str:
+    """Return a field; those that are unset or equal to their default are not sent."""
+    key = field.encode_name if field.encode_name.isidentifier() else json.dumps(field.encode_name)
+    type_ = field.type
+    if not field.required and field.default is None and isinstance(type_, inspect.UnionType):
+        rest = (each for each in type_.types if not isinstance(each, inspect.NoneType))
+        type_ = inspect.UnionType(tuple(rest))
+    return f"{key}{'?' * (may_lack or not field.required)}: {_of_type(type_, names)}"
 
 
 def _structs(base: type[msgspec.Struct]) -> Iterator[type[msgspec.Struct]]:
@@ -86,42 +164,47 @@ def _commands() -> str:
     return "\n".join([*lines, "}\n"])
 
 
-def _fields(info: inspect.Type, may_lack: bool) -> list[str]:
+def _fields(info: inspect.Type, may_lack: bool, names: _Names | None = None) -> list[str]:
     """Return the fields of a struct or dataclass; those with a default are optional if they may."""
     assert isinstance(info, inspect.StructType | inspect.DataclassType)
     return [
-        f"{field.encode_name}{'?' * (may_lack and not field.required)}: {_of_type(field.type)}"
+        f"{field.encode_name}{'?' * (may_lack and not field.required)}: "
+        f"{_of_type(field.type, names)}"
         for field in info.fields
     ]
 
 
-def _of_type(info: inspect.Type) -> str:
-    """Return a type of msgspec in TypeScript.
+def _of_type(info: inspect.Type, names: _Names | None = None) -> str:
+    """Return a type of msgspec in TypeScript; structs by their names, if these are collected.
 
     Raises:
         TypeError: a type that no message has had yet.
     """
     match info:
+        case inspect.Metadata(extra={"of": packed}):
+            return _of_type(inspect.type_info(packed), names)
         case inspect.Metadata(type=inner):
-            return _of_type(inner)
+            return _of_type(inner, names)
         case inspect.UnionType(types=types):
-            return " | ".join(map(_of_type, types))
+            return " | ".join(_of_type(each, names) for each in types)
         case inspect.LiteralType(values=values):
             return " | ".join(map(json.dumps, values))
         case inspect.EnumType(cls=cls):
             return " | ".join(json.dumps(member.value) for member in cls)
         case inspect.DictType(key_type=key, value_type=value):
-            return f"Record<{_of_type(key)}, {_of_type(value)}>"
+            return f"Record<{_of_type(key, names)}, {_of_type(value, names)}>"
         case inspect.TupleType(item_types=items):
-            return f"[{', '.join(map(_of_type, items))}]"
+            return f"[{', '.join(_of_type(item, names) for item in items)}]"
         case (
             inspect.ListType(item_type=item)
             | inspect.VarTupleType(item_type=item)
             | inspect.FrozenSetType(item_type=item)
         ):
-            return f"Array<{_of_type(item)}>"
+            return f"Array<{_of_type(item, names)}>"
+        case inspect.StructType() if names is not None:
+            return names.of(info)
         case inspect.StructType() | inspect.DataclassType():
-            fields = _fields(info, may_lack=True)
+            fields = _fields(info, may_lack=True, names=names)
             if isinstance(info, inspect.StructType) and info.tag_field:
                 fields.insert(0, f"{info.tag_field}: {json.dumps(info.tag)}")
             return f"{{ {'; '.join(fields)} }}"

@@ -1,14 +1,13 @@
 """Contents of the page's stores, made from the state of the viewer.
 
-One function a store: from a state, and what stands behind the colon of the store's name, to values
-by key. It runs some times a second while a page watches, so it has to be quick; what has not
-changed is not sent.
+One function a store: from a state, and what stands behind the colon of the store's name, to the
+store, None for an empty one. It runs some times a second while a page watches, so it has to be
+quick; what has not changed is not sent.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any
 
 from webviz.engine.state import State
 from webviz.page.content.clock import clock
@@ -22,6 +21,7 @@ from webviz.page.content.properties import properties, statuses, topics_of
 from webviz.page.content.recording import black_box, recording
 from webviz.page.content.scene import legend, watchers
 from webviz.page.content.selection import picking, selected, selection
+from webviz.page.content.store import PageStore
 from webviz.page.content.tools import driving, tool
 from webviz.page.content.topics import message, topics, traffic
 from webviz.page.content.transforms import between, transforms
@@ -29,7 +29,7 @@ from webviz.page.content.types import types
 from webviz.page.content.viewer import file, frames, graph, settings, view_type
 from webviz.page.content.views import view, views
 
-MAKERS: Mapping[str, Callable[[State, str], Mapping[str, Any]]] = {
+MAKERS: Mapping[str, Callable[[State, str], PageStore | None]] = {
     "between": between,
     "black_box": black_box,
     "bookmarks": bookmarks,

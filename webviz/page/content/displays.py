@@ -5,40 +5,108 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
+from typing import Any, ClassVar, Literal
+
+import msgspec
 
 from webviz.api.display import inputs
 from webviz.api.status import Level, OtherFixedFrame, Status
 from webviz.engine.state import Row, State
 from webviz.page.content.forms import sendable
+from webviz.page.content.store import PageStore
 
-_LEVELS = {level: level.name.lower() for level in Level}
+LevelName = Literal["idle", "ok", "warn", "error"]
+
+_LEVELS: Mapping[Level, LevelName] = {
+    Level.IDLE: "idle",
+    Level.OK: "ok",
+    Level.WARN: "warn",
+    Level.ERROR: "error",
+}
 _CHANGING = re.compile(r"(?<![\w.-])(\d{1,9}(?:\.\d{1,9})?)( (?:s|Hz)\b)")
 """Ages and rates in sentences."""
 
 
-def displays(state: State, _: str) -> Mapping[str, Any]:
-    """The rows by id, and "order": the ids from top to bottom."""
-    return {"order": [row.id for row in state.rows], **_rows(state.rows, causes(state))}
+class RemedyButton(msgspec.Struct, frozen=True):
+    """A button that solves a problem.
+
+    Args:
+        label: of the button.
+        command, arguments: sent by it.
+    """
+
+    label: str
+    command: str
+    arguments: Mapping[str, Any]
 
 
-def rate(state: State, id_: str) -> Mapping[str, Any]:
-    """Of the display with this id: "hz", how many messages arrive, to two digits; if it listens."""
+class DisplayRow(msgspec.Struct, frozen=True):
+    """A row of the tree.
+
+    Args:
+        type, name, depth, enabled: see `webviz.engine.state.Row`.
+        can_edit: whether it has properties.
+        level: the worst of its statuses.
+        line: the first status of this level if it is a problem, "" if not.
+        topics: that it subscribes to.
+        remedy: of the problem, if a click can solve it.
+    """
+
+    type: str
+    name: str
+    depth: int
+    enabled: bool
+    can_edit: bool
+    level: LevelName
+    line: str
+    topics: Sequence[str]
+    remedy: RemedyButton | msgspec.UnsetType = msgspec.UNSET
+
+
+class DisplaysStore(PageStore, frozen=True):
+    """The tree of displays.
+
+    Args:
+        order: the ids from top to bottom.
+        rows: by id.
+    """
+
+    spread: ClassVar = {"rows": ""}
+
+    order: Sequence[str]
+    rows: Mapping[str, DisplayRow]
+
+
+class RateStore(PageStore, frozen=True):
+    """Messages of a display.
+
+    Args:
+        hz: how many arrive, to two digits; unset if it does not subscribe.
+    """
+
+    hz: float | msgspec.UnsetType = msgspec.UNSET
+
+
+def displays(state: State, _: str) -> DisplaysStore:
+    """The tree of displays."""
+    return DisplaysStore([row.id for row in state.rows], _rows(state.rows, causes(state)))
+
+
+def rate(state: State, id_: str) -> RateStore:
+    """Rate of messages of the display with this id."""
     row = next((row for row in state.rows if row.id == id_), None)
     known = [state.traffic[name].rate_hz for name in _topics(row) if name in state.traffic]
-    return {"hz": _rounded(known[0])} if known else {}
+    return RateStore(_rounded(known[0])) if known else RateStore()
 
 
 class _Rows:
     """Rows as the page shows them, by id; the same object for a row as long as it is unchanged."""
 
     def __init__(self) -> None:
-        self._known: dict[str, tuple[Row, Mapping[str, Any]]] = {}
+        self._known: dict[str, tuple[Row, DisplayRow]] = {}
         self._causes: tuple[Status, ...] = ()
 
-    def __call__(
-        self, rows: Iterable[Row], causes: tuple[Status, ...]
-    ) -> Mapping[str, Mapping[str, Any]]:
+    def __call__(self, rows: Iterable[Row], causes: tuple[Status, ...]) -> Mapping[str, DisplayRow]:
         before = self._known if causes == self._causes else {}
         self._causes = causes
         self._known = now = {
@@ -58,10 +126,8 @@ def causes(state: State) -> tuple[Status, ...]:
     return tuple(status for status in state.statuses.values() if status.remedy)
 
 
-def remedy_of(
-    status: Status, display: str, known: Sequence[Status] = ()
-) -> Mapping[str, Any] | None:
-    """A command that would help, its arguments, and the label of its button; None if none would.
+def remedy_of(status: Status, display: str, known: Sequence[Status] = ()) -> RemedyButton | None:
+    """The button of a command that would help; None if none would.
 
     Args:
         status: of a display, or of the viewer.
@@ -77,28 +143,27 @@ def remedy_of(
     else:
         command = "SetProperty"
         fields = {"display": display, "path": remedy.path, "value": remedy.value}
-    told = {"label": remedy.label, "command": command, "arguments": fields}
-    return sendable(told)
+    return RemedyButton(str(sendable(remedy.label)), command, sendable(fields))
 
 
-def _row(row: Row, causes: Sequence[Status]) -> Mapping[str, Any]:
+def _row(row: Row, causes: Sequence[Status]) -> DisplayRow:
     level = row.level
     worst = next((s for s in row.statuses.values() if s.level == level), None)
     is_said = any(each.text in status.text for each in causes for status in row.statuses.values())
-    told = {
-        "type": row.type,
-        "name": row.name,
-        "depth": row.depth,
-        "enabled": row.enabled,
-        "can_edit": row.display is not None,
-        "level": level_name(level),
-        # What the viewer says is on top of the list, once.
-        "line": "" if is_said else _worst(row, level),
-        "topics": _topics(row),
-    }
     has_own = worst and level > Level.OK and not is_said and row.type != "Group"
     remedy = remedy_of(worst, row.id) if worst and has_own else None
-    return told | {"remedy": remedy} if remedy else told
+    return DisplayRow(
+        type=row.type,
+        name=row.name,
+        depth=row.depth,
+        enabled=row.enabled,
+        can_edit=row.display is not None,
+        level=level_name(level),
+        # What the viewer says is on top of the list, once.
+        line="" if is_said else _worst(row, level),
+        topics=_topics(row),
+        remedy=remedy or msgspec.UNSET,
+    )
 
 
 def _worst(row: Row, level: Level) -> str:
@@ -126,6 +191,6 @@ def _rounded(value: float) -> float:
     return float(round(value, 1 - math.floor(math.log10(value))))
 
 
-def level_name(level: Level) -> str:
-    """A level as the page calls it: "ok", "warn" and so on."""
+def level_name(level: Level) -> LevelName:
+    """A level as the page calls it."""
     return _LEVELS[level]

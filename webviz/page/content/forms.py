@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Annotated, Any, Literal
 
 import msgspec
 import msgspec.inspect as inspect
@@ -18,16 +18,70 @@ OFFERED = ("names", "displays")
 """Widgets of switches whose names are not those of frames."""
 
 
+PropertyKind = Literal[
+    "bool",
+    "choice",
+    "color",
+    "dict",
+    "float",
+    "frame",
+    "group",
+    "int",
+    "list",
+    "switches",
+    "text",
+    "topic",
+    "vector",
+]
+
+
+class DeclaredProperty(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+    """A property, as the page needs it to build its control.
+
+    Args:
+        path: dotted.
+        label: without the unit.
+        kind: of the control.
+        children: of a group.
+        default: its value, unset for a group.
+        help: a sentence.
+        unit: of the value.
+        choices: the values to choose from.
+        when: paths and values of the properties that decide whether this one applies.
+        type: message types of a topic, as `topics_of` reads them.
+        items: kind of the items of a list.
+        otherwise: path that holds the value of the switches that are not there.
+        offered: whether the names of switches are offered, instead of being those of frames.
+        low, high: bounds.
+        above, below: bounds that are excluded.
+    """
+
+    path: str
+    label: str
+    kind: PropertyKind
+    children: list[DeclaredProperty] | msgspec.UnsetType = msgspec.UNSET
+    default: Any = msgspec.UNSET
+    help: str = ""
+    unit: str = ""
+    choices: Sequence[Any] = ()
+    when: Sequence[tuple[str, Sequence[Any]]] = ()
+    type: str = ""
+    items: Literal["text", "json", ""] = ""
+    otherwise: str = ""
+    offered: bool
+    low: float | None = None
+    above: float | None = None
+    high: float | None = None
+    below: float | None = None
+
+
+Form = Annotated[msgspec.Raw, msgspec.Meta(extra={"of": list[DeclaredProperty]})]
+"""The properties of a class, as JSON since they never change."""
+
+
 @functools.lru_cache(maxsize=128)
 def form(cls: type[msgspec.Struct], without: tuple[str, ...] = ()) -> msgspec.Raw:
-    """The declared properties of a class as JSON; groups have theirs in "children".
-
-    Each has a "path", a "label" without its unit, a "kind", and its "default"; and, where there is
-    any, "help", "unit", "bounds" in words and as "low" and "high" ("above" and "below" if they are
-    excluded), "choices", "when", the message "type" of a topic, the "items" of a list, and of
-    switches by name the path that holds "otherwise", and whether their names are "offered", instead
-    of being those of frames.
-    """
+    """Return the declared properties of a class, see `Form`; groups have theirs in "children"."""
     defaults = cls()
     declared = [
         _declared(each, defaults) for each in properties_of(cls) if each.path not in without
@@ -36,9 +90,9 @@ def form(cls: type[msgspec.Struct], without: tuple[str, ...] = ()) -> msgspec.Ra
 
 
 def values_of(declared: msgspec.Struct, without: tuple[str, ...] = ()) -> dict[str, Any]:
-    """All values, each with "value." and the path of its property as key."""
+    """All values by the path of their property."""
     properties = (each for each in properties_of(type(declared)) if each.path not in without)
-    return {f"value.{leaf.path}": sendable(leaf.of(declared)) for leaf in leaves(properties)}
+    return {leaf.path: sendable(leaf.of(declared)) for leaf in leaves(properties)}
 
 
 def leaves(properties: Iterator[Property] | tuple[Property, ...]) -> Iterator[Property]:
@@ -67,25 +121,25 @@ def sendable(value: Any) -> Any:
     return sendable(msgspec.to_builtins(value)) if isinstance(value, msgspec.Struct) else value
 
 
-def _declared(each: Property, defaults: msgspec.Struct) -> dict[str, Any]:
+def _declared(each: Property, defaults: msgspec.Struct) -> DeclaredProperty:
     label = each.label.removesuffix(f" ({each.unit})").rpartition("/")[2]
-    known: dict[str, Any] = {"path": each.path, "label": label, "kind": _kind(each)}
-    if each.children:
-        known["children"] = [_declared(child, defaults) for child in each.children]
-    else:
-        known["default"] = sendable(each.of(defaults))
-    more = {
-        "help": each.help,
-        "unit": each.unit,
-        "choices": each.choices,
-        "when": each.when,
-        "type": _message_types(each.port),
-        "items": _items(each.type),
-        "otherwise": each.otherwise,
-        "offered": each.widget in OFFERED,
+    children = [_declared(child, defaults) for child in each.children]
+    return DeclaredProperty(
+        path=each.path,
+        label=label,
+        kind=_kind(each),
+        children=children or msgspec.UNSET,
+        default=msgspec.UNSET if children else sendable(each.of(defaults)),
+        help=each.help,
+        unit=each.unit,
+        choices=each.choices,
+        when=each.when,
+        type=_message_types(each.port),
+        items=_items(each.type),
+        otherwise=each.otherwise,
+        offered=each.widget in OFFERED,
         **_bounds(each.type),
-    }
-    return known | {key: value for key, value in more.items() if value or value == 0.0}
+    )
 
 
 def _message_types(port: Input | Output | None) -> str:
@@ -93,7 +147,7 @@ def _message_types(port: Input | Output | None) -> str:
     return ",".join(port.types) if isinstance(port, Input) else port.type if port else ""
 
 
-def _kind(each: Property) -> str:
+def _kind(each: Property) -> PropertyKind:
     if each.port:
         return "topic"
     if each.children:
@@ -138,7 +192,7 @@ def _is_float(item: inspect.Type) -> bool:
     return isinstance(item, inspect.Metadata) and isinstance(item.type, inspect.FloatType)
 
 
-def _items(type_: inspect.Type) -> str:
+def _items(type_: inspect.Type) -> Literal["text", "json", ""]:
     """Return the kind of items of a list or a dictionary: "text", or "json" for all else."""
     items = getattr(type_, "value_type", None) or getattr(type_, "item_type", None)
     if items is None and not isinstance(type_, inspect.TupleType):

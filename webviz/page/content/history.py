@@ -2,19 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Sequence
+
+import msgspec
 
 from webviz.engine.state import State, Step
+from webviz.page.content.store import PageStore
 
 
-def history(state: State, _: str) -> Mapping[str, Any]:
+class HistoryStep(msgspec.Struct, frozen=True):
+    """A change, see `webviz.engine.state.Step`."""
+
+    number: int
+    label: str
+    browser: int | None
+
+
+class HistoryStore(PageStore, frozen=True):
     """The steps that can be undone, and those that can be redone, each with the newest first."""
-    return {
-        "undo": [_step(step) for step in state.history.undo],
-        "redo": [_step(step) for step in state.history.redo],
-    }
+
+    undo: Sequence[HistoryStep]
+    redo: Sequence[HistoryStep]
 
 
-def _step(step: Step) -> Mapping[str, Any]:
-    return {"number": step.number, "label": step.label, "browser": step.browser}
+def history(state: State, _: str) -> HistoryStore:
+    """The steps that can be undone and redone."""
+    known = state.history
+    return HistoryStore([_step(step) for step in known.undo], [_step(step) for step in known.redo])
+
+
+def _step(step: Step) -> HistoryStep:
+    return HistoryStep(step.number, step.label, step.browser)

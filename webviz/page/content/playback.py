@@ -4,90 +4,154 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import ClassVar
 
+import msgspec
 import numpy as np
+from msgspec.structs import replace
 
 from webviz.engine.state import State
+from webviz.page.content.displays import LevelName, level_name
 from webviz.page.content.forms import brief, sendable
+from webviz.page.content.store import PageStore
 from webviz.sources.past_state import Event
 
 
-def playback(state: State, _: str) -> Mapping[str, Any]:
+class PlaybackStore(PageStore, frozen=True):
     """The recording, or the memory of live topics; times in seconds from its start.
 
-    "start": of the recording, in seconds since 1970. "rate": 0 is as fast as possible. "selected":
-    first and last second to play, or None. Pages count by themselves how live topics go on: "ahead"
-    is the wall time over that of recording, "held" and "limit" are seconds in memory.
+    Pages count by themselves how live topics go on.
+
+    Args:
+        names: of the recordings.
+        start: of the recording, in seconds since 1970.
+        rate: seconds of the recording per second; 0 is as fast as possible.
+        is_playing: whether the position moves on.
+        loop: whether the span starts over at its end.
+        selected: first and last second to play, None for all.
+        is_live: whether live topics are shown, None for a recording.
+        limit: seconds that the memory keeps at most.
+        ahead: wall time over that of recording.
+        held: seconds in memory, of live topics.
+        first: of the memory, unset while it is live.
+        duration: of a recording.
+        position: unset while it is live.
+        gap: see `webviz.sources.past_state.PlaybackState`.
     """
+
+    names: Sequence[str]
+    start: float
+    rate: float
+    is_playing: bool
+    loop: bool
+    selected: tuple[float, float] | None
+    is_live: bool | None
+    limit: float | msgspec.UnsetType = msgspec.UNSET
+    ahead: float | msgspec.UnsetType = msgspec.UNSET
+    held: float | msgspec.UnsetType = msgspec.UNSET
+    first: float | msgspec.UnsetType = msgspec.UNSET
+    duration: float | msgspec.UnsetType = msgspec.UNSET
+    position: float | msgspec.UnsetType = msgspec.UNSET
+    gap: tuple[float, float] | msgspec.UnsetType | None = msgspec.UNSET
+
+
+class BookmarksStore(PageStore, frozen=True):
+    """The bookmarks of the recording: names, and seconds from its start, in order."""
+
+    all: Sequence[tuple[str, float]]
+
+
+class DensityStore(PageStore, frozen=True):
+    """Counts of all messages in equal parts of the recording, none without one."""
+
+    counts: Sequence[int]
+
+
+class RecordedStore(PageStore, frozen=True):
+    """Counts of messages in equal parts of the recording, by topic."""
+
+    spread: ClassVar = {"counts": ""}
+
+    counts: Mapping[str, Sequence[int]]
+
+
+LoggedEvent = tuple[float, LevelName, str]
+"""Seconds from the start, level, and text."""
+
+
+class EventsStore(PageStore, frozen=True):
+    """Warnings and errors in the recording, logged by nodes and of displays, each by time."""
+
+    logged: Sequence[LoggedEvent]
+    displays: Sequence[LoggedEvent]
+
+
+def playback(state: State, _: str) -> PlaybackStore | None:
+    """The recording or the memory, None without either."""
     recording = state.playback
     if recording is None:
-        return {}
+        return None
     duration_s = (recording.end_ns - recording.start_ns) / 1e9
-    told = {
-        "names": recording.names,
-        "start": recording.start_ns / 1e9,
-        "rate": 0 if math.isinf(recording.rate) else recording.rate,
-        "is_playing": recording.is_playing,
-        "loop": recording.loop,
-        "selected": recording.selected,
-        "is_live": recording.is_live,
-    }
+    told = PlaybackStore(
+        names=recording.names,
+        start=recording.start_ns / 1e9,
+        rate=0 if math.isinf(recording.rate) else recording.rate,
+        is_playing=recording.is_playing,
+        loop=recording.loop,
+        selected=recording.selected,
+        is_live=recording.is_live,
+    )
     position_s = round(recording.position_s, 3)
     if recording.is_live is None:
-        return {**told, "duration": duration_s, "position": position_s}
-    told["limit"] = state.settings.memory.seconds
-    told["ahead"] = round(state.clock.wall_s - recording.start_ns / 1e9 - duration_s)
+        return replace(told, duration=duration_s, position=position_s)
+    told = replace(
+        told,
+        limit=state.settings.memory.seconds,
+        ahead=round(state.clock.wall_s - recording.start_ns / 1e9 - duration_s),
+    )
     if recording.is_live:
-        return {**told, "held": round(duration_s - recording.first_s)}
-    return {
-        **told,
-        "first": round(recording.first_s, 3),
-        "position": position_s,
-        "gap": recording.gap,
-    }
+        return replace(told, held=round(duration_s - recording.first_s))
+    first_s = round(recording.first_s, 3)
+    return replace(told, first=first_s, position=position_s, gap=recording.gap)
 
 
-def bookmarks(state: State, _: str) -> Mapping[str, Any]:
-    """The bookmarks of this recording by name, in seconds from its start, in order."""
+def bookmarks(state: State, _: str) -> BookmarksStore | None:
+    """The bookmarks of this recording."""
     recording = state.playback
     if recording is None:
-        return {}
+        return None
     start_s, end_s = recording.start_ns / 1e9, recording.end_ns / 1e9
     inside = [
-        [sendable(name), round(at_s - start_s, 6)]
+        (str(sendable(name)), round(at_s - start_s, 6))
         for name, at_s in state.settings.bookmarks.items()
         if start_s <= at_s <= end_s
     ]
-    return {"all": sorted(inside, key=lambda bookmark: bookmark[1])}
+    return BookmarksStore(sorted(inside, key=lambda bookmark: bookmark[1]))
 
 
-def density(state: State, _: str) -> Mapping[str, Any]:
-    """Counts of all messages in equal parts of the recording."""
+def density(state: State, _: str) -> DensityStore:
+    """Counts of all messages."""
     counts = list(state.recorded.values())
-    return {"counts": np.sum(counts, axis=0).tolist() if counts else []}
+    return DensityStore(np.sum(counts, axis=0).tolist() if counts else [])
 
 
-def recorded(state: State, _: str) -> Mapping[str, Any]:
-    """Counts of messages in equal parts of the recording, by topic."""
-    return state.recorded
+def recorded(state: State, _: str) -> RecordedStore:
+    """Counts of messages by topic."""
+    return RecordedStore(state.recorded)
 
 
-def events(state: State, _: str) -> Mapping[str, Any]:
-    """Warnings and errors in the recording, logged by nodes and of displays, each by time.
-
-    Each is [seconds from the start, "warn" or "error", text].
-    """
+def events(state: State, _: str) -> EventsStore | None:
+    """Warnings and errors in the recording."""
     recording = state.playback
     if recording is None:
-        return {}
+        return None
     start_ns = recording.start_ns
-    return {
-        "logged": [_event(event, start_ns) for event in state.logged],
-        "displays": [_event(event, start_ns) for event in state.warned],
-    }
+    return EventsStore(
+        logged=[_event(event, start_ns) for event in state.logged],
+        displays=[_event(event, start_ns) for event in state.warned],
+    )
 
 
-def _event(event: Event, start_ns: int) -> Sequence[Any]:
+def _event(event: Event, start_ns: int) -> LoggedEvent:
     at_s = (event.at_ns - start_ns) / 1e9
-    return [round(at_s, 6), event.level.name.lower(), brief(f"{event.name}: {event.text}")]
+    return round(at_s, 6), level_name(event.level), brief(f"{event.name}: {event.text}")

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, ClassVar
+
+import msgspec
 
 from webviz.api.declared import Topic
 from webviz.api.display import inputs
 from webviz.api.ports import ANY
 from webviz.api.status import Status
 from webviz.engine.state import Row, State
-from webviz.page.content.displays import causes, level_name, remedy_of
-from webviz.page.content.forms import brief, form, sendable, values_of
+from webviz.page.content.displays import LevelName, RemedyButton, causes, level_name, remedy_of
+from webviz.page.content.forms import Form, brief, form, sendable, values_of
+from webviz.page.content.store import PageStore
 from webviz.page.content.visibility import names, switches_of
 from webviz.sources import Offer, Publisher
 
@@ -20,35 +23,124 @@ IN_THE_TREE = ("name", "enabled")
 MAX_STATUSES = 40
 
 
-def properties(state: State, id_: str) -> Mapping[str, Any]:
-    """Of the display with this id; nothing if it is gone.
+class StatusLine(msgspec.Struct, frozen=True, array_like=True):
+    """A status, and the button of a command that would help."""
 
-    "name" and "type"; "declared", see `form`; each value, see `values_of`; for each input
-    "topic." and its path: what is known of the topic; for switches by name "offered." and their
-    path: the names, with how many things have each, or with the types of displays; "worst" of the
-    statuses.
+    key: str
+    level: LevelName
+    text: str
+    remedy: RemedyButton | None
+
+
+class WorstStatus(msgspec.Struct, frozen=True):
+    """The first of the worst statuses; of one that is OK, the text would change all the time."""
+
+    key: str
+    level: LevelName
+    text: str
+
+
+class LiveTopic(msgspec.Struct, frozen=True):
+    """The topic of an input.
+
+    Args:
+        rate: in Hz, as precise as it stays the same for a while; None without a subscription.
+        qos: in words.
     """
+
+    rate: float | None
+    qos: str
+
+
+class PropertiesStore(PageStore, frozen=True):
+    """The properties of a display.
+
+    Args:
+        name, type: of the display.
+        worst: of its statuses, None without one.
+        declared: unset if it cannot be shown.
+        values: see `values_of`.
+        offered: for switches by name, the names with how many things have each, or with the types
+            of displays; by path.
+        topics: of its inputs, by path.
+    """
+
+    spread: ClassVar = {"values": "value.", "offered": "offered.", "topics": "topic."}
+
+    name: str
+    type: str
+    worst: WorstStatus | None
+    declared: Form | msgspec.UnsetType = msgspec.UNSET
+    values: Mapping[str, Any] = {}
+    offered: Mapping[str, Mapping[str, int | str]] = {}
+    topics: Mapping[str, LiveTopic] = {}
+
+
+class StatusesStore(PageStore, frozen=True):
+    """Statuses of a display or of the viewer.
+
+    Args:
+        statuses: of very many the worst.
+        more: how many are left out.
+    """
+
+    statuses: Sequence[StatusLine]
+    more: int
+
+
+class TopicOffer(msgspec.Struct, frozen=True):
+    """A live topic for a property.
+
+    Args:
+        publishers: how many there are.
+        rate: see `LiveTopic`.
+        shown: names of the displays that show it.
+        problem: of its QoS, a sentence or "".
+    """
+
+    publishers: int
+    rate: float | None
+    shown: Sequence[str]
+    problem: str
+
+
+class TopicOffersStore(PageStore, frozen=True):
+    """Live topics of message types, by name."""
+
+    spread: ClassVar = {"topics": ""}
+
+    topics: Mapping[str, TopicOffer]
+
+
+def properties(state: State, id_: str) -> PropertiesStore | None:
+    """Properties of the display with this id; None if it is gone."""
     row = _row(state, id_)
     if row is None:
-        return {}
-    told: dict[str, Any] = {"name": sendable(row.name), "type": row.type, "worst": _worst(row)}
+        return None
+    name = str(sendable(row.name))
     if row.display is None:
-        return told
-    told["declared"] = form(type(row.display), IN_THE_TREE)
-    told |= values_of(row.display, IN_THE_TREE)
-    told |= {f"offered.{path}": sendable(each) for path, each in row.offered.items()}
-    told |= {f"offered.{each.path}": sendable(names(state.rows, row)) for each in switches_of(row)}
-    return told | {f"topic.{name}": _live(topic, state) for name, _, topic in inputs(row.display)}
+        return PropertiesStore(name, row.type, _worst(row))
+    offered = {path: sendable(each) for path, each in row.offered.items()}
+    switches = {each.path: sendable(names(state.rows, row)) for each in switches_of(row)}
+    return PropertiesStore(
+        name=name,
+        type=row.type,
+        worst=_worst(row),
+        declared=form(type(row.display), IN_THE_TREE),
+        values=values_of(row.display, IN_THE_TREE),
+        offered=offered | switches,
+        topics={name: _live(topic, state) for name, _, topic in inputs(row.display)},
+    )
 
 
-def statuses(state: State, id_: str) -> Mapping[str, Any]:
-    """The "statuses" of the display with this id, see `lines`."""
+def statuses(state: State, id_: str) -> StatusesStore | None:
+    """The statuses of the display with this id; None if it is gone."""
     row = _row(state, id_)
-    return lines(row.statuses, row.id, causes(state)) if row else {}
+    return lines(row.statuses, row.id, causes(state)) if row else None
 
 
-def topics_of(state: State, types: str) -> Mapping[str, Any]:
-    """The live topics of message types by name, each with its rate and who has to do with it.
+def topics_of(state: State, types: str) -> TopicOffersStore:
+    """The live topics of message types, each with its rate and who has to do with it.
 
     Args:
         state: of the viewer.
@@ -63,52 +155,49 @@ def topics_of(state: State, types: str) -> Mapping[str, Any]:
     for row in state.rows:
         for _, _, topic in inputs(row.display) if row.display else ():
             shown.setdefault(topic.name, []).append(str(sendable(row.name)))
-    return {
-        str(sendable(name)): {
-            "publishers": sum(map(fits, offer.publishers)),
-            "rate": _rate(name, state),
-            "shown": shown.get(name, []),
-            "problem": sendable(offer.problem),
+    return TopicOffersStore(
+        {
+            str(sendable(name)): TopicOffer(
+                publishers=sum(map(fits, offer.publishers)),
+                rate=_rate(name, state),
+                shown=shown.get(name, []),
+                problem=str(sendable(offer.problem)),
+            )
+            for name, offer in state.offers.items()
+            if any(map(fits, offer.publishers))
         }
-        for name, offer in state.offers.items()
-        if any(map(fits, offer.publishers))
-    }
+    )
 
 
 def lines(
     statuses: Mapping[str, Status], display: str = "", known: Sequence[Status] = ()
-) -> Mapping[str, Any]:
-    """Statuses as the page shows them: key, level, text, and what a click could do about it.
+) -> StatusesStore:
+    """Statuses as the page shows them.
 
     Args:
         statuses: by key.
         display: id of the display they belong to, "" for the viewer.
         known: causes of which they may be a consequence; see `causes`.
-
-    Returns:
-        The lines in "statuses", of very many the worst, and in "more" how many are left out.
     """
     all_ = list(statuses.items())
     if len(all_) > MAX_STATUSES:
         all_ = sorted(all_, key=lambda line: -line[1].level)[:MAX_STATUSES]
-    return {
-        "statuses": [_line(*line, display, known) for line in all_],
-        "more": len(statuses) - len(all_),
-    }
+    return StatusesStore(
+        statuses=[_line(*line, display, known) for line in all_],
+        more=len(statuses) - len(all_),
+    )
 
 
-def _line(key: str, status: Status, display: str, known: Sequence[Status]) -> list[Any]:
-    line = [brief(key), level_name(status.level), brief(status.text)]
-    told = remedy_of(status, display, known)
-    return [*line, told] if told else line
+def _line(key: str, status: Status, display: str, known: Sequence[Status]) -> StatusLine:
+    remedy = remedy_of(status, display, known)
+    return StatusLine(brief(key), level_name(status.level), brief(status.text), remedy)
 
 
-def _worst(row: Row) -> Mapping[str, Any] | None:
-    """The first of the worst statuses; its text, if all is well, changes all the time: none."""
+def _worst(row: Row) -> WorstStatus | None:
     for key, status in row.statuses.items():
         if status.level == row.level:
             text = brief(status.text) if status.level else ""
-            return {"key": brief(key), "level": level_name(status.level), "text": text}
+            return WorstStatus(brief(key), level_name(status.level), text)
     return None
 
 
@@ -116,10 +205,10 @@ def _row(state: State, id_: str) -> Row | None:
     return next((row for row in state.rows if row.id == id_), None)
 
 
-def _live(topic: Topic, state: State) -> Mapping[str, Any]:
+def _live(topic: Topic, state: State) -> LiveTopic:
     name = topic.name if topic.name.startswith("/") else f"/{topic.name}"
     offer = state.offers.get(name)
-    return {"rate": _rate(name, state), "qos": _qos(topic, offer)}
+    return LiveTopic(_rate(name, state), _qos(topic, offer))
 
 
 def _rate(topic: str, state: State) -> float | None:

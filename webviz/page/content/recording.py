@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Sequence
+
+import msgspec
 
 from webviz.engine.state import State
 from webviz.files.config.model import MemorySettings
 from webviz.page.content.forms import sendable
+from webviz.page.content.store import PageStore
 from webviz.sources.past_state import MemoryState
 from webviz.sources.rewindable import MEMORY_OFF
 
@@ -18,44 +20,87 @@ MAX_SAVED = 50
 """Recordings that are listed."""
 
 
-def recording(state: State, _: str) -> Mapping[str, Any]:
-    """The memory and the recording, empty for a bag; in whole seconds and megabytes."""
+class RunningRecording(msgspec.Struct, frozen=True):
+    """The recording that goes on.
+
+    Args:
+        name: of its file.
+        seconds, megabytes: so far.
+        dropped: messages that are missing in it.
+    """
+
+    name: str
+    seconds: int
+    megabytes: float
+    dropped: int
+
+
+class RecordingStore(PageStore, frozen=True):
+    """The memory of live topics and their recording.
+
+    Args:
+        remembered: seconds and megabytes of the memory.
+        is_remembering: whether there is a memory.
+        about: sentences on the memory.
+        recording: None for none.
+    """
+
+    remembered: tuple[int, int]
+    is_remembering: bool
+    about: str
+    recording: RunningRecording | None
+
+
+def recording(state: State, _: str) -> RecordingStore | None:
+    """The memory and the recording, None for a bag."""
     memory, recording = state.memory, state.recording
     if memory is None:
-        return {}
+        return None
     limits = state.settings.memory
-    told: dict[str, Any] = {
-        "remembered": [int(memory.seconds), memory.size // 1_000_000],
-        "is_remembering": limits.seconds > 0 and limits.megabytes > 0,
-        "about": sendable(_about(memory, limits)),
-        "recording": None,
-    }
+    running = None
     if recording is not None:
-        told["recording"] = {
-            "name": sendable(recording.path.name),
-            "seconds": int(recording.seconds),
-            "megabytes": round(recording.size / 1e6, 1),
-            "dropped": recording.dropped,
-        }
-    return told
+        running = RunningRecording(
+            name=str(sendable(recording.path.name)),
+            seconds=int(recording.seconds),
+            megabytes=round(recording.size / 1e6, 1),
+            dropped=recording.dropped,
+        )
+    return RecordingStore(
+        remembered=(int(memory.seconds), memory.size // 1_000_000),
+        is_remembering=limits.seconds > 0 and limits.megabytes > 0,
+        about=str(sendable(_about(memory, limits))),
+        recording=running,
+    )
 
 
-def black_box(state: State, _: str) -> Mapping[str, Any]:
-    """Recordings that rules made, the newest first: name, megabytes and the command to open it."""
+class BlackBoxStore(PageStore, frozen=True):
+    """Recordings that rules made.
+
+    Args:
+        saving: the rule whose recording goes on, "" for none.
+        saved: the newest first: name, megabytes and the command to open it.
+    """
+
+    saving: str
+    saved: Sequence[tuple[str, float, str]]
+
+
+def black_box(state: State, _: str) -> BlackBoxStore | None:
+    """Recordings that rules made, None without any rule or recording."""
     box = state.black_box
     if box is None or not (box.saved or state.settings.watch):
-        return {}
-    return {
-        "saving": sendable(box.saving),
-        "saved": [
-            [
-                sendable(each.path.name),
+        return None
+    return BlackBoxStore(
+        saving=str(sendable(box.saving)),
+        saved=[
+            (
+                str(sendable(each.path.name)),
                 round(each.size / 1e6, 1),
-                sendable(f"webviz --bag {shlex.quote(str(each.path))}"),
-            ]
+                str(sendable(f"webviz --bag {shlex.quote(str(each.path))}")),
+            )
             for each in box.saved[:MAX_SAVED]
         ],
-    }
+    )
 
 
 def _about(memory: MemoryState, limits: MemorySettings) -> str:

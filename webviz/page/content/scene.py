@@ -2,29 +2,59 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import ClassVar
 
+import msgspec
+
+from webviz.api.nodes import Rgb
 from webviz.engine.state import State
+from webviz.page.content.store import PageStore
 from webviz.page.content.titles import titles
 
 
-def legend(state: State, _: str) -> Mapping[str, Any]:
-    """Return the range of values of colour scales, by display id; bounds to four digits."""
+class Scale(msgspec.Struct, frozen=True):
+    """A colour scale, see `webviz.api.context.ColorScale`; bounds to four digits."""
+
+    title: str
+    label: str
+    low: float
+    high: float
+    colors: Sequence[Rgb]
+
+
+class LegendStore(PageStore, frozen=True):
+    """The colour scales by display id."""
+
+    spread: ClassVar = {"scales": ""}
+
+    scales: Mapping[str, Scale]
+
+
+class WatchersStore(PageStore, frozen=True):
+    """Number of browsers that watch the scene."""
+
+    count: int
+
+
+def legend(state: State, _: str) -> LegendStore:
+    """The colour scales of displays."""
     titled = titles(row for row in state.rows if row.color_scale is not None)
-    return {
-        row.id: {
-            "title": titled[row.id],
-            "label": scale.label,
-            "low": float(f"{scale.low:.4g}"),
-            "high": float(f"{scale.high:.4g}"),
-            "colors": scale.colors,
+    return LegendStore(
+        {
+            row.id: Scale(
+                title=titled[row.id],
+                label=scale.label,
+                low=float(f"{scale.low:.4g}"),
+                high=float(f"{scale.high:.4g}"),
+                colors=scale.colors,
+            )
+            for row in state.rows
+            if (scale := row.color_scale) is not None
         }
-        for row in state.rows
-        if (scale := row.color_scale) is not None
-    }
+    )
 
 
-def watchers(state: State, _: str) -> Mapping[str, Any]:
+def watchers(state: State, _: str) -> WatchersStore:
     """Return the number of browsers that watch the scene."""
-    return {"count": len(state.views)}
+    return WatchersStore(len(state.views))

@@ -3,33 +3,49 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, ClassVar
 
 from webviz.engine.state import State
-from webviz.page.content.forms import form, sendable, values_of
+from webviz.page.content.forms import Form, form, sendable, values_of
+from webviz.page.content.store import PageStore
 
 
-def tool(state: State, id_: str) -> Mapping[str, Any]:
-    """Of the tool with this id, as `properties` has them of a display; nothing if it is gone."""
+class ToolStore(PageStore, frozen=True):
+    """The properties of a tool, as `properties` has them of a display."""
+
+    spread: ClassVar = {"values": "value."}
+
+    name: str
+    type: str
+    declared: Form
+    values: Mapping[str, Any]
+
+
+class DrivingStore(PageStore, frozen=True):
+    """A vehicle, see `webviz.engine.state.Driving`."""
+
+    speed: float | None
+    turn_rate: float | None
+    problem: str
+
+
+def tool(state: State, id_: str) -> ToolStore | None:
+    """Properties of the tool with this id; None if it is gone."""
     button = next((button for button in state.tools if button.id == id_), None)
     if button is None:
-        return {}
+        return None
     cls = type(button.tool)
-    declared = {
-        "name": sendable(button.name),
-        "type": cls.__name__,
-        "declared": form(cls, ("name",)),
-    }
-    return declared | values_of(button.tool, ("name",))
+    return ToolStore(
+        name=str(sendable(button.name)),
+        type=cls.__name__,
+        declared=form(cls, ("name",)),
+        values=values_of(button.tool, ("name",)),
+    )
 
 
-def driving(state: State, id_: str) -> Mapping[str, Any]:
-    """Return the state of the vehicle of the tool with this id; empty if no browser drives it."""
+def driving(state: State, id_: str) -> DrivingStore | None:
+    """Return the state of the vehicle of the tool with this id; None if no browser drives it."""
     found = state.driving.get(id_)
     if found is None:
-        return {}
-    return {
-        "speed": found.speed,
-        "turn_rate": found.turn_rate,
-        "problem": sendable(found.problem),
-    }
+        return None
+    return DrivingStore(found.speed, found.turn_rate, str(sendable(found.problem)))

@@ -3,52 +3,113 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, ClassVar
+
+import msgspec
 
 from webviz.api.display import Display
 from webviz.api.registry import display_types
+from webviz.data.messages.tree import Tree
 from webviz.engine.commands.by_topic import Pick, no_display, picks
 from webviz.engine.state import State
+from webviz.page.content.store import PageStore
 from webviz.sources import Offer, Publisher
 
 
-def topics(state: State, _: str) -> Mapping[str, Any]:
-    """By name: "types", "nodes" that publish it, "subscribers", "qos", "show" and "why".
+class GraphTopic(msgspec.Struct, frozen=True):
+    """A topic with publishers.
 
-    "show" has the displays that fit, each with the properties that show the topic; "why" says why
-    there is none.
+    Args:
+        types: of its messages.
+        nodes: that publish it.
+        subscribers: how many there are, None if that is unknown.
+        qos: of the publishers, "mixed" where they differ.
+        show: the displays that fit, each with the properties that show the topic.
+        why: there is none, a sentence; "" if there is one.
     """
-    return _topics(state.offers, display_types())
+
+    types: Sequence[str]
+    nodes: Sequence[str]
+    subscribers: int | None
+    qos: str
+    show: Sequence[tuple[str, Mapping[str, Any]]]
+    why: str
 
 
-def traffic(state: State, _: str) -> Mapping[str, Any]:
-    """By name, of topics with a subscription here: "hz", "bytes" per second, "delay" in seconds."""
-    return {
-        topic: {
-            "hz": _digits(traffic.rate_hz, 3),
-            "bytes": _digits(traffic.bytes_per_s, 2),
-            **({} if traffic.delay_s is None else {"delay": _digits(traffic.delay_s, 2)}),
+class TopicsStore(PageStore, frozen=True):
+    """The topics by name."""
+
+    spread: ClassVar = {"topics": ""}
+
+    topics: Mapping[str, GraphTopic]
+
+
+class TopicTraffic(msgspec.Struct, frozen=True):
+    """Traffic of a topic with a subscription here.
+
+    Args:
+        hz: messages per second.
+        bytes: per second.
+        delay: in seconds; unset without stamps.
+    """
+
+    hz: float
+    bytes: float
+    delay: float | msgspec.UnsetType = msgspec.UNSET
+
+
+class TrafficStore(PageStore, frozen=True):
+    """Traffic by topic name."""
+
+    spread: ClassVar = {"topics": ""}
+
+    topics: Mapping[str, TopicTraffic]
+
+
+class MessageStore(PageStore, frozen=True):
+    """The last message on a topic, see `webviz.engine.state.Inspected`."""
+
+    message: Tree | None
+    problem: str
+    size: int
+    received: float
+
+
+def topics(state: State, _: str) -> TopicsStore:
+    """The topics of the graph."""
+    return TopicsStore(_topics(state.offers, display_types()))
+
+
+def traffic(state: State, _: str) -> TrafficStore:
+    """Traffic of the topics with a subscription here."""
+    return TrafficStore(
+        {
+            topic: TopicTraffic(
+                hz=_digits(traffic.rate_hz, 3),
+                bytes=_digits(traffic.bytes_per_s, 2),
+                delay=msgspec.UNSET if traffic.delay_s is None else _digits(traffic.delay_s, 2),
+            )
+            for topic, traffic in state.traffic.items()
         }
-        for topic, traffic in state.traffic.items()
-    }
+    )
 
 
-def message(state: State, topic: str) -> Mapping[str, Any]:
-    """The last message on a topic: see `webviz.engine.state.Inspected`."""
+def message(state: State, topic: str) -> MessageStore | None:
+    """The last message on a topic; None if it is not inspected."""
     inspected = state.inspected.get(topic)
     if inspected is None:
-        return {}
-    return {
-        "message": inspected.message,
-        "problem": inspected.problem,
-        "size": inspected.size,
-        "received": round(inspected.received_s, 1),
-    }
+        return None
+    return MessageStore(
+        message=inspected.message,
+        problem=inspected.problem,
+        size=inspected.size,
+        received=round(inspected.received_s, 1),
+    )
 
 
 def _topics(
     offers: Mapping[str, Offer], displays: Mapping[str, type[Display]]
-) -> Mapping[str, Any]:
+) -> Mapping[str, GraphTopic]:
     types = {
         name: tuple(sorted({publisher.type for publisher in offer.publishers}))
         for name, offer in offers.items()
@@ -59,16 +120,16 @@ def _topics(
     return {name: _topic(offer, types[name], fits.get(name, [])) for name, offer in offers.items()}
 
 
-def _topic(offer: Offer, types: Sequence[str], fits: Sequence[Pick]) -> Mapping[str, Any]:
+def _topic(offer: Offer, types: Sequence[str], fits: Sequence[Pick]) -> GraphTopic:
     publishers = offer.publishers
-    return {
-        "types": types,
-        "nodes": [publisher.node or "a DDS program" for publisher in publishers],
-        "subscribers": offer.subscribers,
-        "qos": _qos(publishers),
-        "show": [[pick.display, pick.values] for pick in fits],
-        "why": "" if fits else no_display(types),
-    }
+    return GraphTopic(
+        types=types,
+        nodes=[publisher.node or "a DDS program" for publisher in publishers],
+        subscribers=offer.subscribers,
+        qos=_qos(publishers),
+        show=[(pick.display, pick.values) for pick in fits],
+        why="" if fits else no_display(types),
+    )
 
 
 def _qos(publishers: Sequence[Publisher]) -> str:

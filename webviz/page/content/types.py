@@ -5,31 +5,55 @@ from __future__ import annotations
 import base64
 import contextlib
 import functools
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from importlib import resources
-from typing import Any
+from typing import ClassVar
+
+import msgspec
 
 from webviz.api.display import Display, inputs_of
 from webviz.api.ports import ANY
 from webviz.api.registry import display_types
 from webviz.engine.state import State
+from webviz.page.content.store import PageStore
 
 
-def types(state: State, _: str) -> Mapping[str, Any]:
-    """Every display type by its name: a line of "help", the message types that it shows as
-    "topics", and a "picture" as an address that holds it, "" without one."""
-    return {name: _about(name, cls) for name, cls in sorted(display_types().items())}
+class DisplayType(msgspec.Struct, frozen=True):
+    """A type of displays.
+
+    Args:
+        help: a line.
+        topics: the message types that it shows.
+        picture: an address that holds it, "" without one.
+    """
+
+    help: str
+    topics: Sequence[str]
+    picture: str
+
+
+class TypesStore(PageStore, frozen=True):
+    """The types of displays by name."""
+
+    spread: ClassVar = {"types": ""}
+
+    types: Mapping[str, DisplayType]
+
+
+def types(state: State, _: str) -> TypesStore:
+    """Every type of displays, sorted by name."""
+    return TypesStore({name: _about(name, cls) for name, cls in sorted(display_types().items())})
 
 
 @functools.cache
-def _about(name: str, cls: type[Display]) -> Mapping[str, Any]:
+def _about(name: str, cls: type[Display]) -> DisplayType:
     text = (cls.__doc__ or "").strip()
     shown = [type_ for spec in inputs_of(cls).values() if not spec.follows for type_ in spec.types]
-    return {
-        "help": " ".join(text.split("\n\n")[0].split()),
-        "topics": ["any type" if type_ == ANY else type_ for type_ in dict.fromkeys(shown)],
-        "picture": _picture(name, cls.__module__.partition(".")[0]),
-    }
+    return DisplayType(
+        help=" ".join(text.split("\n\n")[0].split()),
+        topics=["any type" if type_ == ANY else type_ for type_ in dict.fromkeys(shown)],
+        picture=_picture(name, cls.__module__.partition(".")[0]),
+    )
 
 
 def _picture(name: str, package: str) -> str:

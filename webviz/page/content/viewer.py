@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import asdict
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
 
+import msgspec
+
+from webviz.api.nodes import Rgb
 from webviz.api.views import type_of
 from webviz.engine.state import State
 from webviz.files.config import Settings
-from webviz.page.content.forms import form, values_of
-from webviz.page.content.properties import lines
+from webviz.page.content.forms import Form, form, values_of
+from webviz.page.content.properties import StatusLine, lines
+from webviz.page.content.store import PageStore
 
 NO_CONTROL = (
     *("version", "view", "views", "memory", "watch", "watch_limits", "bookmarks", "rviz"),
@@ -23,41 +26,95 @@ OWN_NODE = "/webviz"
 """Unless it is remapped, which is rare before anything is published."""
 
 
-def settings(state: State, _: str) -> Mapping[str, Any]:
-    """Fixed frame, background, frame rate, saved views, and statuses.
+class SettingsStore(PageStore, frozen=True):
+    """Settings of the viewer, and its statuses.
 
-    "declared" is what the page needs to know of the first three, which are among the values too.
+    Args:
+        declared, values: of the properties of the settings.
+        fixed_frame, background, frame_rate: among the values, too.
+        views: names of the saved ones.
+        statuses, more: see `webviz.page.content.properties.StatusesStore`.
     """
-    settings = state.settings
-    return {
-        "declared": form(Settings, NO_CONTROL),
-        **values_of(settings, NO_CONTROL),
-        "fixed_frame": settings.fixed_frame,
-        "background": settings.background,
-        "frame_rate": settings.frame_rate,
-        "views": list(settings.views),
-        **lines(state.statuses),
-    }
+
+    spread: ClassVar = {"values": "value."}
+
+    declared: Form
+    values: Mapping[str, Any]
+    fixed_frame: str
+    background: Rgb | None
+    frame_rate: float
+    views: Sequence[str]
+    statuses: Sequence[StatusLine]
+    more: int
 
 
-def frames(state: State, _: str) -> Mapping[str, Any]:
+class FramesStore(PageStore, frozen=True):
     """All frame ids."""
-    return {"frames": state.frames}
+
+    frames: Sequence[str]
 
 
-def file(state: State, _: str) -> Mapping[str, Any]:
+class FileStore(PageStore, frozen=True):
+    """The config file, see `webviz.engine.state.ConfigFile`."""
+
+    path: str
+    is_changed: bool
+    folder: str
+    others: Sequence[str]
+
+
+class GraphStore(PageStore, frozen=True):
+    """The ROS graph.
+
+    Args:
+        is_empty: whether nothing is published, except by webviz and on topics of every node.
+    """
+
+    is_empty: bool
+
+
+class ViewTypeStore(PageStore, frozen=True):
+    """The view of a browser: its type and the frame that it follows; unset before it has one."""
+
+    type: str | msgspec.UnsetType = msgspec.UNSET
+    target_frame: str | msgspec.UnsetType = msgspec.UNSET
+
+
+def settings(state: State, _: str) -> SettingsStore:
+    """Settings of the viewer as a whole."""
+    settings = state.settings
+    told = lines(state.statuses)
+    return SettingsStore(
+        declared=form(Settings, NO_CONTROL),
+        values=values_of(settings, NO_CONTROL),
+        fixed_frame=settings.fixed_frame,
+        background=settings.background,
+        frame_rate=settings.frame_rate,
+        views=list(settings.views),
+        statuses=told.statuses,
+        more=told.more,
+    )
+
+
+def frames(state: State, _: str) -> FramesStore:
+    """All frame ids."""
+    return FramesStore(state.frames)
+
+
+def file(state: State, _: str) -> FileStore:
     """The config file."""
-    return asdict(state.file)
+    file = state.file
+    return FileStore(file.path, file.is_changed, file.folder, file.others)
 
 
-def graph(state: State, _: str) -> Mapping[str, Any]:
-    """Return whether nothing is published, except by webviz and on topics of every node."""
+def graph(state: State, _: str) -> GraphStore:
+    """The ROS graph."""
     published = (offer for topic, offer in state.offers.items() if topic not in OF_EVERY_NODE)
     nodes = {publisher.node for offer in published for publisher in offer.publishers}
-    return {"is_empty": not nodes - {OWN_NODE}}
+    return GraphStore(is_empty=not nodes - {OWN_NODE})
 
 
-def view_type(state: State, browser: str) -> Mapping[str, Any]:
-    """Of the browser with this id: the type of its view and what that follows; nothing before."""
+def view_type(state: State, browser: str) -> ViewTypeStore:
+    """The type of view of the browser with this id."""
     view = next((view for id_, view in state.views.items() if str(id_) == browser), None)
-    return {} if view is None else {"type": type_of(view), "target_frame": view.target_frame}
+    return ViewTypeStore() if view is None else ViewTypeStore(type_of(view), view.target_frame)

@@ -3,35 +3,67 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
+
+import msgspec
 
 from webviz.api.views import VIEW_TYPES, type_of
 from webviz.engine.state import State
-from webviz.page.content.forms import form, sendable, values_of
+from webviz.page.content.forms import Form, form, sendable, values_of
+from webviz.page.content.store import PageStore
 
 DIGITS = 3
 """Decimals that are shown; a view moved by hand has more."""
 
 
-def view(state: State, browser: str) -> Mapping[str, Any]:
-    """Return a browser's view: "declared" and the values, rounded; all "types"."""
+class ViewStore(PageStore, frozen=True):
+    """The view of a browser.
+
+    Args:
+        declared, values: of its properties, rounded, and "type".
+        types: of views.
+    """
+
+    spread: ClassVar = {"values": "value."}
+
+    declared: Form
+    types: Sequence[str]
+    values: Mapping[str, Any]
+
+
+class SavedView(msgspec.Struct, frozen=True):
+    """A saved view: its name and type, and whether browsers begin with it."""
+
+    name: str
+    type: str
+    is_start: bool
+
+
+class ViewsStore(PageStore, frozen=True):
+    """The saved views."""
+
+    saved: Sequence[SavedView]
+
+
+def view(state: State, browser: str) -> ViewStore | None:
+    """Return a browser's view; None before it has one."""
     shown = state.views.get(int(browser)) if browser.isdecimal() else None
     if shown is None:
-        return {}
+        return None
     values = {key: _rounded(value) for key, value in values_of(shown).items()}
-    told = {"declared": form(type(shown)), "types": list(VIEW_TYPES), "value.type": type_of(shown)}
-    return told | values
+    return ViewStore(form(type(shown)), list(VIEW_TYPES), {"type": type_of(shown)} | values)
 
 
-def views(state: State, _: str) -> Mapping[str, Any]:
-    """The "saved" ones: name and type of each, and whether browsers begin with it."""
+def views(state: State, _: str) -> ViewsStore:
+    """The saved views."""
     settings = state.settings
-    saved = [
-        {"name": sendable(name), "type": type_of(view), "is_start": view == settings.view}
-        for name, view in settings.views.items()
-    ]
-    return {"saved": saved}
+    return ViewsStore(
+        [
+            SavedView(str(sendable(name)), type_of(view), view == settings.view)
+            for name, view in settings.views.items()
+        ]
+    )
 
 
 def _rounded(value: Any) -> Any:
