@@ -6,10 +6,14 @@ import constants from "./constants.js";
 import { el, set } from "./dom.js";
 import { toast } from "./shell/toasts.js";
 
+/** @import {Attribute, Child} from "./types.js" */
+
 const ROLES = ["watcher", "operator", "owner"];
 const FIELDS = "input, select, textarea, button";
 
+/** @type {(() => void)[]} */
 const waiting = []; // what was built before the server has said who this is
+/** @type {{role: string, name: string} | null} */
 let you = null;
 
 channel.on("You", ({ role, name }) => {
@@ -19,7 +23,11 @@ channel.on("You", ({ role, name }) => {
   for (const apply of waiting.splice(0)) apply();
 });
 
-/** Calls `act` once the role of this page is known. */
+/**
+ * Calls `act` once the role of this page is known.
+ *
+ * @param {() => void} act
+ */
 export function onRole(act) {
   if (you) act();
   else waiting.push(act);
@@ -28,7 +36,11 @@ export function onRole(act) {
 /** The role of this page, and the name of its link: "" if none is needed. */
 export const self = () => you ?? { role: "owner", name: "" };
 
-/** Why a command or message is not allowed here: a sentence, "" if it is. */
+/**
+ * Why a command or message is not allowed here: a sentence, "" if it is.
+ *
+ * @param {string} what
+ */
 export function why(what) {
   const needed = ROLES.indexOf(constants.ROLES[what]);
   const own = ROLES.indexOf(self().role);
@@ -37,22 +49,36 @@ export function why(what) {
   return `Only ${who} may do this. Your link is for ${own === 1 ? "an operator" : "a watcher"}.`;
 }
 
-/** Disables a button, or the fields of an element, if a command is not allowed; returns it. */
+/**
+ * Disables a button, or the fields of an element, if a command is not allowed; returns it.
+ *
+ * @template {HTMLElement} T
+ * @param {string} what
+ * @param {T} element
+ * @returns {T}
+ */
 export function needs(what, element) {
   onRole(() => lock(what, element));
   return element;
 }
 
+/**
+ * @param {string} what
+ * @param {HTMLElement} element
+ */
 function lock(what, element) {
   const reason = why(what);
   if (!reason) return;
   element.classList.add("wv-locked");
   set(element, { "data-why": reason });
   if (!element.matches("button")) {
-    for (const field of element.querySelectorAll(FIELDS)) field.disabled = true;
+    for (const field of element.querySelectorAll(FIELDS)) {
+      /** @type {HTMLButtonElement} */ (field).disabled = true;
+    }
     return;
   }
   set(element, { "aria-disabled": "true" });
+  /** @param {Event} event */
   const refuse = (event) => {
     event.preventDefault();
     event.stopImmediatePropagation();
@@ -61,7 +87,13 @@ function lock(what, element) {
   element.addEventListener("click", refuse, true);
 }
 
-/** A place for a control, in which it cannot be used if a command is not allowed. */
+/**
+ * A place for a control, in which it cannot be used if a command is not allowed.
+ *
+ * @param {string} what
+ * @param {Record<string, Attribute>} attributes
+ * @param {...(Child | Child[])} children
+ */
 export function holder(what, attributes, ...children) {
   const reason = what ? why(what) : "";
   if (!reason) return el("div", attributes, ...children);

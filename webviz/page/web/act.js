@@ -6,6 +6,7 @@ import { toast } from "./shell/toasts.js";
 
 /** @import {Commands, Do, Done} from "./messages.js" */
 
+/** @type {Map<number, (answer: {level: string, text: string}) => void>} */
 const waiting = new Map();
 /** @type {Map<string, (done: Done) => void>} */
 const listeners = new Map();
@@ -50,7 +51,7 @@ export function act(command, fields, { quiet = false, errors = "toast", step = 0
  *
  * @template {keyof Commands} C
  * @param {C} command
- * @param {Commands[C]} fields
+ * @param {Commands[C]} [fields]
  */
 export function send(command, fields, step = 0) {
   count += 1;

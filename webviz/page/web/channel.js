@@ -4,12 +4,17 @@
 
 const MAX_UNSENT = 100;
 
+/** @type {Map<string, ((message: any) => void)[]>} */
 const listeners = new Map();
+/** @type {(() => void)[]} */
 const openers = [];
 /** @type {(buffer: ArrayBuffer) => void} */
 let takeBytes = () => {};
+/** @type {(() => void)[]} */
 const closers = [];
+/** @type {WebSocket | null} */
 let socket = null;
+/** @type {FromPage[]} */
 let unsent = [];
 
 /**
@@ -23,17 +28,29 @@ export function on(type, listener) {
   listeners.set(type, [...(listeners.get(type) ?? []), listener]);
 }
 
-/** Calls `act` whenever the channel has been opened, before anything else is sent. */
+/**
+ * Calls `act` whenever the channel has been opened, before anything else is sent.
+ *
+ * @param {() => void} act
+ */
 export function onOpen(act) {
   openers.push(act);
 }
 
-/** Calls `listener(buffer)` with whatever is not JSON. */
+/**
+ * Calls `listener(buffer)` with whatever is not JSON.
+ *
+ * @param {(buffer: ArrayBuffer) => void} listener
+ */
 export function onBytes(listener) {
   takeBytes = listener;
 }
 
-/** Calls `act` whenever the channel has ended. */
+/**
+ * Calls `act` whenever the channel has ended.
+ *
+ * @param {() => void} act
+ */
 export function onClose(act) {
   closers.push(act);
 }
@@ -46,11 +63,16 @@ export const isOpen = () => socket?.readyState === WebSocket.OPEN;
  * @param {FromPage} message
  */
 export function send(message) {
-  if (isOpen()) socket.send(JSON.stringify(message));
+  if (socket?.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message));
   else if (unsent.length < MAX_UNSENT) unsent.push(message);
 }
 
-/** Opens the channel; to be called when everybody listens who will. */
+/**
+ * Opens the channel; to be called when everybody listens who will.
+ *
+ * @param {string} url
+ * @param {string} key
+ */
 export function open(url, key) {
   socket?.close();
   const mine = (socket = new WebSocket(url));

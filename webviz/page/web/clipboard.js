@@ -2,7 +2,11 @@
 
 import { el } from "./dom.js";
 
-/** Copies a text; whether that was possible. */
+/**
+ * Copies a text; whether that was possible.
+ *
+ * @param {string} text
+ */
 export async function copy(text) {
   try {
     await navigator.clipboard.writeText(text);

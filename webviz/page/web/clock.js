@@ -3,8 +3,11 @@
 import * as channel from "./channel.js";
 import { watch } from "./stores.js";
 
+/** @import {ValuesOf} from "./types.js" */
+
 const DRIFT_S = 0.001;
 
+/** @type {number | null} */
 let ahead = null; // of the server's clock over that of this browser, in seconds
 
 // A message that took longer makes the server's clock seem slower; the fastest one is right.
@@ -16,14 +19,24 @@ channel.on("Beat", ({ wall }) => {
 /** Wall time of the server in seconds. */
 export const wallNow = () => Date.now() / 1000 + (ahead ?? 0);
 
-/** ROS time in seconds by the store "clock", a Map. */
+/**
+ * ROS time in seconds by the store "clock", a Map.
+ *
+ * @param {ValuesOf<"clock">} clock
+ */
 export function rosNow(clock) {
   const [ros, wall, rate] = clock.get("pace");
   return rate ? ros + (wallNow() - wall) * rate : ros;
 }
 
-/** Calls `show(clock)` when the store "clock" changes, and every `period` ms. Returns what ends it. */
+/**
+ * Calls `show(clock)` when the store "clock" changes, and every `period` ms. Returns what ends it.
+ *
+ * @param {number} period
+ * @param {(clock: ValuesOf<"clock">) => void} show
+ */
 export function watchTime(period, show) {
+  /** @type {ValuesOf<"clock"> | null} */
   let clock = null;
   const tick = () => {
     if (clock && !document.hidden) show(clock);

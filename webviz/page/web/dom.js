@@ -1,5 +1,7 @@
 // Elements. Text is always text, never markup.
 
+/** @import {Attribute, Child} from "./types.js" */
+
 const SVG = "http://www.w3.org/2000/svg";
 
 /**
@@ -7,26 +9,44 @@ const SVG = "http://www.w3.org/2000/svg";
  *
  * An attribute that is a function is a listener (`onclick`); true is an attribute without a value;
  * false, null and undefined are none. ARIA's attributes say "true" and "false" in words.
+ *
+ * @template {keyof HTMLElementTagNameMap} K
+ * @param {K} tag
+ * @param {Record<string, Attribute>} [attributes]
+ * @param {...(Child | Child[])} children
+ * @returns {HTMLElementTagNameMap[K]}
  */
 export function el(tag, attributes = {}, ...children) {
   const element = document.createElement(tag);
   set(element, attributes);
-  element.append(...children.flat().filter((child) => child !== null && child !== undefined));
+  for (const child of children.flat()) {
+    if (child !== null && child !== undefined) element.append(child);
+  }
   return element;
 }
 
-/** Changes attributes of an element, as `el` reads them. */
+/**
+ * Changes attributes of an element, as `el` reads them.
+ *
+ * @param {Element} element
+ * @param {Record<string, Attribute>} attributes
+ */
 export function set(element, attributes) {
   for (const [name, value] of Object.entries(attributes)) {
     if (typeof value === "function") element.addEventListener(name.slice(2), value);
     else if (typeof value === "boolean" && !name.startsWith("aria-")) {
       element.toggleAttribute(name, value);
     } else if (value === null || value === undefined) element.removeAttribute(name);
-    else if (element.getAttribute(name) !== String(value)) element.setAttribute(name, value);
+    else if (element.getAttribute(name) !== String(value)) element.setAttribute(name, String(value));
   }
 }
 
-/** Changes the text of an element, if it is another one. */
+/**
+ * Changes the text of an element, if it is another one.
+ *
+ * @param {Element} element
+ * @param {string} text
+ */
 export function setText(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }
@@ -34,6 +54,9 @@ export function setText(element, text) {
 /**
  * Puts these children into an element, in this order. Others are removed first; what has the focus is
  * never moved, and nothing changes if they are in order.
+ *
+ * @param {Element} element
+ * @param {Element[]} children
  */
 export function setChildren(element, children) {
   const wanted = new Set(children);
@@ -54,7 +77,15 @@ export function setChildren(element, children) {
   }
 }
 
-/** An element of a drawing, with attributes and children as for `el`. */
+/**
+ * An element of a drawing, with attributes and children as for `el`.
+ *
+ * @template {keyof SVGElementTagNameMap} K
+ * @param {K} tag
+ * @param {Record<string, Attribute>} [attributes]
+ * @param {...(Node | string)} children
+ * @returns {SVGElementTagNameMap[K]}
+ */
 export function svgElement(tag, attributes = {}, ...children) {
   const element = document.createElementNS(SVG, tag);
   set(element, attributes);
@@ -62,7 +93,12 @@ export function svgElement(tag, attributes = {}, ...children) {
   return element;
 }
 
-/** An icon of 24 x 24 units, drawn by lines; see `icons.js`. */
+/**
+ * An icon of 24 x 24 units, drawn by lines; see `icons.js`.
+ *
+ * @param {string} path
+ * @param {number} [size]
+ */
 export function svg(path, size = 16) {
   return svgElement("svg", {
     viewBox: "0 0 24 24", width: size, height: size, fill: "none", stroke: "currentColor",

@@ -2,6 +2,7 @@
 
 import { svg } from "./dom.js";
 
+/** @type {Record<string, string>} */
 const PATHS = {
   "arrow-back": "M9 14 4 9l5-5M4 9h10a6 6 0 0 1 0 12h-3",
   "arrow-forward": "m15 14 5-5-5-5M20 9H10a6 6 0 0 0 0 12h3",
@@ -66,7 +67,12 @@ const PATHS = {
   wheel: "M12 21a9 9 0 1 0 0-18 9 9 0 0 0 0 18M12 14a2 2 0 1 0 0-4 2 2 0 0 0 0 4M3.2 11 10 12M20.8 11 14 12M12 14v7",
 };
 
-/** An icon; a square dot for a name that there is none of. */
+/**
+ * An icon; a square dot for a name that there is none of.
+ *
+ * @param {string} name
+ * @param {number} [size]
+ */
 export function icon(name, size = 16) {
   return svg(PATHS[name] ?? "M9 9h6v6H9z", size);
 }

@@ -39,6 +39,7 @@ async function install() {
   toolbar.install(shell.places);
 }
 
+/** @param {string} token */
 const answer = (token) => channel.send({ type: "Answer", token });
 channel.on("Ask", ({ token }) => answer(token));
 

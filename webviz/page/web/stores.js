@@ -2,6 +2,9 @@
 
 import * as channel from "./channel.js";
 
+/** @import {ValuesOf} from "./types.js" */
+
+/** @type {Map<string, {values: Map<string, any>, listeners: Set<Function>, isThere: boolean}>} */
 const stores = new Map();
 
 channel.onOpen(() => {
@@ -25,6 +28,10 @@ channel.on("Values", ({ store: name, all, set, gone }) => {
 /**
  * Calls `listener(values, changed)` with all values, a Map, and the set of keys that are new, changed
  * or gone: at once if they are there, and whenever something changes. Returns what ends it.
+ *
+ * @template {string} N
+ * @param {N} name
+ * @param {(values: ValuesOf<N>, changed: Set<string>) => void} listener
  */
 export function watch(name, listener) {
   let store = stores.get(name);

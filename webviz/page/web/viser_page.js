@@ -8,6 +8,8 @@ export const VISER = "1.1.1";
 const page = () => window.__viserMutable;
 
 // Required parts of viser's page, and their uses. A path of a function ends with ().
+
+/** @import {Three, ThreeTree, ViserMessage} from "./types.js" */
 const NEEDS = {
   "scene.onBeforeRender()": "everything that is adjusted before a frame is drawn",
   "scene.onAfterRender()": "measuring how many points the page holds",
@@ -65,9 +67,10 @@ export function missing() {
 export function connectToFolder() {
   const server = new URL(".", location.href).href.replace(/^http/, "ws");
   const { postMessage } = Worker.prototype;
+  /** @type {(this: Worker, message: any, ...rest: any[]) => void} */
   Worker.prototype.postMessage = function (message, ...rest) {
     const isServer = message?.type === "set_server";
-    postMessage.call(this, isServer ? { ...message, server } : message, ...rest);
+    Reflect.apply(postMessage, this, [isServer ? { ...message, server } : message, ...rest]);
   };
   const { replaceState } = history;
   history.replaceState = function (state, title, ...rest) {
@@ -78,7 +81,11 @@ export function connectToFolder() {
 /** Shows viser's page, which is hidden until it is ours. */
 export const reveal = () => (document.documentElement.dataset.wvShown = "");
 
-/** Resolves when a condition holds, which is looked at before each frame. */
+/**
+ * Resolves when a condition holds, which is looked at before each frame.
+ *
+ * @param {() => unknown} condition
+ */
 export function until(condition) {
   return /** @type {Promise<void>} */ (new Promise((resolve) => {
     (function look() {
@@ -91,7 +98,9 @@ export function until(condition) {
 export const hasScene = () => Boolean(page()?.scene?.__r3f?.root && page().canvas);
 export const hasCamera = () => Boolean(page()?.cameraControl && page().camera);
 
+/** @type {() => ThreeTree} */
 export const scene = () => page().scene;
+/** @type {() => HTMLCanvasElement & {parentElement: HTMLElement}} */
 export const canvas = () => page().canvas;
 export const camera = () => page().camera;
 export const controls = () => page().cameraControl;
@@ -100,11 +109,24 @@ export const gl = () => three().gl;
 export const Raycaster = () => three().raycaster.constructor;
 export const backgroundMaterial = () => page().backgroundMaterial;
 
-/** All nodes of the scene by their names; some may be undefined. */
+/**
+ * All nodes of the scene by their names; some may be undefined.
+ *
+ * @type {() => Record<string, ThreeTree>}
+ */
 export const nodes = () => page().nodeRefFromName;
+/**
+ * @param {string} name
+ * @returns {ThreeTree | undefined}
+ */
 export const node = (name) => page().nodeRefFromName[name];
 
-/** Where a node is relative to its parent, also of one that is no object, such as a text. */
+/**
+ * Where a node is relative to its parent, also of one that is no object, such as a text.
+ *
+ * @param {string} name
+ * @returns {Three}
+ */
 export const positionOf = (name) => page().nodePoseData[name]?.position;
 
 export const requestRender = () => page().requestRender();
@@ -124,6 +146,7 @@ export function advance() {
 
 export const hasMessages = () => page().messageQueue.length > 0;
 export const sendCamera = () => page().sendCamera();
+/** @param {number} meters */
 export const setMaxOrbitDistance = (meters) => (page().configuredMaxOrbitDistance = meters);
 
 /** True until the messages that make the scene after connecting are handled. */
@@ -134,48 +157,77 @@ export function takeMessages() {
   if (page().messageQueue.length && page().drainMessageQueue) page().drainMessageQueue();
 }
 
-/** Passes messages as they come to `pass`, with those that wait; what it returns is handled. */
+/**
+ * Passes messages as they come to `pass`, with those that wait; what it returns is handled.
+ *
+ * @param {(messages: ViserMessage[], queue: ViserMessage[]) => ViserMessage[]} pass
+ */
 export function filterMessages(pass) {
   const queue = page().messageQueue;
   const { push } = queue;
+  /** @param {...ViserMessage} messages */
   queue.push = function (...messages) {
     return push.apply(this, pass(messages, queue));
   };
 }
 
-/** Calls `act(gl, scene, camera, target)` each time before the scene is drawn, with any camera. */
+/**
+ * Calls `act(gl, scene, camera, target)` each time before the scene is drawn, with any camera.
+ *
+ * @param {(gl: Three, scene: ThreeTree, camera: Three, target: Three) => unknown} act
+ */
 export function beforeEveryRender(act) {
   const before = scene().onBeforeRender;
+  /** @param {[Three, ThreeTree, Three, Three]} args */
   scene().onBeforeRender = function (...args) {
     before.apply(this, args);
     act(...args);
   };
 }
 
-/** The same, only with the camera of the page. */
+/**
+ * The same, only with the camera of the page.
+ *
+ * @param {(gl: Three, scene: ThreeTree, camera: Three, target: Three) => unknown} act
+ */
 export function beforeRender(act) {
   beforeEveryRender((...args) => args[2] === camera() && act(...args));
 }
 
-/** Calls `act` each time after the scene was drawn with the camera of the page. */
+/**
+ * Calls `act` each time after the scene was drawn with the camera of the page.
+ *
+ * @param {() => unknown} act
+ */
 export function afterRender(act) {
   const before = scene().onAfterRender;
+  /** @param {...Three} args */
   scene().onAfterRender = function (...args) {
     before.apply(this, args);
     if (args[2] === camera()) act();
   };
 }
 
-/** Calls `act` in each frame; viser places nodes at -1000 and labels at 0. */
+/**
+ * Calls `act` in each frame; viser places nodes at -1000 and labels at 0.
+ *
+ * @param {number} priority
+ * @param {() => unknown} act
+ */
 export function eachFrame(priority, act) {
   const { root } = scene().__r3f;
   root.getState().internal.subscribe({ current: act }, priority, root);
 }
 
-/** Calls `act(material)` before anything is drawn with it. */
+/**
+ * Calls `act(material)` before anything is drawn with it.
+ *
+ * @param {(material: Three) => unknown} act
+ */
 export function beforeDraw(act) {
   const renderer = gl();
   const draw = renderer.renderBufferDirect;
+  /** @type {(camera: Three, fog: Three, geometry: Three, material: Three, ...rest: Three[]) => void} */
   renderer.renderBufferDirect = function (camera, fog, geometry, material, ...rest) {
     act(material);
     draw.call(this, camera, fog, geometry, material, ...rest);

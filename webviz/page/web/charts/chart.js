@@ -11,23 +11,39 @@ import { csv, curvesOf, extent, valueAt } from "./curves.js";
 import { draw, inside } from "./draw.js";
 import { at, changed, numberText, roomy } from "./scale.js";
 
+/** @import {Curve, Facts, Piece, Range, ValuesOf, Vec2} from "../types.js" */
+
 const WHEEL = 1.2;
 const HUES = [210, 28, 140, 0, 270, 180, 60, 320, 100, 240, 15, 160];
+/** @type {Record<string, {move?: number, by?: number}>} */
 const KEYS = {
   ArrowLeft: { move: -0.1 }, ArrowRight: { move: 0.1 }, "+": { by: 1 / WHEEL }, "-": { by: WHEEL },
 };
 
+/** @param {number} key */
 const color = (key) => `hsl(${HUES[key % HUES.length]} 75% 55%)`;
 
-/** See `plugin_widgets.js`; `send(name)` removes a curve. */
+/**
+ * See `plugin_widgets.js`; `send(name)` removes a curve.
+ *
+ * @param {unknown} _
+ * @param {(value: string) => void} send
+ */
 export function chart(_, send) {
+  /** @type {WeakMap<object, Piece>} */
   const known = new WeakMap();
+  /** @type {Curve[]} */
   let live = []; // the curves as they are
+  /** @type {Curve[] | null} */
   let held = null; // and as they were when this page paused
-  let facts = { window: 1, now: 0 };
+  /** @type {{window: number, now: number, curves: Facts[]}} */
+  let facts = { window: 1, now: 0, curves: [] };
   let end = 0; // of the window, stands still while paused
+  /** @type {{times: Range, values: Range | null} | null} */
   let zoomed = null; // {times, values}; values null for those that fit
+  /** @type {number | null} */
   let cursor = null;
+  /** @type {{from: Vec2, times: Range, values: Range, isBox: boolean, isFar: boolean} | null} */
   let drag = null;
   let frame = 0;
 
@@ -37,6 +53,11 @@ export function chart(_, send) {
     onpointerleave: () => point(null), ondblclick: reset, onkeydown: key,
   });
   const box = el("div", { class: "wv-chart-box", hidden: true });
+  /**
+   * @param {string} label
+   * @param {string} name
+   * @param {() => void} onclick
+   */
   const button = (label, name, onclick) =>
     el("button", { type: "button", class: "wv-icon", "aria-label": label, "data-tip": label, onclick }, icon(name));
   const pause = button("Pause", "pause", togglePause);
@@ -44,6 +65,7 @@ export function chart(_, send) {
   const save = button("Download as CSV", "download", () => download("plot.csv", csv(shown())));
   const when = el("span", { class: "wv-quiet wv-number" });
   const legend = el("ul", { class: "wv-chart-legend" });
+  /** @type {Map<number, {element: HTMLElement, value: HTMLElement, problem: HTMLElement}>} */
   const entries = new Map();
   const element = el("div", { class: "wv-chart" },
     el("div", { class: "wv-chart-tools" }, pause, back, save, when),
@@ -87,12 +109,20 @@ export function chart(_, send) {
   const area = () => inside(canvas.clientWidth, canvas.clientHeight);
 
   // Where in the area of the curves a pointer is, from 0 to 1 each, y upwards.
+  /**
+   * @param {MouseEvent} event
+   * @returns {Vec2}
+   */
   function shares({ clientX, clientY }) {
     const { left, top, width, height } = area();
     const from = canvas.getBoundingClientRect();
     return [(clientX - from.left - left) / width, 1 - (clientY - from.top - top) / height];
   }
 
+  /**
+   * @param {{around?: number, by?: number, move?: number}} change
+   * @param {boolean} [isValues]
+   */
   function zoom(change, isValues = false) {
     zoomed = isValues
       ? { times: times(), values: changed(values(), change) }
@@ -102,6 +132,7 @@ export function chart(_, send) {
     mark();
   }
 
+  /** @param {WheelEvent} event */
   function wheel(event) {
     event.preventDefault();
     const [x, y] = shares(event);
@@ -111,12 +142,17 @@ export function chart(_, send) {
     zoom({ around: isValues ? y : x, by }, isValues);
   }
 
+  /** @param {PointerEvent} event */
   function press(event) {
     if (event.button !== 0) return;
     canvas.setPointerCapture(event.pointerId);
     drag = { from: shares(event), times: times(), values: values(), isBox: event.shiftKey, isFar: false };
   }
 
+  /**
+   * @param {PointerEvent} event
+   * @returns {void}
+   */
   function move(event) {
     const place = shares(event);
     if (!drag) return point(place[0] >= 0 && place[0] <= 1 ? at(place[0], times()) : null);
@@ -133,10 +169,16 @@ export function chart(_, send) {
     mark();
   }
 
+  /** @param {PointerEvent} event */
   function release(event) {
     const [a, b] = [drag?.from, shares(event)];
-    if (drag?.isBox && drag.isFar && Math.abs(a[0] - b[0]) > 0.005 && Math.abs(a[1] - b[1]) > 0.005) {
-      const part = (i, range) => [Math.min(a[i], b[i]), Math.max(a[i], b[i])].map((each) => at(each, range));
+    if (a && drag?.isBox && drag.isFar && Math.abs(a[0] - b[0]) > 0.005 && Math.abs(a[1] - b[1]) > 0.005) {
+      /**
+       * @param {number} i
+       * @param {Range} range
+       * @returns {Range}
+       */
+      const part = (i, range) => [at(Math.min(a[i], b[i]), range), at(Math.max(a[i], b[i]), range)];
       zoomed = { times: part(0, drag.times), values: part(1, drag.values) };
     }
     drag = null;
@@ -144,6 +186,10 @@ export function chart(_, send) {
     mark();
   }
 
+  /**
+   * @param {Vec2} a
+   * @param {Vec2} b
+   */
   function showBox(a, b) {
     const { left, top, width, height } = area();
     const [x, y] = [left + Math.min(a[0], b[0]) * width, top + (1 - Math.max(a[1], b[1])) * height];
@@ -154,6 +200,7 @@ export function chart(_, send) {
     box.hidden = false;
   }
 
+  /** @param {KeyboardEvent} event */
   function key(event) {
     if (KEYS[event.key]) zoom(KEYS[event.key]);
     else if (event.key === "Escape" && zoomed) reset();
@@ -163,6 +210,7 @@ export function chart(_, send) {
     event.stopPropagation();
   }
 
+  /** @param {number | null} time */
   function point(time) {
     if (time === cursor) return;
     cursor = time;
@@ -175,19 +223,25 @@ export function chart(_, send) {
     for (const curve of shown()) {
       const found = valueAt(curve, time);
       const text = !found ? "" : Number.isNaN(found.value) ? "no value" : numberText(found.value, 0.001);
-      setText(entries.get(curve.key).value, text);
+      const shownEntry = entries.get(curve.key);
+      if (shownEntry) setText(shownEntry.value, text);
     }
   }
 
   function showLegend() {
     for (const { key: id, name, problem } of live) {
-      if (!entries.has(id)) entries.set(id, entry(id, name));
-      setText(entries.get(id).problem, problem);
+      const known = entries.get(id) ?? entry(id, name);
+      entries.set(id, known);
+      setText(known.problem, problem);
     }
     for (const id of entries.keys()) if (!live.some((curve) => curve.key === id)) entries.delete(id);
-    setChildren(legend, live.map((curve) => entries.get(curve.key).element));
+    setChildren(legend, live.flatMap((curve) => entries.get(curve.key)?.element ?? []));
   }
 
+  /**
+   * @param {number} id
+   * @param {string} name
+   */
   function entry(id, name) {
     const value = el("span", { class: "wv-number wv-chart-value" });
     const problem = el("div", { class: "wv-chart-problem" });
@@ -201,6 +255,11 @@ export function chart(_, send) {
     return { element: el("li", {}, line, problem), value, problem };
   }
 
+  /**
+   * @param {{window: number, now: number, curves: Facts[]}} next
+   * @param {ValuesOf<"panel">} store
+   * @param {string} id
+   */
   function update(next, store, id) {
     facts = next;
     live = curvesOf(facts.curves, store, id, known);

@@ -1,28 +1,53 @@
 // The values of curves, as the server sends them in pieces, and what is drawn of them.
 
-/** Of each curve `{key, name, problem, pieces}`; a piece is `{times, values}`, in ROS seconds. */
+/** @import {Curve, Facts, Piece, Range, ValuesOf, Vec2} from "../types.js" */
+
+/**
+ * Of each curve `{key, name, problem, pieces}`; a piece is `{times, values}`, in ROS seconds.
+ *
+ * @param {Facts[]} facts
+ * @param {ValuesOf<"panel">} values
+ * @param {string} id
+ * @param {WeakMap<object, Piece>} known
+ * @returns {Curve[]}
+ */
 export function curvesOf(facts, values, id, known) {
   return facts.map(({ key, name, problem, chunks: [first, end] }) => {
+    /** @type {Piece[]} */
     const pieces = [];
     for (let number = first; number < end; number++) {
       const part = values.get(`${id}/${key}.${number}`);
-      if (part) pieces.push(pieceOf(part, known));
+      if (part) pieces.push(pieceOf(/** @type {Parameters<typeof pieceOf>[0]} */ (part), known));
     }
     return { key, name, problem, pieces };
   });
 }
 
 // A piece that has not changed is the same object in the store.
+/**
+ * @param {{start: number, times: number[], values: (number | null)[]}} part
+ * @param {WeakMap<object, Piece>} known
+ * @returns {Piece}
+ */
 function pieceOf(part, known) {
-  if (!known.has(part)) {
+  let piece = known.get(part);
+  if (!piece) {
     const times = Float64Array.from(part.times, (time) => part.start + time);
-    known.set(part, { times, values: Float64Array.from(part.values, (value) => value ?? NaN) });
+    piece = { times, values: Float64Array.from(part.values, (value) => value ?? NaN) };
+    known.set(part, piece);
   }
-  return known.get(part);
+  return piece;
 }
 
-/** Calls `take(time, value)` for the values of a curve in a range of time, and the one at each side. */
+/**
+ * Calls `take(time, value)` for the values of a curve in a range of time, and the one at each side.
+ *
+ * @param {Curve} curve
+ * @param {Range} range
+ * @param {(time: number, value: number) => void} take
+ */
 export function visit({ pieces }, [from, to], take) {
+  /** @type {Vec2 | null} */
   let before = null;
   for (const { times, values } of pieces) {
     if (!times.length) continue;
@@ -44,7 +69,13 @@ export function visit({ pieces }, [from, to], take) {
   if (before) take(...before);
 }
 
-/** The lowest and highest value of all curves in a range of time. */
+/**
+ * The lowest and highest value of all curves in a range of time.
+ *
+ * @param {Curve[]} curves
+ * @param {Range} range
+ * @returns {Range}
+ */
 export function extent(curves, range) {
   let [low, high] = [Infinity, -Infinity];
   for (const curve of curves) {
@@ -56,7 +87,12 @@ export function extent(curves, range) {
   return [low, high];
 }
 
-/** The newest value up to a time, null if there is none. */
+/**
+ * The newest value up to a time, null if there is none.
+ *
+ * @param {Curve} curve
+ * @param {number} time
+ */
 export function valueAt({ pieces }, time) {
   for (const { times, values } of pieces.toReversed()) {
     if (!times.length || times[0] > time) continue;
@@ -71,7 +107,11 @@ export function valueAt({ pieces }, time) {
   return null;
 }
 
-/** All values as CSV: a line for each, with curve, time and value. */
+/**
+ * All values as CSV: a line for each, with curve, time and value.
+ *
+ * @param {Curve[]} curves
+ */
 export function csv(curves) {
   const lines = ["curve,time (s),value"];
   for (const { name, pieces } of curves) {

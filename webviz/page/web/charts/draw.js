@@ -4,28 +4,43 @@ import { timeOfDay } from "../shell/time_text.js";
 import { visit } from "./curves.js";
 import { numberText, share, ticks } from "./scale.js";
 
+/** @import {Area, Curve, Range} from "../types.js" */
+
 export const LEFT = 52;
 export const BOTTOM = 18;
 const TOP = 6;
 const RIGHT = 6;
 const PER_TICK = [70, 36];
 
-/** The part of a canvas of this size that curves are drawn in. */
+/**
+ * The part of a canvas of this size that curves are drawn in.
+ *
+ * @param {number} width
+ * @param {number} height
+ * @returns {Area}
+ */
 export const inside = (width, height) => ({
   left: LEFT, top: TOP, width: Math.max(1, width - LEFT - RIGHT), height: Math.max(1, height - TOP - BOTTOM),
 });
 
-/** Draws `{curves, colors, times, values, cursor}`: ranges of both axes, and a time or null. */
+/**
+ * Draws `{curves, colors, times, values, cursor}`: ranges of both axes, and a time or null.
+ *
+ * @param {HTMLCanvasElement} canvas
+ * @param {{curves: Curve[], colors: (key: number) => string, times: Range, values: Range, cursor: number | null}} shown
+ */
 export function draw(canvas, { curves, colors, times, values, cursor }) {
   const ratio = devicePixelRatio || 1;
   const { clientWidth: width, clientHeight: height } = canvas;
   const [w, h] = [Math.round(width * ratio), Math.round(height * ratio)];
   if (canvas.width !== w || canvas.height !== h) Object.assign(canvas, { width: w, height: h });
-  const context = canvas.getContext("2d");
+  const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.clearRect(0, 0, width, height);
   const area = inside(width, height);
+  /** @param {number} time */
   const x = (time) => area.left + share(time, times) * area.width;
+  /** @param {number} value */
   const y = (value) => area.top + (1 - share(value, values)) * area.height;
   const style = getComputedStyle(canvas);
   grid(context, area, { times, values, x, y }, style);
@@ -41,6 +56,12 @@ export function draw(canvas, { curves, colors, times, values, cursor }) {
   context.restore();
 }
 
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {Area} area
+ * @param {{times: Range, values: Range, x: (time: number) => number, y: (value: number) => number}} axes
+ * @param {CSSStyleDeclaration} style
+ */
 function grid(context, area, { times, values, x, y }, style) {
   context.lineWidth = 1;
   context.font = "11px system-ui, sans-serif";
@@ -62,12 +83,24 @@ function grid(context, area, { times, values, x, y }, style) {
   }
 }
 
+/**
+ * @param {number} time
+ * @param {number} span
+ */
 function tickText(time, span) {
   const text = timeOfDay(time, span < 10).replace(/^.* /, "");
   return span < 10 ? text.slice(0, span < 1 ? undefined : -2) : text;
 }
 
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {number} x1
+ * @param {number} y1
+ * @param {number} x2
+ * @param {number} y2
+ */
 function stroke(context, x1, y1, x2, y2) {
+  /** @param {number} place */
   const sharp = (place) => Math.round(place) + 0.5;
   context.beginPath();
   if (x1 === x2) [x1, x2] = [sharp(x1), sharp(x2)];
@@ -78,6 +111,11 @@ function stroke(context, x1, y1, x2, y2) {
 }
 
 // Of the values in one column of the screen the first, lowest, highest and last are drawn.
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {Curve} curve
+ * @param {{times: Range, x: (time: number) => number, y: (value: number) => number, color: string, ratio: number}} axes
+ */
 function line(context, curve, { times, x, y, color, ratio }) {
   let [column, low, high, last, isDown] = [NaN, 0, 0, 0, false];
   const finish = () => {

@@ -2,18 +2,33 @@
 
 import { fixed } from "../tools/numbers.js";
 
-/** Round numbers within a range, about `count` of them. */
+/** @import {Range} from "../types.js" */
+
+/**
+ * Round numbers within a range, about `count` of them.
+ *
+ * @param {number} low
+ * @param {number} high
+ * @param {number} count
+ */
 export function ticks(low, high, count) {
   const span = high / count - low / count; // of 1e308 and -1e308, too
   if (!(span > 0)) return [];
   const power = 10 ** Math.floor(Math.log10(span));
   const step = power * ([1, 2, 5].find((each) => each * power >= span * 0.999) ?? 10);
+  /** @type {number[]} */
   const found = [];
   for (let i = Math.ceil(low / step); i * step <= high && found.length < 50; i++) found.push(i * step);
   return found;
 }
 
-/** The range of values with some room around it; one that is not empty. */
+/**
+ * The range of values with some room around it; one that is not empty.
+ *
+ * @param {number} low
+ * @param {number} high
+ * @returns {Range}
+ */
 export function roomy(low, high) {
   if (!(low <= high)) return [-1, 1];
   const margin = (high / 2 - low / 2) * 0.1 || Math.abs(low) * 0.05 || 1;
@@ -25,7 +40,7 @@ export function roomy(low, high) {
  * Where between 0 and 1 a value is in a range.
  *
  * @param {number} value
- * @param {number[]} range
+ * @param {Range} range
  */
 export const share = (value, [low, high]) => (value / 2 - low / 2) / (high / 2 - low / 2);
 
@@ -33,16 +48,27 @@ export const share = (value, [low, high]) => (value / 2 - low / 2) / (high / 2 -
  * The value at a share of a range.
  *
  * @param {number} share_
- * @param {number[]} range
+ * @param {Range} range
  */
 export const at = (share_, [low, high]) => low * (1 - share_) + high * share_;
 
-/** A range that is scaled around the place at a share of it, and moved by a share. */
+/**
+ * A range that is scaled around the place at a share of it, and moved by a share.
+ *
+ * @param {Range} range
+ * @param {{around?: number, by?: number, move?: number}} change
+ * @returns {Range}
+ */
 export function changed(range, { around = 0.5, by = 1, move = 0 }) {
   return [at(around - around * by + move, range), at(around + (1 - around) * by + move, range)];
 }
 
-/** A number with as many digits as the span of its axis needs. */
+/**
+ * A number with as many digits as the span of its axis needs.
+ *
+ * @param {number} value
+ * @param {number} span
+ */
 export function numberText(value, span) {
   const size = Math.abs(value);
   if (size && (size >= 1e6 || size < 1e-4)) return value.toExponential(3).replace(/\.?0+e/, "e");

@@ -4,6 +4,8 @@ import { svgElement } from "../dom.js";
 import * as views from "../scene/view.js";
 import * as viser from "../viser_page.js";
 
+/** @import {Vec3} from "../types.js" */
+
 const SIZE = 84;
 const REACH = 28;
 /** @type {[string, number, number][]} */
@@ -17,9 +19,11 @@ export function build() {
     width: SIZE, height: SIZE, role: "group", "aria-label": "Axes of the fixed frame",
   });
   const ends = ENDS.map(([label, axis, sign]) => {
+    /** @type {Vec3} */
     const xyz = [0, 0, 0];
     xyz[axis] = sign;
     const look = () => views.type() !== "TopDownOrtho" && views.lookFrom(xyz);
+    /** @param {KeyboardEvent} event */
     const onKey = (event) => {
       if (event.key !== "Enter" && event.key !== " ") return;
       event.preventDefault();
@@ -53,7 +57,7 @@ export function build() {
       end.ball.setAttribute("cy", place.y2);
       end.name.setAttribute("x", place.x2);
       end.name.setAttribute("y", place.y2);
-      end.group.style.opacity = depth < -0.3 ? 0.55 : 1;
+      end.group.style.opacity = depth < -0.3 ? "0.55" : "1";
     }
     // In the order of their depth; not under the mouse, where it would lose a click.
     if (drawing.matches(":hover") || drawing.contains(document.activeElement)) return;

@@ -3,32 +3,46 @@
 import { el, set, setChildren, setText } from "../dom.js";
 import { watch } from "../stores.js";
 
+/** @import {Scale} from "../contents.js" */
+
+/**
+ * @typedef {{title: HTMLElement, bar: HTMLElement, low: HTMLElement, label: HTMLElement,
+ *   high: HTMLElement, element: HTMLElement, stops: string}} Card
+ */
+
 const MAX_CARDS = 4;
 
 export function build() {
   const list = el("div", { class: "wv-legends" });
+  /** @type {Map<string, Card>} */
   const cards = new Map();
   watch("legend", (scales, changed) => {
     for (const id of changed) {
-      if (!scales.has(id)) cards.delete(id);
-      else show(cards.get(id) ?? add(id), scales.get(id));
+      const scale = scales.get(id);
+      if (scale) show(cards.get(id) ?? add(id), scale);
+      else cards.delete(id);
     }
     setChildren(list, [...cards.values()].slice(0, MAX_CARDS).map(({ element }) => element));
   });
 
+  /** @param {string} id */
   function add(id) {
-    const card = { title: el("div"), bar: el("div", { class: "wv-legend-bar" }) };
-    card.low = el("span");
-    card.label = el("span");
-    card.high = el("span");
-    const bounds = el("div", { class: "wv-legend-bounds" }, card.low, card.label, card.high);
-    card.element = el("div", { class: "wv-card wv-legend" }, card.title, card.bar, bounds);
+    const title = el("div");
+    const bar = el("div", { class: "wv-legend-bar" });
+    const [low, label, high] = [el("span"), el("span"), el("span")];
+    const bounds = el("div", { class: "wv-legend-bounds" }, low, label, high);
+    const element = el("div", { class: "wv-card wv-legend" }, title, bar, bounds);
+    const card = { title, bar, low, label, high, element, stops: "" };
     cards.set(id, card);
     return card;
   }
   return list;
 }
 
+/**
+ * @param {Card} card
+ * @param {Scale} scale
+ */
 function show(card, { title, label, low, high, colors }) {
   setText(card.title, title);
   set(card.title, { "data-tip": title });

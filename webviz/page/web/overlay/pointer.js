@@ -9,9 +9,12 @@ import { watch } from "../stores.js";
 import { sendable } from "../tools/selection.js";
 import * as viser from "../viser_page.js";
 
+/** @import {ValuesOf, Vec2, Vec3} from "../types.js" */
+
 const REST_MS = 150;
 const AGAIN_MS = 2000; // what is named may move on below a mouse that rests
 const SHARE = 20; // at most one part of the time goes to looking again
+/** @type {Record<string, string>} */
 const HINTS = {
   FPS: "Left: look around · Middle or Shift: move · Right or wheel: walk · F: look at",
   TopDownOrtho: "Left: turn · Middle or Shift: move · Right or wheel: zoom · F: center",
@@ -20,8 +23,10 @@ const HINT = "Left: turn · Middle or Shift: move · Right or wheel: zoom · F: 
 
 export function build() {
   const text = el("div", { class: "wv-card wv-pointer" });
-  let names = new Map();
+  /** @type {ValuesOf<"displays"> | null} */
+  let names = null;
   let frame = "";
+  /** @type {Vec2 | null} */
   let mouse = null;
   let isWaiting = false;
   let resting = 0;
@@ -31,6 +36,7 @@ export function build() {
 
   const hint = () => setText(text, HINTS[views.type()] ?? HINT);
 
+  /** @param {PointerEvent} event */
   function move(event) {
     if (event.pointerType === "touch") return;
     mouse = [event.clientX, event.clientY];
@@ -69,6 +75,10 @@ export function build() {
     hint();
   }
 
+  /**
+   * @param {Vec3 | null} point
+   * @param {string} name
+   */
   function show(point, name) {
     if (!point) return setText(text, name);
     const [x, y, z] = point.map((number) => number.toFixed(2));
@@ -85,8 +95,12 @@ export function build() {
 }
 
 // The display that drew something, and the frame that it moves with, if it has one of its own.
+/**
+ * @param {{group?: string}} hit
+ * @param {ValuesOf<"displays"> | null} names
+ */
 function nameOf({ group }, names) {
-  const [id, , ...rest] = group.split("/");
+  const [id, , ...rest] = (group ?? "").split("/");
   const part = rest.join("/").replace(/\|.*$/, "");
-  return [names.get(id)?.name ?? "", part].filter(Boolean).join(": ");
+  return [names?.get(id)?.name ?? "", part].filter(Boolean).join(": ");
 }

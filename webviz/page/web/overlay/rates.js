@@ -15,7 +15,9 @@ const HINT = "Frames drawn in a second, and the time to the server and back";
 export function build() {
   let frames = 0;
   let rate = 0;
+  /** @type {number | null} */
   let trip = null;
+  /** @type {number | null} */
   let shownTrip = null;
   let watchers = 0;
   let ticks = 0;

@@ -8,6 +8,7 @@ export function build() {
   channel.on("SlowLink", ({ text }) => show(text));
   channel.onClose(() => show(""));
 
+  /** @param {string} text */
   function show(text) {
     setText(note, text);
     note.hidden = text === "";

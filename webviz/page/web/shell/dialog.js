@@ -3,6 +3,16 @@
 import { el } from "../dom.js";
 import { icon } from "../icons.js";
 
+/** @import {Child} from "../types.js" */
+
+/**
+ * @typedef {{label: string, value: unknown, primary?: boolean, danger?: boolean, focused?: boolean,
+ *   accept?: () => unknown}} DialogButton
+ * @typedef {(value?: unknown) => void} Close
+ * @typedef {{title: string, content: Child | Child[] | ((close: Close) => Child | Child[]),
+ *   buttons?: DialogButton[], isLight?: boolean, className?: string}} DialogOptions
+ */
+
 let count = 0;
 
 /**
@@ -13,13 +23,18 @@ let count = 0;
  * danger, focused, accept}`; Enter in a field is the primary one. `accept()`, which may be
  * asynchronous, is asked first: unless it returns true the dialog stays. `isLight`: a click beside
  * it closes it, too.
+ *
+ * @param {DialogOptions} options
+ * @returns {Promise<any>}
  */
 export function openDialog({ title, content, buttons = [], isLight = false, className = "" }) {
   count += 1;
   const id = `wv-dialog-${count}`;
+  /** @type {unknown} */
   let answer = null;
   let isBusy = false;
 
+  /** @param {unknown} [value] */
   function close(value = null) {
     if (!dialog.open) return;
     answer = value;
@@ -28,6 +43,7 @@ export function openDialog({ title, content, buttons = [], isLight = false, clas
     dialog.remove();
   }
 
+  /** @param {DialogButton} button */
   async function choose({ value, accept }) {
     if (isBusy) return;
     isBusy = true;
@@ -104,12 +120,15 @@ export function openDialog({ title, content, buttons = [], isLight = false, clas
       if (event.target === dialog) close();
     });
   }
-  document.getElementById("webviz").append(dialog);
+  /** @type {HTMLElement} */ (document.getElementById("webviz")).append(dialog);
   dialog.showModal();
   // Not the button that closes it, which the browser takes.
-  const body = dialog.querySelector(".wv-dialog-content");
+  const body = /** @type {HTMLElement} */ (dialog.querySelector(".wv-dialog-content"));
+  /** @type {HTMLElement | null} */
   const first = body.querySelector("input:not([hidden]), textarea, select, button:not(:disabled)");
-  (dialog.querySelector("[autofocus]") ?? first ?? body).focus();
+  /** @type {HTMLElement | null} */
+  const chosen = dialog.querySelector("[autofocus]");
+  (chosen ?? first ?? body).focus();
   return new Promise((resolve) => {
     dialog.addEventListener("close", () => {
       dialog.remove();
@@ -118,10 +137,16 @@ export function openDialog({ title, content, buttons = [], isLight = false, clas
   });
 }
 
+/** @param {DialogButton} button */
 const classOf = ({ primary, danger }) =>
   ["wv-button", primary && "wv-primary", danger && "wv-danger"].filter(Boolean).join(" ");
 
-/** Asks a question; resolves with true if it was confirmed. The focus is on Cancel. */
+/**
+ * Asks a question; resolves with true if it was confirmed. The focus is on Cancel.
+ *
+ * @param {string} text
+ * @param {{confirm?: string, title?: string, danger?: boolean}} [options]
+ */
 export async function ask(text, { confirm = "OK", title = "Are you sure?", danger = false } = {}) {
   const buttons = [
     { label: "Cancel", value: false, focused: true },

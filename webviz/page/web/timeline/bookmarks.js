@@ -7,8 +7,18 @@ import { openDialog } from "../shell/dialog.js";
 import { openMenu } from "../shell/menu.js";
 import { duration } from "../shell/time_text.js";
 
-/** Returns `{element, show(all), add()}`; `all` are pairs of name and time, `position()` is the time. */
+/** @import {Seeks} from "./seeks.js" */
+
+/** @typedef {ReturnType<typeof bookmarks>} Bookmarks */
+
+/**
+ * Returns `{element, show(all), add()}`; `all` are pairs of name and time, `position()` is the time.
+ *
+ * @param {Seeks} seek
+ * @param {() => number} position
+ */
 export function bookmarks(seek, position) {
+  /** @type {[string, number][]} */
   let all = [];
   const button = el("button", {
     type: "button", class: "wv-icon", "aria-label": "Bookmarks", "data-tip": "Bookmarks: moments with names", onclick: open,
@@ -16,6 +26,10 @@ export function bookmarks(seek, position) {
 
   function open() {
     const { left, top } = button.getBoundingClientRect();
+    /**
+     * @param {[string, number]} bookmark
+     * @param {() => void} run
+     */
     const entry = ([name, at], run) => ({ label: `${name} · ${duration(at)}`, run });
     /** @type {Parameters<typeof openMenu>[2]} */
     const items = [
@@ -37,7 +51,7 @@ export function bookmarks(seek, position) {
     while (taken.has(`Bookmark ${number}`)) number += 1;
     const field = el("input", {
       class: "wv-field", type: "text", "aria-label": "Name of the bookmark", value: `Bookmark ${number}`,
-      autofocus: true, onfocus: () => field.select(),
+      autofocus: true, onfocus: (/** @type {FocusEvent & {target: HTMLInputElement}} */ { target }) => target.select(),
     });
     const answer = await openDialog({
       title: `Bookmark at ${duration(at)}`,
@@ -52,6 +66,7 @@ export function bookmarks(seek, position) {
 
   return {
     element: button,
+    /** @param {[string, number][]} next */
     show: (next) => (all = next),
     add,
   };

@@ -4,32 +4,44 @@ import { share, ticks } from "../charts/scale.js";
 import { duration } from "../shell/time_text.js";
 import { beforeText } from "./moment.js";
 
+/** @import {LoggedEvent, Range} from "../types.js" */
+
 export const MARGIN = 8;
 const TOP = 4;
 const BAR = 12;
 const PER_TICK = 90;
 const PEAK = 3; // half the width of what marks an event
 
-/** A canvas that fits its place, with a context in pixels of the page: `{context, width, height, color}`. */
+/**
+ * A canvas that fits its place, with a context in pixels of the page: `{context, width, height, color}`.
+ *
+ * @param {HTMLCanvasElement} canvas
+ */
 export function fitted(canvas) {
   const ratio = devicePixelRatio || 1;
   const { clientWidth: width, clientHeight: height } = canvas;
   const [w, h] = [Math.round(width * ratio), Math.round(height * ratio)];
   if (canvas.width !== w || canvas.height !== h) Object.assign(canvas, { width: w, height: h });
-  const context = canvas.getContext("2d");
+  const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.clearRect(0, 0, width, height);
   const style = getComputedStyle(canvas);
-  return { context, width, height, color: (name) => style.getPropertyValue(`--wv-${name}`) };
+  return { context, width, height, color: (/** @type {string} */ name) => style.getPropertyValue(`--wv-${name}`) };
 }
 
 /**
  * Draws `{range, whole, counts, selected, bookmarks, events, past, position, hover}`: times in seconds, `selected`
  * and `hover` may be null, `bookmarks` are pairs of name and time, `events` begin with time and level.
  * `past` is what is remembered of live topics, `{first, now, gap}`, null for a bag.
+ *
+ * @param {HTMLCanvasElement} canvas
+ * @param {{range: Range, whole: number, counts: number[], selected: Range | null,
+ *   bookmarks: [string, number][], events: LoggedEvent[], position: number, hover: number | null,
+ *   past: {first: number, now: number, gap: Range | null} | null}} shown
  */
 export function draw(canvas, { range, whole, counts, selected, bookmarks, events, past, position, hover }) {
   const { context, width, color } = fitted(canvas);
+  /** @param {number} time */
   const x = (time) => MARGIN + share(time, range) * (width - 2 * MARGIN);
   context.fillStyle = color("line");
   context.fillRect(MARGIN, TOP, width - 2 * MARGIN, BAR);
@@ -62,13 +74,20 @@ export function draw(canvas, { range, whole, counts, selected, bookmarks, events
   head(context, x(position), color("text"));
 }
 
-/** Draws counts of messages, a column of pixels as strong as the part of it with most messages. */
+/**
+ * Draws counts of messages, a column of pixels as strong as the part of it with most messages.
+ *
+ * @param {CanvasRenderingContext2D} context
+ * @param {number[]} counts
+ * @param {{x: (time: number) => number, whole: number, range: Range, top: number, height: number, color: string}} strip
+ */
 export function bars(context, counts, { x, whole, range, top, height, color }) {
   const most = Math.max(...counts, 0);
   if (!most) return;
   context.fillStyle = color;
   const [from, to] = [Math.floor(x(range[0])), Math.ceil(x(range[1]))];
   const each = (to - from) / (range[1] - range[0]); // pixels a second
+  /** @param {number} column */
   const part = (column) => ((range[0] + (column - from) / each) / whole) * counts.length;
   for (let column = from; column < to; column++) {
     const first = Math.max(0, Math.floor(part(column)));
@@ -83,6 +102,11 @@ export function bars(context, counts, { x, whole, range, top, height, color }) {
 }
 
 // The messages in memory, but for those forgotten in between.
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {{first: number, now: number, gap: Range | null}} past
+ * @param {{x: (time: number) => number, color: (name: string) => string}} axis
+ */
 function held(context, { first, now, gap }, { x, color }) {
   context.fillStyle = color("accent");
   context.globalAlpha = 0.5;
@@ -93,6 +117,11 @@ function held(context, { first, now, gap }, { x, color }) {
   context.fillRect(x(gap[0]), TOP, x(gap[1]) - x(gap[0]), BAR);
 }
 
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {Range} range
+ * @param {{x: (time: number) => number, width: number, color: (name: string) => string, origin: number}} axis
+ */
 function scale(context, range, { x, width, color, origin }) {
   context.font = "11px system-ui, sans-serif";
   context.fillStyle = color("quiet");
@@ -108,6 +137,11 @@ function scale(context, range, { x, width, color, origin }) {
 }
 
 // Warnings are triangles above the bar, errors lines through it with a square head; these on top.
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {LoggedEvent[]} events
+ * @param {{range: Range, x: (time: number) => number, color: (name: string) => string}} axis
+ */
 function marks(context, events, { range, x, color }) {
   const inside = events.filter(([time]) => time >= range[0] && time <= range[1]);
   context.fillStyle = color("warn");
@@ -120,6 +154,10 @@ function marks(context, events, { range, x, color }) {
   }
 }
 
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {number} x
+ */
 function peak(context, x) {
   context.beginPath();
   context.moveTo(x, TOP + 2);
@@ -128,6 +166,10 @@ function peak(context, x) {
   context.fill();
 }
 
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {number} x
+ */
 function flag(context, x) {
   context.beginPath();
   context.moveTo(x, TOP + BAR);
@@ -136,6 +178,11 @@ function flag(context, x) {
   context.fill();
 }
 
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {number} x
+ * @param {string} color
+ */
 function head(context, x, color) {
   context.fillStyle = color;
   context.fillRect(x - 1, 0, 2, TOP + BAR + 3);

@@ -2,18 +2,36 @@
 
 import { toast } from "../shell/toasts.js";
 
+/** @import {LoggedEvent, ValuesOf} from "../types.js" */
+/** @import {Seeks} from "./seeks.js" */
+
 const CLOSE_S = 0.001; // positions are given in milliseconds
+/** @type {Record<string, string>} */
 const LEVELS = { warn: "Warning", error: "Error" };
 
-/** Both lists of the store "events", a Map, by time. */
+/**
+ * Both lists of the store "events", a Map, by time.
+ *
+ * @param {ValuesOf<"events">} events
+ * @returns {LoggedEvent[]}
+ */
 export function byTime(events) {
   return [...(events.get("logged") ?? []), ...(events.get("displays") ?? [])].sort((a, b) => a[0] - b[0]);
 }
 
-/** The text of an event for people, with its level in words. */
+/**
+ * The text of an event for people, with its level in words.
+ *
+ * @param {LoggedEvent} event
+ */
 export const eventText = ([, level, text]) => `${LEVELS[level]} · ${text}`;
 
-/** The command that goes to the next or previous of all events; `seek` is of `seeks.js`. */
+/**
+ * The command that goes to the next or previous of all events; `seek` is of `seeks.js`.
+ *
+ * @param {boolean} isNext
+ * @param {{all: () => LoggedEvent[], seek: Seeks, position: () => number}} timeline
+ */
 export function eventCommand(isNext, { all, seek, position }) {
   const which = isNext ? "next" : "previous";
   return {

@@ -1,30 +1,54 @@
 // The recording, or the past of live topics, at this moment.
 
+/** @import {Moment, ValuesOf} from "../types.js" */
+
 /**
  * The store "playback", a Map, with "first", "duration", "position" and "ago" in seconds; those of live
  * topics go on with time.
  *
- * @param {Map<string, any>} values
+ * @param {ValuesOf<"playback">} values
  * @param {number} wall time in seconds
+ * @returns {Moment}
  */
 export function atMoment(values, wall) {
   const isLive = values.get("is_live");
-  if (isLive === null) return new Map([["first", 0], ["ago", 0], ...values]);
-  const duration = wall - values.get("start") - values.get("ahead");
-  const position = isLive ? duration : values.get("position");
-  const first = isLive ? duration - values.get("held") : values.get("first");
-  return new Map([...values, ["first", first], ["duration", duration], ["position", position], ["ago", duration - position]]);
+  /** @type {Moment} */
+  const moment = new Map(values);
+  if (isLive === null) return new Map([["first", 0], ["ago", 0], ...moment]);
+  const duration = wall - moment.get("start") - moment.get("ahead");
+  const position = isLive ? duration : moment.get("position");
+  const first = isLive ? duration - moment.get("held") : moment.get("first");
+  return new Map([...moment, ["first", first], ["duration", duration], ["position", position], ["ago", duration - position]]);
 }
 
-/** True if the past of live topics is shown. */
+/**
+ * True if the past of live topics is shown.
+ *
+ * @param {{get(key: "is_live"): boolean | null | undefined} | null} recording
+ */
 export const isRewound = (recording) => recording?.get("is_live") === false;
 
-/** True if a time is as good as now, for live topics on a track of this length. */
+/**
+ * True if a time is as good as now, for live topics on a track of this length.
+ *
+ * @param {Moment} recording
+ * @param {number} time
+ * @param {number} length
+ */
 export const isNow = (recording, time, length) =>
   recording.get("is_live") !== null && time >= recording.get("duration") - length / 200;
 
-/** Seconds ago in words. */
+/**
+ * Seconds ago in words.
+ *
+ * @param {number} seconds
+ */
 export const agoText = (seconds) => `${seconds < 100 ? seconds.toFixed(1) : seconds.toFixed(0)} s ago`;
 
-/** Seconds before now, which is 0, for a scale. */
+/**
+ * Seconds before now, which is 0, for a scale.
+ *
+ * @param {number} seconds
+ * @param {number} [digits]
+ */
 export const beforeText = (seconds, digits = 1) => (seconds > -0.05 ? "now" : `−${(-seconds).toFixed(digits)} s`);

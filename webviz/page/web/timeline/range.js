@@ -2,16 +2,23 @@
 
 import { changed } from "../charts/scale.js";
 
+/** @import {Range} from "../types.js" */
+
 const MIN_S = 0.01;
 
-/** The seconds that a whole timeline shows; those of a recording of one moment have room for it, too. */
+/**
+ * The seconds that a whole timeline shows; those of a recording of one moment have room for it, too.
+ *
+ * @param {number} duration
+ */
 export const shownLength = (duration) => Math.max(duration, MIN_S);
 
 /**
  * A window within 0 and `duration` that is at least a hundredth of a second long.
  *
- * @param {number[]} range
+ * @param {Range} range
  * @param {number} duration
+ * @returns {Range}
  */
 export function limited([first, last], duration) {
   const length = Math.min(Math.max(last - first, Math.min(MIN_S, duration)), duration);
@@ -22,8 +29,8 @@ export function limited([first, last], duration) {
 /**
  * A window that is scaled around the place at a share of it, or moved by a share of it.
  *
- * @param {number[]} range
- * @param {object} change of `changed`
+ * @param {Range} range
+ * @param {{around?: number, by?: number, move?: number}} change
  * @param {number} duration
  */
 export const zoomed = (range, change, duration) => limited(changed(range, change), duration);
@@ -31,9 +38,10 @@ export const zoomed = (range, change, duration) => limited(changed(range, change
 /**
  * The window moved on or back by whole windows, if a time is not in it.
  *
- * @param {number[]} range
+ * @param {Range} range
  * @param {number} time
  * @param {number} duration
+ * @returns {Range}
  */
 export function following([first, last], time, duration) {
   if (time >= first && time <= last) return [first, last];

@@ -9,8 +9,11 @@ import { blackBox } from "./black_box.js";
 import { duration } from "../shell/time_text.js";
 import { watch } from "../stores.js";
 
+/** @import {RunningRecording} from "../contents.js" */
+
 /** The buttons; hidden for a bag. */
 export function record() {
+  /** @type {RunningRecording | null | undefined} */
   let recording = null;
   let isLive = false;
   let isRemembering = false;
@@ -38,8 +41,8 @@ export function record() {
     element.hidden = !isLive;
     if (!isLive) return;
     recording = values.get("recording");
-    isRemembering = values.get("is_remembering");
-    const [remembered, megabytes] = values.get("remembered");
+    isRemembering = values.get("is_remembering") === true;
+    const [remembered, megabytes] = values.get("remembered") ?? [0, 0];
     seconds = remembered;
     set(start, {
       "data-recording": recording !== null,

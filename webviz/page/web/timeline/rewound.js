@@ -8,6 +8,8 @@ import { command } from "../shell/commands.js";
 import { watch } from "../stores.js";
 import { agoText, atMoment, isRewound } from "./moment.js";
 
+/** @import {ValuesOf} from "../types.js" */
+
 const TICK_MS = 100;
 const COARSE = matchMedia("(pointer: coarse)");
 
@@ -15,6 +17,7 @@ export const returnToLive = () => act("ReturnToLive");
 
 /** The banner; hidden while topics are live. */
 export function banner() {
+  /** @type {ValuesOf<"playback"> | null} */
   let values = null;
   let timer = 0;
   const title = document.title;
@@ -25,6 +28,7 @@ export function banner() {
   }, ago, how);
 
   function tick() {
+    if (!values) return;
     const shown = atMoment(values, wallNow());
     setText(ago, `${agoText(shown.get("ago"))} · not live`);
     const text = `${shown.get("ago").toFixed(0)} s ago · ${title}`;

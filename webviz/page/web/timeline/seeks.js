@@ -3,6 +3,8 @@
 import { act } from "../act.js";
 import { returnToLive } from "./rewound.js";
 
+/** @typedef {ReturnType<typeof seeks>} Seeks */
+
 /**
  * Returns `{to(time), wanted()}`: `to` shows a time of the recording, `wanted` is the one that was asked
  * for last, null once the scene shows it. `changed()` is called when that changes.
@@ -12,13 +14,16 @@ import { returnToLive } from "./rewound.js";
  */
 export function seeks(changed, isNow = () => false) {
   let underway = false;
+  /** @type {number | null} */
   let wanted = null;
 
+  /** @param {number} time */
   async function to(time) {
     wanted = time;
     changed();
     if (underway) return;
     underway = true;
+    /** @type {number | null} */
     let sent = null;
     while (sent !== wanted) {
       sent = wanted;

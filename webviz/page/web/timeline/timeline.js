@@ -16,6 +16,8 @@ import { track as makeTrack } from "./track.js";
 import { transport as makeTransport } from "./transport.js";
 import { parseTime } from "./typed_time.js";
 
+/** @import {LoggedEvent, Moment, ValuesOf} from "../types.js" */
+
 const JUMP_S = 5;
 const TICK_MS = 200;
 
@@ -27,19 +29,23 @@ const TICK_MS = 200;
  * @param {{ track: Element, buttons: Element, toggle: () => unknown }} places
  */
 export function timeline(places) {
+  /** @type {ValuesOf<"playback"> | null} */
   let values = null;
-  let recording = null; // at this moment
+  /** @type {Moment} */
+  let recording = new Map(); // at this moment; empty without one
   let timer = 0;
   let topic = ""; // of which the next message is shown, "" for all that are displayed
 
   const position = () => seek.wanted() ?? recording.get("position");
-  const seek = seeks(show, (time) => recording && isNow(recording, time, track.length()));
+  const seek = seeks(show, (time) => recording.size > 0 && isNow(recording, time, track.length()));
   const step = {
     topic: () => topic,
+    /** @param {string} next */
     choose(next) {
       topic = next;
       show();
     },
+    /** @param {boolean} isForward */
     run: (isForward) => act("StepMessage", { topic, is_forward: isForward }),
   };
   const track = makeTrack(seek, () => topics.redraw());
@@ -48,7 +54,9 @@ export function timeline(places) {
   });
   const bookmarks = bookmarkMenu(seek, position);
   const buttons = makeTransport(seek, step, topics, bookmarks);
+  /** @type {LoggedEvent[]} */
   let events = [];
+  /** @type {(() => void)[]} */
   let ends = [];
 
   function show() {
@@ -58,6 +66,7 @@ export function timeline(places) {
     buttons.show(recording, position());
   }
 
+  /** @param {boolean} isThere */
   function appear(isThere) {
     document.body.classList.toggle("wv-recording", isThere);
     clearInterval(timer);
@@ -105,7 +114,7 @@ export function timeline(places) {
     const isThere = next.has("start");
     const isNew = isThere !== (values !== null);
     values = isThere ? next : null;
-    recording = isThere ? atMoment(next, wallNow()) : null;
+    recording = isThere ? atMoment(next, wallNow()) : new Map();
     if (isNew) appear(isThere);
     show();
   });
@@ -114,10 +123,15 @@ export function timeline(places) {
     const focused = document.activeElement;
     return !isTyping({ target: focused }) && !focused?.closest("button, [role=option], [role=treeitem], .wv-rows");
   };
+  /** @param {number} seconds */
   const jump = (seconds) =>
     seek.to(Math.max(recording.get("first"), Math.min(position() + seconds, recording.get("duration"))));
   const among = { all: () => events, seek, position };
   const back = { name: `${JUMP_S} s back`, key: "Shift+ArrowLeft", needs: "Seek", run: () => jump(-JUMP_S) };
+  /**
+   * @template T
+   * @param {T} one
+   */
   const about = (one) => ({ ...one, group: "Time", isKeyHere: isFree });
   const commands = [
     { name: "Play or pause the recording", icon: "play", key: " ", needs: "Pause", run: places.toggle },
@@ -144,6 +158,6 @@ export function timeline(places) {
   return {
     isThere: () => isBag() || isRewound(values),
     isLive: () => values !== null && !isBag(),
-    names: () => (isBag() ? values.get("names").join(", ") : null),
+    names: () => (isBag() ? (values?.get("names") ?? []).join(", ") : null),
   };
 }

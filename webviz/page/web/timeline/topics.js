@@ -6,14 +6,23 @@ import { share } from "../charts/scale.js";
 import { watch } from "../stores.js";
 import { bars, fitted, MARGIN } from "./draw.js";
 
+/** @import {Range} from "../types.js" */
+/** @typedef {{key: string, counts: number[]}} Strip */
+
 const ROW = 22;
+
+/** @typedef {ReturnType<typeof topics>} Topics */
 
 /**
  * Returns `{element, redraw(), toggle(), isOpen()}`. `range()` and `whole()` are those of the track; `step` is
  * `{topic(), choose(topic)}`: of which topic the next message is shown.
+ *
+ * @param {{range: () => Range, whole: () => number, step: {topic(): string, choose(topic: string): void}, toggled: () => void}} timeline
  */
 export function topics({ range, whole, step, toggled }) {
+  /** @type {(() => void) | null} */
   let end = null;
+  /** @type {Strip[]} */
   let items = [];
   const list = rowList({
     label: "Topics of the recording", height: ROW, make, update,
@@ -30,6 +39,10 @@ export function topics({ range, whole, step, toggled }) {
     return Object.assign(el("div", { class: "wv-recorded-row" }, canvas, name), { parts: { canvas, name } });
   }
 
+  /**
+   * @param {HTMLElement & {parts: {canvas: HTMLCanvasElement, name: HTMLElement}}} row
+   * @param {Strip} strip
+   */
   function update(row, { key, counts }) {
     const { canvas, name } = row.parts;
     setText(name, key || "All displayed topics");
@@ -37,8 +50,13 @@ export function topics({ range, whole, step, toggled }) {
     requestAnimationFrame(() => paint(canvas, counts)); // once it has a size
   }
 
+  /**
+   * @param {HTMLCanvasElement} canvas
+   * @param {number[]} counts
+   */
   function paint(canvas, counts) {
     const { context, width, height, color } = fitted(canvas);
+    /** @param {number} time */
     const x = (time) => MARGIN + share(time, range()) * (width - 2 * MARGIN);
     bars(context, counts, { x, whole: whole(), range: range(), top: 2, height: height - 4, color: color("accent") });
   }
@@ -56,7 +74,7 @@ export function topics({ range, whole, step, toggled }) {
     } else {
       end = watch("recorded", (recorded) => {
         const names = [...recorded.keys()].sort();
-        items = [{ key: "", counts: [] }, ...names.map((key) => ({ key, counts: recorded.get(key) }))];
+        items = [{ key: "", counts: [] }, ...names.map((key) => ({ key, counts: recorded.get(key) ?? [] }))];
         list.show(items);
       });
     }

@@ -12,11 +12,19 @@ import { eventText } from "./events.js";
 import { beforeText } from "./moment.js";
 import { following, shownLength, zoomed } from "./range.js";
 
+/** @import {LoggedEvent, Moment, Range} from "../types.js" */
+/** @import {Seeks} from "./seeks.js" */
+
 const WHEEL = 1.25;
 const MIN_SPAN_PX = 4;
 const SNAP_PX = 5;
 
-/** The first and the last second of the whole track: of live topics, what the memory can hold. */
+/**
+ * The first and the last second of the whole track: of live topics, what the memory can hold.
+ *
+ * @param {Moment} recording
+ * @returns {Range}
+ */
 function boundsOf(recording) {
   const last = recording.get("duration");
   if (recording.get("is_live") === null) return [0, shownLength(last)];
@@ -28,15 +36,26 @@ function boundsOf(recording) {
  * Returns `{element, range, length, show(recording), setCounts(counts), setBookmarks(bookmarks), setEvents(events)}`:
  * `seek` is of `seeks.js`, `recording` the store "playback", a Map, `events` are of `events.js`. `redrawn()`
  * is called when the window is another.
+ *
+ * @param {Seeks} seek
+ * @param {() => void} [redrawn]
  */
 export function track(seek, redrawn = () => {}) {
+  /** @type {Moment | null} */
   let recording = null;
+  /** @type {number[]} */
   let counts = [];
+  /** @type {[string, number][]} */
   let bookmarks = [];
+  /** @type {LoggedEvent[]} */
   let events = [];
+  /** @type {Range} */
   let bounds = [0, 1]; // of the whole track, in seconds
+  /** @type {Range} */
   let range = bounds; // the window
+  /** @type {number | null} */
   let hover = null;
+  /** @type {{pointer: number, x: number, from: number, isSpan: boolean, span: Range | null} | null} */
   let drag = null; // {pointer, from, isSpan}
   let frame = 0;
 
@@ -52,6 +71,7 @@ export function track(seek, redrawn = () => {}) {
 
   const position = () => seek.wanted() ?? recording?.get("position") ?? 0;
 
+  /** @param {Moment} next */
   function show(next) {
     recording = next;
     const whole = boundsOf(recording);
@@ -69,17 +89,27 @@ export function track(seek, redrawn = () => {}) {
     later();
   }
 
-  const isBag = () => recording.get("is_live") === null;
+  const isBag = () => recording?.get("is_live") === null;
   // Live topics are counted back from now.
+  /**
+   * @param {number} time
+   * @param {number} [digits]
+   */
   const textOf = (time, digits = 1) =>
-    isBag() ? duration(time, digits) : beforeText(time - recording.get("duration"), digits);
-  const moved = (window, by) => window.map((time) => time + by);
+    isBag() ? duration(time, digits) : beforeText(time - recording?.get("duration"), digits);
+  /**
+   * @param {Range} window
+   * @param {number} by
+   * @returns {Range}
+   */
+  const moved = ([first, last], by) => [first + by, last + by];
 
   function follow() {
     const next = moved(following(moved(range, -bounds[0]), position() - bounds[0], bounds[1] - bounds[0]), bounds[0]);
     if (next[0] !== range[0]) setRange(next);
   }
 
+  /** @param {Range} next */
   function setRange(next) {
     range = next;
     later();
@@ -90,8 +120,8 @@ export function track(seek, redrawn = () => {}) {
     frame ||= requestAnimationFrame(() => {
       frame = 0;
       if (!recording || !canvas.clientWidth) return;
-      const selected = drag?.isSpan ? drag.span : recording.get("selected");
-      const past = isBag() ? null : { first: recording.get("first"), now: recording.get("duration"), gap: recording.get("gap") };
+      const selected = drag?.isSpan ? drag.span : recording?.get("selected");
+      const past = isBag() || !recording ? null : { first: recording.get("first"), now: recording.get("duration"), gap: recording.get("gap") };
       draw(canvas, {
         range, whole: bounds[1], counts, selected, bookmarks, events, past, position: position(), hover,
       });
@@ -99,19 +129,30 @@ export function track(seek, redrawn = () => {}) {
   }
 
   // The time at a pointer.
+  /**
+   * @param {MouseEvent} event
+   * @returns {number}
+   */
   function timeAt({ clientX }) {
     const { left, width } = canvas.getBoundingClientRect();
     const part = (clientX - left - MARGIN) / Math.max(1, width - 2 * MARGIN);
-    return Math.min(Math.max(at(part, range), recording.get("first")), bounds[1]);
+    return Math.min(Math.max(at(part, range), recording?.get("first")), bounds[1]);
   }
 
   // The bookmark, or else the nearest warning or error, at a pointer: `{time, text}`.
+  /**
+   * @param {MouseEvent} event
+   * @returns {{time: number, text: string} | null}
+   */
   function markAt({ clientX }) {
     const { left, width } = canvas.getBoundingClientRect();
+    /** @param {number} time */
     const place = (time) => left + MARGIN + share(time, range) * (width - 2 * MARGIN);
+    /** @param {number} time */
     const away = (time) => Math.abs(place(time) - clientX);
     const bookmark = bookmarks.find(([, time]) => away(time) <= SNAP_PX);
     if (bookmark) return { time: bookmark[1], text: bookmark[0] };
+    /** @type {LoggedEvent | null} */
     let found = null;
     let least = SNAP_PX;
     for (const event of events) {
@@ -123,6 +164,10 @@ export function track(seek, redrawn = () => {}) {
     return found && { time: found[0], text: eventText(found) };
   }
 
+  /**
+   * @param {PointerEvent} event
+   * @returns {void}
+   */
   function press(event) {
     if (event.button !== 0 || !recording) return;
     const reason = why(event.shiftKey ? "SelectSpan" : "Seek");
@@ -133,6 +178,10 @@ export function track(seek, redrawn = () => {}) {
     if (!drag.isSpan) seek.to(from);
   }
 
+  /**
+   * @param {PointerEvent} event
+   * @returns {void}
+   */
   function move(event) {
     point(event);
     if (drag?.pointer !== event.pointerId) return;
@@ -144,6 +193,10 @@ export function track(seek, redrawn = () => {}) {
     later();
   }
 
+  /**
+   * @param {PointerEvent} event
+   * @returns {void}
+   */
   function release(event) {
     if (drag?.pointer !== event.pointerId) return;
     const { isSpan, span } = drag;
@@ -153,10 +206,14 @@ export function track(seek, redrawn = () => {}) {
     later();
   }
 
+  /**
+   * @param {PointerEvent | null} event
+   * @returns {void}
+   */
   function point(event) {
     hover = event && recording ? timeAt(event) : null;
     set(label, { hidden: hover === null });
-    if (hover !== null) {
+    if (event && hover !== null) {
       const text = textOf(hover, range[1] - range[0] < 10 ? 3 : 1);
       setText(label, plain(markAt(event)?.text ?? text));
       const { left, width } = canvas.getBoundingClientRect();
@@ -167,6 +224,10 @@ export function track(seek, redrawn = () => {}) {
     later();
   }
 
+  /**
+   * @param {WheelEvent} event
+   * @returns {void}
+   */
   function wheel(event) {
     if (!recording) return;
     event.preventDefault();
@@ -183,14 +244,17 @@ export function track(seek, redrawn = () => {}) {
     range: () => range,
     length: () => range[1] - range[0],
     show,
+    /** @param {number[]} next */
     setCounts(next) {
       counts = next;
       later();
     },
+    /** @param {[string, number][]} next */
     setBookmarks(next) {
       bookmarks = next;
       later();
     },
+    /** @param {LoggedEvent[]} next */
     setEvents(next) {
       events = next;
       later();

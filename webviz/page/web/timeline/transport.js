@@ -11,18 +11,38 @@ import { beforeText, isRewound } from "./moment.js";
 import { returnToLive } from "./rewound.js";
 import { isDate, parseTime } from "./typed_time.js";
 
+/** @import {Moment} from "../types.js" */
+/** @import {Bookmarks} from "./bookmarks.js" */
+/** @import {Seeks} from "./seeks.js" */
+/** @import {Topics} from "./topics.js" */
+
 const RATES = [0.1, 0.25, 0.5, 1, 2, 5, 10, 20];
 const FULL = 0; // as fast as possible
 const HELP = "Seconds, 1:02:03.4, or a date with the time of day";
 
 const AGO_HELP = "Seconds ago, or a date with the time of day";
 
+/** @param {number} rate */
 const rateText = (rate) => (rate === FULL ? "max" : `${rate}×`);
 
-/** Returns `{element, show(recording, position)}`; the others are of the modules of these names. */
+/**
+ * Returns `{element, show(recording, position)}`; the others are of the modules of these names.
+ *
+ * @param {Seeks} seek
+ * @param {{topic(): string, run(isForward: boolean): unknown}} step
+ * @param {Topics} topics
+ * @param {Bookmarks} bookmarks
+ */
 export function transport(seek, step, topics, bookmarks) {
-  let recording = null;
+  /** @type {Moment} */
+  let recording = new Map();
 
+  /**
+   * @param {string} label
+   * @param {string} name
+   * @param {string} tip
+   * @param {() => unknown} onclick
+   */
   const button = (name, label, tip, onclick) =>
     el("button", { type: "button", class: "wv-icon", "aria-label": label, "data-tip": tip, onclick }, icon(name));
   const before = button("step-back", "Previous message", "", () => step.run(false));
@@ -35,8 +55,8 @@ export function transport(seek, step, topics, bookmarks) {
   const list = button("list", "Topics", "When each topic has messages", topics.toggle);
   const field = el("input", {
     class: "wv-field wv-position wv-number", type: "text", "aria-label": "Go to time", autocomplete: "off",
-    spellcheck: "false", "data-tip": HELP, onchange: go, onblur: () => recording && write(),
-    onfocus: () => field.select(), onkeydown: key,
+    spellcheck: "false", "data-tip": HELP, onchange: go, onblur: () => recording.size > 0 && write(),
+    onfocus: (/** @type {FocusEvent & {target: HTMLInputElement}} */ { target }) => target.select(), onkeydown: key,
   });
   const length = el("span", { class: "wv-quiet wv-number" });
   const live = el("button", {
@@ -59,6 +79,7 @@ export function transport(seek, step, topics, bookmarks) {
     openMenu(left, top, items);
   }
 
+  /** @param {KeyboardEvent} event */
   function key(event) {
     if (event.key === "Escape") {
       write();
@@ -81,6 +102,10 @@ export function transport(seek, step, topics, bookmarks) {
     if (field.value !== text) field.value = text;
   };
 
+  /**
+   * @param {Moment} next
+   * @param {number} position
+   */
   function show(next, position) {
     recording = next;
     shown = position;

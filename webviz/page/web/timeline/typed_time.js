@@ -3,7 +3,10 @@
 const CLOCK = /^(?:(?:(\d+):)?(\d{1,2}):)?(\d{1,2}(?:\.\d*)?)$/;
 const DATE = /^\d{4}-\d{2}-\d{2}[ T]\d{2}:\d{2}/;
 
-/** @param {string} text */
+/**
+ * @param {string} text
+ * @param {string} text
+ */
 export const isDate = (text) => DATE.test(text.trim());
 
 /**
@@ -12,6 +15,8 @@ export const isDate = (text) => DATE.test(text.trim());
  *
  * @param {string} text
  * @param {number} start of the recording, in seconds since 1970.
+ * @param {string} text
+ * @param {number} start
  */
 export function parseTime(text, start) {
   const trimmed = text.trim();

@@ -1,0 +1,81 @@
+// Types that modules share; those of the server are in messages.d.ts and stores.d.ts.
+
+import type { Stores } from "./contents.js";
+
+/** x and y, in pixels unless it is said otherwise. */
+export type Vec2 = [number, number];
+/** x, y and z, in metres unless it is said otherwise. */
+export type Vec3 = [number, number, number];
+/** A quaternion: w, x, y, z. */
+export type Wxyz = [number, number, number, number];
+
+/** Values of a store by key: its own keys, and items under all others. */
+export interface StoreValues<S extends { own: object; items: unknown }> extends Iterable<
+  [string, S["items"]]
+> {
+  get<K extends keyof S["own"]>(key: K): S["own"][K];
+  get(key: string): S["items"] | undefined;
+  has(key: string): boolean;
+  keys(): MapIterator<string>;
+  values(): MapIterator<S["items"]>;
+  entries(): MapIterator<[string, S["items"]]>;
+  readonly size: number;
+}
+
+/** Name of a store, without what stands behind the colon. */
+export type StoreName = keyof Stores;
+/** The store of a name with its argument. */
+export type Named<N extends string> = N extends StoreName
+  ? Stores[N]
+  : N extends `${infer S extends StoreName}:${string}`
+    ? Stores[S]
+    : never;
+/** Values of a store by its name. */
+export type ValuesOf<N extends string> = StoreValues<Named<N>>;
+
+/** What `el` takes as an attribute. */
+export type Attribute = string | number | boolean | null | undefined | ((event: any) => unknown);
+/** What `el` takes as a child. */
+export type Child = Node | string | null | undefined;
+/** Ends what was begun. */
+export type End = () => void;
+
+/** An object of three.js or of viser's page, which have no types here. */
+export type Three = any;
+/** The part of three.js' objects that is read with types: walks through what is below one. */
+export interface ThreeTree {
+  traverse(visit: (object: Three) => unknown): void;
+  children: Three[];
+  position: Three;
+  quaternion: Three;
+  [more: string]: any;
+}
+/** A message of viser's, of which modules read some fields. */
+export type ViserMessage = { type: string; [field: string]: any };
+
+/** First and last value. */
+export type Range = [number, number];
+/** A rectangle of a canvas, in pixels. */
+export type Area = { left: number; top: number; width: number; height: number };
+/** A part of a curve: its times in seconds and values; NaN ends a line. */
+export type Piece = { times: Float64Array; values: Float64Array };
+/** A curve as the server describes it: its pieces from the first to before the last. */
+export type Facts = { key: number; name: string; problem: string; chunks: [number, number] };
+/** A curve of a chart. */
+export type Curve = { key: number; name: string; problem: string; pieces: Piece[] };
+/** Seconds from the start, level, and text. */
+export type LoggedEvent = [number, string, string];
+
+/** What is under a point of the window; without an object it is the ground. */
+export type Hit = {
+  /** In coordinates of three.js. */
+  point: Three;
+  object: Three | null;
+  group?: string;
+  [more: string]: any;
+};
+
+/** A rectangle of the window, in CSS pixels. */
+export type Box = { left: number; top: number; right: number; bottom: number };
+/** The store "playback" with "first", "duration", "position" and "ago" at a moment; see `moment.js`. */
+export type Moment = Map<string, any>;
