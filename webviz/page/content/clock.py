@@ -17,7 +17,7 @@ class ClockStore(PageStore, frozen=True):
         hz: rate of /clock to two digits.
     """
 
-    clock_rate: tuple[float, float, float]
+    pace: tuple[float, float, float]
     began: tuple[float, float]
     is_known: bool
     is_paused: bool
@@ -30,7 +30,7 @@ def clock(state: State, _: str) -> ClockStore:
     clock = state.clock
     clock_rate = clock.clock_rate
     return ClockStore(
-        clock_rate=(clock_rate.ros_ns / 1e9, clock_rate.wall_s, clock_rate.rate),
+        pace=(clock_rate.ros_ns / 1e9, clock_rate.wall_s, clock_rate.rate),
         began=(
             round((clock.ros_ns - clock.ros_elapsed_ns) / 1e9, 3),
             round(clock.wall_s - clock.wall_elapsed_s, 3),

@@ -77,7 +77,7 @@ class BlackBoxStore(PageStore, frozen=True):
     """Recordings that rules made.
 
     Args:
-        saving: the rule whose recording goes on, "" for none.
+        saving: cause of the one that goes on, "" for none.
         saved: the newest first: name, megabytes and the command to open it.
     """
 

@@ -29,7 +29,7 @@ export function form(declared, { send, name, marks = true, command = "" }) {
 
   function add(property) {
     const element = build(property);
-    element.style.setProperty("--wv-depth", depth);
+    element.style.setProperty("--wv-depth", String(depth));
     if (property.when) parts.push({ element, when: property.when });
     return element;
   }

@@ -29,7 +29,7 @@ export function slider(property, options) {
 
   // Where the value is, for the part of the track before it.
   function fill() {
-    const share = (range.value - property.low) / (property.high - property.low);
+    const share = (Number(range.value) - property.low) / (property.high - property.low);
     range.style.setProperty("--wv-share", `${100 * share}%`);
   }
 

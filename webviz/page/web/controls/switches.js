@@ -72,8 +72,7 @@ export function switches({ offered }, { label, change, refused }) {
     const name = el("span", { class: "wv-ellipsis" });
     const count = el("span", { class: "wv-quiet wv-switch-count" });
     const row = el("div", { class: "wv-switch" }, box, name, count);
-    row.wvParts = { box, name, count, mark: icon("check", 12) };
-    return row;
+    return Object.assign(row, { wvParts: { box, name, count, mark: icon("check", 12) } });
   }
 
   function update(row, { key }) {

@@ -4,10 +4,13 @@ import { set } from "../dom.js";
 import { watch } from "../stores.js";
 import { combobox } from "./combobox.js";
 
+/** @import {ValuesOf} from "../types.js" */
+
 /** A field for the name of a topic; see `control.js`. `live(known)` shows the rate it arrives at. */
 export function topic({ type, default: standard }, { label, change, refused }) {
   let value = standard ?? "";
   let rate = null;
+  /** @type {ValuesOf<"topics_of">} */
   let topics = new Map();
 
   const options = () => {

@@ -8,10 +8,13 @@ import { watch } from "../stores.js";
 import * as viser from "../viser_page.js";
 import { pathOf } from "./sight.js";
 
+/** @import {ValuesOf} from "../types.js" */
+
 const GROUP = /\|(m\d+)(?:\.([^|]*))?$/;
 const PART = /^c(\d+)\//;
 
 const listeners = new Set();
+/** @type {ValuesOf<"handles">} */
 let handles = new Map();
 let index = null; // what there is in the scene of each handle
 let indexed = 0;

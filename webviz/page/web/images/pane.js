@@ -204,7 +204,7 @@ export function makePane(id, changed, withScene) {
     isFolded: () => isFolded,
     update(row) {
       const wanted = plain(row.title, 200);
-      if (wanted !== title) isFolded = recall(`pane.${wanted}`, {}).isFolded ?? false;
+      if (wanted !== title) isFolded = recall(`pane.${wanted}`, { isFolded: false }).isFolded ?? false;
       title = wanted;
       about = [plain(row.name, 100), wanted].join("\n");
       said = plain(row.problem);

@@ -9,6 +9,8 @@ import { watch } from "../stores.js";
 import { maker } from "./displays/properties.js";
 import { makeWidget } from "./plugin_widgets.js";
 
+/** @import {ValuesOf} from "../types.js" */
+
 /** Calls `offer(panels)` with the panels of plug-ins whenever they change, `types(types)` likewise. */
 export function followPlugins(offer, types) {
   watch("panels", (values, changed) => {
@@ -17,6 +19,7 @@ export function followPlugins(offer, types) {
       name: `plugin-${name}`, title: values.get(name), open: (element) => open(element, name),
     })));
   });
+  /** @type {ValuesOf<"commands">} */
   let commands = new Map();
   watch("commands", (values) => {
     commands = values;
@@ -38,7 +41,7 @@ function open(element, name) {
   const end = watch(`panel:${name}`, (values, changed) => {
     const order = values.get("/order") ?? [];
     for (const id of order) {
-      const widget = values.get(id);
+      const widget = /** @type {{kind: string}} */ (values.get(id));
       // A panel that was loaded again may have another widget under the same id.
       if (drawn.get(id)?.kind !== widget.kind) {
         drawn.get(id)?.close?.();

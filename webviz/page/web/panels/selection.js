@@ -14,6 +14,8 @@ import { rowsOf, textOf } from "./message_tree.js";
 import { statisticsRows, statisticsText } from "./statistics.js";
 import { showFrame } from "./transforms.js";
 
+/** @import {ValuesOf} from "../types.js" */
+
 const ROW_PX = 24;
 const FRAMES = new Set(["Frame", "Parent", "Parent frame", "Child frame", "Reference frame"]);
 
@@ -22,6 +24,7 @@ export const selectionPanel = {
   title: "Selection",
   open(element) {
     const folds = new Map();
+    /** @type {import("../types.js").ValuesOf<"selection">} */
     let values = new Map();
     let frames = new Set();
 

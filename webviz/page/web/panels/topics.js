@@ -16,7 +16,9 @@ export const topics = {
   name: "topics",
   title: "Topics",
   open(element) {
+    /** @type {import("../types.js").ValuesOf<"topics">} */
     let facts = new Map();
+    /** @type {import("../types.js").ValuesOf<"traffic">} */
     let traffic = new Map();
     let sort = recall("topics-sort", { column: "name", isUp: true });
     let inspected = null;

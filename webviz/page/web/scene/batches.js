@@ -5,9 +5,13 @@
 
 import * as viser from "../viser_page.js";
 
+/** @import {Three} from "../types.js" */
+
 export function install() {
+  /** @type {Set<Three>} */
   let before = new Set();
   viser.afterRender(() => {
+    /** @type {Set<Three>} */
     const drawn = new Set();
     viser.scene().traverse((object) => object.isInstancedMesh2 && drawn.add(object));
     for (const batch of before) if (!drawn.has(batch)) batch.geometry.dispose();

@@ -5,9 +5,12 @@ import constants from "../constants.js";
 import * as holding from "./holding.js";
 import * as viser from "../viser_page.js";
 
+/** @import {Three} from "../types.js" */
+
 const MARK = `/${constants.BLOCK_PREFIX}`;
 const LEAST_SHARE = 0.5; // of the points held, although other clouds have more
 
+/** @type {WeakMap<object, {middle: Three, radius: number}>} */
 const spheres = new WeakMap(); // by array of coordinates
 
 export function install() {
@@ -21,7 +24,9 @@ export function install() {
   viser.afterRender(() => (others = Math.max(viser.gl().info.render.points - thinned, 0)));
 }
 
+/** @returns {Three[]} */
 function blocks() {
+  /** @type {Three[]} */
   const found = [];
   const nodes = viser.nodes();
   for (const name in nodes) {
@@ -31,12 +36,21 @@ function blocks() {
   return found;
 }
 
+/**
+ * @param {Three} object
+ * @returns {boolean}
+ */
 function isShown(object) {
   for (let each = object; each; each = each.parent) if (!each.visible) return false;
   return true;
 }
 
 // All points up to some distance, and fewer by its square beyond.
+/**
+ * @param {Three[]} objects
+ * @param {Three} camera
+ * @param {number} budget
+ */
 function thin(objects, camera, budget) {
   const wanted = [];
   for (const object of objects) {
@@ -60,6 +74,12 @@ function thin(objects, camera, budget) {
 }
 
 // The weight of a sphere, the more the nearer; 0 out of sight.
+/**
+ * @param {{middle: Three, radius: number}} sphere
+ * @param {Three} matrixWorld
+ * @param {Three} camera
+ * @returns {number}
+ */
 function weightOf({ middle, radius }, matrixWorld, camera) {
   const at = camera.position.clone().fromArray(middle);
   at.applyMatrix4(matrixWorld).applyMatrix4(camera.matrixWorldInverse);
@@ -74,6 +94,10 @@ function weightOf({ middle, radius }, matrixWorld, camera) {
   return isFlat ? 1 : 1 / Math.max(at.length(), radius, 1e-6) ** 2;
 }
 
+/**
+ * @param {Three} xyz
+ * @returns {{middle: Three, radius: number}}
+ */
 function sphereOf(xyz) {
   const known = spheres.get(xyz);
   if (known) return known;

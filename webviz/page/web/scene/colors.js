@@ -7,12 +7,15 @@
 import * as viser from "../viser_page.js";
 import { lit } from "./shade.js";
 
+/** @import {Three} from "../types.js" */
+
 const STEPS = 5;
 
 export function install() {
   viser.beforeRender((gl, scene) => scene.traverse(paint));
 }
 
+/** @param {Three} mesh */
 function paint({ isMesh, isInstancedMesh, isInstancedMesh2, geometry, material }) {
   if (!isMesh || isInstancedMesh || isInstancedMesh2) return;
   if (material.gradientMap?.image.width !== STEPS) return;
@@ -27,7 +30,7 @@ function paint({ isMesh, isInstancedMesh, isInstancedMesh2, geometry, material }
   material.webviz = true;
   material.vertexColors = true;
   material.depthWrite = !material.transparent;
-  material.onBeforeCompile = (shader) => {
+  material.onBeforeCompile = (/** @type {Three} */ shader) => {
     lit(shader);
     shader.fragmentShader = shader.fragmentShader.replace("#include <color_fragment>", `
       diffuseColor *= vec4(pow(vColor.rgb, vec3(2.2)), vColor.a);`);
@@ -36,6 +39,10 @@ function paint({ isMesh, isInstancedMesh, isInstancedMesh2, geometry, material }
   material.needsUpdate = true;
 }
 
+/**
+ * @param {Three} geometry
+ * @param {Three} attribute
+ */
 function readColors(geometry, { array, constructor }) {
   const count = array.length / 6;
   let { color } = geometry.attributes;

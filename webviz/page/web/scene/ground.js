@@ -5,29 +5,53 @@ import { hit } from "./mouse.js";
 import { casterAt } from "./rays.js";
 import * as viser from "../viser_page.js";
 
+/** @import {Three, ThreeTree, Vec2, Vec3} from "../types.js" */
+
 const FARTHEST = 1e6; // metres
 const STEEP = 0.01; // square of the sine of an angle to the vertical
 
+/**
+ * @param {Vec3} xyz
+ * @returns {Three}
+ */
 const vector = (xyz) => viser.camera().position.clone().fromArray(xyz);
 
+/** @returns {Three} */
 function toThree() {
-  const world = viser.node(constants.ROOT);
+  const world = /** @type {ThreeTree} */ (viser.node(constants.ROOT));
   world.updateWorldMatrix(true, false);
   return world.matrixWorld;
 }
 
-/** Where a plane z = height is below a point of the window, in metres; null above its horizon. */
+/**
+ * Where a plane z = height is below a point of the window, in metres; null above its horizon.
+ *
+ * @param {Vec2} xy
+ * @param {number} height
+ * @returns {Vec3 | null}
+ */
 export function planeAt(xy, height) {
   const { origin, direction } = rayAt(xy);
   const steps = (height - origin.z) / direction.z;
   if (!(steps > 0 && steps < FARTHEST)) return null;
-  return [...origin.addScaledVector(direction, steps).toArray().slice(0, 2), height];
+  const [x, y] = origin.addScaledVector(direction, steps).toArray();
+  return [x, y, height];
 }
 
-/** The point of the ground below a point of the window, in metres, or null above the horizon. */
+/**
+ * The point of the ground below a point of the window, in metres, or null above the horizon.
+ *
+ * @param {number} x
+ * @param {number} y
+ */
 export const groundAt = (x, y) => planeAt([x, y], 0);
 
-/** The point of a surface, or of the ground, below a point of the window, in metres, or null. */
+/**
+ * The point of a surface, or of the ground, below a point of the window, in metres, or null.
+ *
+ * @param {Vec2} xy
+ * @returns {Vec3 | null}
+ */
 export function surfaceAt(xy) {
   const found = hit(xy);
   if (found?.object) return toFixedFrame(found.point);
@@ -38,6 +62,9 @@ export function surfaceAt(xy) {
  * The height of a vertical line, through a point, next to what is below a point of the window. Seen
  * from above, where the line is a point, a pixel up is as high as it is wide. Null if it is too far
  * away.
+ *
+ * @param {Vec2} xy
+ * @param {Vec3} foot
  */
 export function heightAt(xy, [x, y, z]) {
   const { origin, direction } = rayAt(xy);
@@ -53,13 +80,26 @@ export function heightAt(xy, [x, y, z]) {
 }
 
 // Through a point of the window, in the fixed frame.
+/**
+ * @param {Vec2} xy
+ * @returns {Three}
+ */
 const rayAt = (xy) => casterAt(xy).ray.applyMatrix4(toThree().clone().invert());
 
-/** A point of three.js in the coordinates of the fixed frame. */
+/**
+ * A point of three.js in the coordinates of the fixed frame.
+ *
+ * @param {Three} point
+ * @returns {Vec3}
+ */
 export const toFixedFrame = (point) =>
   point.clone().applyMatrix4(toThree().clone().invert()).toArray();
 
-/** Where a point of the fixed frame is on the canvas, in CSS pixels, or null behind the camera. */
+/**
+ * Where a point of the fixed frame is on the canvas, in CSS pixels, or null behind the camera.
+ *
+ * @param {Vec3} point
+ */
 export function onCanvas(point) {
   const [camera, canvas] = [viser.camera(), viser.canvas()];
   const place = vector(point).applyMatrix4(toThree());

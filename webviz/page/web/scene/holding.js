@@ -24,6 +24,7 @@ export const points = () => held;
 export function install() {
   let began = 0;
   let isMeasuring = false;
+  /** @type {{ms: number, drawn: number}[]} */
   let frames = [];
 
   channel.onOpen(() => isMeasured && report());
@@ -45,6 +46,10 @@ export function install() {
 }
 
 // When the graphics card has drawn what it was told, not when it was told.
+/**
+ * @param {number} began
+ * @param {(ms: number) => void} done
+ */
 function measure(began, done) {
   const context = viser.gl().getContext();
   const drawn = context.fenceSync(context.SYNC_GPU_COMMANDS_COMPLETE, 0);
@@ -59,6 +64,7 @@ function measure(began, done) {
   })();
 }
 
+/** @param {{ms: number, drawn: number}[]} frames */
 function decide(frames) {
   const times = frames.map(({ ms }) => ms).sort((a, b) => a - b);
   const ms = times[times.length >> 1];
@@ -72,6 +78,7 @@ function decide(frames) {
   viser.requestRender();
 }
 
+/** @param {number} count */
 function stepBelow(count) {
   const step = FEWEST_POINTS * 2 ** Math.floor(Math.log2(count / FEWEST_POINTS));
   return Math.min(Math.max(step, FEWEST_POINTS), MAX_POINTS);

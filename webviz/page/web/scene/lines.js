@@ -13,9 +13,12 @@ import { markOf } from "./marks.js";
 import { paint, scheme } from "./scheme.js";
 import * as viser from "../viser_page.js";
 
+/** @import {Three} from "../types.js" */
+
 const OF_THEME = 256;
 
 // Where the segment leaves a pyramid four times as wide as what is seen.
+/** @param {string} source */
 const cut = (source) =>
   source.replace(
     "end.xyz = mix( start.xyz, end.xyz, alpha );",
@@ -34,6 +37,7 @@ const OPEN = 0;
 const MITRED = 1;
 const ROUND = 2;
 
+/** @param {string} source */
 const passing = (source) =>
   `attribute vec4 webvizStart; attribute vec4 webvizEnd; varying vec4 vStart; varying vec4 vEnd;
    ${cut(source)}`
@@ -49,6 +53,7 @@ const passing = (source) =>
     );
 
 // A joint is cut as seen from the camera, alike for both of its segments.
+/** @param {string} source */
 const square = (source) =>
   `varying vec4 vStart; varying vec4 vEnd; float along;
    float beyond(vec3 ray, vec3 joint, vec3 ahead) {
@@ -76,6 +81,7 @@ const square = (source) =>
     );
 
 // An end is open unless the segment before or after goes on from there.
+/** @param {Three} geometry */
 function markEnds(geometry) {
   const { instanceStart } = geometry.attributes;
   if (!instanceStart) return;
@@ -100,6 +106,11 @@ function markEnds(geometry) {
 }
 
 // The unit vector along a segment, zero if that has no length.
+/**
+ * @param {ArrayLike<number>} xyz
+ * @param {number} number
+ * @param {number[]} into
+ */
 function direction(xyz, number, into) {
   for (let axis = 0; axis < 3; axis++) {
     into[axis] = xyz[6 * number + 3 + axis] - xyz[6 * number + axis];
@@ -110,6 +121,7 @@ function direction(xyz, number, into) {
 
 // Lines with a width in metres are drawn twice, the second time with smooth edges: transparent ones
 // only then. Grids without a colour of their own have that of the theme.
+/** @param {Three} material */
 function blend(material) {
   const { linewidth, worldUnits, defines } = material;
   const mark = markOf(linewidth);

@@ -2,6 +2,10 @@
 
 import constants from "../constants.js";
 
-/** The number that a size carries, 0 for none: 255 times what an opacity lacks, and multiples of 256. */
+/**
+ * The number that a size carries, 0 for none: 255 times what an opacity lacks, and multiples of 256.
+ *
+ * @param {number} size
+ */
 export const markOf = (size) =>
   Math.round((size / (Math.fround(size) || 1) - 1) * 2 ** constants.OPACITY_BIT) || 0;

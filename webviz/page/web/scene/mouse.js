@@ -9,14 +9,18 @@ import { casterAt } from "./rays.js";
 import * as views from "./view.js";
 import * as viser from "../viser_page.js";
 
+/** @import {Hit, Three, Vec2} from "../types.js" */
+
 const { EYE, FIELD_OF_VIEW } = constants;
 const MAX_SLIDE = 1; // metres
 
 const isFPS = () => views.type() === "FPS";
 const slides = () => ["XYOrbit", "ThirdPersonFollower"].includes(views.type());
+/** @type {Vec2 | null} */
 let mouse = null;
 let isSliding = false;
 
+/** @param {MouseEvent} [event] */
 export function arm(event) {
   const controls = viser.controls();
   const ACTION = viser.actions();
@@ -34,6 +38,10 @@ export function arm(event) {
 
 // RViz's XYOrbit keeps the point of the ground under the mouse, but moves at most a metre for an
 // event, because the ground is far away near the horizon.
+/**
+ * @param {Vec2} from
+ * @param {Vec2} to
+ */
 function slide(from, to) {
   const [before, now] = [from, to].map(groundOfView);
   if (!before || !now) return;
@@ -43,6 +51,7 @@ function slide(from, to) {
 }
 
 // In the coordinates of the camera's controls, which may follow a frame.
+/** @param {Vec2} xy */
 function groundOfView(xy) {
   const { ray } = casterAt(xy);
   const { origin, direction } = ray.applyMatrix4(views.followed().clone().invert());
@@ -50,6 +59,7 @@ function groundOfView(xy) {
   return steps > 0 ? origin.addScaledVector(direction, steps) : null;
 }
 
+/** @param {number} meters */
 function walk(meters) {
   const controls = viser.controls();
   const eye = controls.getPosition(viser.camera().position.clone());
@@ -59,6 +69,7 @@ function walk(meters) {
 }
 
 // RViz goes away by 1 % of the distance for a pixel down, and by 12 % for a notch of the wheel.
+/** @param {number} factor */
 function zoom(factor) {
   const controls = viser.controls();
   const distance = controls.distance * factor;
@@ -66,12 +77,17 @@ function zoom(factor) {
   controls.dollyTo(Math.min(Math.max(distance, minDistance), maxDistance), false);
 }
 
+/** @param {WheelEvent} event */
 function notches({ deltaY, deltaMode }) {
   return deltaMode === WheelEvent.DOM_DELTA_LINE ? deltaY / 3 : deltaY / 120;
 }
 
 // The nearest thing under a point of the window, see `pickAt`; on the ground a place in three.js'
 // coordinates without an `object`, above the horizon null.
+/**
+ * @param {Vec2} xy
+ * @returns {Hit | null}
+ */
 export function hit(xy) {
   const found = pickAt(xy);
   if (found) return found;
@@ -81,10 +97,18 @@ export function hit(xy) {
   return { point: origin.addScaledVector(direction, steps), object: null };
 }
 
-/** The place under a point of the window, in three.js' coordinates, or null. */
+/**
+ * The place under a point of the window, in three.js' coordinates, or null.
+ *
+ * @param {Vec2} xy
+ */
 export const pick = (xy) => hit(xy)?.point ?? null;
 
-/** Looks at what is under a point of the window; at nothing, in that direction, as RViz does. */
+/**
+ * Looks at what is under a point of the window; at nothing, in that direction, as RViz does.
+ *
+ * @param {Vec2} xy
+ */
 export function focusOn(xy) {
   const found = pick(xy);
   if (found) return focus(found);
@@ -92,7 +116,11 @@ export function focusOn(xy) {
   focus(origin.addScaledVector(direction, 1));
 }
 
-/** Looks at a point, as RViz does: turns the camera, and moves a view that cannot turn. */
+/**
+ * Looks at a point, as RViz does: turns the camera, and moves a view that cannot turn.
+ *
+ * @param {Three} point
+ */
 export function focus(point) {
   const controls = viser.controls();
   const at = point.applyMatrix4(views.followed().clone().invert());
@@ -134,6 +162,6 @@ export function install() {
     const point = pick(mouse);
     if (point) focus(point);
   });
-  views.onShow(arm);
+  views.onShow(() => arm());
   arm();
 }

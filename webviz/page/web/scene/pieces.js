@@ -2,7 +2,10 @@
 
 import * as viser from "../viser_page.js";
 
+/** @import {ViserMessage} from "../types.js" */
+
 const KIND = "webviz:Piece";
+/** @type {Record<string, {new (buffer: ArrayBufferLike, start: number, count: number): ArrayLike<number>, BYTES_PER_ELEMENT: number}>} */
 const NUMBERS = {
   "<f2": Uint16Array, // as viser has them
   "<f4": Float32Array,
@@ -16,8 +19,10 @@ const NUMBERS = {
 };
 
 export function install() {
+  /** @type {Uint8Array[]} */
   const slots = [];
 
+  /** @param {ViserMessage} message */
   function take(message) {
     if (message.type !== KIND) return [message];
     const { slot, start, size, data, update } = message;
@@ -36,6 +41,10 @@ export function install() {
   viser.filterMessages((messages) => messages.flatMap(take));
 }
 
+/**
+ * @param {any} value
+ * @param {Uint8Array} bytes
+ */
 function valueOf({ value, start, end, dtype }, bytes) {
   if (start === undefined) return value;
   if (dtype === "") return bytes.slice(start, end);

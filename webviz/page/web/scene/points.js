@@ -6,6 +6,9 @@
 import { markOf } from "./marks.js";
 import * as viser from "../viser_page.js";
 
+/** @import {Three, ViserMessage} from "../types.js" */
+
+/** @type {Map<string, number>} */
 const opacities = new Map(); // by the name of the node, once it was less than 1
 
 export function install() {
@@ -21,6 +24,7 @@ export function install() {
   });
 }
 
+/** @param {ViserMessage} message */
 function read({ type, name, props, updates }) {
   if (type === "RemoveSceneNodeMessage") {
     for (const each of opacities.keys()) {
@@ -34,6 +38,7 @@ function read({ type, name, props, updates }) {
 }
 
 // All of them, so that they share a shader.
+/** @param {Three} material */
 function patch(material) {
   if (material.uniforms?.webvizOpacity || !material.uniforms?.point_ball_norm) return;
   material.uniforms.webvizOpacity = { value: 1 };
@@ -42,6 +47,10 @@ function patch(material) {
   material.needsUpdate = true;
 }
 
+/**
+ * @param {Three} material
+ * @param {number} opacity
+ */
 function blend(material, opacity) {
   if (!material.uniforms?.webvizOpacity) return;
   material.uniforms.webvizOpacity.value = opacity;

@@ -2,7 +2,14 @@
 
 import * as viser from "../viser_page.js";
 
-/** The raycaster through a point of the window, in three.js' coordinates. */
+/** @import {Three, Vec2} from "../types.js" */
+
+/**
+ * The raycaster through a point of the window, in three.js' coordinates.
+ *
+ * @param {Vec2} xy
+ * @returns {Three}
+ */
 export function casterAt([x, y]) {
   const box = viser.canvas().getBoundingClientRect();
   const [across, down] = [(x - box.left) / box.width, (y - box.top) / box.height];

@@ -5,8 +5,10 @@
 import constants from "../constants.js";
 import * as viser from "../viser_page.js";
 
+/** @import {Three} from "../types.js" */
+
 /** "background", "text" and "grid", each red, green and blue from 0 to 255. */
-export const scheme = () => constants.SCHEMES[document.documentElement.dataset.wvTheme];
+export const scheme = () => constants.SCHEMES[document.documentElement.dataset.wvTheme ?? "dark"];
 
 export function install() {
   const apply = () => {
@@ -18,7 +20,12 @@ export function install() {
   apply();
 }
 
-/** Gives a colour of three.js these bytes: red, green and blue. */
+/**
+ * Gives a colour of three.js these bytes: red, green and blue.
+ *
+ * @param {Three} color
+ * @param {number[]} bytes
+ */
 export const paint = (color, bytes) => {
   const [red, green, blue] = bytes;
   return color.setRGB(red / 255, green / 255, blue / 255, "srgb");

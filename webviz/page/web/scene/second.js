@@ -5,9 +5,12 @@ import constants from "../constants.js";
 import { pathOf } from "../handles/sight.js";
 import * as viser from "../viser_page.js";
 
+/** @import {Three, ThreeTree, Vec3, Wxyz} from "../types.js" */
+
 const { ROOT } = constants;
 const NEAR = 0.01; // metres, as RViz
 
+/** @type {Three} */
 let eye = null;
 
 /**
@@ -15,6 +18,11 @@ let eye = null;
  *
  * `position` and `wxyz` place the camera in the fixed frame: x to the right, y down, z ahead. `edges` are
  * left, right, top and bottom of what it sees 1 m ahead. Displays with an id in `hidden` are left out.
+ *
+ * @param {CanvasRenderingContext2D} context
+ * @param {number} width
+ * @param {number} height
+ * @param {{position: Vec3, wxyz: Wxyz, edges: number[], far: number, hidden: string[]}} sight
  */
 export function drawSecond(context, width, height, { position, wxyz, edges, far, hidden }) {
   const gl = viser.gl();
@@ -38,13 +46,14 @@ export function drawSecond(context, width, height, { position, wxyz, edges, far,
   }
 }
 
+/** @returns {Three} */
 function makeEye() {
   const made = new (viser.camera().constructor)();
   made.near = NEAR;
   made.edges = [-1, 1, 1, -1];
   made.matrixAutoUpdate = false;
   made.updateProjectionMatrix = function () {
-    const edges = this.edges.map((edge) => edge * NEAR);
+    const edges = this.edges.map((/** @type {number} */ edge) => edge * NEAR);
     const { coordinateSystem, reversedDepth } = this;
     this.projectionMatrix.makePerspective(...edges, NEAR, this.far, coordinateSystem, reversedDepth);
     this.projectionMatrixInverse.copy(this.projectionMatrix).invert();
@@ -52,8 +61,12 @@ function makeEye() {
   return made;
 }
 
+/**
+ * @param {Vec3} position
+ * @param {Wxyz} wxyz
+ */
 function place(position, [w, x, y, z]) {
-  const world = viser.node(ROOT);
+  const world = /** @type {ThreeTree} */ (viser.node(ROOT));
   world.updateWorldMatrix(true, false);
   const at = eye.position.clone().fromArray(position);
   eye.matrix.compose(at, eye.quaternion.clone().set(x, y, z, w), eye.scale.clone().set(1, -1, -1));
@@ -62,11 +75,12 @@ function place(position, [w, x, y, z]) {
   eye.updateMatrixWorld();
 }
 
+/** @param {string[]} hidden */
 function hide(hidden) {
   const prefixes = hidden.map((id) => pathOf(`${id}/`));
   const names = prefixes.length
     ? Object.keys(viser.nodes()).filter((name) => prefixes.some((one) => name.startsWith(one))) : [];
-  const found = names.map(viser.node).filter(Boolean);
+  const found = names.flatMap((name) => viser.node(name) ?? []);
   // Besides displays, what the page draws for itself: handles, marks, and the like.
   const world = viser.node(ROOT);
   const labels = viser.scene().children.find((child) => child.children.some(lettersOf));
@@ -82,13 +96,19 @@ function hide(hidden) {
   };
 }
 
+/** @param {Three} mesh */
 const lettersOf = (mesh) => mesh.material?.uniforms?.uLabelData;
 
 // viser draws all labels at once, by a table of where each is and whether it can be seen; their nodes
 // have no objects.
+/**
+ * @param {Three} labels
+ * @param {string[]} names
+ */
 function hideLabels(labels, names) {
   const table = labels.children.map(lettersOf).find(Boolean).value;
   const { data } = table.image;
+  /** @param {...number} xyz */
   const key = (...xyz) => xyz.map((length) => Math.round(length * 1e4)).join();
   const places = new Set();
   for (const name of names) {
@@ -97,10 +117,12 @@ function hideLabels(labels, names) {
     if (!outer || !at) continue;
     places.add(key(...eye.position.clone().fromArray(at).applyMatrix4(outer.matrixWorld).toArray()));
   }
+  /** @type {any[]} */
   const off = [];
   for (let i = 0; i < data.length; i += 4) {
     if (data[i + 3] && places.has(key(data[i], data[i + 1], data[i + 2]))) off.push(i + 3);
   }
+  /** @param {number} value */
   const put = (value) => {
     for (const i of off) data[i] = value;
     if (off.length) table.needsUpdate = true;
@@ -109,17 +131,24 @@ function hideLabels(labels, names) {
   return () => put(1);
 }
 
+/**
+ * @param {Three} object
+ * @param {Three} inner
+ * @returns {boolean}
+ */
 function contains(object, inner) {
   for (let each = inner; each; each = each.parent) if (each === object) return true;
   return false;
 }
 
 // viser sizes points for its own camera, in pixels at 1 m.
+/** @param {number} tall */
 function scalePoints(tall) {
   const own = viser.camera();
   const ownTall = viser.gl().domElement.height;
   const factor =
     (eye.projectionMatrix.elements[5] * tall * Math.tan((own.fov * Math.PI) / 360)) / ownTall;
+  /** @type {any[]} */
   const scales = [];
   viser.scene().traverse(({ isPoints, material }) => {
     if (isPoints && material.uniforms?.scale) scales.push(material.uniforms.scale);
@@ -129,6 +158,7 @@ function scalePoints(tall) {
   return () => scales.forEach((scale, i) => (scale.value = before[i]));
 }
 
+/** @param {Three} gl */
 function background(gl) {
   const { enabled } = viser.backgroundMaterial().uniforms;
   const [was, alpha] = [enabled.value, gl.getClearAlpha()];

@@ -11,10 +11,16 @@
 import constants from "../constants.js";
 import * as viser from "../viser_page.js";
 
+/** @import {Three} from "../types.js" */
+
 const { DARKEST } = constants;
 const BOX_STEPS = 5;
 
-/** Shades like a surface. */
+/**
+ * Shades like a surface.
+ *
+ * @param {Three} shader
+ */
 export function lit(shader) {
   shader.fragmentShader = shader.fragmentShader.replace("#include <opaque_fragment>", `
     float facing = max(normalize(normal).z, 0.0);
@@ -25,6 +31,7 @@ export function lit(shader) {
 
 // The numbers are those of shaded_circle.frag and box.frag in rviz_rendering; the sides are as seen in
 // RViz. The edge of a box that is less than a pixel wide darkens the pixel as much as it covers of it.
+/** @param {Three} shader */
 function asData(shader) {
   shader.vertexShader = shader.vertexShader
     .replace("#include <common>", `
@@ -61,10 +68,12 @@ function asData(shader) {
       #include <opaque_fragment>`);
 }
 
+/** @type {Record<string, (shader: Three) => void>} */
 const shades = { MeshStandardMaterial: lit, MeshToonMaterial: asData };
 
 // Before the first of a kind is drawn, for viser's batches keep what a material had when it was.
 // A physical material is a standard one with more to it.
+/** @param {Three} mesh */
 function teach({ material }) {
   if (!material) return;
   const isPhysical = material.isMeshPhysicalMaterial;

@@ -4,37 +4,52 @@
 
 import * as viser from "../viser_page.js";
 
+/** @import {Three} from "../types.js" */
+
 const SEED = 0x811c9dc5;
 const PRIMES = [0x01000193, 0x85ebca6b]; // of two hashes by words, as FNV-1a has them by bytes
 
+/** @type {Map<string, Promise<WeakRef<ImageBitmap> | undefined>>} */
 const decoded = new Map(); // promises of weak references to pictures, by their content
 const gone = new FinalizationRegistry((content) => decoded.delete(content));
+/** @type {WeakMap<object, Three>} */
 const sources = new WeakMap(); // by picture, what three.js uploads
+/** @type {WeakSet<object>} */
 const shared = new WeakSet(); // materials
 let isShared = false;
 
 export function install() {
   const decode = window.createImageBitmap.bind(window);
-  window.createImageBitmap = (image, ...rest) => {
+  /** @type {(image: ImageBitmapSource, ...rest: any[]) => Promise<ImageBitmap>} */
+  const shareOrDecode = (image, ...rest) => {
     const isOfModel = image instanceof Blob && rest[0]?.premultiplyAlpha === "none"; // by three.js
-    return isOfModel ? once(image, rest[0], decode) : decode(image, ...rest);
+    return isOfModel ? once(image, rest[0], decode) : Reflect.apply(decode, window, [image, ...rest]);
   };
+  window.createImageBitmap = shareOrDecode;
   viser.beforeEveryRender((gl, scene) => isShared && scene.traverse(share));
 }
 
+/**
+ * @param {Blob} image
+ * @param {ImageBitmapOptions} options
+ * @param {typeof createImageBitmap} decode
+ */
 async function once(image, options, decode) {
   const content = `${await hash(image)} ${image.type} ${JSON.stringify(options)}`;
   const known = (await decoded.get(content))?.deref();
   isShared ||= Boolean(known);
   if (known) return known;
   const made = decode(image, options);
-  const kept = made.then((bitmap) => new WeakRef(bitmap)).catch(() => decoded.delete(content));
+  const kept = made
+    .then((bitmap) => new WeakRef(bitmap))
+    .catch(() => void decoded.delete(content));
   decoded.set(content, kept);
   const bitmap = await made;
   gone.register(bitmap, content);
   return bitmap;
 }
 
+/** @param {Blob} image */
 async function hash(image) {
   const bytes = await image.arrayBuffer();
   const words = new Uint32Array(bytes, 0, bytes.byteLength >> 2);
@@ -47,6 +62,7 @@ async function hash(image) {
 }
 
 // Textures of one picture have one source, which three.js uploads once.
+/** @param {Three} mesh */
 function share({ material }) {
   if (!material || shared.has(material)) return;
   shared.add(material);

@@ -4,6 +4,8 @@
 import constants from "../constants.js";
 import * as viser from "../viser_page.js";
 
+/** @import {Three} from "../types.js" */
+
 const MARK = `/${constants.TILE_PREFIX}`;
 // Of three.js.
 const NEAREST = 1003;
@@ -13,6 +15,7 @@ const BOTH_SIDES = 2;
 // than errors of rounding, less than what lies between two things. Units of a polygon offset
 // would hardly count, and three.js takes them for the opposite when it reverses the depth; its
 // factor is for lines, which are up to half a pixel wider than what they stand for.
+/** @param {Three} shader */
 const pushBack = (shader) => {
   shader.vertexShader = shader.vertexShader.replace("#include <project_vertex>", `
     #include <project_vertex>
@@ -23,6 +26,7 @@ const pushBack = (shader) => {
         ? 5e-4 * (gl_Position.w - gl_Position.z) : 4e-6;
     #endif`);
 };
+/** @param {string} name */
 const layerOf = (name) => parseInt(name.split(MARK)[1]);
 export function install() {
   viser.beforeEveryRender(() => {

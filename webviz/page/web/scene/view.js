@@ -11,20 +11,34 @@ import * as channel from "../channel.js";
 import constants from "../constants.js";
 import * as viser from "../viser_page.js";
 
+/** @import {PlaceCamera, StartView} from "../messages.js" */
+
+/** @import {Three, Vec3} from "../types.js" */
+
 const { ROOT, RAISED, EYE, FIELD_OF_VIEW, FLAT_FIELD_OF_VIEW } = constants;
 const SENT_MS = 100; // after which viser has reported the camera
 
+/** @type {(() => void)[]} */
 const listeners = [];
+/** @type {Three} */
 let camera = null;
+/** @type {Three} */
 let canvas = null;
+/** @type {Three} */
 let world = null;
+/** @type {Three} */
 let cross = null;
+/** @type {any} */
 let view = null;
+/** @type {Three} */
 let rig = null;
 let height = 0;
+/** @type {any} */
 let place = null;
 let isLost = false;
+/** @type {Three} */
 let focal = null;
+/** @type {any} */
 let aimed = null;
 
 /** The type of the view, "" before there is one. */
@@ -33,7 +47,11 @@ export const type = () => (view === null ? "" : view.view);
 export const followed = () => (rig === null ? matrix() : rig);
 /** The offset of the point that the camera looks at from the focal point of the view. */
 export const raised = () => (isRaised() ? raise() : vector([0, 0, 0]));
-/** Turns the camera about what it looks at, to where a direction of the fixed frame points. */
+/**
+ * Turns the camera about what it looks at, to where a direction of the fixed frame points.
+ *
+ * @param {Vec3} xyz
+ */
 export function lookFrom(xyz) {
   const direction = vector(xyz).transformDirection(toThree());
   direction.transformDirection(followed().clone().invert());
@@ -44,19 +62,34 @@ export function lookFrom(xyz) {
   controls.normalizeRotations();
   controls.rotateTo(azimuth, polar, true);
 }
-/** The axes of the fixed frame as the camera sees them: right, up, and towards it. */
+/**
+ * The axes of the fixed frame as the camera sees them: right, up, and towards it.
+ *
+ * @returns {Vec3[]}
+ */
 export function axes() {
   const toCamera = camera.matrixWorldInverse.clone().multiply(toThree());
-  return [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((axis) =>
+  /** @type {Vec3[]} */
+  const units = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
+  return units.map((axis) =>
     vector(axis).transformDirection(toCamera).toArray());
 }
 /** The size of a pixel where the camera looks at, in metres. */
 export const metersPerPixel = () =>
   (2 * viser.controls().distance * Math.tan((camera.fov * Math.PI) / 360)) / canvas.clientHeight;
-/** Calls `listener` whenever another view is shown. */
+/**
+ * Calls `listener` whenever another view is shown.
+ *
+ * @param {() => unknown} listener
+ */
 export const onShow = (listener) => listeners.push(listener);
 
+/**
+ * @param {Vec3} xyz
+ * @returns {Three}
+ */
 const vector = (xyz) => camera.position.clone().fromArray(xyz);
+/** @returns {Three} */
 const matrix = () => camera.matrixWorld.clone().identity();
 const isFlat = () => view !== null && view.view === "TopDownOrtho";
 
@@ -79,6 +112,7 @@ function follow() {
 }
 
 // A parallel projection as large as the camera's own is where it looks at.
+/** @param {Three} camera */
 function flatten(camera) {
   const distance = viser.controls().distance;
   const top = distance * Math.tan((camera.fov * Math.PI) / 360);
@@ -90,6 +124,7 @@ function flatten(camera) {
   camera.projectionMatrixInverse.copy(camera.projectionMatrix).invert();
 }
 
+/** @param {Three} camera */
 function adopt(camera) {
   if (camera.webviz) return;
   camera.webviz = true;
@@ -98,7 +133,7 @@ function adopt(camera) {
     updateProjectionMatrix.call(this);
     if (isFlat()) flatten(this);
   };
-  camera.updateMatrixWorld = function (force) {
+  camera.updateMatrixWorld = function (/** @type {boolean} */ force) {
     updateMatrixWorld.call(this, force);
     if (rig === null) return;
     this.matrixWorld.premultiply(rig);
@@ -120,6 +155,7 @@ function rejoin() {
 }
 
 // Adjust what viser keeps before the camera, and the cross where it turns about, without knowing rigs.
+/** @param {Three} camera */
 function dress(camera) {
   if (cross) cross.visible = rig === null;
   for (const child of viser.scene().children) {
@@ -166,6 +202,7 @@ function report() {
   });
 }
 
+/** @param {PlaceCamera | StartView} wanted */
 function show(wanted) {
   if (view === null || view.frame !== wanted.frame) rig = null;
   view = wanted;
@@ -197,6 +234,7 @@ function show(wanted) {
   setTimeout(report, SENT_MS);
 }
 
+/** @param {StartView} start */
 function join(start) {
   viser.reveal(); // also of a scene without a page around it
   isLost = false;
@@ -211,12 +249,13 @@ export function install() {
   height = canvas.clientHeight;
   cross = viser.scene().children.find((child) => {
     let found = false;
-    child.traverse((part) => (found ||= part.geometry?.parameters?.width === 0.4));
+    child.traverse((/** @type {Three} */ part) => (found ||= part.geometry?.parameters?.width === 0.4));
     return found;
   });
 
   const rays = viser.Raycaster().prototype;
   const fromCamera = rays.setFromCamera;
+  /** @type {(point: Three, camera: Three) => void} */
   rays.setFromCamera = function (point, camera) {
     fromCamera.call(this, point, camera);
     if (!isFlat() || !camera.webviz) return;

@@ -3,7 +3,10 @@
 import * as channel from "../channel.js";
 import * as viser from "../viser_page.js";
 
+/** @import {ViserMessage} from "../types.js" */
+
 // By name of the cloud and version: messages by their node.
+/** @type {Map<string, any>} */
 const waiting = new Map();
 
 export function install() {
@@ -12,6 +15,7 @@ export function install() {
 }
 
 // The messages to handle now. The server finishes a version before it begins the next.
+/** @param {ViserMessage} message */
 function whole(message) {
   const cloud = message.updates?.cloud;
   if (!cloud) return [message];

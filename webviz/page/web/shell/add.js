@@ -25,6 +25,8 @@ export function openAdd({ group = "" } = {}) {
   });
   const note = el("p", { class: "wv-quiet wv-nothing", hidden: true });
   let show = () => {};
+  /** @type {() => {type: string, values: object}[] | null} */
+  let taken = () => null; // what Add would add
 
   const tabs = Object.entries(WAYS).map(([way, label]) =>
     el(
@@ -97,7 +99,7 @@ export function openAdd({ group = "" } = {}) {
       };
       input.addEventListener("input", () => show());
       show();
-      input.taken = () => {
+      taken = () => {
         const active = found.find(({ id, disabled }) => !disabled && id === list.active());
         return checked.size ? [...checked.values()] : active ? [active.pick] : null;
       };
@@ -110,11 +112,11 @@ export function openAdd({ group = "" } = {}) {
     },
     buttons: [
       { label: "Cancel", value: null },
-      { label: "Add", value: "add", primary: true, accept: () => input.taken() !== null },
+      { label: "Add", value: "add", primary: true, accept: () => taken() !== null },
     ],
   }).then((chosen) => {
     ends.forEach((end) => end());
-    const picks = chosen === "add" ? input.taken() : chosen;
+    const picks = chosen === "add" ? taken() : chosen;
     const step = newStep();
     for (const { type, values } of picks ?? []) act("AddDisplay", { type, values, group }, { step });
   });

@@ -3,6 +3,8 @@
 import { act } from "../act.js";
 import { el, setText } from "../dom.js";
 
+/** @import {Commands} from "../messages.js" */
+
 /** @type {[string, number | null][]} */
 const ENDS = [["never ends", null], ["ends in 1 day", 1], ["ends in 7 days", 7], ["ends in 30 days", 30]];
 
@@ -30,7 +32,7 @@ export function invitation(copy) {
   async function invite() {
     setText(problem, "");
     const { level, text, link, code } = await act("Invite", {
-      name: name.value.trim(), role: role.value,
+      name: name.value.trim(), role: /** @type {Commands["Invite"]["role"]} */ (role.value),
       days: ENDS[end.selectedIndex][1], url: location.origin + location.pathname,
     }, { quiet: true, errors: "caller" });
     const isRefused = level === "error";

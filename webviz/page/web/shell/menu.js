@@ -26,7 +26,7 @@ export function openMenu(x, y, items, outer = null) {
       item ? entry(item) : el("div", { class: "wv-menu-line", role: "separator" }),
     ),
   );
-  const entries = [...menu.querySelectorAll(".wv-menu-item:not([aria-disabled])")];
+  const entries = [.../** @type {NodeListOf<HTMLElement>} */ (menu.querySelectorAll(".wv-menu-item:not([aria-disabled])"))];
   let inner = null; // the entry whose submenu is open, and what closes that
 
   function entry(item) {
@@ -81,7 +81,7 @@ export function openMenu(x, y, items, outer = null) {
   }
 
   function onKey(event) {
-    const at = entries.indexOf(document.activeElement);
+    const at = entries.findIndex((entry) => entry === document.activeElement);
     const step = { ArrowDown: at + 1, ArrowUp: at < 0 ? -1 : at - 1, Home: 0, End: -1 }[event.key];
     const isMore = document.activeElement.getAttribute("aria-haspopup") === "menu";
     if (event.key === "Escape" || event.key === "Tab") close();

@@ -35,7 +35,8 @@ export function tabs() {
     if (!change) return;
     event.preventDefault(); // else the list is scrolled, too
     const next = [...list.children].indexOf(document.activeElement) + change;
-    const button = list.children[(next + list.children.length) % list.children.length];
+    const at = (next + list.children.length) % list.children.length;
+    const button = /** @type {HTMLElement} */ (list.children[at]);
     button.focus();
     button.click();
   });

@@ -11,12 +11,14 @@ import { savedText } from "./saved_text.js";
 
 /** The button; hidden while there are neither rules nor recordings. */
 export function blackBox() {
+  /** @type {[name: string, megabytes: number, command: string][]} */
   let saved = [];
   const label = el("span");
   const button = el("button", {
     type: "button", class: "wv-button wv-black-box", hidden: true, "aria-label": "Black box", onclick: open,
   }, icon("flag", 14), label);
 
+  /** @param {string} command */
   async function choose(command) {
     const isCopied = await copy(command);
     toast(isCopied ? `Copied: ${command}` : command);

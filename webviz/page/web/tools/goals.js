@@ -7,6 +7,8 @@ import { icon } from "../icons.js";
 import { watch } from "../stores.js";
 import { makePoses } from "./poses.js";
 
+/** @import {ValuesOf} from "../types.js" */
+
 const TEXTS = { sending: "Sending…", active: "", canceling: "Cancelling…", ended: "" };
 
 /** The list of cards, one per goal. */
@@ -28,6 +30,7 @@ export function install() {
 // Where robots drive to, in the frame in which it was sent.
 function showRoutes() {
   const show = makePoses("routes");
+  /** @type {ValuesOf<"routes">} */
   let routes = new Map();
   let frame = null;
   const update = () => show([...routes.values()].flatMap((route) =>
@@ -70,10 +73,12 @@ function makeCard(id) {
       setText(text, goal.text || TEXTS[goal.phase]);
       showValues(values, goal.values);
       const isEnded = goal.phase === "ended";
-      for (const [part, isHidden] of [
+      /** @type {[HTMLElement, boolean][]} */
+      const hiding = [
         [dismiss, !goal.can_dismiss], [cancel, isEnded], [text, !text.textContent],
         [values, !goal.values.length],
-      ]) {
+      ];
+      for (const [part, isHidden] of hiding) {
         if (part.hidden !== isHidden) part.hidden = isHidden;
       }
       const isDisabled = goal.phase === "canceling";

@@ -14,12 +14,15 @@ import { tell } from "./hint.js";
 import { makeLayer } from "./layer.js";
 import * as selection from "./selection.js";
 
+/** @import {ValuesOf} from "../types.js" */
+
 const CLICK_PX = 4;
 const HINT = "Click or drag a box. Shift adds, Ctrl removes, Alt moves the camera.";
 
 let drag = null;
 let box = null;
 let endPicking = () => {};
+/** @type {ValuesOf<"picking">} */
 let unselectable = new Map(); // by the ids of displays
 
 export const select = {

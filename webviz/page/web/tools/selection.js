@@ -5,6 +5,8 @@ import { act } from "../act.js";
 import * as channel from "../channel.js";
 import { watch } from "../stores.js";
 
+/** @import {ValuesOf} from "../types.js" */
+
 /** The most things that are selected. */
 export const MAX_SELECTED = 1000;
 
@@ -12,6 +14,7 @@ const listeners = new Set();
 let things = new Map(); // by id
 let total = 0;
 let count = 0;
+/** @type {ValuesOf<"selected">} */
 let known = new Map();
 let end = () => {};
 

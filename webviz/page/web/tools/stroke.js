@@ -19,6 +19,7 @@ let stroke = null;
  * on.
  */
 export function begin(event, tool, { done, live }) {
+  /** @type {[number, number]} */
   const at = [event.clientX, event.clientY];
   const start = tool.surface ? surfaceAt(at) : planeAt(at, 0);
   if (start === null) return false;
@@ -156,6 +157,7 @@ function redraw(shown) {
   const foot = (isLifted && onCanvas([start[0], start[1], 0])) || top;
   set(stem, { x1: top[0], y1: top[1], x2: foot[0], y2: foot[1] });
   set(dot, { cx: top[0], cy: top[1] });
+  /** @type {[number, number, number]} */
   const heading = [start[0] + Math.cos(yaw), start[1] + Math.sin(yaw), start[2]];
   stroke.card?.place(onCanvas(start), tool.gesture === "pose" && onCanvas(heading));
 }

@@ -75,7 +75,7 @@ function open(id) {
     ends: [
       watch(`driving:${id}`, card.showRobot),
       watch(`tool:${id}`, (values) => {
-        driven.canGoSideways = values.get("value.lateral") > 0;
+        driven.canGoSideways = Number(values.get("value.lateral")) > 0;
         card.showTool(values);
       }),
     ],

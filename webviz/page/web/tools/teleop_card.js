@@ -33,7 +33,9 @@ export function makeCard(change) {
     share: () => parts.map((part) => part.share()).reduce(added),
     showHeld: stick.show,
     showRobot(values) {
-      for (const [output, key] of [[speed, "speed"], [turnRate, "turn_rate"]]) {
+      /** @type {[HTMLElement, string][]} */
+      const shown = [[speed, "speed"], [turnRate, "turn_rate"]];
+      for (const [output, key] of shown) {
         setText(output, values.get(key)?.toFixed(2).replace("-", "−") ?? "–");
       }
       const problem = values.get("problem") || null;

@@ -4,10 +4,14 @@
 
 import * as viser from "../../viser_page.js";
 
+/** @import {Three, Vec2, Vec3} from "../../types.js" */
+
 /**
  * `{m, v, wide, tall, dpr, grow}` of an object: `m` takes its coordinates to the clip space, `v` to the
  * camera's; the canvas is `wide` and `tall` CSS pixels, each `dpr` pixels of the screen; a metre is
  * `grow` / w pixels.
+ *
+ * @param {Three} object
  */
 export function lensOf(object) {
   const camera = viser.camera();
@@ -23,25 +27,47 @@ export function lensOf(object) {
   };
 }
 
-/** A point of the window in pixels of the canvas: the middle of the pixel of the screen there. */
+/**
+ * A point of the window in pixels of the canvas: the middle of the pixel of the screen there.
+ *
+ * @param {Vec2} xy
+ * @returns {Vec2}
+ */
 export function onCanvasAt([x, y]) {
   const { left, top } = viser.canvas().getBoundingClientRect();
   const dpr = viser.gl().getPixelRatio();
-  return [x - left, y - top].map((place) => (Math.floor(place * dpr) + 0.5) / dpr);
+  /** @param {number} place */
+  const middle = (place) => (Math.floor(place * dpr) + 0.5) / dpr;
+  return [middle(x - left), middle(y - top)];
 }
 
-/** The depth of a point in three.js' coordinates: metres in front of the camera. */
+/**
+ * The depth of a point in three.js' coordinates: metres in front of the camera.
+ *
+ * @param {Three} point
+ * @returns {number}
+ */
 export const depthOf = (point) =>
   -point.clone().applyMatrix4(viser.camera().matrixWorldInverse).z;
 
-/** The size of a pixel at a depth, in metres. */
+/**
+ * The size of a pixel at a depth, in metres.
+ *
+ * @param {number} depth
+ * @returns {number}
+ */
 export function pixelAt(depth) {
   const { elements } = viser.camera().projectionMatrix;
   const w = elements[15] - elements[11] * depth; // depth, or 1 without perspective
   return (2 * w) / (elements[5] * viser.canvas().clientHeight);
 }
 
-/** Where a point of an object is on the canvas, in CSS pixels, or null behind the camera. */
+/**
+ * Where a point of an object is on the canvas, in CSS pixels, or null behind the camera.
+ *
+ * @param {{m: number[], v: number[], wide: number, tall: number}} lens
+ * @param {Vec3} xyz
+ */
 export function project({ m, v, wide, tall }, [x, y, z]) {
   const w = m[3] * x + m[7] * y + m[11] * z + m[15];
   if (w <= 0 || -(v[2] * x + v[6] * y + v[10] * z + v[14]) <= 0) return null;

@@ -2,13 +2,22 @@
 
 import { lensOf } from "./lens.js";
 
+/** @import {Three, Vec2} from "../../types.js" */
+
 const NEAREST = 1e-3; // metres or more in front of the camera
 
-/** The segment under a place of the canvas, or the nearest within `near` pixels: `{number, depth, off}`. */
+/**
+ * The segment under a place of the canvas, or the nearest within `near` pixels: `{number, depth, off}`.
+ *
+ * @param {Three} lines
+ * @param {Vec2} at
+ * @param {number} near
+ */
 export function lineAt(lines, [atX, atY], near) {
   const { m, v, wide, tall, dpr, grow } = lensOf(lines);
   const xyz = lines.geometry.attributes.instanceStart?.data.array ?? [];
   const { linewidth, worldUnits } = lines.material;
+  /** @type {any} */
   let best = null;
   for (let i = 0, j = 0; j < xyz.length; i++, j += 6) {
     const from = seen(xyz, j);
@@ -34,6 +43,10 @@ export function lineAt(lines, [atX, atY], near) {
   }
   return best;
 
+  /**
+   * @param {ArrayLike<number>} array
+   * @param {number} at
+   */
   function seen(array, at) {
     const [x, y, z] = [array[at], array[at + 1], array[at + 2]];
     return {
@@ -45,23 +58,38 @@ export function lineAt(lines, [atX, atY], near) {
   }
 
   // Moves an end that is behind the camera to where the segment is in front of it.
+  /**
+   * @param {any} end
+   * @param {any} other
+   */
   function cut(end, other) {
     const share = (NEAREST - end.depth) / (other.depth - end.depth);
     for (const key of ["x", "y", "w", "depth"]) end[key] += share * (other[key] - end[key]);
   }
 
+  /** @param {any} end */
   function place({ x, y, w }) {
     return [((x / w + 1) / 2) * wide, ((1 - y / w) / 2) * tall];
   }
 }
 
-/** Where a segment is, `[from, to]`, in the coordinates of the lines. */
+/**
+ * Where a segment is, `[from, to]`, in the coordinates of the lines.
+ *
+ * @param {Three} lines
+ * @param {number} number
+ */
 export function lineOf(lines, number) {
   const xyz = lines.geometry.attributes.instanceStart?.data.array;
   if (!xyz || 6 * number >= xyz.length) return [];
   return [0, 3].map((end) => Array.from(xyz.subarray(6 * number + end, 6 * number + end + 3)));
 }
 
-/** The number of segments. */
+/**
+ * The number of segments.
+ *
+ * @param {Three} lines
+ * @returns {number}
+ */
 export const lineCount = (lines) =>
   (lines.geometry.attributes.instanceStart?.data.array.length ?? 0) / 6;

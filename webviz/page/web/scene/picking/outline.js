@@ -5,6 +5,8 @@ import { anchorOf } from "./pick.js";
 import { lineOf } from "./lines.js";
 import { cornersOf } from "./texts.js";
 
+/** @import {Three, ThreeTree, Vec3} from "../../types.js" */
+
 // The corners of a box by the bits of their numbers, and which of them its edges join.
 const CORNERS = [0, 1, 2, 3, 4, 5, 6, 7];
 const AROUND = [[0, 1], [1, 2], [2, 3], [3, 0]];
@@ -17,6 +19,10 @@ const EDGES = CORNERS.flatMap((from) =>
  * stays what it is, or not: `{points, edges, isOld}`, `points` in three.js' coordinates; a point of
  * a cloud has no edges. `isOld` says that something else is drawn there now, and the outline is where
  * it was. Null while its node is not shown.
+ *
+ * @param {any} pick
+ * @param {(name: string, ordinal: number) => Three} find
+ * @param {boolean} moves
  */
 export function outlineOf(pick, find, moves) {
   const object = find(pick.name, pick.ordinal);
@@ -27,18 +33,31 @@ export function outlineOf(pick, find, moves) {
 }
 
 // An object that does not move is known by where it is.
+/**
+ * @param {any} pick
+ * @param {Three} object
+ * @param {boolean} moves
+ */
 function isSame(pick, object, moves) {
   const at = anchorOf(object, pick.item);
   if (moves) return at.length > 0;
-  return at.length > 0 && at.every((number, axis) => number === pick.local[axis]);
+  return at.length > 0 && at.every((/** @type {number} */ number, /** @type {number} */ axis) => number === pick.local[axis]);
 }
 
+/**
+ * @param {any} pick
+ * @param {Three} object
+ */
 function make(pick, object) {
+  /**
+   * @param {Vec3} xyz
+   * @param {Three} matrix
+   */
   const place = (xyz, matrix) => vector(xyz).applyMatrix4(matrix);
   if (object.isText) return { points: cornersOf(object), edges: AROUND };
   if (object.isPoints) return { points: [place(pick.local, object.matrixWorld)], edges: [] };
   if (object.isLineSegments2) {
-    const ends = lineOf(object, pick.item).map((xyz) => place(xyz, object.matrixWorld));
+    const ends = lineOf(object, pick.item).map((xyz) => place(/** @type {Vec3} */ (xyz), object.matrixWorld));
     return { points: ends, edges: [[0, 1]] };
   }
   if (object.material?.map && object.geometry.parameters?.width) return cell(pick, object);
@@ -47,13 +66,19 @@ function make(pick, object) {
   return box(boundsOf(object), matrix.premultiply(object.matrixWorld));
 }
 
+/** @param {Three} mesh */
 function boundsOf({ geometry }) {
   if (!geometry.boundingBox) geometry.computeBoundingBox();
   return geometry.boundingBox;
 }
 
+/**
+ * @param {{min: Three, max: Three}} bounds
+ * @param {Three} matrix
+ */
 function box({ min, max }, matrix) {
   const points = CORNERS.map((corner) => {
+    /** @param {number} bit */
     const side = (bit) => (corner & bit ? max : min);
     return vector([side(1).x, side(2).y, side(4).z]).applyMatrix4(matrix);
   });
@@ -61,10 +86,12 @@ function box({ min, max }, matrix) {
 }
 
 // Around all meshes of a node, along its axes.
+/** @param {Three} node */
 function boxOf(node) {
   const back = node.matrixWorld.clone().invert();
+  /** @type {Three} */
   let whole = null;
-  node.traverse((object) => {
+  node.traverse((/** @type {Three} */ object) => {
     if (!object.isMesh || !object.raycast.length) return;
     const bounds = boundsOf(object).clone();
     bounds.applyMatrix4(back.clone().multiply(object.matrixWorld));
@@ -74,24 +101,34 @@ function boxOf(node) {
 }
 
 // Of a picture, the cell that was hit.
+/**
+ * @param {any} pick
+ * @param {Three} object
+ */
 function cell(pick, object) {
   const { width, height } = object.geometry.parameters;
   const { width: columns, height: rows } = object.material.map.image;
   const steps = [width / columns, height / rows];
-  const whole = viser.node(pick.path);
+  const whole = /** @type {ThreeTree} */ (viser.node(pick.path));
   const hit = vector(pick.at).applyMatrix4(whole.matrixWorld);
   const { x, y } = hit.applyMatrix4(object.matrixWorld.clone().invert());
   const start = [x, y].map((place, axis) => Math.floor(place / steps[axis] + shift(axis)) - shift(axis));
   const points = [[0, 0], [1, 0], [1, 1], [0, 1]].map(([right, up]) => {
+    /** @type {Vec3} */
     const corner = [(start[0] + right) * steps[0], (start[1] + up) * steps[1], 0];
     return vector(corner).applyMatrix4(object.matrixWorld);
   });
   return { points, edges: AROUND };
 
   // The picture is around its middle, which is in a cell if their number is odd.
+  /** @param {number} axis */
   function shift(axis) {
     return ([columns, rows][axis] % 2) / 2;
   }
 }
 
+/**
+ * @param {Vec3} xyz
+ * @returns {Three}
+ */
 const vector = (xyz) => viser.camera().position.clone().fromArray(xyz);

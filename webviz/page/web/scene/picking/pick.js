@@ -8,6 +8,8 @@ import { colorOf, pointAt, pointOf, pointsIn } from "./points.js";
 import { isTextIn, textAt } from "./texts.js";
 import { isTile, things } from "./things.js";
 
+/** @import {Box, Three, Vec2, Vec3} from "../../types.js" */
+
 const NEAR_PX = 4; // what the pointer means although it is not quite on it
 const PLANE_PX = 1; // what is as close together in depth lies in one plane
 
@@ -20,10 +22,14 @@ const PLANE_PX = 1; // what is as close together in depth lies in one plane
  *
  * @param {[number, number]} xy
  * @param {(thing: any) => boolean} isWanted
+ * @param {Vec2} xy
+ * @param {(thing: {node: any}) => boolean} [isWanted]
+ * @param {number} [reach]
  */
 export function pickAt(xy, isWanted = () => true, reach = NEAR_PX) {
   const at = onCanvasAt(xy);
   const caster = casterAt(xy);
+  /** @type {any[]} the nearest of each kind */
   let [on, near, flat] = [null, null, null];
   for (const thing of things()) {
     const hit = isWanted(thing) ? hitOf(thing, at, caster, reach) : null;
@@ -40,13 +46,19 @@ export function pickAt(xy, isWanted = () => true, reach = NEAR_PX) {
 
 /**
  * All wanted things whose middle is in a box of the window, the first `most`, and how many there are.
+ *
+ * @param {Box} box
+ * @param {number} most
+ * @param {(thing: {node: any}) => boolean} [isWanted]
  */
 export function pickIn({ left, top, right, bottom }, most, isWanted = () => true) {
   const { left: x, top: y } = viser.canvas().getBoundingClientRect();
   const box = { left: left - x, top: top - y, right: right - x, bottom: bottom - y };
+  /** @type {any[]} */
   const picks = [];
   let total = 0;
   for (const thing of things().filter(isWanted)) {
+    /** @param {number | null} number */
     const take = (number) => {
       if (picks.length < most) picks.push(described({ ...thing, number }));
       total += 1;
@@ -56,11 +68,17 @@ export function pickIn({ left, top, right, bottom }, most, isWanted = () => true
   return { picks, total };
 }
 
+/**
+ * @param {any} thing
+ * @param {Vec2} at
+ * @param {Three} caster
+ * @param {number} reach
+ */
 function hitOf({ object, name }, at, caster, reach) {
   if (object.isText) return textAt(object, at);
   if (object.isPoints) return pointAt(object, at, reach);
   if (object.isLineSegments2) return lineAt(object, at, reach);
-  const [hit] = caster.intersectObject(object, false).sort((a, b) => a.distance - b.distance);
+  const [hit] = caster.intersectObject(object, false).sort((/** @type {Three} */ a, /** @type {Three} */ b) => a.distance - b.distance);
   if (!hit) return null;
   // Not the point of the hit, which is wrong for instanced meshes.
   const point = caster.ray.at(hit.distance, viser.camera().position.clone());
@@ -71,27 +89,50 @@ function hitOf({ object, name }, at, caster, reach) {
 }
 
 // Of what lies in one plane, a point is meant rather than a line, and that rather than a surface.
+/**
+ * @param {any} a
+ * @param {any} b
+ * @returns {boolean}
+ */
 function isNearer(a, b) {
   if (b && isLevel(a, b) && a.rank !== b.rank) return a.rank > b.rank;
   return !b || a.depth < b.depth;
 }
 
+/**
+ * @param {any} a
+ * @param {any} b
+ */
 const isLevel = (a, b) => Math.abs(a.depth - b.depth) < PLANE_PX * pixelAt(b.depth);
 
+/**
+ * @param {Three} object
+ * @returns {number}
+ */
 const rankOf = ({ isText, isPoints, isLineSegments2 }) =>
   isText || isPoints ? 2 : isLineSegments2 ? 1 : 0;
 
 // Pictures of one plane lie over each other by their layer.
+/**
+ * @param {any} a
+ * @param {any} b
+ * @returns {boolean}
+ */
 function isOver(a, b) {
   if (b && isLevel(a, b)) return a.layer >= b.layer;
   return isNearer(a, b);
 }
 
+/**
+ * @param {any} found
+ * @param {Three} [caster]
+ */
 function described(found, caster) {
   const { object, name, ordinal, number } = found;
   const { group, key, path, first } = found.node;
   const thing = { group, key, path, name, ordinal, object, number, color: null };
   const local = anchorOf(object, number);
+  /** @param {Vec3} xyz */
   const inThree = (xyz) =>
     viser.camera().position.clone().fromArray(xyz).applyMatrix4(object.matrixWorld);
   if (object.isText) return { ...thing, item: number, at: local, local, point: object.place };
@@ -108,17 +149,26 @@ function described(found, caster) {
 }
 
 // Where a line is next to the pointer.
+/**
+ * @param {{depth: number}} hit
+ * @param {Three} caster
+ */
 function onRay({ depth }, caster) {
   const forward = caster.ray.direction.clone().transformDirection(viser.camera().matrixWorldInverse);
   const start = depthOf(caster.ray.origin);
   return caster.ray.at((depth - start) / -forward.z, viser.camera().position.clone());
 }
 
-/** Where an item is in the coordinates of its object; of a mesh, its middle. */
+/**
+ * Where an item is in the coordinates of its object; of a mesh, its middle.
+ *
+ * @param {Three} object
+ * @param {number | null} number
+ */
 export function anchorOf(object, number) {
   if (object.isText) return object.local;
-  if (object.isPoints) return pointOf(object, number);
-  if (object.isLineSegments2) return lineOf(object, number)[0] ?? [];
+  if (object.isPoints) return pointOf(object, Number(number));
+  if (object.isLineSegments2) return lineOf(object, Number(number))[0] ?? [];
   if (number === null) {
     if (!object.geometry.boundingBox) object.geometry.computeBoundingBox();
     const { min, max } = object.geometry.boundingBox;
@@ -129,10 +179,16 @@ export function anchorOf(object, number) {
 }
 
 // Lines count when they are in the box as a whole: else a box on a grid would take most of it.
+/**
+ * @param {Three} object
+ * @param {Box} box
+ * @param {(number: number | null) => unknown} take
+ */
 function itemsIn(object, box, take) {
   if (object.isPoints) return pointsIn(object, box, take);
   if (object.isText) return isTextIn(object, box) ? take(object.number) : undefined;
   const lens = lensOf(object);
+  /** @param {Vec3} xyz */
   const isIn = (xyz) => {
     const place = xyz.length ? project(lens, xyz) : null;
     if (!place) return false;
@@ -140,7 +196,7 @@ function itemsIn(object, box, take) {
     return x >= box.left && x <= box.right && y >= box.top && y <= box.bottom;
   };
   if (object.isLineSegments2) {
-    for (let i = 0; i < lineCount(object); i++) if (lineOf(object, i).every(isIn)) take(i);
+    for (let i = 0; i < lineCount(object); i++) if (lineOf(object, i).every((end) => isIn(/** @type {Vec3} */ (end)))) take(i);
   } else if (object.instancesCount === undefined) {
     if (isIn(anchorOf(object, null))) take(null);
   } else {

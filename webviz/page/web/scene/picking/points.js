@@ -2,13 +2,22 @@
 
 import { lensOf } from "./lens.js";
 
+/** @import {Box, Three, Vec2} from "../../types.js" */
+
 const ROUND = 1000; // above this, the norm of its outline makes a point a square
 
 // The coordinates of the points that are drawn, which may be the first ones only.
+/** @param {Three} points */
 const drawn = ({ geometry: { attributes, drawRange } }) =>
   attributes.position?.array.subarray(0, 3 * Math.min(drawRange.count, attributes.position.count)) ?? [];
 
-/** The point under a place of the canvas, or the nearest within `near` pixels: `{number, depth, off}`. */
+/**
+ * The point under a place of the canvas, or the nearest within `near` pixels: `{number, depth, off}`.
+ *
+ * @param {Three} points
+ * @param {Vec2} at
+ * @param {number} near
+ */
 export function pointAt(points, [atX, atY], near) {
   const { m, v, wide, tall, dpr } = lensOf(points);
   const xyz = drawn(points);
@@ -42,7 +51,13 @@ export function pointAt(points, [atX, atY], near) {
   return found < 0 ? null : { number: found, depth: nearest, off };
 }
 
-/** Calls `take(number)` for each point whose middle is in a box of the canvas. */
+/**
+ * Calls `take(number)` for each point whose middle is in a box of the canvas.
+ *
+ * @param {Three} points
+ * @param {Box} box
+ * @param {(number: number) => unknown} take
+ */
 export function pointsIn(points, { left, top, right, bottom }, take) {
   const { m, v, wide, tall } = lensOf(points);
   const xyz = drawn(points);
@@ -58,11 +73,21 @@ export function pointsIn(points, { left, top, right, bottom }, take) {
   }
 }
 
-/** Where a point is in the coordinates of the cloud. */
+/**
+ * Where a point is in the coordinates of the cloud.
+ *
+ * @param {Three} points
+ * @param {number} number
+ */
 export const pointOf = (points, number) =>
   Array.from(points.geometry.attributes.position?.array.subarray(3 * number, 3 * number + 3) ?? []);
 
-/** The colour of a point, null if all have the same. */
+/**
+ * The colour of a point, null if all have the same.
+ *
+ * @param {Three} points
+ * @param {number} number
+ */
 export function colorOf(points, number) {
   const colors = points.geometry.attributes.color?.array;
   return colors ? Array.from(colors.subarray(3 * number, 3 * number + 3)) : null;

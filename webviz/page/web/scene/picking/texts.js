@@ -5,6 +5,8 @@ import { boxes } from "../labels.js";
 import * as viser from "../../viser_page.js";
 import { depthOf, lensOf, project } from "./lens.js";
 
+/** @import {Box, Three, Vec2} from "../../types.js" */
+
 const TEXT = /^(.*)\/(\d+)$/; // the name of a text: that of its node, and its number
 
 /**
@@ -12,9 +14,12 @@ const TEXT = /^(.*)\/(\d+)$/; // the name of a text: that of its node, and its n
  * mesh is of others: `{isText, number, local, place, rect}`. `number` counts the texts of a node,
  * `local` is in the coordinates of that, `place` in three.js', and `rect` around it, `[left, bottom,
  * width, height]` in metres along the screen.
+ *
+ * @returns {{object: any, name: string}[]}
  */
 export function texts() {
   const drawn = rectangles();
+  /** @type {any[]} */
   const found = [];
   for (const name of drawn.size ? Object.keys(viser.nodes()) : []) {
     const [, outer, number] = TEXT.exec(name) ?? [];
@@ -28,10 +33,12 @@ export function texts() {
   return found;
 }
 
+/** @param {Three} place */
 const keyOf = ({ x, y, z }) => [x, y, z].map(Math.fround).join();
 
 // Of all texts that are shown, by where they are.
 function rectangles() {
+  /** @type {Map<string, any>} */
   const found = new Map();
   for (const { geometry, material } of boxes()) {
     const { aLabelIndex: index, aRect: rect, aParams } = geometry.attributes;
@@ -47,7 +54,11 @@ function rectangles() {
   return found;
 }
 
-/** The corners of the rectangle around a text, in three.js' coordinates. */
+/**
+ * The corners of the rectangle around a text, in three.js' coordinates.
+ *
+ * @param {any} text
+ */
 export function cornersOf({ place, rect: [left, bottom, wide, tall] }) {
   const { elements: m } = viser.camera().matrixWorld;
   const [right, up] = [0, 4].map((at) => place.clone().set(m[at], m[at + 1], m[at + 2]));
@@ -55,7 +66,12 @@ export function cornersOf({ place, rect: [left, bottom, wide, tall] }) {
     place.clone().addScaledVector(right, left + x * wide).addScaledVector(up, bottom + y * tall));
 }
 
-/** The text under a place of the canvas, or null: `{number, depth, off, point}`. */
+/**
+ * The text under a place of the canvas, or null: `{number, depth, off, point}`.
+ *
+ * @param {any} text
+ * @param {Vec2} at
+ */
 export function textAt(text, [atX, atY]) {
   const ends = cornersOf(text).map((corner) => onCanvas(corner));
   const [lower, , upper] = ends;
@@ -65,11 +81,20 @@ export function textAt(text, [atX, atY]) {
   return isOn ? { number, depth: depthOf(place), off: 0, point: place } : null;
 }
 
-/** True if the middle of a text is in a box of the canvas. */
+/**
+ * True if the middle of a text is in a box of the canvas.
+ *
+ * @param {any} text
+ * @param {Box} box
+ */
 export function isTextIn({ place }, { left, top, right, bottom }) {
   const at = onCanvas(place);
   return at !== null && at[0] >= left && at[0] <= right && at[1] >= top && at[1] <= bottom;
 }
 
+/**
+ * @param {Three} point
+ * @returns {number[] | null}
+ */
 const onCanvas = (point) =>
   project(lensOf({ matrixWorld: viser.camera().matrixWorld.clone().identity() }), point.toArray());

@@ -4,6 +4,8 @@ import constants from "../../constants.js";
 import * as viser from "../../viser_page.js";
 import { texts } from "./texts.js";
 
+/** @import {Three} from "../../types.js" */
+
 const { ROOT, TILE_PREFIX, PART_PREFIX, BLOCK_PREFIX, POINTS_PER_PART } = constants;
 
 /**
@@ -13,7 +15,9 @@ const { ROOT, TILE_PREFIX, PART_PREFIX, BLOCK_PREFIX, POINTS_PER_PART } = consta
  */
 export function things() {
   const names = new Map(Object.entries(viser.nodes()).map(([name, node]) => [node, name]));
+  /** @type {Map<string, number>} */
   const counts = new Map();
+  /** @type {any[]} */
   const found = [];
   visit(viser.node(ROOT), ROOT);
   for (const text of texts()) {
@@ -22,6 +26,10 @@ export function things() {
   }
   return found;
 
+  /**
+   * @param {Three} object
+   * @param {string} outer
+   */
   function visit(object, outer) {
     if (!object.visible) return;
     const name = names.get(object) ?? outer;
@@ -38,18 +46,25 @@ export function things() {
 /** Finds among `things` the object of a node by its name and ordinal; null for none. */
 export function finder() {
   const objects = new Map(things().map(({ object, name, ordinal }) => [`${ordinal} ${name}`, object]));
-  return (name, ordinal) => objects.get(`${ordinal} ${name}`) ?? null;
+  return (/** @type {string} */ name, /** @type {number} */ ordinal) => objects.get(`${ordinal} ${name}`) ?? null;
 }
 
 // Without a `raycast` of its own an object is a second pass of another, as viser draws lines.
+/**
+ * @param {Three} object
+ * @returns {boolean}
+ */
 const isPickable = (object) =>
   Boolean(object.geometry) && (object.isPoints || (object.isMesh && object.raycast.length > 0));
 
+/** @param {string} name */
 export const isTile = (name) => name.includes(`/${TILE_PREFIX}`);
 
 /**
  * The node of the viewer that a node of viser is or is part of: `{group, key, path, first}`; `first` is
  * the number of its first point. Null for what is not of a display.
+ *
+ * @param {string} name
  */
 export function nodeNamed(name) {
   const [, , group, key, part = ""] = name.split("/");
@@ -64,4 +79,5 @@ export function nodeNamed(name) {
   }
 }
 
+/** @param {string} segment */
 const text = (segment) => (segment === "%" ? "" : decodeURIComponent(segment));
