@@ -8,6 +8,7 @@ import msgspec
 import pytest
 from bags import START_NS, Bag, ns
 
+import webviz
 from webviz.engine.doctor.registry import installed_checks
 from webviz.shell.cli import main
 from webviz.shell.doctor.report import DoctorReport, schema_text
@@ -88,3 +89,14 @@ def test_a_fault_that_would_end_ros_is_found_before_it_starts(
     assert main(["doctor", "--json"]) == 3
     report = msgspec.json.decode(capsys.readouterr().out, type=DoctorReport)
     assert report.findings[0].id == "ENV001"
+
+
+def test_a_viewer_is_examined_on_request_and_a_recording_notes_the_moment(run_bag: Path) -> None:
+    with webviz.Viewer(bag=run_bag, port=0, fixed_frame="odomm") as viewer:
+        viewer.seek(4.0)
+        (finding,) = [each for each in viewer.doctor() if each.id == "TF002"]
+        assert finding.button == webviz.OtherFixedFrame("odom")
+        (event,) = [each for each in viewer.state.found if each.name == "TF002"]
+        assert event.at_ns == START_NS + ns(4.0)
+        viewer.fixed_frame = "odom"
+        assert "TF002" not in {each.id for each in viewer.doctor()}

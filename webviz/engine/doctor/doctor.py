@@ -9,7 +9,8 @@ from concurrent.futures import Future
 from dataclasses import replace
 
 from webviz.api.environment import Environment
-from webviz.api.finding import Finding
+from webviz.api.finding import Finding, Severity
+from webviz.api.status import Level
 from webviz.data.disk import in_thread
 from webviz.engine.doctor.environment import look_around, lost_datagrams
 from webviz.engine.doctor.observing import observe
@@ -18,13 +19,14 @@ from webviz.engine.doctor.registry import installed_checks
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core
 from webviz.engine.state import State
-from webviz.sources.playable import Playable
+from webviz.sources.past_state import Event
 
 EVERY_S = 1.0
 """Interval between the beginnings of two rounds."""
 SLICE_S = 0.001
 """Time for checks in one turn; the one that exceeds it still ends."""
 
+ASKED_S = 10.0
 LOOK_S = 10.0
 """Interval between two looks at this machine."""
 
@@ -46,20 +48,28 @@ class Doctor:
         self._core = core
         self._displays = displays
         self._checks = [check() for check in installed_checks()]
-        self._next_s = 0.0
+        self._began = -EVERY_S, -EVERY_S
         self._round: Iterator[None] | None = None
         self._since: Mapping[Key, int] = {}
         self.slice_s = SLICE_S
         """Time for checks in one turn."""
         self.environment: Environment | None = None
         """This machine, None until it was looked at."""
+        self._asked_until_s = 0.0
         self._looking: Future[Environment] | None = None
         self._next_look_s = 0.0
         self._lost_before = lost_datagrams()
         self.rounds = 0
         """Number of completed rounds."""
+        self._noted: dict[Key, Event] = {}
+        self.events: Sequence[Event] = ()
+        """When findings began, as far as the recording was shown; each is noted once."""
         self.findings: Sequence[Finding] = ()
         """Of the last round, the one to repair first at the beginning."""
+
+    def ask(self) -> None:
+        """Examine for some seconds even if nobody looks, from any thread."""
+        self._asked_until_s = time.monotonic() + ASKED_S
 
     def examine(self, state: State) -> Sequence[Finding]:
         """Continue the round, or begin another when it is time; return the findings of the last.
@@ -67,16 +77,16 @@ class Doctor:
         Args:
             state: of this turn.
         """
-        if not self._core.is_watched():
+        if not (self._core.is_watched() or time.monotonic() < self._asked_until_s):
             self._round = None
         elif self._round is not None or self._is_due():
             self._round = self._round or self._examined(state)
             self._continue(self._round)
         return self.findings
 
-    def _environment(self) -> Environment | None:
+    def _environment(self, state: State) -> Environment | None:
         """This machine as it was some seconds ago, None with a bag; a thread looks at it."""
-        if isinstance(self._core.source, Playable):
+        if state.playback is not None and not state.playback.is_live:
             return None
         looking = self._looking
         if looking is not None and looking.done():
@@ -90,10 +100,11 @@ class Doctor:
         return self.environment
 
     def _is_due(self) -> bool:
-        now_s = self._core.clock()
-        if 0.0 < self._next_s - now_s <= EVERY_S:
+        """Return whether a second has passed, of a recording or, while it is paused, of waiting."""
+        now = self._core.clock(), time.monotonic()
+        if all(0.0 <= at - before < EVERY_S for at, before in zip(now, self._began, strict=True)):
             return False
-        self._next_s = now_s + EVERY_S
+        self._began = now
         return True
 
     def _continue(self, checks: Iterator[None]) -> None:
@@ -106,7 +117,7 @@ class Doctor:
     def _examined(self, state: State) -> Iterator[None]:
         """Run all checks on what is seen now, with a pause after each."""
         core = self._core
-        seen = observe(core, self._displays, state, self._environment())
+        seen = observe(core, self._displays, state, self._environment(state))
         found: list[Finding] = []
         for check in self._checks:
             found += core.guard.attempt(f"Check {check.id}", [], lambda c=check: list(c.find(seen)))
@@ -124,6 +135,18 @@ class Doctor:
             for each in ordered(steady)
         )
         self.rounds += 1
+        if state.playback is not None:
+            at_ns = state.playback.start_ns + round(state.playback.position_s * 1e9)
+            self._note(at_ns)
+
+    def _note(self, at_ns: int) -> None:
+        """Note the findings that are new at a position of the recording."""
+        new = [each for each in self.findings if each.severity > Severity.NOTE]
+        for each in new:
+            level = Level.ERROR if each.severity is Severity.ERROR else Level.WARN
+            self._noted.setdefault(_key(each), Event(at_ns, level, each.id, each.cause))
+        if len(self._noted) != len(self.events):
+            self.events = tuple(sorted(self._noted.values(), key=lambda event: event.at_ns))
 
 
 def _key(finding: Finding) -> Key:

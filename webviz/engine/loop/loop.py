@@ -293,7 +293,8 @@ class FrameLoop:
             statuses=statuses | crashed | self._showing.statuses,
             warned=self._playback.warned(state.rows),
         )
-        return replace(seen, findings=self._guard.attempt("Doctor", (), self.doctor.examine, seen))
+        findings = self._guard.attempt("Doctor", (), self.doctor.examine, seen)
+        return replace(seen, findings=findings, found=self.doctor.events)
 
     def is_busy(self) -> bool:
         """Return whether a display is loading something that it has not drawn yet."""

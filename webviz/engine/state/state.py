@@ -317,6 +317,7 @@ class State:
         logged: warnings and errors that its nodes logged, by time.
         warned: when displays began to warn, as far as it was shown, by time.
         findings: of the doctor, the one to repair first at the beginning.
+        found: when findings began, as far as a recording was shown, by time.
         memory: what is remembered of live topics, None for a recording.
         recording: the one that goes on, None for none.
         black_box: recordings that the rules of the config made, None for a bag.
@@ -351,6 +352,7 @@ class State:
     logged: Sequence[Event] = ()
     warned: Sequence[Event] = ()
     findings: Sequence[Finding] = ()
+    found: Sequence[Event] = ()
     memory: MemoryState | None = None
     recording: RecordingState | None = None
     black_box: BlackBoxState | None = None

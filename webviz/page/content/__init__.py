@@ -12,6 +12,7 @@ from collections.abc import Callable, Mapping
 from webviz.engine.state import State
 from webviz.page.content.clock import clock
 from webviz.page.content.displays import displays, rate
+from webviz.page.content.doctor import findings
 from webviz.page.content.goals import goals, routes
 from webviz.page.content.handles import handles
 from webviz.page.content.history import history
@@ -39,6 +40,7 @@ MAKERS: Mapping[str, Callable[[State, str], PageStore | None]] = {
     "driving": driving,
     "events": events,
     "file": file,
+    "findings": findings,
     "frames": frames,
     "goals": goals,
     "graph": graph,

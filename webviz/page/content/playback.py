@@ -80,10 +80,11 @@ LoggedEvent = tuple[float, LevelName, str]
 
 
 class EventsStore(PageStore, frozen=True):
-    """Warnings and errors in the recording, logged by nodes and of displays, each by time."""
+    """Warnings and errors: logged by nodes, of displays and of the doctor, each by time."""
 
     logged: Sequence[LoggedEvent]
     displays: Sequence[LoggedEvent]
+    findings: Sequence[LoggedEvent]
 
 
 def playback(state: State, _: str) -> PlaybackStore | None:
@@ -141,7 +142,7 @@ def recorded(state: State, _: str) -> RecordedStore:
 
 
 def events(state: State, _: str) -> EventsStore | None:
-    """Warnings and errors in the recording."""
+    """Warnings and errors in the recording: logged, of displays, and of the doctor."""
     recording = state.playback
     if recording is None:
         return None
@@ -149,6 +150,7 @@ def events(state: State, _: str) -> EventsStore | None:
     return EventsStore(
         logged=[_event(event, start_ns) for event in state.logged],
         displays=[_event(event, start_ns) for event in state.warned],
+        findings=[_event(event, start_ns) for event in state.found],
     )
 
 

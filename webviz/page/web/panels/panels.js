@@ -1,13 +1,15 @@
 // The panels in the order of their tabs.
 //
 // Each has a `name`, a `title`, and `open(element)`, which fills the tab when it is shown and returns
-// what is to be done when it is not any more.
+// what is to be done when it is not any more. The tab of one that `isOnDemand` is there while it is
+// open only.
 
 import { displays } from "./displays/displays.js";
+import { doctor } from "./doctor.js";
 import { selectionPanel } from "./selection.js";
 import { toolsPanel } from "./tools.js";
 import { topics } from "./topics.js";
 import { transforms } from "./transforms.js";
 import { views } from "./views.js";
 
-export const panels = [displays, selectionPanel, views, topics, transforms, toolsPanel];
+export const panels = [displays, selectionPanel, views, topics, transforms, toolsPanel, doctor];

@@ -7,7 +7,7 @@ import { command } from "./commands.js";
 import * as files from "./files.js";
 import * as history from "./history.js";
 import { openKeys } from "./key_help.js";
-import { fold } from "./layout.js";
+import { fold, openPanel } from "./layout.js";
 import { openPeople } from "./people.js";
 import { setTheme } from "./theme.js";
 
@@ -48,6 +48,7 @@ export const actions = {
   },
   add: { name: "Add display…", icon: "plus", key: "Insert", group: "Edit", needs: "AddDisplay", run: () => openAdd() },
   people: { name: "People…", icon: "eye", group: "View", run: () => openPeople() },
+  doctor: { name: "Doctor", icon: "pulse", group: "View", run: () => openPanel("doctor") },
   fullscreen: { name: "Full screen", icon: "fullscreen", group: "View", run: toggleFullScreen },
   fold: {
     name: "Show or hide the panels",

@@ -6,8 +6,10 @@ import { icon } from "../icons.js";
 import { actions, item } from "./actions.js";
 import * as files from "./files.js";
 import * as history from "./history.js";
-import { fold } from "./layout.js";
+import { fold, openPanel } from "./layout.js";
 import { openMenuBelow } from "./menu.js";
+import { isSevere } from "../panels/doctor.js";
+import { watch } from "../stores.js";
 import { roleMark } from "./people.js";
 import { theme } from "./theme.js";
 
@@ -46,12 +48,36 @@ export function build() {
     mark,
     roleMark(),
     el("span", { class: "wv-gap" }),
+    badge(),
     button("search", "Commands", "Ctrl+k", actions.commands.run),
     step("undo", actions.undo),
     step("redo", actions.redo),
     more,
     button("fold", "Hide the panels", "Ctrl+b", () => fold(true)),
   );
+}
+
+// The number of findings, while there are any.
+function badge() {
+  const count = el("span");
+  const made = el(
+    "button",
+    { type: "button", class: "wv-icon wv-doctor-badge", hidden: true, onclick: () => openPanel("doctor") },
+    el("span", { class: "wv-dot", "aria-hidden": "true" }),
+    count,
+  );
+  watch("findings", (values) => {
+    const severe = (values.get("all") ?? []).filter(isSevere);
+    const [first] = severe;
+    setText(count, String(severe.length));
+    set(made, {
+      hidden: !first,
+      "data-level": first?.level,
+      "aria-label": `Doctor: ${severe.length === 1 ? "1 finding" : `${severe.length} findings`}`,
+      "data-tip": first?.cause,
+    });
+  });
+  return made;
 }
 
 function button(iconName, label, key, run) {
@@ -107,6 +133,7 @@ function menu(owner) {
     item(actions.image),
     item(actions.fullscreen, { checked: document.fullscreenElement ? true : undefined }),
     item(actions.people),
+    item(actions.doctor),
     { label: "Undo and redo steps…", icon: "clock", run: () => history.openSteps(owner) },
     null,
     item(actions.dark, isTheme("dark")),

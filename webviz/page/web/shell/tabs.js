@@ -34,9 +34,9 @@ export function tabs() {
     const change = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
     if (!change) return;
     event.preventDefault(); // else the list is scrolled, too
-    const next = [...list.children].indexOf(document.activeElement) + change;
-    const at = (next + list.children.length) % list.children.length;
-    const button = /** @type {HTMLElement} */ (list.children[at]);
+    const seen = /** @type {HTMLElement[]} */ ([...list.children]).filter((each) => !each.hidden);
+    const next = seen.indexOf(/** @type {HTMLElement} */ (document.activeElement)) + change;
+    const button = seen[(next + seen.length) % seen.length];
     button.focus();
     button.click();
   });
@@ -57,7 +57,7 @@ export function tabs() {
     content.replaceChildren();
     shown = panel;
     mark();
-    bringIntoSight(buttons.get(panel.name));
+    fit();
     set(content, { "aria-labelledby": `wv-tab-${panel.name}` });
     remember("tab", panel.name);
     close = panel.open(content) ?? (() => {});
@@ -81,6 +81,8 @@ export function tabs() {
   function mark() {
     for (const [name, each] of buttons) {
       const isShown = name === shown?.name;
+      const panel = all.find((one) => one.name === name);
+      set(each, { hidden: Boolean(panel?.isOnDemand) && !isShown });
       set(each, { "aria-selected": String(isShown), tabindex: isShown ? 0 : -1 });
     }
   }

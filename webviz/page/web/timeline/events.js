@@ -10,13 +10,14 @@ const CLOSE_S = 0.001; // positions are given in milliseconds
 const LEVELS = { warn: "Warning", error: "Error" };
 
 /**
- * Both lists of the store "events", a Map, by time.
+ * All lists of the store "events", a Map, by time.
  *
  * @param {ValuesOf<"events">} events
  * @returns {LoggedEvent[]}
  */
 export function byTime(events) {
-  return [...(events.get("logged") ?? []), ...(events.get("displays") ?? [])].sort((a, b) => a[0] - b[0]);
+  const lists = [events.get("logged"), events.get("displays"), events.get("findings")];
+  return lists.flatMap((list) => [...(list ?? [])]).sort((a, b) => a[0] - b[0]);
 }
 
 /**

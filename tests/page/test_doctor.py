@@ -1,0 +1,88 @@
+"""The panel "Doctor", the badge of the toolbar, and findings on the timeline."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.page.conftest import Tab
+from webviz import Finding, OtherFixedFrame, Severity, Symptom
+from webviz.engine.commands import SetFixedFrame
+from webviz.engine.state import Row, State
+from webviz.page.content.doctor import findings
+from webviz_displays.grid import Grid
+
+HOSTILE = "<img src=x onerror=alert(1)>"
+MISSPELT = Finding(
+    id="TF002",
+    cause='The fixed frame "mapp" does not exist, but "map" does.',
+    remedy='Use "map" as the fixed frame.',
+    severity=Severity.ERROR,
+    command="ros2 run tf2_tools view_frames",
+    button=OtherFixedFrame("map"),
+    explains=(Symptom("", "Fixed Frame"), Symptom("1", "Transform")),
+)
+NOTE = Finding(
+    id="NET005",
+    cause=f"{HOSTILE} takes packets of 1400 bytes.",
+    remedy="Check the path.",
+    subject="eth0",
+    severity=Severity.NOTE,
+)
+
+
+@pytest.fixture
+def panel(tab: Tab) -> Iterator[Tab]:
+    """The tab with the panel open."""
+    tab.page.keyboard.press("Control+k")
+    tab.page.keyboard.type("Doctor")
+    tab.page.keyboard.press("Enter")
+    tab.turn()
+    yield tab
+    tab.loop.state = replace(tab.loop.state, findings=())
+    tab.turn()
+    tab.show_tab("Displays")
+
+
+def show(tab: Tab, *found: Finding) -> None:
+    row = Row("1", "Grid", Grid(name="Scan"), "Scan", {})
+    tab.loop.show(row, findings=found)
+    tab.turn()
+
+
+def test_findings_have_causes_remedies_and_what_they_explain(panel: Tab) -> None:
+    page = panel.page
+    expect(page.get_by_text("All is well")).to_be_visible()
+    show(panel, MISSPELT, NOTE)
+    expect(page.locator(".wv-finding")).to_have_count(2)
+    first = page.locator(".wv-finding").first
+    expect(first).to_contain_text('TF002The fixed frame "mapp" does not exist, but "map" does.')
+    expect(first).to_contain_text("Explains Fixed Frame, Scan: Transform.")
+    expect(first.locator("code").first).to_have_text("ros2 run tf2_tools view_frames")
+    expect(page.locator(".wv-finding").last).to_contain_text(HOSTILE)
+    first.get_by_text("Why, and how to repair it").click()
+    expect(first.get_by_text("Everything is drawn in the fixed frame")).to_be_visible()
+    first.get_by_role("button", name="Use map").click()
+    panel.wait_for(lambda: panel.loop.commands[-1:] == [SetFixedFrame("map")])
+    show(panel)
+    expect(page.get_by_text("All is well")).to_be_visible()
+
+
+def test_the_badge_counts_what_is_more_than_a_note(panel: Tab) -> None:
+    page = panel.page
+    panel.show_tab("Displays")
+    badge = page.locator(".wv-doctor-badge")
+    show(panel, NOTE)
+    expect(badge).to_be_hidden()
+    show(panel, MISSPELT, NOTE)
+    expect(badge).to_have_accessible_name("Doctor: 1 finding")
+    badge.click()
+    expect(page.locator(".wv-finding")).to_have_count(2)
+
+
+def test_a_finding_without_a_check_has_no_documentation() -> None:
+    (told,) = findings(State(findings=(replace(NOTE, id="DATA999"),)), "").all
+    assert (told.why, told.level, told.button) == ((), "ok", None)

@@ -1,0 +1,91 @@
+"""Findings of the doctor, for its panel and the badge of the toolbar."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping, Sequence
+
+import msgspec
+
+from webviz.api.check import CheckText
+from webviz.api.finding import ChangeDisplay, Finding, Severity
+from webviz.api.status import Level, Status
+from webviz.engine.doctor.registry import installed_checks
+from webviz.engine.state import State
+from webviz.page.content.displays import RemedyButton, remedy_of
+from webviz.page.content.forms import brief
+from webviz.page.content.store import PageStore
+
+LEVELS = {Severity.NOTE: "ok", Severity.WARNING: "warn", Severity.ERROR: "error"}
+
+
+class ShownFinding(msgspec.Struct, frozen=True):
+    """A finding, see `webviz.api.finding.Finding`.
+
+    Args:
+        level: "ok" for a note, "warn" or "error".
+        explains: names of displays and of their statuses.
+        button: that repairs it, None if none does.
+        why, repair: paragraphs of the documentation of its check.
+    """
+
+    id: str
+    subject: str
+    level: str
+    cause: str
+    remedy: str
+    command: str
+    explains: Sequence[str]
+    button: RemedyButton | None
+    why: Sequence[str]
+    repair: Sequence[str]
+
+
+class FindingsStore(PageStore, frozen=True):
+    """The findings, the one to repair first at the beginning."""
+
+    all: Sequence[ShownFinding]
+
+
+def findings(state: State, _: str) -> FindingsStore:
+    """The findings of the last round."""
+    names = {row.id: row.name for row in state.rows}
+    return FindingsStore([_finding(each, names) for each in state.findings])
+
+
+def _finding(finding: Finding, names: Mapping[str, str]) -> ShownFinding:
+    explained = [
+        ": ".join(filter(None, (names.get(display, ""), status)))
+        for display, status in finding.explains
+    ]
+    why, repair = _texts(finding.id)
+    return ShownFinding(
+        id=finding.id,
+        subject=brief(finding.subject),
+        level=LEVELS[finding.severity],
+        cause=brief(finding.cause),
+        remedy=brief(finding.remedy),
+        command=brief(finding.command),
+        explains=[brief(each) for each in explained],
+        button=_button(finding),
+        why=why,
+        repair=repair,
+    )
+
+
+def _button(finding: Finding) -> RemedyButton | None:
+    """The change that repairs it, as for statuses."""
+    button = finding.button
+    if isinstance(button, ChangeDisplay):
+        return remedy_of(Status(Level.WARN, "", button.remedy), button.display)
+    return remedy_of(Status(Level.WARN, "", button), "") if button else None
+
+
+@functools.cache
+def _texts(id: str) -> tuple[Sequence[str], Sequence[str]]:
+    """Return why a check matters, and how to repair what it finds."""
+    for check in installed_checks():
+        if check.id == id:
+            text = CheckText(check)
+            return text.why, text.repair
+    return (), ()
