@@ -86,7 +86,7 @@ class Doctor:
 
     def _environment(self, state: State) -> Environment | None:
         """This machine as it was some seconds ago, None with a bag; a thread looks at it."""
-        if state.playback is not None and not state.playback.is_live:
+        if state.playback is not None and state.playback.is_live is None:
             return None
         looking = self._looking
         if looking is not None and looking.done():

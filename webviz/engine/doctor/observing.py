@@ -48,7 +48,7 @@ def observe(
         is_simulated=state.clock.is_simulated,
         clock_hz=state.clock.clock_hz,
         is_paused=state.clock.is_paused,
-        is_recorded=state.playback is not None and not state.playback.is_live,
+        is_recorded=state.playback is not None and state.playback.is_live is None,
         environment=environment,
     )
 
