@@ -1,0 +1,125 @@
+"""Faults of clocks and stamps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import examining
+import pytest
+
+from webviz import Finding
+from webviz.api.finding import CauseLevel
+from webviz.api.offer import Offer, Publisher
+from webviz.shell.testing.harness import Harness
+from webviz.shell.testing.source import SECOND
+from webviz_displays.laser_scan import LaserScan
+
+SCAN = "sensor_msgs/msg/LaserScan"
+WALL_NS = 1_700_000_000 * SECOND
+SIMULATOR = Publisher("/simulator", "rosgraph_msgs/msg/Clock", "reliable", "volatile")
+PLAYER = Publisher("/player", "rosgraph_msgs/msg/Clock", "reliable", "volatile")
+
+Make = Callable[..., Harness]
+
+
+@pytest.fixture
+def stage(webviz_stage: Make) -> Harness:
+    """A viewer on wall time."""
+    stage = webviz_stage(LaserScan(), fixed_frame="map")
+    stage.source.now = WALL_NS
+    stage.turn()
+    return stage
+
+
+def examined(stage: Harness, seconds: float = 1.1) -> dict[str, Finding]:
+    """The findings about time."""
+    return examining.examined(stage, CauseLevel.TIME, seconds)
+
+
+def scans(stage: Harness, stamp_ns: Callable[[int], int], count: int = 6) -> None:
+    """Publish scans, stamped as a function of the time."""
+    for _ in range(count):
+        stage.source.now += SECOND // 4
+        stage.clock += 0.25
+        sec, nanosec = divmod(stamp_ns(stage.source.now), SECOND)
+        values = {
+            "header": {"frame_id": "map", "stamp": {"sec": sec, "nanosec": nanosec}},
+            "angle_max": 1.0,
+            "angle_increment": 0.5,
+            "range_max": 10.0,
+            "ranges": [1.0, 2.0, 1.5],
+        }
+        stage.publish("/scan", SCAN, values)
+        stage.turn()
+
+
+@pytest.mark.parametrize(
+    ("id", "stamp_ns"),
+    [
+        ("TIME004 /scan", lambda now: now - WALL_NS + SECOND),
+        ("TIME006 /scan", lambda now: 0),
+        ("TIME007 /scan", lambda now: WALL_NS),
+        ("TIME008 /scan", lambda now: now + 5 * SECOND),
+        ("TIME009 /scan", lambda now: now - 5 * SECOND),
+        ("", lambda now: now - SECOND // 20),
+    ],
+)
+def test_stamps(stage: Harness, id: str, stamp_ns: Callable[[int], int]) -> None:
+    scans(stage, stamp_ns)
+    assert [*examined(stage)] == ([id] if id else [])
+
+
+def clocks(stage: Harness, *publishers: Publisher) -> None:
+    """Let these nodes publish /clock."""
+    stage.source.known["/clock"] = Offer(publishers, None)
+    stage.source.clock_count = 10
+
+
+def test_a_clock_that_is_missing_ends_or_is_there_twice(stage: Harness) -> None:
+    clocks(stage)
+    stage.source.now = 0
+    assert [*examined(stage, 0.0001)] == []
+    stage.source.now = 0
+    found: dict[str, Finding] = {}
+    for _ in range(6):
+        stage.source.now, stage.clock = 0, stage.clock + 1.1
+        stage.turn()
+        found = examining.by_key(stage.viewer.snapshot().findings, CauseLevel.TIME)
+    assert [*found] == ["TIME001"]
+    clocks(stage, SIMULATOR, PLAYER)
+    assert [*examined(stage)] == ["TIME003"]
+    clocks(stage, SIMULATOR)
+    assert examined(stage) == {}
+    clocks(stage)
+    for _ in range(6):
+        stage.clock += 1.1
+        stage.turn()
+        found = examining.by_key(stage.viewer.snapshot().findings, CauseLevel.TIME)
+    assert [*found] == ["TIME002"]
+
+
+def test_a_node_on_wall_time(stage: Harness) -> None:
+    clocks(stage, SIMULATOR)
+    stage.source.now = 100 * SECOND
+    stage.turn()
+    scans(stage, lambda now: WALL_NS + now)
+    assert [*examined(stage)] == ["TIME005 /scan"]
+
+
+def test_transforms_of_another_clock(stage: Harness) -> None:
+    for _ in range(3):
+        stage.source.now += SECOND // 4
+        stage.transform("map", "odom", stamp_ns=stage.source.now - 60 * SECOND)
+        stage.turn()
+    found = examined(stage)
+    assert [*found] == ["TIME010"]
+    assert [each.status for each in found["TIME010"].explains] == ["Clocks"]
+
+
+def test_data_and_transforms_of_two_clocks(stage: Harness) -> None:
+    stage.transform("map", "base_link", stamp_ns=50 * SECOND)
+    stage.transform("map", "base_link", stamp_ns=51 * SECOND)
+    sec, _ = divmod(stage.source.now, SECOND)
+    stage.publish("/scan", SCAN, {"header": {"frame_id": "base_link", "stamp": {"sec": sec}}})
+    stage.turn()
+    assert "TIME011 base_link" in examined(stage)

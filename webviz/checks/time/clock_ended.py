@@ -1,0 +1,38 @@
+"""Simulated time whose clock has ended."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from webviz.api.check import Check
+from webviz.api.finding import Finding
+from webviz.api.observation import Observation
+
+
+class ClockEnded(Check):
+    """/clock has ended.
+
+    Simulated time stands still, and /clock has no publisher any more.
+
+    Why:
+        All nodes with use_sim_time stand still with it: timers do not run, and stamps stay the
+        same.
+
+    Repair:
+        Start the simulator or the playback of the bag again.
+    """
+
+    id = "TIME002"
+
+    def find(self, seen: Observation) -> Iterator[Finding]:
+        """Yield a finding if so."""
+        is_over = bool(seen.now_ns) and seen.is_simulated and not seen.nodes_of("/clock")
+        explains = seen.symptom("Time")
+        if is_over and explains and not seen.is_recorded:
+            yield self.found(
+                f"Simulated time stands at {seen.now_ns / 1e9:.1f} s, since /clock has ended.",
+                "Start the simulator or the playback of the bag again.",
+                evidence={"time_s": seen.now_ns / 1e9},
+                command="ros2 topic info /clock --verbose",
+                explains=explains,
+            )

@@ -1,0 +1,43 @@
+"""Simulated time without a clock."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from webviz.api.check import Check
+from webviz.api.finding import Finding, Severity
+from webviz.api.observation import Observation
+
+
+class ClockMissing(Check):
+    """use_sim_time without /clock.
+
+    webviz follows simulated time, and no message has arrived on /clock.
+
+    Why:
+        With use_sim_time the time of a node is that of /clock. Until its first message there is no
+        time, so that nothing with a stamp can be placed.
+
+    Repair:
+        Start the simulator, or play the bag with its clock:
+
+            ros2 bag play run --clock 100
+    """
+
+    id = "TIME001"
+
+    def find(self, seen: Observation) -> Iterator[Finding]:
+        """Yield a finding if so."""
+        if seen.now_ns or seen.is_recorded:
+            return
+        nodes = seen.nodes_of("/clock")
+        yield self.found(
+            f"{nodes} publishes /clock, but has sent nothing."
+            if nodes
+            else "webviz follows simulated time, but nothing publishes /clock.",
+            "Start or resume the simulator, or start webviz without use_sim_time.",
+            severity=Severity.ERROR,
+            evidence={"publishers": nodes},
+            command="ros2 topic hz /clock",
+            explains=seen.symptom("Time"),
+        )

@@ -1,0 +1,44 @@
+"""Simulated time that webviz does not follow."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from webviz.api.check import Check
+from webviz.api.finding import Finding
+from webviz.api.observation import Observation
+from webviz.data.transforms.reasons import WALL_NS, YEAR_NS
+
+
+class SimulatedData(Check):
+    """Simulated data and wall time.
+
+    Data is stamped with simulated time, and webviz follows the clock of this computer.
+
+    Why:
+        Ages and delays are meaningless then, and nothing that has stopped is noticed.
+
+    Repair:
+        Start webviz with simulated time:
+
+            webviz --ros-args -p use_sim_time:=true
+    """
+
+    id = "TIME004"
+
+    def find(self, seen: Observation) -> Iterator[Finding]:
+        """Yield a finding for each such topic."""
+        if seen.is_simulated or seen.is_recorded or seen.now_ns < WALL_NS:
+            return
+        for display, each in seen.inputs():
+            stamp_ns = each.stamps[-1][0] if each.stamps else 0
+            if 0 < stamp_ns < YEAR_NS:
+                yield self.found(
+                    f"{each.topic} is stamped with simulated time, {stamp_ns / 1e9:.1f} s, but "
+                    "webviz follows the clock of this computer.",
+                    "Start webviz with use_sim_time.",
+                    subject=each.topic,
+                    evidence={"topic": each.topic, "stamp_s": stamp_ns / 1e9},
+                    command="webviz --ros-args -p use_sim_time:=true",
+                    explains=(*display.symptom("Transform"), *seen.symptom("Clocks")),
+                )

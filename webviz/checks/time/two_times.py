@@ -1,0 +1,39 @@
+"""Data and transforms of two clocks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from webviz.api.check import Check
+from webviz.api.finding import Finding, Severity
+from webviz.api.observation import Observation
+from webviz.data.transforms.reasons import Kind
+
+
+class TwoTimes(Check):
+    """Data and transforms of two clocks.
+
+    The stamps of data and of its transforms cannot come from one clock.
+
+    Why:
+        One of the nodes uses simulated time and the other wall time, or two machines disagree about
+        the date.
+
+    Repair:
+        Set use_sim_time alike for all nodes, or synchronise the clocks.
+    """
+
+    id = "TIME011"
+
+    def find(self, seen: Observation) -> Iterator[Finding]:
+        """Yield a finding for each such link."""
+        for symptom, reason in seen.lost(Kind.CLOCKS):
+            yield self.found(
+                f'Data in "{reason.frame}" and the transform of "{reason.link}" are of two clocks.',
+                "Set use_sim_time alike for all nodes, or synchronise the clocks of the machines.",
+                subject=reason.link,
+                severity=Severity.ERROR,
+                evidence={"frame": reason.frame, "link": reason.link},
+                command="ros2 param list --filter use_sim_time",
+                explains=(symptom,),
+            )
