@@ -147,6 +147,12 @@ class Observation:
             if each.type in types and each.message is not None:
                 yield display, each
 
+    def misfits(self) -> Iterator[tuple[DisplaySeen, MapFit]]:
+        """The laser scans that do not fit the map."""
+        for display in self.displays:
+            if display.fit is not None and not display.fit.fit.is_good:
+                yield display, display.fit
+
     @functools.cached_property
     def _lost(self) -> Mapping[Kind, Sequence[tuple[Symptom, Explanation]]]:
         owners = [(display.id, display.statuses) for display in self.displays]

@@ -1,0 +1,157 @@
+"""Faults of the content of messages, and of displays that hide it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import building
+import examining
+import numpy as np
+import pytest
+from examining import display
+
+import webviz
+from webviz import Finding, Symptom, Topic
+from webviz.api.finding import CauseLevel
+from webviz.data.rotations import from_rpy
+from webviz.shell.testing.harness import Harness
+from webviz.shell.testing.messages import header
+from webviz_displays.laser_scan import LaserScan
+from webviz_displays.map import Map
+from webviz_displays.odometry import Odometry
+from webviz_displays.path import Path
+from webviz_displays.robot_model import RobotModel
+from webviz_sim.pose import Pose2D
+
+HERE = Pose2D(-2.0, 0.0)
+SCAN = "sensor_msgs/msg/LaserScan"
+ROBOT = """<robot name="r"><link name="map"><visual><geometry>
+<mesh filename="package://nowhere/part.stl"/></geometry></visual></link></robot>"""
+
+Make = Callable[..., Harness]
+
+
+def examined(stage: Harness, level: CauseLevel = CauseLevel.DATA) -> dict[str, Finding]:
+    """The findings on a level."""
+    return examining.examined(stage, level)
+
+
+def look(stage: Harness, pose: Pose2D, scan: Any = None, roll: float = 0.0) -> None:
+    """Publish where the laser is said to be, the map, and what it sees from `HERE`."""
+    w, x, y, z = from_rpy(roll, 0.0, pose.yaw)
+    stage.transform("map", "laser", (pose.x, pose.y, 0.0), (x, y, z, w))
+    now = stage.source.now
+    stage.publish(
+        "/map", "nav_msgs/msg/OccupancyGrid", {"header": header("map", now)} | building.grid()
+    )
+    scan = building.scan(HERE) if scan is None else scan
+    stage.publish("/scan", SCAN, {"header": header("laser", now)} | scan)
+    stage.turn()
+
+
+@pytest.mark.parametrize(
+    ("id", "pose", "scan"),
+    [
+        ("DATA001", Pose2D(-2.0, 0.0, math.pi / 2), None),
+        ("DATA003", Pose2D(-1.0, 0.5, 0.0), None),
+        ("DATA004", HERE, {"ranges": np.full(360, 2.0, np.float32)}),
+    ],
+)
+def test_scans_beside_the_map(webviz_stage: Make, id: str, pose: Pose2D, scan: Any) -> None:
+    stage = webviz_stage(LaserScan(name="Scan"), Map(), fixed_frame="map")
+    look(stage, pose, scan and building.scan(HERE) | scan)
+    found = examined(stage)
+    assert [*found] == [f"{id} Scan"]
+    assert found[f"{id} Scan"].explains == (Symptom(display(stage, "Scan"), "Map"),)
+    look(stage, HERE)
+    assert examined(stage) == {}
+
+
+def test_a_mirrored_scan(webviz_stage: Make) -> None:
+    stage = webviz_stage(LaserScan(name="Scan"), Map(), fixed_frame="map")
+    here = Pose2D(-2.0, 0.0, 0.6)
+    measured = building.scan(here)
+    upside_down = measured | {"ranges": np.roll(measured["ranges"][::-1], 1)}
+    look(stage, here, upside_down)
+    assert [*examined(stage)] == ["DATA002 Scan"]
+    look(stage, here, upside_down, roll=math.pi)
+    assert examined(stage) == {}
+
+
+def test_a_path_through_an_obstacle(webviz_stage: Make) -> None:
+    stage = webviz_stage(LaserScan(), Map(), Path(name="Plan"), fixed_frame="map")
+    way = building.path([(HERE.x, HERE.y), (3.0, 0.0)])
+    stage.publish("/path", "nav_msgs/msg/Path", {"header": header("map", stage.source.now)} | way)
+    look(stage, HERE, building.scan(HERE, building.with_box(1.5, 0.0, 0.8)))
+    assert [*examined(stage)] == ["DATA005 Plan"]
+    look(stage, HERE)
+    assert examined(stage) == {}
+
+
+@pytest.mark.parametrize(
+    ("id", "values"),
+    [
+        ("DATA006 /scan", {"ranges": [math.nan] * 5}),
+        (
+            "DATA007 /scan",
+            {"ranges": [2500.0, 2400.0, 2300.0, 2200.0, 2100.0], "range_max": 5000.0},
+        ),
+        ("DATA008 /scan", {"ranges": [2.0] * 9}),
+        ("", {"ranges": [math.inf] * 5}),
+        ("", {"ranges": [2.0] * 5}),
+    ],
+)
+def test_scans(webviz_stage: Make, id: str, values: dict[str, Any]) -> None:
+    stage = webviz_stage(LaserScan(), fixed_frame="map")
+    angles = {"angle_min": -1.0, "angle_max": 1.0, "angle_increment": 0.5, "range_max": 10.0}
+    stage.publish("/scan", SCAN, angles | values, frame="map")
+    stage.turn()
+    assert [*examined(stage)] == ([id] if id else [])
+
+
+def notes(stage: Harness) -> set[str]:
+    """The ids of all findings."""
+    examined(stage)
+    return {each.id for each in stage.viewer.snapshot().findings}
+
+
+def test_notes_on_data(webviz_stage: Make) -> None:
+    stage = webviz_stage(LaserScan(), Odometry(), fixed_frame="map")
+    angles = {"angle_max": 0.9, "angle_increment": 0.1, "range_max": 10.0, "ranges": [2.0] * 10}
+
+    def publish(intensities: list[float], variance: float, x: float = 0.0) -> None:
+        stage.publish("/scan", SCAN, angles | {"intensities": intensities}, frame="map")
+        place = {"position": {"x": x}, "orientation": {"w": 1.0}}
+        pose = {"pose": place, "covariance": [variance] + [0.0] * 35}
+        stage.publish("/odom", "nav_msgs/msg/Odometry", {"pose": pose}, frame="map")
+        stage.turn()
+
+    publish([47.0] * 10, 0.0)
+    assert {"DATA009", "DATA010"} <= notes(stage)
+    publish([float(n) for n in range(10)], 0.1, 5.0)
+    assert not {"DATA009", "DATA010"} & notes(stage)
+
+
+def test_missing_meshes(webviz_stage: Make) -> None:
+    stage = webviz_stage(RobotModel(name="Robot"), fixed_frame="map")
+    stage.publish("/robot_description", "std_msgs/msg/String", {"data": ROBOT})
+    stage.settle()
+    assert [*examined(stage)] == ["DATA011 Robot"]
+
+
+def test_displays_that_hide_what_they_show(webviz_stage: Make) -> None:
+    stage = webviz_stage(
+        LaserScan(name="Glass", alpha=0.0),
+        LaserScan(name="None", topic=Topic("")),
+        fixed_frame="map",
+    )
+    stage.publish("/scan", SCAN, {"ranges": [2.0], "range_max": 10.0}, frame="map")
+    stage.turn()
+    found = examined(stage, CauseLevel.VIEW)
+    assert [*found] == ["VIEW001 Glass", "VIEW002 None"]
+    change = found["VIEW001 Glass"].button
+    assert isinstance(change, webviz.ChangeDisplay)
+    stage.set(change.remedy.path, change.remedy.value, "Glass")
+    assert [*examined(stage, CauseLevel.VIEW)] == ["VIEW002 None"]

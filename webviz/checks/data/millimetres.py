@@ -1,0 +1,47 @@
+"""Ranges in millimetres."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from webviz.api.check import Check
+from webviz.api.finding import Finding
+from webviz.api.observation import Observation
+
+SCAN = "sensor_msgs/msg/LaserScan"
+FARTHEST_M = 200.0
+"""Beyond the reach of any planar laser."""
+
+
+class Millimetres(Check):
+    """Ranges in millimetres.
+
+    The ranges of a laser scan are so large that they must be millimetres.
+
+    Why:
+        ROS uses metres. Everything is a thousand times as far away, outside of the view and of
+        every costmap.
+
+    Repair:
+        Divide the ranges by 1000 in the driver.
+    """
+
+    id = "DATA007"
+
+    def find(self, seen: Observation) -> Iterator[Finding]:
+        """Yield a finding for each such topic."""
+        for display, each in seen.samples(SCAN):
+            ranges = np.asarray(each.message.ranges)
+            ranges = ranges[np.isfinite(ranges) & (ranges > 0.0)]
+            if len(ranges) and float(np.median(ranges)) > FARTHEST_M:
+                yield self.found(
+                    f"The ranges on {each.topic} are millimetres: half of them are above "
+                    f"{float(np.median(ranges)):.0f} m.",
+                    "Publish metres.",
+                    subject=each.topic,
+                    evidence={"median_m": float(np.median(ranges))},
+                    command=f"ros2 topic echo --once {each.topic}",
+                    explains=(*display.symptom("Points"), *display.symptom("Map")),
+                )

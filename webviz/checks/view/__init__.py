@@ -1,0 +1,1 @@
+"""Checks of the properties of displays that hide what they show."""
