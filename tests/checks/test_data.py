@@ -59,8 +59,8 @@ def look(stage: Harness, pose: Pose2D, scan: Any = None, roll: float = 0.0) -> N
         ("DATA004", HERE, {"ranges": np.full(360, 2.0, np.float32)}),
     ],
 )
-def test_scans_beside_the_map(webviz_stage: Make, id: str, pose: Pose2D, scan: Any) -> None:
-    stage = webviz_stage(LaserScan(name="Scan"), Map(), fixed_frame="map")
+def test_scans_beside_the_map(webviz_harness: Make, id: str, pose: Pose2D, scan: Any) -> None:
+    stage = webviz_harness(LaserScan(name="Scan"), Map(), fixed_frame="map")
     look(stage, pose, scan and building.scan(HERE) | scan)
     found = examined(stage)
     assert [*found] == [f"{id} Scan"]
@@ -69,8 +69,8 @@ def test_scans_beside_the_map(webviz_stage: Make, id: str, pose: Pose2D, scan: A
     assert examined(stage) == {}
 
 
-def test_a_mirrored_scan(webviz_stage: Make) -> None:
-    stage = webviz_stage(LaserScan(name="Scan"), Map(), fixed_frame="map")
+def test_a_mirrored_scan(webviz_harness: Make) -> None:
+    stage = webviz_harness(LaserScan(name="Scan"), Map(), fixed_frame="map")
     here = Pose2D(-2.0, 0.0, 0.6)
     measured = building.scan(here)
     upside_down = measured | {"ranges": np.roll(measured["ranges"][::-1], 1)}
@@ -80,8 +80,8 @@ def test_a_mirrored_scan(webviz_stage: Make) -> None:
     assert examined(stage) == {}
 
 
-def test_a_path_through_an_obstacle(webviz_stage: Make) -> None:
-    stage = webviz_stage(LaserScan(), Map(), Path(name="Plan"), fixed_frame="map")
+def test_a_path_through_an_obstacle(webviz_harness: Make) -> None:
+    stage = webviz_harness(LaserScan(), Map(), Path(name="Plan"), fixed_frame="map")
     way = building.path([(HERE.x, HERE.y), (3.0, 0.0)])
     stage.publish("/path", "nav_msgs/msg/Path", {"header": header("map", stage.source.now)} | way)
     look(stage, HERE, building.scan(HERE, building.with_box(1.5, 0.0, 0.8)))
@@ -103,8 +103,8 @@ def test_a_path_through_an_obstacle(webviz_stage: Make) -> None:
         ("", {"ranges": [2.0] * 5}),
     ],
 )
-def test_scans(webviz_stage: Make, id: str, values: dict[str, Any]) -> None:
-    stage = webviz_stage(LaserScan(), fixed_frame="map")
+def test_scans(webviz_harness: Make, id: str, values: dict[str, Any]) -> None:
+    stage = webviz_harness(LaserScan(), fixed_frame="map")
     angles = {"angle_min": -1.0, "angle_max": 1.0, "angle_increment": 0.5, "range_max": 10.0}
     stage.publish("/scan", SCAN, angles | values, frame="map")
     stage.turn()
@@ -117,8 +117,8 @@ def notes(stage: Harness) -> set[str]:
     return {each.id for each in stage.viewer.snapshot().findings}
 
 
-def test_notes_on_data(webviz_stage: Make) -> None:
-    stage = webviz_stage(LaserScan(), Odometry(), fixed_frame="map")
+def test_notes_on_data(webviz_harness: Make) -> None:
+    stage = webviz_harness(LaserScan(), Odometry(), fixed_frame="map")
     angles = {"angle_max": 0.9, "angle_increment": 0.1, "range_max": 10.0, "ranges": [2.0] * 10}
 
     def publish(intensities: list[float], variance: float, x: float = 0.0) -> None:
@@ -134,15 +134,15 @@ def test_notes_on_data(webviz_stage: Make) -> None:
     assert not {"DATA009", "DATA010"} & notes(stage)
 
 
-def test_missing_meshes(webviz_stage: Make) -> None:
-    stage = webviz_stage(RobotModel(name="Robot"), fixed_frame="map")
+def test_missing_meshes(webviz_harness: Make) -> None:
+    stage = webviz_harness(RobotModel(name="Robot"), fixed_frame="map")
     stage.publish("/robot_description", "std_msgs/msg/String", {"data": ROBOT})
     stage.settle()
     assert [*examined(stage)] == ["DATA011 Robot"]
 
 
-def test_displays_that_hide_what_they_show(webviz_stage: Make) -> None:
-    stage = webviz_stage(
+def test_displays_that_hide_what_they_show(webviz_harness: Make) -> None:
+    stage = webviz_harness(
         LaserScan(name="Glass", alpha=0.0),
         LaserScan(name="None", topic=Topic("")),
         fixed_frame="map",

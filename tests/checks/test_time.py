@@ -23,9 +23,9 @@ Make = Callable[..., Harness]
 
 
 @pytest.fixture
-def stage(webviz_stage: Make) -> Harness:
+def stage(webviz_harness: Make) -> Harness:
     """A viewer on wall time."""
-    stage = webviz_stage(LaserScan(), fixed_frame="map")
+    stage = webviz_harness(LaserScan(), fixed_frame="map")
     stage.source.now = WALL_NS
     stage.turn()
     return stage
