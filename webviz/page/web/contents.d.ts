@@ -176,6 +176,19 @@ export interface SelectionInfo {
   displays?: Array<DisplayShare>;
 }
 
+export interface ShownFinding {
+  id: string;
+  subject: string;
+  level: string;
+  cause: string;
+  remedy: string;
+  command: string;
+  explains: Array<string>;
+  button: RemedyButton | null;
+  why: Array<string>;
+  repair: Array<string>;
+}
+
 export interface ShownGoal {
   title: string;
   label: string;
@@ -238,8 +251,9 @@ export interface Stores {
   density: { own: { counts: Array<number> }; items: never };
   displays: { own: { order: Array<string> }; items: DisplayRow };
   driving: { own: { speed?: number | null; turn_rate?: number | null; problem?: string }; items: never };
-  events: { own: { logged?: Array<[number, "error" | "idle" | "ok" | "warn", string]>; displays?: Array<[number, "error" | "idle" | "ok" | "warn", string]> }; items: never };
+  events: { own: { logged?: Array<[number, "error" | "idle" | "ok" | "warn", string]>; displays?: Array<[number, "error" | "idle" | "ok" | "warn", string]>; findings?: Array<[number, "error" | "idle" | "ok" | "warn", string]> }; items: never };
   file: { own: { path: string; is_changed: boolean; folder: string; others: Array<string> }; items: never };
+  findings: { own: { all: Array<ShownFinding> }; items: never };
   frames: { own: { frames: Array<string> }; items: never };
   goals: { own: {  }; items: ShownGoal };
   graph: { own: { is_empty: boolean }; items: never };

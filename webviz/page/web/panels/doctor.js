@@ -9,7 +9,7 @@ import { remedyButton } from "./displays/statuses.js";
 
 const WELL = "All is well: no check has found a cause of a warning.";
 
-/** @import {ShownFinding} from "../types.js" */
+/** @import {ShownFinding} from "../contents.js" */
 
 /**
  * Returns true if a finding is more than a note.
