@@ -14,6 +14,7 @@ class Axes(Display):
     """The axes of one frame: x red, y green, z blue."""
 
     rviz = "rviz_default_plugins/Axes"
+    icon = "axes"
 
     reference_frame: Annotated[str, Prop(widget="frame", help="Frame whose axes are drawn.")] = (
         FIXED_FRAME

@@ -31,6 +31,7 @@ class Grid(Display):
     """A grid of lines for judging distances."""
 
     rviz = "rviz_default_plugins/Grid"
+    icon = "grid"
 
     reference_frame: Annotated[str, Prop(widget="frame", help="Frame in which the grid lies.")] = (
         FIXED_FRAME

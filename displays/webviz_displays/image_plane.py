@@ -62,6 +62,7 @@ class _State(ImageState):
 class ImagePlane(ImageDisplay):
     """Images on a plane in the scene, with their centre at the origin of their frame."""
 
+    icon = "camera"
     width: Annotated[Metres, Prop(help="Width of the image; the height follows from it.")] = 1.0
     plane: Annotated[
         Literal["Optical", "XY", "XZ", "YZ"],

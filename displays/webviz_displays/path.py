@@ -42,6 +42,7 @@ class Path(Display, Comparable):
     """The line a planner wants a robot to follow, and its poses."""
 
     rviz = "rviz_default_plugins/Path"
+    icon = "path"
 
     topic: Annotated[
         Topic, Input("nav_msgs/msg/Path", is_sporadic=True), Prop(help="Topic of the paths.")

@@ -56,6 +56,8 @@ def test_enter_adds_the_best_match_and_closes(tab: Tab, dialog: playwright.Locat
     playwright.expect(dialog.get_by_label("Search")).to_be_focused()
     tab.page.keyboard.type("scan")
     playwright.expect(dialog.get_by_role("option")).to_have_count(1)
+    laser = "M4 18a9 9 0 0 1 16 0M12 18l-6-9M12 18V7M12 18l6-9"
+    playwright.expect(dialog.locator(".wv-pick-icon path")).to_have_attribute("d", laser)
     tab.page.keyboard.press("Enter")
     tab.wait_for(lambda: commands(tab.loop) == [("LaserScan", {})])
     playwright.expect(dialog).to_have_count(0)
@@ -150,9 +152,10 @@ def test_a_topic_that_appears_is_shown_and_a_check_mark_stays(
     assert tab.loop.commands == []
 
 
-def test_types_have_the_messages_that_they_show_and_a_small_picture() -> None:
+def test_types_have_the_messages_that_they_show_an_icon_and_a_small_picture() -> None:
     found = types(State(), "").types
     assert found["LaserScan"].topics == [SCAN]
+    assert (found["LaserScan"].icon, found["Wrench"].icon) == ("laser", "plug")
     sizes = {name: len(each.picture) for name, each in found.items() if "Everything" not in name}
     assert {name for name, size in sizes.items() if not size} == {"Group"}
     assert sum(sizes.values()) < 1500 * len(sizes)

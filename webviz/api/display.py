@@ -88,6 +88,10 @@ class Display(Declared, kw_only=True):
 
     kind = "display"
 
+    icon: ClassVar[str] = "plug"
+    """An icon of the page by name, or one of its own: the path of an SVG of 24 x 24 units, drawn by
+    lines, such as "M4 12h16"."""
+
     is_threaded: ClassVar[bool] = False
     """True if `fold` and `draw` run in a thread for large messages, while the frame loop goes on.
 

@@ -16,3 +16,4 @@ class DisplayGroup(Display):
 
     title = "Group"
     rviz = "rviz_common/Group"
+    icon = "folder"

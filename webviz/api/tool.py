@@ -253,7 +253,7 @@ class Tool(Declared, kw_only=True):
     shortcut: ClassVar[str] = ""
     """The key that selects it, a lower-case letter; "" is none."""
     icon: ClassVar[str] = ""
-    """An icon of the page for its button, "" for that of its gesture."""
+    """An icon as that of a display (`Display.icon`), "" for that of its gesture."""
     rviz_panel: ClassVar[str] = ""
     """The class of the panel that does the same in RViz; its `Topic` is the property `topic`."""
     order: ClassVar[int] = 100

@@ -41,6 +41,7 @@ class Camera(ImageDisplay):
     """The scene over and under the image of a camera, as that camera sees it."""
 
     rviz = "rviz_default_plugins/Camera"
+    icon = "camera"
     has_pane = True
 
     camera_info_topic: Annotated[

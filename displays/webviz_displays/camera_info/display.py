@@ -54,6 +54,7 @@ class CameraInfo(Display):
     """The view of a camera as a pyramid, with its image at the far end on request."""
 
     rviz = "rviz_default_plugins/CameraInfo"
+    icon = "camera"
 
     topic: Annotated[
         Topic, Input("sensor_msgs/msg/CameraInfo"), Prop(help="Topic of the camera info.")

@@ -44,6 +44,7 @@ class DepthCloud(PointsDisplay):
     """The points of a depth image, in the colours of an image if there is one."""
 
     rviz = "rviz_default_plugins/DepthCloud"
+    icon = "cloud"
     sync = Sync("topic", "color_topic", slop=0.05)
 
     topic: Annotated[

@@ -15,6 +15,7 @@ class Image(ImageDisplay):
     """A camera's picture in a pane beside the scene: raw, compressed, depth or video."""
 
     rviz = "rviz_default_plugins/Image"
+    icon = "camera"
     has_pane = True
 
     topic: Annotated[

@@ -48,6 +48,7 @@ class LaserScan(PointsDisplay, Comparable, Sweep):
     """Points where a planar laser scanner hit something."""
 
     rviz = "rviz_default_plugins/LaserScan"
+    icon = "laser"
 
     topic: Annotated[
         Topic, Input("sensor_msgs/msg/LaserScan"), Prop(help="Topic of the scans.")

@@ -261,6 +261,7 @@ class Map(MapDisplay, Comparable):
     """
 
     rviz = "rviz_default_plugins/Map"
+    icon = "map"
 
     topic: Annotated[
         Topic,

@@ -40,6 +40,7 @@ class Odometry(Display, Selective):
     """Where a robot estimates that it was and is, with the uncertainty."""
 
     rviz = "rviz_default_plugins/Odometry"
+    icon = "odometry"
 
     topic: Annotated[Topic, Input("nav_msgs/msg/Odometry"), Prop(help="Topic of the odometry.")] = (
         Topic("/odom")

@@ -266,6 +266,7 @@ class PointCloud2(CloudDisplay):
     """Points of a 3D sensor or of a map."""
 
     rviz = "rviz_default_plugins/PointCloud2"
+    icon = "cloud"
 
     topic: Annotated[
         Topic, Input("sensor_msgs/msg/PointCloud2"), Prop(help="Topic of the clouds.")

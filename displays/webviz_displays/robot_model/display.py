@@ -46,6 +46,7 @@ class RobotModel(Display):
     """A robot's links, placed by the transforms between their frames."""
 
     rviz = "rviz_default_plugins/RobotModel"
+    icon = "robot"
 
     description_topic: Annotated[
         Topic,

@@ -19,6 +19,7 @@ class PointCloud(CloudDisplay):
     """Points of a 3D sensor, in the message type before PointCloud2."""
 
     rviz = "rviz_default_plugins/PointCloud"
+    icon = "cloud"
 
     topic: Annotated[
         Topic, Input("sensor_msgs/msg/PointCloud"), Prop(help="Topic of the clouds.")

@@ -94,6 +94,7 @@ class TF(Display):
     """The coordinate frames, their names, and arrows to their parents."""
 
     rviz = "rviz_default_plugins/TF"
+    icon = "tree"
 
     show_names: Annotated[bool, Prop(help="Write each frame's name below its origin.")] = False
     show_axes: Annotated[bool, Prop(help="Draw each frame's axes: x red, y green, z blue.")] = True

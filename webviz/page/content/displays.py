@@ -9,7 +9,7 @@ from typing import Any, ClassVar, Literal
 
 import msgspec
 
-from webviz.api.display import inputs
+from webviz.api.display import Display, inputs
 from webviz.api.status import Level, OtherFixedFrame, Status
 from webviz.engine.state import Row, State
 from webviz.page.content.forms import sendable
@@ -45,6 +45,7 @@ class DisplayRow(msgspec.Struct, frozen=True):
 
     Args:
         type, name, depth, enabled: see `webviz.engine.state.Row`.
+        icon: see `webviz.Display.icon`.
         can_edit: whether it has properties.
         level: the worst of its statuses.
         line: the first status of this level if it is a problem, "" if not.
@@ -53,6 +54,7 @@ class DisplayRow(msgspec.Struct, frozen=True):
     """
 
     type: str
+    icon: str
     name: str
     depth: int
     enabled: bool
@@ -154,6 +156,7 @@ def _row(row: Row, causes: Sequence[Status]) -> DisplayRow:
     remedy = remedy_of(worst, row.id) if worst and has_own else None
     return DisplayRow(
         type=row.type,
+        icon=(type(row.display) if row.display else Display).icon,
         name=row.name,
         depth=row.depth,
         enabled=row.enabled,

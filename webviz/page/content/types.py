@@ -24,11 +24,13 @@ class DisplayType(msgspec.Struct, frozen=True):
     Args:
         help: a line.
         topics: the message types that it shows.
+        icon: see `webviz.Display.icon`.
         picture: an address that holds it, "" without one.
     """
 
     help: str
     topics: Sequence[str]
+    icon: str
     picture: str
 
 
@@ -52,6 +54,7 @@ def _about(name: str, cls: type[Display]) -> DisplayType:
     return DisplayType(
         help=" ".join(text.split("\n\n")[0].split()),
         topics=["any type" if type_ == ANY else type_ for type_ in dict.fromkeys(shown)],
+        icon=cls.icon,
         picture=_picture(name, cls.__module__.partition(".")[0]),
     )
 

@@ -69,11 +69,11 @@ const PATHS = {
 };
 
 /**
- * An icon; a square dot for a name that there is none of.
+ * An icon by its name here, or by its own path; a square dot for a name that there is none of.
  *
  * @param {string} name
  * @param {number} [size]
  */
 export function icon(name, size = 16) {
-  return svg(PATHS[name] ?? "M9 9h6v6H9z", size);
+  return svg(PATHS[name] ?? (/^M[\s\d]/.test(name) ? name : "M9 9h6v6H9z"), size);
 }

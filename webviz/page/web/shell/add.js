@@ -7,7 +7,6 @@ import { watch } from "../stores.js";
 import { openDialog } from "./dialog.js";
 import { optionList, search } from "./option_list.js";
 import { topicEntries } from "./topic_entries.js";
-import { typeIcon } from "./type_icons.js";
 
 const MAX_SHOWN = 200;
 const WAYS = { topic: "By topic", type: "By display" };
@@ -123,13 +122,13 @@ export function openAdd({ group = "" } = {}) {
 }
 
 function typeEntries({ types }) {
-  return (types ?? []).map(([name, { help, topics: takes, picture }]) => ({
+  return (types ?? []).map(([name, { help, topics: takes, icon, picture }]) => ({
     words: [name, `${help} ${takes.join(", ")}`],
     rows: [
       {
         id: name,
         title: name,
-        icon: typeIcon(name),
+        icon,
         picture,
         line: help,
         note: takes.join(", "),

@@ -4,13 +4,12 @@ import { act } from "../act.js";
 import * as selection from "../panels/displays/selection.js";
 import { provideFrom } from "./command_list.js";
 import { openPanel } from "./layout.js";
-import { typeIcon } from "./type_icons.js";
 
 export function install() {
   provideFrom(["displays"], ({ displays }) =>
     (displays.get("order") ?? []).flatMap((id) => {
-      const { name, type } = displays.get(id);
-      const about = { icon: typeIcon(type), note: type === name ? "" : type, group: "Displays" };
+      const { name, type, icon } = displays.get(id);
+      const about = { icon, note: type === name ? "" : type, group: "Displays" };
       return [
         { ...about, name: `Select ${name}`, run: () => select(id) },
         { ...about, name: `Focus on ${name}`, run: () => act("FocusDisplay", { display: id }) },

@@ -1,7 +1,5 @@
 // Topics that can be added: each with the displays that show it, an image once for all transports.
 
-import { typeIcon } from "./type_icons.js";
-
 const ANY = "any type";
 const TRANSPORT = /^(.+)\/(compressed|compressedDepth|ffmpeg|theora|zstd|draco)$/; // of ROS's transports
 
@@ -12,13 +10,14 @@ const TRANSPORT = /^(.+)\/(compressed|compressedDepth|ffmpeg|theora|zstd|draco)$
  * the ids of rows.
  */
 export function topicEntries({ types, topics, traffic, shown }, checked) {
+  const icons = new Map((types ?? []).map(([name, { icon }]) => [name, icon]));
   const plain = new Set((types ?? []).filter(([, { topics }]) => topics.includes(ANY)).map(([name]) => name));
   const entries = families(topics ?? []).map((family) => {
     const show = family.flatMap(({ offer }) => offer.show);
     const isShown = family.some(({ topic }) => shown?.has(topic));
     const isPlain = show.every(([display]) => plain.has(display));
     const rank = show.length ? Number(isShown) + 2 * isPlain : 4;
-    return { rank, ...entryOf(family, { traffic, isShown, isPlain, checked }) };
+    return { rank, ...entryOf(family, { traffic, icons, isShown, isPlain, checked }) };
   });
   return entries.toSorted((a, b) => a.rank - b.rank);
 }
@@ -36,7 +35,7 @@ function families(topics) {
   return [...made.values()];
 }
 
-function entryOf(family, { traffic, isShown, isPlain, checked }) {
+function entryOf(family, { traffic, icons, isShown, isPlain, checked }) {
   const [{ topic, offer }] = family;
   const note = noteOf(offer, traffic?.get(topic), isShown);
   if (!offer.show.length) {
@@ -47,7 +46,7 @@ function entryOf(family, { traffic, isShown, isPlain, checked }) {
   const rows = family.flatMap((member) =>
     member.offer.show.map(([display, values]) => ({
       id: `${member.topic} ${display}`,
-      icon: typeIcon(display),
+      icon: icons.get(display),
       title: display,
       label: `${member.topic} ${display}`,
       note: family.length > 1 ? member.transport : undefined,

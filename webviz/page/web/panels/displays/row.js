@@ -4,7 +4,6 @@ import { why } from "../../access.js";
 import { el, set, setText } from "../../dom.js";
 import { icon } from "../../icons.js";
 import { plain } from "../../plain.js";
-import { typeIcon } from "../../shell/type_icons.js";
 import { watch } from "../../stores.js";
 import { globalOptions, properties } from "./properties.js";
 import { remedyButton } from "./statuses.js";
@@ -34,7 +33,7 @@ export function makeRow(first, look) {
     fold,
     isGlobal ? el("span", { class: "wv-tree-box" }) : el("label", { class: "wv-tree-box", "data-part": "box" }, box),
     el("span", { class: "wv-tree-type", "data-tip": isGlobal ? null : plain(type) || null },
-      icon(isGlobal ? "gear" : typeIcon(type))),
+      icon(isGlobal ? "gear" : first.icon)),
     name, note, isGlobal ? null : more, dot,
   );
   const remedy = el("div", { class: "wv-tree-remedy", "data-part": "remedy", hidden: true });
