@@ -80,6 +80,9 @@ class Declared(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, eq=Fals
     """The default name; "" is the name of the class."""
     rviz: ClassVar[str] = ""
     """The class of the counterpart in a .rviz file."""
+    module: ClassVar[str] = ""
+    """A JavaScript module for the page: a file beside that of the class; see `webviz.api.modules`.
+    """
 
     name: Annotated[str, msgspec.Meta(description="Shown in lists.")] = ""
 

@@ -120,6 +120,18 @@ class Sliders(Protocol):
         ...
 
 
+class Custom(Protocol):
+    """A widget that the module of the panel draws."""
+
+    def show(self, values: Mapping[str, Any]) -> None:
+        """Show these values: texts, numbers, switches, and lists and mappings of them.
+
+        Raises:
+            ValueError: they are not, or are too large.
+        """
+        ...
+
+
 class Ui(Protocol):
     """The widgets of a panel, one below the other in the order of the calls.
 
@@ -156,6 +168,18 @@ class Ui(Protocol):
 
     def chart(self, remove: Remove) -> Chart:
         """Add a chart of curves over time; `remove` is called when a browser removes one."""
+        ...
+
+    def widget(
+        self, kind: str, values: Mapping[str, Any], use: Callable[[Any, int | None], object]
+    ) -> Custom:
+        """Add a widget of the panel's own module (`Panel.module`), which draws it.
+
+        Args:
+            kind: its name in the module.
+            values: as those of `Custom.show`.
+            use: called with what the module sends, decoded JSON from a browser, and the browser.
+        """
         ...
 
     def command(

@@ -35,7 +35,7 @@ from webviz.data.messages import encode, interfaces
 
 Gesture = Literal["point", "pose", "drive"]
 """A click on a position, a drag from a position towards a heading, or keys and sticks that are
-held to drive the `vehicle` of the tool."""
+held to drive the `vehicle` of the tool. A tool with a `module` may have one of its own."""
 
 Confirm = Annotated[bool, Prop(help="Ask before a gesture is sent.")]
 """The property `confirm` of a tool: its preview stays until it is sent or cancelled."""
@@ -258,7 +258,7 @@ class Tool(Declared, kw_only=True):
     """The class of the panel that does the same in RViz; its `Topic` is the property `topic`."""
     order: ClassVar[int] = 100
     """Place in a toolbar that no config orders; those of webviz come first, as in RViz."""
-    gesture: ClassVar[Gesture] = "point"
+    gesture: ClassVar[Gesture | str] = "point"
     surface: ClassVar[bool] = False
     """True if a gesture starts on the surface under the pointer instead of on the ground, the plane
     z = 0 of the fixed frame."""

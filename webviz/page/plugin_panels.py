@@ -20,6 +20,7 @@ from webviz.engine.state import State
 from webviz.page.asked import Asked
 from webviz.page.chart import ChartWidget
 from webviz.page.content.forms import Form, form, values_of
+from webviz.page.content.modules import ModulesStore, modules
 from webviz.page.content.store import PageStore
 from webviz.page.recorded_ui import RecordedUi
 from webviz.page.widgets import Widget, clean
@@ -176,6 +177,10 @@ class PluginPanels:
             }
         )
 
+    def modules(self, state: State, _: str) -> ModulesStore:
+        """The modules of plug-ins for the page, of panels, tools and displays."""
+        return modules()
+
     # Called on the event loop
 
     def use(self, asked: Asked, command: UseWidget) -> None:
@@ -200,6 +205,7 @@ class PluginPanels:
 
 MAKERS_OF_PANELS: Mapping[str, Callable[[PluginPanels, State, str], PageStore | None]] = {
     "commands": PluginPanels.commands,
+    "modules": PluginPanels.modules,
     "panel": PluginPanels.panel,
     "panel_properties": PluginPanels.properties,
     "panels": PluginPanels.panels,

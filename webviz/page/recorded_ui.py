@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TypeVar
+from collections.abc import Callable, Mapping
+from typing import Any, TypeVar
 
 from webviz.api.chart import Remove
 from webviz.api.panel import Act, Edit, Modifier
@@ -12,6 +12,7 @@ from webviz.page.widgets import (
     AreaWidget,
     ButtonWidget,
     ChoiceWidget,
+    CustomWidget,
     FieldWidget,
     Shortcut,
     SlidersWidget,
@@ -61,6 +62,12 @@ class RecordedUi:
     def chart(self, remove: Remove) -> ChartWidget:
         """Add a chart."""
         return self._add(ChartWidget(remove))
+
+    def widget(
+        self, kind: str, values: Mapping[str, Any], use: Callable[[Any, int | None], object]
+    ) -> CustomWidget:
+        """Add a widget of the panel's own module."""
+        return self._add(CustomWidget(kind, values, use))
 
     def command(
         self, label: str, act: Act, key: str = "", modifier: Modifier | None = None

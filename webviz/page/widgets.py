@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -177,6 +178,41 @@ class SlidersWidget(Widget):
         if not found["low"] <= number <= found["high"]:
             raise ValueError(f"{number:g} is not in {found['low']:g} to {found['high']:g}.")
         self._edit(name, number, browser)
+
+
+class CustomWidget(Widget):
+    """A widget that the module of its panel draws; see `webviz.api.panel.Custom`."""
+
+    def __init__(
+        self, kind: str, values: Mapping[str, Any], use: Callable[[Any, int | None], object]
+    ) -> None:
+        super().__init__(kind=f"own {clean(kind, MAX_CELL)}")
+        self._use = use
+        self.show(values)
+
+    def show(self, values: Mapping[str, Any]) -> None:
+        """Show these values.
+
+        Raises:
+            ValueError: they are no JSON, or too large.
+        """
+        try:
+            encoded = json.dumps(dict(values), allow_nan=False, ensure_ascii=False)
+        except (TypeError, ValueError, RecursionError) as error:
+            raise ValueError(f"These values are not JSON: {error}.") from None
+        if len(encoded) > MAX_HTML:
+            raise ValueError(f"Expected values of at most {MAX_HTML} characters of JSON.")
+        self.set(values=json.loads(_UNSENDABLE.sub("\N{REPLACEMENT CHARACTER}", encoded)))
+
+    def use(self, value: Any, browser: int | None) -> None:
+        """Pass on what the module sent, as JSON."""
+        if not isinstance(value, str) or len(value) > MAX_TEXT:
+            raise ValueError(f"Expected at most {MAX_TEXT} characters of JSON.")
+        try:
+            entered = json.loads(value)
+        except (ValueError, RecursionError):
+            raise ValueError("Expected JSON.") from None
+        self._use(entered, browser)
 
 
 class Shortcut(Widget):

@@ -12,7 +12,7 @@ from webviz.api.finding import Finding
 from webviz.api.handles import Handle
 from webviz.api.panel import Panel
 from webviz.api.status import Level, Status, worst
-from webviz.api.tool import Gesture, Tool
+from webviz.api.tool import Tool
 from webviz.api.views import View
 from webviz.data.messages.tree import Tree
 from webviz.data.transforms import Diagnosis
@@ -180,7 +180,7 @@ class ToolButton:
         name: as shown.
         tooltip: one sentence.
         shortcut: the key that selects it, "" for none.
-        gesture: followed by the page.
+        gesture: followed by the page, see `webviz.api.tool.Tool.gesture`.
         icon: of the page, "" for that of the gesture.
         surface: whether the gesture starts on a surface.
         stays: whether it remains active after a gesture.
@@ -194,7 +194,7 @@ class ToolButton:
     name: str
     tooltip: str
     shortcut: str
-    gesture: Gesture
+    gesture: str
     icon: str = ""
     surface: bool = False
     stays: bool = False

@@ -22,6 +22,7 @@ export interface DeclaredProperty {
 
 export interface DisplayRow {
   type: string;
+  icon: string;
   name: string;
   depth: number;
   enabled: boolean;
@@ -41,6 +42,7 @@ export interface DisplayShare {
 export interface DisplayType {
   help: string;
   topics: Array<string>;
+  icon: string;
   picture: string;
 }
 
@@ -263,6 +265,7 @@ export interface Stores {
   legend: { own: {  }; items: Scale };
   links: { own: {  }; items: ValidLink };
   message: { own: { message?: string | Record<string, unknown> | null; problem?: string; size?: number; received?: number }; items: never };
+  modules: { own: {  }; items: string };
   panel: { own: { "/order": Array<string>; "/failure": string }; items: Record<string, unknown> };
   panel_properties: { own: { id?: string; type?: string; declared?: Array<DeclaredProperty>; [key: `value.${string}`]: unknown }; items: never };
   panels: { own: { "/order": Array<string>; "/types": Array<PanelType> }; items: string };

@@ -6,6 +6,7 @@ import * as channel from "./channel.js";
 import * as colors from "./scene/colors.js";
 import constants from "./constants.js";
 import * as contact from "./contact.js";
+import * as extensions from "./extensions.js";
 import * as flat from "./scene/flat.js";
 import * as handles from "./handles/handles.js";
 import * as holding from "./scene/holding.js";
@@ -37,6 +38,7 @@ async function install() {
   await viser.until(() => viser.hasCamera() && viser.node(constants.ROOT));
   for (const part of [view, mouse, handles, saveImage, overlay, holding, blocks]) part.install();
   toolbar.install(shell.places);
+  extensions.install();
 }
 
 /** @param {string} token */

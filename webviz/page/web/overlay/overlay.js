@@ -8,8 +8,20 @@ import * as rates from "./rates.js";
 import * as scaleBar from "./scale_bar.js";
 import * as slowLink from "./slow_link.js";
 
+const shown = new Map();
+
+/** Adds an overlay, or replaces that of the same name; places are "status", "pointer" and "legend". */
+export function overlay(place, name, element) {
+  shown.get(name)?.remove();
+  shown.set(name, element);
+  places[place].append(element);
+}
+
 export function install() {
-  places.status.append(rates.build(), slowLink.build(), gizmo.build());
-  places.pointer.append(pointer.build());
-  places.legend.append(legend.build(), scaleBar.build());
+  overlay("status", "rates", rates.build());
+  overlay("status", "slow link", slowLink.build());
+  overlay("status", "gizmo", gizmo.build());
+  overlay("pointer", "pointer", pointer.build());
+  overlay("legend", "legend", legend.build());
+  overlay("legend", "scale bar", scaleBar.build());
 }

@@ -12,4 +12,22 @@ import { topics } from "./topics.js";
 import { transforms } from "./transforms.js";
 import { views } from "./views.js";
 
+<<<<<<< HEAD
 export const panels = [displays, selectionPanel, views, topics, transforms, toolsPanel, doctor];
+=======
+export const panels = [];
+const listeners = new Set();
+
+/** Adds a panel, or replaces that of the same name. */
+export function panel(added) {
+  const index = panels.findIndex(({ name }) => name === added.name);
+  if (index < 0) panels.push(added);
+  else panels[index] = added;
+  for (const listener of listeners) listener();
+}
+
+/** Calls `listener` whenever there is another panel. */
+export const onPanel = (listener) => listeners.add(listener);
+
+for (const own of [displays, selectionPanel, views, topics, transforms, toolsPanel]) panel(own);
+>>>>>>> 5eea2cb2 (Open gestures, widgets, overlays and tabs to modules of plug-ins)

@@ -8,11 +8,48 @@ import { el, set, setChildren, setText } from "../dom.js";
 
 const TYPING_MS = 600;
 
-const MAKERS = { area, button, checkbox, chart, field, choice, sliders };
+const makers = new Map();
+const awaited = new Map();
 
-/** A widget of these values; `send(value)` reports its use to the panel. */
+/**
+ * Adds a kind of widget. `make(values, send)` returns `{element, update(values), close()}`, the
+ * latter if need be; `send(value)` reports its use to the panel.
+ */
+export function widget(kind, make) {
+  makers.set(kind, make);
+  for (const draw of awaited.get(kind) ?? []) draw();
+  awaited.delete(kind);
+}
+
+for (const make of [area, button, checkbox, chart, field, choice, sliders]) widget(make.name, make);
+
+/** A widget of these values; one of a module that is not there yet is drawn later. */
 export function makeWidget(values, send) {
-  return { kind: values.kind, ...MAKERS[values.kind](values, send) };
+  const { kind } = values;
+  return { kind, ...(makers.get(kind) ?? later)(values, send) };
+}
+
+function later(values, send) {
+  const element = el("div", { class: "wv-quiet" }, "This widget needs the module of its panel.");
+  let [inner, last] = [null, [values]];
+  const draw = () => {
+    inner = makers.get(values.kind)(values, send);
+    inner.update(...last);
+    element.className = "";
+    element.replaceChildren(inner.element);
+  };
+  awaited.set(values.kind, (awaited.get(values.kind) ?? new Set()).add(draw));
+  return {
+    element,
+    update(...args) {
+      last = args;
+      inner?.update(...args);
+    },
+    close() {
+      awaited.get(values.kind)?.delete(draw);
+      inner?.close?.();
+    },
+  };
 }
 
 function area() {

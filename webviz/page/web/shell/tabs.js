@@ -3,7 +3,7 @@
 import { needs } from "../access.js";
 import { act } from "../act.js";
 import { el, set, setChildren, setText } from "../dom.js";
-import { panels } from "../panels/panels.js";
+import { onPanel, panels } from "../panels/panels.js";
 import { followPlugins } from "../panels/plugin.js";
 import { icon } from "../icons.js";
 import { recall, remember } from "../remember.js";
@@ -25,7 +25,9 @@ export function tabs() {
   }, icon("chevron-down"));
   new ResizeObserver(fit).observe(list);
   let types = [];
-  let all = panels;
+  const own = new Set(panels);
+  let all = [...panels];
+  let additional = [];
   let shown = null;
   let isAdding = false; // by this page, which then opens the panel
   let close = () => {};
@@ -88,6 +90,7 @@ export function tabs() {
   }
 
   function offer(plugins) {
+    additional = plugins;
     const wanted = recall("tab", "");
     const come = isAdding && plugins.find(({ name }) => !buttons.has(name));
     all = [...panels, ...plugins];
@@ -105,7 +108,7 @@ export function tabs() {
     }
     const isGone = !all.some(({ name }) => name === shown?.name);
     // The tab of a plug-in that was open comes after the page.
-    const isWaited = plugins.find(({ name }) => name === wanted && name !== shown?.name);
+    const isWaited = all.filter((panel) => !own.has(panel)).find(({ name }) => name === wanted && name !== shown?.name);
     if (isGone || isWaited) show(isWaited ?? panels.find(({ name }) => name === wanted) ?? panels[0]);
     if (isGone && wanted) remember("tab", wanted); // it may come again, after a save
   }
@@ -131,6 +134,7 @@ export function tabs() {
   }
 
   offer([]);
+  onPanel(() => offer(additional));
   followPlugins(offer, (known) => {
     types = known;
     fit();

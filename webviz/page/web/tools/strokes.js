@@ -5,6 +5,7 @@ import { onAnswer } from "../act.js";
 import * as channel from "../channel.js";
 import { canvas } from "../viser_page.js";
 import { tell, tellLive } from "./hint.js";
+import { gesture, gestureOf, onGesture } from "./gestures.js";
 import * as history from "./history.js";
 import { active, provide, select } from "./registry.js";
 import * as stroke from "./stroke.js";
@@ -22,7 +23,16 @@ const HINTS = {
 
 export function install() {
   teleop.install();
-  channel.on("Tools", ({ tools }) => provide("viewer", tools.map(toolOf)));
+  gesture("point", strokeTool);
+  gesture("pose", strokeTool);
+  gesture("drive", teleop.tool);
+  let known = [];
+  const offer = () => provide("viewer", known.map(toolOf));
+  onGesture(offer);
+  channel.on("Tools", ({ tools }) => {
+    known = tools;
+    offer();
+  });
   onAnswer("UseTool", ({ number, level, text }) => {
     history.told(number, level, text);
     tell(level, text);
@@ -32,22 +42,30 @@ export function install() {
 }
 
 function toolOf(tool, index) {
-  const isDriven = tool.gesture === "drive";
-  const known = { ...tool, refusal: why(isDriven ? "Drive" : "UseTool") || tool.refusal };
-  return isDriven ? teleop.tool(known, FIRST + index) : strokeTool(known, index);
+  const make = gestureOf(tool.gesture);
+  const refusal = why(tool.gesture === "drive" ? "Drive" : "UseTool") || tool.refusal ||
+    (make ? "" : `The gesture "${tool.gesture}" is unknown. Add it in the module of the tool.`);
+  const known = { ...tool, refusal, order: FIRST + index, icon: tool.icon || tool.gesture };
+  return { ...known, ...make?.(known, (made) => take(known, { yaw: 0, keys: [], ...made })) };
 }
 
-function strokeTool(known, index) {
-  return {
-    ...known,
-    order: FIRST + index,
-    icon: known.icon || known.gesture,
-    hint: hintOf(known),
-    cursor: "crosshair",
-    leave: stroke.cancel,
-    pointer: (event) => follow(event, known),
-  };
+// Waits to be sent if the tool asks, as a gesture of the page does.
+function take(tool, made) {
+  if (tool.asks) stroke.propose(tool, made, { done: (sent) => finish(tool, sent), live: tellLive });
+  else finish(tool, made);
 }
+
+function finish(tool, made) {
+  if (!active().stays) select(null); // as it is now: somebody may have changed it meanwhile
+  history.send(tool, made);
+}
+
+const strokeTool = (known) => ({
+  hint: hintOf(known),
+  cursor: "crosshair",
+  leave: stroke.cancel,
+  pointer: (event) => follow(event, known),
+});
 
 function hintOf({ gesture, surface, several }) {
   const hint = HINTS[gesture][Number(surface)];
@@ -73,9 +91,7 @@ function follow(event, tool) {
   if (event.type !== "pointerdown" || event.target !== canvas() || event.button !== 0) return false;
   event.preventDefault();
   const done = (made) => {
-    if (waypoints.collect(tool, made)) return;
-    if (!active().stays) select(null); // as it is now: somebody may have changed it meanwhile
-    history.send(tool, made);
+    if (!waypoints.collect(tool, made)) finish(tool, made);
   };
   if (!stroke.begin(event, tool, { done, live: tellLive })) {
     const surface = "Nothing is there. Press on a surface.";

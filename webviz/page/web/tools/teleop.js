@@ -24,9 +24,9 @@ const HINT = matchMedia("(pointer: coarse)").matches
 let driven = null; // what is open while a tool that drives is active
 let isHere = true;
 
-/** A tool of the registry for one of the server that drives. */
-export const tool = (known, order) => ({
-  ...known, order, icon: known.icon || "wheel", hint: HINT, leave: release,
+/** The gesture of a tool that drives. */
+export const tool = ({ icon, gesture }) => ({
+  icon: icon === gesture ? "wheel" : icon, hint: HINT, leave: release,
 });
 
 export function install() {

@@ -1,0 +1,53 @@
+// The gesture "outline": a line drawn by hand on the ground.
+
+const STEP_PX = 10; // between two corners
+const MAX_CORNERS = 500;
+
+export default function install({ beforeRender, canvas, gesture, groundAt, makeLayer, onCanvas, set, svgElement }) {
+  const line = svgElement("polyline", { fill: "none", stroke: "#f80", "stroke-width": 3 });
+  const layer = makeLayer("keep-out", svgElement("svg", { width: "100%", height: "100%" }, line));
+  let corners = [];
+  let last = null; // where the newest corner was drawn, in pixels
+
+  const draw = () => {
+    layer.place();
+    set(line, { points: corners.map(onCanvas).filter(Boolean).join(" ") });
+  };
+  beforeRender(() => corners.length && draw()); // the view may move with a frame
+
+  function clear() {
+    corners = [];
+    last = null;
+    draw();
+  }
+
+  function add({ clientX, clientY }) {
+    const isNear = last && Math.hypot(clientX - last[0], clientY - last[1]) < STEP_PX;
+    const corner = isNear || corners.length >= MAX_CORNERS ? null : groundAt(clientX, clientY);
+    if (!corner) return;
+    last = [clientX, clientY];
+    corners.push(corner);
+    draw();
+  }
+
+  gesture("outline", (tool, done) => ({
+    hint: "Draw an outline on the ground. Esc cancels.",
+    cursor: "crosshair",
+    leave: clear,
+    pointer(event) {
+      if (event.type === "pointerdown" && event.button === 0) {
+        canvas().setPointerCapture(event.pointerId);
+        add(event);
+        return true;
+      }
+      if (!corners.length) return false;
+      if (event.type === "pointermove") add(event);
+      if (event.type === "pointerup" || event.type === "pointercancel") {
+        const points = corners;
+        clear();
+        if (event.type === "pointerup") done({ points });
+      }
+      return true;
+    },
+  }));
+}

@@ -1,0 +1,116 @@
+"""Modules of plug-ins in the page: gestures, widgets and overlays, as in the examples."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import playwright.sync_api as playwright
+import pytest
+
+from tests.page.conftest import Loop, Tab
+from webviz.api import registry
+from webviz.api.declared import make
+from webviz.api.panel import Panel
+from webviz.engine.commands import UseTool
+from webviz.engine.pipeline.plugins import PluginError, load
+from webviz.engine.state import PanelTab, ToolButton
+from webviz.page.widgets import MAX_HTML, MAX_TEXT, CustomWidget
+
+EXAMPLES = Path(__file__).parents[2] / "displays/docs/examples"
+
+
+@pytest.fixture(autouse=True)
+def _forget(loop: Loop, tab: Tab) -> Iterator[None]:
+    yield
+    for path in EXAMPLES.glob("*.py"):
+        registry.register(str(path), {})
+    tab.page.keyboard.press("Escape")
+    loop.show(tools=(), panels=())
+    tab.show_tab("Displays")
+
+
+def test_a_tool_has_a_gesture_of_its_module(loop: Loop, tab: Tab) -> None:
+    button = ToolButton("keep", "Keep Out", "Draw an area.", "", "outline", "M5 5l14 3-3 11-9-2z")
+    loop.show(tools=(button,))
+    shown = tab.button("Keep Out")
+    tab.wait_for(lambda: "is unknown" in str(shown.get_attribute("data-tip")))
+    playwright.expect(shown).to_be_disabled()
+    load(EXAMPLES / "keep_out.py")
+    tab.wait_for(lambda: shown.get_attribute("aria-disabled") is None)
+    assert shown.locator("path").get_attribute("d") == button.icon
+    shown.click()
+    box = tab.page.locator("canvas").first.bounding_box()
+    assert box is not None
+    x, y = box["x"] + 150, box["y"] + box["height"] - 80
+    tab.page.mouse.move(x, y)
+    tab.page.mouse.down()
+    for dx, dy in ((60, 0), (60, 40), (0, 40)):
+        tab.page.mouse.move(x + dx, y + dy)
+    line = tab.page.locator("[data-webviz=keep-out] polyline")
+    playwright.expect(line).to_have_attribute("points", re.compile(r"^\S+ \S+ \S+ \S+$"))
+    tab.page.mouse.up()
+    tab.wait_for(lambda: isinstance(next(iter(loop.commands[-1:]), None), UseTool))
+    command = loop.commands[-1]
+    assert isinstance(command, UseTool)
+    assert command.tool == "keep"
+    assert len(command.points) == 4
+    assert {point[2] for point in command.points} == {0.0}
+    assert len(set(command.points)) == 4
+
+
+def test_a_panel_has_a_widget_of_its_module(loop: Loop, tab: Tab) -> None:
+    panel = make(load(EXAMPLES / "battery_dial.py")["BatteryDial"], {})
+    assert isinstance(panel, Panel)
+    loop.show(panels=(PanelTab("battery", "BatteryDial", panel),))
+    tab.wait_for(lambda: tab.page.get_by_role("tab", name="Battery").count())
+    tab.show_tab("Battery")
+    tab.wait_for(lambda: "0 %, warns below 20 %" in tab.text())
+    bar = tab.page.get_by_role("meter")
+    width = bar.evaluate("each => each.getBoundingClientRect().width")
+    bar.click(position={"x": width / 2, "y": 3})
+    tab.wait_for(lambda: re.search("warns below (49|50|51) %", tab.text()))
+
+
+def test_a_display_has_an_overlay_of_its_module(loop: Loop, tab: Tab) -> None:
+    load(EXAMPLES / "compass.py")
+    heading = tab.page.locator("[title='Heading of the camera']")
+    tab.wait_for(lambda: heading.count() == 1 and heading.inner_text().endswith("°"))
+    assert 0 <= int(heading.inner_text()[:-1]) < 360
+
+
+def test_a_module_that_fails_is_reported_and_the_page_goes_on(
+    loop: Loop, tab: Tab, tmp_path: Path
+) -> None:
+    path = tmp_path / "broken.py"
+    path.write_text(
+        "from webviz import Display\nclass Broken(Display):\n    module = 'broken.js'\n"
+    )
+    with pytest.raises(PluginError, match=r"cannot read its module .*broken\.js: No such file"):
+        load(path)
+    (tmp_path / "broken.js").write_text("export default () => { throw new Error('no luck') }")
+    load(path)
+    try:
+        tab.wait_for(
+            lambda: "The module of the display Broken failed: Error: no luck" in tab.text()
+        )
+    finally:
+        registry.register(str(path), {})
+
+
+@pytest.mark.parametrize("value", [object(), float("nan"), "x" * MAX_HTML])
+def test_values_of_a_widget_are_json_of_limited_size(value: object) -> None:
+    with pytest.raises(ValueError, match="JSON"):
+        CustomWidget("dial", {"value": value}, lambda value, browser: None)
+
+
+@pytest.mark.parametrize("sent", [None, True, "{", "[" * 5000, "1" * (MAX_TEXT + 1)])
+def test_what_a_page_sends_of_a_widget_is_json_of_limited_size(sent: object) -> None:
+    entered: list[object] = []
+    widget = CustomWidget("dial", {}, lambda value, browser: entered.append(value))
+    with pytest.raises(ValueError, match="JSON"):
+        widget.use(sent, 1)
+    assert entered == []
+    widget.use('{"share": 0.5}', 1)
+    assert entered == [{"share": 0.5}]
