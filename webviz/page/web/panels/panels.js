@@ -12,9 +12,6 @@ import { topics } from "./topics.js";
 import { transforms } from "./transforms.js";
 import { views } from "./views.js";
 
-<<<<<<< HEAD
-export const panels = [displays, selectionPanel, views, topics, transforms, toolsPanel, doctor];
-=======
 export const panels = [];
 const listeners = new Set();
 
@@ -29,5 +26,4 @@ export function panel(added) {
 /** Calls `listener` whenever there is another panel. */
 export const onPanel = (listener) => listeners.add(listener);
 
-for (const own of [displays, selectionPanel, views, topics, transforms, toolsPanel]) panel(own);
->>>>>>> 5eea2cb2 (Open gestures, widgets, overlays and tabs to modules of plug-ins)
+for (const own of [displays, selectionPanel, views, topics, transforms, toolsPanel, doctor]) panel(own);
