@@ -32,7 +32,7 @@ def shows_seconds(tab: Tab) -> bool:
 def running(ros_s: float, **more: object) -> PanelTimes:
     """A simulation that has run for 5 s and goes on."""
     clock_rate = ClockRate(round(ros_s * 1e9), time.time(), 1.0)
-    values = {"pace": clock_rate, "is_simulated": True, **more}
+    values = {"clock_rate": clock_rate, "is_simulated": True, **more}
     return PanelTimes(round(ros_s * 1e9), 5_000_000_000, time.time(), 5.0, **values)  # pyright: ignore[reportArgumentType]
 
 

@@ -27,7 +27,7 @@ from std_srvs.srv import Empty, Trigger
 
 import webviz
 from webviz.api.declared import Topic
-from webviz.api.status import Level, OtherFixedFrame, Status
+from webviz.api.status import Level, OtherFixedFrame
 from webviz.data.messages import decode, encode
 from webviz.engine.commands import Command
 from webviz.engine.state import ConfigFile, State
@@ -215,11 +215,9 @@ def test_any_fixed_frame_is_accepted_and_the_status_says_whether_it_exists(
         choose("base_lnk")
         assert viewer.fixed_frame == "base_lnk"
         client.until(lambda: client.get("fixed_frame") == "base_lnk", "the parameter")
-        assert viewer.statuses["Fixed Frame"] == Status(
-            Level.ERROR,
-            'Fixed frame "base_lnk" does not exist. Did you mean "base_link"?',
-            OtherFixedFrame("base_link"),
-        )
+        status = viewer.statuses["Fixed Frame"]
+        assert (status.level, status.remedy) == (Level.ERROR, OtherFixedFrame("base_link"))
+        assert status.text == 'Fixed frame "base_lnk" does not exist. Did you mean "base_link"?'
     assert client.set("fixed_frame", "/") == "The fixed frame needs a name."
     with pytest.raises(webviz.Error, match=r"^The fixed frame needs a name\.$"):
         viewer.fixed_frame = ""
