@@ -40,6 +40,7 @@ def test_the_keyboard_reaches_the_axes(tab: Tab) -> None:
     tab.wait_for(lambda: tab.page.evaluate(AXES)[1][2] < -0.999)
 
 
+@pytest.mark.usefixtures("scene")  # it tells pages where to begin
 def test_the_axes_are_as_before_when_a_lost_connection_is_back(tab: Tab, server: Server) -> None:
     tab.page.get_by_role("button", name="Look from -Y", exact=True).dispatch_event("click")
     tab.wait_for(lambda: tab.page.evaluate(AXES)[1][2] < -0.999)
