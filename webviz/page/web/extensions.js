@@ -17,21 +17,32 @@ import { beforeRender, camera, canvas, requestRender } from "./viser_page.js";
 const page = Object.freeze({
   act, beforeRender, camera, canvas, el, gesture, groundAt, makeLayer, onCanvas, overlay, panel,
   planeAt, requestRender, set, setChildren, setText, surfaceAt, svgElement, tellLive, toast, watch,
-  widget: (kind, make) => widget(`own ${kind}`, ownWidget(make)),
+  widget: (/** @type {string} */ kind, /** @type {Function} */ make) => widget(`own ${kind}`, ownWidget(make)),
 });
 
-// The values of a widget are one value of JSON in either direction.
-const ownWidget = (make) => (values, send) => {
-  const made = make(values.values, (value) => send(JSON.stringify(value)));
+/**
+ * The values of a widget are one value of JSON in either direction.
+ *
+ * @param {Function} make
+ */
+const ownWidget = (make) => (/** @type {any} */ values, /** @type {(text: string) => void} */ send) => {
+  const made = make(values.values, (/** @type {unknown} */ value) => send(JSON.stringify(value)));
   return { ...made, update: (/** @type {any} */ now) => made.update(now.values) };
 };
 
 export function install() {
   watch("modules", (modules, changed) => {
-    for (const name of changed) if (modules.has(name)) add(name, modules.get(name));
+    for (const name of changed) {
+      const text = modules.get(name);
+      if (text !== undefined) add(name, text);
+    }
   });
 }
 
+/**
+ * @param {string} name of the plug-in
+ * @param {string} text of its module
+ */
 async function add(name, text) {
   const parts = [text, `\n//# sourceURL=${new URL(`webviz/plugin/${encodeURIComponent(name)}`, location.href)}`];
   const address = URL.createObjectURL(new Blob(parts, { type: "text/javascript" }));

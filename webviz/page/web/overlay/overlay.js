@@ -10,7 +10,13 @@ import * as slowLink from "./slow_link.js";
 
 const shown = new Map();
 
-/** Adds an overlay, or replaces that of the same name; places are "status", "pointer" and "legend". */
+/**
+ * Adds an overlay, or replaces that of the same name.
+ *
+ * @param {"status" | "pointer" | "legend"} place
+ * @param {string} name
+ * @param {Element} element
+ */
 export function overlay(place, name, element) {
   shown.get(name)?.remove();
   shown.set(name, element);
