@@ -24,7 +24,7 @@ class Showing:
 
     def __init__(self, scene: Scene, views: ViewsPart, guard: Guard) -> None:
         self.statuses: dict[str, Status] = {}
-        """SceneDiff errors; the scene has dropped what failed, so they stay."""
+        """Errors of drawing; the scene has dropped what failed, so they stay."""
         self._scene = scene
         self._views = views
         self._guard = guard
@@ -43,5 +43,5 @@ class Showing:
             runner.draw(frames)
         if targets is not None:
             guard("Views", self._views.follow, targets, frames)
-        if guard("SceneDiff", self._scene.flush) is CRASHED:
-            self.statuses["Scene"] = Status(Level.ERROR, guard.crashes["SceneDiff"])
+        if guard("Drawing", self._scene.flush) is CRASHED:
+            self.statuses["Scene"] = Status(Level.ERROR, guard.crashes["Drawing"])
