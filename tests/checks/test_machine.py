@@ -105,6 +105,9 @@ def test_ros_that_does_not_start_is_a_finding() -> None:
     found = {each.id: each for each in report.findings}
     assert found["ENV010"].cause == "ROS did not start: no RMW."
     assert found["ENV010"].remedy == "Source it."
+    assert {id.rstrip("0123456789") for id in found} <= {"ENV", "NET", "SHM"}, (
+        "it has seen no topic"
+    )
 
 
 LO = "ip link set lo up"

@@ -34,10 +34,10 @@ class LostDatagrams(Check):
         environment = seen.environment
         if environment and environment.lost_datagrams and environment.receive_buffer < ENOUGH:
             yield self.found(
-                f"{environment.lost_datagrams} datagrams were dropped, since receive buffers "
-                f"are limited to {environment.receive_buffer // 1024} kB.",
+                f"{environment.lost_datagrams} datagrams were dropped since this machine started, "
+                f"as receive buffers are limited to {environment.receive_buffer // 1024} kB.",
                 "Allow receive buffers of 8 MB.",
-                severity=Severity.WARNING,
+                severity=Severity.NOTE,
                 evidence={
                     "lost_datagrams": environment.lost_datagrams,
                     "rmem_max": environment.receive_buffer,

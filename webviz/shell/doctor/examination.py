@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from webviz.api.environment import Environment
-from webviz.api.finding import Finding
+from webviz.api.finding import CauseLevel, Finding
 from webviz.api.observation import Observation
 from webviz.data.transforms import TransformBuffer
 from webviz.engine.commands import Play, SetFixedFrame, SetRate
@@ -32,6 +32,9 @@ FRAME_S = 1.5
 """After which the fixed frame is chosen by the transforms that have arrived."""
 LASTING_S = 3.0
 """Findings in a bag that are gone after less, before its end, are left out."""
+
+OF_MACHINE = {CauseLevel.MACHINE, CauseLevel.NETWORK, CauseLevel.MIDDLEWARE}
+"""Levels of causes that can be told without a source of messages."""
 
 Progress = Callable[[str, float], object]
 """Called with what is done and the share of it that is."""
@@ -155,7 +158,7 @@ def examine_machine(environment: Environment) -> DoctorReport:
         displays=(),
         environment=environment,
     )
-    checks = installed_checks()
+    checks = [check for check in installed_checks() if CauseLevel.of(check.id) in OF_MACHINE]
     found = [finding for check in checks for finding in check().find(seen)]
     return report_of("live", None, ordered(found), len(checks))
 
