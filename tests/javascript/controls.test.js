@@ -56,7 +56,7 @@ test("values stay within their bounds, also within open ones", () => {
   assert.equal(within({ kind: "float" }, 0.30000000000000004, 0.1), 0.3);
 });
 
-test("bounds are told with the unit", () => {
+test("bounds are shown with their unit", () => {
   assert.equal(bounds({ low: 0, high: 1, unit: "m" }), "0 to 1 m");
   assert.equal(bounds({ above: 0, below: 5 }), "> 0, < 5");
   assert.equal(bounds({ low: -1 }), "≥ -1");

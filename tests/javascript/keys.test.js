@@ -40,7 +40,7 @@ test("keys drive while they are held", () => {
   assert.ok(press("KeyW") && press("KeyA"));
   assert.deepEqual(keys.share(), [1, 0, 1]);
   press("ArrowUp");
-  assert.deepEqual(keys.share(), [1, 0, 1], "two keys for one way are no faster");
+  assert.deepEqual(keys.share(), [1, 0, 1], "two keys for the same direction add no speed");
   press("KeyS");
   keys.lift({ code: "ArrowUp" });
   assert.deepEqual(keys.share(), [0, 0, 1], "opposite keys cancel");

@@ -23,7 +23,7 @@ class Asked:
         channel: to the pages.
         browser: that asks.
         do: what it sent.
-        note: called once with the first answer that is no refusal, from any thread.
+        note: called once with the first answer other than a refusal, from any thread.
     """
 
     def __init__(

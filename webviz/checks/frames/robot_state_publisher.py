@@ -1,4 +1,4 @@
-"""Robots whose links nobody publishes."""
+"""Robots without a publisher for the transforms of their links."""
 
 from __future__ import annotations
 

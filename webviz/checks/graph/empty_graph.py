@@ -15,8 +15,8 @@ class EmptyGraph(Check):
     webviz is the only node of its ROS graph: discovery has found no participant besides it.
 
     Why:
-        Without discovery there are no topics, whatever the displays are set to. Either nothing
-        runs, or the nodes are in another domain, on another network, or hidden by a firewall.
+        No display can show anything until nodes are discovered. Either no node is running, or the
+        nodes are in another domain, on another network, or behind a firewall.
 
     Repair:
         Start the robot. If it runs, compare the domain and the middleware on both machines:

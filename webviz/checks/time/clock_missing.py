@@ -15,8 +15,8 @@ class ClockMissing(Check):
     webviz follows simulated time, and no message has arrived on /clock.
 
     Why:
-        With use_sim_time the time of a node is that of /clock. Until its first message there is no
-        time, so that nothing with a stamp can be placed.
+        With use_sim_time, a node takes its time from /clock. Before the first message on /clock,
+        data with a stamp cannot be placed.
 
     Repair:
         Start the simulator, or play the bag with its clock:

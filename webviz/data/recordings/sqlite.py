@@ -33,7 +33,7 @@ PATIENCE_S = 0.1
 PROGRESS = 10_000
 """Instructions of SQLite between two looks at the clock."""
 BATCHES = (1, 16, 256, 4096, -1)
-"""Rows of one query after the other; -1 is no limit."""
+"""Numbers of rows of consecutive queries; -1 for no limit."""
 MAX_MISSES = 10_000
 """Consecutive rows that are missing or damaged, after which a damaged table counts as ended."""
 IN_ONE_PAGE = 400

@@ -68,7 +68,7 @@ class Doctor:
         """Of the last round, the one to repair first at the beginning."""
 
     def ask(self) -> None:
-        """Examine for some seconds even if nobody looks, from any thread."""
+        """Examine for some seconds even if no browser is connected; thread-safe."""
         self._asked_until_s = time.monotonic() + ASKED_S
 
     def examine(self, state: State) -> Sequence[Finding]:

@@ -99,7 +99,7 @@ class VelocityControllers:
             }
 
     def stopping(self) -> set[Advertisement]:
-        """Where vehicles have still to stop that are gone or go elsewhere."""
+        """Return the topics of vehicles that must still stop: removed ones, or with a new topic."""
         with self._lock:
             return {controller.advertisement for controller in self._leaving}
 
