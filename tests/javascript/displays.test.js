@@ -3,18 +3,36 @@ import { test } from "node:test";
 
 import { MIXED } from "../../webviz/page/web/controls/mixed.js";
 import { commonOf, filled, valuesOf } from "../../webviz/page/web/panels/displays/common.js";
-import { arrange, globalItem, topmost, visible } from "../../webviz/page/web/panels/displays/model.js";
+import {
+  arrange,
+  globalItem,
+  topmost,
+  visible,
+} from "../../webviz/page/web/panels/displays/model.js";
 import { below, moves, step } from "../../webviz/page/web/panels/displays/places.js";
 
-const row = (name, depth, more = {}) => ({ name, depth, type: "Grid", topics: [], enabled: true, ...more });
+const row = (name, depth, more = {}) => ({
+  name,
+  depth,
+  type: "Grid",
+  topics: [],
+  enabled: true,
+  ...more,
+});
 const group = (name, depth, more = {}) => row(name, depth, { type: "Group", ...more });
 
 /** A group with a display and a group in it, and a display before and behind it. */
-const VALUES = new Map(Object.entries({
-  order: ["a", "g", "b", "h", "c", "d"],
-  a: row("Same", 0), g: group("Robot", 0, { enabled: false }), b: row("Scan", 1, { topics: ["/front/scan"] }),
-  h: group("Inner", 1), c: row("Same", 2), d: row("Same", 0),
-}));
+const VALUES = new Map(
+  Object.entries({
+    order: ["a", "g", "b", "h", "c", "d"],
+    a: row("Same", 0),
+    g: group("Robot", 0, { enabled: false }),
+    b: row("Scan", 1, { topics: ["/front/scan"] }),
+    h: group("Inner", 1),
+    c: row("Same", 2),
+    d: row("Same", 0),
+  }),
+);
 const MODEL = arrange(VALUES);
 const ids = (items) => items.map(({ id }) => id).join("");
 const always = () => true;
@@ -24,15 +42,26 @@ test("rows with depths become a tree, and a group that is off switches off what 
   assert.equal(ids(MODEL.byId.get("g").children), "bh");
   assert.equal(MODEL.byId.get("c").parent, MODEL.byId.get("h"));
   assert.equal(ids(MODEL.items.filter(({ isActive }) => isActive)), "ad");
-  const deep = arrange(new Map(Object.entries({ order: ["x", "y"], x: group("x", 0), y: row("y", 9) })));
+  const deep = arrange(
+    new Map(Object.entries({ order: ["x", "y"], x: group("x", 0), y: row("y", 9) })),
+  );
   assert.equal(deep.byId.get("y").parent, deep.byId.get("x"));
   assert.deepEqual(arrange(new Map()).items, []);
 });
 
 test("paths are of names, short and each its own", () => {
   const paths = MODEL.items.map(({ path }) => path);
-  assert.deepEqual(paths, ["/Same", "/Robot", "/Robot/Scan", "/Robot/Inner", "/Robot/Inner/Same", "/Same#2"]);
-  const [item] = arrange(new Map(Object.entries({ order: ["x"], x: row("y".repeat(1e5), 0) }))).items;
+  assert.deepEqual(paths, [
+    "/Same",
+    "/Robot",
+    "/Robot/Scan",
+    "/Robot/Inner",
+    "/Robot/Inner/Same",
+    "/Same#2",
+  ]);
+  const [item] = arrange(
+    new Map(Object.entries({ order: ["x"], x: row("y".repeat(1e5), 0) })),
+  ).items;
   assert.ok(item.path.length < 100);
 });
 
@@ -55,8 +84,13 @@ test("what is selected together with its group goes with the group", () => {
 });
 
 test("the row on top has the worst status of the viewer", () => {
-  const statuses = [["Time", "warn", "slow", ""], ["Frame", "error", "no frame", "choose another"]];
-  const item = globalItem(new Map(Object.entries({ statuses, frame_rate: 29.97, fixed_frame: "map" })));
+  const statuses = [
+    ["Time", "warn", "slow", ""],
+    ["Frame", "error", "no frame", "choose another"],
+  ];
+  const item = globalItem(
+    new Map(Object.entries({ statuses, frame_rate: 29.97, fixed_frame: "map" })),
+  );
   assert.deepEqual([item.level, item.line, item.remedy], ["error", "no frame", "choose another"]);
   assert.equal(item.note, "map, 30 Hz");
   assert.deepEqual([globalItem(new Map()).level, globalItem(new Map()).note], ["ok", ""]);
@@ -64,15 +98,24 @@ test("the row on top has the worst status of the viewer", () => {
 
 test("a place below a row has a depth that is possible there", () => {
   const rows = MODEL.items;
-  const at = (index, depth, moved = [], isOpen = always) => below(MODEL, rows, index, depth, new Set(moved), isOpen);
+  const at = (index, depth, moved = [], isOpen = always) =>
+    below(MODEL, rows, index, depth, new Set(moved), isOpen);
   assert.deepEqual(at(-1, 0), { group: "", before: "a", depth: 0 });
   assert.deepEqual(at(0, 9), { group: "", before: "g", depth: 0 });
   assert.deepEqual(at(1, 0), { group: "g", before: "b", depth: 1 }, "an open group is entered");
-  assert.deepEqual(at(1, 1, ["b", "h"], () => false), { group: "", before: "d", depth: 0 }, "a folded one is not");
+  assert.deepEqual(
+    at(1, 1, ["b", "h"], () => false),
+    { group: "", before: "d", depth: 0 },
+    "a folded one is not",
+  );
   assert.deepEqual(at(4, 2), { group: "h", before: "", depth: 2 });
   assert.deepEqual(at(4, 1), { group: "g", before: "", depth: 1 });
   assert.deepEqual(at(4, -5), { group: "", before: "d", depth: 0 });
-  assert.deepEqual(at(1, 1, ["b"]), { group: "g", before: "h", depth: 1 }, "what moves is not there");
+  assert.deepEqual(
+    at(1, 1, ["b"]),
+    { group: "g", before: "h", depth: 1 },
+    "what moves is not there",
+  );
   assert.deepEqual(at(-1, 0, ["a", "g", "d"]), { group: "", before: "", depth: 0 });
 });
 
@@ -82,7 +125,13 @@ test("keys move up, down, out of a group and into one", () => {
   assert.deepEqual(to("a", "down"), { group: "", before: "d" });
   assert.deepEqual(to("c", "out"), { group: "g", before: "" });
   assert.deepEqual(to("d", "into"), { group: "g", before: "", depth: 1 });
-  for (const [id, way] of [["a", "up"], ["d", "down"], ["a", "out"], ["a", "into"], ["", "up"]]) {
+  for (const [id, way] of [
+    ["a", "up"],
+    ["d", "down"],
+    ["a", "out"],
+    ["a", "into"],
+    ["", "up"],
+  ]) {
     assert.equal(to(id, way), null, way);
   }
   assert.deepEqual(to("bd", "out"), { group: "", before: "" }, "what moves is not there");
@@ -90,7 +139,10 @@ test("keys move up, down, out of a group and into one", () => {
 });
 
 test("what is at its place already is not moved", () => {
-  const to = (id, place) => moves(MODEL, new Set(id), place).map(({ display }) => display).join("");
+  const to = (id, place) =>
+    moves(MODEL, new Set(id), place)
+      .map(({ display }) => display)
+      .join("");
   assert.equal(to("a", { group: "", before: "g" }), "");
   assert.equal(to("ag", { group: "", before: "d" }), "");
   assert.equal(to("a", { group: "", before: "d" }), "a");
@@ -114,7 +166,13 @@ test("properties are common if they are declared alike; other defaults and help 
 });
 
 test("topics of other types have their QoS in common, and no name", () => {
-  const topic = { path: "topic", kind: "topic", label: "Topic", type: "A", children: [{ path: "topic.name" }, number] };
+  const topic = {
+    path: "topic",
+    kind: "topic",
+    label: "Topic",
+    type: "A",
+    children: [{ path: "topic.name" }, number],
+  };
   assert.deepEqual(commonOf([[topic], [topic]])[0].children.length, 2);
   const [{ kind, label, children }] = commonOf([[topic], [{ ...topic, type: "B" }]]);
   assert.deepEqual([kind, label, children], ["group", "QoS", [number]]);
@@ -122,9 +180,24 @@ test("topics of other types have their QoS in common, and no name", () => {
 
 test("values that are not equal are mixed, of vectors each element", () => {
   const place = { path: "at", kind: "vector" };
-  const stores = [[1, [0, 1]], [2, [0, 2]]].map(([size, at]) => new Map([["value.size", size], ["value.at", at]]));
+  const stores = [
+    [1, [0, 1]],
+    [2, [0, 2]],
+  ].map(
+    ([size, at]) =>
+      new Map([
+        ["value.size", size],
+        ["value.at", at],
+      ]),
+  );
   const values = valuesOf(stores, [{ children: [number] }, place]);
-  assert.deepEqual([...values], [["value.size", MIXED], ["value.at", [0, MIXED]]]);
+  assert.deepEqual(
+    [...values],
+    [
+      ["value.size", MIXED],
+      ["value.at", [0, MIXED]],
+    ],
+  );
   assert.deepEqual(filled([7, MIXED], [1, 2]), [7, 2]);
   assert.equal(filled(5, 3), 5);
 });

@@ -12,8 +12,12 @@ const QUARTER = Math.PI / 2;
 const place = ([x, y]) => [100 * x, -100 * y];
 const sight = {
   rayAt: ([x, y]) => ({ origin: [x / 100, -y / 100, 10], direction: [0, 0, -1] }),
-  project: place, perPixel: () => 0.01, unit: () => 1,
-  right: [1, 0, 0], up: [0, 1, 0], forward: [0, 0, -1],
+  project: place,
+  perPixel: () => 0.01,
+  unit: () => 1,
+  right: [1, 0, 0],
+  up: [0, 1, 0],
+  forward: [0, 0, -1],
 };
 
 /** The pose, and the angle, of a handle at a position that is gripped at a point and dragged. */
@@ -31,8 +35,13 @@ function dragged({ mode, wxyz = IDENTITY, facing = "inherit" }, position, grab, 
 }
 
 function assertPose(moved, position, wxyz = IDENTITY, turned = 0) {
-  const [found, wanted] = [[...moved.position, ...moved.wxyz, moved.turned], [...position, ...wxyz, turned]];
-  found.forEach((value, i) => assert.ok(Math.abs(value - wanted[i]) < 1e-9, `${found}, not ${wanted}`));
+  const [found, wanted] = [
+    [...moved.position, ...moved.wxyz, moved.turned],
+    [...position, ...wxyz, turned],
+  ];
+  found.forEach((value, i) =>
+    assert.ok(Math.abs(value - wanted[i]) < 1e-9, `${found}, not ${wanted}`),
+  );
 }
 
 const ORIGIN = [0, 0, 0];
@@ -53,7 +62,12 @@ test("facing the camera, the plane is that of the screen, whatever the control s
 
 test("a quarter to the left is a quarter to the right about -z", () => {
   const control = { mode: "rotate_axis", wxyz: DOWN };
-  assertPose(dragged(control, [1, 2, 0], [2, 2, 0], { to: [1, 4] }), [1, 2, 0], [S, 0, 0, S], -QUARTER);
+  assertPose(
+    dragged(control, [1, 2, 0], [2, 2, 0], { to: [1, 4] }),
+    [1, 2, 0],
+    [S, 0, 0, S],
+    -QUARTER,
+  );
 });
 
 test("towed by a rope, it follows the pointer and turns to it", () => {
@@ -72,24 +86,44 @@ test("freely, it moves in the plane of the screen, and in depth by Shift or the 
 });
 
 test("a move by Shift stays when Shift is let go", () => {
-  const moved = dragged({ mode: "move_3d" }, [1, 1, 1], [1, 1, 1], { to: [1, 2], shift: true }, { to: [2, 2] });
+  const moved = dragged(
+    { mode: "move_3d" },
+    [1, 1, 1],
+    [1, 1, 1],
+    { to: [1, 2], shift: true },
+    { to: [2, 2] },
+  );
   assertPose(moved, [2, 1, 0]);
 });
 
 test("freely, 300 pixels are a whole turn: like a ball, or like a wheel with Shift", () => {
   const control = { mode: "rotate_3d" };
   assertPose(dragged(control, ORIGIN, ORIGIN, { to: [0.75, 0] }), ORIGIN, [S, 0, S, 0]);
-  assertPose(dragged(control, ORIGIN, ORIGIN, { to: [0.75, 0], shift: true }), ORIGIN, [S, 0, 0, -S]);
+  assertPose(dragged(control, ORIGIN, ORIGIN, { to: [0.75, 0], shift: true }), ORIGIN, [
+    S,
+    0,
+    0,
+    -S,
+  ]);
 });
 
 test("of a control that moves and turns, Ctrl turns", () => {
   const control = { mode: "move_rotate_3d" };
   assertPose(dragged(control, ORIGIN, ORIGIN, { to: [1, 0] }), [1, 0, 0]);
-  assertPose(dragged(control, ORIGIN, ORIGIN, { to: [0, -0.75], ctrl: true }), ORIGIN, [S, S, 0, 0]);
+  assertPose(dragged(control, ORIGIN, ORIGIN, { to: [0, -0.75], ctrl: true }), ORIGIN, [
+    S,
+    S,
+    0,
+    0,
+  ]);
 });
 
 test("nothing moves along an axis that points to the camera, in a plane seen from its side, or by a button", () => {
-  for (const control of [{ mode: "move_axis", wxyz: DOWN }, { mode: "move_plane" }, { mode: "button" }]) {
+  for (const control of [
+    { mode: "move_axis", wxyz: DOWN },
+    { mode: "move_plane" },
+    { mode: "button" },
+  ]) {
     assert.equal(dragged(control, ORIGIN, ORIGIN, { to: [2, 3] }), null, control.mode);
   }
 });

@@ -5,7 +5,15 @@ import { straight } from "../../webviz/page/web/images/bend.js";
 import { clicks } from "../../webviz/page/web/tools/clicks.js";
 import { disarm, share } from "../../webviz/page/web/tools/teleop_gamepad.js";
 
-const at = (type, x, more = {}) => ({ type, pointerId: 1, clientX: x, clientY: 0, button: 0, buttons: 0, ...more });
+const at = (type, x, more = {}) => ({
+  type,
+  pointerId: 1,
+  clientX: x,
+  clientY: 0,
+  button: 0,
+  buttons: 0,
+  ...more,
+});
 
 /** The names of what a pointer's events call. */
 function heard(...events) {
@@ -58,7 +66,9 @@ test("without a gamepad, or with one of a single axis, nothing is held", () => {
 
 /** The middle half of an image. */
 const MIDDLE = {
-  rows: 3, columns: 2, places: [0.25, 0.25, 0.75, 0.25, 0.25, 0.5, 0.75, 0.5, 0.25, 0.75, 0.75, 0.75],
+  rows: 3,
+  columns: 2,
+  places: [0.25, 0.25, 0.75, 0.25, 0.25, 0.5, 0.75, 0.5, 0.25, 0.75, 0.75, 0.75],
 };
 /** The left half of an image, of which the lens does not see a corner. */
 const HALF = { rows: 2, columns: 3, places: [0, 0, 0.25, 0, 0.5, 0, 0, 1, 0.25, 1, null, null] };
@@ -71,8 +81,17 @@ test("a place of a bent image is between the corners of its cell", () => {
 });
 
 test("places outside a bent image, or of a cell that the lens does not see, show nothing", () => {
-  for (const place of [[-0.1, 0.6], [1.1, 0.6], [0.5, -0.1], [0.5, 1.1]]) {
+  for (const place of [
+    [-0.1, 0.6],
+    [1.1, 0.6],
+    [0.5, -0.1],
+    [0.5, 1.1],
+  ]) {
     assert.equal(straight(MIDDLE, place), null, String(place));
   }
-  for (const place of [[0.75, 0.5], [0, 1]]) assert.equal(straight(HALF, place), null, String(place));
+  for (const place of [
+    [0.75, 0.5],
+    [0, 1],
+  ])
+    assert.equal(straight(HALF, place), null, String(place));
 });

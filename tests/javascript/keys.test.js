@@ -4,7 +4,8 @@ import { afterEach, test } from "node:test";
 import { keyOf, keyText } from "../../webviz/page/web/shell/keys.js";
 import * as keys from "../../webviz/page/web/tools/teleop_keys.js";
 
-const press = (code, more = {}, canGoSideways = true) => keys.press({ code, ...more }, canGoSideways);
+const press = (code, more = {}, canGoSideways = true) =>
+  keys.press({ code, ...more }, canGoSideways);
 
 afterEach(() => keys.release());
 
@@ -20,7 +21,10 @@ test("keys are written as they are read", () => {
 
 test("on a Mac Ctrl is the command key", async () => {
   const here = Object.getOwnPropertyDescriptor(globalThis, "navigator");
-  Object.defineProperty(globalThis, "navigator", { value: { platform: "MacIntel" }, configurable: true });
+  Object.defineProperty(globalThis, "navigator", {
+    value: { platform: "MacIntel" },
+    configurable: true,
+  });
   const mac = await import(`${import.meta.resolve("../../webviz/page/web/shell/keys.js")}?mac`);
   Object.defineProperty(globalThis, "navigator", here);
   assert.equal(mac.keyText("Ctrl+z"), "⌘+Z");

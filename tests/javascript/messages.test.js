@@ -8,39 +8,81 @@ const stamp = { fields: { sec: "5", nanosec: "0" } };
 const header = { fields: { stamp, frame_id: "'base'" } };
 const numbers = { items: ["0.0", "1e+308"], length: 720, type: "" };
 const poses = { items: [{ fields: { x: "nan" } }], length: 1, type: "geometry_msgs/Pose" };
-const MESSAGE = { fields: { header, ranges: numbers, poses, none: { items: [], length: 0, type: "" } } };
+const MESSAGE = {
+  fields: { header, ranges: numbers, poses, none: { items: [], length: 0, type: "" } },
+};
 
-const shown = (rows) => rows.map(({ depth, name, value }) => `${"  ".repeat(depth)}${name} ${value}`.trimEnd());
+const shown = (rows) =>
+  rows.map(({ depth, name, value }) => `${"  ".repeat(depth)}${name} ${value}`.trimEnd());
 
 test("messages are unfolded at first, and sequences are not", () => {
   const rows = rowsOf(MESSAGE, new Map());
   assert.deepEqual(shown(rows), [
-    "header", "  stamp", "    sec 5", "    nanosec 0", "  frame_id 'base'",
-    "ranges [0.0, 1e+308, …]  720 in all", "poses 1 × geometry_msgs/Pose", "none []",
+    "header",
+    "  stamp",
+    "    sec 5",
+    "    nanosec 0",
+    "  frame_id 'base'",
+    "ranges [0.0, 1e+308, …]  720 in all",
+    "poses 1 × geometry_msgs/Pose",
+    "none []",
   ]);
-  assert.deepEqual(rows.map(({ isOpen }) => isOpen), [true, true, null, null, null, false, false, null]);
+  assert.deepEqual(
+    rows.map(({ isOpen }) => isOpen),
+    [true, true, null, null, null, false, false, null],
+  );
 });
 
 test("rows are folded and unfolded by their keys, and what was left out is counted", () => {
-  const folds = new Map([["/header", false], ["/ranges", true], ["/poses", true], ["/poses/[0]", false]]);
+  const folds = new Map([
+    ["/header", false],
+    ["/ranges", true],
+    ["/poses", true],
+    ["/poses/[0]", false],
+  ]);
   assert.deepEqual(shown(rowsOf(MESSAGE, folds)), [
-    "header stamp: sec: 5, nanosec: 0, frame_id: 'base'", "ranges 720 in all", "  [0] 0.0", "  [1] 1e+308",
-    "   … 718 more", "poses 1 × geometry_msgs/Pose", "  [0] x: nan", "none []",
+    "header stamp: sec: 5, nanosec: 0, frame_id: 'base'",
+    "ranges 720 in all",
+    "  [0] 0.0",
+    "  [1] 1e+308",
+    "   … 718 more",
+    "poses 1 × geometry_msgs/Pose",
+    "  [0] x: nan",
+    "none []",
   ]);
 });
 
 test("messages deep within others are folded, and the line of a folded one is short", () => {
-  const deep = { fields: { a: { fields: { b: { fields: { c: { fields: { d: "9".repeat(1e5) } } } } } } } };
+  const deep = {
+    fields: { a: { fields: { b: { fields: { c: { fields: { d: "9".repeat(1e5) } } } } } } },
+  };
   const rows = rowsOf(deep, new Map());
-  assert.deepEqual(rows.map(({ name, isOpen }) => [name, isOpen]), [["a", true], ["b", true], ["c", false]]);
+  assert.deepEqual(
+    rows.map(({ name, isOpen }) => [name, isOpen]),
+    [
+      ["a", true],
+      ["b", true],
+      ["c", false],
+    ],
+  );
   assert.ok(rows.at(-1).value.length < 100 && rows.at(-1).value.endsWith("…"));
 });
 
 test("a message is copied as it is echoed, and what was left out is marked", () => {
-  assert.equal(textOf(MESSAGE), [
-    "header:", "  stamp:", "    sec: 5", "    nanosec: 0", "  frame_id: 'base'",
-    "ranges: [0.0, 1e+308, …]  # 720 in all", "poses:", "- x: nan", "none: []",
-  ].join("\n"));
+  assert.equal(
+    textOf(MESSAGE),
+    [
+      "header:",
+      "  stamp:",
+      "    sec: 5",
+      "    nanosec: 0",
+      "  frame_id: 'base'",
+      "ranges: [0.0, 1e+308, …]  # 720 in all",
+      "poses:",
+      "- x: nan",
+      "none: []",
+    ].join("\n"),
+  );
   const more = { fields: { poses: { ...poses, length: 3 } } };
   assert.equal(textOf(more), "poses:\n- x: nan\n# 3 × geometry_msgs/Pose");
 });
@@ -61,7 +103,16 @@ test("statistics have the digits that tell their values apart", () => {
 
 test("statistics are folded by display, and have nothing to fold without values", () => {
   const range = { name: "x", unit: "", low: 0, high: 1, mean: 0.5 };
-  const displays = [{ name: "A", count: 1, ranges: [range] }, { name: "B", count: 2, ranges: [] }];
+  const displays = [
+    { name: "A", count: 1, ranges: [range] },
+    { name: "B", count: 2, ranges: [] },
+  ];
   const rows = statisticsRows(displays, new Map([["statistics 0", false]]));
-  assert.deepEqual(rows.map(({ name, isOpen }) => [name, isOpen]), [["A", false], ["B", null]]);
+  assert.deepEqual(
+    rows.map(({ name, isOpen }) => [name, isOpen]),
+    [
+      ["A", false],
+      ["B", null],
+    ],
+  );
 });

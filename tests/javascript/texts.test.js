@@ -60,7 +60,17 @@ test("a span has the unit that suits it", () => {
   assert.equal(spanText(null), "");
   assert.equal(spanText(undefined), "");
   const texts = [0, 0.012, 0.9996, 9.96, 119, 121, 7200, 172_800, -3.44].map(spanText);
-  assert.deepEqual(texts, ["0 ms", "12 ms", "1.0 s", "10 s", "119 s", "2 min", "2 h", "2 d", "−3.4 s"]);
+  assert.deepEqual(texts, [
+    "0 ms",
+    "12 ms",
+    "1.0 s",
+    "10 s",
+    "119 s",
+    "2 min",
+    "2 h",
+    "2 d",
+    "−3.4 s",
+  ]);
 });
 
 test("what is rounded to zero has no sign", () => {
@@ -71,17 +81,41 @@ test("what is rounded to zero has no sign", () => {
 
 test("a message is YAML with names as they are and all else as JSON", () => {
   const header = { stamp: { sec: -1 }, frame_id: "map" };
-  assert.equal(yaml({ header, empty: {}, on: true, points: [1.5, -2] }), [
-    "header:", "  stamp:", "    sec: -1", "  frame_id: map", "empty: {}", "on: true", "points: [1.5, -2]", "",
-  ].join("\n"));
+  assert.equal(
+    yaml({ header, empty: {}, on: true, points: [1.5, -2] }),
+    [
+      "header:",
+      "  stamp:",
+      "    sec: -1",
+      "  frame_id: map",
+      "empty: {}",
+      "on: true",
+      "points: [1.5, -2]",
+      "",
+    ].join("\n"),
+  );
   assert.equal(yaml({}), "");
 });
 
 test("texts that YAML would read as something else are quoted", () => {
-  for (const text of ["", "yes", "NULL", "n", "1.5", "a b", "a: b", "- a", "#a", 'a"b', "a\nb", "é"]) {
+  for (const text of [
+    "",
+    "yes",
+    "NULL",
+    "n",
+    "1.5",
+    "a b",
+    "a: b",
+    "- a",
+    "#a",
+    'a"b',
+    "a\nb",
+    "é",
+  ]) {
     assert.equal(yaml({ text }), `text: ${JSON.stringify(text)}\n`);
   }
-  for (const text of ["/robot_1/base.link-2", "yesterday"]) assert.equal(yaml({ text }), `text: ${text}\n`);
+  for (const text of ["/robot_1/base.link-2", "yesterday"])
+    assert.equal(yaml({ text }), `text: ${text}\n`);
 });
 
 test("numbers with an exponent have a point, without which YAML 1.1 reads them as texts", () => {

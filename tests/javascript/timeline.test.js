@@ -45,8 +45,13 @@ test("typed times are seconds, minutes and hours, or a date", () => {
 test("the past of live topics goes on with time", () => {
   const live = new Map(Object.entries({ start: 1000, ahead: 2, is_live: true, held: 60 }));
   const now = atMoment(live, 1102);
-  assert.deepEqual([now.get("first"), now.get("duration"), now.get("position"), now.get("ago")], [40, 100, 100, 0]);
-  const past = new Map(Object.entries({ start: 1000, ahead: 2, is_live: false, first: 40, position: 90 }));
+  assert.deepEqual(
+    [now.get("first"), now.get("duration"), now.get("position"), now.get("ago")],
+    [40, 100, 100, 0],
+  );
+  const past = new Map(
+    Object.entries({ start: 1000, ahead: 2, is_live: false, first: 40, position: 90 }),
+  );
   assert.equal(atMoment(past, 1102).get("ago"), 10);
   assert.equal(atMoment(past, 1105.5).get("ago"), 13.5);
   assert.equal(isNow(atMoment(past, 1102), 99.8, 60), true);
@@ -54,7 +59,10 @@ test("the past of live topics goes on with time", () => {
 });
 
 test("a bag is nowhere near now", () => {
-  const bag = atMoment(new Map(Object.entries({ start: 0, is_live: null, duration: 5, position: 5 })), 1e9);
+  const bag = atMoment(
+    new Map(Object.entries({ start: 0, is_live: null, duration: 5, position: 5 })),
+    1e9,
+  );
   assert.deepEqual([bag.get("first"), bag.get("ago"), isNow(bag, 5, 5)], [0, 0, false]);
 });
 
@@ -66,6 +74,9 @@ test("times before now are seconds", () => {
 });
 
 test("recordings of rules are named by time and cause", () => {
-  assert.equal(savedText("2026-11-23_05-12-47_Scan_error", 12.3), "2026-11-23 05:12:47 · Scan error · 12.3 MB");
+  assert.equal(
+    savedText("2026-11-23_05-12-47_Scan_error", 12.3),
+    "2026-11-23 05:12:47 · Scan error · 12.3 MB",
+  );
   assert.equal(savedText("mine", 1), "mine · 1 MB");
 });

@@ -2,15 +2,29 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import {
-  about, angleAbout, compose, inverse, onLine, onPlane, rotate, turnedBy, unit,
+  about,
+  angleAbout,
+  compose,
+  inverse,
+  onLine,
+  onPlane,
+  rotate,
+  turnedBy,
+  unit,
 } from "../../webviz/page/web/handles/vectors.js";
 
-const [X, Y, Z] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
+const [X, Y, Z] = [
+  [1, 0, 0],
+  [0, 1, 0],
+  [0, 0, 1],
+];
 const DOWN = { origin: [2, 3, 10], direction: [0, 0, -1] };
 
 function near(found, wanted) {
   assert.equal(found.length, wanted.length);
-  found.forEach((value, i) => assert.ok(Math.abs(value - wanted[i]) < 1e-12, `${found}, not ${wanted}`));
+  found.forEach((value, i) =>
+    assert.ok(Math.abs(value - wanted[i]) < 1e-12, `${found}, not ${wanted}`),
+  );
 }
 
 test("a quaternion turns counter-clockwise about its axis", () => {
@@ -49,7 +63,11 @@ test("a ray meets a plane in front of it only", () => {
   near(onPlane(DOWN, [0, 0, 4], Z), [2, 3, 4]);
   assert.equal(onPlane(DOWN, [0, 0, 11], Z), null, "behind");
   assert.equal(onPlane(DOWN, [0, 0, 4], X), null, "parallel");
-  assert.equal(onPlane({ origin: [0, 0, 1], direction: [1, 0, -1e-12] }, [0, 0, 0], Z), null, "far");
+  assert.equal(
+    onPlane({ origin: [0, 0, 1], direction: [1, 0, -1e-12] }, [0, 0, 0], Z),
+    null,
+    "far",
+  );
   assert.equal(onPlane(DOWN, [0, 0, NaN], Z), null);
 });
 

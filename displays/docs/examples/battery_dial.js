@@ -3,7 +3,12 @@
 export default function install({ el, set, setText, widget }) {
   widget("dial", (values, send) => {
     const text = el("span");
-    const bar = el("meter", { min: 0, max: 1, "aria-label": "Charge", style: "width: 100%; cursor: pointer" });
+    const bar = el("meter", {
+      min: 0,
+      max: 1,
+      "aria-label": "Charge",
+      style: "width: 100%; cursor: pointer",
+    });
     bar.addEventListener("click", ({ clientX }) => {
       const { left, width } = bar.getBoundingClientRect();
       send((clientX - left) / width);

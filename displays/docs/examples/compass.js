@@ -5,7 +5,9 @@ export default function install({ beforeRender, canvas, el, groundAt, overlay, s
   overlay("legend", "compass", text);
   beforeRender(() => {
     const { left, top, width, height } = canvas().getBoundingClientRect();
-    const [near, far] = [0.95, 0.75].map((share) => groundAt(left + width / 2, top + height * share));
+    const [near, far] = [0.95, 0.75].map((share) =>
+      groundAt(left + width / 2, top + height * share),
+    );
     text.hidden = !near || !far;
     if (text.hidden) return;
     const degrees = (Math.atan2(far[0] - near[0], far[1] - near[1]) * 180) / Math.PI;

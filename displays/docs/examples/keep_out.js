@@ -3,7 +3,16 @@
 const STEP_PX = 10; // between two corners
 const MAX_CORNERS = 500;
 
-export default function install({ beforeRender, canvas, gesture, groundAt, makeLayer, onCanvas, set, svgElement }) {
+export default function install({
+  beforeRender,
+  canvas,
+  gesture,
+  groundAt,
+  makeLayer,
+  onCanvas,
+  set,
+  svgElement,
+}) {
   const line = svgElement("polyline", { fill: "none", stroke: "#f80", "stroke-width": 3 });
   const layer = makeLayer("keep-out", svgElement("svg", { width: "100%", height: "100%" }, line));
   let corners = [];

@@ -20,9 +20,12 @@ export function install() {
   channel.on("Beat", hear);
   // viser's page would connect again, so it has to go.
   channel.on("Dismissed", ({ text }) => {
-    const notice = new Blob([`<!doctype html><meta charset="utf-8"><title>webviz</title><p>${text}`], {
-      type: "text/html",
-    });
+    const notice = new Blob(
+      [`<!doctype html><meta charset="utf-8"><title>webviz</title><p>${text}`],
+      {
+        type: "text/html",
+      },
+    );
     location.replace(URL.createObjectURL(notice));
   });
   viser.filterMessages((messages) => {

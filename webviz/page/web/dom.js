@@ -37,7 +37,8 @@ export function set(element, attributes) {
     else if (typeof value === "boolean" && !name.startsWith("aria-")) {
       element.toggleAttribute(name, value);
     } else if (value === null || value === undefined) element.removeAttribute(name);
-    else if (element.getAttribute(name) !== String(value)) element.setAttribute(name, String(value));
+    else if (element.getAttribute(name) !== String(value))
+      element.setAttribute(name, String(value));
   }
 }
 
@@ -100,8 +101,19 @@ export function svgElement(tag, attributes = {}, ...children) {
  * @param {number} [size]
  */
 export function svg(path, size = 16) {
-  return svgElement("svg", {
-    viewBox: "0 0 24 24", width: size, height: size, fill: "none", stroke: "currentColor",
-    "stroke-width": 1.8, "stroke-linecap": "round", "stroke-linejoin": "round", "aria-hidden": "true",
-  }, svgElement("path", { d: path }));
+  return svgElement(
+    "svg",
+    {
+      viewBox: "0 0 24 24",
+      width: size,
+      height: size,
+      fill: "none",
+      stroke: "currentColor",
+      "stroke-width": 1.8,
+      "stroke-linecap": "round",
+      "stroke-linejoin": "round",
+      "aria-hidden": "true",
+    },
+    svgElement("path", { d: path }),
+  );
 }

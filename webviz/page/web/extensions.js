@@ -15,9 +15,29 @@ import { makeLayer } from "./tools/layer.js";
 import { beforeRender, camera, canvas, requestRender } from "./viser_page.js";
 
 const page = Object.freeze({
-  act, beforeRender, camera, canvas, el, gesture, groundAt, makeLayer, onCanvas, overlay, panel,
-  planeAt, requestRender, set, setChildren, setText, surfaceAt, svgElement, tellLive, toast, watch,
-  widget: (/** @type {string} */ kind, /** @type {Function} */ make) => widget(`own ${kind}`, ownWidget(make)),
+  act,
+  beforeRender,
+  camera,
+  canvas,
+  el,
+  gesture,
+  groundAt,
+  makeLayer,
+  onCanvas,
+  overlay,
+  panel,
+  planeAt,
+  requestRender,
+  set,
+  setChildren,
+  setText,
+  surfaceAt,
+  svgElement,
+  tellLive,
+  toast,
+  watch,
+  widget: (/** @type {string} */ kind, /** @type {Function} */ make) =>
+    widget(`own ${kind}`, ownWidget(make)),
 });
 
 /**
@@ -25,10 +45,11 @@ const page = Object.freeze({
  *
  * @param {Function} make
  */
-const ownWidget = (make) => (/** @type {any} */ values, /** @type {(text: string) => void} */ send) => {
-  const made = make(values.values, (/** @type {unknown} */ value) => send(JSON.stringify(value)));
-  return { ...made, update: (/** @type {any} */ now) => made.update(now.values) };
-};
+const ownWidget =
+  (make) => (/** @type {any} */ values, /** @type {(text: string) => void} */ send) => {
+    const made = make(values.values, (/** @type {unknown} */ value) => send(JSON.stringify(value)));
+    return { ...made, update: (/** @type {any} */ now) => made.update(now.values) };
+  };
 
 export function install() {
   watch("modules", (modules, changed) => {
@@ -44,7 +65,10 @@ export function install() {
  * @param {string} text of its module
  */
 async function add(name, text) {
-  const parts = [text, `\n//# sourceURL=${new URL(`webviz/plugin/${encodeURIComponent(name)}`, location.href)}`];
+  const parts = [
+    text,
+    `\n//# sourceURL=${new URL(`webviz/plugin/${encodeURIComponent(name)}`, location.href)}`,
+  ];
   const address = URL.createObjectURL(new Blob(parts, { type: "text/javascript" }));
   try {
     const { default: start } = await import(address);

@@ -33,7 +33,20 @@ import * as whole from "./scene/whole.js";
 // Before viser's page handles the first messages: it draws with what it has then.
 async function install() {
   await viser.until(viser.hasScene);
-  const ofScene = [scheme, batches, textures, tiles, labels, lines, points, shade, colors, flat, whole, pieces];
+  const ofScene = [
+    scheme,
+    batches,
+    textures,
+    tiles,
+    labels,
+    lines,
+    points,
+    shade,
+    colors,
+    flat,
+    whole,
+    pieces,
+  ];
   for (const part of [shell, page, inStep, ...ofScene, contact]) part.install();
   await viser.until(() => viser.hasCamera() && viser.node(constants.ROOT));
   for (const part of [view, mouse, handles, saveImage, overlay, holding, blocks]) part.install();

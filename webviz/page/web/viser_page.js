@@ -31,13 +31,13 @@ const NEEDS = {
   "cameraControl.dollyTo()": "zooming",
   "cameraControl.mouseButtons.left": "the mouse",
   "cameraControl.constructor.ACTION.TRUCK": "the mouse",
-  "configuredMaxOrbitDistance": "views from far away",
+  configuredMaxOrbitDistance: "views from far away",
   "scene.__r3f.root.getState().gl.setClearColor()": "the background of the theme",
   "backgroundMaterial.uniforms": "the background of views that follow a frame",
-  "nodeRefFromName": "nodes of the scene by their names",
+  nodeRefFromName: "nodes of the scene by their names",
   nodePoseData: "texts: picking them, and hiding them in the images of cameras",
   "messageQueue.push()": "controls that go, and noticing that the server is silent",
-  "firstMessageBatch": "poses and data in one step, and views after a lost connection",
+  firstMessageBatch: "poses and data in one step, and views after a lost connection",
   "drainMessageQueue()": "poses and data in one step",
   "requestRender()": "drawing what has changed",
   "sendCamera()": "telling the server where a camera is",
@@ -54,7 +54,9 @@ export function missing() {
       value = value?.[part.replace("()", "")];
       if (part === "getState()") value = value?.call(owner);
     }
-    const isThere = path.endsWith("()") ? value !== undefined && value !== null : value !== undefined;
+    const isThere = path.endsWith("()")
+      ? value !== undefined && value !== null
+      : value !== undefined;
     if (!isThere) lacks.push(`viser's page has no ${path}, which is needed for ${use}.`);
   }
   return lacks;
@@ -87,12 +89,14 @@ export const reveal = () => (document.documentElement.dataset.wvShown = "");
  * @param {() => unknown} condition
  */
 export function until(condition) {
-  return /** @type {Promise<void>} */ (new Promise((resolve) => {
-    (function look() {
-      if (condition()) resolve();
-      else requestAnimationFrame(look);
-    })();
-  }));
+  return /** @type {Promise<void>} */ (
+    new Promise((resolve) => {
+      (function look() {
+        if (condition()) resolve();
+        else requestAnimationFrame(look);
+      })();
+    })
+  );
 }
 
 export const hasScene = () => Boolean(page()?.scene?.__r3f?.root && page().canvas);

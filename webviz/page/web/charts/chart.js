@@ -17,7 +17,10 @@ const WHEEL = 1.2;
 const HUES = [210, 28, 140, 0, 270, 180, 60, 320, 100, 240, 15, 160];
 /** @type {Record<string, {move?: number, by?: number}>} */
 const KEYS = {
-  ArrowLeft: { move: -0.1 }, ArrowRight: { move: 0.1 }, "+": { by: 1 / WHEEL }, "-": { by: WHEEL },
+  ArrowLeft: { move: -0.1 },
+  ArrowRight: { move: 0.1 },
+  "+": { by: 1 / WHEEL },
+  "-": { by: WHEEL },
 };
 
 /** @param {number} key */
@@ -48,9 +51,17 @@ export function chart(_, send) {
   let frame = 0;
 
   const canvas = el("canvas", {
-    class: "wv-chart-canvas", role: "img", tabindex: 0, "aria-label": "Chart",
-    onwheel: wheel, onpointerdown: press, onpointermove: move, onpointerup: release,
-    onpointerleave: () => point(null), ondblclick: reset, onkeydown: key,
+    class: "wv-chart-canvas",
+    role: "img",
+    tabindex: 0,
+    "aria-label": "Chart",
+    onwheel: wheel,
+    onpointerdown: press,
+    onpointermove: move,
+    onpointerup: release,
+    onpointerleave: () => point(null),
+    ondblclick: reset,
+    onkeydown: key,
   });
   const box = el("div", { class: "wv-chart-box", hidden: true });
   /**
@@ -59,7 +70,11 @@ export function chart(_, send) {
    * @param {() => void} onclick
    */
   const button = (label, name, onclick) =>
-    el("button", { type: "button", class: "wv-icon", "aria-label": label, "data-tip": label, onclick }, icon(name));
+    el(
+      "button",
+      { type: "button", class: "wv-icon", "aria-label": label, "data-tip": label, onclick },
+      icon(name),
+    );
   const pause = button("Pause", "pause", togglePause);
   const back = button("Reset zoom (double click)", "reset", reset);
   const save = button("Download as CSV", "download", () => download("plot.csv", csv(shown())));
@@ -67,9 +82,13 @@ export function chart(_, send) {
   const legend = el("ul", { class: "wv-chart-legend" });
   /** @type {Map<number, {element: HTMLElement, value: HTMLElement, problem: HTMLElement}>} */
   const entries = new Map();
-  const element = el("div", { class: "wv-chart" },
+  const element = el(
+    "div",
+    { class: "wv-chart" },
     el("div", { class: "wv-chart-tools" }, pause, back, save, when),
-    el("div", { class: "wv-chart-place" }, canvas, box), legend);
+    el("div", { class: "wv-chart-place" }, canvas, box),
+    legend,
+  );
   const observer = new ResizeObserver(later);
   observer.observe(canvas);
 
@@ -146,7 +165,13 @@ export function chart(_, send) {
   function press(event) {
     if (event.button !== 0) return;
     canvas.setPointerCapture(event.pointerId);
-    drag = { from: shares(event), times: times(), values: values(), isBox: event.shiftKey, isFar: false };
+    drag = {
+      from: shares(event),
+      times: times(),
+      values: values(),
+      isBox: event.shiftKey,
+      isFar: false,
+    };
   }
 
   /**
@@ -172,7 +197,13 @@ export function chart(_, send) {
   /** @param {PointerEvent} event */
   function release(event) {
     const [a, b] = [drag?.from, shares(event)];
-    if (a && drag?.isBox && drag.isFar && Math.abs(a[0] - b[0]) > 0.005 && Math.abs(a[1] - b[1]) > 0.005) {
+    if (
+      a &&
+      drag?.isBox &&
+      drag.isFar &&
+      Math.abs(a[0] - b[0]) > 0.005 &&
+      Math.abs(a[1] - b[1]) > 0.005
+    ) {
       /**
        * @param {number} i
        * @param {Range} range
@@ -194,8 +225,10 @@ export function chart(_, send) {
     const { left, top, width, height } = area();
     const [x, y] = [left + Math.min(a[0], b[0]) * width, top + (1 - Math.max(a[1], b[1])) * height];
     Object.assign(box.style, {
-      left: `${x}px`, top: `${y}px`,
-      width: `${Math.abs(a[0] - b[0]) * width}px`, height: `${Math.abs(a[1] - b[1]) * height}px`,
+      left: `${x}px`,
+      top: `${y}px`,
+      width: `${Math.abs(a[0] - b[0]) * width}px`,
+      height: `${Math.abs(a[1] - b[1]) * height}px`,
     });
     box.hidden = false;
   }
@@ -222,7 +255,11 @@ export function chart(_, send) {
     setText(when, cursor === null ? "" : timeOfDay(cursor, true));
     for (const curve of shown()) {
       const found = valueAt(curve, time);
-      const text = !found ? "" : Number.isNaN(found.value) ? "no value" : numberText(found.value, 0.001);
+      const text = !found
+        ? ""
+        : Number.isNaN(found.value)
+          ? "no value"
+          : numberText(found.value, 0.001);
       const shownEntry = entries.get(curve.key);
       if (shownEntry) setText(shownEntry.value, text);
     }
@@ -234,8 +271,12 @@ export function chart(_, send) {
       entries.set(id, known);
       setText(known.problem, problem);
     }
-    for (const id of entries.keys()) if (!live.some((curve) => curve.key === id)) entries.delete(id);
-    setChildren(legend, live.flatMap((curve) => entries.get(curve.key)?.element ?? []));
+    for (const id of entries.keys())
+      if (!live.some((curve) => curve.key === id)) entries.delete(id);
+    setChildren(
+      legend,
+      live.flatMap((curve) => entries.get(curve.key)?.element ?? []),
+    );
   }
 
   /**
@@ -247,11 +288,26 @@ export function chart(_, send) {
     const problem = el("div", { class: "wv-chart-problem" });
     const swatch = el("span", { class: "wv-chart-swatch" });
     swatch.style.background = color(id);
-    const remove = el("button", {
-      type: "button", class: "wv-icon", "aria-label": `Remove ${name}`, "data-tip": "Remove", onclick: () => send(name),
-    }, icon("close", 12));
+    const remove = el(
+      "button",
+      {
+        type: "button",
+        class: "wv-icon",
+        "aria-label": `Remove ${name}`,
+        "data-tip": "Remove",
+        onclick: () => send(name),
+      },
+      icon("close", 12),
+    );
     const label = el("span", { class: "wv-chart-name" }, name);
-    const line = el("div", { class: "wv-chart-entry" }, swatch, label, value, needs("UseWidget", remove));
+    const line = el(
+      "div",
+      { class: "wv-chart-entry" },
+      swatch,
+      label,
+      value,
+      needs("UseWidget", remove),
+    );
     return { element: el("li", {}, line, problem), value, problem };
   }
 

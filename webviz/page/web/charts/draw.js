@@ -20,7 +20,10 @@ const PER_TICK = [70, 36];
  * @returns {Area}
  */
 export const inside = (width, height) => ({
-  left: LEFT, top: TOP, width: Math.max(1, width - LEFT - RIGHT), height: Math.max(1, height - TOP - BOTTOM),
+  left: LEFT,
+  top: TOP,
+  width: Math.max(1, width - LEFT - RIGHT),
+  height: Math.max(1, height - TOP - BOTTOM),
 });
 
 /**

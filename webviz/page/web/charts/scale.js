@@ -18,7 +18,8 @@ export function ticks(low, high, count) {
   const step = power * ([1, 2, 5].find((each) => each * power >= span * 0.999) ?? 10);
   /** @type {number[]} */
   const found = [];
-  for (let i = Math.ceil(low / step); i * step <= high && found.length < 50; i++) found.push(i * step);
+  for (let i = Math.ceil(low / step); i * step <= high && found.length < 50; i++)
+    found.push(i * step);
   return found;
 }
 
@@ -73,5 +74,7 @@ export function numberText(value, span) {
   const size = Math.abs(value);
   if (size && (size >= 1e6 || size < 1e-4)) return value.toExponential(3).replace(/\.?0+e/, "e");
   const digits = span > 0 ? Math.min(9, Math.max(0, 2 - Math.floor(Math.log10(span)))) : 3;
-  return fixed(value, digits).replace(/(\.\d*?)0+$/, "$1").replace(/\.$/, "");
+  return fixed(value, digits)
+    .replace(/(\.\d*?)0+$/, "$1")
+    .replace(/\.$/, "");
 }

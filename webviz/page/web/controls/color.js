@@ -8,7 +8,9 @@ export function color({ default: standard }, options) {
   const { label } = options;
   const isOptional = standard === null;
   const text = el("input", {
-    class: "wv-field", type: "text", "aria-label": `${label}, as text`,
+    class: "wv-field",
+    type: "text",
+    "aria-label": `${label}, as text`,
     placeholder: isOptional ? "automatic" : null,
   });
   const swatch = el("input", { class: "wv-swatch", type: "color", "aria-label": label });
@@ -37,17 +39,26 @@ export function color({ default: standard }, options) {
 export function parse(text) {
   const hex = /^#?([0-9a-f]{2})([0-9a-f]{2})([0-9a-f]{2})$/i.exec(text.trim());
   if (hex) return hex.slice(1).map((byte) => parseInt(byte, 16));
-  const parts = text.trim().replace(/^rgb\(|\)$/g, "").split(/[\s,;]+/).map(Number);
-  const isColor = parts.length === 3 && parts.every((n) => Number.isInteger(n) && n >= 0 && n <= 255);
+  const parts = text
+    .trim()
+    .replace(/^rgb\(|\)$/g, "")
+    .split(/[\s,;]+/)
+    .map(Number);
+  const isColor =
+    parts.length === 3 && parts.every((n) => Number.isInteger(n) && n >= 0 && n <= 255);
   if (!isColor) {
-    throw new Error("Not changed: expected red, green and blue from 0 to 255, such as 255, 128, 0.");
+    throw new Error(
+      "Not changed: expected red, green and blue from 0 to 255, such as 255, 128, 0.",
+    );
   }
   return parts;
 }
 
 function attempt(text) {
   try {
-    return `#${parse(text).map((byte) => byte.toString(16).padStart(2, "0")).join("")}`;
+    return `#${parse(text)
+      .map((byte) => byte.toString(16).padStart(2, "0"))
+      .join("")}`;
   } catch {
     return null;
   }

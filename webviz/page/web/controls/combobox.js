@@ -22,24 +22,43 @@ import { sync } from "./sync.js";
  * }} options
  */
 export function combobox({
-  label, value, options, change, refused, free = true, placeholder = "", opened = () => {},
+  label,
+  value,
+  options,
+  change,
+  refused,
+  free = true,
+  placeholder = "",
+  opened = () => {},
 }) {
   let closed = null;
   let current = value;
   let isTyped = false; // since the list was opened or the last choice
 
   const input = el("input", {
-    class: "wv-field", type: "text", role: "combobox", "aria-label": label, "aria-expanded": "false",
-    "aria-autocomplete": "list", autocomplete: "off", spellcheck: "false", placeholder,
+    class: "wv-field",
+    type: "text",
+    role: "combobox",
+    "aria-label": label,
+    "aria-expanded": "false",
+    "aria-autocomplete": "list",
+    autocomplete: "off",
+    spellcheck: "false",
+    placeholder,
   });
   const note = el("span", { class: "wv-combobox-note", "aria-hidden": "true" });
   const list = listbox(input, label, choose);
   const element = el(
-    "div", { class: "wv-combobox" }, input, note, icon("chevron", 12), list.element,
+    "div",
+    { class: "wv-combobox" },
+    input,
+    note,
+    icon("chevron", 12),
+    list.element,
   );
 
   const option = (wanted) => options.find((one) => one.value === wanted);
-  const textOf = (wanted) => (wanted === MIXED ? "" : option(wanted)?.label ?? wanted);
+  const textOf = (wanted) => (wanted === MIXED ? "" : (option(wanted)?.label ?? wanted));
   const state = sync({
     show(shown) {
       current = shown;

@@ -18,8 +18,18 @@ import { topic } from "./topic.js";
 import { vector } from "./vector.js";
 
 const MAKERS = {
-  bool: checkbox, choice, color, dict: lines, float: number, frame, int: number, list: lines, switches,
-  text, topic, vector,
+  bool: checkbox,
+  choice,
+  color,
+  dict: lines,
+  float: number,
+  frame,
+  int: number,
+  list: lines,
+  switches,
+  text,
+  topic,
+  vector,
 };
 
 const WIDEST = 1000; // a slider over more than that hits nothing
@@ -28,5 +38,5 @@ const WIDEST = 1000; // a slider over more than that hits nothing
 export function control(property, options) {
   const { kind, low, high } = property;
   const isSlider = (kind === "float" || kind === "int") && high - low <= WIDEST;
-  return (isSlider ? slider : MAKERS[kind] ?? text)(property, options);
+  return (isSlider ? slider : (MAKERS[kind] ?? text))(property, options);
 }

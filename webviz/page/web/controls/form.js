@@ -71,11 +71,23 @@ export function form(declared, { send, name, marks = true, command = "" }) {
 
   function foldable(path, label, beside, children, isOpenAtFirst, help = "") {
     const key = `fold.${name}.${path}`;
-    const inner = el("div", { class: "wv-section-inner", role: "group", "aria-label": label }, children);
-    const toggle = el("button", {
-      type: "button", class: "wv-section-fold", title: help || null, "aria-label": label,
-      onclick: () => show(inner.hidden),
-    }, icon("chevron", 12), beside?.matches(".wv-property") ? null : label);
+    const inner = el(
+      "div",
+      { class: "wv-section-inner", role: "group", "aria-label": label },
+      children,
+    );
+    const toggle = el(
+      "button",
+      {
+        type: "button",
+        class: "wv-section-fold",
+        title: help || null,
+        "aria-label": label,
+        onclick: () => show(inner.hidden),
+      },
+      icon("chevron", 12),
+      beside?.matches(".wv-property") ? null : label,
+    );
 
     function show(isOpen) {
       inner.hidden = !isOpen;
@@ -85,7 +97,10 @@ export function form(declared, { send, name, marks = true, command = "" }) {
 
     show(recall(key, isOpenAtFirst));
     return el(
-      "div", { class: "wv-section" }, el("div", { class: "wv-section-head" }, toggle, beside), inner,
+      "div",
+      { class: "wv-section" },
+      el("div", { class: "wv-section-head" }, toggle, beside),
+      inner,
     );
   }
 
@@ -102,7 +117,9 @@ export function form(declared, { send, name, marks = true, command = "" }) {
       }
       for (const { key, made } of followers) if (changed.has(key)) made.follow(values.get(key));
       for (const part of parts) {
-        const isShown = part.when.every(([path, wanted]) => wanted.includes(values.get(`value.${path}`)));
+        const isShown = part.when.every(([path, wanted]) =>
+          wanted.includes(values.get(`value.${path}`)),
+        );
         if (part.element.hidden === isShown) part.element.hidden = !isShown;
       }
     },

@@ -10,7 +10,11 @@ export const FIXED_FRAME = "<Fixed Frame>";
 export function frame({ isFixed = false, default: standard }, { label, change, refused }) {
   const first = isFixed ? [] : [{ value: FIXED_FRAME }];
   const field = combobox({
-    label, value: standard ?? "", options: first, change, refused,
+    label,
+    value: standard ?? "",
+    options: first,
+    change,
+    refused,
     opened: () =>
       watch("frames", (values) => {
         const frames = values.get("frames") ?? [];

@@ -8,7 +8,9 @@ const MAX_ROWS = 12;
 /** A field of several lines; see `control.js`. */
 export function lines(property, options) {
   const area = el("textarea", {
-    class: "wv-field wv-lines", "aria-label": options.label, rows: 1,
+    class: "wv-field wv-lines",
+    "aria-label": options.label,
+    rows: 1,
     placeholder: property.kind === "dict" ? "name: value" : "one entry per line",
   });
   const fit = () => {
@@ -27,13 +29,18 @@ export function lines(property, options) {
 export function encode({ items }, value) {
   const dump = items === "text" ? flat : JSON.stringify;
   if (Array.isArray(value)) return value.map((item) => dump(item)).join("\n");
-  return Object.entries(value).map(([key, item]) => `${flat(key)}: ${dump(item)}`).join("\n");
+  return Object.entries(value)
+    .map(([key, item]) => `${flat(key)}: ${dump(item)}`)
+    .join("\n");
 }
 
 /** The inverse; throws a sentence. */
 export function decode({ kind, items }, text) {
   const load = items === "text" ? (item) => item : parse;
-  const all = text.split(/\r?\n/).map((line) => line.trim()).filter(Boolean);
+  const all = text
+    .split(/\r?\n/)
+    .map((line) => line.trim())
+    .filter(Boolean);
   if (kind !== "dict") return all.map(load);
   const entries = all.map((line) => {
     // Names may have colons themselves.

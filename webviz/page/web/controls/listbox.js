@@ -12,7 +12,11 @@ export function listbox(input, label, choose) {
   const id = `wv-list-${count}`;
   // In the top layer, where neither the panel's edge nor a dialog cuts it off.
   const element = el("div", {
-    id, class: "wv-list", role: "listbox", "aria-label": label, popover: "manual",
+    id,
+    class: "wv-list",
+    role: "listbox",
+    "aria-label": label,
+    popover: "manual",
     onpointerdown: (event) => event.preventDefault(), // the field keeps the focus
   });
   set(input, { "aria-controls": id });
@@ -42,7 +46,10 @@ export function listbox(input, label, choose) {
     return el(
       "div",
       {
-        id: `${id}-${index}`, class: "wv-option", role: "option", "aria-selected": "false",
+        id: `${id}-${index}`,
+        class: "wv-option",
+        role: "option",
+        "aria-selected": "false",
         onclick: () => choose(value),
       },
       name,

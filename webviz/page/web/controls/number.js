@@ -12,11 +12,17 @@ const DOUBLE_PX = 70; // for what can only be positive, right doubles and left h
 /** A field for a number; see `control.js`. `prefix` stands in it at the left, such as "X". */
 export function number(property, { label, change, refused, prefix = "" }) {
   const input = el("input", {
-    class: "wv-field", type: "text", role: "spinbutton", inputmode: "decimal", "aria-label": label,
-    "aria-valuemin": property.low ?? property.above, "aria-valuemax": property.high ?? property.below,
+    class: "wv-field",
+    type: "text",
+    role: "spinbutton",
+    inputmode: "decimal",
+    "aria-label": label,
+    "aria-valuemin": property.low ?? property.above,
+    "aria-valuemax": property.high ?? property.below,
   });
   const element = el(
-    "div", { class: "wv-number-input" },
+    "div",
+    { class: "wv-number-input" },
     prefix && el("span", { class: "wv-number-prefix", "aria-hidden": "true" }, prefix),
     input,
     property.unit && el("span", { class: "wv-number-unit", "aria-hidden": "true" }, property.unit),
@@ -32,14 +38,18 @@ export function number(property, { label, change, refused, prefix = "" }) {
     },
     after() {
       const text = format(field.value());
-      set(input, { "aria-valuenow": text, "aria-valuetext": text ? `${text} ${property.unit ?? ""}`.trim() : MIXED_TEXT });
+      set(input, {
+        "aria-valuenow": text,
+        "aria-valuetext": text ? `${text} ${property.unit ?? ""}`.trim() : MIXED_TEXT,
+      });
     },
   });
 
   function step(event) {
     if (field.value() === MIXED) return;
     const by = { ArrowUp: 1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[event.key];
-    const size = stepOf(property, field.value()) * (property.kind !== "int" && event.altKey ? 0.1 : 1);
+    const size =
+      stepOf(property, field.value()) * (property.kind !== "int" && event.altKey ? 0.1 : 1);
     field.put(within(property, field.value() + by * size * (event.shiftKey ? 10 : 1), size));
     input.select();
   }

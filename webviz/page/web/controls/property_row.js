@@ -24,23 +24,40 @@ export function row(property, send, { marks = true, command = "" } = {}) {
     set(element, { "aria-invalid": text ? "true" : null });
   };
   const made = control(property, { label, change: (value) => send(path, value), refused: tell });
-  const reset = el("button", {
-    type: "button", class: "wv-icon wv-property-reset", title: standard === undefined ? null : `Reset to ${words(property, standard)}`,
-    "aria-label": `Reset ${label}`, hidden: true,
-    onclick: () => {
-      tell("");
-      send(path, standard);
-      made.focus();
+  const reset = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-icon wv-property-reset",
+      title: standard === undefined ? null : `Reset to ${words(property, standard)}`,
+      "aria-label": `Reset ${label}`,
+      hidden: true,
+      onclick: () => {
+        tell("");
+        send(path, standard);
+        made.focus();
+      },
     },
-  }, icon("reset", 14));
+    icon("reset", 14),
+  );
   const name = el("span", { class: "wv-property-label" }, label);
   if (made.handle) {
     made.handle(name);
     name.classList.add("wv-property-handle");
   } else name.addEventListener("click", () => made.focus());
   const element = el(
-    "div", { class: "wv-property", "data-kind": kind, "data-path": path, role: "group", "aria-label": label },
-    name, holder(command, { class: "wv-property-control" }, made.element), reset, refusal,
+    "div",
+    {
+      class: "wv-property",
+      "data-kind": kind,
+      "data-path": path,
+      role: "group",
+      "aria-label": label,
+    },
+    name,
+    holder(command, { class: "wv-property-control" }, made.element),
+    reset,
+    refusal,
   );
   const tooltip = about(property);
   set(name, { title: tooltip });
@@ -64,9 +81,14 @@ export function row(property, send, { marks = true, command = "" } = {}) {
 /** The tooltip of a property: its purpose, its bounds and its default. */
 function about(property) {
   const range = bounds(property);
-  const items = { dict: "One entry per line, name: value.", list: "One entry per line." }[property.kind];
+  const items = { dict: "One entry per line, name: value.", list: "One entry per line." }[
+    property.kind
+  ];
   const facts = [
-    property.help, property.type, items, range && `Range: ${range}.`,
+    property.help,
+    property.type,
+    items,
+    range && `Range: ${range}.`,
     property.default !== undefined && `Default: ${words(property, property.default)}.`,
   ];
   return facts.filter(Boolean).join("\n");

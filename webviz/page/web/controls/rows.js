@@ -26,7 +26,14 @@ let lists = 0;
  * }} options
  */
 export function rowList({
-  label, role = "listbox", rowRole = "option", height, make, update, choose, onKey = () => false,
+  label,
+  role = "listbox",
+  rowRole = "option",
+  height,
+  make,
+  update,
+  choose,
+  onKey = () => false,
   host = null,
 }) {
   lists += 1;
@@ -39,22 +46,29 @@ export function rowList({
   let total = -1;
 
   const canvas = el("div", { class: "wv-rows-canvas", role: "presentation" });
-  const element = el("div", {
-    class: "wv-rows", role: host ? "rowgroup" : null, onscroll: () => render(),
-    onclick: (event) => {
-      const key = event.target.closest(".wv-row")?.wvKey;
-      if (key === undefined || event.target.closest("button")) return;
-      mark(key);
-      choose?.(items[places.get(key)]);
+  const element = el(
+    "div",
+    {
+      class: "wv-rows",
+      role: host ? "rowgroup" : null,
+      onscroll: () => render(),
+      onclick: (event) => {
+        const key = event.target.closest(".wv-row")?.wvKey;
+        if (key === undefined || event.target.closest("button")) return;
+        mark(key);
+        choose?.(items[places.get(key)]);
+      },
     },
-  }, canvas);
+    canvas,
+  );
   const focused = host ?? element;
   set(focused, { role, tabindex: 0, "aria-label": label, onkeydown: press });
   let seenHeight = 0;
   const observer = new ResizeObserver(() => {
     const isSmaller = element.clientHeight < seenHeight;
     seenHeight = element.clientHeight;
-    if (isSmaller && marked !== null) mark(marked); // what was chosen stays in sight
+    if (isSmaller && marked !== null)
+      mark(marked); // what was chosen stays in sight
     else render();
   });
   observer.observe(element);
@@ -131,8 +145,12 @@ export function rowList({
     const at = places.get(marked) ?? -1;
     const page = Math.max(1, Math.floor(element.clientHeight / height) - 1);
     const next = {
-      ArrowDown: at + 1, ArrowUp: at - 1, PageDown: at + page, PageUp: at - page,
-      Home: 0, End: items.length - 1,
+      ArrowDown: at + 1,
+      ArrowUp: at - 1,
+      PageDown: at + page,
+      PageUp: at - page,
+      Home: 0,
+      End: items.length - 1,
     }[key];
     if (items[at] && onKey(event, items[at])) {
       // done

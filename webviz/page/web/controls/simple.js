@@ -34,7 +34,9 @@ export function choice({ choices }, { label, change, refused }) {
 
   function offer(values) {
     offered = values;
-    select.replaceChildren(...values.map((value, index) => el("option", { value: index }, String(value))));
+    select.replaceChildren(
+      ...values.map((value, index) => el("option", { value: index }, String(value))),
+    );
   }
 
   const state = sync({

@@ -10,7 +10,11 @@ import { stepOf } from "./units.js";
 export function slider(property, options) {
   const { label, change, refused } = options;
   const range = el("input", {
-    class: "wv-slider", type: "range", "aria-label": label, min: property.low, max: property.high,
+    class: "wv-slider",
+    type: "range",
+    "aria-label": label,
+    min: property.low,
+    max: property.high,
     step: stepOf(property, 0),
   });
   const field = number(property, { ...options, label: `${label}, as a number` });

@@ -27,20 +27,34 @@ export function switches({ offered }, { label, change, refused }) {
   let shown = [];
 
   const search = el("input", {
-    class: "wv-field", type: "search", autocomplete: "off", spellcheck: "false",
-    "aria-label": `Filter ${noun}`, oninput: show,
+    class: "wv-field",
+    type: "search",
+    autocomplete: "off",
+    spellcheck: "false",
+    "aria-label": `Filter ${noun}`,
+    oninput: show,
   });
   const button = (text, value, tip) =>
-    el("button", {
-      type: "button", class: "wv-button", "data-tip": tip, onclick: () => put(shown, value),
-    }, text);
+    el(
+      "button",
+      {
+        type: "button",
+        class: "wv-button",
+        "data-tip": tip,
+        onclick: () => put(shown, value),
+      },
+      text,
+    );
   const buttons = [
     button("All", true, `Switch on all ${noun} in the list`),
     button("None", false, `Switch off all ${noun} in the list`),
   ];
   const empty = el("div", { class: "wv-quiet wv-switches-empty", hidden: true });
   const list = rowList({
-    label, height, make, update,
+    label,
+    height,
+    make,
+    update,
     choose: ({ key }) => put([key], !isOn(key)),
   });
   set(list.element, { "aria-multiselectable": "true" });
@@ -79,7 +93,10 @@ export function switches({ offered }, { label, change, refused }) {
     const { box, name, count, mark } = row.wvParts;
     setText(name, key === "" ? "(no name)" : plain(key));
     setText(count, Object.hasOwn(counts, key) ? String(counts[key]) : "");
-    set(row, { "aria-checked": String(isOn(key)), title: key.length > 30 ? plain(key, 1000) : null });
+    set(row, {
+      "aria-checked": String(isOn(key)),
+      title: key.length > 30 ? plain(key, 1000) : null,
+    });
     setChildren(box, isOn(key) ? [mark] : []);
   }
 
@@ -95,15 +112,20 @@ export function switches({ offered }, { label, change, refused }) {
     set(empty, { hidden: shown.length > 0 });
   }
 
-  const end = offered ? () => {} : watch("frames", (values) => {
-    names = values.get("frames") ?? [];
-    show();
-  });
+  const end = offered
+    ? () => {}
+    : watch("frames", (values) => {
+        names = values.get("frames") ?? [];
+        show();
+      });
   show();
   return {
     element: el(
-      "div", { class: "wv-switches" },
-      el("div", { class: "wv-switches-head" }, search, buttons), list.element, empty,
+      "div",
+      { class: "wv-switches" },
+      el("div", { class: "wv-switches-head" }, search, buttons),
+      list.element,
+      empty,
     ),
     focus: () => search.focus(),
     describe: (text) => set(list.element, { "aria-description": text }),

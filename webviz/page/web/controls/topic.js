@@ -21,7 +21,12 @@ export function topic({ type, default: standard }, { label, change, refused }) {
     return all;
   };
   const field = combobox({
-    label, value, options: [], change, refused, placeholder: "No topic",
+    label,
+    value,
+    options: [],
+    change,
+    refused,
+    placeholder: "No topic",
     opened: () => {
       const end = watch(`topics_of:${type}`, (values) => {
         topics = values;
@@ -53,7 +58,8 @@ function describe({ publishers, rate, shown, problem }) {
   if (problem) return { note: problem, level: "error" };
   const notes = [publishers === 1 ? "1 publisher" : `${publishers} publishers`];
   if (rate !== null) notes.unshift(hertz(rate));
-  if (shown.length) notes.push(`shown by ${shown[0]}${shown.length > 1 ? ` and ${shown.length - 1} more` : ""}`);
+  if (shown.length)
+    notes.push(`shown by ${shown[0]}${shown.length > 1 ? ` and ${shown.length - 1} more` : ""}`);
   return { note: notes.join(" · ") };
 }
 

@@ -61,7 +61,8 @@ export function stepOf({ kind, low, high }, value) {
 
 /** The nearest value that the bounds of a property allow, rounded to a step. */
 export function within({ kind, low, above, high, below }, value, step) {
-  const rounded = kind === "int" ? Math.round(value) : Number((Math.round(value / step) * step).toPrecision(12));
+  const rounded =
+    kind === "int" ? Math.round(value) : Number((Math.round(value / step) * step).toPrecision(12));
   if (low !== undefined && rounded < low) return low;
   if (high !== undefined && rounded > high) return high;
   if (above !== undefined && rounded <= above) return above + (kind === "int" ? 1 : step);

@@ -21,9 +21,14 @@ export function vector(property, { label, change, refused }) {
         told.set(index, text);
         refused([...told.values()].find(Boolean) ?? "");
       },
-    }));
+    }),
+  );
   return {
-    element: el("div", { class: "wv-vector" }, parts.map(({ element }) => element)),
+    element: el(
+      "div",
+      { class: "wv-vector" },
+      parts.map(({ element }) => element),
+    ),
     focus: () => parts[0].focus(),
     describe: (text) => parts.forEach((part) => part.describe(text)),
     update(value) {

@@ -6,7 +6,18 @@
 // wheel. A step returns `{position, wxyz, turned}`, or null where the pointer means nothing.
 
 import {
-  about, add, angleAbout, dot, norm, onLine, onPlane, rotate, scaled, sub, turnedBy, unit,
+  about,
+  add,
+  angleAbout,
+  dot,
+  norm,
+  onLine,
+  onPlane,
+  rotate,
+  scaled,
+  sub,
+  turnedBy,
+  unit,
 } from "./vectors.js";
 
 const X = [1, 0, 0];
@@ -21,8 +32,14 @@ const WHEEL_PX = 20; // that a notch of the wheel stands for
  */
 export function begin(start) {
   const axis = axisOf(start);
-  const make = { move_axis: alongAxis, move_plane: inPlane, rotate_axis: aroundAxis,
-    move_rotate: towed, move_3d: freely, rotate_3d: freely, move_rotate_3d: freely,
+  const make = {
+    move_axis: alongAxis,
+    move_plane: inPlane,
+    rotate_axis: aroundAxis,
+    move_rotate: towed,
+    move_3d: freely,
+    rotate_3d: freely,
+    move_rotate_3d: freely,
   }[start.control.mode];
   const fixed = (step) => (pointer, sight) => {
     const moved = step(pointer, sight);

@@ -41,12 +41,16 @@ export function install() {
     if (drag && number >= drag.first) lose();
   });
   channel.onOpen(() => drag && lose());
-  window.addEventListener("keydown", (event) => {
-    if (event.key === "Escape" && drag) {
-      event.stopImmediatePropagation();
-      release();
-    } else if (drag) setKeys(event);
-  }, true);
+  window.addEventListener(
+    "keydown",
+    (event) => {
+      if (event.key === "Escape" && drag) {
+        event.stopImmediatePropagation();
+        release();
+      } else if (drag) setKeys(event);
+    },
+    true,
+  );
   window.addEventListener("keyup", (event) => drag && setKeys(event), true);
 }
 
@@ -64,7 +68,8 @@ export function pointer(event) {
   if (drag) {
     if (pointerId !== drag.pointer) return true;
     if (type === "pointermove") moveTo(event);
-    else if (type === "pointercancel" || (type === "pointerup" && button === drag.button)) release();
+    else if (type === "pointercancel" || (type === "pointerup" && button === drag.button))
+      release();
     return true;
   }
   if (asked && type !== "pointerdown") return followAsked(event);
@@ -85,8 +90,10 @@ export function pointer(event) {
 
 function press(part, event) {
   const handle = known.all().get(part.id);
-  const refusal = why("GripHandle") || handle.refusal
-    || (handle.holder !== null && `Browser ${handle.holder} holds it.`);
+  const refusal =
+    why("GripHandle") ||
+    handle.refusal ||
+    (handle.holder !== null && `Browser ${handle.holder} holds it.`);
   if (refusal) {
     tell("warn", refusal);
     return true;
@@ -97,13 +104,34 @@ function press(part, event) {
   const control = known.controlOf(part);
   const at = [event.clientX, event.clientY];
   const sight = sightOf(node);
-  const start = { control, pose, turned: control.turned, grab: sight.toFrame(part.point), sight, at };
+  const start = {
+    control,
+    pose,
+    turned: control.turned,
+    grab: sight.toFrame(part.point),
+    sight,
+    at,
+  };
   drag = {
-    ...part, pose, pointer: event.pointerId, button: event.button, wasMine: false, at, before: at, wheel: 0,
-    isTouch: event.pointerType === "touch", began: performance.now(), from: at, isMoved: false,
-    step: begin(start), now: null, sent: performance.now(),
-    axis: handle.aids && control.facing !== "view_facing" && aids.isAbout(control.mode)
-      ? axisOf(start) : null,
+    ...part,
+    pose,
+    pointer: event.pointerId,
+    button: event.button,
+    wasMine: false,
+    at,
+    before: at,
+    wheel: 0,
+    isTouch: event.pointerType === "touch",
+    began: performance.now(),
+    from: at,
+    isMoved: false,
+    step: begin(start),
+    now: null,
+    sent: performance.now(),
+    axis:
+      handle.aids && control.facing !== "view_facing" && aids.isAbout(control.mode)
+        ? axisOf(start)
+        : null,
   };
   setKeys(event);
   canvas().setPointerCapture(event.pointerId);
@@ -122,7 +150,8 @@ function moveTo(event) {
 
 function wheel(event) {
   event.preventDefault();
-  drag.wheel += event.deltaMode === WheelEvent.DOM_DELTA_LINE ? event.deltaY / 3 : event.deltaY / 120;
+  drag.wheel +=
+    event.deltaMode === WheelEvent.DOM_DELTA_LINE ? event.deltaY / 3 : event.deltaY / 120;
   requestRender();
   return true;
 }
@@ -164,7 +193,8 @@ function step() {
   send("move", placed(now));
 }
 
-const placed = (now) => (now ? { pose: { position: now.position, wxyz: now.wxyz }, turned: now.turned } : {});
+const placed = (now) =>
+  now ? { pose: { position: now.position, wxyz: now.wxyz }, turned: now.turned } : {};
 
 const isSane = ({ position, wxyz }) =>
   position.every((value) => Math.abs(value) < 1e9) && wxyz.every(Number.isFinite);

@@ -43,7 +43,9 @@ export function partOf({ group, key }) {
 /** The id of the handle of a group, and what follows its key, or null: `{id, suffix}`. */
 export function groupOf(group) {
   const found = GROUP.exec(group);
-  return found && { id: `${group.slice(0, group.indexOf("/"))}/${found[1]}`, suffix: found[2] ?? "" };
+  return (
+    found && { id: `${group.slice(0, group.indexOf("/"))}/${found[1]}`, suffix: found[2] ?? "" }
+  );
 }
 
 /**

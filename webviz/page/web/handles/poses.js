@@ -125,11 +125,18 @@ function isFacing(path) {
 }
 
 const localOf = ({ position, quaternion: { w, x, y, z } }) => ({
-  position: position.toArray(), wxyz: [w, x, y, z],
+  position: position.toArray(),
+  wxyz: [w, x, y, z],
 });
 const turn = (object, [w, x, y, z]) => object.quaternion.set(x, y, z, w);
 const inverted = ({ position, wxyz }) => {
   const back = inverse(wxyz);
-  return { position: rotate(back, position.map((value) => -value)), wxyz: back };
+  return {
+    position: rotate(
+      back,
+      position.map((value) => -value),
+    ),
+    wxyz: back,
+  };
 };
 const isNearly = (a, b) => Math.abs(a.reduce((sum, value, i) => sum + value * b[i], 0)) > 1 - 1e-9;

@@ -53,9 +53,13 @@ export function sightOf(object) {
     return (2 * w) / (elements[5] * viser.canvas().clientHeight);
   };
   return {
-    rayAt, project, perPixel,
+    rayAt,
+    project,
+    perPixel,
     unit: (point) => 100 * perPixel(point),
-    right: direction(0, 1), up: direction(1, 1), forward: direction(2, -1),
+    right: direction(0, 1),
+    up: direction(1, 1),
+    forward: direction(2, -1),
     toFrame: (point) => point.clone().applyMatrix4(back).toArray(),
   };
 }

@@ -10,7 +10,9 @@ export const sub = (a, b) => a.map((value, axis) => value - b[axis]);
 export const scaled = (a, factor) => a.map((value) => value * factor);
 export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 export const cross = (a, b) => [
-  a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0],
+  a[1] * b[2] - a[2] * b[1],
+  a[2] * b[0] - a[0] * b[2],
+  a[0] * b[1] - a[1] * b[0],
 ];
 export const norm = (a) => Math.hypot(...a);
 
@@ -62,8 +64,7 @@ export const compose = (a, b) => ({
 });
 
 /** The angle by which `from` turns about a unit vector, perpendicular to both, to point like `to`, in radians. */
-export const angleAbout = (axis, from, to) =>
-  Math.atan2(dot(axis, cross(from, to)), dot(from, to));
+export const angleAbout = (axis, from, to) => Math.atan2(dot(axis, cross(from, to)), dot(from, to));
 
 /** Where a ray `{origin, direction}` meets a plane, or null if that is behind it or very far. */
 export function onPlane({ origin, direction }, point, normal) {

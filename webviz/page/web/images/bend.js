@@ -45,9 +45,12 @@ function makeBench() {
   const texture = gl.createTexture();
   gl.bindTexture(gl.TEXTURE_2D, texture);
   for (const [name, value] of [
-    [gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE], [gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE],
-    [gl.TEXTURE_MIN_FILTER, gl.LINEAR], [gl.TEXTURE_MAG_FILTER, gl.LINEAR],
-  ]) gl.texParameteri(gl.TEXTURE_2D, name, value);
+    [gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE],
+    [gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE],
+    [gl.TEXTURE_MIN_FILTER, gl.LINEAR],
+    [gl.TEXTURE_MAG_FILTER, gl.LINEAR],
+  ])
+    gl.texParameteri(gl.TEXTURE_2D, name, value);
   gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
   for (const [i, name] of ["to", "from"].entries()) {
     const at = gl.getAttribLocation(program, name);
@@ -57,7 +60,8 @@ function makeBench() {
   let loaded = null;
   let corners = 0;
   return (image, warp, width, height) => {
-    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+    if (canvas.width !== width || canvas.height !== height)
+      Object.assign(canvas, { width, height });
     gl.viewport(0, 0, width, height);
     if (loaded !== warp) {
       const triangles = trianglesOf(warp);
@@ -78,7 +82,12 @@ function trianglesOf({ rows, columns, places }) {
   const found = [];
   for (let row = 0; row + 1 < rows; row++) {
     for (let column = 0; column + 1 < columns; column++) {
-      const cell = [[0, 0], [0, 1], [1, 0], [1, 1]].map(([down, right]) => {
+      const cell = [
+        [0, 0],
+        [0, 1],
+        [1, 0],
+        [1, 1],
+      ].map(([down, right]) => {
         const [r, c] = [row + down, column + right];
         const at = 2 * (r * columns + c);
         return [c / (columns - 1), r / (rows - 1), places[at], places[at + 1]];

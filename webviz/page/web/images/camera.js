@@ -41,7 +41,8 @@ export function makeCamera(canvas, { drawn, fail }) {
   // Called in each frame of the scene; most have nothing to do with what this camera sees.
   function frame() {
     const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((length) =>
-      Math.round(length * devicePixelRatio));
+      Math.round(length * devicePixelRatio),
+    );
     if (!width || !height || !picture.size()[0]) return;
     const rest = painted + SCENE_MS - performance.now();
     if (!isDue && rest > 0) {
@@ -52,7 +53,8 @@ export function makeCamera(canvas, { drawn, fail }) {
     timer = 0;
     isDue = false;
     painted = performance.now();
-    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+    if (canvas.width !== width || canvas.height !== height)
+      Object.assign(canvas, { width, height });
     paint(context, { image: warp ? bent.canvas : sheet, size: picture.size(), sight, hidden });
   }
 
@@ -78,7 +80,10 @@ export function makeCamera(canvas, { drawn, fail }) {
     width: () => {
       const { clientWidth, clientHeight } = canvas;
       if (!picture.size()[0]) return clientWidth * devicePixelRatio;
-      return Math.max(1, boxIn(sight, picture.size(), clientWidth, clientHeight).width * devicePixelRatio);
+      return Math.max(
+        1,
+        boxIn(sight, picture.size(), clientWidth, clientHeight).width * devicePixelRatio,
+      );
     },
     pixelAt({ clientX, clientY }) {
       const [wide, tall] = picture.size();
@@ -86,7 +91,8 @@ export function makeCamera(canvas, { drawn, fail }) {
       if (!wide || !pane.width) return null;
       const box = boxIn(sight, picture.size(), pane.width, pane.height);
       const place = [
-        (clientX - pane.left - box.left) / box.width, (clientY - pane.top - box.top) / box.height,
+        (clientX - pane.left - box.left) / box.width,
+        (clientY - pane.top - box.top) / box.height,
       ];
       const share = warp ? straight(warp, place) : place;
       if (!share) return null;

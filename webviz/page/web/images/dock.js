@@ -21,7 +21,10 @@ export function install(page) {
   const panes = new Map();
   const list = el("div", { class: "wv-panes" });
   const border = el("div", {
-    class: "wv-dock-border", role: "separator", tabindex: 0, "aria-label": "Size of the images",
+    class: "wv-dock-border",
+    role: "separator",
+    tabindex: 0,
+    "aria-label": "Size of the images",
     onpointerdown: (event) => border.setPointerCapture(event.pointerId),
     onpointermove: drag,
     onpointerup: keep,
@@ -31,7 +34,12 @@ export function install(page) {
       keep();
     },
   });
-  const dock = el("aside", { class: "wv-dock", "aria-label": "Images", hidden: true }, list, border);
+  const dock = el(
+    "aside",
+    { class: "wv-dock", "aria-label": "Images", hidden: true },
+    list,
+    border,
+  );
   page.append(dock);
   const side = page.querySelector(".wv-side");
   let size = recall("dock", null);
@@ -47,7 +55,10 @@ export function install(page) {
       if (!panes.has(id)) panes.set(id, makePane(id, layOut, Boolean(rows.get(id).hidden)));
       panes.get(id).update(rows.get(id));
     }
-    setChildren(list, order.map((id) => panes.get(id).element));
+    setChildren(
+      list,
+      order.map((id) => panes.get(id).element),
+    );
     layOut();
   });
   narrow.addEventListener("change", layOut);
@@ -59,7 +70,10 @@ export function install(page) {
   const isBelow = () => narrow.matches || innerWidth - side.offsetWidth < LEAST_ROOM;
   const room = () => (isBelow() ? innerHeight : innerWidth - side.offsetWidth);
   const wanted = () =>
-    Math.max(MIN_SIZE, Math.min(size ?? STANDARD, (size === null ? FAIR_SHARE : MAX_SHARE) * room()));
+    Math.max(
+      MIN_SIZE,
+      Math.min(size ?? STANDARD, (size === null ? FAIR_SHARE : MAX_SHARE) * room()),
+    );
 
   function layOut() {
     const open = [...panes.values()].some((pane) => !pane.isFolded());

@@ -56,7 +56,10 @@ function ask() {
   const all = document.hidden ? [] : [...panes].map(([display, pane]) => [display, pane.width()]);
   const looked = all.filter(([, width]) => width > 0).slice(0, constants.MAX_PANES);
   const widths = Object.fromEntries(
-    looked.map(([display, width]) => [display, Math.min(Math.ceil(width / COARSE) * COARSE, 1 << 16)]),
+    looked.map(([display, width]) => [
+      display,
+      Math.min(Math.ceil(width / COARSE) * COARSE, 1 << 16),
+    ]),
   );
   const wanted = JSON.stringify(widths);
   if (wanted === asked) return;

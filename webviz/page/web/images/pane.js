@@ -23,7 +23,12 @@ channel.on("PixelValue", (value) => readers.get(value.display)?.(value));
  * the scene, too.
  */
 export function makePane(id, changed, withScene) {
-  const canvas = el("canvas", { class: "wv-pane-picture", role: "img", tabindex: 0, ondblclick: onDouble });
+  const canvas = el("canvas", {
+    class: "wv-pane-picture",
+    role: "img",
+    tabindex: 0,
+    ondblclick: onDouble,
+  });
   const zoom = makeZoom(canvas, zoomed);
   const picture = (withScene ? makeCamera : makePicture)(canvas, { drawn, fail });
   const name = el("b");
@@ -33,9 +38,22 @@ export function makePane(id, changed, withScene) {
   const bar = el("div", { class: "wv-legend-bar" });
   const bounds = [el("span"), el("span")];
   const legend = el("div", { class: "wv-pane-legend", hidden: true }, bounds[0], bar, bounds[1]);
-  const fold = el("button", { class: "wv-icon wv-pane-fold", type: "button", onclick: toggle }, icon("chevron"));
-  const unzoom = el("button", { class: "wv-button wv-pane-zoom", type: "button", hidden: true, onclick: zoom.reset });
-  const full = el("button", { class: "wv-icon", type: "button", onclick: toggleFull }, icon("fullscreen"));
+  const fold = el(
+    "button",
+    { class: "wv-icon wv-pane-fold", type: "button", onclick: toggle },
+    icon("chevron"),
+  );
+  const unzoom = el("button", {
+    class: "wv-button wv-pane-zoom",
+    type: "button",
+    hidden: true,
+    onclick: zoom.reset,
+  });
+  const full = el(
+    "button",
+    { class: "wv-icon", type: "button", onclick: toggleFull },
+    icon("fullscreen"),
+  );
   const head = el("header", { class: "wv-pane-head" }, fold, name, facts, unzoom, full);
   const body = el("div", { class: "wv-pane-body" }, canvas, problem, value, legend);
   const element = el("section", { class: "wv-pane", tabindex: -1 }, head, body);
@@ -100,11 +118,21 @@ export function makePane(id, changed, withScene) {
   function mark() {
     const isFull = element.classList.contains("wv-pane-full");
     element.classList.toggle("wv-pane-folded", isFolded);
-    set(fold, { "aria-expanded": String(!isFolded), "aria-label": `${isFolded ? "Expand" : "Collapse"} ${title}` });
-    set(full, { "aria-pressed": String(isFull), "aria-label": `Full size of ${title}`, "data-tip": isFull ? "Leave full size (Esc)" : "Full size" });
+    set(fold, {
+      "aria-expanded": String(!isFolded),
+      "aria-label": `${isFolded ? "Expand" : "Collapse"} ${title}`,
+    });
+    set(full, {
+      "aria-pressed": String(isFull),
+      "aria-label": `Full size of ${title}`,
+      "data-tip": isFull ? "Leave full size (Esc)" : "Full size",
+    });
     set(element, { "aria-label": `${readout ? "Text" : "Image"} ${title}` });
     set(canvas, { "aria-label": title });
-    set(unzoom, { "aria-label": `Reset the zoom of ${title}`, "data-tip": "Reset the zoom (double click)" });
+    set(unzoom, {
+      "aria-label": `Reset the zoom of ${title}`,
+      "data-tip": "Reset the zoom (double click)",
+    });
     set(name, { "data-tip": about });
     setText(name, title);
     setText(problem, failed || said);
@@ -148,7 +176,8 @@ export function makePane(id, changed, withScene) {
     channel.send({ type: "ReadPixel", display: id, x: pixel[0], y: pixel[1] });
   }
 
-  const tell = (/** @type {number[]} */ [x, y], text) => setText(value, `x ${x} · y ${y}${text && ` · ${text}`}`);
+  const tell = (/** @type {number[]} */ [x, y], text) =>
+    setText(value, `x ${x} · y ${y}${text && ` · ${text}`}`);
   readers.set(id, ({ x, y, text }) => mouse && tell([x, y], text));
   canvas.addEventListener("pointermove", (event) => {
     mouse = { clientX: event.clientX, clientY: event.clientY };
@@ -198,13 +227,22 @@ export function makePane(id, changed, withScene) {
     tellRate();
   }
 
-  frames.open(id, { width: () => (isFolded ? 0 : readout ? body.clientWidth : canvas.clientWidth && zoom.zoom() * picture.width()), take });
+  frames.open(id, {
+    width: () =>
+      isFolded
+        ? 0
+        : readout
+          ? body.clientWidth
+          : canvas.clientWidth && zoom.zoom() * picture.width(),
+    take,
+  });
   return {
     element,
     isFolded: () => isFolded,
     update(row) {
       const wanted = plain(row.title, 200);
-      if (wanted !== title) isFolded = recall(`pane.${wanted}`, { isFolded: false }).isFolded ?? false;
+      if (wanted !== title)
+        isFolded = recall(`pane.${wanted}`, { isFolded: false }).isFolded ?? false;
       title = wanted;
       about = [plain(row.name, 100), wanted].join("\n");
       said = plain(row.problem);

@@ -24,11 +24,16 @@ export function makePicture(canvas, { drawn, fail }) {
   }
 
   function draw(image, full) {
-    const [width, height] = [image.displayWidth ?? image.width, image.displayHeight ?? image.height];
-    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+    const [width, height] = [
+      image.displayWidth ?? image.width,
+      image.displayHeight ?? image.height,
+    ];
+    if (canvas.width !== width || canvas.height !== height)
+      Object.assign(canvas, { width, height });
     context.drawImage(image, 0, 0);
     size = full ?? [width, height];
-    canvas.style.imageRendering = canvas.getBoundingClientRect().width > SHARP * width ? "pixelated" : "auto";
+    canvas.style.imageRendering =
+      canvas.getBoundingClientRect().width > SHARP * width ? "pixelated" : "auto";
     drawn();
   }
 

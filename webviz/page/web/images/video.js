@@ -2,7 +2,10 @@
 
 // Codecs of the packets: baseline strings, since the streams carry their own parameters.
 const CODECS = {
-  h264: "avc1.640033", h265: "hev1.1.6.L153.B0", vp9: "vp09.00.50.08", av1: "av01.0.12M.08",
+  h264: "avc1.640033",
+  h265: "hev1.1.6.L153.B0",
+  vp9: "vp09.00.50.08",
+  av1: "av01.0.12M.08",
 };
 const NAMES = { h264: "H.264", h265: "H.265", vp9: "VP9", av1: "AV1" };
 const MAX_QUEUED = 30;
@@ -56,7 +59,9 @@ export function makeVideo(draw, fail) {
       let at = 0;
       for (const [index, size] of sizes.entries()) {
         const type = starts && index === 0 ? "key" : "delta";
-        decoder.decode(new EncodedVideoChunk({ type, timestamp: time++, data: data.subarray(at, at + size) }));
+        decoder.decode(
+          new EncodedVideoChunk({ type, timestamp: time++, data: data.subarray(at, at + size) }),
+        );
         at += size;
       }
       // A decoder that falls behind makes the server wait, too.

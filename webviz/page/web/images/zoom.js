@@ -41,17 +41,25 @@ export function makeZoom(canvas, changed) {
     return [(clientX - box.left) / box.width, (clientY - box.top) / box.height];
   };
 
-  canvas.addEventListener("wheel", (event) => {
-    if (zoom === 1 && event.deltaY > 0 && !event.ctrlKey) return; // scrolls the panes
-    event.preventDefault(); // with Ctrl, and by a pinch on a touchpad, it would zoom the page
-    const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? 1 : LINE_PX);
-    const step = event.ctrlKey ? PINCH_STEP : WHEEL_STEP;
-    zoomBy(2 ** (-pixels * step), shareOf([event.clientX, event.clientY]));
-  }, { passive: false });
+  canvas.addEventListener(
+    "wheel",
+    (event) => {
+      if (zoom === 1 && event.deltaY > 0 && !event.ctrlKey) return; // scrolls the panes
+      event.preventDefault(); // with Ctrl, and by a pinch on a touchpad, it would zoom the page
+      const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? 1 : LINE_PX);
+      const step = event.ctrlKey ? PINCH_STEP : WHEEL_STEP;
+      zoomBy(2 ** (-pixels * step), shareOf([event.clientX, event.clientY]));
+    },
+    { passive: false },
+  );
   // One finger on a picture that is not zoomed scrolls the panes.
-  canvas.addEventListener("touchmove", (event) => {
-    if (event.touches.length > 1 || zoom > 1) event.preventDefault();
-  }, { passive: false });
+  canvas.addEventListener(
+    "touchmove",
+    (event) => {
+      if (event.touches.length > 1 || zoom > 1) event.preventDefault();
+    },
+    { passive: false },
+  );
 
   canvas.addEventListener("pointerdown", (event) => {
     if (event.button !== 0) return;
@@ -68,7 +76,9 @@ export function makeZoom(canvas, changed) {
     if (before.size && after.size) zoomBy(after.size / before.size, to);
   });
   for (const name of ["pointerup", "pointercancel"]) {
-    canvas.addEventListener(name, (/** @type {PointerEvent} */ event) => fingers.delete(event.pointerId));
+    canvas.addEventListener(name, (/** @type {PointerEvent} */ event) =>
+      fingers.delete(event.pointerId),
+    );
   }
 
   return {
@@ -90,7 +100,9 @@ export function makeZoom(canvas, changed) {
 /** The middle of all fingers, and how far the first two are apart. */
 function spread(fingers) {
   const places = [...fingers.values()];
-  const middle = [0, 1].map((axis) => places.reduce((sum, place) => sum + place[axis], 0) / places.length);
+  const middle = [0, 1].map(
+    (axis) => places.reduce((sum, place) => sum + place[axis], 0) / places.length,
+  );
   const [first, second] = places;
   const size = second ? Math.hypot(first[0] - second[0], first[1] - second[1]) : 0;
   return { middle, size };

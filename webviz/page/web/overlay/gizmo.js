@@ -10,13 +10,22 @@ const SIZE = 84;
 const REACH = 28;
 /** @type {[string, number, number][]} */
 const ENDS = [
-  ["X", 0, 1], ["Y", 1, 1], ["Z", 2, 1], ["-X", 0, -1], ["-Y", 1, -1], ["-Z", 2, -1],
+  ["X", 0, 1],
+  ["Y", 1, 1],
+  ["Z", 2, 1],
+  ["-X", 0, -1],
+  ["-Y", 1, -1],
+  ["-Z", 2, -1],
 ];
 
 export function build() {
   const drawing = svgElement("svg", {
-    class: "wv-gizmo", viewBox: `${-SIZE / 2} ${-SIZE / 2} ${SIZE} ${SIZE}`,
-    width: SIZE, height: SIZE, role: "group", "aria-label": "Axes of the fixed frame",
+    class: "wv-gizmo",
+    viewBox: `${-SIZE / 2} ${-SIZE / 2} ${SIZE} ${SIZE}`,
+    width: SIZE,
+    height: SIZE,
+    role: "group",
+    "aria-label": "Axes of the fixed frame",
   });
   const ends = ENDS.map(([label, axis, sign]) => {
     /** @type {Vec3} */
@@ -33,10 +42,22 @@ export function build() {
     const ball = svgElement("circle", { r: sign > 0 ? 9 : 6 });
     const name = svgElement("text", {}, sign > 0 ? label : "");
     const title = svgElement("title", {}, `Look from ${label}`);
-    const group = svgElement("g", {
-      "data-axis": "xyz"[axis], "data-side": sign > 0 ? "front" : "back", role: "button",
-      tabindex: 0, "aria-label": `Look from ${label}`, onclick: look, onkeydown: onKey,
-    }, line, ball, name, title);
+    const group = svgElement(
+      "g",
+      {
+        "data-axis": "xyz"[axis],
+        "data-side": sign > 0 ? "front" : "back",
+        role: "button",
+        tabindex: 0,
+        "aria-label": `Look from ${label}`,
+        onclick: look,
+        onkeydown: onKey,
+      },
+      line,
+      ball,
+      name,
+      title,
+    );
     return { group, line, ball, name, axis, sign };
   });
   drawing.append(...ends.map(({ group }) => group));
@@ -44,7 +65,10 @@ export function build() {
   let shown = "";
   viser.beforeRender(() => {
     const axes = views.axes();
-    const now = axes.flat().map((number) => number.toFixed(2)).join();
+    const now = axes
+      .flat()
+      .map((number) => number.toFixed(2))
+      .join();
     if (now === shown) return;
     shown = now;
     const order = ends.map((end) => ({ end, depth: end.sign * axes[end.axis][2] }));

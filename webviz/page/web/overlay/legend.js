@@ -22,7 +22,10 @@ export function build() {
       if (scale) show(cards.get(id) ?? add(id), scale);
       else cards.delete(id);
     }
-    setChildren(list, [...cards.values()].slice(0, MAX_CARDS).map(({ element }) => element));
+    setChildren(
+      list,
+      [...cards.values()].slice(0, MAX_CARDS).map(({ element }) => element),
+    );
   });
 
   /** @param {string} id */

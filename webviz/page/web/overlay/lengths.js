@@ -1,7 +1,12 @@
 // Round lengths, and their texts.
 
 /** @type {[string, number][]} */
-const UNITS = [["km", 1000], ["m", 1], ["cm", 0.01], ["mm", 0.001]];
+const UNITS = [
+  ["km", 1000],
+  ["m", 1],
+  ["cm", 0.01],
+  ["mm", 0.001],
+];
 
 /**
  * The largest of 1, 2 and 5 times a power of ten up to a length.

@@ -55,7 +55,8 @@ export function build() {
   async function rest() {
     const begun = performance.now();
     const found = mouse && hit(mouse);
-    if (!found || !("group" in found)) { // the ground
+    if (!found || !("group" in found)) {
+      // the ground
       if (isNamed) show(mouse && groundAt(...mouse), "");
       isNamed = false;
       return;

@@ -24,10 +24,17 @@ export function build() {
   let sent = 0;
   const label = el("span");
   const more = el("dl", { class: "wv-card wv-rates-more", hidden: true });
-  const button = el("button", {
-    type: "button", class: "wv-card wv-rates", "aria-expanded": "false",
-    "data-tip": HINT, onclick: toggle,
-  }, label);
+  const button = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-card wv-rates",
+      "aria-expanded": "false",
+      "data-tip": HINT,
+      onclick: toggle,
+    },
+    label,
+  );
 
   channel.on("Pong", () => {
     trip = performance.now() - sent;
@@ -67,18 +74,25 @@ export function build() {
       ["Frames drawn", `${rate} a second; none while nothing changes`],
       ["Server and back", trip === null ? "not measured yet" : `${trip.toFixed(1)} ms`],
       ["Watching", `${watchers} ${watchers === 1 ? "browser" : "browsers"}`],
-      ["Drawn at once", `${render.triangles} triangles, ${render.points} points, ` +
-        `${render.calls} calls`],
+      [
+        "Drawn at once",
+        `${render.triangles} triangles, ${render.points} points, ` + `${render.calls} calls`,
+      ],
       ["Points held", `${points()} at once, to draw 20 frames a second`],
       ["Drawn by", renderer()],
     ];
-    setChildren(more, rows.flatMap(([name, value], index) => {
-      const [term, meaning] = [more.children[2 * index] ?? el("dt"),
-        more.children[2 * index + 1] ?? el("dd")];
-      setText(term, name);
-      setText(meaning, value);
-      return [term, meaning];
-    }));
+    setChildren(
+      more,
+      rows.flatMap(([name, value], index) => {
+        const [term, meaning] = [
+          more.children[2 * index] ?? el("dt"),
+          more.children[2 * index + 1] ?? el("dd"),
+        ];
+        setText(term, name);
+        setText(meaning, value);
+        return [term, meaning];
+      }),
+    );
   }
 
   function toggle() {

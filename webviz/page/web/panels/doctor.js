@@ -58,7 +58,13 @@ function item(finding, unfolded) {
   return el(
     "li",
     { class: "wv-finding", "data-level": level },
-    el("div", { class: "wv-finding-head" }, el("span", { class: "wv-dot" }), el("b", {}, id), el("span", {}, cause)),
+    el(
+      "div",
+      { class: "wv-finding-head" },
+      el("span", { class: "wv-dot" }),
+      el("b", {}, id),
+      el("span", {}, cause),
+    ),
     el("p", {}, remedy),
     command ? typed(command) : "",
     button ? remedyButton(button) : "",
@@ -78,12 +84,22 @@ const paragraph = (text) => (text.startsWith("    ") ? typed(text.trim()) : el("
 function typed(command) {
   const made = el("code", { class: "wv-finding-command" });
   setText(made, command);
-  const take = async () => toast((await copy(command)) ? "Copied." : "The browser does not allow it.");
+  const take = async () =>
+    toast((await copy(command)) ? "Copied." : "The browser does not allow it.");
   return el(
     "div",
     { class: "wv-finding-typed" },
     made,
-    el("button", { type: "button", class: "wv-icon", "aria-label": "Copy the command", "data-tip": "Copy", onclick: take },
-      icon("copy")),
+    el(
+      "button",
+      {
+        type: "button",
+        class: "wv-icon",
+        "aria-label": "Copy the command",
+        "data-tip": "Copy",
+        onclick: take,
+      },
+      icon("copy"),
+    ),
   );
 }

@@ -10,7 +10,9 @@ import { watch } from "../stores.js";
 import { spanText } from "./units.js";
 
 const ROWS = {
-  Translation: "x, y, z", Quaternion: "x, y, z, w", "Roll, pitch, yaw": "About the fixed axes x, y, z",
+  Translation: "x, y, z",
+  Quaternion: "x, y, z, w",
+  "Roll, pitch, yaw": "About the fixed axes x, y, z",
   Distance: "Between the origins",
 };
 
@@ -29,30 +31,69 @@ export function between() {
   const chosen = { target: "", source: "", ...recall("tf-between", {}) };
   let offered = [];
 
-  const pick = (which, label) => combobox({
-    label, value: chosen[which], options: [], placeholder: "Frame", change: (value) => change(which, value),
-  });
+  const pick = (which, label) =>
+    combobox({
+      label,
+      value: chosen[which],
+      options: [],
+      placeholder: "Frame",
+      change: (value) => change(which, value),
+    });
   const boxes = { source: pick("source", "Frame"), target: pick("target", "In frame") };
-  const swap = el("button", {
-    type: "button", class: "wv-icon", title: "Swap the frames", "aria-label": "Swap the frames",
-    onclick: () => {
-      [chosen.target, chosen.source] = [chosen.source, chosen.target];
-      follow();
+  const swap = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-icon",
+      title: "Swap the frames",
+      "aria-label": "Swap the frames",
+      onclick: () => {
+        [chosen.target, chosen.source] = [chosen.source, chosen.target];
+        follow();
+      },
     },
-  }, icon("refresh"));
-  const copyButton = el("button", {
-    type: "button", class: "wv-icon", title: "Copy", "aria-label": "Copy transform", onclick: copyAll,
-  }, icon("copy"));
+    icon("refresh"),
+  );
+  const copyButton = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-icon",
+      title: "Copy",
+      "aria-label": "Copy transform",
+      onclick: copyAll,
+    },
+    icon("copy"),
+  );
   const rows = Object.entries(ROWS).map(([name, title]) => {
     const value = el("dd", { class: "wv-number" });
-    return { name, value, element: el("div", { title }, el("dt", { class: "wv-quiet" }, name), value) };
+    return {
+      name,
+      value,
+      element: el("div", { title }, el("dt", { class: "wv-quiet" }, name), value),
+    };
   });
-  const list = el("dl", { class: "wv-between-values", "aria-live": "off" }, rows.map((row) => row.element));
+  const list = el(
+    "dl",
+    { class: "wv-between-values", "aria-live": "off" },
+    rows.map((row) => row.element),
+  );
   const note = el("div", { class: "wv-between-note wv-quiet", role: "status" });
-  const element = el("section", { class: "wv-between", "aria-label": "Transform between two frames" },
-    el("div", { class: "wv-between-frames" },
-      boxes.source.element, el("span", { class: "wv-quiet" }, "in"), boxes.target.element, swap, copyButton),
-    list, note);
+  const element = el(
+    "section",
+    { class: "wv-between", "aria-label": "Transform between two frames" },
+    el(
+      "div",
+      { class: "wv-between-frames" },
+      boxes.source.element,
+      el("span", { class: "wv-quiet" }, "in"),
+      boxes.target.element,
+      swap,
+      copyButton,
+    ),
+    list,
+    note,
+  );
 
   function change(which, value) {
     chosen[which] = value;
@@ -92,19 +133,24 @@ export function between() {
     if (values.has("problem")) return values.get("problem");
     if (!values.has("translation")) return "";
     const age = values.get("age");
-    return age === null ? "Static." : `At the newest common time, ${spanText(Math.max(0, age))} ago.`;
+    return age === null
+      ? "Static."
+      : `At the newest common time, ${spanText(Math.max(0, age))} ago.`;
   }
 
   async function copyAll() {
     const text = rows.map(({ name, value }) => `${name}: ${value.textContent}`).join("\n");
     const isDone = await copy(`${chosen.source} in ${chosen.target}\n${text}\n`);
-    toast(isDone ? "Copied." : "This browser does not allow copying.", { level: isDone ? "ok" : "error" });
+    toast(isDone ? "Copied." : "This browser does not allow copying.", {
+      level: isDone ? "ok" : "error",
+    });
   }
 
   function offer(names) {
     offered = names;
     const options = names.map((value) => ({ value }));
-    for (const which of ["source", "target"]) boxes[which].update({ value: chosen[which], options });
+    for (const which of ["source", "target"])
+      boxes[which].update({ value: chosen[which], options });
   }
 
   follow();

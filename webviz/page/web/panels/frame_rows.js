@@ -39,7 +39,8 @@ export function frameRows(values, folded, text) {
 }
 
 /** Names and values of all child frames. */
-export const frames = (values) => [...values].filter(([name]) => name !== "/roots" && name !== "/problems");
+export const frames = (values) =>
+  [...values].filter(([name]) => name !== "/roots" && name !== "/problems");
 
 /** Names of all frames, sorted. */
 export function frameNames(values) {
@@ -49,13 +50,16 @@ export function frameNames(values) {
 
 /** A row without content. */
 export function makeFrame() {
-  return el("div", { class: "wv-frame" },
+  return el(
+    "div",
+    { class: "wv-frame" },
     el("span", { class: "wv-fold-mark" }, icon("chevron", 12)),
     el("span", { class: "wv-frame-name wv-ellipsis" }),
     el("span", { class: "wv-frame-node wv-ellipsis wv-quiet" }),
     el("span", { class: "wv-frame-fact wv-quiet wv-number" }),
     el("span", { class: "wv-frame-age wv-quiet wv-number" }),
-    el("span", { class: "wv-dot" }));
+    el("span", { class: "wv-dot" }),
+  );
 }
 
 /** Fills in a row. */
@@ -67,9 +71,13 @@ export function updateFrame(row, { name, depth, isOpen, frame, isLoop }) {
   setText(fact, factOf(frame));
   setText(age, frame && !frame.is_static ? ageText(frame) : "");
   const problems = frame?.problems ?? [];
-  set(dot, { "data-level": problems.length ? "warn" : null, "data-tip": problems.join("\n") || null });
+  set(dot, {
+    "data-level": problems.length ? "warn" : null,
+    "data-tip": problems.join("\n") || null,
+  });
   set(row, {
-    "data-tip": [name, ...problems].join("\n"), "aria-level": depth + 1,
+    "data-tip": [name, ...problems].join("\n"),
+    "aria-level": depth + 1,
     "aria-expanded": isOpen === null ? null : String(isOpen),
   });
   indent(row, depth);

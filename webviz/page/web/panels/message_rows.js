@@ -19,15 +19,29 @@ export function messageRows({ label, topic }) {
   const folds = new Map();
   let shown = null;
   const list = rowList({
-    label, role: "tree", rowRole: "treeitem", height: touchable(ROW_PX),
-    make, update: updateRow, choose: toggle, onKey,
+    label,
+    role: "tree",
+    rowRole: "treeitem",
+    height: touchable(ROW_PX),
+    make,
+    update: updateRow,
+    choose: toggle,
+    onKey,
   });
 
   function make() {
-    const plot = el("button", {
-      type: "button", class: "wv-icon wv-field-plot", tabindex: -1, "aria-label": "Plot", "data-tip": "Plot this field",
-      onclick: () => plotField(topic(), pathOf(plot.closest(".wv-row").wvKey)),
-    }, icon("odometry", 14));
+    const plot = el(
+      "button",
+      {
+        type: "button",
+        class: "wv-icon wv-field-plot",
+        tabindex: -1,
+        "aria-label": "Plot",
+        "data-tip": "Plot this field",
+        onclick: () => plotField(topic(), pathOf(plot.closest(".wv-row").wvKey)),
+      },
+      icon("odometry", 14),
+    );
     return makeRow(needs("AddPanel", plot));
   }
 
@@ -43,9 +57,11 @@ export function messageRows({ label, topic }) {
   }
 
   function onKey({ key }, row) {
-    const isFold = (key === "ArrowLeft" && row.isOpen) || (key === "ArrowRight" && row.isOpen === false);
+    const isFold =
+      (key === "ArrowLeft" && row.isOpen) || (key === "ArrowRight" && row.isOpen === false);
     if (isFold) toggle(row);
-    else if (key === "ArrowLeft" && row.depth) list.mark(row.key.slice(0, row.key.lastIndexOf("/")));
+    else if (key === "ArrowLeft" && row.depth)
+      list.mark(row.key.slice(0, row.key.lastIndexOf("/")));
     return isFold || key === "ArrowLeft";
   }
 
@@ -56,9 +72,14 @@ export function messageRows({ label, topic }) {
 export const pathOf = (key) => key.slice(1).replaceAll("/[", "[").replaceAll("/", ".");
 
 function makeRow(plot) {
-  return el("div", { class: "wv-field-row" },
+  return el(
+    "div",
+    { class: "wv-field-row" },
     el("span", { class: "wv-fold-mark" }, icon("chevron", 12)),
-    el("span", { class: "wv-field-name" }), el("span", { class: "wv-field-value wv-ellipsis" }), plot);
+    el("span", { class: "wv-field-name" }),
+    el("span", { class: "wv-field-value wv-ellipsis" }),
+    plot,
+  );
 }
 
 function updateRow(element, row) {

@@ -45,14 +45,18 @@ const cut = (text) => (text.length > SHORT ? `${text.slice(0, SHORT)}…` : text
 function inline(tree) {
   if (isLeaf(tree)) return tree;
   if (tree.fields) {
-    return Object.entries(tree.fields).map(([name, inside]) => `${name}: ${inline(inside)}`).join(", ");
+    return Object.entries(tree.fields)
+      .map(([name, inside]) => `${name}: ${inline(inside)}`)
+      .join(", ");
   }
   return `[${tree.items.map(inline).join(", ")}${tree.length > tree.items.length ? ", …" : ""}]`;
 }
 
 /** The message as `ros2 topic echo` prints it, with what was left out marked. */
 export function textOf(tree, indent = "") {
-  return Object.entries(tree.fields).map(([name, inside]) => field(name, inside, indent)).join("\n");
+  return Object.entries(tree.fields)
+    .map(([name, inside]) => field(name, inside, indent))
+    .join("\n");
 }
 
 function field(name, tree, indent) {

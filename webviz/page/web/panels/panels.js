@@ -26,4 +26,5 @@ export function panel(added) {
 /** Calls `listener` whenever there is another panel. */
 export const onPanel = (listener) => listeners.add(listener);
 
-for (const own of [displays, selectionPanel, views, topics, transforms, toolsPanel, doctor]) panel(own);
+for (const own of [displays, selectionPanel, views, topics, transforms, toolsPanel, doctor])
+  panel(own);

@@ -12,7 +12,11 @@ export async function plotField(topic, path) {
   const { id, curves } = await firstPlot();
   if (curves?.includes(curve)) return toast(`${curve} is plotted already.`);
   const { level } = await (id
-    ? act("SetPanelProperty", { panel: id, path: "curves", value: [...curves, curve] }, { quiet: true })
+    ? act(
+        "SetPanelProperty",
+        { panel: id, path: "curves", value: [...curves, curve] },
+        { quiet: true },
+      )
     : act("AddPanel", { type: TYPE, values: { curves: [curve] } }, { quiet: true }));
   if (level === "ok") toast(`Added ${curve} to the panel Plot.`);
 }

@@ -15,24 +15,39 @@ import { makeWidget } from "./plugin_widgets.js";
 export function followPlugins(offer, types) {
   watch("panels", (values, changed) => {
     if (changed.has("/types")) types(values.get("/types"));
-    offer(values.get("/order").map((name) => ({
-      name: `plugin-${name}`, title: values.get(name), open: (element) => open(element, name),
-    })));
+    offer(
+      values.get("/order").map((name) => ({
+        name: `plugin-${name}`,
+        title: values.get(name),
+        open: (element) => open(element, name),
+      })),
+    );
   });
   /** @type {ValuesOf<"commands">} */
   let commands = new Map();
   watch("commands", (values) => {
     commands = values;
   });
-  provide(() => [...commands.values()].map(({ panel, widget, label, key }) => ({
-    name: label, key: key || undefined, group: "Panels", needs: "UseWidget", run: () => act("UseWidget", { panel, widget }),
-  })));
+  provide(() =>
+    [...commands.values()].map(({ panel, widget, label, key }) => ({
+      name: label,
+      key: key || undefined,
+      group: "Panels",
+      needs: "UseWidget",
+      run: () => act("UseWidget", { panel, widget }),
+    })),
+  );
 }
 
 const LOOKED_AT = new Set(["area", "chart"]); // what a chart lets people change has its own locks
 
 function open(element, name) {
-  const failure = el("div", { class: "wv-plugin-failure", role: "alert", hidden: true, "data-level": "error" });
+  const failure = el("div", {
+    class: "wv-plugin-failure",
+    role: "alert",
+    hidden: true,
+    "data-level": "error",
+  });
   const place = el("div", { class: "wv-plugin-widgets" });
   const [settings, endProperties] = properties(name);
   element.append(el("div", { class: "wv-plugin" }, failure, place), ...settings);
@@ -45,12 +60,19 @@ function open(element, name) {
       // A panel that was loaded again may have another widget under the same id.
       if (drawn.get(id)?.kind !== widget.kind) {
         drawn.get(id)?.close?.();
-        drawn.set(id, makeWidget(widget, (value) => act("UseWidget", { panel: name, widget: id, value })));
+        drawn.set(
+          id,
+          makeWidget(widget, (value) => act("UseWidget", { panel: name, widget: id, value })),
+        );
         drawn.get(id).update(widget, values, id);
         if (!LOOKED_AT.has(widget.kind)) needs("UseWidget", drawn.get(id).element);
-      } else if (changed.has(id) || [...changed].some((key) => key.startsWith(`${id}/`))) drawn.get(id).update(widget, values, id);
+      } else if (changed.has(id) || [...changed].some((key) => key.startsWith(`${id}/`)))
+        drawn.get(id).update(widget, values, id);
     }
-    setChildren(place, order.map((id) => drawn.get(id).element));
+    setChildren(
+      place,
+      order.map((id) => drawn.get(id).element),
+    );
     const sentence = values.get("/failure") ?? "";
     setText(failure, sentence);
     set(failure, { hidden: !sentence });
@@ -72,15 +94,29 @@ function properties(name) {
   const send = (path, value) =>
     act("SetPanelProperty", { panel: id, path, value }, { quiet: true, errors: "caller" });
   const place = el("div");
-  const settings = el("details", { class: "wv-tool-properties", hidden: true },
-    el("summary", {}, "Properties"), place);
-  const remove = el("button", {
-    type: "button", class: "wv-plugin-remove", hidden: true,
-    onclick: () => act("RemovePanel", { panel: id }),
-  }, "Remove panel");
+  const settings = el(
+    "details",
+    { class: "wv-tool-properties", hidden: true },
+    el("summary", {}, "Properties"),
+    place,
+  );
+  const remove = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-plugin-remove",
+      hidden: true,
+      onclick: () => act("RemovePanel", { panel: id }),
+    },
+    "Remove panel",
+  );
   needs("RemovePanel", remove);
   const made = maker(place, (declared, values) => {
-    return form(declared, { send, name: `panel.${values.get("type")}`, command: "SetPanelProperty" });
+    return form(declared, {
+      send,
+      name: `panel.${values.get("type")}`,
+      command: "SetPanelProperty",
+    });
   });
   const end = watch(`panel_properties:${name}`, (values, changed) => {
     id = values.get("id") ?? "";
@@ -88,8 +124,11 @@ function properties(name) {
     set(settings, { hidden: !values.get("declared")?.length });
     if (id) made.update(values, changed);
   });
-  return [[settings, remove], () => {
-    end();
-    made.end();
-  }];
+  return [
+    [settings, remove],
+    () => {
+      end();
+      made.end();
+    },
+  ];
 }

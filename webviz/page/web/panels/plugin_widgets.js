@@ -66,8 +66,21 @@ function area() {
 }
 
 function tableOf(rows) {
-  return el("table", {}, el("tbody", {}, rows.map((row) =>
-    el("tr", {}, row.map((cell) => el("td", {}, cell))))));
+  return el(
+    "table",
+    {},
+    el(
+      "tbody",
+      {},
+      rows.map((row) =>
+        el(
+          "tr",
+          {},
+          row.map((cell) => el("td", {}, cell)),
+        ),
+      ),
+    ),
+  );
 }
 
 function button({ width }, send) {
@@ -102,7 +115,9 @@ function field(_, send) {
   let timer = 0;
   const name = el("span", { class: "wv-quiet" });
   const input = el("input", {
-    class: "wv-field", type: "text", onfocus: () => state.hold(),
+    class: "wv-field",
+    type: "text",
+    onfocus: () => state.hold(),
     oninput: () => {
       clearTimeout(timer);
       timer = setTimeout(enter, TYPING_MS);
@@ -151,7 +166,10 @@ function sliders(_, send) {
   const made = new Map();
   function make({ name, low, high, unit }) {
     const change = (value) => send(`${value} ${name}`);
-    const control = slider({ kind: "float", low, high, unit }, { label: name, change, refused: () => {} });
+    const control = slider(
+      { kind: "float", low, high, unit },
+      { label: name, change, refused: () => {} },
+    );
     const label = el("span", { class: "wv-plugin-slider-name", title: name }, name);
     return { line: el("div", { class: "wv-plugin-line" }, label, control.element), control };
   }
@@ -163,7 +181,10 @@ function sliders(_, send) {
       made.set(key, before.get(key) ?? make(slide));
       made.get(key).control.update(slide.value);
     }
-    setChildren(element, [...made.values()].map(({ line }) => line));
+    setChildren(
+      element,
+      [...made.values()].map(({ line }) => line),
+    );
   }
   return { element, update };
 }

@@ -12,7 +12,11 @@ export function savedViews() {
   const lines = new Map();
   const list = el("ul", { class: "wv-saved" });
   const empty = el("p", { class: "wv-saved-none wv-quiet" }, "No views are saved yet.");
-  const name = el("input", { class: "wv-field", type: "text", "aria-label": "Name of the view to save" });
+  const name = el("input", {
+    class: "wv-field",
+    type: "text",
+    "aria-label": "Name of the view to save",
+  });
   const save = el(
     "form",
     {
@@ -23,30 +27,49 @@ export function savedViews() {
         name.value = "";
       },
     },
-    name, el("button", { type: "submit", class: "wv-button" }, icon("save"), "Save"),
+    name,
+    el("button", { type: "submit", class: "wv-button" }, icon("save"), "Save"),
   );
-  const start = el("button", {
-    type: "button", class: "wv-button", "data-tip": "New browsers and pictures begin with this view",
-    onclick: () => act("StartWithView"),
-  }, icon("flag"), "Start with this");
+  const start = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-button",
+      "data-tip": "New browsers and pictures begin with this view",
+      onclick: () => act("StartWithView"),
+    },
+    icon("flag"),
+    "Start with this",
+  );
   const element = el(
-    "section", { class: "wv-view", "aria-label": "Saved views" },
+    "section",
+    { class: "wv-view", "aria-label": "Saved views" },
     el("div", { class: "wv-view-head" }, el("h2", { class: "wv-view-title" }, "Saved views")),
-    list, empty, needs("SaveView", save), needs("StartWithView", start),
+    list,
+    empty,
+    needs("SaveView", save),
+    needs("StartWithView", start),
   );
 
   return {
     element,
     update(saved) {
       const names = saved.map((view) => view.name);
-      for (const gone of [...lines.keys()].filter((each) => !names.includes(each))) lines.delete(gone);
+      for (const gone of [...lines.keys()].filter((each) => !names.includes(each)))
+        lines.delete(gone);
       for (const view of saved) {
         if (!lines.has(view.name)) lines.set(view.name, line(view.name));
         lines.get(view.name).update(view);
       }
-      setChildren(list, names.map((each) => lines.get(each).element));
+      setChildren(
+        list,
+        names.map((each) => lines.get(each).element),
+      );
       empty.hidden = saved.length > 0;
-      const numbers = Array.from({ length: names.length + 1 }, (_, index) => `${NAME} ${index + 1}`);
+      const numbers = Array.from(
+        { length: names.length + 1 },
+        (_, index) => `${NAME} ${index + 1}`,
+      );
       set(name, { placeholder: numbers.find((each) => !names.includes(each)) });
     },
   };
@@ -54,14 +77,30 @@ export function savedViews() {
 
 function line(name) {
   const type = el("span", { class: "wv-quiet" });
-  const mark = el("span", { class: "wv-saved-start", title: "Browsers begin with it" }, icon("flag", 12));
-  const show = el("button", {
-    type: "button", class: "wv-saved-show", "aria-label": name, title: `Show ${name}`,
-    onclick: () => act("ShowView", { view: name }),
-    onkeydown: ({ key }) => key === "F2" && !why("RenameView") && rename(),
-  }, el("span", { class: "wv-saved-name" }, name), type, mark);
+  const mark = el(
+    "span",
+    { class: "wv-saved-start", title: "Browsers begin with it" },
+    icon("flag", 12),
+  );
+  const show = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-saved-show",
+      "aria-label": name,
+      title: `Show ${name}`,
+      onclick: () => act("ShowView", { view: name }),
+      onkeydown: ({ key }) => key === "F2" && !why("RenameView") && rename(),
+    },
+    el("span", { class: "wv-saved-name" }, name),
+    type,
+    mark,
+  );
   const field = el("input", {
-    class: "wv-field", type: "text", "aria-label": `New name of ${name}`, hidden: true,
+    class: "wv-field",
+    type: "text",
+    "aria-label": `New name of ${name}`,
+    hidden: true,
     onblur: () => take(),
     onkeydown(event) {
       if (event.key !== "Enter" && event.key !== "Escape") return;
@@ -73,10 +112,19 @@ function line(name) {
     },
   });
   const element = el(
-    "li", { class: "wv-saved-line" }, show, field,
-    needs("StartWithView", tool("flag", `Start with ${name}`, () => act("StartWithView", { view: name }))),
+    "li",
+    { class: "wv-saved-line" },
+    show,
+    field,
+    needs(
+      "StartWithView",
+      tool("flag", `Start with ${name}`, () => act("StartWithView", { view: name })),
+    ),
     needs("RenameView", tool("pencil", `Rename ${name}`, rename)),
-    needs("RemoveView", tool("trash", `Remove ${name}`, () => act("RemoveView", { name }))),
+    needs(
+      "RemoveView",
+      tool("trash", `Remove ${name}`, () => act("RemoveView", { name })),
+    ),
   );
 
   function rename() {
@@ -105,7 +153,15 @@ function line(name) {
 }
 
 function tool(iconName, tip, run) {
-  return el("button", {
-    type: "button", class: "wv-icon", "aria-label": tip, "data-tip": tip, onclick: run,
-  }, icon(iconName, 14));
+  return el(
+    "button",
+    {
+      type: "button",
+      class: "wv-icon",
+      "aria-label": tip,
+      "data-tip": tip,
+      onclick: run,
+    },
+    icon(iconName, 14),
+  );
 }

@@ -29,24 +29,52 @@ export const selectionPanel = {
     let frames = new Set();
 
     const button = (label, iconName, onclick) =>
-      el("button", { type: "button", class: "wv-icon", title: label, "aria-label": label, onclick },
-        icon(iconName));
+      el(
+        "button",
+        { type: "button", class: "wv-icon", title: label, "aria-label": label, onclick },
+        icon(iconName),
+      );
     const count = el("span", { class: "wv-selection-count", role: "status" });
     const look = button("Look at the selection", "focus", tool.lookAtSelection);
     const copyAll = button("Copy all values", "copy", () => copied(textOfAll(values)));
     const clear = button("Clear the selection", "close", () => selection.change("replace", []));
     const note = el("div", { class: "wv-selection-note wv-quiet", hidden: true });
     const list = rowList({
-      label: "Selection", role: "tree", rowRole: "treeitem", height: touchable(ROW_PX),
-      make: makeRow, update: updateRow, choose, onKey,
+      label: "Selection",
+      role: "tree",
+      rowRole: "treeitem",
+      height: touchable(ROW_PX),
+      make: makeRow,
+      update: updateRow,
+      choose,
+      onKey,
     });
-    const start = el("button", {
-      type: "button", class: "wv-button", onclick: () => select(tool.select),
-    }, icon("select"), "Select");
-    const empty = el("div", { class: "wv-empty" },
-      el("p", {}, "Nothing is selected. Choose the tool, and click on something in the scene."), start);
-    element.append(el("section", { class: "wv-selection", "aria-label": "Selection" },
-      el("header", {}, count, look, copyAll, clear), note, empty, list.element));
+    const start = el(
+      "button",
+      {
+        type: "button",
+        class: "wv-button",
+        onclick: () => select(tool.select),
+      },
+      icon("select"),
+      "Select",
+    );
+    const empty = el(
+      "div",
+      { class: "wv-empty" },
+      el("p", {}, "Nothing is selected. Choose the tool, and click on something in the scene."),
+      start,
+    );
+    element.append(
+      el(
+        "section",
+        { class: "wv-selection", "aria-label": "Selection" },
+        el("header", {}, count, look, copyAll, clear),
+        note,
+        empty,
+        list.element,
+      ),
+    );
     list.element.addEventListener("click", onLink, { capture: true });
 
     function show() {
@@ -69,7 +97,16 @@ export const selectionPanel = {
 
     function rowsOfThing(id, { title, name, tree, note: remark }, isAlone) {
       const isOpen = folds.get(id) ?? isAlone;
-      const row = { key: id, id, depth: 0, name: title, value: name, isOpen, isThing: true, remark };
+      const row = {
+        key: id,
+        id,
+        depth: 0,
+        name: title,
+        value: name,
+        isOpen,
+        isThing: true,
+        remark,
+      };
       return isOpen ? [row, ...rowsOf(tree, folds, 1, id)] : [row];
     }
 
@@ -80,31 +117,48 @@ export const selectionPanel = {
     }
 
     function onKey({ key }, row) {
-      const isFold = (key === "ArrowLeft" && row.isOpen) || (key === "ArrowRight" && row.isOpen === false);
+      const isFold =
+        (key === "ArrowLeft" && row.isOpen) || (key === "ArrowRight" && row.isOpen === false);
       if (isFold) choose(row);
-      else if (key === "ArrowLeft" && row.depth) list.mark(row.key.slice(0, row.key.lastIndexOf("/")));
+      else if (key === "ArrowLeft" && row.depth)
+        list.mark(row.key.slice(0, row.key.lastIndexOf("/")));
       return isFold || key === "ArrowLeft";
     }
 
     function makeRow() {
-      return el("div", { class: "wv-field-row" },
+      return el(
+        "div",
+        { class: "wv-field-row" },
         el("span", { class: "wv-fold-mark" }, icon("chevron", 12)),
         el("span", { class: "wv-field-name" }),
         el("span", { class: "wv-field-value wv-ellipsis" }),
-        el("button", {
-          type: "button", class: "wv-icon wv-selection-frame", title: "Show the frame in the panel TF",
-          "aria-label": "Show the frame", tabindex: -1,
-        }, icon("tree", 14)));
+        el(
+          "button",
+          {
+            type: "button",
+            class: "wv-icon wv-selection-frame",
+            title: "Show the frame in the panel TF",
+            "aria-label": "Show the frame",
+            tabindex: -1,
+          },
+          icon("tree", 14),
+        ),
+      );
     }
 
-    function updateRow(row, { name, value, depth, isOpen, isThing = false, isStatistics = false, remark = "" }) {
+    function updateRow(
+      row,
+      { name, value, depth, isOpen, isThing = false, isStatistics = false, remark = "" },
+    ) {
       const [fold, label, text, link] = row.children;
       set(fold, { "data-open": isOpen ? "" : null, "data-none": isOpen === null ? "" : null });
       setText(label, name);
       setText(text, isThing && remark ? `${value} · replaced` : value);
       set(row, {
-        "aria-level": depth + 1, "aria-expanded": isOpen === null ? null : String(isOpen),
-        "data-thing": isThing, "data-statistics": isStatistics,
+        "aria-level": depth + 1,
+        "aria-expanded": isOpen === null ? null : String(isOpen),
+        "data-thing": isThing,
+        "data-statistics": isStatistics,
         "data-tip": remark || (isOpen === null ? `${value}\nClick to copy` : null),
       });
       const frame = FRAMES.has(name) && frames.has(value) ? value : null;
@@ -144,13 +198,18 @@ const idsOf = (values) =>
   [...values.keys()].filter((id) => id !== "/info").sort((a, b) => Number(a) - Number(b));
 
 const textOfAll = (values) =>
-  statisticsText(values.get("/info")?.displays ?? []) + idsOf(values).map((id) => {
-    const { title, name, tree, note } = values.get(id);
-    const head = [`${title} (${name})`, note].filter(Boolean).join(": ");
-    return `${head}\n${textOf(tree, "  ")}\n`;
-  }).join("");
+  statisticsText(values.get("/info")?.displays ?? []) +
+  idsOf(values)
+    .map((id) => {
+      const { title, name, tree, note } = values.get(id);
+      const head = [`${title} (${name})`, note].filter(Boolean).join(": ");
+      return `${head}\n${textOf(tree, "  ")}\n`;
+    })
+    .join("");
 
 async function copied(text) {
   const isDone = await copy(text);
-  toast(isDone ? "Copied." : "This browser does not allow copying.", { level: isDone ? "ok" : "error" });
+  toast(isDone ? "Copied." : "This browser does not allow copying.", {
+    level: isDone ? "ok" : "error",
+  });
 }

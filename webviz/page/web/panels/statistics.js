@@ -7,10 +7,14 @@ const MAX_DECIMALS = 9;
 export function statisticsRows(displays, folds) {
   return displays.flatMap(({ name, count, ranges }, index) => {
     const key = `statistics ${index}`;
-    const isOpen = ranges.length ? folds.get(key) ?? true : null;
+    const isOpen = ranges.length ? (folds.get(key) ?? true) : null;
     const row = { key, depth: 0, name, value: `${count} selected`, isOpen, isStatistics: true };
     const rows = ranges.map((range) => ({
-      key: `${key}/${range.name}`, depth: 1, name: range.name, value: words(range), isOpen: null,
+      key: `${key}/${range.name}`,
+      depth: 1,
+      name: range.name,
+      value: words(range),
+      isOpen: null,
     }));
     return isOpen ? [row, ...rows] : [row];
   });
@@ -18,9 +22,15 @@ export function statisticsRows(displays, folds) {
 
 /** The same as text. */
 export const statisticsText = (displays) =>
-  displays.map(({ name, count, ranges }) =>
-    [`${name}: ${count} selected`, ...ranges.map((range) => `  ${range.name}: ${words(range)}`), ""].join("\n"),
-  ).join("");
+  displays
+    .map(({ name, count, ranges }) =>
+      [
+        `${name}: ${count} selected`,
+        ...ranges.map((range) => `  ${range.name}: ${words(range)}`),
+        "",
+      ].join("\n"),
+    )
+    .join("");
 
 /** A value among others that extend so far: positions far away must not lose what tells them apart. */
 function rounded(value, extent) {
@@ -29,6 +39,8 @@ function rounded(value, extent) {
 }
 
 function words({ unit, low, high, mean }) {
-  const [from, to, middle] = [low, high, mean].map((value) => rounded(value, high - low || Math.abs(mean)));
+  const [from, to, middle] = [low, high, mean].map((value) =>
+    rounded(value, high - low || Math.abs(mean)),
+  );
   return `${from} to ${to}, mean ${middle}${unit && ` ${unit}`}`;
 }

@@ -26,8 +26,11 @@ export const toolsPanel = {
     const none = el("p", { class: "wv-sent-none" }, NONE);
     const sections = el("div");
     element.append(
-      el("h3", { class: "wv-tools-head" }, "Sent from this page"), none, sent,
-      el("h3", { class: "wv-tools-head" }, "Properties"), sections,
+      el("h3", { class: "wv-tools-head" }, "Sent from this page"),
+      none,
+      sent,
+      el("h3", { class: "wv-tools-head" }, "Properties"),
+      sections,
     );
     const endSent = showSent(sent, none);
     const endSections = showProperties(sections);
@@ -45,12 +48,15 @@ function showSent(list, none) {
     const entries = history.all();
     const known = new Set(entries.map(({ number }) => number));
     for (const number of rows.keys()) if (!known.has(number)) rows.delete(number);
-    setChildren(list, entries.map((entry) => {
-      const row = rows.get(entry.number) ?? sentRow();
-      rows.set(entry.number, row);
-      row.update(entry);
-      return row.element;
-    }));
+    setChildren(
+      list,
+      entries.map((entry) => {
+        const row = rows.get(entry.number) ?? sentRow();
+        rows.set(entry.number, row);
+        row.update(entry);
+        return row.element;
+      }),
+    );
     none.hidden = entries.length > 0;
   };
   update();
@@ -63,9 +69,13 @@ function sentRow() {
   const place = el("span", { class: "wv-sent-place" });
   const result = el("span", { class: "wv-sent-result" });
   const yamlButton = iconButton("copy", "Copy as YAML", () => copyYaml(entry));
-  const element = el("li", {},
+  const element = el(
+    "li",
+    {},
     el("div", { class: "wv-sent-text" }, head, place, result),
-    iconButton("refresh", "Send again", () => sendAgain(entry)), yamlButton);
+    iconButton("refresh", "Send again", () => sendAgain(entry)),
+    yamlButton,
+  );
   return {
     element,
     update(next) {
@@ -84,9 +94,18 @@ function sentRow() {
   };
 }
 
-const iconButton = (name, label, run) => el("button", {
-  type: "button", class: "wv-icon", "aria-label": label, "data-tip": label, onclick: run,
-}, icon(name));
+const iconButton = (name, label, run) =>
+  el(
+    "button",
+    {
+      type: "button",
+      class: "wv-icon",
+      "aria-label": label,
+      "data-tip": label,
+      onclick: run,
+    },
+    icon(name),
+  );
 
 // As with the gesture itself: where the tool asks, its preview comes first.
 async function sendAgain(entry) {
@@ -126,12 +145,15 @@ function showProperties(place) {
       section.end();
       shown.delete(id);
     }
-    setChildren(place, tools.map(({ id, name }) => {
-      const section = shown.get(id) ?? toolSection(id);
-      shown.set(id, section);
-      setText(section.title, name);
-      return section.element;
-    }));
+    setChildren(
+      place,
+      tools.map(({ id, name }) => {
+        const section = shown.get(id) ?? toolSection(id);
+        shown.set(id, section);
+        setText(section.title, name);
+        return section.element;
+      }),
+    );
   };
   const end = registry.onChange(update);
   update();

@@ -24,20 +24,35 @@ export const topics = {
     let inspected = null;
 
     const search = el("input", {
-      class: "wv-field", type: "search", placeholder: "Filter topics", "aria-label": "Filter topics",
+      class: "wv-field",
+      type: "search",
+      placeholder: "Filter topics",
+      "aria-label": "Filter topics",
       oninput: show,
     });
     const head = makeHead(sortBy);
     const table = el("div", { class: "wv-topics-table" }, head.element);
     const list = rowList({
-      host: table, label: "Topics", role: "grid", rowRole: "row", height: HEIGHTS.narrow,
-      make: makeRow, update: updateRow, choose: ({ key }) => inspect(key),
+      host: table,
+      label: "Topics",
+      role: "grid",
+      rowRole: "row",
+      height: HEIGHTS.narrow,
+      make: makeRow,
+      update: updateRow,
+      choose: ({ key }) => inspect(key),
     });
     table.append(list.element);
     const empty = el("div", { class: "wv-empty", role: "status", hidden: true });
     const place = el("div", { class: "wv-topics-message" });
-    const panel = el("div", { class: "wv-topics" },
-      el("div", { class: "wv-search" }, icon("search"), search), table, empty, place);
+    const panel = el(
+      "div",
+      { class: "wv-topics" },
+      el("div", { class: "wv-search" }, icon("search"), search),
+      table,
+      empty,
+      place,
+    );
     element.append(panel);
 
     function sortBy(column) {

@@ -23,9 +23,17 @@ export function inspector(place, name, dismiss) {
   let size = 0;
 
   const button = (label, iconName, onclick) =>
-    el("button", { type: "button", class: "wv-icon", title: label, "aria-label": label, onclick },
-      icon(iconName));
-  const show = el("button", { type: "button", class: "wv-button", onclick: add }, icon("plus"), "Show");
+    el(
+      "button",
+      { type: "button", class: "wv-icon", title: label, "aria-label": label, onclick },
+      icon(iconName),
+    );
+  const show = el(
+    "button",
+    { type: "button", class: "wv-button", onclick: add },
+    icon("plus"),
+    "Show",
+  );
   needs("AddDisplay", show);
   const copyMessage = button("Copy message", "file", () => copied(textOf(message)));
   const facts = el("div", { class: "wv-topic-facts wv-quiet" });
@@ -33,16 +41,32 @@ export function inspector(place, name, dismiss) {
   const age = el("div", { class: "wv-topic-age wv-quiet wv-number" });
   const problem = el("div", { class: "wv-empty", role: "status", hidden: true });
   const tree = messageRows({ label: `Last message on ${name}`, topic: () => name });
-  place.replaceChildren(el("section", { class: "wv-inspected", "aria-label": name },
-    el("header", {},
-      el("h3", { class: "wv-ellipsis", title: name }, name),
-      show, button("Copy name", "copy", () => copied(name)), copyMessage,
-      button("Close", "close", dismiss)),
-    facts, why, age, problem, tree.element));
+  place.replaceChildren(
+    el(
+      "section",
+      { class: "wv-inspected", "aria-label": name },
+      el(
+        "header",
+        {},
+        el("h3", { class: "wv-ellipsis", title: name }, name),
+        show,
+        button("Copy name", "copy", () => copied(name)),
+        copyMessage,
+        button("Close", "close", dismiss),
+      ),
+      facts,
+      why,
+      age,
+      problem,
+      tree.element,
+    ),
+  );
 
   async function copied(text) {
     const isDone = await copy(text);
-    toast(isDone ? "Copied." : "This browser does not allow copying.", { level: isDone ? "ok" : "error" });
+    toast(isDone ? "Copied." : "This browser does not allow copying.", {
+      level: isDone ? "ok" : "error",
+    });
   }
 
   async function add() {
@@ -51,17 +75,29 @@ export function inspector(place, name, dismiss) {
       if (level === "ok") toast(`Added ${type} for ${name}.`);
     };
     if (fits.length === 1) return one(fits[0]);
-    openMenuBelow(show, fits.map((fit) => ({ label: fit[0], icon: "plus", run: () => one(fit) })));
+    openMenuBelow(
+      show,
+      fits.map((fit) => ({ label: fit[0], icon: "plus", run: () => one(fit) })),
+    );
   }
 
   function update(topic) {
     fits = topic?.show ?? [];
-    set(show, { disabled: fits.length === 0, "data-tip": fits.length ? "Add a display" : topic?.why });
+    set(show, {
+      disabled: fits.length === 0,
+      "data-tip": fits.length ? "Add a display" : topic?.why,
+    });
     setText(why, topic?.why ?? "");
     set(why, { hidden: !topic?.why });
     const texts = topic
-      ? [topic.types.join(", "), [...new Set(topic.nodes)].slice(0, 5).join(", "), topic.qos, rateText(topic.hz),
-        bytesText(topic.bytes), topic.delay === undefined ? "" : `delay ${spanText(topic.delay)}`]
+      ? [
+          topic.types.join(", "),
+          [...new Set(topic.nodes)].slice(0, 5).join(", "),
+          topic.qos,
+          rateText(topic.hz),
+          bytesText(topic.bytes),
+          topic.delay === undefined ? "" : `delay ${spanText(topic.delay)}`,
+        ]
       : [];
     setText(facts, texts.filter(Boolean).join(" · "));
   }

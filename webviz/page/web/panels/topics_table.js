@@ -5,32 +5,52 @@ import { wordsOf } from "../words.js";
 import { bytesText, rateText, spanText } from "./units.js";
 
 const shortType = (type) => type.replace("/msg/", "/");
-const amountOf = (count, word) => (count === null ? "" : `${count} ${word}${count === 1 ? "" : "s"}`);
+const amountOf = (count, word) =>
+  count === null ? "" : `${count} ${word}${count === 1 ? "" : "s"}`;
 
 /** The columns: `value` is what they are sorted by, those of numbers from the largest. */
 export const COLUMNS = [
   { id: "name", title: "Name", value: (topic) => topic.key, text: (topic) => topic.key },
   { id: "type", title: "Type", value: (topic) => topic.types[0] ?? "", text: typesText },
   {
-    id: "publishers", title: "Pubs", hint: "Publishers", isNumber: true,
-    value: (topic) => topic.nodes.length, text: (topic) => amountOf(topic.nodes.length, "pub"),
+    id: "publishers",
+    title: "Pubs",
+    hint: "Publishers",
+    isNumber: true,
+    value: (topic) => topic.nodes.length,
+    text: (topic) => amountOf(topic.nodes.length, "pub"),
   },
   {
-    id: "subscribers", title: "Subs", hint: "Subscribers, this viewer included", isNumber: true,
-    value: (topic) => topic.subscribers, text: (topic) => amountOf(topic.subscribers, "sub"),
+    id: "subscribers",
+    title: "Subs",
+    hint: "Subscribers, this viewer included",
+    isNumber: true,
+    value: (topic) => topic.subscribers,
+    text: (topic) => amountOf(topic.subscribers, "sub"),
   },
   { id: "qos", title: "QoS", value: (topic) => topic.qos, text: (topic) => topic.qos },
   {
-    id: "rate", title: "Rate", hint: "Messages per second, of topics that are shown or looked at",
-    isNumber: true, value: (topic) => topic.hz, text: (topic) => rateText(topic.hz),
+    id: "rate",
+    title: "Rate",
+    hint: "Messages per second, of topics that are shown or looked at",
+    isNumber: true,
+    value: (topic) => topic.hz,
+    text: (topic) => rateText(topic.hz),
   },
   {
-    id: "bytes", title: "Bandwidth", isNumber: true,
-    value: (topic) => topic.bytes, text: (topic) => bytesText(topic.bytes),
+    id: "bytes",
+    title: "Bandwidth",
+    isNumber: true,
+    value: (topic) => topic.bytes,
+    text: (topic) => bytesText(topic.bytes),
   },
   {
-    id: "delay", title: "Delay", hint: "From the stamp of a message to its arrival", isNumber: true,
-    value: (topic) => topic.delay, text: (topic) => spanText(topic.delay),
+    id: "delay",
+    title: "Delay",
+    hint: "From the stamp of a message to its arrival",
+    isNumber: true,
+    value: (topic) => topic.delay,
+    text: (topic) => spanText(topic.delay),
   },
 ];
 
@@ -47,7 +67,9 @@ export function arranged(topics, text, sort) {
   });
   const { value, isNumber } = COLUMNS.find(({ id }) => id === sort.column) ?? COLUMNS[0];
   const sign = sort.isUp ? 1 : -1;
-  return found.sort((a, b) => sign * compare(value(a), value(b), isNumber) || compare(a.key, b.key));
+  return found.sort(
+    (a, b) => sign * compare(value(a), value(b), isNumber) || compare(a.key, b.key),
+  );
 }
 
 function compare(a, b, isNumber = false) {
@@ -58,7 +80,11 @@ function compare(a, b, isNumber = false) {
 /** A row without content. */
 export function makeRow() {
   const cells = COLUMNS.map(({ id, isNumber }) =>
-    el("span", { class: `wv-ellipsis wv-cell-${id}${isNumber ? " wv-number" : ""}`, role: "gridcell" }));
+    el("span", {
+      class: `wv-ellipsis wv-cell-${id}${isNumber ? " wv-number" : ""}`,
+      role: "gridcell",
+    }),
+  );
   return el("div", { class: "wv-topic" }, cells);
 }
 
@@ -74,14 +100,20 @@ export function updateRow(row, topic) {
 /** The heads of the columns; `choose(column)` is called with the id of one. */
 export function makeHead(choose) {
   const heads = COLUMNS.map(({ id, title, hint }) =>
-    el("button", { type: "button", class: `wv-cell-${id}`, title: hint ?? title, onclick: () => choose(id) },
-      title));
+    el(
+      "button",
+      { type: "button", class: `wv-cell-${id}`, title: hint ?? title, onclick: () => choose(id) },
+      title,
+    ),
+  );
   const cells = heads.map((head, index) =>
-    el("span", { role: "columnheader", class: `wv-head-${COLUMNS[index].id}` }, head));
+    el("span", { role: "columnheader", class: `wv-head-${COLUMNS[index].id}` }, head),
+  );
   const element = el("div", { class: "wv-topics-head", role: "row" }, cells);
-  const update = (sort) => COLUMNS.forEach(({ id }, index) => {
-    const order = sort.isUp ? "ascending" : "descending";
-    set(cells[index], { "aria-sort": id === sort.column ? order : "none" });
-  });
+  const update = (sort) =>
+    COLUMNS.forEach(({ id }, index) => {
+      const order = sort.isUp ? "ascending" : "descending";
+      set(cells[index], { "aria-sort": id === sort.column ? order : "none" });
+    });
   return { element, update };
 }

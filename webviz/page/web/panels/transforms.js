@@ -25,21 +25,44 @@ export const transforms = {
     const folded = new Set(recall("tf-folded", []));
 
     const search = el("input", {
-      class: "wv-field", type: "search", placeholder: "Filter frames", "aria-label": "Filter frames",
+      class: "wv-field",
+      type: "search",
+      placeholder: "Filter frames",
+      "aria-label": "Filter frames",
       oninput: show,
     });
     const list = rowList({
-      label: "Frames", role: "tree", rowRole: "treeitem", height: touchable(ROW_PX), make: makeFrame,
-      update: updateFrame, choose, onKey,
+      label: "Frames",
+      role: "tree",
+      rowRole: "treeitem",
+      height: touchable(ROW_PX),
+      make: makeFrame,
+      update: updateFrame,
+      choose,
+      onKey,
     });
     list.element.addEventListener("click", onFold, { capture: true });
-    const problems = el("div", { class: "wv-tf-problems", role: "status", hidden: true, "data-level": "warn" });
+    const problems = el("div", {
+      class: "wv-tf-problems",
+      role: "status",
+      hidden: true,
+      "data-level": "warn",
+    });
     const empty = el("div", { class: "wv-empty", role: "status", hidden: true });
     const detail = el("div", { class: "wv-frame-detail", hidden: true });
     const pair = between();
-    element.append(el("div", { class: "wv-tf" },
-      el("div", { class: "wv-search" }, icon("search"), search),
-      problems, empty, list.element, detail, pair.element));
+    element.append(
+      el(
+        "div",
+        { class: "wv-tf" },
+        el("div", { class: "wv-search" }, icon("search"), search),
+        problems,
+        empty,
+        list.element,
+        detail,
+        pair.element,
+      ),
+    );
 
     function show() {
       if (!values?.has("/roots")) return;
@@ -83,9 +106,11 @@ export const transforms = {
     }
 
     function onKey({ key }, row) {
-      const isFold = (key === "ArrowLeft" && row.isOpen) || (key === "ArrowRight" && row.isOpen === false);
+      const isFold =
+        (key === "ArrowLeft" && row.isOpen) || (key === "ArrowRight" && row.isOpen === false);
       if (isFold) toggle(row.name);
-      else if (key === "ArrowLeft" && row.depth) list.mark(row.key.slice(0, row.key.lastIndexOf("\n")));
+      else if (key === "ArrowLeft" && row.depth)
+        list.mark(row.key.slice(0, row.key.lastIndexOf("\n")));
       return isFold || key === "ArrowLeft";
     }
 
@@ -107,6 +132,8 @@ function detailOf({ name, frame }) {
   if (!frame) return `${name} is a root: it has no parent.`;
   const age = frame.is_static || !frame.samples ? "" : `${ageText(frame)} old`;
   const who = frame.nodes.length ? `from ${frame.nodes.join(", ")}` : "";
-  const facts = [`in ${frame.parent || "no frame"}`, factOf(frame), age, who].filter(Boolean).join(", ");
+  const facts = [`in ${frame.parent || "no frame"}`, factOf(frame), age, who]
+    .filter(Boolean)
+    .join(", ");
   return [`${name}: ${facts}.`, ...frame.problems].join(" ");
 }

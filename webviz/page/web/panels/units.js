@@ -3,7 +3,8 @@
 const BYTES = ["B/s", "kB/s", "MB/s", "GB/s"];
 
 /** A rate in Hz; "" for none. */
-export const rateText = (hz) => (hz === undefined ? "" : `${hz < 100 ? hz.toFixed(1) : hz.toFixed(0)} Hz`);
+export const rateText = (hz) =>
+  hz === undefined ? "" : `${hz < 100 ? hz.toFixed(1) : hz.toFixed(0)} Hz`;
 
 /** Bytes in a second. */
 export function bytesText(bytes) {
@@ -22,7 +23,9 @@ export function spanText(seconds) {
   if (size < 9.95) return `${sign}${size.toFixed(1)} s`;
   if (size < 120) return `${sign}${size.toFixed(0)} s`;
   if (size < 7200) return `${sign}${Math.round(size / 60)} min`;
-  return size < 172_800 ? `${sign}${Math.round(size / 3600)} h` : `${sign}${Math.round(size / 86_400)} d`;
+  return size < 172_800
+    ? `${sign}${Math.round(size / 3600)} h`
+    : `${sign}${Math.round(size / 86_400)} d`;
 }
 
 /** Bytes of one message. */

@@ -12,11 +12,17 @@ import { maker } from "./displays/properties.js";
 import { savedViews } from "./saved_views.js";
 
 const TYPE = {
-  path: "type", label: "Type", kind: "choice", default: "Orbit",
+  path: "type",
+  label: "Type",
+  kind: "choice",
+  default: "Orbit",
   help: "How the camera moves; what it looks at stays.",
 };
 const TARGET = {
-  path: "target_frame", label: "Target Frame", kind: "frame", default: FIXED_FRAME,
+  path: "target_frame",
+  label: "Target Frame",
+  kind: "frame",
+  default: FIXED_FRAME,
   help: "The camera moves with this frame.",
 };
 
@@ -30,17 +36,29 @@ export const views = {
   open(element) {
     let endView = () => {};
     let head = null;
-    const send = (key, value) => act("ChangeView", { key, value }, { quiet: true, errors: "caller" });
+    const send = (key, value) =>
+      act("ChangeView", { key, value }, { quiet: true, errors: "caller" });
     const options = { send, name: "view", marks: false };
     const [common, own] = [el("div"), el("div")];
     const numbers = maker(own, (declared) =>
-      form(declared.filter(({ path }) => path !== TARGET.path), options));
+      form(
+        declared.filter(({ path }) => path !== TARGET.path),
+        options,
+      ),
+    );
     const saved = savedViews();
     element.append(
       el(
-        "section", { class: "wv-view", "aria-label": "Current view" },
-        el("div", { class: "wv-view-head" }, el("h2", { class: "wv-view-title" }, "Current view"), buttons()),
-        common, own,
+        "section",
+        { class: "wv-view", "aria-label": "Current view" },
+        el(
+          "div",
+          { class: "wv-view-head" },
+          el("h2", { class: "wv-view-title" }, "Current view"),
+          buttons(),
+        ),
+        common,
+        own,
       ),
       saved.element,
     );
@@ -68,14 +86,30 @@ export const views = {
 };
 
 function buttons() {
-  const focus = el("button", {
-    type: "button", class: "wv-icon", "aria-label": "Focus", "data-tip": "Look at a display",
-    "aria-haspopup": "menu", onclick: () => openDisplays(focus),
-  }, icon("focus"));
-  const zero = el("button", {
-    type: "button", class: "wv-icon", "aria-label": "Zero", "data-tip": "Zero this view", "data-key": "z",
-    onclick: () => act("ResetView"),
-  }, icon("reset"));
+  const focus = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-icon",
+      "aria-label": "Focus",
+      "data-tip": "Look at a display",
+      "aria-haspopup": "menu",
+      onclick: () => openDisplays(focus),
+    },
+    icon("focus"),
+  );
+  const zero = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-icon",
+      "aria-label": "Zero",
+      "data-tip": "Zero this view",
+      "data-key": "z",
+      onclick: () => act("ResetView"),
+    },
+    icon("reset"),
+  );
   return [focus, zero];
 }
 
@@ -84,7 +118,8 @@ function openDisplays(button) {
   const end = watch("displays", (rows) => {
     setTimeout(() => end()); // it may be called before there is an `end`
     const items = rows.get("order").map((display) => ({
-      label: rows.get(display).name, run: () => act("FocusDisplay", { display }),
+      label: rows.get(display).name,
+      run: () => act("FocusDisplay", { display }),
     }));
     openMenuBelow(button, items.length ? items : [{ label: "No displays", disabled: true }]);
   });

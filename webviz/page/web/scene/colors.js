@@ -32,8 +32,11 @@ function paint({ isMesh, isInstancedMesh, isInstancedMesh2, geometry, material }
   material.depthWrite = !material.transparent;
   material.onBeforeCompile = (/** @type {Three} */ shader) => {
     lit(shader);
-    shader.fragmentShader = shader.fragmentShader.replace("#include <color_fragment>", `
-      diffuseColor *= vec4(pow(vColor.rgb, vec3(2.2)), vColor.a);`);
+    shader.fragmentShader = shader.fragmentShader.replace(
+      "#include <color_fragment>",
+      `
+      diffuseColor *= vec4(pow(vColor.rgb, vec3(2.2)), vColor.a);`,
+    );
   };
   material.customProgramCacheKey = () => "webviz colors";
   material.needsUpdate = true;

@@ -11,14 +11,17 @@ const AFTER_LINES = 1;
 /** @param {Three} shader */
 const flat = (shader) => {
   // By as much as pictures lie behind lines, see tiles.js.
-  shader.vertexShader = shader.vertexShader.replace("#include <project_vertex>", `
+  shader.vertexShader = shader.vertexShader.replace(
+    "#include <project_vertex>",
+    `
     #include <project_vertex>
     #ifdef USE_REVERSED_DEPTH_BUFFER
       gl_Position.z += isPerspectiveMatrix(projectionMatrix) ? 5e-4 * gl_Position.z : 2e-6;
     #else
       gl_Position.z -= isPerspectiveMatrix(projectionMatrix)
         ? 5e-4 * (gl_Position.w - gl_Position.z) : 4e-6;
-    #endif`);
+    #endif`,
+  );
 };
 
 export function install() {

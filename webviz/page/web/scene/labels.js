@@ -56,7 +56,9 @@ const ofTheme = { value: [1, 1, 1] };
 
 /** The boxes behind the letters, one of a mesh for each text: where the texts are, and how large. */
 export const boxes = () =>
-  group ? group.children.filter((/** @type {Three} */ { renderOrder }) => renderOrder === BOXES) : [];
+  group
+    ? group.children.filter((/** @type {Three} */ { renderOrder }) => renderOrder === BOXES)
+    : [];
 
 export function install() {
   viser.beforeEveryRender((gl, scene) => {

@@ -88,7 +88,10 @@ function markEnds(geometry) {
   const xyz = instanceStart.data.array;
   const count = xyz.length / 6;
   const ends = new Float32Array(8 * count); // of each segment, that of its start and of its end
-  const [from, to] = [[0, 0, 0], [0, 0, 0]];
+  const [from, to] = [
+    [0, 0, 0],
+    [0, 0, 0],
+  ];
   for (let i = 0; i < count; i++) {
     const next = i < count - 1 ? i + 1 : 0;
     if ([0, 1, 2].some((axis) => xyz[6 * i + 3 + axis] !== xyz[6 * next + axis])) continue;

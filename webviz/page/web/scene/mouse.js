@@ -139,12 +139,16 @@ export function focus(point) {
 export function install() {
   const events = viser.canvas().parentElement;
   window.addEventListener("pointerdown", arm, true);
-  events.addEventListener("wheel", (event) => {
-    event.preventDefault();  // else the browser enlarges its page with Ctrl, or by a pinch
-    const steps = notches(event);
-    if (isFPS()) walk(-1.2 * steps);
-    else zoom(Math.pow(steps > 0 ? 1.12 : 1 / 0.88, steps));
-  }, { passive: false });
+  events.addEventListener(
+    "wheel",
+    (event) => {
+      event.preventDefault(); // else the browser enlarges its page with Ctrl, or by a pinch
+      const steps = notches(event);
+      if (isFPS()) walk(-1.2 * steps);
+      else zoom(Math.pow(steps > 0 ? 1.12 : 1 / 0.88, steps));
+    },
+    { passive: false },
+  );
   events.addEventListener("pointermove", (event) => {
     const before = mouse;
     mouse = [event.clientX, event.clientY];
@@ -156,7 +160,9 @@ export function install() {
   });
   events.addEventListener("pointerleave", () => (mouse = null));
   window.addEventListener("keydown", (event) => {
-    const isTyping = /^(INPUT|TEXTAREA|SELECT)$/.test(/** @type {Element} */ (event.target).tagName);
+    const isTyping = /^(INPUT|TEXTAREA|SELECT)$/.test(
+      /** @type {Element} */ (event.target).tagName,
+    );
     const isPlain = !event.ctrlKey && !event.metaKey && !event.altKey;
     if (event.key !== "f" || isTyping || !isPlain || mouse === null) return;
     const point = pick(mouse);

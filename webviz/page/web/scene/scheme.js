@@ -16,7 +16,9 @@ export function install() {
     viser.gl().setClearColor((red << 16) | (green << 8) | blue, 1);
     viser.requestRender();
   };
-  new MutationObserver(apply).observe(document.documentElement, { attributeFilter: ["data-wv-theme"] });
+  new MutationObserver(apply).observe(document.documentElement, {
+    attributeFilter: ["data-wv-theme"],
+  });
   apply();
 }
 

@@ -55,7 +55,13 @@ function makeEye() {
   made.updateProjectionMatrix = function () {
     const edges = this.edges.map((/** @type {number} */ edge) => edge * NEAR);
     const { coordinateSystem, reversedDepth } = this;
-    this.projectionMatrix.makePerspective(...edges, NEAR, this.far, coordinateSystem, reversedDepth);
+    this.projectionMatrix.makePerspective(
+      ...edges,
+      NEAR,
+      this.far,
+      coordinateSystem,
+      reversedDepth,
+    );
     this.projectionMatrixInverse.copy(this.projectionMatrix).invert();
   };
   return made;
@@ -79,7 +85,8 @@ function place(position, [w, x, y, z]) {
 function hide(hidden) {
   const prefixes = hidden.map((id) => pathOf(`${id}/`));
   const names = prefixes.length
-    ? Object.keys(viser.nodes()).filter((name) => prefixes.some((one) => name.startsWith(one))) : [];
+    ? Object.keys(viser.nodes()).filter((name) => prefixes.some((one) => name.startsWith(one)))
+    : [];
   const found = names.flatMap((name) => viser.node(name) ?? []);
   // Besides displays, what the page draws for itself: handles, marks, and the like.
   const world = viser.node(ROOT);
@@ -115,7 +122,9 @@ function hideLabels(labels, names) {
     const outer = viser.node(name.slice(0, name.lastIndexOf("/")));
     const at = viser.node(name) ? null : viser.positionOf(name);
     if (!outer || !at) continue;
-    places.add(key(...eye.position.clone().fromArray(at).applyMatrix4(outer.matrixWorld).toArray()));
+    places.add(
+      key(...eye.position.clone().fromArray(at).applyMatrix4(outer.matrixWorld).toArray()),
+    );
   }
   /** @type {any[]} */
   const off = [];

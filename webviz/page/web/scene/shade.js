@@ -22,11 +22,14 @@ const BOX_STEPS = 5;
  * @param {Three} shader
  */
 export function lit(shader) {
-  shader.fragmentShader = shader.fragmentShader.replace("#include <opaque_fragment>", `
+  shader.fragmentShader = shader.fragmentShader.replace(
+    "#include <opaque_fragment>",
+    `
     float facing = max(normalize(normal).z, 0.0);
     outgoingLight = diffuseColor.rgb * pow(${DARKEST} + (1.0 - ${DARKEST}) * facing, 2.2);
     outgoingLight += totalEmissiveRadiance;
-    #include <opaque_fragment>`);
+    #include <opaque_fragment>`,
+  );
 }
 
 // The numbers are those of shaded_circle.frag and box.frag in rviz_rendering; the sides are as seen in
@@ -34,15 +37,23 @@ export function lit(shader) {
 /** @param {Three} shader */
 function asData(shader) {
   shader.vertexShader = shader.vertexShader
-    .replace("#include <common>", `
+    .replace(
+      "#include <common>",
+      `
       #include <common>
-      varying vec3 vPlace; varying vec3 vSide;`)
-    .replace("#include <begin_vertex>", `
+      varying vec3 vPlace; varying vec3 vSide;`,
+    )
+    .replace(
+      "#include <begin_vertex>",
+      `
       #include <begin_vertex>
       vPlace = position;
-      vSide = normal;`);
+      vSide = normal;`,
+    );
   shader.fragmentShader = shader.fragmentShader
-    .replace("#include <common>", `
+    .replace(
+      "#include <common>",
+      `
       #include <common>
       varying vec3 vPlace; varying vec3 vSide;
       vec3 onSphere(vec3 color, float facing) {
@@ -58,14 +69,18 @@ function asData(shader) {
         float outward = max(max(place.x, place.y), place.z);
         float edge = clamp(0.5 + (outward - 0.465) / max(fwidth(outward), 0.03), 0.0, 1.0);
         return color * (1.0 - 0.5 * edge);
-      }`)
-    .replace("#include <opaque_fragment>", `
+      }`,
+    )
+    .replace(
+      "#include <opaque_fragment>",
+      `
       vec3 data = sRGBTransferOETF(diffuseColor).rgb;
       float facing = dot(normalize(normal), normalize(vViewPosition));
       bool isBox = textureSize(gradientMap, 0).x == ${BOX_STEPS};
       data = isBox ? onBox(data) : onSphere(data, facing);
       outgoingLight = sRGBTransferEOTF(vec4(data, 1.0)).rgb;
-      #include <opaque_fragment>`);
+      #include <opaque_fragment>`,
+    );
 }
 
 /** @type {Record<string, (shader: Three) => void>} */

@@ -23,7 +23,9 @@ export function install() {
   /** @type {(image: ImageBitmapSource, ...rest: any[]) => Promise<ImageBitmap>} */
   const shareOrDecode = (image, ...rest) => {
     const isOfModel = image instanceof Blob && rest[0]?.premultiplyAlpha === "none"; // by three.js
-    return isOfModel ? once(image, rest[0], decode) : Reflect.apply(decode, window, [image, ...rest]);
+    return isOfModel
+      ? once(image, rest[0], decode)
+      : Reflect.apply(decode, window, [image, ...rest]);
   };
   window.createImageBitmap = shareOrDecode;
   viser.beforeEveryRender((gl, scene) => isShared && scene.traverse(share));
@@ -40,9 +42,7 @@ async function once(image, options, decode) {
   isShared ||= Boolean(known);
   if (known) return known;
   const made = decode(image, options);
-  const kept = made
-    .then((bitmap) => new WeakRef(bitmap))
-    .catch(() => void decoded.delete(content));
+  const kept = made.then((bitmap) => new WeakRef(bitmap)).catch(() => void decoded.delete(content));
   decoded.set(content, kept);
   const bitmap = await made;
   gone.register(bitmap, content);

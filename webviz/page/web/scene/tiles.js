@@ -17,14 +17,17 @@ const BOTH_SIDES = 2;
 // factor is for lines, which are up to half a pixel wider than what they stand for.
 /** @param {Three} shader */
 const pushBack = (shader) => {
-  shader.vertexShader = shader.vertexShader.replace("#include <project_vertex>", `
+  shader.vertexShader = shader.vertexShader.replace(
+    "#include <project_vertex>",
+    `
     #include <project_vertex>
     #ifdef USE_REVERSED_DEPTH_BUFFER
       gl_Position.z -= isPerspectiveMatrix(projectionMatrix) ? 5e-4 * gl_Position.z : 2e-6;
     #else
       gl_Position.z += isPerspectiveMatrix(projectionMatrix)
         ? 5e-4 * (gl_Position.w - gl_Position.z) : 4e-6;
-    #endif`);
+    #endif`,
+  );
 };
 /** @param {string} name */
 const layerOf = (name) => parseInt(name.split(MARK)[1]);

@@ -70,9 +70,12 @@ export function lookFrom(xyz) {
 export function axes() {
   const toCamera = camera.matrixWorldInverse.clone().multiply(toThree());
   /** @type {Vec3[]} */
-  const units = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
-  return units.map((axis) =>
-    vector(axis).transformDirection(toCamera).toArray());
+  const units = [
+    [1, 0, 0],
+    [0, 1, 0],
+    [0, 0, 1],
+  ];
+  return units.map((axis) => vector(axis).transformDirection(toCamera).toArray());
 }
 /** The size of a pixel where the camera looks at, in metres. */
 export const metersPerPixel = () =>
@@ -118,8 +121,14 @@ function flatten(camera) {
   const top = distance * Math.tan((camera.fov * Math.PI) / 360);
   const right = top * camera.aspect;
   camera.projectionMatrix.makeOrthographic(
-    -right, right, top, -top, distance / 100, distance * 2,
-    camera.coordinateSystem, camera.reversedDepth,
+    -right,
+    right,
+    top,
+    -top,
+    distance / 100,
+    distance * 2,
+    camera.coordinateSystem,
+    camera.reversedDepth,
   );
   camera.projectionMatrixInverse.copy(camera.projectionMatrix).invert();
 }
@@ -162,7 +171,9 @@ function dress(camera) {
     if (child.material && child.material === viser.backgroundMaterial()) {
       const depth = isFlat() ? viser.controls().distance : 1;
       const tall = 2 * depth * Math.tan((camera.fov * Math.PI) / 360);
-      const scale = matrix().makeScale(tall * camera.aspect, tall, 1).setPosition(0, 0, -depth);
+      const scale = matrix()
+        .makeScale(tall * camera.aspect, tall, 1)
+        .setPosition(0, 0, -depth);
       child.matrixWorld.multiplyMatrices(camera.matrixWorld, scale);
     }
   }
@@ -176,7 +187,9 @@ function raise() {
   const { azimuthAngle, polarAngle, distance } = viser.controls();
   const back = -Math.cos(polarAngle);
   return vector([
-    back * Math.sin(azimuthAngle), Math.sin(polarAngle), back * Math.cos(azimuthAngle),
+    back * Math.sin(azimuthAngle),
+    Math.sin(polarAngle),
+    back * Math.cos(azimuthAngle),
   ]).multiplyScalar(RAISED * distance);
 }
 function settle() {
@@ -249,7 +262,9 @@ export function install() {
   height = canvas.clientHeight;
   cross = viser.scene().children.find((child) => {
     let found = false;
-    child.traverse((/** @type {Three} */ part) => (found ||= part.geometry?.parameters?.width === 0.4));
+    child.traverse(
+      (/** @type {Three} */ part) => (found ||= part.geometry?.parameters?.width === 0.4),
+    );
     return found;
   });
 

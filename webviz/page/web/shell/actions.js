@@ -17,7 +17,14 @@ import { setTheme } from "./theme.js";
  * the camera.
  */
 export const actions = {
-  save: { name: "Save", icon: "save", key: "Ctrl+s", inFields: true, needs: "Save", run: () => files.save() },
+  save: {
+    name: "Save",
+    icon: "save",
+    key: "Ctrl+s",
+    inFields: true,
+    needs: "Save",
+    run: () => files.save(),
+  },
   saveAs: {
     name: "Save as…",
     icon: "save",
@@ -26,7 +33,14 @@ export const actions = {
     needs: "Save",
     run: () => files.saveAs(),
   },
-  open: { name: "Open…", icon: "folder", key: "Ctrl+o", inFields: true, needs: "Open", run: () => files.open() },
+  open: {
+    name: "Open…",
+    icon: "folder",
+    key: "Ctrl+o",
+    inFields: true,
+    needs: "Open",
+    run: () => files.open(),
+  },
   yaml: { name: "Download as YAML", icon: "download", run: () => files.exportAs("yaml") },
   rviz: { name: "Download as .rviz", icon: "download", run: () => files.exportAs("rviz") },
   image: { name: "Save image", icon: "camera", group: "View", run: () => act("SaveImage") },
@@ -46,7 +60,14 @@ export const actions = {
     needs: "Redo",
     run: () => history.redo(),
   },
-  add: { name: "Add display…", icon: "plus", key: "Insert", group: "Edit", needs: "AddDisplay", run: () => openAdd() },
+  add: {
+    name: "Add display…",
+    icon: "plus",
+    key: "Insert",
+    group: "Edit",
+    needs: "AddDisplay",
+    run: () => openAdd(),
+  },
   people: { name: "People…", icon: "eye", group: "View", run: () => openPeople() },
   doctor: { name: "Doctor", icon: "pulse", group: "View", run: () => openPanel("doctor") },
   fullscreen: { name: "Full screen", icon: "fullscreen", group: "View", run: toggleFullScreen },

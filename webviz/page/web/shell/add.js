@@ -14,7 +14,13 @@ const WAYS = { topic: "By topic", type: "By display" };
 /** Opens the dialog; what is chosen goes to the end of the list, or of a group with this id. */
 export function openAdd({ group = "" } = {}) {
   if (document.querySelector(".wv-add[open]")) return;
-  const state = { way: recall("add", "topic"), types: null, topics: null, traffic: null, shown: null };
+  const state = {
+    way: recall("add", "topic"),
+    types: null,
+    topics: null,
+    traffic: null,
+    shown: null,
+  };
   const checked = new Map();
   const input = el("input", {
     class: "wv-field wv-search",
@@ -87,7 +93,10 @@ export function openAdd({ group = "" } = {}) {
         }
         const all = state.way === "type" ? typeEntries(state) : topicEntries(state, checked);
         found = search(all, input.value, ({ words }) => words).flatMap(({ words, rows }) => {
-          const narrow = search(rows, input.value, ({ title, note: more }) => [words[0], `${title} ${more}`]);
+          const narrow = search(rows, input.value, ({ title, note: more }) => [
+            words[0],
+            `${title} ${more}`,
+          ]);
           return narrow.length ? narrow : rows;
         });
         list.show(found.slice(0, MAX_SHOWN).map(({ pick: _, ...row }) => row));
@@ -117,7 +126,8 @@ export function openAdd({ group = "" } = {}) {
     ends.forEach((end) => end());
     const picks = chosen === "add" ? taken() : chosen;
     const step = newStep();
-    for (const { type, values } of picks ?? []) act("AddDisplay", { type, values, group }, { step });
+    for (const { type, values } of picks ?? [])
+      act("AddDisplay", { type, values, group }, { step });
   });
 }
 

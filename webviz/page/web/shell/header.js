@@ -62,7 +62,12 @@ function badge() {
   const count = el("span");
   const made = el(
     "button",
-    { type: "button", class: "wv-icon wv-doctor-badge", hidden: true, onclick: () => openPanel("doctor") },
+    {
+      type: "button",
+      class: "wv-icon wv-doctor-badge",
+      hidden: true,
+      onclick: () => openPanel("doctor"),
+    },
     el("span", { class: "wv-dot", "aria-hidden": "true" }),
     count,
   );

@@ -6,20 +6,33 @@ import { el, setText } from "../dom.js";
 /** @import {Commands} from "../messages.js" */
 
 /** @type {[string, number | null][]} */
-const ENDS = [["never ends", null], ["ends in 1 day", 1], ["ends in 7 days", 7], ["ends in 30 days", 30]];
+const ENDS = [
+  ["never ends", null],
+  ["ends in 1 day", 1],
+  ["ends in 7 days", 7],
+  ["ends in 30 days", 30],
+];
 
-const LOCAL = "Only this machine can open this link. For others, start webviz with --host, open this page "
-  + "under the address that they use, and invite them there.";
+const LOCAL =
+  "Only this machine can open this link. For others, start webviz with --host, open this page " +
+  "under the address that they use, and invite them there.";
 
 const isOfThisMachine = () => /^(localhost|127\..*|\[::1\])$/.test(location.hostname);
 
 /** The form; `copy(link)` is called to copy the link. */
 export function invitation(copy) {
   const name = el("input", {
-    class: "wv-field", type: "text", "aria-label": "Name", placeholder: "Name", maxlength: 40,
+    class: "wv-field",
+    type: "text",
+    "aria-label": "Name",
+    placeholder: "Name",
+    maxlength: 40,
   });
   const role = select("Role", ["watcher", "operator", "owner"]);
-  const end = select("End", ENDS.map(([label]) => label));
+  const end = select(
+    "End",
+    ENDS.map(([label]) => label),
+  );
   const make = el("button", { type: "button", class: "wv-button", onclick: invite }, "Make a link");
   const problem = el("p", { class: "wv-problem", role: "alert" });
   const result = el("div", { class: "wv-invitation", hidden: true });
@@ -31,18 +44,29 @@ export function invitation(copy) {
 
   async function invite() {
     setText(problem, "");
-    const { level, text, link, code } = await act("Invite", {
-      name: name.value.trim(), role: /** @type {Commands["Invite"]["role"]} */ (role.value),
-      days: ENDS[end.selectedIndex][1], url: location.origin + location.pathname,
-    }, { quiet: true, errors: "caller" });
+    const { level, text, link, code } = await act(
+      "Invite",
+      {
+        name: name.value.trim(),
+        role: /** @type {Commands["Invite"]["role"]} */ (role.value),
+        days: ENDS[end.selectedIndex][1],
+        url: location.origin + location.pathname,
+      },
+      { quiet: true, errors: "caller" },
+    );
     const isRefused = level === "error";
     setText(problem, isRefused ? text : "");
     result.hidden = isRefused;
     if (isRefused) return;
     result.replaceChildren(
       el("img", { src: code, alt: "QR code of the link" }),
-      el("div", {}, el("p", {}, el("code", {}, link)), isOfThisMachine() ? el("p", { role: "note" }, LOCAL) : null,
-        el("button", { type: "button", class: "wv-button", onclick: () => copy(link) }, "Copy")),
+      el(
+        "div",
+        {},
+        el("p", {}, el("code", {}, link)),
+        isOfThisMachine() ? el("p", { role: "note" }, LOCAL) : null,
+        el("button", { type: "button", class: "wv-button", onclick: () => copy(link) }, "Copy"),
+      ),
     );
     name.value = "";
   }
@@ -51,4 +75,8 @@ export function invitation(copy) {
 }
 
 const select = (label, options) =>
-  el("select", { class: "wv-field", "aria-label": label }, options.map((text) => el("option", {}, text)));
+  el(
+    "select",
+    { class: "wv-field", "aria-label": label },
+    options.map((text) => el("option", {}, text)),
+  );

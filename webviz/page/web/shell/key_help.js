@@ -54,9 +54,12 @@ export function openKeys() {
       [one.name.replace("…", ""), keysOf(one).map(keyText)],
     ]);
   }
-  const further = { "Tree of displays": TREE, "Image": IMAGE, "While driving": TELEOP };
+  const further = { "Tree of displays": TREE, Image: IMAGE, "While driving": TELEOP };
   for (const [name, keys] of Object.entries(further)) {
-    groups.set(name, keys.map(([does, all]) => [does, [...all].map(keyText)]));
+    groups.set(
+      name,
+      keys.map(([does, all]) => [does, [...all].map(keyText)]),
+    );
   }
   groups.set("Scene", SCENE);
   openDialog({

@@ -29,7 +29,9 @@ function fit() {
 
 // A thin one: nothing where it lies over what it scrolls, as on phones.
 function scrollbarWidth() {
-  const probe = el("div", { style: "position: absolute; width: 50px; overflow: auto; scrollbar-gutter: stable" });
+  const probe = el("div", {
+    style: "position: absolute; width: 50px; overflow: auto; scrollbar-gutter: stable",
+  });
   document.getElementById("webviz").append(probe);
   const width = probe.offsetWidth - probe.clientWidth;
   probe.remove();

@@ -26,7 +26,11 @@ export function openMenu(x, y, items, outer = null) {
       item ? entry(item) : el("div", { class: "wv-menu-line", role: "separator" }),
     ),
   );
-  const entries = [.../** @type {NodeListOf<HTMLElement>} */ (menu.querySelectorAll(".wv-menu-item:not([aria-disabled])"))];
+  const entries = [
+    .../** @type {NodeListOf<HTMLElement>} */ (
+      menu.querySelectorAll(".wv-menu-item:not([aria-disabled])")
+    ),
+  ];
   let inner = null; // the entry whose submenu is open, and what closes that
 
   function entry(item) {

@@ -26,8 +26,12 @@ export async function openPeople() {
   const known = { people: new Map(), addresses: new Map(), journal: new Map(), links: new Map() };
   const here = el("tbody");
   const links = el("tbody");
-  const allLinks = el("div", { hidden: true }, el("h3", {}, "Links"),
-    el("div", { class: "wv-people-log" }, table("Links", ["Name", "Role", "Ends", ""], links)));
+  const allLinks = el(
+    "div",
+    { hidden: true },
+    el("h3", {}, "Links"),
+    el("div", { class: "wv-people-log" }, table("Links", ["Name", "Role", "Ends", ""], links)),
+  );
   const done = el("tbody");
   const rows = new Map(); // which stay, so that their buttons can be used while texts change
   const show = () => {
@@ -40,7 +44,8 @@ export async function openPeople() {
       const texts = textsOf(id, person, known.addresses, isOwner);
       if (!rows.has(id)) {
         rows.set(id, cells(...texts));
-        if (isOwner) rows.get(id).append(el("td", {}, isYou(id) ? null : endings(Number(id), person)));
+        if (isOwner)
+          rows.get(id).append(el("td", {}, isYou(id) ? null : endings(Number(id), person)));
         here.append(rows.get(id));
       }
       texts.forEach((text, index) => setText(rows.get(id).children[index], text));
@@ -52,23 +57,36 @@ export async function openPeople() {
     allLinks.hidden = known.links.size === 0; // as of a viewer that asks for none
   };
   const stores = isOwner ? ["people", "addresses", "journal", "links"] : ["people"];
-  const ends = stores.map((name) => watch(name, (values) => {
-    known[name] = values;
-    (name === "links" ? showLinks : show)();
-  }));
-  const columns = ["Name", "Role", ...(isOwner ? ["Address"] : []), "Since", "Latency", "Drives", ...(isOwner ? [""] : [])];
+  const ends = stores.map((name) =>
+    watch(name, (values) => {
+      known[name] = values;
+      (name === "links" ? showLinks : show)();
+    }),
+  );
+  const columns = [
+    "Name",
+    "Role",
+    ...(isOwner ? ["Address"] : []),
+    "Since",
+    "Latency",
+    "Drives",
+    ...(isOwner ? [""] : []),
+  ];
   await openDialog({
     title: "People",
     className: "wv-people",
     isLight: true,
     content: [
       table("Connected", columns, here),
-      ...(isOwner ? [
-        el("h3", {}, "Invite"), invitation(tell),
-        allLinks,
-        el("h3", {}, "Log"),
-        el("div", { class: "wv-people-log" }, table("Log", ["Time", "Who", "What"], done)),
-      ] : [el("p", { class: "wv-quiet" }, why("Invite"))]),
+      ...(isOwner
+        ? [
+            el("h3", {}, "Invite"),
+            invitation(tell),
+            allLinks,
+            el("h3", {}, "Log"),
+            el("div", { class: "wv-people-log" }, table("Log", ["Time", "Who", "What"], done)),
+          ]
+        : [el("p", { class: "wv-quiet" }, why("Invite"))]),
     ],
   });
   ends.forEach((end) => end());
@@ -82,17 +100,37 @@ async function tell(link) {
 }
 
 const table = (label, columns, body) =>
-  el("table", { "aria-label": label },
-    el("thead", {}, el("tr", {}, columns.map((name) => el("th", {}, name)))), body);
+  el(
+    "table",
+    { "aria-label": label },
+    el(
+      "thead",
+      {},
+      el(
+        "tr",
+        {},
+        columns.map((name) => el("th", {}, name)),
+      ),
+    ),
+    body,
+  );
 
-const cells = (...texts) => el("tr", {}, texts.map((text) => el("td", {}, text)));
+const cells = (...texts) =>
+  el(
+    "tr",
+    {},
+    texts.map((text) => el("td", {}, text)),
+  );
 
 const isYou = (id) => id === String(window.webviz.browser);
 
 function textsOf(id, person, addresses, isOwner) {
   const name = [person.name || "no link needed", isYou(id) && "(you)"].filter(Boolean).join(" ");
   return [
-    name, person.role, ...(isOwner ? [addresses.get(id) ?? ""] : []), timeOf(person.since_s),
+    name,
+    person.role,
+    ...(isOwner ? [addresses.get(id) ?? ""] : []),
+    timeOf(person.since_s),
     person.latency_ms === null ? "not measured yet" : `${person.latency_ms} ms`,
     person.drives.join(", "),
   ];
@@ -109,23 +147,42 @@ function endings(id, { name }) {
       act("Dismiss", { visitor: id, revokes: false });
     }
   };
-  return el("span", { class: "wv-people-ends" },
+  return el(
+    "span",
+    { class: "wv-people-ends" },
     button("End visit", "Close this page of theirs", end),
-    name ? button("Revoke link", CLOSES_ALL, async () =>
-      await isSure(name) && act("Dismiss", { visitor: id, revokes: true })) : null);
+    name
+      ? button(
+          "Revoke link",
+          CLOSES_ALL,
+          async () => (await isSure(name)) && act("Dismiss", { visitor: id, revokes: true }),
+        )
+      : null,
+  );
 }
 
 const CLOSES_ALL = "Close all their pages, for good";
 
 const isSure = (name) =>
-  ask(`Revoke the link of ${name}? All pages that were opened with it are closed.`,
-    { title: "Revoke link", confirm: "Revoke", danger: true });
+  ask(`Revoke the link of ${name}? All pages that were opened with it are closed.`, {
+    title: "Revoke link",
+    confirm: "Revoke",
+    danger: true,
+  });
 
 function linkRow([name, { role, expires_s }]) {
   const isOwn = name === self().name;
-  const row = cells(isOwn ? `${name} (you)` : name, role, expires_s === null ? "never" : new Date(expires_s * 1000).toLocaleString());
-  const onclick = async () => await isSure(name) && act("Revoke", { name });
-  const button = el("button", { type: "button", class: "wv-button", "data-tip": CLOSES_ALL, onclick }, "Revoke link");
+  const row = cells(
+    isOwn ? `${name} (you)` : name,
+    role,
+    expires_s === null ? "never" : new Date(expires_s * 1000).toLocaleString(),
+  );
+  const onclick = async () => (await isSure(name)) && act("Revoke", { name });
+  const button = el(
+    "button",
+    { type: "button", class: "wv-button", "data-tip": CLOSES_ALL, onclick },
+    "Revoke link",
+  );
   row.append(el("td", {}, isOwn ? null : button));
   return row;
 }

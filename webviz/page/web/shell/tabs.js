@@ -14,15 +14,32 @@ export function tabs() {
   const content = el("div", { class: "wv-panel", role: "tabpanel", id: "wv-panel" });
   const list = el("div", { class: "wv-tabs", role: "tablist", "aria-label": "Panels" });
   const buttons = new Map();
-  const add = el("button", {
-    type: "button", class: "wv-icon wv-tabs-add", hidden: true,
-    "aria-label": "Add a panel", "data-tip": "Add a panel", onclick: chooseType,
-  }, icon("plus"));
+  const add = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-icon wv-tabs-add",
+      hidden: true,
+      "aria-label": "Add a panel",
+      "data-tip": "Add a panel",
+      onclick: chooseType,
+    },
+    icon("plus"),
+  );
   needs("AddPanel", add);
-  const more = el("button", {
-    type: "button", class: "wv-icon wv-tabs-more", hidden: true, "aria-haspopup": "menu",
-    "aria-label": "All panels", "data-tip": "All panels", onclick: chooseTab,
-  }, icon("chevron-down"));
+  const more = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-icon wv-tabs-more",
+      hidden: true,
+      "aria-haspopup": "menu",
+      "aria-label": "All panels",
+      "data-tip": "All panels",
+      onclick: chooseTab,
+    },
+    icon("chevron-down"),
+  );
   new ResizeObserver(fit).observe(list);
   let types = [];
   const own = new Set(panels);
@@ -49,7 +66,10 @@ export function tabs() {
   function button({ name }) {
     const id = `wv-tab-${name}`;
     return el("button", {
-      type: "button", role: "tab", id, "aria-controls": "wv-panel",
+      type: "button",
+      role: "tab",
+      id,
+      "aria-controls": "wv-panel",
       onclick: () => show(all.find((panel) => panel.name === name)),
     });
   }
@@ -98,8 +118,12 @@ export function tabs() {
       if (!buttons.has(panel.name)) buttons.set(panel.name, button(panel));
       setText(buttons.get(panel.name), panel.title);
     }
-    for (const name of buttons.keys()) if (!all.some((panel) => panel.name === name)) buttons.delete(name);
-    setChildren(list, all.map(({ name }) => buttons.get(name)));
+    for (const name of buttons.keys())
+      if (!all.some((panel) => panel.name === name)) buttons.delete(name);
+    setChildren(
+      list,
+      all.map(({ name }) => buttons.get(name)),
+    );
     mark();
     fit();
     if (come) {
@@ -108,8 +132,11 @@ export function tabs() {
     }
     const isGone = !all.some(({ name }) => name === shown?.name);
     // The tab of a plug-in that was open comes after the page.
-    const isWaited = all.filter((panel) => !own.has(panel)).find(({ name }) => name === wanted && name !== shown?.name);
-    if (isGone || isWaited) show(isWaited ?? panels.find(({ name }) => name === wanted) ?? panels[0]);
+    const isWaited = all
+      .filter((panel) => !own.has(panel))
+      .find(({ name }) => name === wanted && name !== shown?.name);
+    if (isGone || isWaited)
+      show(isWaited ?? panels.find(({ name }) => name === wanted) ?? panels[0]);
     if (isGone && wanted) remember("tab", wanted); // it may come again, after a save
   }
 
@@ -118,7 +145,8 @@ export function tabs() {
     openMenu(left, bottom, ofTypes());
   }
 
-  const ofTypes = () => types.map(({ type, title }) => ({ label: title, run: () => addPanel(type) }));
+  const ofTypes = () =>
+    types.map(({ type, title }) => ({ label: title, run: () => addPanel(type) }));
 
   async function addPanel(type) {
     isAdding = true;
@@ -128,9 +156,14 @@ export function tabs() {
 
   function chooseTab() {
     const adding = { label: "Add a panel", icon: "plus", needs: "AddPanel", items: ofTypes() };
-    openMenuBelow(more, [...all.map((panel) => ({
-      label: panel.title, checked: panel.name === shown?.name, run: () => show(panel),
-    })), ...(types.length ? [null, adding] : [])]);
+    openMenuBelow(more, [
+      ...all.map((panel) => ({
+        label: panel.title,
+        checked: panel.name === shown?.name,
+        run: () => show(panel),
+      })),
+      ...(types.length ? [null, adding] : []),
+    ]);
   }
 
   offer([]);

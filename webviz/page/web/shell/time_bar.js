@@ -21,12 +21,21 @@ export function build(place) {
   let shown = null;
 
   const pause = el("button", {
-    type: "button", class: "wv-icon", onclick: toggle,
+    type: "button",
+    class: "wv-icon",
+    onclick: toggle,
   });
-  const reset = el("button", {
-    type: "button", class: "wv-icon", title: RESET_HINT, "aria-label": "Reset",
-    onclick: () => act("Reset"),
-  }, icon("reset"));
+  const reset = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-icon",
+      title: RESET_HINT,
+      "aria-label": "Reset",
+      onclick: () => act("Reset"),
+    },
+    icon("reset"),
+  );
   const ros = el("button", { type: "button", class: "wv-ros-time", onclick: swap });
   const badge = el("span", { class: "wv-badge" });
   const elapsed = part("Elapsed", "ROS time since the viewer started or was reset");
@@ -35,8 +44,17 @@ export function build(place) {
   const track = el("div", { class: "wv-track-row" });
   const buttons = el("div", { class: "wv-transport-place" });
   place.append(
-    track, needs("Pause", pause), needs("Reset", reset), buttons, ros, badge, elapsed.element,
-    el("div", { class: "wv-space" }), record(), wall.element, wallElapsed.element,
+    track,
+    needs("Pause", pause),
+    needs("Reset", reset),
+    buttons,
+    ros,
+    badge,
+    elapsed.element,
+    el("div", { class: "wv-space" }),
+    record(),
+    wall.element,
+    wallElapsed.element,
   );
   const recording = timeline({ track, buttons, toggle });
   place.setAttribute("aria-label", "Time");
@@ -77,7 +95,10 @@ export function build(place) {
   function showPause(paused) {
     isPaused = paused;
     const [name, tip] = recording.isThere()
-      ? [paused ? "Play" : "Pause", `${paused ? "Play" : "Pause"} the ${recording.isLive() ? "past" : "recording"} in all browsers (Space)`]
+      ? [
+          paused ? "Play" : "Pause",
+          `${paused ? "Play" : "Pause"} the ${recording.isLive() ? "past" : "recording"} in all browsers (Space)`,
+        ]
       : [nameOf(paused), `${nameOf(paused)} the scene in all browsers; messages wait meanwhile`];
     if (pause.ariaLabel === name) return;
     const isPressed = recording.isThere() ? null : String(paused);
@@ -88,9 +109,11 @@ export function build(place) {
 
   showPause(false);
   command({ name: "Reset", icon: "reset", key: "r", group: "Time", run: () => act("Reset") });
-  provide(() => recording.isThere() ? [] : [
-    { name: nameOf(isPaused), icon: isPaused ? "play" : "pause", group: "Time", run: toggle },
-  ]);
+  provide(() =>
+    recording.isThere()
+      ? []
+      : [{ name: nameOf(isPaused), icon: isPaused ? "play" : "pause", group: "Time", run: toggle }],
+  );
   return watchTime(TICK_MS, show);
 }
 
@@ -99,8 +122,12 @@ const nameOf = (isPaused) => (isPaused ? "Resume" : "Pause");
 /** A label and a time, hidden while there is none. */
 function part(label, title) {
   const time = el("span", { class: "wv-number" });
-  const element = el("span", { class: "wv-time-part", title, hidden: true },
-    el("span", { class: "wv-quiet" }, label), time);
+  const element = el(
+    "span",
+    { class: "wv-time-part", title, hidden: true },
+    el("span", { class: "wv-quiet" }, label),
+    time,
+  );
   const show = (text) => {
     setText(time, text);
     set(element, { hidden: text === "" });
@@ -110,7 +137,9 @@ function part(label, title) {
 
 function hintOf(isKnown, isSimulated, inSeconds) {
   if (!isKnown) return "Waiting for the first message on /clock";
-  const kind = isSimulated ? "ROS time, from /clock or a recording" : "ROS time, which is wall time";
+  const kind = isSimulated
+    ? "ROS time, from /clock or a recording"
+    : "ROS time, which is wall time";
   return `${kind}. Click for ${inSeconds ? "date and time of day" : "seconds"}.`;
 }
 

@@ -49,7 +49,13 @@ function make(key) {
     one.element.remove();
   };
   const close = { type: "button", class: "wv-icon", "aria-label": "Dismiss", onclick: one.remove };
-  one.element = el("div", { class: "wv-toast" }, one.text, one.button, el("button", close, icon("close")));
+  one.element = el(
+    "div",
+    { class: "wv-toast" },
+    one.text,
+    one.button,
+    el("button", close, icon("close")),
+  );
   shown.set(key, one);
   place.append(one.element);
   return one;

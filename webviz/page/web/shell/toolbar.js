@@ -35,7 +35,9 @@ export function install(places) {
     icon("menu"),
   );
   const type = button("orbit", "", "View", () => openMenuBelow(type, viewMenu()));
-  const views = button("bookmark", "Saved views", "Saved views", () => openMenuBelow(views, savedMenu()));
+  const views = button("bookmark", "Saved views", "Saved views", () =>
+    openMenuBelow(views, savedMenu()),
+  );
   const fixed = frameField("Fixed frame", "axes", () => shown.frame, fixedOptions, setFixed);
   needs("SetFixedFrame", fixed.element);
   const target = frameField("Follow", "follow", () => shown.target, targetOptions, follow);
@@ -53,7 +55,17 @@ export function install(places) {
     },
     el("div", { class: "wv-bar-part" }, open, tools.icons, tools.buttons),
     line,
-    el("div", { class: "wv-bar-part wv-bar-view" }, type, views, fixed.element, target.element, image, full, more),
+    el(
+      "div",
+      { class: "wv-bar-part wv-bar-view" },
+      type,
+      views,
+      fixed.element,
+      target.element,
+      image,
+      full,
+      more,
+    ),
   );
   // The frames and the tools that act on the robot stay, however little room the scene has.
   const bar = fit(element, more, [
@@ -105,10 +117,16 @@ export function install(places) {
     run: () => act("ResetView"),
   });
   command({
-    name: "Follow frame…", icon: "follow", group: "View", run: () => focusField(target.element),
+    name: "Follow frame…",
+    icon: "follow",
+    group: "View",
+    run: () => focusField(target.element),
   });
   command({
-    name: "Fixed frame…", icon: "axes", group: "View", needs: "SetFixedFrame",
+    name: "Fixed frame…",
+    icon: "axes",
+    group: "View",
+    needs: "SetFixedFrame",
     run: () => focusField(fixed.element),
   });
   command({ name: "Save view…", icon: "save", group: "View", needs: "SaveView", run: saveView });
@@ -158,7 +176,11 @@ function button(iconName, label, tip, run) {
 
 function frameField(label, iconName, value, options, change) {
   const field = combobox({
-    label, value: value(), options: options(), change, refused: (text) => text && field.restore(),
+    label,
+    value: value(),
+    options: options(),
+    change,
+    refused: (text) => text && field.restore(),
   });
   return {
     element: el("div", { class: "wv-bar-field", "data-tip": label }, icon(iconName), field.element),
@@ -186,7 +208,12 @@ const savedMenu = () => [
   })),
   ...(shown.views.length ? [null] : []),
   { label: "Save this view…", icon: "save", needs: "SaveView", run: saveView },
-  { label: "Start with this view", icon: "play", needs: "StartWithView", run: () => act("StartWithView") },
+  {
+    label: "Start with this view",
+    icon: "play",
+    needs: "StartWithView",
+    run: () => act("StartWithView"),
+  },
 ];
 
 async function saveView() {

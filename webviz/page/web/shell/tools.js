@@ -42,16 +42,29 @@ export function install() {
   history.install();
   strokes.install();
   cards.append(waypoints.install(), goals.install());
-  provide(() => registry.all().map((tool) => ({
-    name: tool.name, icon: tool.icon, key: tool.shortcut || undefined, group: "Tools",
-    run: () => registry.toggle(tool),
-  })));
+  provide(() =>
+    registry.all().map((tool) => ({
+      name: tool.name,
+      icon: tool.icon,
+      key: tool.shortcut || undefined,
+      group: "Tools",
+      run: () => registry.toggle(tool),
+    })),
+  );
   command({
-    name: "Leave the tool", key: "Escape", group: "Tools", isHidden: true,
-    isThere: () => !registry.isDefault(), run: () => registry.select(null),
+    name: "Leave the tool",
+    key: "Escape",
+    group: "Tools",
+    isHidden: true,
+    isThere: () => !registry.isDefault(),
+    run: () => registry.select(null),
   });
   command({
-    name: "Send", key: "Enter", group: "Tools", isHidden: true, run: stroke.send,
+    name: "Send",
+    key: "Enter",
+    group: "Tools",
+    isHidden: true,
+    run: stroke.send,
     isThere: () => stroke.isWaiting() && !document.activeElement.closest("button"),
   });
   for (const name of ["pointerdown", "pointermove", "pointerup", "pointercancel", "wheel"]) {
@@ -102,7 +115,8 @@ function buttonOf(tool) {
     });
     const key = shortcut ? [el("kbd", {}, keyText(shortcut))] : [];
     button.replaceChildren(
-      icon(tool.icon), ...(isLean ? [] : [el("span", { class: "wv-tool-name" }, name), ...key]),
+      icon(tool.icon),
+      ...(isLean ? [] : [el("span", { class: "wv-tool-name" }, name), ...key]),
     );
   }
   button.onclick = () => registry.toggle(tool);

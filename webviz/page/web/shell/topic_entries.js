@@ -11,7 +11,9 @@ const TRANSPORT = /^(.+)\/(compressed|compressedDepth|ffmpeg|theora|zstd|draco)$
  */
 export function topicEntries({ types, topics, traffic, shown }, checked) {
   const icons = new Map((types ?? []).map(([name, { icon }]) => [name, icon]));
-  const plain = new Set((types ?? []).filter(([, { topics }]) => topics.includes(ANY)).map(([name]) => name));
+  const plain = new Set(
+    (types ?? []).filter(([, { topics }]) => topics.includes(ANY)).map(([name]) => name),
+  );
   const entries = families(topics ?? []).map((family) => {
     const show = family.flatMap(({ offer }) => offer.show);
     const isShown = family.some(({ topic }) => shown?.has(topic));
@@ -30,7 +32,10 @@ function families(topics) {
     const [, base, transport] = TRANSPORT.exec(topic) ?? [];
     const isPart = offer.show.length && known.get(base)?.show.length;
     const family = isPart ? base : topic;
-    made.set(family, [...(made.get(family) ?? []), { topic, offer, transport: isPart ? transport : "raw" }]);
+    made.set(family, [
+      ...(made.get(family) ?? []),
+      { topic, offer, transport: isPart ? transport : "raw" },
+    ]);
   }
   return [...made.values()];
 }
@@ -40,7 +45,10 @@ function entryOf(family, { traffic, icons, isShown, isPlain, checked }) {
   const note = noteOf(offer, traffic?.get(topic), isShown);
   if (!offer.show.length) {
     const row = { id: topic, icon: "file", title: topic, note, line: offer.why, disabled: true };
-    return { words: [topic, offer.why], rows: [{ ...row, group: { title: "Not shown by any display" } }] };
+    return {
+      words: [topic, offer.why],
+      rows: [{ ...row, group: { title: "Not shown by any display" } }],
+    };
   }
   const types = offer.types.join(", ");
   const rows = family.flatMap((member) =>
@@ -57,7 +65,11 @@ function entryOf(family, { traffic, icons, isShown, isPlain, checked }) {
     })),
   );
   const words = [topic, rows.map(({ title, note }) => `${title} ${note}`).join(" ") + types];
-  if (rows.length > 1) return { words, rows: rows.toSorted((a, b) => (a.title < b.title ? -1 : Number(a.title > b.title))) };
+  if (rows.length > 1)
+    return {
+      words,
+      rows: rows.toSorted((a, b) => (a.title < b.title ? -1 : Number(a.title > b.title))),
+    };
   const group = isPlain ? { title: "Shown as text only" } : undefined;
   const line = `${rows[0].title} · ${types}`;
   return { words, rows: [{ ...rows[0], title: topic, line, note, group, isWithin: false }] };

@@ -14,9 +14,18 @@ export function blackBox() {
   /** @type {[name: string, megabytes: number, command: string][]} */
   let saved = [];
   const label = el("span");
-  const button = el("button", {
-    type: "button", class: "wv-button wv-black-box", hidden: true, "aria-label": "Black box", onclick: open,
-  }, icon("flag", 14), label);
+  const button = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-button wv-black-box",
+      hidden: true,
+      "aria-label": "Black box",
+      onclick: open,
+    },
+    icon("flag", 14),
+    label,
+  );
 
   /** @param {string} command */
   async function choose(command) {
@@ -27,7 +36,9 @@ export function blackBox() {
   function open() {
     const { left, top } = button.getBoundingClientRect();
     const items = saved.map(([name, megabytes, command]) => ({
-      label: savedText(name, megabytes), icon: "copy", run: () => choose(command),
+      label: savedText(name, megabytes),
+      icon: "copy",
+      run: () => choose(command),
     }));
     if (items.length) openMenu(left, top, items);
     else toast("No rule of the config has saved anything yet.");

@@ -20,9 +20,17 @@ import { duration } from "../shell/time_text.js";
 export function bookmarks(seek, position) {
   /** @type {[string, number][]} */
   let all = [];
-  const button = el("button", {
-    type: "button", class: "wv-icon", "aria-label": "Bookmarks", "data-tip": "Bookmarks: moments with names", onclick: open,
-  }, icon("flag"));
+  const button = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-icon",
+      "aria-label": "Bookmarks",
+      "data-tip": "Bookmarks: moments with names",
+      onclick: open,
+    },
+    icon("flag"),
+  );
 
   function open() {
     const { left, top } = button.getBoundingClientRect();
@@ -39,7 +47,12 @@ export function bookmarks(seek, position) {
     ];
     if (all.length) {
       const removals = all.map((one) => entry(one, () => act("RemoveBookmark", { name: one[0] })));
-      items.push(null, { label: "Remove", icon: "trash", needs: "RemoveBookmark", items: removals });
+      items.push(null, {
+        label: "Remove",
+        icon: "trash",
+        needs: "RemoveBookmark",
+        items: removals,
+      });
     }
     openMenu(left, top, items);
   }
@@ -50,8 +63,13 @@ export function bookmarks(seek, position) {
     let number = 1;
     while (taken.has(`Bookmark ${number}`)) number += 1;
     const field = el("input", {
-      class: "wv-field", type: "text", "aria-label": "Name of the bookmark", value: `Bookmark ${number}`,
-      autofocus: true, onfocus: (/** @type {FocusEvent & {target: HTMLInputElement}} */ { target }) => target.select(),
+      class: "wv-field",
+      type: "text",
+      "aria-label": "Name of the bookmark",
+      value: `Bookmark ${number}`,
+      autofocus: true,
+      onfocus: (/** @type {FocusEvent & {target: HTMLInputElement}} */ { target }) =>
+        target.select(),
     });
     const answer = await openDialog({
       title: `Bookmark at ${duration(at)}`,

@@ -26,7 +26,12 @@ export function fitted(canvas) {
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.clearRect(0, 0, width, height);
   const style = getComputedStyle(canvas);
-  return { context, width, height, color: (/** @type {string} */ name) => style.getPropertyValue(`--wv-${name}`) };
+  return {
+    context,
+    width,
+    height,
+    color: (/** @type {string} */ name) => style.getPropertyValue(`--wv-${name}`),
+  };
 }
 
 /**
@@ -39,7 +44,10 @@ export function fitted(canvas) {
  *   bookmarks: [string, number][], events: LoggedEvent[], position: number, hover: number | null,
  *   past: {first: number, now: number, gap: Range | null} | null}} shown
  */
-export function draw(canvas, { range, whole, counts, selected, bookmarks, events, past, position, hover }) {
+export function draw(
+  canvas,
+  { range, whole, counts, selected, bookmarks, events, past, position, hover },
+) {
   const { context, width, color } = fitted(canvas);
   /** @param {number} time */
   const x = (time) => MARGIN + share(time, range) * (width - 2 * MARGIN);

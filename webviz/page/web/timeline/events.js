@@ -36,7 +36,9 @@ export const eventText = ([, level, text]) => `${LEVELS[level]} · ${text}`;
 export function eventCommand(isNext, { all, seek, position }) {
   const which = isNext ? "next" : "previous";
   return {
-    name: isNext ? "Next warning" : "Previous warning", icon: isNext ? "step" : "step-back", needs: "Seek",
+    name: isNext ? "Next warning" : "Previous warning",
+    icon: isNext ? "step" : "step-back",
+    needs: "Seek",
     run() {
       const now = position();
       const found = isNext

@@ -18,7 +18,13 @@ export function atMoment(values, wall) {
   const duration = wall - moment.get("start") - moment.get("ahead");
   const position = isLive ? duration : moment.get("position");
   const first = isLive ? duration - moment.get("held") : moment.get("first");
-  return new Map([...moment, ["first", first], ["duration", duration], ["position", position], ["ago", duration - position]]);
+  return new Map([
+    ...moment,
+    ["first", first],
+    ["duration", duration],
+    ["position", position],
+    ["ago", duration - position],
+  ]);
 }
 
 /**
@@ -43,7 +49,8 @@ export const isNow = (recording, time, length) =>
  *
  * @param {number} seconds
  */
-export const agoText = (seconds) => `${seconds < 100 ? seconds.toFixed(1) : seconds.toFixed(0)} s ago`;
+export const agoText = (seconds) =>
+  `${seconds < 100 ? seconds.toFixed(1) : seconds.toFixed(0)} s ago`;
 
 /**
  * Seconds before now, which is 0, for a scale.
@@ -51,4 +58,5 @@ export const agoText = (seconds) => `${seconds < 100 ? seconds.toFixed(1) : seco
  * @param {number} seconds
  * @param {number} [digits]
  */
-export const beforeText = (seconds, digits = 1) => (seconds > -0.05 ? "now" : `−${(-seconds).toFixed(digits)} s`);
+export const beforeText = (seconds, digits = 1) =>
+  seconds > -0.05 ? "now" : `−${(-seconds).toFixed(digits)} s`;

@@ -22,11 +22,22 @@ export function record() {
   const start = el("button", { type: "button", class: "wv-button wv-record", onclick: toggle });
   const label = el("span", { class: "wv-number" });
   start.append(icon("record", 12), label);
-  const save = el("button", { type: "button", class: "wv-button wv-save-last", onclick: saveLast }, icon("save", 14));
+  const save = el(
+    "button",
+    { type: "button", class: "wv-button wv-save-last", onclick: saveLast },
+    icon("save", 14),
+  );
   const span = el("span", { class: "wv-number" });
   const memory = el("span", { class: "wv-quiet wv-memory wv-number", tabindex: 0 });
   save.append(span);
-  const element = el("div", { class: "wv-recorder", hidden: true }, memory, blackBox(), needs("StartRecording", start), needs("SaveMemory", save));
+  const element = el(
+    "div",
+    { class: "wv-recorder", hidden: true },
+    memory,
+    blackBox(),
+    needs("StartRecording", start),
+    needs("SaveMemory", save),
+  );
 
   function toggle() {
     return act(recording ? "StopRecording" : "StartRecording");
@@ -51,12 +62,17 @@ export function record() {
         ? `Recording to ${recording.name}, ${recording.megabytes} MB. Click to stop.`
         : "Record all topics that are displayed, in the working folder of webviz",
     });
-    setText(label, recording ? `${duration(recording.seconds, 0)} · ${recording.megabytes} MB` : "Record");
+    setText(
+      label,
+      recording ? `${duration(recording.seconds, 0)} · ${recording.megabytes} MB` : "Record",
+    );
     setText(memory, isRemembering ? `memory ${seconds} s, ${megabytes} MB` : "no memory");
     set(memory, { "data-tip": values.get("about") });
     save.hidden = !isRemembering;
     setText(span, `Save last ${seconds} s`);
-    set(save, { "data-tip": `Save what is remembered of the displayed topics: ${seconds} s, ${megabytes} MB` });
+    set(save, {
+      "data-tip": `Save what is remembered of the displayed topics: ${seconds} s, ${megabytes} MB`,
+    });
   });
 
   provide(() => {
@@ -64,7 +80,14 @@ export function record() {
     const group = "Time";
     const name = recording ? "Stop recording" : "Record";
     const commands = [{ name, icon: "record", group, needs: "StartRecording", run: toggle }];
-    if (isRemembering) commands.push({ name: `Save the last ${seconds} s`, icon: "save", group, needs: "SaveMemory", run: saveLast });
+    if (isRemembering)
+      commands.push({
+        name: `Save the last ${seconds} s`,
+        icon: "save",
+        group,
+        needs: "SaveMemory",
+        run: saveLast,
+      });
     return commands;
   });
   return element;

@@ -23,9 +23,18 @@ export function banner() {
   const title = document.title;
   const ago = el("span", { class: "wv-number" });
   const how = el("span");
-  const element = el("button", {
-    type: "button", class: "wv-rewound-banner", hidden: true, "aria-live": "polite", onclick: returnToLive,
-  }, ago, how);
+  const element = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-rewound-banner",
+      hidden: true,
+      "aria-live": "polite",
+      onclick: returnToLive,
+    },
+    ago,
+    how,
+  );
 
   function tick() {
     if (!values) return;
@@ -50,8 +59,13 @@ export function banner() {
     timer = setInterval(tick, TICK_MS);
   });
   command({
-    name: "Return to live", icon: "step", key: "l", group: "Time", needs: "ReturnToLive",
-    isThere: () => isRewound(values), run: returnToLive,
+    name: "Return to live",
+    icon: "step",
+    key: "l",
+    group: "Time",
+    needs: "ReturnToLive",
+    isThere: () => isRewound(values),
+    run: returnToLive,
   });
   return element;
 }

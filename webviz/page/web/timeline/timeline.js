@@ -50,7 +50,10 @@ export function timeline(places) {
   };
   const track = makeTrack(seek, () => topics.redraw());
   const topics = topicList({
-    range: track.range, whole: () => shownLength(recording.get("duration")), step, toggled: () => show(),
+    range: track.range,
+    whole: () => shownLength(recording.get("duration")),
+    step,
+    toggled: () => show(),
   });
   const bookmarks = bookmarkMenu(seek, position);
   const buttons = makeTransport(seek, step, topics, bookmarks);
@@ -97,7 +100,8 @@ export function timeline(places) {
     address.searchParams.delete("t");
     history.replaceState(history.state, "", address);
     const time = parseTime(text, recording.get("start"));
-    if (time === null) toast(`The link has no time that can be read: t=${text}.`, { level: "warn" });
+    if (time === null)
+      toast(`The link has no time that can be read: t=${text}.`, { level: "warn" });
     else seek.to(time);
   }
 
@@ -105,7 +109,9 @@ export function timeline(places) {
     const address = new URL(location.pathname, location.href);
     address.searchParams.set("t", position().toFixed(3));
     const isCopied = await copy(address.href);
-    toast(isCopied ? "Copied the link to this moment." : `The link to this moment: ${address.href}`);
+    toast(
+      isCopied ? "Copied the link to this moment." : `The link to this moment: ${address.href}`,
+    );
   }
 
   const isBag = () => values?.get("is_live") === null;
@@ -121,26 +127,64 @@ export function timeline(places) {
 
   const isFree = () => {
     const focused = document.activeElement;
-    return !isTyping({ target: focused }) && !focused?.closest("button, [role=option], [role=treeitem], .wv-rows");
+    return (
+      !isTyping({ target: focused }) &&
+      !focused?.closest("button, [role=option], [role=treeitem], .wv-rows")
+    );
   };
   /** @param {number} seconds */
   const jump = (seconds) =>
-    seek.to(Math.max(recording.get("first"), Math.min(position() + seconds, recording.get("duration"))));
+    seek.to(
+      Math.max(recording.get("first"), Math.min(position() + seconds, recording.get("duration"))),
+    );
   const among = { all: () => events, seek, position };
-  const back = { name: `${JUMP_S} s back`, key: "Shift+ArrowLeft", needs: "Seek", run: () => jump(-JUMP_S) };
+  const back = {
+    name: `${JUMP_S} s back`,
+    key: "Shift+ArrowLeft",
+    needs: "Seek",
+    run: () => jump(-JUMP_S),
+  };
   /**
    * @template T
    * @param {T} one
    */
   const about = (one) => ({ ...one, group: "Time", isKeyHere: isFree });
   const commands = [
-    { name: "Play or pause the recording", icon: "play", key: " ", needs: "Pause", run: places.toggle },
-    { name: "Next message", icon: "step", key: "ArrowRight", needs: "StepMessage", run: () => step.run(true) },
-    { name: "Previous message", icon: "step-back", key: "ArrowLeft", needs: "StepMessage", run: () => step.run(false) },
+    {
+      name: "Play or pause the recording",
+      icon: "play",
+      key: " ",
+      needs: "Pause",
+      run: places.toggle,
+    },
+    {
+      name: "Next message",
+      icon: "step",
+      key: "ArrowRight",
+      needs: "StepMessage",
+      run: () => step.run(true),
+    },
+    {
+      name: "Previous message",
+      icon: "step-back",
+      key: "ArrowLeft",
+      needs: "StepMessage",
+      run: () => step.run(false),
+    },
     { name: `${JUMP_S} s on`, key: "Shift+ArrowRight", needs: "Seek", run: () => jump(JUMP_S) },
     back,
-    { name: "Start of the recording", key: "Home", needs: "Seek", run: () => seek.to(recording.get("first")) },
-    { name: "End of the recording", key: "End", needs: "Seek", run: () => seek.to(recording.get("duration")) },
+    {
+      name: "Start of the recording",
+      key: "Home",
+      needs: "Seek",
+      run: () => seek.to(recording.get("first")),
+    },
+    {
+      name: "End of the recording",
+      key: "End",
+      needs: "Seek",
+      run: () => seek.to(recording.get("duration")),
+    },
     eventCommand(true, among),
     eventCommand(false, among),
     { name: "Add bookmark…", icon: "flag", key: "b", needs: "SaveBookmark", run: bookmarks.add },

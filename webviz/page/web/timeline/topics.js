@@ -25,7 +25,10 @@ export function topics({ range, whole, step, toggled }) {
   /** @type {Strip[]} */
   let items = [];
   const list = rowList({
-    label: "Topics of the recording", height: ROW, make, update,
+    label: "Topics of the recording",
+    height: ROW,
+    make,
+    update,
     choose: ({ key }) => {
       step.choose(key);
       redraw();
@@ -36,7 +39,9 @@ export function topics({ range, whole, step, toggled }) {
   function make() {
     const canvas = el("canvas", { class: "wv-recorded-strip" });
     const name = el("span", { class: "wv-recorded-name" });
-    return Object.assign(el("div", { class: "wv-recorded-row" }, canvas, name), { parts: { canvas, name } });
+    return Object.assign(el("div", { class: "wv-recorded-row" }, canvas, name), {
+      parts: { canvas, name },
+    });
   }
 
   /**
@@ -58,7 +63,14 @@ export function topics({ range, whole, step, toggled }) {
     const { context, width, height, color } = fitted(canvas);
     /** @param {number} time */
     const x = (time) => MARGIN + share(time, range()) * (width - 2 * MARGIN);
-    bars(context, counts, { x, whole: whole(), range: range(), top: 2, height: height - 4, color: color("accent") });
+    bars(context, counts, {
+      x,
+      whole: whole(),
+      range: range(),
+      top: 2,
+      height: height - 4,
+      color: color("accent"),
+    });
   }
 
   new ResizeObserver(redraw).observe(element);
@@ -74,7 +86,10 @@ export function topics({ range, whole, step, toggled }) {
     } else {
       end = watch("recorded", (recorded) => {
         const names = [...recorded.keys()].sort();
-        items = [{ key: "", counts: [] }, ...names.map((key) => ({ key, counts: recorded.get(key) ?? [] }))];
+        items = [
+          { key: "", counts: [] },
+          ...names.map((key) => ({ key, counts: recorded.get(key) ?? [] })),
+        ];
         list.show(items);
       });
     }

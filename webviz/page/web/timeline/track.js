@@ -60,10 +60,18 @@ export function track(seek, redrawn = () => {}) {
   let frame = 0;
 
   const canvas = el("canvas", {
-    class: "wv-track", role: "slider", tabindex: 0, "aria-label": "Time of the recording",
+    class: "wv-track",
+    role: "slider",
+    tabindex: 0,
+    "aria-label": "Time of the recording",
     "aria-description": "Click or drag to seek, Shift+drag to select what is played, wheel to zoom",
-    onpointerdown: press, onpointermove: move, onpointerup: release, onpointercancel: release,
-    onpointerleave: () => point(null), onwheel: wheel, ondblclick: () => setRange(bounds),
+    onpointerdown: press,
+    onpointermove: move,
+    onpointerup: release,
+    onpointercancel: release,
+    onpointerleave: () => point(null),
+    onwheel: wheel,
+    ondblclick: () => setRange(bounds),
   });
   const label = el("span", { class: "wv-track-label wv-number", hidden: true });
   const element = el("div", { class: "wv-track-place" }, canvas, label);
@@ -83,7 +91,9 @@ export function track(seek, redrawn = () => {}) {
     }
     if (recording.get("is_playing") && !drag) follow();
     set(canvas, {
-      "aria-valuemin": bounds[0], "aria-valuemax": bounds[1], "aria-valuenow": position(),
+      "aria-valuemin": bounds[0],
+      "aria-valuemax": bounds[1],
+      "aria-valuenow": position(),
       "aria-valuetext": textOf(position()),
     });
     later();
@@ -105,7 +115,10 @@ export function track(seek, redrawn = () => {}) {
   const moved = ([first, last], by) => [first + by, last + by];
 
   function follow() {
-    const next = moved(following(moved(range, -bounds[0]), position() - bounds[0], bounds[1] - bounds[0]), bounds[0]);
+    const next = moved(
+      following(moved(range, -bounds[0]), position() - bounds[0], bounds[1] - bounds[0]),
+      bounds[0],
+    );
     if (next[0] !== range[0]) setRange(next);
   }
 
@@ -121,9 +134,24 @@ export function track(seek, redrawn = () => {}) {
       frame = 0;
       if (!recording || !canvas.clientWidth) return;
       const selected = drag?.isSpan ? drag.span : recording?.get("selected");
-      const past = isBag() || !recording ? null : { first: recording.get("first"), now: recording.get("duration"), gap: recording.get("gap") };
+      const past =
+        isBag() || !recording
+          ? null
+          : {
+              first: recording.get("first"),
+              now: recording.get("duration"),
+              gap: recording.get("gap"),
+            };
       draw(canvas, {
-        range, whole: bounds[1], counts, selected, bookmarks, events, past, position: position(), hover,
+        range,
+        whole: bounds[1],
+        counts,
+        selected,
+        bookmarks,
+        events,
+        past,
+        position: position(),
+        hover,
       });
     });
   }

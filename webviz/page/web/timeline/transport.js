@@ -44,28 +44,61 @@ export function transport(seek, step, topics, bookmarks) {
    * @param {() => unknown} onclick
    */
   const button = (name, label, tip, onclick) =>
-    el("button", { type: "button", class: "wv-icon", "aria-label": label, "data-tip": tip, onclick }, icon(name));
+    el(
+      "button",
+      { type: "button", class: "wv-icon", "aria-label": label, "data-tip": tip, onclick },
+      icon(name),
+    );
   const before = button("step-back", "Previous message", "", () => step.run(false));
   const after = button("step", "Next message", "", () => step.run(true));
   const rate = el("button", {
-    type: "button", class: "wv-button wv-rate", "aria-label": "Rate", "data-tip": "How fast to play", onclick: chooseRate,
+    type: "button",
+    class: "wv-button wv-rate",
+    "aria-label": "Rate",
+    "data-tip": "How fast to play",
+    onclick: chooseRate,
   });
   const loop = button("loop", "Loop", "Start over at the end of what is selected", () =>
-    act("SetLoop", { loop: !recording.get("loop") }));
+    act("SetLoop", { loop: !recording.get("loop") }),
+  );
   const list = button("list", "Topics", "When each topic has messages", topics.toggle);
   const field = el("input", {
-    class: "wv-field wv-position wv-number", type: "text", "aria-label": "Go to time", autocomplete: "off",
-    spellcheck: "false", "data-tip": HELP, onchange: go, onblur: () => recording.size > 0 && write(),
-    onfocus: (/** @type {FocusEvent & {target: HTMLInputElement}} */ { target }) => target.select(), onkeydown: key,
+    class: "wv-field wv-position wv-number",
+    type: "text",
+    "aria-label": "Go to time",
+    autocomplete: "off",
+    spellcheck: "false",
+    "data-tip": HELP,
+    onchange: go,
+    onblur: () => recording.size > 0 && write(),
+    onfocus: (/** @type {FocusEvent & {target: HTMLInputElement}} */ { target }) => target.select(),
+    onkeydown: key,
   });
   const length = el("span", { class: "wv-quiet wv-number" });
-  const live = el("button", {
-    type: "button", class: "wv-button wv-primary wv-live", hidden: true, "data-tip": "Return to live (L)", onclick: returnToLive,
-  }, "Live (L)");
-  const element = el("div", { class: "wv-transport" },
-    needs("StepMessage", before), needs("StepMessage", after), needs("SetRate", rate), needs("SetLoop", loop),
-    list, bookmarks.element, needs("Seek", el("span", { class: "wv-go" }, field)), length,
-    needs("ReturnToLive", live));
+  const live = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-button wv-primary wv-live",
+      hidden: true,
+      "data-tip": "Return to live (L)",
+      onclick: returnToLive,
+    },
+    "Live (L)",
+  );
+  const element = el(
+    "div",
+    { class: "wv-transport" },
+    needs("StepMessage", before),
+    needs("StepMessage", after),
+    needs("SetRate", rate),
+    needs("SetLoop", loop),
+    list,
+    bookmarks.element,
+    needs("Seek", el("span", { class: "wv-go" }, field)),
+    length,
+    needs("ReturnToLive", live),
+  );
   let shown = 0;
   const isBag = () => recording.get("is_live") === null;
 
@@ -92,7 +125,10 @@ export function transport(seek, step, topics, bookmarks) {
     const text = field.value.trim().replace(/^[-−]|\s*s$/g, "");
     const time = parseTime(text, recording.get("start"));
     const help = isBag() ? HELP : AGO_HELP;
-    if (time === null) toast(`${field.value || "Nothing"} is not a time. Type ${help.toLowerCase()}.`, { level: "warn" });
+    if (time === null)
+      toast(`${field.value || "Nothing"} is not a time. Type ${help.toLowerCase()}.`, {
+        level: "warn",
+      });
     else seek.to(isBag() || isDate(text) ? time : recording.get("duration") - time);
     field.blur();
   }

@@ -15,7 +15,10 @@ const LONGEST = 0.35; // of the height of the scene
  */
 export function arrowAt([x, y, z], yaw, part = 1) {
   const [c, s] = [Math.cos(yaw), Math.sin(yaw)];
-  const [from, to] = [[x, y, z], [x + 0.01 * c, y + 0.01 * s, z]].map(onCanvas);
+  const [from, to] = [
+    [x, y, z],
+    [x + 0.01 * c, y + 0.01 * s, z],
+  ].map(onCanvas);
   if (from === null || to === null) return null;
   const perMeter = 100 * Math.hypot(to[0] - from[0], to[1] - from[1]);
   const length = SHAFT[0] + HEAD[0];
@@ -23,8 +26,13 @@ export function arrowAt([x, y, z], yaw, part = 1) {
   const wanted = part * Math.min(Math.max(length * perMeter, SHORTEST_PX), longest);
   const scale = perMeter > 0 ? wanted / (length * perMeter) : 1;
   const shape = [
-    [0, SHAFT[1]], [SHAFT[0], SHAFT[1]], [SHAFT[0], HEAD[1]], [length, 0],
-    [SHAFT[0], -HEAD[1]], [SHAFT[0], -SHAFT[1]], [0, -SHAFT[1]],
+    [0, SHAFT[1]],
+    [SHAFT[0], SHAFT[1]],
+    [SHAFT[0], HEAD[1]],
+    [length, 0],
+    [SHAFT[0], -HEAD[1]],
+    [SHAFT[0], -SHAFT[1]],
+    [0, -SHAFT[1]],
   ];
   const corners = shape.map(([ahead, left]) =>
     onCanvas([x + scale * (ahead * c - left * s), y + scale * (ahead * s + left * c), z]),

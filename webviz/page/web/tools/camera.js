@@ -6,19 +6,40 @@ import { clicks } from "./clicks.js";
 import { select } from "./registry.js";
 
 export const interact = {
-  id: "interact", name: "Interact", shortcut: "i", icon: "hand", order: 0, isLean: true,
-  tooltip: "Interact with objects, and move the camera elsewhere.", hint: "", pointer, leave,
+  id: "interact",
+  name: "Interact",
+  shortcut: "i",
+  icon: "hand",
+  order: 0,
+  isLean: true,
+  tooltip: "Interact with objects, and move the camera elsewhere.",
+  hint: "",
+  pointer,
+  leave,
 };
 
 export const moveCamera = {
-  id: "move-camera", name: "Move Camera", shortcut: "m", icon: "move", order: 1, isLean: true,
-  tooltip: "Move the camera, whatever the pointer is on.", hint: "", cursor: "move",
+  id: "move-camera",
+  name: "Move Camera",
+  shortcut: "m",
+  icon: "move",
+  order: 1,
+  isLean: true,
+  tooltip: "Move the camera, whatever the pointer is on.",
+  hint: "",
+  cursor: "move",
 };
 
 export const focusCamera = {
-  id: "focus-camera", name: "Focus Camera", shortcut: "c", icon: "focus", order: 3, isLean: true,
+  id: "focus-camera",
+  name: "Focus Camera",
+  shortcut: "c",
+  icon: "focus",
+  order: 3,
+  isLean: true,
   tooltip: "Let the camera look at a point: click on it.",
-  hint: "Click on a point to look at it. Esc cancels.", cursor: "crosshair",
+  hint: "Click on a point to look at it. Esc cancels.",
+  cursor: "crosshair",
   pointer: clicks((event) => {
     focusOn([event.clientX, event.clientY]);
     select(null);

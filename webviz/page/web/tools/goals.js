@@ -21,7 +21,10 @@ export function install() {
       if (!cards.has(id)) cards.set(id, makeCard(id));
       cards.get(id).update(goal);
     }
-    setChildren(list, [...cards.values()].map(({ element }) => element));
+    setChildren(
+      list,
+      [...cards.values()].map(({ element }) => element),
+    );
   });
   showRoutes();
   return list;
@@ -33,8 +36,8 @@ function showRoutes() {
   /** @type {ValuesOf<"routes">} */
   let routes = new Map();
   let frame = null;
-  const update = () => show([...routes.values()].flatMap((route) =>
-    route.frame === frame ? posesOf(route) : []));
+  const update = () =>
+    show([...routes.values()].flatMap((route) => (route.frame === frame ? posesOf(route) : [])));
   watch("routes", (values) => {
     routes = values;
     update();
@@ -46,28 +49,61 @@ function showRoutes() {
   });
 }
 
-const posesOf = ({ poses }) => poses.map(([x, y, z, yaw], index) => ({
-  point: [x, y, z], yaw, number: poses.length > 1 ? String(index + 1) : "",
-}));
+const posesOf = ({ poses }) =>
+  poses.map(([x, y, z, yaw], index) => ({
+    point: [x, y, z],
+    yaw,
+    number: poses.length > 1 ? String(index + 1) : "",
+  }));
 
 function makeCard(id) {
   const title = el("b");
   const label = el("span", { class: "wv-goal-label" });
-  const dismiss = el("button", {
-    type: "button", class: "wv-icon", "aria-label": "Dismiss", "data-tip": "Dismiss",
-    onclick: () => act("DismissGoal", { goal: id }),
-  }, icon("close"));
+  const dismiss = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-icon",
+      "aria-label": "Dismiss",
+      "data-tip": "Dismiss",
+      onclick: () => act("DismissGoal", { goal: id }),
+    },
+    icon("close"),
+  );
   const values = el("dl", { class: "wv-goal-values" });
   const text = el("p", { class: "wv-goal-text", role: "status" });
-  const cancel = el("button", {
-    type: "button", class: "wv-button", onclick: () => act("CancelGoal", { goal: id }),
-  }, "Cancel");
-  const head = el("div", { class: "wv-goal-head" }, icon("flag"), title, label, needs("DismissGoal", dismiss));
-  const element = el("section", { class: "wv-card wv-goal" }, head, values, text, needs("CancelGoal", cancel));
+  const cancel = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-button",
+      onclick: () => act("CancelGoal", { goal: id }),
+    },
+    "Cancel",
+  );
+  const head = el(
+    "div",
+    { class: "wv-goal-head" },
+    icon("flag"),
+    title,
+    label,
+    needs("DismissGoal", dismiss),
+  );
+  const element = el(
+    "section",
+    { class: "wv-card wv-goal" },
+    head,
+    values,
+    text,
+    needs("CancelGoal", cancel),
+  );
   return {
     element,
     update(goal) {
-      set(element, { "data-level": goal.level || null, "aria-label": `${goal.title} ${goal.label}` });
+      set(element, {
+        "data-level": goal.level || null,
+        "aria-label": `${goal.title} ${goal.label}`,
+      });
       setText(title, goal.title);
       setText(label, goal.label);
       setText(text, goal.text || TEXTS[goal.phase]);
@@ -75,7 +111,9 @@ function makeCard(id) {
       const isEnded = goal.phase === "ended";
       /** @type {[HTMLElement, boolean][]} */
       const hiding = [
-        [dismiss, !goal.can_dismiss], [cancel, isEnded], [text, !text.textContent],
+        [dismiss, !goal.can_dismiss],
+        [cancel, isEnded],
+        [text, !text.textContent],
         [values, !goal.values.length],
       ];
       for (const [part, isHidden] of hiding) {

@@ -25,8 +25,9 @@ export function install() {
 /** The middle of all that is marked, in three.js' coordinates, or null. */
 export function middle() {
   const find = finder();
-  const points = [...selection.all().values()].flatMap((pick) =>
-    outlineOf(pick, find, selection.moves(pick))?.points ?? []);
+  const points = [...selection.all().values()].flatMap(
+    (pick) => outlineOf(pick, find, selection.moves(pick))?.points ?? [],
+  );
   if (!points.length) return null;
   const sum = points.reduce((whole, point) => whole.add(point), points[0].clone().set(0, 0, 0));
   return sum.divideScalar(points.length);
@@ -43,7 +44,8 @@ function draw() {
   layer.place();
   const { clientWidth: wide, clientHeight: tall } = viser.canvas();
   const [width, height] = [wide, tall].map((size) => Math.round(size * devicePixelRatio));
-  if (drawing.width !== width || drawing.height !== height) Object.assign(drawing, { width, height });
+  if (drawing.width !== width || drawing.height !== height)
+    Object.assign(drawing, { width, height });
   const pen = drawing.getContext("2d");
   pen.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
   pen.clearRect(0, 0, wide, tall);
@@ -52,7 +54,7 @@ function draw() {
   for (const pick of picks) {
     const outline = outlineOf(pick, find, selection.moves(pick));
     if (!outline) continue;
-    pick.oldSince = outline.isOld ? pick.oldSince ?? performance.now() : null;
+    pick.oldSince = outline.isOld ? (pick.oldSince ?? performance.now()) : null;
     if (!outline.isOld) now.push(outline);
     else if (performance.now() - pick.oldSince < OLD_MS) old.push(outline);
   }
@@ -72,7 +74,10 @@ function stroke(pen, outlines, dash) {
   pen.beginPath();
   for (const outline of outlines) trace(pen, outline);
   pen.setLineDash(dash);
-  for (const [color, width] of [[BACK, 3.5], [COLOR, 1.5]]) {
+  for (const [color, width] of [
+    [BACK, 3.5],
+    [COLOR, 1.5],
+  ]) {
     pen.strokeStyle = color;
     pen.lineWidth = width;
     pen.stroke();

@@ -24,8 +24,15 @@ let isWaiting = false;
 let frame = null;
 
 export const measure = {
-  id: "measure", name: "Measure", shortcut: "n", icon: "ruler", order: 4, isLean: true, hint: HINT,
-  tooltip: "Measure between points.", cursor: "crosshair",
+  id: "measure",
+  name: "Measure",
+  shortcut: "n",
+  icon: "ruler",
+  order: 4,
+  isLean: true,
+  hint: HINT,
+  tooltip: "Measure between points.",
+  cursor: "crosshair",
   pointer: clicks(press, clear, move),
   select: install,
   leave() {
@@ -97,13 +104,23 @@ function look() {
 
 function makeLine(from) {
   const line = {
-    from, to: null,
+    from,
+    to: null,
     parts: ["back", "line"].map((name) => svgElement("line", { class: `wv-measure-${name}` })),
     ends: [0, 1].map(() => svgElement("circle", { class: "wv-measure-end", r: 4 })),
-    label: el("button", {
-      type: "button", class: "wv-measure-label", "data-live": true, tabindex: -1, title: "Copy",
-      onclick: () => copyLine(line),
-    }, el("b"), el("span")),
+    label: el(
+      "button",
+      {
+        type: "button",
+        class: "wv-measure-label",
+        "data-live": true,
+        tabindex: -1,
+        title: "Copy",
+        onclick: () => copyLine(line),
+      },
+      el("b"),
+      el("span"),
+    ),
   };
   lines.push(line);
   drawing.append(...line.parts, ...line.ends);

@@ -26,8 +26,15 @@ let endPicking = () => {};
 let unselectable = new Map(); // by the ids of displays
 
 export const select = {
-  id: "select", name: "Select", shortcut: "s", icon: "select", order: 2, isLean: true, hint: HINT,
-  tooltip: "Select points, links, frames and cells to see their values.", cursor: "default",
+  id: "select",
+  name: "Select",
+  shortcut: "s",
+  icon: "select",
+  order: 2,
+  isLean: true,
+  hint: HINT,
+  tooltip: "Select points, links, frames and cells to see their values.",
+  cursor: "default",
   pointer: follow,
   select() {
     // Meanwhile the server knows for a moment what it has replaced.
@@ -76,15 +83,16 @@ function move(x, y) {
   box.layer.place();
   const { left, top, right, bottom } = boxTo(x, y);
   const { left: x0, top: y0 } = canvas().getBoundingClientRect();
-  box.element.style.cssText =
-    `left: ${left - x0}px; top: ${top - y0}px; width: ${right - left}px; height: ${bottom - top}px`;
+  box.element.style.cssText = `left: ${left - x0}px; top: ${top - y0}px; width: ${right - left}px; height: ${bottom - top}px`;
 }
 
 function boxTo(x, y) {
   const [fromX, fromY] = drag.from;
   return {
-    left: Math.min(x, fromX), right: Math.max(x, fromX),
-    top: Math.min(y, fromY), bottom: Math.max(y, fromY),
+    left: Math.min(x, fromX),
+    right: Math.max(x, fromX),
+    top: Math.min(y, fromY),
+    bottom: Math.max(y, fromY),
   };
 }
 
@@ -94,7 +102,9 @@ function makeBox() {
 }
 
 function finish({ clientX, clientY, shiftKey, ctrlKey, metaKey }) {
-  const found = drag.isBox ? pickIn(boxTo(clientX, clientY), selection.MAX_SELECTED, isSelectable) : picked([clientX, clientY]);
+  const found = drag.isBox
+    ? pickIn(boxTo(clientX, clientY), selection.MAX_SELECTED, isSelectable)
+    : picked([clientX, clientY]);
   // At once: a moment later there may be another message.
   const find = finder();
   for (const pick of found.picks) outlineOf(pick, find, false);
@@ -121,7 +131,8 @@ function picked(xy) {
 const isSelectable = ({ node }) => !unselectable.has(node.group.split("/", 1)[0]);
 
 function cancel() {
-  if (drag && canvas().hasPointerCapture(drag.pointer)) canvas().releasePointerCapture(drag.pointer);
+  if (drag && canvas().hasPointerCapture(drag.pointer))
+    canvas().releasePointerCapture(drag.pointer);
   drag = null;
   box?.layer.element.remove();
   box = null;

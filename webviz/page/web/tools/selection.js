@@ -71,7 +71,11 @@ export async function change(way, picks, found = picks.length) {
   const fresh = new Map();
   if (way === "remove") {
     const gone = new Set(picks.map((pick) => old.get(keyOf(pick))));
-    return put(keep.filter((id) => !gone.has(id)), fresh, 0);
+    return put(
+      keep.filter((id) => !gone.has(id)),
+      fresh,
+      0,
+    );
   }
   for (const pick of picks) {
     if (way === "add" && old.has(keyOf(pick))) continue;
@@ -96,7 +100,9 @@ async function put(keep, fresh, wanted) {
 }
 
 function dropUnknown() {
-  drop([...things].filter(([id, { isKnown }]) => isKnown && !known.has(String(id))).map(([id]) => id));
+  drop(
+    [...things].filter(([id, { isKnown }]) => isKnown && !known.has(String(id))).map(([id]) => id),
+  );
 }
 
 function drop(ids) {

@@ -15,8 +15,12 @@ export function sendCard(send, cancel) {
   const button = (name, label, run) =>
     el("button", { type: "button", class: `wv-button ${name}`, onclick: run }, label);
   const first = button("wv-primary", "Send", send);
-  const element = el("div", { class: "wv-send wv-card", role: "group", "aria-label": "Send this?" },
-    first, button("", "Cancel", cancel));
+  const element = el(
+    "div",
+    { class: "wv-send wv-card", role: "group", "aria-label": "Send this?" },
+    first,
+    button("", "Cancel", cancel),
+  );
   return {
     element,
     focus: () => first.focus({ preventScroll: true }),

@@ -38,12 +38,15 @@ export function install() {
     tell(level, text);
   });
   channel.on("Published", ({ number, topic, message_type, values }) =>
-    history.published(number, { topic, type: message_type, values }));
+    history.published(number, { topic, type: message_type, values }),
+  );
 }
 
 function toolOf(tool, index) {
   const make = gestureOf(tool.gesture);
-  const refusal = why(tool.gesture === "drive" ? "Drive" : "UseTool") || tool.refusal ||
+  const refusal =
+    why(tool.gesture === "drive" ? "Drive" : "UseTool") ||
+    tool.refusal ||
     (make ? "" : `The gesture "${tool.gesture}" is unknown. Add it in the module of the tool.`);
   const known = { ...tool, refusal, order: FIRST + index, icon: tool.icon || tool.gesture };
   return { ...known, ...make?.(known, (made) => take(known, { yaw: 0, keys: [], ...made })) };

@@ -26,7 +26,9 @@ let isHere = true;
 
 /** The gesture of a tool that drives. */
 export const tool = ({ icon, gesture }) => ({
-  icon: icon === gesture ? "wheel" : icon, hint: HINT, leave: release,
+  icon: icon === gesture ? "wheel" : icon,
+  hint: HINT,
+  leave: release,
 });
 
 export function install() {
@@ -70,8 +72,15 @@ function open(id) {
   places.legend.append(card.element);
   gamepad.disarm();
   driven = {
-    id, card, beat: 0, beats: 0, sent: 0, heard: performance.now(), held: STILL,
-    driver: null, canGoSideways: false,
+    id,
+    card,
+    beat: 0,
+    beats: 0,
+    sent: 0,
+    heard: performance.now(),
+    held: STILL,
+    driver: null,
+    canGoSideways: false,
     ends: [
       watch(`driving:${id}`, card.showRobot),
       watch(`tool:${id}`, (values) => {

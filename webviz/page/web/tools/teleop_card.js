@@ -6,21 +6,34 @@ import { makeStick } from "./teleop_stick.js";
 /** Makes the card; `change()` is called when its controls are held or let go. */
 export function makeCard(change) {
   const stick = makeStick(change);
-  const sideways = [["Q", "Drive to the left", 1], ["E", "Drive to the right", -1]].map(
-    ([key, label, way]) => makeHold(key, label, way, change));
+  const sideways = [
+    ["Q", "Drive to the left", 1],
+    ["E", "Drive to the right", -1],
+  ].map(([key, label, way]) => makeHold(key, label, way, change));
   const speed = el("b");
   const turnRate = el("b");
   const topic = el("span", { class: "wv-teleop-topic" });
   const note = el("p", { class: "wv-teleop-note", role: "status" });
   const [left, right] = sideways.map(({ element }) => element);
-  const element = el("section", { class: "wv-teleop wv-card", "aria-label": "Teleop" },
-    el("div", { class: "wv-teleop-row" },
-      el("dl", { class: "wv-teleop-readout" },
-        el("dt", {}, "Speed"), el("dd", {}, speed, el("span", {}, "m/s")),
-        el("dt", {}, "Turn rate"), el("dd", {}, turnRate, el("span", {}, "rad/s")),
-        topic),
-      el("div", { class: "wv-teleop-stick" }, stick.element, left, right)),
-    note);
+  const element = el(
+    "section",
+    { class: "wv-teleop wv-card", "aria-label": "Teleop" },
+    el(
+      "div",
+      { class: "wv-teleop-row" },
+      el(
+        "dl",
+        { class: "wv-teleop-readout" },
+        el("dt", {}, "Speed"),
+        el("dd", {}, speed, el("span", {}, "m/s")),
+        el("dt", {}, "Turn rate"),
+        el("dd", {}, turnRate, el("span", {}, "rad/s")),
+        topic,
+      ),
+      el("div", { class: "wv-teleop-stick" }, stick.element, left, right),
+    ),
+    note,
+  );
   const parts = [stick, ...sideways];
   return {
     element,
@@ -34,7 +47,10 @@ export function makeCard(change) {
     showHeld: stick.show,
     showRobot(values) {
       /** @type {[HTMLElement, string][]} */
-      const shown = [[speed, "speed"], [turnRate, "turn_rate"]];
+      const shown = [
+        [speed, "speed"],
+        [turnRate, "turn_rate"],
+      ];
       for (const [output, key] of shown) {
         setText(output, values.get(key)?.toFixed(2).replace("-", "−") ?? "–");
       }
@@ -64,18 +80,28 @@ function makeHold(key, label, way, change) {
     pointer = null;
     change();
   };
-  const element = el("button", {
-    type: "button", class: "wv-icon wv-teleop-side", "aria-label": label, "data-tip": label,
-    "data-key": key, tabindex: -1,
-    onpointerdown(event) {
-      if (pointer !== null || event.button !== 0) return;
-      element.setPointerCapture(event.pointerId);
-      pointer = event.pointerId;
-      change();
+  const element = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-icon wv-teleop-side",
+      "aria-label": label,
+      "data-tip": label,
+      "data-key": key,
+      tabindex: -1,
+      onpointerdown(event) {
+        if (pointer !== null || event.button !== 0) return;
+        element.setPointerCapture(event.pointerId);
+        pointer = event.pointerId;
+        change();
+      },
+      onpointerup: lift,
+      onpointercancel: lift,
+      onlostpointercapture: lift,
+      oncontextmenu: (event) => event.preventDefault(),
     },
-    onpointerup: lift, onpointercancel: lift, onlostpointercapture: lift,
-    oncontextmenu: (event) => event.preventDefault(),
-  }, way > 0 ? "◀" : "▶");
+    way > 0 ? "◀" : "▶",
+  );
   return {
     element,
     release: () => (pointer = null),

@@ -2,11 +2,16 @@
 
 const [LINEAR, LATERAL, ANGULAR] = [0, 1, 2];
 const KEYS = {
-  KeyW: [LINEAR, 1], ArrowUp: [LINEAR, 1],
-  KeyS: [LINEAR, -1], ArrowDown: [LINEAR, -1],
-  KeyA: [ANGULAR, 1], ArrowLeft: [ANGULAR, 1],
-  KeyD: [ANGULAR, -1], ArrowRight: [ANGULAR, -1],
-  KeyQ: [LATERAL, 1], KeyE: [LATERAL, -1],
+  KeyW: [LINEAR, 1],
+  ArrowUp: [LINEAR, 1],
+  KeyS: [LINEAR, -1],
+  ArrowDown: [LINEAR, -1],
+  KeyA: [ANGULAR, 1],
+  ArrowLeft: [ANGULAR, 1],
+  KeyD: [ANGULAR, -1],
+  ArrowRight: [ANGULAR, -1],
+  KeyQ: [LATERAL, 1],
+  KeyE: [LATERAL, -1],
 };
 
 const held = new Set();
@@ -14,7 +19,8 @@ const held = new Set();
 /** Hold a key from now on, true if it is for driving. Q and E go sideways, if the robot can. */
 export function press(event, canGoSideways) {
   const [axis] = KEYS[event.code] ?? [];
-  if (event.ctrlKey || event.metaKey || event.altKey) release(); // some hide that a key is let go
+  if (event.ctrlKey || event.metaKey || event.altKey)
+    release(); // some hide that a key is let go
   else if (axis !== undefined) {
     // A key that cannot drive is taken as well, else viser's camera would walk.
     if (!event.repeat && (axis !== LATERAL || canGoSideways)) held.add(event.code);

@@ -7,12 +7,22 @@ const DEAD = 0.08;
 /** Makes a stick; `change()` is called when it moves. */
 export function makeStick(change) {
   const knob = el("div", { class: "wv-stick-knob" });
-  const element = el("div", {
-    class: "wv-stick", role: "application", tabindex: 0,
-    "aria-label": "Drive: hold W A S D or arrow keys, or drag",
-    onpointerdown: press, onpointermove: move, onpointerup: lift, onpointercancel: lift,
-    onlostpointercapture: lift, oncontextmenu: (event) => event.preventDefault(),
-  }, knob);
+  const element = el(
+    "div",
+    {
+      class: "wv-stick",
+      role: "application",
+      tabindex: 0,
+      "aria-label": "Drive: hold W A S D or arrow keys, or drag",
+      onpointerdown: press,
+      onpointermove: move,
+      onpointerup: lift,
+      onpointercancel: lift,
+      onlostpointercapture: lift,
+      oncontextmenu: (event) => event.preventDefault(),
+    },
+    knob,
+  );
   let pointer = null;
   let at = [0, 0]; // to the right and up, within a circle of radius 1
 

@@ -37,18 +37,33 @@ export function collect(of, { points, yaw, keys }) {
 
 /** The card with what can be done with the waypoints. */
 export function install() {
-  const mode = el("button", {
-    type: "button", class: "wv-button wv-waypoint-mode", onclick: toggle,
-    "data-tip": "Collect poses and send them together",
-  }, icon("path"), el("span", {}, "Waypoints"));
+  const mode = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-button wv-waypoint-mode",
+      onclick: toggle,
+      "data-tip": "Collect poses and send them together",
+    },
+    icon("path"),
+    el("span", {}, "Waypoints"),
+  );
   const count = el("span", { class: "wv-quiet" });
   const back = iconButton("arrow-back", "Remove the last waypoint", () => put(poses.slice(0, -1)));
   const clear = iconButton("trash", "Remove all waypoints", () => put([]));
   const sends = el("div", { class: "wv-waypoint-sends" });
   const head = el("div", { class: "wv-waypoint-head" }, mode, count, back, clear);
-  const card = el("div", {
-    class: "wv-card wv-waypoints", role: "group", "aria-label": "Waypoints", hidden: true,
-  }, head, sends);
+  const card = el(
+    "div",
+    {
+      class: "wv-card wv-waypoints",
+      role: "group",
+      "aria-label": "Waypoints",
+      hidden: true,
+    },
+    head,
+    sends,
+  );
   const buttons = new Map();
 
   update = () => {
@@ -62,11 +77,14 @@ export function install() {
     for (const part of [back, clear, sends]) {
       if (part.hidden !== !poses.length) part.hidden = !poses.length;
     }
-    setChildren(sends, several.map((label) => {
-      const button = buttons.get(label) ?? sendButton(label);
-      buttons.set(label, button);
-      return button;
-    }));
+    setChildren(
+      sends,
+      several.map((label) => {
+        const button = buttons.get(label) ?? sendButton(label);
+        buttons.set(label, button);
+        return button;
+      }),
+    );
   };
   registry.onChange(update);
   // Numbers of another frame would be elsewhere.
@@ -82,11 +100,24 @@ export function install() {
 }
 
 const sendButton = (label) =>
-  el("button", { type: "button", class: "wv-button wv-primary", onclick: () => send(label) }, label);
+  el(
+    "button",
+    { type: "button", class: "wv-button wv-primary", onclick: () => send(label) },
+    label,
+  );
 
-const iconButton = (name, label, run) => el("button", {
-  type: "button", class: "wv-icon", "aria-label": label, "data-tip": label, onclick: run,
-}, icon(name));
+const iconButton = (name, label, run) =>
+  el(
+    "button",
+    {
+      type: "button",
+      class: "wv-icon",
+      "aria-label": label,
+      "data-tip": label,
+      onclick: run,
+    },
+    icon(name),
+  );
 
 function toggle() {
   isCollecting = !isCollecting;
@@ -99,8 +130,11 @@ function send(several) {
   put([]);
   if (registry.active().id === tool.id && !tool.stays) registry.select(null);
   history.send(tool, {
-    points: sent.map(({ point }) => point), yaws: sent.map(({ yaw }) => yaw),
-    yaw: sent[0].yaw, keys: [], several,
+    points: sent.map(({ point }) => point),
+    yaws: sent.map(({ yaw }) => yaw),
+    yaw: sent[0].yaw,
+    keys: [],
+    several,
   });
 }
 

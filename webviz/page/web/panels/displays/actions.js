@@ -41,14 +41,18 @@ export function remove(model, rows, items) {
   const stays = (row) => model.byId.has(row.id) && !goes(row);
   const goes = (row) => row !== null && (ids.has(row.id) || goes(row.parent));
   const last = rows.findLastIndex(goes);
-  selection.leaveTo((rows.slice(last + 1).find(stays) ?? rows.slice(0, last).findLast(stays))?.id ?? null);
+  selection.leaveTo(
+    (rows.slice(last + 1).find(stays) ?? rows.slice(0, last).findLast(stays))?.id ?? null,
+  );
   each("RemoveDisplay", items);
 }
 
 /** Copies displays as a config file has them. */
 export async function copyAsYaml(items) {
   const { level, text } = await act(
-    "WriteDisplays", { displays: items.map(({ id }) => id) }, { quiet: true },
+    "WriteDisplays",
+    { displays: items.map(({ id }) => id) },
+    { quiet: true },
   );
   if (level === "error") return;
   const what = items.length === 1 ? items[0].name : `${items.length} displays`;
@@ -90,23 +94,39 @@ export function openActions(x, y, { model, rows, rename, refresh }) {
   openMenu(x, y, [
     { label: "Focus", icon: "focus", disabled: !isOne, run: () => focus(first) },
     {
-      label: "Rename", icon: "pencil", key: "F2", needs: "SetProperty", disabled: !isOne || !first.can_edit,
+      label: "Rename",
+      icon: "pencil",
+      key: "F2",
+      needs: "SetProperty",
+      disabled: !isOne || !first.can_edit,
       run: () => rename(first.id),
     },
     { label: "Duplicate", icon: "copy", needs: "DuplicateDisplay", run: () => duplicate(items) },
     { label: "Copy as YAML", icon: "file", key: "Ctrl+c", run: () => copyAsYaml(items) },
     {
-      label: "Put into a new group", icon: "folder", needs: "AddDisplay",
+      label: "Put into a new group",
+      icon: "folder",
+      needs: "AddDisplay",
       run: async () => rename(await group(model, items)),
     },
     {
-      label: "Reset to defaults", icon: "reset", needs: "ResetDisplay", run: () => reset(items),
+      label: "Reset to defaults",
+      icon: "reset",
+      needs: "ResetDisplay",
+      run: () => reset(items),
       disabled: !canEdit || items.every((item) => item.isGroup),
     },
     null,
-    { label: "Remove", icon: "trash", key: "Delete", danger: true, needs: "RemoveDisplay", run: () => {
-      remove(model, rows(), items);
-      refresh();
-    } },
+    {
+      label: "Remove",
+      icon: "trash",
+      key: "Delete",
+      danger: true,
+      needs: "RemoveDisplay",
+      run: () => {
+        remove(model, rows(), items);
+        refresh();
+      },
+    },
   ]);
 }

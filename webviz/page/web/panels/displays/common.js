@@ -11,7 +11,8 @@ export function commonOf(lists) {
     const same = others.map((list) => list.find(({ path }) => path === property.path));
     if (ALONE.has(property.kind) || !same.every((one) => one && isAlike(one, property))) return [];
     const all = [property, ...same];
-    if (property.kind === "topic" && new Set(all.map(({ type }) => type)).size > 1) return qosOf(all);
+    if (property.kind === "topic" && new Set(all.map(({ type }) => type)).size > 1)
+      return qosOf(all);
     if (!property.children) return withDefault(property, all);
     const children = commonOf(all.map((one) => one.children));
     return children.length ? [{ ...property, children }] : [];
@@ -40,10 +41,18 @@ function withDefault(property, all) {
 
 /** The values of these properties by their keys in the stores; `MIXED` where they are not equal. */
 export function valuesOf(stores, declared) {
-  return new Map(leavesOf(declared).map(({ path, kind }) => {
-    const key = `value.${path}`;
-    return [key, merged(stores.map((values) => values.get(key)), kind === "vector")];
-  }));
+  return new Map(
+    leavesOf(declared).map(({ path, kind }) => {
+      const key = `value.${path}`;
+      return [
+        key,
+        merged(
+          stores.map((values) => values.get(key)),
+          kind === "vector",
+        ),
+      ];
+    }),
+  );
 }
 
 const leavesOf = (declared) =>

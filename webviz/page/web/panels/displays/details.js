@@ -21,8 +21,11 @@ export function buildDetails(panel) {
   let isOpen = recall(OPEN_KEY, true);
   const title = el("h2", { class: "wv-details-title" });
   const button = (name, label, run) =>
-    el("button", { type: "button", class: "wv-icon", "aria-label": label, "data-tip": label, onclick: run },
-      icon(name));
+    el(
+      "button",
+      { type: "button", class: "wv-icon", "aria-label": label, "data-tip": label, onclick: run },
+      icon(name),
+    );
   const tools = [
     button("focus", "Focus", () => focus(shown[0])),
     button("copy", "Duplicate", () => duplicate(shown)),
@@ -31,8 +34,12 @@ export function buildDetails(panel) {
   const head = el("div", { class: "wv-details-head" }, title, ...tools, close);
   const body = el("div", { class: "wv-details-body" });
   const border = el("div", {
-    class: "wv-details-border", role: "separator", tabindex: 0, "aria-orientation": "horizontal",
-    "aria-label": "Height of the properties", "data-tip": "Drag, or double click to close",
+    class: "wv-details-border",
+    role: "separator",
+    tabindex: 0,
+    "aria-orientation": "horizontal",
+    "aria-label": "Height of the properties",
+    "data-tip": "Drag, or double click to close",
     ondblclick: () => setOpen(false),
     onpointerdown: (event) => border.setPointerCapture(event.pointerId),
     onpointermove: (event) => {
@@ -48,7 +55,13 @@ export function buildDetails(panel) {
       remember(HEIGHT_KEY, element.offsetHeight);
     },
   });
-  const element = el("section", { class: "wv-details", "aria-label": "Properties" }, border, head, body);
+  const element = el(
+    "section",
+    { class: "wv-details", "aria-label": "Properties" },
+    border,
+    head,
+    body,
+  );
   setHeight(recall(HEIGHT_KEY, 280));
 
   // As a share of what both have, it fits when the window becomes smaller.

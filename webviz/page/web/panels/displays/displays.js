@@ -19,17 +19,33 @@ export const displays = {
   title: "Displays",
   open(panel) {
     const field = el("input", {
-      type: "search", class: "wv-field", placeholder: "Filter displays", spellcheck: "false",
-      "aria-label": "Filter displays", autocomplete: "off",
+      type: "search",
+      class: "wv-field",
+      placeholder: "Filter displays",
+      spellcheck: "false",
+      "aria-label": "Filter displays",
+      autocomplete: "off",
     });
     const hint = el("kbd", { class: "wv-tree-hint", "aria-hidden": "true" }, keyText("Ctrl+f"));
-    const more = el("button", {
-      type: "button", class: "wv-icon", "aria-label": "List options", "aria-haspopup": "menu",
-      "data-tip": "List options",
-      onclick: () => openMenuBelow(more, menu()),
-    }, icon("dots"));
-    const add = el("button", { type: "button", class: "wv-tree-add", onclick: () => openAdd() },
-      icon("plus", 14), "Add display", el("kbd", { "aria-hidden": "true" }, keyText("Insert")));
+    const more = el(
+      "button",
+      {
+        type: "button",
+        class: "wv-icon",
+        "aria-label": "List options",
+        "aria-haspopup": "menu",
+        "data-tip": "List options",
+        onclick: () => openMenuBelow(more, menu()),
+      },
+      icon("dots"),
+    );
+    const add = el(
+      "button",
+      { type: "button", class: "wv-tree-add", onclick: () => openAdd() },
+      icon("plus", 14),
+      "Add display",
+      el("kbd", { "aria-hidden": "true" }, keyText("Insert")),
+    );
     needs("AddDisplay", add);
     const details = buildDetails(panel);
     const tree = buildTree({
@@ -40,8 +56,14 @@ export const displays = {
       },
     });
     panel.append(
-      el("div", { class: "wv-tree-filter" }, el("div", { class: "wv-tree-search" }, field, hint), more),
-      tree.element, details.element,
+      el(
+        "div",
+        { class: "wv-tree-filter" },
+        el("div", { class: "wv-tree-search" }, field, hint),
+        more,
+      ),
+      tree.element,
+      details.element,
     );
 
     function menu() {
@@ -55,7 +77,8 @@ export const displays = {
         { label: "Properties in the tree only", checked: !details.isOpen(), run: choose(false) },
         null,
         {
-          label: "Select several", checked: selection.severalAtOnce(),
+          label: "Select several",
+          checked: selection.severalAtOnce(),
           run: () => selection.selectSeveral(!selection.severalAtOnce()),
         },
         null,
@@ -76,26 +99,44 @@ export const displays = {
       const side = panel.closest(".wv-side") ?? panel;
       return side.matches(":hover") || side.contains(document.activeElement);
     };
-    const about = (name, wanted) => command({
-      name, group: "Displays", isThere: () => chosen().length > 0, ...wanted,
-    });
+    const about = (name, wanted) =>
+      command({
+        name,
+        group: "Displays",
+        isThere: () => chosen().length > 0,
+        ...wanted,
+      });
     const chosen = () => topmost(tree.model(), selection.ids());
     const one = () => (chosen().length === 1 ? chosen()[0] : null);
     const ends = [
       about("Focus on display", { icon: "focus", isThere: one, run: () => actions.focus(one()) }),
       about("Duplicate display", {
-        icon: "copy", needs: "DuplicateDisplay", run: () => actions.duplicate(chosen()),
+        icon: "copy",
+        needs: "DuplicateDisplay",
+        run: () => actions.duplicate(chosen()),
       }),
       about("Rename display", {
-        key: "F2", needs: "SetProperty", isThere: one, isKeyHere: isHere, run: () => tree.rename(one().id),
+        key: "F2",
+        needs: "SetProperty",
+        isThere: one,
+        isKeyHere: isHere,
+        run: () => tree.rename(one().id),
       }),
       about("Remove display", {
-        icon: "trash", key: "Delete", needs: "RemoveDisplay", isKeyHere: isHere,
+        icon: "trash",
+        key: "Delete",
+        needs: "RemoveDisplay",
+        isKeyHere: isHere,
         run: () => actions.remove(tree.model(), tree.rows(), chosen()),
       }),
       command({
-        name: "Filter displays", icon: "search", key: "Ctrl+f", group: "Displays", inFields: true,
-        isKeyHere: isHere, run: () => field.select(),
+        name: "Filter displays",
+        icon: "search",
+        key: "Ctrl+f",
+        group: "Displays",
+        inFields: true,
+        isKeyHere: isHere,
+        run: () => field.select(),
       }),
     ];
     return () => {

@@ -38,8 +38,9 @@ export function listenToKeys(element, tree) {
       return;
     }
     const isOne = !selection.isSelected(item.id);
-    const items = (isOne ? [item] : [...selection.ids()].map((id) => tree.model().byId.get(id)))
-      .filter((each) => each?.can_edit);
+    const items = (
+      isOne ? [item] : [...selection.ids()].map((id) => tree.model().byId.get(id))
+    ).filter((each) => each?.can_edit);
     if (items.length) actions.setEnabled(items, !actions.isEnabled(item), tree.refresh);
   }
 
@@ -49,8 +50,12 @@ export function listenToKeys(element, tree) {
     const withCtrl = event.ctrlKey || event.metaKey;
     const page = Math.max(1, Math.floor(element.clientHeight / 26) - 1);
     const to = {
-      ArrowDown: here() + 1, ArrowUp: here() - 1, Home: 0, End: Infinity,
-      PageDown: here() + page, PageUp: here() - page,
+      ArrowDown: here() + 1,
+      ArrowUp: here() - 1,
+      Home: 0,
+      End: Infinity,
+      PageDown: here() + page,
+      PageUp: here() - page,
     }[key];
     if (altKey) {
       if (!WAYS[key] || withCtrl) return false;

@@ -9,13 +9,28 @@ export const GLOBAL = "global";
 /** The row on top, of what holds for everything; its settings come from another store. */
 export function globalItem(settings) {
   const statuses = settings.get("statuses") ?? [];
-  const level = ["error", "warn"].find((one) => statuses.some((status) => status[1] === one)) ?? "ok";
-  const [, , line, remedy] = level === "ok" ? ["", "", ""] : statuses.find((one) => one[1] === level);
+  const level =
+    ["error", "warn"].find((one) => statuses.some((status) => status[1] === one)) ?? "ok";
+  const [, , line, remedy] =
+    level === "ok" ? ["", "", ""] : statuses.find((one) => one[1] === level);
   const rate = settings.get("frame_rate");
   const note = rate === undefined ? "" : `${settings.get("fixed_frame")}, ${Math.round(rate)} Hz`;
   return {
-    id: GLOBAL, path: GLOBAL, name: "Global Options", type: "Global", depth: 0, level, line, remedy, note,
-    topics: [], enabled: true, isActive: true, isGroup: false, parent: null, children: [],
+    id: GLOBAL,
+    path: GLOBAL,
+    name: "Global Options",
+    type: "Global",
+    depth: 0,
+    level,
+    line,
+    remedy,
+    note,
+    topics: [],
+    enabled: true,
+    isActive: true,
+    isGroup: false,
+    parent: null,
+    children: [],
   };
 }
 
@@ -38,7 +53,15 @@ export function arrange(values) {
     for (let count = 2; paths.has(path); count++) path = `${stem}#${count}`;
     paths.add(path);
     const isActive = row.enabled && (parent?.isActive ?? true);
-    const item = { ...row, id, parent, path, isActive, isGroup: row.type === "Group", children: [] };
+    const item = {
+      ...row,
+      id,
+      parent,
+      path,
+      isActive,
+      isGroup: row.type === "Group",
+      children: [],
+    };
     siblings(model, item).push(item);
     model.items.push(item);
     model.byId.set(id, item);

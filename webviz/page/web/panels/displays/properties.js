@@ -19,11 +19,15 @@ export function properties(element, id) {
     act("SetProperty", { display: id, path, value }, { quiet: true, errors: "caller" });
   const said = statuses({
     open: (show) =>
-      watch(`statuses:${id}`, (values) => show(values.get("statuses") ?? [], values.get("more") ?? 0)),
+      watch(`statuses:${id}`, (values) =>
+        show(values.get("statuses") ?? [], values.get("more") ?? 0),
+      ),
   });
   const place = el("div");
   element.append(said.element, place);
-  const made = maker(place, (declared, values) => form(declared, { send, name: values.get("type"), command: "SetProperty" }));
+  const made = maker(place, (declared, values) =>
+    form(declared, { send, name: values.get("type"), command: "SetProperty" }),
+  );
   const end = watch(`properties:${id}`, (values, changed) => {
     if (changed.has("worst")) said.worst(values.get("worst"));
     made.update(values, changed);
@@ -55,9 +59,13 @@ export function globalOptions(element) {
   });
   const place = el("div");
   element.append(said.element, place);
-  const made = maker(place, (declared) => form(declared.map(withFrame), {
-    send, name: "settings", command: "SetFixedFrame",
-  }));
+  const made = maker(place, (declared) =>
+    form(declared.map(withFrame), {
+      send,
+      name: "settings",
+      command: "SetFixedFrame",
+    }),
+  );
   const end = watch("settings", (values, changed) => {
     if (changed.has("statuses")) {
       lines = [values.get("statuses"), values.get("more")];

@@ -8,7 +8,10 @@ import { el } from "../../dom.js";
 export function rename(row, item) {
   if (why("SetProperty") || row.element.querySelector(".wv-tree-rename")) return;
   const field = el("input", {
-    class: "wv-field wv-tree-rename", "aria-label": "Name", maxlength: 10000, spellcheck: "false",
+    class: "wv-field wv-tree-rename",
+    "aria-label": "Name",
+    maxlength: 10000,
+    spellcheck: "false",
   });
   field.value = item.name;
   row.name.hidden = true;
@@ -25,7 +28,8 @@ export function rename(row, item) {
     row.name.hidden = false;
     if (hadFocus) row.row.focus({ preventScroll: true });
     const name = field.value.trim();
-    if (isKept && name !== item.name) act("SetProperty", { display: item.id, path: "name", value: name });
+    if (isKept && name !== item.name)
+      act("SetProperty", { display: item.id, path: "name", value: name });
   }
 
   field.addEventListener("blur", () => finish(true));

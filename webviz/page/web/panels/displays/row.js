@@ -18,23 +18,43 @@ const MAX_TOOLTIP = 1000;
 export function makeRow(first, look) {
   const { id, type } = first;
   const isGlobal = type === "Global";
-  const fold = el("button", { type: "button", class: "wv-tree-fold", tabindex: -1, "data-part": "fold" },
-    icon("chevron", 12));
+  const fold = el(
+    "button",
+    { type: "button", class: "wv-tree-fold", tabindex: -1, "data-part": "fold" },
+    icon("chevron", 12),
+  );
   const box = el("input", { type: "checkbox", tabindex: -1, "data-part": "box" });
   const name = el("span", { class: "wv-tree-name" });
   const note = el("span", { class: "wv-tree-note" });
-  const more = el("button", {
-    type: "button", class: "wv-icon wv-tree-more", tabindex: -1, "data-part": "more",
-    "aria-haspopup": "menu",
-  }, icon("dots"));
+  const more = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-icon wv-tree-more",
+      tabindex: -1,
+      "data-part": "more",
+      "aria-haspopup": "menu",
+    },
+    icon("dots"),
+  );
   const dot = el("span", { class: "wv-tree-dot" });
   const line = el("div", { class: "wv-tree-status", id: `wv-status-${id}` });
-  const head = el("div", { class: "wv-tree-head" },
+  const head = el(
+    "div",
+    { class: "wv-tree-head" },
     fold,
-    isGlobal ? el("span", { class: "wv-tree-box" }) : el("label", { class: "wv-tree-box", "data-part": "box" }, box),
-    el("span", { class: "wv-tree-type", "data-tip": isGlobal ? null : plain(type) || null },
-      icon(isGlobal ? "gear" : first.icon)),
-    name, note, isGlobal ? null : more, dot,
+    isGlobal
+      ? el("span", { class: "wv-tree-box" })
+      : el("label", { class: "wv-tree-box", "data-part": "box" }, box),
+    el(
+      "span",
+      { class: "wv-tree-type", "data-tip": isGlobal ? null : plain(type) || null },
+      icon(isGlobal ? "gear" : first.icon),
+    ),
+    name,
+    note,
+    isGlobal ? null : more,
+    dot,
   );
   const remedy = el("div", { class: "wv-tree-remedy", "data-part": "remedy", hidden: true });
   const row = el("div", { class: "wv-tree-row", role: "treeitem" }, head, line, remedy);
@@ -66,9 +86,11 @@ export function makeRow(first, look) {
   function showRate(isShown) {
     if (isShown === Boolean(unwatch)) return;
     unwatch?.();
-    unwatch = isShown ? watch(`rate:${id}`, (values) => {
-      setText(note, values.has("hz") ? `${values.get("hz")} Hz` : "");
-    }) : null;
+    unwatch = isShown
+      ? watch(`rate:${id}`, (values) => {
+          setText(note, values.has("hz") ? `${values.get("hz")} Hz` : "");
+        })
+      : null;
     if (!isShown) setText(note, "");
   }
 
@@ -79,15 +101,24 @@ export function makeRow(first, look) {
     const said = item.isActive && !(item.isGroup && isOpen) ? plain(item.line, MAX_TOOLTIP) : "";
     const level = item.isActive ? item.level : null;
     set(row, {
-      "aria-level": item.depth + 1, "aria-selected": String(isSelected),
-      "aria-expanded": String(isOpen), "aria-posinset": position, "aria-setsize": count,
-      "aria-label": text, "aria-describedby": said ? line.id : null,
-      "aria-checked": isGlobal ? null : String(enabled), tabindex: isTabStop ? 0 : -1,
-      "data-off": !item.isActive, "data-level": level,
+      "aria-level": item.depth + 1,
+      "aria-selected": String(isSelected),
+      "aria-expanded": String(isOpen),
+      "aria-posinset": position,
+      "aria-setsize": count,
+      "aria-label": text,
+      "aria-describedby": said ? line.id : null,
+      "aria-checked": isGlobal ? null : String(enabled),
+      tabindex: isTabStop ? 0 : -1,
+      "data-off": !item.isActive,
+      "data-level": level,
     });
     row.style.setProperty("--depth", item.depth);
     set(fold, { "aria-label": `${isOpen ? "Fold" : "Unfold"} ${text}` });
-    set(box, { "aria-label": `Show ${text}`, disabled: !isGlobal && !item.can_edit || why("SetProperty") !== "" });
+    set(box, {
+      "aria-label": `Show ${text}`,
+      disabled: (!isGlobal && !item.can_edit) || why("SetProperty") !== "",
+    });
     if (box.checked !== enabled) box.checked = enabled;
     setText(name, text);
     set(more, { "aria-label": `Actions for ${text}` });

@@ -104,7 +104,10 @@ export function follow(items) {
   }
   for (const id of went) remembered.add(id);
   gone = items.length > 1 ? remembered : new Set(); // of another config
-  place = Math.max(items.findIndex(({ id }) => id === current), 0);
+  place = Math.max(
+    items.findIndex(({ id }) => id === current),
+    0,
+  );
   return null;
 }
 

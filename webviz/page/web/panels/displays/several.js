@@ -33,17 +33,27 @@ export function severalProperties(element, ids) {
     const now = performance.now();
     const goesOn = last.path === path && now - last.at < SAME_MS;
     last = { path, at: now, step: goesOn ? last.step : newStep() };
-    const answers = await Promise.all(ids.map(async (id) => {
-      const own = stores.get(id).get(`value.${path}`);
-      const fields = { display: id, path, value: filled(value, own) };
-      const answer = await act("SetProperty", fields, { quiet: true, errors: "caller", step: last.step });
-      return { ...answer, id };
-    }));
+    const answers = await Promise.all(
+      ids.map(async (id) => {
+        const own = stores.get(id).get(`value.${path}`);
+        const fields = { display: id, path, value: filled(value, own) };
+        const answer = await act("SetProperty", fields, {
+          quiet: true,
+          errors: "caller",
+          step: last.step,
+        });
+        return { ...answer, id };
+      }),
+    );
     const failed = answers.find(({ level }) => level === "error");
-    return failed ? { ...failed, text: `${plain(stores.get(failed.id).get("name"))}: ${failed.text}` } : answers[0];
+    return failed
+      ? { ...failed, text: `${plain(stores.get(failed.id).get("name"))}: ${failed.text}` }
+      : answers[0];
   }
 
-  const made = maker(place, (declared) => form(declared, { send, name: "several", command: "SetProperty" }));
+  const made = maker(place, (declared) =>
+    form(declared, { send, name: "several", command: "SetProperty" }),
+  );
   function update() {
     const all = ids.map((id) => stores.get(id));
     if (!all.every((values) => values?.has("declared"))) return;
@@ -59,7 +69,8 @@ export function severalProperties(element, ids) {
     watch(`properties:${id}`, (values) => {
       stores.set(id, values);
       update();
-    }));
+    }),
+  );
   return () => {
     for (const end of ends) end();
     made.end();

@@ -9,9 +9,18 @@ let count = 0;
 
 /** A button that does what helps. */
 export const remedyButton = ({ label, command, arguments: fields }) =>
-  needs(command, el("button", {
-    type: "button", class: "wv-button wv-remedy", onclick: () => act(command, fields),
-  }, label));
+  needs(
+    command,
+    el(
+      "button",
+      {
+        type: "button",
+        class: "wv-button wv-remedy",
+        onclick: () => act(command, fields),
+      },
+      label,
+    ),
+  );
 
 /**
  * Statuses that are folded while all is well, until they are unfolded by hand.
@@ -24,13 +33,22 @@ export function statuses({ open }) {
   count += 1;
   const list = el("ul", { class: "wv-statuses-lines", id: `wv-statuses-${count}` });
   const note = el("span", { class: "wv-status-note" });
-  const toggle = el("button", {
-    type: "button", class: "wv-section-fold wv-status-head", "aria-controls": list.id,
-    onclick: () => {
-      chosen = list.hidden;
-      unfold();
+  const toggle = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-section-fold wv-status-head",
+      "aria-controls": list.id,
+      onclick: () => {
+        chosen = list.hidden;
+        unfold();
+      },
     },
-  }, icon("chevron", 12), "Status", el("span", { class: "wv-dot", "aria-hidden": "true" }), note);
+    icon("chevron", 12),
+    "Status",
+    el("span", { class: "wv-dot", "aria-hidden": "true" }),
+    note,
+  );
   const element = el("section", { class: "wv-statuses", "aria-label": "Status" }, toggle, list);
   let chosen = null;
   let level = "ok";
@@ -57,7 +75,8 @@ export function statuses({ open }) {
     setText(name, `${key}: `);
     setText(said, text);
     const isThere = element.children.length > 2;
-    if (isThere && element.dataset.remedy !== JSON.stringify(remedy)) element.lastElementChild.remove();
+    if (isThere && element.dataset.remedy !== JSON.stringify(remedy))
+      element.lastElementChild.remove();
     if (remedy && element.children.length === 2) {
       set(element, { "data-remedy": JSON.stringify(remedy) });
       element.append(remedyButton(remedy));

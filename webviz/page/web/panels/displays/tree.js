@@ -38,12 +38,18 @@ export function buildTree({ after, changed }) {
   let isKnown = false; // whether the viewer has said which displays there are
   let toRename = null;
   const canvas = el("div", {
-    class: "wv-tree-canvas", role: "tree", "aria-label": "Displays", "aria-multiselectable": "true",
+    class: "wv-tree-canvas",
+    role: "tree",
+    "aria-label": "Displays",
+    "aria-multiselectable": "true",
   });
   const none = el("p", { class: "wv-tree-none", hidden: true });
   const element = el("div", { class: "wv-tree" }, canvas, none, after);
   const list = virtualList({
-    scroller: element, canvas, guess, make: (item) => makeRow(item, look),
+    scroller: element,
+    canvas,
+    guess,
+    make: (item) => makeRow(item, look),
     isHeld: (id) => id === selection.active(),
   });
 
@@ -72,7 +78,9 @@ export function buildTree({ after, changed }) {
     const isGlobalShown = !words.length || matches(global, words);
     rows = [...(isGlobalShown ? [global] : []), ...visible(model, folding.isOpen, search)];
     if (!rows.some(({ id }) => id === selection.active())) {
-      selection.activate(rows.find(({ id }) => selection.isSelected(id))?.id ?? rows[0]?.id ?? null);
+      selection.activate(
+        rows.find(({ id }) => selection.isSelected(id))?.id ?? rows[0]?.id ?? null,
+      );
     }
     list.show(rows);
     const sentence = !model.items.length ? (isKnown ? EMPTY : "") : rows.length ? "" : NOT_FOUND;
@@ -96,13 +104,15 @@ export function buildTree({ after, changed }) {
     const added = selection.follow(items);
     if (added) {
       if (!matches(model.byId.get(added), wordsOf(search))) search = "";
-      for (let one = model.byId.get(added).parent; one; one = one.parent) folding.setOpen(one, true);
+      for (let one = model.byId.get(added).parent; one; one = one.parent)
+        folding.setOpen(one, true);
     }
     refresh();
     if (added) list.reveal(added);
     else if (!isThere && model.items.length) element.scrollTop = recall(SCROLL_KEY, 0);
     isThere ||= model.items.length > 0;
-    if (hadFocus && (selection.active() !== before || !canvas.contains(document.activeElement))) focus();
+    if (hadFocus && (selection.active() !== before || !canvas.contains(document.activeElement)))
+      focus();
     if (toRename && model.byId.has(toRename)) startRename(toRename);
   }
 
@@ -135,7 +145,9 @@ export function buildTree({ after, changed }) {
     rename: startRename,
     itemAt: (target) => {
       const id = target.closest?.(".wv-tree-node")?.dataset.id;
-      return id && !target.closest(".wv-tree-inside, .wv-tree-rename") ? rows.find((row) => row.id === id) : null;
+      return id && !target.closest(".wv-tree-inside, .wv-tree-rename")
+        ? rows.find((row) => row.id === id)
+        : null;
     },
     setOpen(item, open) {
       folding.setOpen(item, open);
@@ -184,9 +196,10 @@ export function buildTree({ after, changed }) {
 
   function onHover(event) {
     const name = event.target.closest(".wv-tree-name");
-    if (name) set(name, { "data-tip": name.scrollWidth > name.clientWidth ? name.textContent : null });
+    if (name)
+      set(name, { "data-tip": name.scrollWidth > name.clientWidth ? name.textContent : null });
     clearTimeout(timer);
-    const id = event.pointerType === "mouse" ? tree.itemAt(event.target)?.id ?? null : null;
+    const id = event.pointerType === "mouse" ? (tree.itemAt(event.target)?.id ?? null) : null;
     if (id === hovered) return;
     timer = setTimeout(() => {
       hovered = id;

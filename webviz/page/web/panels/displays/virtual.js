@@ -120,7 +120,10 @@ export function virtualList({ scroller, canvas, make, guess, isHeld }) {
       } else if (!isChanged) continue;
       row.update(item);
     }
-    setChildren(canvas, shown.map(({ id }) => mounted.get(id).element));
+    setChildren(
+      canvas,
+      shown.map(({ id }) => mounted.get(id).element),
+    );
     for (const element of made) measured.observe(element);
   }
 

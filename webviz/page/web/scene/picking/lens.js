@@ -47,8 +47,7 @@ export function onCanvasAt([x, y]) {
  * @param {Three} point
  * @returns {number}
  */
-export const depthOf = (point) =>
-  -point.clone().applyMatrix4(viser.camera().matrixWorldInverse).z;
+export const depthOf = (point) => -point.clone().applyMatrix4(viser.camera().matrixWorldInverse).z;
 
 /**
  * The size of a pixel at a depth, in metres.

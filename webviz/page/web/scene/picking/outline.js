@@ -9,7 +9,12 @@ import { cornersOf } from "./texts.js";
 
 // The corners of a box by the bits of their numbers, and which of them its edges join.
 const CORNERS = [0, 1, 2, 3, 4, 5, 6, 7];
-const AROUND = [[0, 1], [1, 2], [2, 3], [3, 0]];
+const AROUND = [
+  [0, 1],
+  [1, 2],
+  [2, 3],
+  [3, 0],
+];
 const EDGES = CORNERS.flatMap((from) =>
   [1, 2, 4].filter((bit) => !(from & bit)).map((bit) => [from, from | bit]),
 );
@@ -41,7 +46,12 @@ export function outlineOf(pick, find, moves) {
 function isSame(pick, object, moves) {
   const at = anchorOf(object, pick.item);
   if (moves) return at.length > 0;
-  return at.length > 0 && at.every((/** @type {number} */ number, /** @type {number} */ axis) => number === pick.local[axis]);
+  return (
+    at.length > 0 &&
+    at.every(
+      (/** @type {number} */ number, /** @type {number} */ axis) => number === pick.local[axis],
+    )
+  );
 }
 
 /**
@@ -57,7 +67,9 @@ function make(pick, object) {
   if (object.isText) return { points: cornersOf(object), edges: AROUND };
   if (object.isPoints) return { points: [place(pick.local, object.matrixWorld)], edges: [] };
   if (object.isLineSegments2) {
-    const ends = lineOf(object, pick.item).map((xyz) => place(/** @type {Vec3} */ (xyz), object.matrixWorld));
+    const ends = lineOf(object, pick.item).map((xyz) =>
+      place(/** @type {Vec3} */ (xyz), object.matrixWorld),
+    );
     return { points: ends, edges: [[0, 1]] };
   }
   if (object.material?.map && object.geometry.parameters?.width) return cell(pick, object);
@@ -112,8 +124,15 @@ function cell(pick, object) {
   const whole = /** @type {ThreeTree} */ (viser.node(pick.path));
   const hit = vector(pick.at).applyMatrix4(whole.matrixWorld);
   const { x, y } = hit.applyMatrix4(object.matrixWorld.clone().invert());
-  const start = [x, y].map((place, axis) => Math.floor(place / steps[axis] + shift(axis)) - shift(axis));
-  const points = [[0, 0], [1, 0], [1, 1], [0, 1]].map(([right, up]) => {
+  const start = [x, y].map(
+    (place, axis) => Math.floor(place / steps[axis] + shift(axis)) - shift(axis),
+  );
+  const points = [
+    [0, 0],
+    [1, 0],
+    [1, 1],
+    [0, 1],
+  ].map(([right, up]) => {
     /** @type {Vec3} */
     const corner = [(start[0] + right) * steps[0], (start[1] + up) * steps[1], 0];
     return vector(corner).applyMatrix4(object.matrixWorld);

@@ -78,14 +78,20 @@ function hitOf({ object, name }, at, caster, reach) {
   if (object.isText) return textAt(object, at);
   if (object.isPoints) return pointAt(object, at, reach);
   if (object.isLineSegments2) return lineAt(object, at, reach);
-  const [hit] = caster.intersectObject(object, false).sort((/** @type {Three} */ a, /** @type {Three} */ b) => a.distance - b.distance);
+  const [hit] = caster
+    .intersectObject(object, false)
+    .sort((/** @type {Three} */ a, /** @type {Three} */ b) => a.distance - b.distance);
   if (!hit) return null;
   // Not the point of the hit, which is wrong for instanced meshes.
   const point = caster.ray.at(hit.distance, viser.camera().position.clone());
   const found = { number: hit.instanceId ?? null, off: 0, depth: depthOf(point), point };
   if (!isTile(name)) return found;
   // Farther than what lies on it.
-  return { ...found, depth: found.depth + PLANE_PX * pixelAt(found.depth), layer: object.renderOrder };
+  return {
+    ...found,
+    depth: found.depth + PLANE_PX * pixelAt(found.depth),
+    layer: object.renderOrder,
+  };
 }
 
 // Of what lies in one plane, a point is meant rather than a line, and that rather than a surface.
@@ -154,7 +160,9 @@ function described(found, caster) {
  * @param {Three} caster
  */
 function onRay({ depth }, caster) {
-  const forward = caster.ray.direction.clone().transformDirection(viser.camera().matrixWorldInverse);
+  const forward = caster.ray.direction
+    .clone()
+    .transformDirection(viser.camera().matrixWorldInverse);
   const start = depthOf(caster.ray.origin);
   return caster.ray.at((depth - start) / -forward.z, viser.camera().position.clone());
 }
@@ -196,7 +204,8 @@ function itemsIn(object, box, take) {
     return x >= box.left && x <= box.right && y >= box.top && y <= box.bottom;
   };
   if (object.isLineSegments2) {
-    for (let i = 0; i < lineCount(object); i++) if (lineOf(object, i).every((end) => isIn(/** @type {Vec3} */ (end)))) take(i);
+    for (let i = 0; i < lineCount(object); i++)
+      if (lineOf(object, i).every((end) => isIn(/** @type {Vec3} */ (end)))) take(i);
   } else if (object.instancesCount === undefined) {
     if (isIn(anchorOf(object, null))) take(null);
   } else {

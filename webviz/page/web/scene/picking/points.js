@@ -9,7 +9,10 @@ const ROUND = 1000; // above this, the norm of its outline makes a point a squar
 // The coordinates of the points that are drawn, which may be the first ones only.
 /** @param {Three} points */
 const drawn = ({ geometry: { attributes, drawRange } }) =>
-  attributes.position?.array.subarray(0, 3 * Math.min(drawRange.count, attributes.position.count)) ?? [];
+  attributes.position?.array.subarray(
+    0,
+    3 * Math.min(drawRange.count, attributes.position.count),
+  ) ?? [];
 
 /**
  * The point under a place of the canvas, or the nearest within `near` pixels: `{number, depth, off}`.

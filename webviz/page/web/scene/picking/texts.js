@@ -28,7 +28,8 @@ export function texts() {
     if (!node) continue;
     const place = node.position.clone().fromArray(local).applyMatrix4(node.matrixWorld);
     const rect = drawn.get(keyOf(place));
-    if (rect) found.push({ object: { isText: true, number: Number(number), local, place, rect }, name });
+    if (rect)
+      found.push({ object: { isText: true, number: Number(number), local, place, rect }, name });
   }
   return found;
 }
@@ -48,7 +49,11 @@ function rectangles() {
       const scale = data[at + 3] ? aParams.getY(i) : 0;
       const sizes = [rect.getX(i), rect.getY(i), rect.getZ(i), rect.getW(i)];
       const [x, y, z] = data.subarray(at, at + 3);
-      if (scale) found.set(keyOf({ x, y, z }), sizes.map((size) => size * scale));
+      if (scale)
+        found.set(
+          keyOf({ x, y, z }),
+          sizes.map((size) => size * scale),
+        );
     }
   }
   return found;
@@ -62,8 +67,17 @@ function rectangles() {
 export function cornersOf({ place, rect: [left, bottom, wide, tall] }) {
   const { elements: m } = viser.camera().matrixWorld;
   const [right, up] = [0, 4].map((at) => place.clone().set(m[at], m[at + 1], m[at + 2]));
-  return [[0, 0], [1, 0], [1, 1], [0, 1]].map(([x, y]) =>
-    place.clone().addScaledVector(right, left + x * wide).addScaledVector(up, bottom + y * tall));
+  return [
+    [0, 0],
+    [1, 0],
+    [1, 1],
+    [0, 1],
+  ].map(([x, y]) =>
+    place
+      .clone()
+      .addScaledVector(right, left + x * wide)
+      .addScaledVector(up, bottom + y * tall),
+  );
 }
 
 /**

@@ -45,8 +45,11 @@ export function things() {
 
 /** Finds among `things` the object of a node by its name and ordinal; null for none. */
 export function finder() {
-  const objects = new Map(things().map(({ object, name, ordinal }) => [`${ordinal} ${name}`, object]));
-  return (/** @type {string} */ name, /** @type {number} */ ordinal) => objects.get(`${ordinal} ${name}`) ?? null;
+  const objects = new Map(
+    things().map(({ object, name, ordinal }) => [`${ordinal} ${name}`, object]),
+  );
+  return (/** @type {string} */ name, /** @type {number} */ ordinal) =>
+    objects.get(`${ordinal} ${name}`) ?? null;
 }
 
 // Without a `raycast` of its own an object is a second pass of another, as viser draws lines.
