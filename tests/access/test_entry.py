@@ -29,7 +29,8 @@ from webviz.server.access.roles import LIMITS, LINKS, Limits, Role
 from webviz.server.access.tokens import make
 from webviz.server.channel.refusals import HALF
 from webviz.server.http import connections
-from webviz.server.http.connections import BURST_S, FLOODED, Allowance
+from webviz.server.http.allowances import Allowance
+from webviz.server.http.connections import BURST_S, FLOODED
 
 PARAMETERS = {role: name for name, role in LINKS.items()}
 
@@ -402,6 +403,24 @@ def test_a_page_that_keeps_sending_too_much_is_ended_with_the_reason(
     assert ended.value.rcvd is not None
     assert (ended.value.rcvd.code, ended.value.rcvd.reason) == (1008, FLOODED)
     assert house.reached.count("ResetView") < 300
+
+
+def test_a_page_that_connects_again_has_no_new_burst(
+    house: House, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(connections, "Allowance", lambda rate, burst: Allowance(1e-9, burst))
+    lasting = int(BURST_S * LIMITS[Role.WATCHER].messages_per_second) << 10  # bytes
+    much = {"frame": 2 * lasting // 3 * "x"}
+    watcher = house.enter(Role.WATCHER)
+    watcher.do("FocusFrame", **much)
+    watcher.close()
+    wait_until(lambda: not house.server.channel.browsers())
+    again, operator = house.enter(Role.WATCHER), house.enter(Role.OPERATOR)
+    again.send("Do", number=1, command="FocusFrame", arguments=much)
+    again.send("Do", number=2, command="Export", arguments={})
+    for _ in range(3):
+        assert operator.do("ResetView") == ""
+    assert house.reached.count("Export") == 0
 
 
 def test_messages_are_not_compressed_so_that_none_unfolds_without_end(house: House) -> None:

@@ -15,7 +15,8 @@ import websockets.exceptions
 from websockets.frames import Frame, Opcode
 
 from webviz.server.http import connections
-from webviz.server.http.connections import MAX_BROWSERS, READ_BYTES, Allowance, Connection
+from webviz.server.http.allowances import MAX_REMEMBERED, Allowance, SpentAllowances
+from webviz.server.http.connections import MAX_BROWSERS, READ_BYTES, Connection
 from webviz.server.http.crowding import network_of
 
 PAGE = b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"
@@ -121,6 +122,37 @@ def test_a_browser_may_send_a_burst_and_then_a_steady_rate() -> None:
     assert waits == pytest.approx([0, 0, 0, 0, 0, 0.1, 0.2])
     assert allowance.spend(1.0, now=101.0) == 0.0
     assert allowance.spend(10.0, now=200.0) == pytest.approx(0.5)
+
+
+def test_a_browser_that_connects_again_has_no_new_burst() -> None:
+    spent, before = SpentAllowances(), Allowance(rate=10.0, burst=5.0)
+    before.spend(8.0, now=100.0)
+    spent.note("a", before)
+    spent.note("a", Allowance(rate=10.0, burst=5.0))
+    again, other, later = (Allowance(rate=10.0, burst=5.0) for _ in range(3))
+    spent.resume("a", again, now=100.1)
+    assert again.spend(1.0, now=100.1) == pytest.approx(0.3)
+    assert again.exhausted_s(now=100.4) == pytest.approx(0.3)
+    spent.resume("b", other, now=100.1)
+    assert other.spend(5.0, now=100.1) == 0.0
+    spent.resume("a", later, now=200.0)
+    assert later.spend(5.0, now=200.0) == 0.0
+
+
+def test_of_too_many_browsers_those_with_most_left_are_forgotten() -> None:
+    spent = SpentAllowances()
+    for number in range(MAX_REMEMBERED + 1):
+        before = Allowance(rate=10.0, burst=5.0)
+        before.spend(5.0 if number == 1 else 6.0, now=100.0)
+        spent.note(number, before)
+
+    def wait_s(sender: int) -> float:
+        again = Allowance(rate=10.0, burst=5.0)
+        spent.resume(sender, again, now=100.0)
+        return again.spend(1.0, now=100.0)
+
+    waits = [wait_s(number) for number in range(MAX_REMEMBERED + 1)]
+    assert [number for number, wait in enumerate(waits) if wait == 0.0] == [1]
 
 
 def test_a_browser_that_sends_too_much_waits_and_others_do_not(

@@ -17,6 +17,7 @@ from websockets.protocol import State
 
 from webviz.server.access.access import EVERYBODY, Grant
 from webviz.server.access.roles import LIMITS, Role
+from webviz.server.http.allowances import Allowance, SpentAllowances
 from webviz.server.http.crowding import network_of, oldest_of_most_crowded
 from webviz.server.http.listener import Handshakes
 from webviz.server.http.requests import add_policy, as_get, is_complete, is_head, refusal
@@ -72,6 +73,8 @@ class ConnectionLimits:
         self._opening: dict[Connection, str] = {}
         """With the network of each."""
         self._open: set[Connection] = set()
+        self.spent = SpentAllowances()
+        """By the network and cookie of lost connections."""
 
     def refusal(self, newcomer: Newcomer) -> str:
         """Why one more browser may not connect: a sentence, "" if it may."""
@@ -129,32 +132,6 @@ class ConnectionLimits:
             connection.loop.call_later(patience, connection.transport.abort)
 
 
-class Allowance:
-    """A rate limit with bursts.
-
-    Args:
-        rate: messages per second.
-        burst: messages at once.
-    """
-
-    def __init__(self, rate: float, burst: float) -> None:
-        self._rate = rate
-        self._credit = burst / rate
-        self._paid_until = -float("inf")
-        self._in_time = -float("inf")
-
-    def spend(self, messages: float, now: float) -> float:
-        """Counts messages at a time in seconds; returns how many seconds to wait."""
-        if now - self._paid_until >= self._credit / 2.0:
-            self._in_time = now
-        self._paid_until = max(self._paid_until, now - self._credit) + messages / self._rate
-        return max(0.0, self._paid_until - now)
-
-    def exhausted_s(self, now: float) -> float:
-        """Seconds since the last message at which half a burst or more was left."""
-        return now - self._in_time
-
-
 class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
     """A connection that checks its request before websockets, and its messages before viser.
 
@@ -206,6 +183,20 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
         self._allowance = Allowance(rate, BURST_S * rate)
         self._bytes_per_message = limits.bytes_per_message
 
+    @property
+    def _sender(self) -> tuple[str, str]:
+        return network_of(self.address), self._grant.cookie
+
+    def admit(self, address: str, grant: Grant) -> None:
+        """Notes whose connection it is, which goes on from what this browser has spent before.
+
+        Args:
+            address: IP address of the browser.
+            grant: what it may do.
+        """
+        self.address, self.grant = address, grant
+        self._gate.spent.resume(self._sender, self._allowance, self.loop.time())
+
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Adds the connection to the gate."""
         super().connection_made(transport)
@@ -214,6 +205,7 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
     def connection_lost(self, exc: Exception | None) -> None:
         """Removes the connection from the gate."""
         self._gate.leave(self)
+        self._gate.spent.note(self._sender, self._allowance)
         self.window.drop()
         super().connection_lost(exc)
 

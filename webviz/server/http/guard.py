@@ -100,8 +100,8 @@ class RequestGuard:
         fetch = functools.partial(serve_file, connection)
         visit = Visit(request, fetch, peer, is_secure=self.tls is not None)
         reply = answer_of(self.steps, visit)
-        connection.address, connection.is_secure = visit.address, visit.is_secure
-        connection.host, connection.grant = visit.host, visit.grant
+        connection.host, connection.is_secure = visit.host, visit.is_secure
+        connection.admit(visit.address, visit.grant)
         if reply is not None:
             return _response(connection, reply)
         if visit.is_channel:
