@@ -9,10 +9,24 @@ import pytest
 from bags import START_NS, Bag, ns
 
 import webviz
-from webviz.engine.doctor.registry import installed_checks
+from webviz.api.check_registry import known_checks, register_checks
+from webviz.engine.commands import ReloadPlugin
 from webviz.shell.cli import main
 from webviz.shell.doctor.report import DoctorReport, schema_text
 
+LASER = """
+from webviz import Check
+
+class Laser(Check):
+    \"\"\"Laser.\"\"\"
+
+    id = "{id}"
+
+    def find(self, seen):
+        for _, port in seen.inputs():
+            if port.topic == "/scan" and port.received:
+                yield self.found("There is a laser.", "{remedy}")
+"""
 SCAN = "sensor_msgs/msg/LaserScan"
 
 
@@ -66,15 +80,36 @@ def test_a_finding_is_explained(capsys: pytest.CaptureFixture[str]) -> None:
     assert "Why:\n\n" in said
     assert "Repair:\n\n" in said
     assert main(["doctor", "--explain", "all"]) == 0
-    assert len(capsys.readouterr().out.splitlines()) == len(installed_checks())
+    assert len(capsys.readouterr().out.splitlines()) == len(known_checks())
     assert main(["doctor", "--explain", "TF999"]) == 1
     assert "Unknown finding TF999" in capsys.readouterr().err
+
+
+def test_checks_of_a_file_are_run_and_reloaded(
+    run_bag: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "lasers.py"
+    path.write_text(LASER.format(id="DATA901", remedy="Buy one."))
+    try:
+        assert main(["doctor", "--bag", str(run_bag), "--plugin", str(path)]) == 3
+        assert "warning[DATA901]: There is a laser.\n  help: Buy one." in capsys.readouterr().out
+        assert main(["doctor", "--explain", "DATA901"]) == 0
+        with webviz.Viewer(bag=run_bag, port=0, fixed_frame="odom", plugins=[path]) as viewer:
+            viewer.seek(4.0)
+            path.write_text(LASER.format(id="DATA902", remedy="Sell it."))
+            viewer.do(ReloadPlugin(path))
+            assert "Sell it." in {each.remedy for each in viewer.doctor()}
+        path.write_text(LASER.format(id="TF003", remedy=""))
+        assert main(["doctor", "--plugin", str(path)]) == 1
+        assert "an installed package has a check with the id TF003, too" in capsys.readouterr().err
+    finally:
+        register_checks(str(path), ())
 
 
 def test_every_check_is_documented() -> None:
     from webviz.api.check import CheckText
 
-    for check in installed_checks():
+    for check in known_checks():
         text = CheckText(check)
         assert text.title, check
         assert text.what, check

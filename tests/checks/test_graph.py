@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 import pytest
 import rclpy
 from examining import display, live_findings
+from geometry_msgs.msg import PoseStamped
 from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -18,6 +19,7 @@ from webviz.engine.commands import SetProperty
 from webviz.shell.testing.live import LiveViewer
 from webviz_displays.laser_scan import LaserScan as LaserScanDisplay
 from webviz_displays.path import Path
+from webviz_displays.poses import Pose
 
 BEST_EFFORT = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 SCAN = "sensor_msgs/msg/LaserScan"
@@ -96,3 +98,19 @@ def test_a_remedy_ends_its_finding(robot: Node, webviz_viewer: Callable[..., Liv
     wait_for(viewer)
     robot.destroy_publisher(publisher)
     wait_for(viewer, "GRAPH011 /scan")
+
+
+def test_a_goal_that_nobody_has_sent_is_a_note(
+    robot: Node, webviz_viewer: Callable[..., LiveViewer]
+) -> None:
+    robot.create_publisher(PoseStamped, "/goal_pose", 1)
+    viewer = webviz_viewer(Pose(topic=webviz.Topic("/goal_pose")))
+
+    def found() -> list[tuple[str, webviz.Severity]]:
+        return [
+            (each.id, each.severity)
+            for each in viewer.viewer.snapshot().findings
+            if each.level is CauseLevel.GRAPH
+        ]
+
+    viewer.wait_for(lambda: found() == [("GRAPH008", webviz.Severity.NOTE)], lambda: f"{found()}")

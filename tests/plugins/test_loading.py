@@ -72,7 +72,7 @@ def test_a_missing_file_is_an_error(tmp_path: Path) -> None:
         ("import sys\nsys.exit('bye')\n", ":2 does not load: SystemExit: bye."),
         (
             "x = 1\n",
-            " has no plug-in. Define a subclass of Display, Tool or Panel ",
+            " has no plug-in. Define a subclass of Display, Tool, Panel or Check ",
         ),
         ("from webviz_displays.grid import Grid\n", " has no plug-in. "),
         (

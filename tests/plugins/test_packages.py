@@ -16,12 +16,25 @@ ENTRY_POINTS = """\
 Fence = acme_displays.fence:Area
 Gone = acme_displays.gone:Gone
 Torn = acme_displays.torn:Torn
+[webviz.checks]
+acme = acme_displays.checks
 """
 TORN = """\
 from webviz import Display, Sync
 
 class Torn(Display):
     sync = Sync("image", "info")
+"""
+CHECKS = """\
+from webviz import Check
+
+class Loose(Check):
+    \"\"\"Loose fence.\"\"\"
+
+    id = "DATA950"
+
+    def find(self, seen):
+        yield self.found("The fence is loose.", "Fix it.")
 """
 CONFIG = """\
 fixed_frame: map
@@ -41,6 +54,7 @@ def run(tmp_path: Path) -> Callable[[str], str]:
     (package / "__init__.py").touch()
     (package / "fence.py").write_text(EXAMPLE.read_text())
     (package / "torn.py").write_text(TORN)
+    (package / "checks.py").write_text(CHECKS)
     info = tmp_path / "acme_displays-1.0.dist-info"
     info.mkdir()
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: acme-displays\nVersion: 1.0\n")
@@ -110,4 +124,17 @@ def test_a_file_cannot_take_its_name(run: Callable[[str], str]) -> None:
         "webviz: own.py cannot be used: an installed package has a display named Fence. "
         "Rename the class.",
         "1",
+    ]
+
+
+def test_its_checks_are_run_and_take_no_ids_of_others(run: Callable[[str], str]) -> None:
+    found = run(
+        "with open('acme_displays/checks.py', 'a') as file:\n"
+        "    file.write('class Thief(Check):\\n    id = \"TF003\"\\n')\n"
+        "from webviz.api.check_registry import known_checks\n"
+        "for check in known_checks(): print(check.id, check.__module__)"
+    ).splitlines()
+    assert "DATA950 acme_displays.checks" in found
+    assert [each for each in found if each.startswith("TF003 ")] == [
+        "TF003 webviz.checks.frames.localisation_missing"
     ]

@@ -20,7 +20,7 @@
                     yield self.found(f"Every beam of {port.topic} has the same range.", ...)
 
 A package names the module or package that holds its checks as an entry point of the group
-`webviz.checks`; each class in it is a check.
+`webviz.checks`; each class in it is a check. `--plugin FILE` loads those of a file.
 """
 
 from __future__ import annotations

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from webviz.api.check import Check, CheckText
+from webviz.api.check_registry import known_checks
 from webviz.api.finding import CauseLevel
-from webviz.engine.doctor.registry import installed_checks
 from webviz.files.rviz.docs import table
 from webviz.shell.doctor.report import schema_text
 from webviz.shell.reference import COMMAND
@@ -25,7 +25,7 @@ def pages() -> dict[str, str]:
 
 def built_in() -> Sequence[type[Check]]:
     """The checks that come with webviz."""
-    return [check for check in installed_checks() if check.__module__.startswith("webviz.")]
+    return [check for check in known_checks() if check.__module__.startswith("webviz.")]
 
 
 def _index(texts: Sequence[CheckText]) -> str:

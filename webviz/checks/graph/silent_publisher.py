@@ -5,14 +5,41 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from webviz.api.check import Check
-from webviz.api.finding import Finding
+from webviz.api.finding import Finding, Severity
 from webviz.api.observation import Observation
+
+STREAMS = {
+    *(
+        f"sensor_msgs/msg/{name}"
+        for name in (
+            "CameraInfo",
+            "CompressedImage",
+            "FluidPressure",
+            "Illuminance",
+            "Image",
+            "Imu",
+            "JointState",
+            "LaserScan",
+            "MagneticField",
+            "PointCloud",
+            "PointCloud2",
+            "Range",
+            "RelativeHumidity",
+            "Temperature",
+        )
+    ),
+    "nav_msgs/msg/OccupancyGrid",
+    "nav_msgs/msg/Odometry",
+    "tf2_msgs/msg/TFMessage",
+}
+"""Types that a node sends by itself; others, such as goals, wait for an event."""
 
 
 class SilentPublisher(Check):
     """Publisher that sends nothing.
 
-    A topic has a publisher that matches the display, but no message has arrived.
+    A topic has a publisher that matches the display, but no message has arrived. Of goals, paths,
+    markers and others that are sent on an event it is a note.
 
     Why:
         The node runs and waits for something itself: a sensor that is off, an input topic, or its
@@ -40,6 +67,7 @@ class SilentPublisher(Check):
                 f"{node} publishes {each.topic}, but has sent nothing yet.",
                 "Check what the node waits for: its sensor, its inputs, or its activation.",
                 subject=each.topic,
+                severity=Severity.WARNING if {*each.types} & STREAMS else Severity.NOTE,
                 evidence={"topic": each.topic, "nodes": tuple(p.label for p in publishers)},
                 command=f"ros2 node info {node}" if publishers[0].node else "",
                 explains=display.symptom(each.status),

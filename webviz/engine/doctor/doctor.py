@@ -8,6 +8,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import replace
 
+from webviz.api.check import Check
+from webviz.api.check_registry import known_checks
 from webviz.api.environment import Environment
 from webviz.api.finding import Finding, Severity
 from webviz.api.status import Level
@@ -15,7 +17,6 @@ from webviz.data.disk import in_thread
 from webviz.engine.doctor.environment import look_around, lost_datagrams
 from webviz.engine.doctor.observing import observe
 from webviz.engine.doctor.ordering import ordered
-from webviz.engine.doctor.registry import installed_checks
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core
 from webviz.engine.state import State
@@ -47,7 +48,7 @@ class Doctor:
     def __init__(self, core: Core, displays: DisplaysPart) -> None:
         self._core = core
         self._displays = displays
-        self._checks = [check() for check in installed_checks()]
+        self._checks: Sequence[Check] = ()
         self._began = -EVERY_S, -EVERY_S
         self._round: Iterator[None] | None = None
         self._since: Mapping[Key, int] = {}
@@ -119,7 +120,7 @@ class Doctor:
         core = self._core
         seen = observe(core, self._displays, state, self._environment(state))
         found: list[Finding] = []
-        for check in self._checks:
+        for check in self._current():
             found += core.guard.attempt(f"Check {check.id}", [], lambda c=check: list(c.find(seen)))
             yield
         before, now_ns = self._since, seen.now_ns
@@ -138,6 +139,13 @@ class Doctor:
         if state.playback is not None:
             at_ns = state.playback.start_ns + round(state.playback.position_s * 1e9)
             self._note(at_ns)
+
+    def _current(self) -> Sequence[Check]:
+        """The checks, those of files as they are now."""
+        classes = known_checks()
+        if [type(check) for check in self._checks] != classes:
+            self._checks = [check() for check in classes]
+        return self._checks
 
     def _note(self, at_ns: int) -> None:
         """Note the findings that are new at a position of the recording."""

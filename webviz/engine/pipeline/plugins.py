@@ -10,7 +10,7 @@ import logging
 import sys
 import threading
 import traceback
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from types import ModuleType, TracebackType
 from typing import TYPE_CHECKING, Any
@@ -18,6 +18,8 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from webviz.api import registry
+from webviz.api.check import Check
+from webviz.api.check_registry import checks_of, register_checks, registered_checks
 from webviz.api.declared import Declared, P, make, set_property, to_values
 from webviz.api.display import Display, inputs_of
 from webviz.api.errors import Error
@@ -44,8 +46,11 @@ class PluginError(Error):
 def load(path: Path) -> dict[str, type[Declared]]:
     """Run a Python file and register the plug-ins it defines, replacing its previous ones.
 
-    Plug-ins are the subclasses of `Display`, `Tool` or `Panel` defined in the file whose names do
-    not start with an underscore.
+    Plug-ins are the subclasses of `Display`, `Tool`, `Panel` or `Check` defined in the file whose
+    names do not start with an underscore.
+
+    Returns:
+        The displays, tools and panels by name.
 
     Raises:
         PluginError: the file is missing, not valid Python, raises, has no plug-in, or has one with
@@ -155,7 +160,7 @@ def _compiled(path: Path) -> Any:
 def _run(path: Path, code: Any, module: ModuleType) -> dict[str, type[Declared]]:
     try:
         exec(code, vars(module))
-        types = _classes_of(module)
+        types, checks = _classes_of(module), list(checks_of(module))
         for cls in types.values():
             if issubclass(cls, Display):
                 inputs_of(cls)
@@ -165,14 +170,26 @@ def _run(path: Path, code: Any, module: ModuleType) -> dict[str, type[Declared]]
         place = f"{path}:{line}" if (line := _line(path, error.__traceback__)) else str(path)
         text = f"{type(error).__name__}: {error}".rstrip(": ").rstrip(".")
         raise PluginError(f"{place} does not load: {text}.") from error
-    if not types:
-        bases = "Display, Tool or Panel"
+    if not types and not checks:
+        bases = "Display, Tool, Panel or Check"
         raise PluginError(f"{path} has no plug-in. Define a subclass of {bases} in it.")
-    try:
-        registry.register(str(path), types)
-    except ValueError as error:
-        raise PluginError(f"{path} cannot be used: {error}. Rename the class.") from error
+    _register(path, types, checks)
     return types
+
+
+def _register(
+    path: Path, types: Mapping[str, type[Declared]], checks: Sequence[type[Check]]
+) -> None:
+    owner, before = str(path), registered_checks(str(path))
+    try:
+        register_checks(owner, checks)
+    except ValueError as error:
+        raise PluginError(f"{path} cannot be used: {error}. Give it another id.") from error
+    try:
+        registry.register(owner, types)
+    except ValueError as error:
+        register_checks(owner, before)
+        raise PluginError(f"{path} cannot be used: {error}. Rename the class.") from error
 
 
 def _classes_of(module: ModuleType) -> dict[str, type[Declared]]:

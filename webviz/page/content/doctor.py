@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Mapping, Sequence
 
 import msgspec
 
 from webviz.api.check import CheckText
+from webviz.api.check_registry import known_checks
 from webviz.api.finding import ChangeDisplay, Finding, Severity
 from webviz.api.status import Level, Status
-from webviz.engine.doctor.registry import installed_checks
 from webviz.engine.state import State
 from webviz.page.content.displays import RemedyButton, remedy_of
 from webviz.page.content.forms import brief
@@ -81,10 +80,9 @@ def _button(finding: Finding) -> RemedyButton | None:
     return remedy_of(Status(Level.WARN, "", button), "") if button else None
 
 
-@functools.cache
 def _texts(id: str) -> tuple[Sequence[str], Sequence[str]]:
     """Return why a check matters, and how to repair what it finds."""
-    for check in installed_checks():
+    for check in known_checks():
         if check.id == id:
             text = CheckText(check)
             return text.why, text.repair

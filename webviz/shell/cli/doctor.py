@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import App, Parameter, validators
 
 from webviz.shell.cli.ending import Stop, until_signal
-from webviz.shell.cli.options import ROS_ARGS_HELP, File, Flag, RosArgs
+from webviz.shell.cli.options import ROS_ARGS_HELP, File, Flag, Plugins, RosArgs
 
 if TYPE_CHECKING:
     from webviz.shell.doctor.report import DoctorReport
@@ -43,6 +43,7 @@ class DoctorOptions:
         float, Parameter(validator=validators.Number(gt=0, lte=3600), metavar="SECONDS")
     ] = 5.0
     """Time for the examination of live topics, after their discovery."""
+    plugin: Plugins = ()
     json: Flag = False
     """Write the report as JSON."""
     explain: Annotated[str, Parameter(metavar="ID", show_default=False)] = ""
@@ -52,6 +53,10 @@ class DoctorOptions:
 @app.default
 def doctor(*, options: DoctorOptions = DoctorOptions(), ros: RosArgs) -> int:
     """Examine the ROS graph or a bag, and print the causes of what is wrong."""
+    from webviz.engine.pipeline import plugins
+
+    for path in options.plugin:
+        plugins.load(path)
     if options.explain:
         return _explain(options.explain)
 
@@ -103,11 +108,11 @@ def _progress(what: str, share: float) -> None:
 def _explain(id: str) -> int:
     """Print the documentation of a check, or a list of all."""
     from webviz.api.check import CheckText
+    from webviz.api.check_registry import known_checks
     from webviz.api.errors import Error
-    from webviz.engine.doctor.registry import installed_checks
     from webviz.files.config import nearest
 
-    texts = {check.id: CheckText(check) for check in installed_checks()}
+    texts = {check.id: CheckText(check) for check in known_checks()}
     if id == "all":
         for text in texts.values():
             print(f"{text.id:9} {text.title}")

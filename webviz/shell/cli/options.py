@@ -24,7 +24,10 @@ Flag = Annotated[bool, Parameter(show_default=False)]
 File = Annotated[Path, Parameter(metavar="FILE")]
 Plugins = Annotated[
     Repeatable[Path],
-    Parameter(metavar="FILE", help="Load displays from a Python file (repeatable)."),
+    Parameter(
+        metavar="FILE",
+        help="Load plug-ins from a Python file (repeatable).",
+    ),
 ]
 RosArgs = Annotated[Sequence[str], Parameter(parse=False)]
 """Arguments for ROS, split off by `webviz.shell.cli.commands` before parsing."""

@@ -7,13 +7,13 @@ import time
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
+from webviz.api.check_registry import known_checks
 from webviz.api.environment import Environment
 from webviz.api.finding import CauseLevel, Finding
 from webviz.api.observation import Observation
 from webviz.data.transforms import TransformBuffer
 from webviz.engine.commands import Play, SetFixedFrame, SetRate
 from webviz.engine.doctor.ordering import ordered
-from webviz.engine.doctor.registry import installed_checks
 from webviz.engine.loop import FrameLoop
 from webviz.engine.state import State
 from webviz.files.config import Config
@@ -68,7 +68,7 @@ class Examination:
             self._source.inbox.arrived.wait(REST_S)
             self._source.inbox.arrived.clear()
             state = self._turn()
-        return report_of("live", state, state.findings, len(installed_checks()))
+        return report_of("live", state, state.findings, len(known_checks()))
 
     def play(self, bag: BagSource, name: str) -> DoctorReport:
         """Examine a bag from its beginning to its end."""
@@ -85,7 +85,7 @@ class Examination:
             for key, each in self._seen.items()
             if key in ending or each.last_ns - each.first_ns >= LASTING_S * 1e9
         ]
-        return report_of(name, state, ordered(lasting), len(installed_checks()))
+        return report_of(name, state, ordered(lasting), len(known_checks()))
 
     def close(self) -> None:
         """End all threads."""
@@ -158,7 +158,7 @@ def examine_machine(environment: Environment) -> DoctorReport:
         displays=(),
         environment=environment,
     )
-    checks = [check for check in installed_checks() if CauseLevel.of(check.id) in OF_MACHINE]
+    checks = [check for check in known_checks() if CauseLevel.of(check.id) in OF_MACHINE]
     found = [finding for check in checks for finding in check().find(seen)]
     return report_of("live", None, ordered(found), len(checks))
 
