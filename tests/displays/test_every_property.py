@@ -17,7 +17,6 @@ from moveit_scenes import settle
 import webviz_displays
 from webviz import Display, Topic
 from webviz.api.declared import set_property
-from webviz_displays.moveit.properties import SceneGeometry
 from webviz_displays.robot_model.parts import JointSettings, LinkSettings
 
 SECOND = 1_000_000_000
@@ -55,7 +54,6 @@ OF_THE_FUTURE = {
     ("Odometry", "position_tolerance"),
     *((name, prefix + each) for name, prefix in PLAYERS for each in ANIMATED),
     *((name, "move_group_namespace") for name in ("MotionPlanning", "PlanningScene")),
-    *((name, "scene_geometry.scene_display_time") for name in ("MotionPlanning", "PlanningScene")),
     ("Path", "buffer_length"),
     ("PoseHistory", "buffer_size"),
     ("Range", "buffer_length"),
@@ -64,9 +62,11 @@ OF_THE_FUTURE = {
     ("Text", "update_interval"),
 }
 
-# What the page does with the scene that a display draws (tests/page/test_images.py), and a choice
-# that depends on the name of the topic (tests/displays/test_camera.py).
+# What the page does with the scene that a display draws (tests/page/test_images.py), a choice
+# that depends on the name of the topic (tests/displays/test_camera.py), and what shows only while
+# time passes (tests/displays/test_planning_scene.py).
 ELSEWHERE = {
+    *((name, "scene_geometry.scene_display_time") for name in ("MotionPlanning", "PlanningScene")),
     *(("Camera", "visibility"), ("Camera", "undistort")),
     ("DepthCloud", "occlusion_time_out"),
     *(("MapCloud", f"cloud_{each}") for each in ("min_depth", "max_depth", "voxel_size")),
@@ -178,8 +178,6 @@ BESIDES: dict[tuple[str, str], dict[str, Any]] = {
 
 def other_values(cls: type[Display], hint: Any, value: Any, folder: FilePath) -> list[Any]:
     """Other values of a property; each that is valid must show."""
-    if value == SceneGeometry().scene_display_time:
-        return [50.0]  # real time, of which the scene takes little
     if get_origin(hint) is Literal:
         return [choice for choice in get_args(hint) if choice != value]
     if isinstance(value, bool):

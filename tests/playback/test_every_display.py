@@ -28,9 +28,8 @@ LATCHED = ("robot_description", "camera_info")
 SHORT: dict[str, Mapping[str, Any]] = {
     # The range of depths is a median over the images that were shown.
     **{name: {"median_window": 1} for name in ("Camera", "Image", "ImagePlane")},
-    # The robot of a scene moves after this time of the wall clock at the earliest.
     **{
-        name: {"scene_geometry": {"scene_display_time": 0.0001}}
+        name: {"scene_geometry": {"scene_display_time": 0.5}}
         for name in ("MotionPlanning", "PlanningScene")
     },
     "LaserScan": {"decay_time": 1.0},

@@ -148,7 +148,7 @@ class MotionPlanning(Display, ProtocolClient):
         """Loading progress, the scene of move_group, frames, and the point of the path."""
         state: MotionPlanningDrawing = ctx.state
         point = state.view.advance(self._playback(), ctx.frames.now_ns)
-        late = state.world.is_late(self.scene_geometry.scene_display_time)
+        late = state.world.is_late(self.scene_geometry.scene_display_time, ctx.frames.now_ns)
         structure = ctx.frames.structure, ctx.frames.fixed_frame
         asking = state.asking
         return state.robots.progress(), asking.scene, asking.problem, structure, point, late

@@ -117,7 +117,7 @@ class PlanningScene(Display, ProtocolClient):
         """Loading progress, the answer of move_group, and frames that objects wait for."""
         state: PlanningSceneDrawing = ctx.state
         structure = ctx.frames.structure, ctx.frames.fixed_frame
-        late = state.world.is_late(self.scene_geometry.scene_display_time)
+        late = state.world.is_late(self.scene_geometry.scene_display_time, ctx.frames.now_ns)
         return state.robots.progress(), state.asking.scene, state.asking.problem, structure, late
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -82,13 +81,24 @@ class DrawnWorld:
     frame: str = ""
     _look: _Look | None = None
     _made: tuple[_Look | None, DrawnObjects] = None, NOTHING
-    _stance: tuple[Poser, JointValues, float, Stance] | None = None
+    _stance: tuple[Poser, JointValues, int, Stance] | None = None
+    _seen_ns: int = 0
+    _is_still: bool = False
 
-    def is_late(self, interval_s: float) -> bool:
-        """Return whether the robot may move now to where the scene has it."""
+    def is_late(self, interval_s: float, now_ns: int) -> bool:
+        """Return whether the robot may move now to where the scene has it.
+
+        While time stands still, as after a seek in a recording, it may at once: what is shown then
+        depends on that time alone.
+        """
+        self._is_still, self._seen_ns = now_ns == self._seen_ns, now_ns
         if self._stance is None or self._stance[1] is self.scene.joints:
             return False
-        return time.monotonic() - self._stance[2] >= interval_s
+        return self._is_due(self._stance[2], now_ns, interval_s)
+
+    def _is_due(self, before_ns: int, now_ns: int, interval_s: float) -> bool:
+        """Return whether the robot may move, or time was set back or stands still."""
+        return self._is_still or not 0 <= now_ns - before_ns < interval_s * 1e9
 
     def draw(
         self, scene: KnownScene, geometry: SceneGeometry, robot: SceneRobot, ctx: Context
@@ -106,7 +116,7 @@ class DrawnWorld:
         frame = self.frame = scene.frame or (model.robot.root if model else ctx.frames.fixed_frame)
         links = NO_LINKS
         if model is not None:
-            stance = self._posed(model.poser, geometry.scene_display_time)
+            stance = self._posed(model.poser, geometry.scene_display_time, ctx.frames.now_ns)
             links = stance.poses
             report_joints(scene, stance.assumed, stance.strangers, ctx)
         look = look_of(robot)
@@ -143,16 +153,16 @@ class DrawnWorld:
                 self._made = look, made
         return self._made[1]
 
-    def _posed(self, poser: Poser, interval_s: float) -> Stance:
+    def _posed(self, poser: Poser, interval_s: float, now_ns: int) -> Stance:
         """Where the links are, computed anew after some time at the earliest."""
-        joints, now_s, before = self.scene.joints, time.monotonic(), self._stance
+        joints, before = self.scene.joints, self._stance
         if (
             before is not None
             and before[0] is poser
-            and (before[1] is joints or now_s - before[2] < interval_s)
+            and (before[1] is joints or not self._is_due(before[2], now_ns, interval_s))
         ):
             return before[3]
-        self._stance = poser, joints, now_s, poser.stance(joints)
+        self._stance = poser, joints, now_ns, poser.stance(joints)
         return self._stance[3]
 
     def inspect(self, hit: Hit) -> Details | None:
