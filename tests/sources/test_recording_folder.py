@@ -12,9 +12,10 @@ from bags import START_NS, ns
 from mcap.reader import make_reader
 from rosbags.rosbag2 import Reader
 
-from webviz.data.messages import definition, encode
+from webviz.data.messages import decode, definition, encode
 from webviz.data.recordings import RecordedChannel, RecordingError, open_recording
 from webviz.data.recordings.folder_writing import RecordingFolder, RecordingLimits
+from webviz.shell.testing import header
 from webviz.sources import Publisher
 from webviz.sources.bag.qos import text_of
 
@@ -27,9 +28,9 @@ def channel(topic: str, latched: bool = False) -> RecordedChannel:
     return RecordedChannel(topic, STRING, "cdr", definition(STRING), profiles)
 
 
-def put(folder: RecordingFolder, topic: str, at_s: float, text: str, latched: bool = False) -> None:
+def put(folder: RecordingFolder, topic: str, at_s: float, text: str, latched: int = 0) -> None:
     cdr = encode(STRING, {"data": text})
-    folder.add(channel(topic, latched), START_NS + ns(at_s), cdr, latched)
+    folder.add(channel(topic, latched > 0), START_NS + ns(at_s), cdr, latched)
 
 
 def contents(path: Path) -> list[tuple[str, int, bytes]]:
@@ -52,7 +53,7 @@ def folder(tmp_path: Path) -> Iterator[RecordingFolder]:
 
 
 def test_others_read_messages_types_and_qos(folder: RecordingFolder) -> None:
-    put(folder, "/map", 0.0, "a map", latched=True)
+    put(folder, "/map", 0.0, "a map", latched=1)
     put(folder, "/words", 0.5, "one")
     put(folder, "/words", 1.5, "two")
     folder.close()
@@ -88,7 +89,7 @@ def test_what_was_flushed_is_read_before_the_recording_ends(folder: RecordingFol
 def test_files_are_split_and_the_oldest_deleted(tmp_path: Path) -> None:
     limits = RecordingLimits(file_s=10.0, total_bytes=1)
     folder = RecordingFolder(tmp_path / "run", "webviz test", limits)
-    put(folder, "/map", 0.0, "a map", latched=True)
+    put(folder, "/map", 0.0, "a map", latched=1)
     for second in range(25):
         put(folder, "/words", second, f"{second}")
     folder.close()
@@ -100,6 +101,28 @@ def test_files_are_split_and_the_oldest_deleted(tmp_path: Path) -> None:
     assert [stamp_ns for topic, stamp_ns, _ in read if topic == "/words"] == [
         START_NS + ns(second) for second in range(20, 25)
     ]
+
+
+def test_each_file_begins_with_the_latched_message_of_every_publisher(tmp_path: Path) -> None:
+    limits = RecordingLimits(file_s=10.0)
+    folder = RecordingFolder(tmp_path / "run", "webviz test", limits)
+    tf = "tf2_msgs/msg/TFMessage"
+    static = RecordedChannel("/tf_static", tf, "cdr", definition(tf), "")
+    for at_s, child in ((0.0, "laser"), (0.1, "camera"), (0.2, "laser")):
+        transform = {"header": header("base", START_NS + ns(at_s)), "child_frame_id": child}
+        folder.add(static, START_NS + ns(at_s), encode(tf, {"transforms": [transform]}), 2)
+    for at_s, text in ((0.3, "lost"), (0.4, "robot one"), (0.5, "robot two")):
+        put(folder, "/names", at_s, text, latched=2)
+    put(folder, "/words", 12.0, "")
+    folder.close()
+    read = contents(folder.path / "run_1.mcap")
+    frames = [decode(tf, data).transforms[0] for topic, _, data in read if topic == "/tf_static"]
+    assert [(frame.child, frame.stamp_ns - START_NS) for frame in frames] == [
+        ("camera", ns(0.1)),
+        ("laser", ns(0.2)),
+    ]
+    names = [decode(STRING, data).data for topic, _, data in read if topic == "/names"]
+    assert names == ["robot one", "robot two"]
 
 
 def test_files_are_split_by_size(tmp_path: Path) -> None:

@@ -13,6 +13,7 @@ from ruamel.yaml import YAML
 
 from webviz.data.messages import UnknownTypeError, type_hash
 from webviz.data.recordings.folder import INFORMATION, METADATA
+from webviz.data.recordings.latched import LatchedMessages
 from webviz.data.recordings.mcap_writing import McapFile
 from webviz.data.recordings.recording import RecordedChannel, RecordingError
 
@@ -47,8 +48,8 @@ class _Written:
 class RecordingFolder:
     """A new rosbag2 folder of MCAP files.
 
-    Each file begins with the newest message of every latched topic, so that it can be shown on its
-    own, also once those before it are deleted.
+    Each file begins with the newest message of every publisher that latches, so that it can be
+    shown on its own, also once those before it are deleted.
 
     Args:
         path: of the folder, which must not exist or be empty.
@@ -72,7 +73,7 @@ class RecordingFolder:
         self._limits = limits
         self._number = 0
         self._written: list[_Written] = []
-        self._latched: dict[RecordedChannel, bytes] = {}
+        self._latched = LatchedMessages[tuple[RecordedChannel, bytes]]()
         self._file: McapFile | None = None
         self._told = (0, 0, 0)
         try:
@@ -88,14 +89,14 @@ class RecordingFolder:
         """Bytes of all files that are there."""
         return sum(file.size for file in self._written) + (self._file.size if self._file else 0)
 
-    def add(self, channel: RecordedChannel, stamp_ns: int, data: bytes, latched: bool) -> None:
+    def add(self, channel: RecordedChannel, stamp_ns: int, data: bytes, latched: int) -> None:
         """Append a message.
 
         Args:
             channel: of its topic, type and QoS.
             stamp_ns: time of recording.
             data: the serialised message.
-            latched: whether late subscribers receive it.
+            latched: number of publishers of the topic whose messages late subscribers receive.
         """
         file = self._current()
         try:
@@ -105,8 +106,7 @@ class RecordingFolder:
         except OSError as error:
             raise self._failed(error) from error
         self.messages += 1
-        if latched:
-            self._latched[channel] = data
+        self._latched.put(channel.topic, data, (channel, data), latched)
 
     def flush(self) -> None:
         """Write all messages to the disk, so that none of them is lost with this program."""
@@ -149,7 +149,7 @@ class RecordingFolder:
     def _next_file(self, file: McapFile, stamp_ns: int) -> McapFile:
         self._finish(file)
         self._file = file = self._new_file()
-        for channel, data in self._latched.items():
+        for _, (channel, data) in self._latched:
             file.add(channel, stamp_ns, data)
         while self._limits.total_bytes and self._written and self.size > self._limits.total_bytes:
             self._written.pop(0).path.unlink(missing_ok=True)

@@ -67,10 +67,6 @@ class Channels:
         self.look()
         return self._latched.get(topic, 0)
 
-    def is_latched(self, topic: str) -> bool:
-        """Return whether late subscribers receive the newest message of a topic."""
-        return self.latched(topic) > 0
-
 
 def _type_of(publishers: Sequence[Publisher]) -> str:
     """The type that all publishers agree on, "" if they do not."""

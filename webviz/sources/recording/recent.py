@@ -12,17 +12,13 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple
 
-from webviz.data.messages import MessageError, TFMessage, decode
+from webviz.data.recordings.latched import LatchedMessages
 from webviz.sources.inbox import Raw
 
 OVERHEAD = 200
 """Bytes of a message besides its own."""
-MAX_PINNED = 1000
-"""Latched messages of one topic that are kept beyond the bounds."""
 MAX_PINNED_BYTES = 128_000_000
 """Of all latched messages that are kept beyond the bounds; the newest is, however large."""
-STATIC_TF = "tf_static"
-TF = "tf2_msgs/msg/TFMessage"
 
 Entry = tuple[str, Raw]
 """Topic and message."""
@@ -66,7 +62,7 @@ class RecentMessages:
         self._depth = latched
         self._lock = threading.Lock()
         self._messages: deque[Entry] = deque()
-        self._latched: dict[str, dict[object, Raw]] = {}
+        self._latched = LatchedMessages[Raw]()
         self._bytes = 0
         self._full_s: float | None = None
         self.forgotten_s = -math.inf
@@ -91,7 +87,7 @@ class RecentMessages:
         now_s = time.monotonic()
         with self._lock:
             self._forget(now_s)
-            latched = sum(len(raw.cdr) for own in self._latched.values() for raw in own.values())
+            latched = sum(len(raw.cdr) for _, raw in self._latched)
             oldest_s = self._messages[0][1].arrived_s if self._messages else now_s
             return now_s - oldest_s, self._bytes + latched
 
@@ -116,14 +112,14 @@ class RecentMessages:
     def pinned(self) -> tuple[str, ...]:
         """The topics whose latched messages are kept although they are old."""
         with self._lock:
-            return tuple(sorted(self._latched))
+            return self._latched.topics()
 
     def last(self, seconds: float) -> Remembered:
         """The messages of the last seconds, as far as they are remembered."""
         begin_s = time.monotonic() - seconds
         with self._lock:
             messages = list(self._messages)
-            latched = {topic: dict(own) for topic, own in self._latched.items()}
+            latched = self._latched.copy()
         first = bisect_left(messages, begin_s, key=lambda message: message[1].arrived_s)
         for topic, raw in messages[:first]:
             self._pin(latched, topic, raw)
@@ -152,52 +148,25 @@ class RecentMessages:
             self._messages.popleft()
             self.forgotten_s = raw.arrived_s
             self._bytes -= len(raw.cdr) + OVERHEAD
-            self._pin(self._latched, topic, raw)
-            if topic in self._latched:
+            if self._pin(self._latched, topic, raw):
                 self._bound_pinned()
 
     def _bound_pinned(self) -> None:
         """Forget the oldest latched messages that are too large together."""
-        size = sum(len(raw.cdr) for own in self._latched.values() for raw in own.values())
+        size = sum(len(raw.cdr) for _, raw in self._latched)
         if size <= MAX_PINNED_BYTES:
             return
         for topic, raw in _flat(self._latched)[:-1]:
-            del self._latched[topic][_publisher_of(topic, raw)]
+            self._latched.remove(topic, raw.cdr)
             size -= len(raw.cdr)
             if size <= MAX_PINNED_BYTES:
                 break
-        self._latched = {topic: own for topic, own in self._latched.items() if own}
 
-    def _pin(self, latched: dict[str, dict[object, Raw]], topic: str, raw: Raw) -> None:
-        """Keep a latched message instead of the one of its publisher before it."""
-        depth = self._depth(topic)
-        if not depth:
-            return
-        own = latched.setdefault(topic, {})
-        key = _publisher_of(topic, raw)
-        own.pop(key, None)
-        own[key] = raw
-        most = MAX_PINNED if topic.endswith(STATIC_TF) else min(depth, MAX_PINNED)
-        while len(own) > most:
-            del own[next(iter(own))]
+    def _pin(self, latched: LatchedMessages[Raw], topic: str, raw: Raw) -> bool:
+        """Keep a latched message instead of the one of its publisher before it; whether it is."""
+        return latched.put(topic, raw.cdr, raw, self._depth(topic))
 
 
-def _publisher_of(topic: str, raw: Raw) -> object:
-    """A key that tells the latched messages of several publishers apart, as DDS does not.
-
-    Each publisher of static transforms has frames of its own; other messages are told apart by
-    their bytes.
-    """
-    if topic.endswith(STATIC_TF):
-        try:
-            message: TFMessage = decode(TF, raw.cdr)
-        except MessageError:
-            return raw.cdr
-        return frozenset(transform.child for transform in message.transforms)
-    return raw.cdr
-
-
-def _flat(latched: dict[str, dict[object, Raw]]) -> list[Entry]:
+def _flat(latched: LatchedMessages[Raw]) -> list[Entry]:
     """All latched messages in the order of arrival."""
-    found = [(topic, raw) for topic, own in latched.items() for raw in own.values()]
-    return sorted(found, key=lambda entry: entry[1].arrived_s)
+    return sorted(latched, key=lambda entry: entry[1].arrived_s)

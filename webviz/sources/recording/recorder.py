@@ -127,7 +127,7 @@ class Recorder:
         if channel is None:
             self.dropped += 1
             return
-        self._folder.add(channel, self._clock.at(raw), raw.cdr, self._channels.is_latched(topic))
+        self._folder.add(channel, self._clock.at(raw), raw.cdr, self._channels.latched(topic))
 
 
 class _ForwardClock:

@@ -1,0 +1,84 @@
+"""Latched messages, which late subscribers receive: recordings are incomplete without them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Generic, TypeVar
+
+from webviz.data.messages import MessageError, TFMessage, decode
+
+STATIC_TF = "tf_static"
+TF = "tf2_msgs/msg/TFMessage"
+MAX_LATCHED = 1000
+"""Messages of one topic."""
+
+T = TypeVar("T")
+
+
+class LatchedMessages(Generic[T]):
+    """The newest latched messages of each topic, one per publisher.
+
+    Recordings do not say which publisher sent a message. Each publisher of static transforms has
+    frames of its own; other messages are told apart by their bytes, as far as there are publishers.
+    """
+
+    def __init__(self) -> None:
+        self._topics: dict[str, dict[object, T]] = {}
+
+    def __len__(self) -> int:
+        return sum(len(own) for own in self._topics.values())
+
+    def __iter__(self) -> Iterator[tuple[str, T]]:
+        """Topics and messages; those of a topic in the order of arrival."""
+        return ((topic, item) for topic, own in self._topics.items() for item in own.values())
+
+    def put(self, topic: str, cdr: bytes, item: T, publishers: int) -> bool:
+        """Keep a message instead of the one of its publisher before it.
+
+        Args:
+            topic: full name.
+            cdr: the serialised message.
+            item: what is kept of it.
+            publishers: number of publishers of the topic that latch; with 0, nothing is kept.
+
+        Returns:
+            Whether it is kept.
+        """
+        if not publishers:
+            return False
+        own = self._topics.setdefault(topic, {})
+        key = _publisher_of(topic, cdr)
+        own.pop(key, None)
+        own[key] = item
+        most = MAX_LATCHED if topic.endswith(STATIC_TF) else min(publishers, MAX_LATCHED)
+        while len(own) > most:
+            del own[next(iter(own))]
+        return True
+
+    def remove(self, topic: str, cdr: bytes) -> None:
+        """Forget a message that is kept."""
+        own = self._topics[topic]
+        del own[_publisher_of(topic, cdr)]
+        if not own:
+            del self._topics[topic]
+
+    def topics(self) -> tuple[str, ...]:
+        """Those that messages are kept of, sorted."""
+        return tuple(sorted(self._topics))
+
+    def copy(self) -> LatchedMessages[T]:
+        """The same messages, apart from later changes."""
+        copy = LatchedMessages[T]()
+        copy._topics = {topic: dict(own) for topic, own in self._topics.items()}
+        return copy
+
+
+def _publisher_of(topic: str, cdr: bytes) -> object:
+    """A key that tells the messages of several publishers apart, as their bytes alone may not."""
+    if topic.endswith(STATIC_TF):
+        try:
+            message: TFMessage = decode(TF, cdr)
+        except MessageError:
+            return cdr
+        return frozenset(transform.child for transform in message.transforms)
+    return cdr
