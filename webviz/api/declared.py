@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import functools
 import math
+from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, Literal, TypeVar
 
 import msgspec
@@ -103,12 +104,16 @@ def make(cls: type[P], values: dict[str, Any]) -> P:
     Raises:
         msgspec.ValidationError: a value is invalid; the text ends with its path.
     """
-    defaults = _defaults(cls)
-    merged = {key: _merge(defaults.get(key), value) for key, value in values.items()}
-    declared = msgspec.convert(merged, cls, strict=True)
+    declared = msgspec.convert(completed(cls, values), cls, strict=True)
     _check_finite(declared, "$")
     declared.name = readable(declared.name) or default_name(cls)
     return declared
+
+
+def completed(cls: type[Declared], values: Mapping[str, Any]) -> dict[str, Any]:
+    """Plain values with topics as keys, and with the missing keys of nested settings."""
+    defaults = _defaults(cls)
+    return {key: _merge(defaults.get(key), value) for key, value in values.items()}
 
 
 @functools.cache

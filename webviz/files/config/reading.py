@@ -16,8 +16,8 @@ from webviz.api.registry import broken_types, plugin_types
 from webviz.api.robots import robots_of
 from webviz.api.tool import Tool
 from webviz.api.views import with_type
-from webviz.files.config.errors import ConfigError, nearest
-from webviz.files.config.explain import explain, mistakes, sentences, unknown_key
+from webviz.files.config.errors import ConfigError, nearest, unknown_key
+from webviz.files.config.explain import explain, mistakes, sentences
 from webviz.files.config.model import (
     VERSION,
     Branch,
