@@ -128,6 +128,13 @@ def test_an_mcap_file_without_a_whole_message(tmp_path, share):
     )
 
 
+@pytest.mark.parametrize("size", [16, 31, 32])
+def test_a_database_that_ends_within_its_header(tmp_path, size):
+    (file,) = files(strings(0).write(tmp_path / "bag", StoragePlugin.SQLITE3), ".db3")
+    file.write_bytes(file.read_bytes()[:size])
+    assert f"{file} is damaged (" in refusal(file)
+
+
 @pytest.mark.parametrize("compression", [CompressionMode.NONE, CompressionMode.STORAGE])
 def test_of_an_mcap_file_that_was_cut_off_everything_before_is_shown(tmp_path, opened, compression):
     recorded = _noisy(300)

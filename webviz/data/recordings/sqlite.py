@@ -39,6 +39,8 @@ MAX_MISSES = 10_000
 IN_ONE_PAGE = 400
 """Larger messages may have parts beyond the end of a file that is cut off; SQLite reads zeros."""
 MAX_ROW = 2**63 - 1
+_HEADER = struct.Struct(">16xH10xI")
+"""The page size and the number of pages at the beginning of a file."""
 _TABLES = """\
 SELECT count(*) FROM sqlite_master
 WHERE type = 'table' AND rootpage > 0 AND name IN ('messages', 'topics')"""
@@ -376,5 +378,8 @@ def _unread(path: Path, journal: str) -> str:
 def _is_cut(path: Path) -> bool:
     """Return whether the file is smaller than its header says."""
     with path.open("rb") as file:
-        page_size, pages = struct.unpack_from(">H10xI", file.read(32), 16)
+        header = file.read(_HEADER.size)
+    if len(header) < _HEADER.size:
+        return True
+    page_size, pages = _HEADER.unpack(header)
     return path.stat().st_size < (page_size if page_size > 1 else 1 << 16) * pages
