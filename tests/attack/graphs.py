@@ -1,4 +1,4 @@
-"""Graphs of frames: forests, chains, stars and loops of up to ten thousand frames."""
+"""Graphs of frames: forests, chains, stars and loops of up to ten thousand, and a long name."""
 
 from __future__ import annotations
 
@@ -20,6 +20,8 @@ from webviz.shell.testing.messages import header
 TF = "tf2_msgs/msg/TFMessage"
 PART = 500
 """Transforms of one message."""
+LONG = (0, 0, 100_000)
+"""Characters of the name of one more frame, if any."""
 LOOPS = ("map x, x map", "p q, q p", "f0 f1, f1 f2, f2 f0", "map f7, f7 map", "")
 DISCOVERY_S = 60.0
 
@@ -68,13 +70,17 @@ class Graphs(Attack):
     def draw(self, random: Random) -> Case:
         shape = random.choice(("star", "chain", "pairs", "ring", "tree"))
         count = random.choice((10, 100, random.randrange(1000), 10_000))
-        return Case(f"{shape}.json", json.dumps([count, random.choice(LOOPS)]).encode())
+        return Case(
+            f"{shape}.json", json.dumps([count, random.choice(LOOPS), random.choice(LONG)]).encode()
+        )
 
     def strike(self, case: Case) -> Outcome:
-        count, loops = json.loads(case.data)
+        count, loops, characters = json.loads(case.data)
         self._publish([*links(case.name.partition(".")[0], count)])
         pairs = [pair.split() for pair in loops.split(", ") if pair]
         self._publish([(parent, child) for parent, child in pairs])
+        if characters:
+            self._publish([("map", characters * "n")])
         try:
             self._target.wait_until_answered()
         except Violation as violation:

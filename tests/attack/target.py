@@ -82,8 +82,11 @@ class Target:
         self._is_closed = threading.Event()
         self._answered = threading.Event()
         self._bystander = self.visitor(Role.OWNER)
-        self._watch = threading.Thread(target=self._watch_over, daemon=True)
-        self._watch.start()
+        self._watches = [
+            threading.Thread(target=watch, daemon=True) for watch in (self._watch_over, self._weigh)
+        ]
+        for watch in self._watches:
+            watch.start()
 
     def headers(self, role: Role | None) -> dict[str, str]:
         """Headers of requests by somebody of a role; None is somebody without a token."""
@@ -142,8 +145,7 @@ class Target:
 
     def kill_while_saving(self, delay_s: float) -> None:
         """Kill the viewer at some moment of saving a config again and again."""
-        self._is_closed.set()
-        self._watch.join()
+        self._stop_watching()
         path = self.configs / "killed.yaml"
         visitor = self.visitor(Role.OWNER)
         visitor.do("Save", ANSWER_S, path=path.name)
@@ -164,11 +166,23 @@ class Target:
 
     def close(self) -> None:
         """End the viewer, which must end by itself."""
-        self._is_closed.set()
-        self._watch.join()
+        self._stop_watching()
         self._bystander.close()
         if self._program.process.poll() is None:
             self._program.end()
+
+    def _stop_watching(self) -> None:
+        self._is_closed.set()
+        for watch in self._watches:
+            watch.join()
+
+    def _weigh(self) -> None:
+        """Measure the memory, also while the viewer does not answer."""
+        while not self._is_closed.wait(EVERY_S):
+            try:
+                self._measure()
+            except Violation as violation:
+                self._fault = str(violation)
 
     def _watch_over(self) -> None:
         while not self._is_closed.wait(EVERY_S):
@@ -193,7 +207,6 @@ class Target:
             connection.getresponse().read()
         self._bystander.do("Pause", ANSWER_S, paused=False)
         self.slowest_s = max(self.slowest_s, time.monotonic() - start)
-        self._measure()
 
     def _measure(self) -> None:
         total = 0

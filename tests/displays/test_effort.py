@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import tracemalloc
 from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
 import pytest
 
+from webviz import Pose
 from webviz_displays.vectors import Effort
+from webviz_displays.vectors.rings import Rings
 from webviz_urdf import RobotDescriptionError, turning_joints
 
 NAN = float("nan")
@@ -183,3 +186,16 @@ def test_joints_that_turn_are_read_without_shapes() -> None:
         turning_joints(ARM.replace("elbow", "shoulder"))
     unlimited = turning_joints(ARM.replace('effort="10"', 'effort="inf"'))
     assert unlimited["shoulder"].max_effort == 0.0
+
+
+def test_a_long_name_takes_no_memory_for_each_joint() -> None:
+    names = [50_000 * "n", *(f"j{number}" for number in range(2000))]
+    tracemalloc.start()
+    count = len(names)
+    rings = Rings.of(
+        names, count * [Pose()], count * [(0.0, 0.0, 1.0)], count * [1.0], count * [2.0]
+    )
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert rings.names.tolist() == names
+    assert peak < 50e6

@@ -1,5 +1,7 @@
 """Statuses of the TF display."""
 
+import tracemalloc
+
 import pytest
 
 from webviz import OtherFixedFrame
@@ -33,6 +35,19 @@ def test_an_expression_beyond_linear_time_is_said_and_ignored(bench) -> None:
     at.turn()
     assert "(invalid perl operator: (?=); ignoring it." in at.statuses()["Filter (whitelist)"][1]
     assert at.nodes()
+
+
+def test_a_long_name_takes_no_memory_for_each_frame(bench) -> None:
+    at = bench(TF())
+    for number in range(2000):
+        at.transform("map", f"f{number}")
+    at.transform("map", 50_000 * "n")
+    tracemalloc.start()
+    at.turn()
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert len(at.nodes()["axes"].positions) == 2002
+    assert peak < 50e6
 
 
 def test_without_any_transform_the_topic_to_look_at_is_named(bench) -> None:

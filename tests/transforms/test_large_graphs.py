@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import time
+import tracemalloc
 
+import numpy as np
 import pytest
 
 from webviz.data.messages import encode
@@ -44,6 +46,19 @@ def graph(request: pytest.FixtureRequest) -> TransformBuffer:
     for parent, child in SHAPES[request.param] + LOOPS:
         buffer.set_transform(parent, child, SECOND, *IDENTITY)
     return buffer
+
+
+def test_a_long_name_of_a_parent_takes_no_memory_for_each_sample() -> None:
+    buffer, stamps = TransformBuffer(), SECOND + 1000 * np.arange(3000)
+    buffer.set_transform(50_000 * "n", "map", SECOND, *IDENTITY, is_static=True)
+    for number, stamp_ns in enumerate(stamps.tolist()):
+        buffer.set_transform(("map", 50_000 * "n")[number % 2], "base", stamp_ns, *IDENTITY)
+    tracemalloc.start()
+    *_, is_ok = buffer.lookup_many("map", "base", stamps)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert is_ok.all()
+    assert peak < 50e6
 
 
 def test_everything_is_answered_in_time(graph: TransformBuffer) -> None:

@@ -189,7 +189,8 @@ class TF(Display):
         if state.known is None or state.known.version != version:
             selected = state.filter.select(names)
             parents = parent_indices(ctx.frames, names)
-            order = np.argsort(np.array(names))
+            # As objects, or each name would take the memory of the longest one.
+            order = np.argsort(np.array(names, object))
             state.known = _Known(version, selected, parents, order, outline(names, parents))
         return state.known
 

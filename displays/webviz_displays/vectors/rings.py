@@ -37,7 +37,7 @@ class Rings(NamedTuple):
         largest: (N,), Nm, 0 where unknown.
     """
 
-    names: NDArray[np.str_]
+    names: NDArray[np.object_]
     centers: F64
     axes: F64
     efforts: F64
@@ -56,7 +56,7 @@ class Rings(NamedTuple):
         turns = matrices(np.array([pose.wxyz for pose in poses]).reshape(-1, 4))
         own = np.array(axes, np.float64).reshape(-1, 3)
         return cls(
-            np.array(names, np.str_),
+            np.array(names, object),
             np.array([pose.position for pose in poses], np.float64).reshape(-1, 3),
             np.einsum("nij,nj->ni", turns, own),
             np.array(efforts, np.float64),

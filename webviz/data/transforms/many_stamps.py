@@ -84,12 +84,12 @@ class _History:
         start = packed_to_rows(cache.poses(part))
         end = np.concatenate((start[:, 1:], start[:, -1:]), axis=1)
         self.parent: str | None = None
-        self.parents: NDArray[np.str_] | None = None
+        self.parents: NDArray[np.object_] | None = None
         if self._known[0] > cache.mixed_ns:
             self.parent = cache.samples[-1][1]
         else:
             parents = [parent for _, parent in islice(cache.samples, low, high)]
-            self.parents = np.array(parents)
+            self.parents = np.array(parents, object)
             changes = np.flatnonzero([a != b for a, b in pairwise(parents)])
             end[:, changes] = start[:, changes]
         span = np.append(np.maximum(np.diff(self.stamps), 1), 1)
@@ -99,7 +99,7 @@ class _History:
         )
         self._first_ns = first_ns
 
-    def at(self, times: I64) -> tuple[C128, str | NDArray[np.str_]]:
+    def at(self, times: I64) -> tuple[C128, str | NDArray[np.object_]]:
         """`TimeCache.at` for ascending times within the history.
 
         Returns:
@@ -240,8 +240,7 @@ def _climb(histories: _Histories, group: _Group, stamps: I64) -> tuple[list[_Gro
     if isinstance(parents, str):
         return [_Group(parents, group.rows, pose)], stuck
     higher = [
-        _part(_Group(str(parent), group.rows, pose), parents == parent)
-        for parent in np.unique(parents)
+        _part(_Group(parent, group.rows, pose), parents == parent) for parent in np.unique(parents)
     ]
     return higher, stuck
 
