@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import io
 import os
 import stat
 from pathlib import Path
@@ -9,8 +11,12 @@ from pathlib import Path
 import numpy as np
 import PIL.Image
 import PIL.ImageSequence
+import playwright.sync_api as playwright
 import pytest
 
+from webviz.data.transforms import TransformBuffer, diagnose
+from webviz.data.transforms.picture import draw_tree
+from webviz.shell.frames import pixels
 from webviz.shell.pictures.files import (
     OutputError,
     check,
@@ -129,3 +135,16 @@ def test_a_full_disk_is_one_sentence_and_a_device_stays_one(tmp_path):
     with pytest.raises(OutputError, match=r"Cannot write .*full\.png: No space left on device\."):
         save(PIL.Image.fromarray(noise), path)
     assert stat.S_ISCHR(path.stat().st_mode)
+
+
+def test_a_tree_of_frames_is_a_png(
+    browser: playwright.Browser, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(pixels, "launched", lambda: contextlib.nullcontext(browser))
+    buffer = TransformBuffer()
+    buffer.set_transform("map", "odom", 1, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+    picture = draw_tree(diagnose(buffer), "Frames")
+    with PIL.Image.open(io.BytesIO(pixels.to_png(picture))) as image:
+        assert image.size == (picture.width, picture.height)
+        colors = {color for _, color in image.convert("RGB").getcolors(1 << 16) or ()}
+    assert {(255, 255, 255), (0xF6, 0xF8, 0xFA)} <= colors

@@ -7,7 +7,7 @@ from itertools import islice, pairwise
 
 from webviz.data.transforms.buffer import TransformBuffer
 from webviz.data.transforms.cache import Cache, TimeCache
-from webviz.data.transforms.conflicts import conflicts
+from webviz.data.transforms.conflicts import found_conflicts
 from webviz.data.transforms.errors import NS_PER_S
 from webviz.data.transforms.reasons import MAX_LISTED, YEAR_NS, in_words, listed
 from webviz.data.transforms.tree import ancestors, roots
@@ -39,6 +39,7 @@ class FrameReport:
         history_ns: time between the oldest and the newest of them.
         problems: sentences.
         gap_ns: the longest of the recent times without a transform; 0 if none is unusual.
+        parents: between which its publishers disagree; none if they agree.
     """
 
     frame: str
@@ -53,6 +54,7 @@ class FrameReport:
     history_ns: int
     problems: tuple[str, ...]
     gap_ns: int = 0
+    parents: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -69,6 +71,11 @@ class Diagnosis:
     roots: tuple[str, ...]
     loops: tuple[tuple[str, ...], ...]
     frames: tuple[FrameReport, ...]
+
+    @property
+    def names(self) -> list[str]:
+        """All frames, roots first."""
+        return list(dict.fromkeys([*self.roots, *(report.frame for report in self.frames)]))
 
     @property
     def problems(self) -> list[str]:
@@ -125,7 +132,9 @@ def tree_text(buffer: TransformBuffer, now_ns: int = 0) -> str:
             lines.append(f"{lead}{frame} (loop)")
             continue
         met.add(frame)
-        lines.append(f"{lead}{frame}{_facts(reports.get(frame))}")
+        report = reports.get(frame)
+        shown = f"  [{', '.join(facts(report))}]" if report else ""
+        lines.append(f"{lead}{frame}{shown}{'  !' if report and report.problems else ''}")
         forks = [("├─ ", "│  ")] * (len(children.get(frame, [])) - 1) + [("└─ ", "   ")]
         own = [
             (child, f"{below}{fork}", f"{below}{rest}")
@@ -135,21 +144,19 @@ def tree_text(buffer: TransformBuffer, now_ns: int = 0) -> str:
     return "\n".join(lines)
 
 
-def _facts(report: FrameReport | None) -> str:
-    if report is None:
-        return ""
+def facts(report: FrameReport) -> list[str]:
+    """Kind or rate of a frame, its age and its publisher, in words."""
     if report.is_static:
-        facts = ["static"]
+        found = ["static"]
     elif not report.samples:
-        facts = ["no data"]
+        found = ["no data"]
     else:
-        facts = [f"{report.rate_hz:.1f} Hz"] if report.rate_hz else ["one sample"]
+        found = [f"{report.rate_hz:.1f} Hz"] if report.rate_hz else ["one sample"]
         if report.age_ns is not None:
-            facts.append(_age(report.newest_ns, report.age_ns))
+            found.append(_age(report.newest_ns, report.age_ns))
     if report.publishers:
-        facts.append(f"from {', '.join(report.publishers)}")
-    flag = "  !" if report.problems else ""
-    return f"  [{', '.join(facts)}]{flag}"
+        found.append(f"from {', '.join(report.publishers)}")
+    return found
 
 
 def _age(stamp_ns: int, age_ns: int) -> str:
@@ -174,7 +181,9 @@ def _report(buffer: TransformBuffer, frame: str, cache: Cache, now_ns: int) -> F
     history_ns = cache.newest_stamp - cache.oldest_stamp
     rate_hz = (len(cache) - 1) * NS_PER_S / history_ns if history_ns else 0.0
     age_ns = now_ns - cache.newest_stamp if isinstance(cache, TimeCache) and cache.stamps else None
-    problems = [*conflicts(buffer, frame)]
+    found = [*found_conflicts(buffer, frame)]
+    problems = [conflict.sentence for conflict in found]
+    parents = dict.fromkeys(parent for conflict in found for parent in conflict.parents)
     if newest is None:
         problems.append(f'No transform of "{frame}" has arrived since the transforms were cleared.')
     if age_ns is not None and age_ns > STALE_NS and age_ns * rate_hz > STALE_PERIODS * NS_PER_S:
@@ -201,4 +210,5 @@ def _report(buffer: TransformBuffer, frame: str, cache: Cache, now_ns: int) -> F
         history_ns=history_ns,
         problems=tuple(problems),
         gap_ns=_gap(cache),
+        parents=tuple(parents) if len(parents) > 1 else (),
     )

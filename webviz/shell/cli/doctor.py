@@ -11,6 +11,7 @@ from cyclopts import App, Parameter, validators
 
 from webviz.shell.cli.ending import Stop, until_signal
 from webviz.shell.cli.options import ROS_ARGS_HELP, File, Flag, Plugins, RosArgs
+from webviz.shell.cli.progress import progress
 
 if TYPE_CHECKING:
     from webviz.shell.doctor.report import DoctorReport
@@ -83,26 +84,19 @@ def _examine(options: DoctorOptions, ros: Sequence[str]) -> "DoctorReport":
     if options.bag is not None:
         with contextlib.closing(bag_source(options.bag, ros_args=ros)) as bag:
             config = read_config(path, bag)
-            return examine_bag(bag, config, str(options.bag), _progress)
+            return examine_bag(bag, config, str(options.bag), progress)
     config = read_config(path) if path else None
     # Some faults end the program when ROS starts.
     machine = examine_machine(look_around())
     if any(finding.severity == "error" for finding in machine.findings):
         return machine
-    _progress("starting ROS", 0.0)
+    progress("starting ROS", 0.0)
     try:
         source = ros_source(ros)
     except Error as error:
         return examine_machine(look_around(str(error)))
     with contextlib.closing(source):
-        return examine_live(source, config, options.seconds, _progress)
-
-
-def _progress(what: str, share: float) -> None:
-    """Show a line of progress in a terminal, and clear it at the end."""
-    if sys.stderr.isatty():
-        bar = "█" * round(20 * share)
-        print(f"\r{what} {bar:░<20}\x1b[K\r", end="", file=sys.stderr, flush=True)
+        return examine_live(source, config, options.seconds, progress)
 
 
 def _explain(id: str) -> int:
