@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
-from dataclasses import fields, replace
+from dataclasses import replace
 from typing import Any
 
 import msgspec
 
 from webviz.api.status import Level, Status
 from webviz.engine.commands import Command, Sender, UseTool
-from webviz.engine.state import State, ToolButton
+from webviz.engine.state import State
 from webviz.page.asked import Asked
 from webviz.server.channel.channel import Channel
-from webviz.server.channel.messages import Published, Tools
-
-_SENT = [field.name for field in fields(ToolButton) if field.name != "tool"]
+from webviz.server.channel.messages import Published, ShownTool, Tools
 
 
 class Toolbar:
@@ -38,7 +36,9 @@ class Toolbar:
 
     def update(self, state: State) -> None:
         """Show the tools of a viewer; sends only what is new."""
-        tools = Tools(tuple({name: getattr(each, name) for name in _SENT} for each in state.tools))
+        tools = Tools(
+            tuple(msgspec.convert(each, ShownTool, from_attributes=True) for each in state.tools)
+        )
         if tools != self._shown:
             self._shown = tools
             self._channel.send(tools)

@@ -99,7 +99,7 @@ export interface StartView {
 
 export interface Tools {
   type: "Tools";
-  tools: Array<Record<string, unknown>>;
+  tools: Array<{ id: string; name: string; tooltip: string; shortcut: string; gesture: string; icon: string; surface: boolean; stays: boolean; asks: boolean; refusal: string; several: Array<string> }>;
 }
 
 export interface Values {

@@ -1,6 +1,7 @@
 // Types that modules share; those of the server are in messages.d.ts and stores.d.ts.
 
 import type { Stores } from "./contents.js";
+import type { Tools } from "./messages.js";
 
 /** x and y, in pixels unless it is said otherwise. */
 export type Vec2 = [number, number];
@@ -66,14 +67,79 @@ export type Curve = { key: number; name: string; problem: string; pieces: Piece[
 /** Seconds from the start, level, and text. */
 export type LoggedEvent = [number, string, string];
 
-/** What is under a point of the window; without an object it is the ground. */
-export type Hit = {
+/** The node of the viewer that an object belongs to; `first` is the number of its first point. */
+export type NodePart = { group: string; key: string; path: string; first: number };
+/** An object that displays draw, see `things`. */
+export type SceneThing = { object: Three; name: string; node: NodePart; ordinal: number };
+/** A thing of the scene as `pickAt` found it; `at` and `local` are empty if it is gone. */
+export type Picked = {
+  group: string;
+  key: string;
+  path: string;
+  name: string;
+  ordinal: number;
+  object: Three;
+  number: number | null;
+  color: Vec3 | null;
+  item: number | null;
+  at: Vec3;
+  local: Vec3;
   /** In coordinates of three.js. */
   point: Three;
-  object: Three | null;
-  group?: string;
-  [more: string]: any;
+  outline?: Shape | null;
 };
+/** What is under a point of the window: a thing, or the ground. */
+export type Hit = Picked | { point: Three; object: null };
+/** Points in coordinates of three.js, and which of them are joined. */
+export type Shape = { points: Three[]; edges: number[][] };
+/** The shape around something, and whether something else is drawn there now. */
+export type Outline = Shape & { isOld: boolean };
+/** What this page has selected; `oldSince` counts in ms. */
+export type Selected = Picked & { id: number; isKnown?: boolean; oldSince?: number | null };
+
+/** An event of the pointer over the scene. */
+export type SceneEvent = PointerEvent | WheelEvent;
+/** A tool as the viewer describes it. */
+export type ViewerTool = Tools["tools"][number];
+/** What a gesture adds to a tool; see `gestures.js`. */
+export interface Made {
+  /** A sentence on what to do. */
+  hint?: string;
+  icon?: string;
+  cursor?: string;
+  /** Takes an event before the camera; whether it did. */
+  pointer?(event: SceneEvent): boolean;
+  /** Called when the tool becomes active. */
+  select?(): void;
+  /** Called when it is not any more. */
+  leave?(): void;
+}
+/** A tool of the registry. */
+export interface Tool extends Made, Partial<Omit<ViewerTool, "icon">> {
+  id: string;
+  name: string;
+  tooltip: string;
+  icon: string;
+  /** Its place among the others. */
+  order: number;
+  /** Whether its button is an icon only. */
+  isLean?: boolean;
+}
+/** What gestures know of a tool of the registry or of the viewer. */
+export type ToolFacts = Pick<
+  Tool,
+  "id" | "name" | "gesture" | "surface" | "several" | "stays" | "asks"
+>;
+/** A finished gesture; `yaws` and `several` are of poses that were collected. */
+export type MadeGesture = {
+  points: Vec3[];
+  yaw: number;
+  keys: string[];
+  yaws?: number[];
+  several?: string;
+};
+/** Makes what a tool of the viewer has besides its name. */
+export type Gesture = (tool: ViewerTool, done: (made: Partial<MadeGesture> & { points: Vec3[] }) => void) => Made;
 
 /** A rectangle of the window, in CSS pixels. */
 export type Box = { left: number; top: number; right: number; bottom: number };

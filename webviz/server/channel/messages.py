@@ -173,16 +173,28 @@ class SaveCanvas(ToPage, frozen=True):
     name: str
 
 
-class Tools(ToPage, frozen=True):
-    """The toolbar, in order.
+class ShownTool(msgspec.Struct, frozen=True):
+    """A tool in the toolbar; the fields are those of `webviz.engine.state.ToolButton`."""
 
-    Args:
-        tools: fields of `webviz.engine.state.ToolButton`, but for `tool`.
-    """
+    id: str
+    name: str
+    tooltip: str
+    shortcut: str
+    gesture: str
+    icon: str
+    surface: bool
+    stays: bool
+    asks: bool
+    refusal: str
+    several: tuple[str, ...]
+
+
+class Tools(ToPage, frozen=True):
+    """The toolbar, in order."""
 
     kept = True
 
-    tools: tuple[dict[str, Any], ...]
+    tools: tuple[ShownTool, ...]
 
 
 class Published(ToPage, frozen=True):

@@ -99,6 +99,7 @@ export const toFixedFrame = (point) =>
  * Where a point of the fixed frame is on the canvas, in CSS pixels, or null behind the camera.
  *
  * @param {Vec3} point
+ * @returns {Vec2 | null}
  */
 export function onCanvas(point) {
   const [camera, canvas] = [viser.camera(), viser.canvas()];

@@ -3,6 +3,8 @@
 import { onCanvas } from "../scene/ground.js";
 import { canvas } from "../viser_page.js";
 
+/** @import {Vec2, Vec3} from "../types.js" */
+
 // RViz's arrow, in metres: a shaft and a head. It is never too small to see, nor too large.
 const SHAFT = [2.0, 0.1];
 const HEAD = [0.5, 0.175];
@@ -12,13 +14,16 @@ const LONGEST = 0.35; // of the height of the scene
 /**
  * The corners of the arrow of a pose on the canvas, in pixels, as large as RViz's or a part of that;
  * null if it is not in front.
+ *
+ * @param {Vec3} point
+ * @param {number} yaw
+ * @param {number} [part]
+ * @returns {Vec2[] | null}
  */
 export function arrowAt([x, y, z], yaw, part = 1) {
   const [c, s] = [Math.cos(yaw), Math.sin(yaw)];
-  const [from, to] = [
-    [x, y, z],
-    [x + 0.01 * c, y + 0.01 * s, z],
-  ].map(onCanvas);
+  const from = onCanvas([x, y, z]);
+  const to = onCanvas([x + 0.01 * c, y + 0.01 * s, z]);
   if (from === null || to === null) return null;
   const perMeter = 100 * Math.hypot(to[0] - from[0], to[1] - from[1]);
   const length = SHAFT[0] + HEAD[0];
@@ -37,5 +42,6 @@ export function arrowAt([x, y, z], yaw, part = 1) {
   const corners = shape.map(([ahead, left]) =>
     onCanvas([x + scale * (ahead * c - left * s), y + scale * (ahead * s + left * c), z]),
   );
-  return corners.includes(null) ? null : corners;
+  const seen = corners.filter((corner) => corner !== null);
+  return seen.length === corners.length ? seen : null;
 }

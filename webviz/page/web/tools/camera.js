@@ -5,6 +5,9 @@ import { focusOn } from "../scene/mouse.js";
 import { clicks } from "./clicks.js";
 import { select } from "./registry.js";
 
+/** @import {Tool} from "../types.js" */
+
+/** @type {Tool} */
 export const interact = {
   id: "interact",
   name: "Interact",
@@ -18,6 +21,7 @@ export const interact = {
   leave,
 };
 
+/** @type {Tool} */
 export const moveCamera = {
   id: "move-camera",
   name: "Move Camera",
@@ -30,6 +34,7 @@ export const moveCamera = {
   cursor: "move",
 };
 
+/** @type {Tool} */
 export const focusCamera = {
   id: "focus-camera",
   name: "Focus Camera",

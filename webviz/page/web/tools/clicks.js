@@ -1,5 +1,7 @@
 // Clicks among the pointer's events; drags stay with the camera.
 
+/** @import {SceneEvent, Vec2} from "../types.js" */
+
 const CLICK_PX = 4;
 
 /**
@@ -11,8 +13,10 @@ const CLICK_PX = 4;
  * @param {(event: PointerEvent) => void} onMove
  */
 export function clicks(onClick, onRight = () => {}, onMove = () => {}) {
+  /** @type {{pointer: number, at: Vec2} | null} */
   let pressed = null;
-  return (event) => {
+  return (/** @type {SceneEvent} */ event) => {
+    if (event instanceof WheelEvent) return false;
     if (event.type === "pointerdown") {
       pressed = { pointer: event.pointerId, at: [event.clientX, event.clientY] };
     } else if (event.type === "pointercancel") {
@@ -29,6 +33,7 @@ export function clicks(onClick, onRight = () => {}, onMove = () => {}) {
     return false;
   };
 
+  /** @param {PointerEvent} event */
   function isFar({ pointerId, clientX, clientY }) {
     if (pressed?.pointer !== pointerId) return false;
     return Math.hypot(clientX - pressed.at[0], clientY - pressed.at[1]) >= CLICK_PX;

@@ -8,18 +8,22 @@ import { watch } from "../stores.js";
 import { makePoses } from "./poses.js";
 
 /** @import {ValuesOf} from "../types.js" */
+/** @import {Pose} from "./poses.js" */
+/** @import {Route, ShownGoal} from "../contents.js" */
 
+/** @type {Record<ShownGoal["phase"], string>} */
 const TEXTS = { sending: "Sending…", active: "", canceling: "Cancelling…", ended: "" };
 
 /** The list of cards, one per goal. */
 export function install() {
   const list = el("div", { class: "wv-goals", role: "region", "aria-label": "Goals" });
+  /** @type {Map<string, ReturnType<typeof makeCard>>} */
   const cards = new Map();
   watch("goals", (goals) => {
     for (const id of cards.keys()) if (!goals.has(id)) cards.delete(id);
     for (const [id, goal] of goals) {
       if (!cards.has(id)) cards.set(id, makeCard(id));
-      cards.get(id).update(goal);
+      cards.get(id)?.update(goal);
     }
     setChildren(
       list,
@@ -35,6 +39,7 @@ function showRoutes() {
   const show = makePoses("routes");
   /** @type {ValuesOf<"routes">} */
   let routes = new Map();
+  /** @type {string | null} */
   let frame = null;
   const update = () =>
     show([...routes.values()].flatMap((route) => (route.frame === frame ? posesOf(route) : [])));
@@ -49,6 +54,10 @@ function showRoutes() {
   });
 }
 
+/**
+ * @param {Route} route
+ * @returns {Pose[]}
+ */
 const posesOf = ({ poses }) =>
   poses.map(([x, y, z, yaw], index) => ({
     point: [x, y, z],
@@ -56,6 +65,7 @@ const posesOf = ({ poses }) =>
     number: poses.length > 1 ? String(index + 1) : "",
   }));
 
+/** @param {string} id */
 function makeCard(id) {
   const title = el("b");
   const label = el("span", { class: "wv-goal-label" });
@@ -99,6 +109,7 @@ function makeCard(id) {
   );
   return {
     element,
+    /** @param {ShownGoal} goal */
     update(goal) {
       set(element, {
         "data-level": goal.level || null,
@@ -125,8 +136,12 @@ function makeCard(id) {
   };
 }
 
+/**
+ * @param {HTMLElement} list
+ * @param {ShownGoal["values"]} values
+ */
 function showValues(list, values) {
-  while (list.children.length > values.length) list.lastElementChild.remove();
+  while (list.children.length > values.length) list.lastElementChild?.remove();
   while (list.children.length < values.length) list.append(el("div", {}, el("dt"), el("dd")));
   values.forEach(([label, text], index) => {
     const [term, value] = list.children[index].children;

@@ -7,12 +7,16 @@ import * as viser from "../viser_page.js";
 import { makeLayer } from "./layer.js";
 import * as selection from "./selection.js";
 
+/** @import {Outline, Three, Vec2} from "../types.js" */
+
 const COLOR = "#00e5ff";
 const BACK = "rgba(0, 0, 0, 0.65)";
 const POINT_PX = 5; // half of the square around a point
 const OLD_MS = 10_000; // how long something is marked that is not drawn any more
 
+/** @type {ReturnType<typeof makeLayer> | null} */
 let layer = null;
+/** @type {HTMLCanvasElement | null} */
 let drawing = null;
 let isEmpty = true;
 let timer = 0;
@@ -37,26 +41,28 @@ function draw() {
   const picks = [...selection.all().values()];
   if (!picks.length && isEmpty) return;
   isEmpty = !picks.length;
-  if (!layer) {
-    drawing = el("canvas", { class: "wv-highlight" });
-    layer = makeLayer("highlight", drawing);
-  }
+  drawing ??= el("canvas", { class: "wv-highlight" });
+  layer ??= makeLayer("highlight", drawing);
   layer.place();
   const { clientWidth: wide, clientHeight: tall } = viser.canvas();
   const [width, height] = [wide, tall].map((size) => Math.round(size * devicePixelRatio));
   if (drawing.width !== width || drawing.height !== height)
     Object.assign(drawing, { width, height });
-  const pen = drawing.getContext("2d");
+  const pen = /** @type {CanvasRenderingContext2D} */ (drawing.getContext("2d"));
   pen.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
   pen.clearRect(0, 0, wide, tall);
-  const find = picks.length ? finder() : null;
-  const [now, old] = [[], []];
+  const find = finder();
+  /** @type {Outline[]} */
+  const now = [];
+  /** @type {Outline[]} */
+  const old = [];
   for (const pick of picks) {
     const outline = outlineOf(pick, find, selection.moves(pick));
     if (!outline) continue;
-    pick.oldSince = outline.isOld ? (pick.oldSince ?? performance.now()) : null;
-    if (!outline.isOld) now.push(outline);
-    else if (performance.now() - pick.oldSince < OLD_MS) old.push(outline);
+    const oldSince = outline.isOld ? (pick.oldSince ?? performance.now()) : null;
+    pick.oldSince = oldSince;
+    if (oldSince === null) now.push(outline);
+    else if (performance.now() - oldSince < OLD_MS) old.push(outline);
   }
   if (old.length) timer ||= setTimeout(drawAgain, OLD_MS);
   stroke(pen, now, []);
@@ -68,22 +74,31 @@ function drawAgain() {
   viser.requestRender();
 }
 
-// First a dark line that is wider: legible on any ground.
+/**
+ * First a dark line that is wider: legible on any ground.
+ *
+ * @param {CanvasRenderingContext2D} pen
+ * @param {Outline[]} outlines
+ * @param {number[]} dash
+ */
 function stroke(pen, outlines, dash) {
   if (!outlines.length) return;
   pen.beginPath();
   for (const outline of outlines) trace(pen, outline);
   pen.setLineDash(dash);
-  for (const [color, width] of [
-    [BACK, 3.5],
-    [COLOR, 1.5],
+  for (const look of [
+    { strokeStyle: BACK, lineWidth: 3.5 },
+    { strokeStyle: COLOR, lineWidth: 1.5 },
   ]) {
-    pen.strokeStyle = color;
-    pen.lineWidth = width;
+    Object.assign(pen, look);
     pen.stroke();
   }
 }
 
+/**
+ * @param {CanvasRenderingContext2D} pen
+ * @param {Outline} outline
+ */
 function trace(pen, { points, edges }) {
   const places = points.map(placeOf);
   for (const [from, to] of edges) {
@@ -96,6 +111,10 @@ function trace(pen, { points, edges }) {
   pen.rect(x - POINT_PX, y - POINT_PX, 2 * POINT_PX, 2 * POINT_PX);
 }
 
+/**
+ * @param {Three} point
+ * @returns {Vec2 | null}
+ */
 function placeOf(point) {
   const [camera, { clientWidth, clientHeight }] = [viser.camera(), viser.canvas()];
   if (point.clone().applyMatrix4(camera.matrixWorldInverse).z >= 0) return null;

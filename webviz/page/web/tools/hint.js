@@ -2,6 +2,7 @@
 
 import { el, set, setText } from "../dom.js";
 
+/** @type {Partial<Record<string, number>>} */
 const SHOWN_MS = { ok: 5000, warn: 10000, error: 10000 };
 
 export const hint = el("output", { class: "wv-hint wv-card", hidden: true });
@@ -9,7 +10,12 @@ export const hint = el("output", { class: "wv-hint wv-card", hidden: true });
 let timer = 0;
 let resting = "";
 
-/** Shows a sentence: a "hint" while a tool is active, or "ok", "warn" or "error" for a while. */
+/**
+ * Shows a sentence: a "hint" while a tool is active, or "ok", "warn" or "error" for a while.
+ *
+ * @param {string} level
+ * @param {string} text
+ */
 export function tell(level, text) {
   clearTimeout(timer);
   if (level === "hint") resting = text;
@@ -17,12 +23,20 @@ export function tell(level, text) {
   if (SHOWN_MS[level]) timer = setTimeout(() => show("hint", resting), SHOWN_MS[level]);
 }
 
-/** Shows where a gesture is, until another text; "" shows the hint again. */
+/**
+ * Shows where a gesture is, until another text; "" shows the hint again.
+ *
+ * @param {string} text
+ */
 export function tellLive(text) {
   clearTimeout(timer);
   show("hint", text || resting);
 }
 
+/**
+ * @param {string} level
+ * @param {string} text
+ */
 function show(level, text) {
   set(hint, { "data-level": level });
   setText(hint, text);

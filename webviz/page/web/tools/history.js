@@ -3,9 +3,23 @@
 import * as act from "../act.js";
 import { watch } from "../stores.js";
 
+/** @import {MadeGesture, ToolFacts} from "../types.js" */
+/** @import {Published} from "../messages.js" */
+
+/** @typedef {{topic: string, type: string, values: Published["values"]}} SentMessage */
+
+/**
+ * @typedef {Required<MadeGesture> & {
+ *     number: number, tool: ToolFacts, frame: string, time: Date,
+ *     level: string, text: string, messages: SentMessage[],
+ *   }} SentGesture
+ */
+
 const MAX_KEPT = 20;
 
+/** @type {Set<() => void>} */
 const listeners = new Set();
+/** @type {SentGesture[]} */
 let sent = [];
 let frame = "";
 
@@ -16,13 +30,22 @@ export function install() {
 export const all = () => sent;
 export const fixedFrame = () => frame;
 
-/** Calls `listener` whenever something is new; returns what ends it. */
+/**
+ * Calls `listener` whenever something is new; returns what ends it.
+ *
+ * @param {() => void} listener
+ */
 export function onChange(listener) {
   listeners.add(listener);
   return () => listeners.delete(listener);
 }
 
-/** Sends a finished gesture of a tool, `{id, name, gesture}`, or poses that were collected. */
+/**
+ * Sends a finished gesture of a tool, `{id, name, gesture}`, or poses that were collected.
+ *
+ * @param {ToolFacts} tool
+ * @param {MadeGesture} made
+ */
 export function send(tool, { points, yaw, keys, yaws = [], several = "" }) {
   const stroke = { points, yaw, keys, yaws, several };
   const result = { level: "", text: "", messages: [] };
@@ -32,16 +55,35 @@ export function send(tool, { points, yaw, keys, yaws = [], several = "" }) {
   tellAll();
 }
 
-/** Sends it again: a new message, stamped now. */
+/**
+ * Sends it again: a new message, stamped now.
+ *
+ * @param {SentGesture} entry
+ */
 export const again = (entry) => send(entry.tool, entry);
 
-/** Note the result of a gesture, a sentence. */
+/**
+ * Note the result of a gesture, a sentence.
+ *
+ * @param {number} number
+ * @param {string} level
+ * @param {string} text
+ */
 export const told = (number, level, text) => change(number, (entry) => ({ ...entry, level, text }));
 
-/** A message that a gesture became: `{topic, type, values}`. */
+/**
+ * A message that a gesture became: `{topic, type, values}`.
+ *
+ * @param {number} number
+ * @param {SentMessage} message
+ */
 export const published = (number, message) =>
   change(number, (entry) => ({ ...entry, messages: [...entry.messages, message] }));
 
+/**
+ * @param {number} number
+ * @param {(entry: SentGesture) => SentGesture} update
+ */
 function change(number, update) {
   sent = sent.map((entry) => (entry.number === number ? update(entry) : entry));
   tellAll();

@@ -3,7 +3,14 @@
 import { el } from "../dom.js";
 import { canvas } from "../viser_page.js";
 
-/** A layer over the canvas; `place()` moves it to where the canvas is. */
+/** @import {Child} from "../types.js" */
+
+/**
+ * A layer over the canvas; `place()` moves it to where the canvas is.
+ *
+ * @param {string} name
+ * @param {...Child} children
+ */
 export function makeLayer(name, ...children) {
   const element = el("div", { class: "wv-layer", "data-webviz": name }, ...children);
   let shown = "";

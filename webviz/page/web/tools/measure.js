@@ -11,18 +11,34 @@ import { tell, tellLive } from "./hint.js";
 import { makeLayer } from "./layer.js";
 import { fixed } from "./numbers.js";
 
+/** @import {Tool, Vec2, Vec3} from "../types.js" */
+
+/**
+ * @typedef {{
+ *   from: Vec3, to: Vec3 | null, parts: SVGLineElement[], ends: SVGCircleElement[],
+ *   label: HTMLButtonElement, length: HTMLElement, steps: HTMLElement,
+ * }} Line
+ */
+
 const MAX_LINES = 50;
 const MAX_WAIT_MS = 250; // between looks at what is below the pointer
 const HINT = "Click on two points. Right click clears, Esc leaves.";
 
+/** @type {Line[]} */
 const lines = [];
+/** @type {Line | null} */
 let open = null; // the line that has no end yet
+/** @type {ReturnType<typeof makeLayer> | null} */
 let layer = null;
+/** @type {SVGSVGElement | null} */
 let drawing = null;
+/** @type {Vec2 | null} */
 let pointer = null;
 let isWaiting = false;
+/** @type {string | null} */
 let frame = null;
 
+/** @type {Tool} */
 export const measure = {
   id: "measure",
   name: "Measure",
@@ -54,12 +70,16 @@ function install() {
   });
 }
 
+/**
+ * @param {PointerEvent} event
+ * @returns {void}
+ */
 function press(event) {
   const point = surfaceAt([event.clientX, event.clientY]);
   if (point === null) return tell("warn", "Nothing is there. Click on a surface or on the ground.");
   if (open) {
     open.to = point;
-    finish();
+    finish(open);
   } else {
     if (lines.length >= MAX_LINES) remove(lines[0]);
     open = makeLine(point);
@@ -67,8 +87,9 @@ function press(event) {
   viser.requestRender();
 }
 
-function finish() {
-  set(open.label, { "data-live": null, tabindex: 0 });
+/** @param {Line} line */
+function finish(line) {
+  set(line.label, { "data-live": null, tabindex: 0 });
   open = null;
   tellLive("");
 }
@@ -80,7 +101,11 @@ function clear() {
   tellLive("");
 }
 
-// A ray through a large cloud takes long: the next one waits as long as four of them.
+/**
+ * A ray through a large cloud takes long: the next one waits as long as four of them.
+ *
+ * @param {PointerEvent} event
+ */
 function move(event) {
   pointer = [event.clientX, event.clientY];
   if (open && !isWaiting) requestAnimationFrame(look);
@@ -88,11 +113,11 @@ function move(event) {
 }
 
 function look() {
-  const [before, at] = [performance.now(), pointer];
-  const point = open && at && surfaceAt(at);
+  const [before, at, line] = [performance.now(), pointer, open];
+  const point = line && at && surfaceAt(at);
   if (point) {
-    open.to = point;
-    tellLive(words(open));
+    line.to = point;
+    tellLive(words(line));
     draw();
   }
   const next = () => {
@@ -102,7 +127,10 @@ function look() {
   setTimeout(next, Math.min(4 * (performance.now() - before), MAX_WAIT_MS));
 }
 
+/** @param {Vec3} from */
 function makeLine(from) {
+  const [length, steps] = [el("b"), el("span")];
+  /** @type {Line} */
   const line = {
     from,
     to: null,
@@ -118,16 +146,19 @@ function makeLine(from) {
         title: "Copy",
         onclick: () => copyLine(line),
       },
-      el("b"),
-      el("span"),
+      length,
+      steps,
     ),
+    length,
+    steps,
   };
   lines.push(line);
-  drawing.append(...line.parts, ...line.ends);
-  layer.element.append(line.label);
+  drawing?.append(...line.parts, ...line.ends);
+  layer?.element.append(line.label);
   return line;
 }
 
+/** @param {Line} line */
 function remove(line) {
   if (line === open) open = null;
   lines.splice(lines.indexOf(line), 1);
@@ -138,20 +169,23 @@ function removeAll() {
   while (lines.length) remove(lines[0]);
 }
 
+/** @param {Line} line */
 async function copyLine(line) {
   const isCopied = await copy(words(line));
   if (isCopied) tell("ok", `Copied ${words(line)}.`);
   else tell("error", "The browser does not allow copying.");
 }
 
+/** @param {Line} line one without an end has no length */
 function parts({ from, to }) {
-  const steps = to.map((number, axis) => number - from[axis]);
+  const steps = (to ?? from).map((number, axis) => number - from[axis]);
   return [
     `${fixed(Math.hypot(...steps), 3)} m`,
     ["x", "y", "z"].map((axis, index) => `${axis} ${fixed(steps[index], 3)}`).join(" "),
   ];
 }
 
+/** @param {Line} line */
 function words(line) {
   const [length, steps] = parts(line);
   return `${length} (${steps})`;
@@ -159,28 +193,26 @@ function words(line) {
 
 function draw() {
   if (!lines.length) return;
-  layer.place();
+  layer?.place();
   for (const line of lines) drawLine(line);
 }
 
+/** @param {Line} line */
 function drawLine(line) {
-  const ends = [line.from, line.to ?? line.from].map(onCanvas);
-  const isSeen = !ends.includes(null);
-  for (const part of line.parts) {
-    set(part, { display: isSeen ? null : "none" });
-    if (isSeen) set(part, { x1: ends[0][0], y1: ends[0][1], x2: ends[1][0], y2: ends[1][1] });
-  }
-  line.ends.forEach((end, index) => {
-    set(end, { display: ends[index] ? null : "none" });
-    if (ends[index]) set(end, { cx: ends[index][0], cy: ends[index][1] });
+  const [from, to] = [onCanvas(line.from), onCanvas(line.to ?? line.from)];
+  const seen = from && to && { x1: from[0], y1: from[1], x2: to[0], y2: to[1] };
+  for (const part of line.parts) set(part, { display: seen ? null : "none", ...seen });
+  [from, to].forEach((place, index) => {
+    const end = place ? { display: null, cx: place[0], cy: place[1] } : { display: "none" };
+    set(line.ends[index], end);
   });
-  const isHidden = !isSeen || line.to === null;
+  const isHidden = !seen || line.to === null;
   if (line.label.hidden !== isHidden) line.label.hidden = isHidden;
-  if (isHidden) return;
+  if (!seen || isHidden) return;
   const [length, steps] = parts(line);
-  setText(line.label.firstChild, length);
-  setText(line.label.lastChild, steps);
-  const [x, y] = [0, 1].map((axis) => (ends[0][axis] + ends[1][axis]) / 2);
+  setText(line.length, length);
+  setText(line.steps, steps);
+  const [x, y] = [(seen.x1 + seen.x2) / 2, (seen.y1 + seen.y2) / 2];
   const place = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, 10px)`;
   if (line.label.style.transform !== place) line.label.style.transform = place;
 }

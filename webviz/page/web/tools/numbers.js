@@ -1,4 +1,9 @@
 // Numbers as tools show them.
 
-/** A number with so many digits after its point; what is rounded to zero has no sign. */
+/**
+ * A number with so many digits after its point; what is rounded to zero has no sign.
+ *
+ * @param {number} number
+ * @param {number} digits
+ */
 export const fixed = (number, digits) => number.toFixed(digits).replace(/^-(0\.?0*)$/, "$1");

@@ -6,36 +6,50 @@ import * as viser from "../viser_page.js";
 import { arrowAt } from "./arrow.js";
 import { makeLayer } from "./layer.js";
 
+/** @import {Vec3} from "../types.js" */
+
+/** @typedef {{point: Vec3, yaw: number, number: string}} Pose */
+
 const ARROW = 0.5; // of that of a gesture
 
 /**
  * A layer that shows poses: `show([{point, yaw, number}])`, in metres and radians in the fixed frame;
  * `number` is a text or "".
+ *
+ * @param {string} name
  */
 export function makePoses(name) {
+  /** @type {ReturnType<typeof makeLayer> | null} */
   let layer = null;
+  /** @type {SVGSVGElement | null} */
   let drawing = null;
+  /** @type {ReturnType<typeof makeMark>[]} */
   let marks = [];
+  /** @type {Pose[]} */
   let shown = [];
 
   function draw() {
     if (!shown.length) return;
-    layer.place();
+    layer?.place();
     shown.forEach((pose, index) => drawPose(marks[index], pose));
   }
 
-  return function show(poses) {
+  function begin() {
+    const made = svgElement("svg");
+    layer = makeLayer(name, made);
+    viser.beforeRender(draw);
+    return made;
+  }
+
+  return function show(/** @type {Pose[]} */ poses) {
     if (!poses.length && !shown.length) return;
-    if (!layer) {
-      drawing = svgElement("svg");
-      layer = makeLayer(name, drawing);
-      viser.beforeRender(draw);
-    }
+    drawing ??= begin();
     shown = poses;
     for (const mark of marks.splice(poses.length)) mark.group.remove();
     while (marks.length < poses.length) {
-      marks.push(makeMark());
-      drawing.append(marks.at(-1).group);
+      const mark = makeMark();
+      marks.push(mark);
+      drawing.append(mark.group);
     }
     poses.forEach(({ number }, index) => {
       setText(marks[index].number, number);
@@ -53,6 +67,10 @@ function makeMark() {
   return { arrow, dot, number, group: svgElement("g", {}, arrow, dot, number) };
 }
 
+/**
+ * @param {ReturnType<typeof makeMark>} mark
+ * @param {Pose} pose
+ */
 function drawPose({ arrow, dot, number, group }, { point, yaw }) {
   const start = onCanvas(point);
   const corners = start && arrowAt(point, yaw, ARROW);

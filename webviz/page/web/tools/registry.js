@@ -10,23 +10,36 @@
 import { canvas } from "../viser_page.js";
 import { tell } from "./hint.js";
 
+/** @import {Tool} from "../types.js" */
+
+/** @type {Set<() => void>} */
 const listeners = new Set();
+/** @type {Map<string, Tool[]>} */
 const sets = new Map();
+/** @type {Tool | null} */
 let fallback = null;
+/** @type {Tool | null} */
 let current = null;
 
-/** Replaces the tools that come from one origin. A gesture goes on if its tool is still there. */
+/**
+ * Replaces the tools that come from one origin. A gesture goes on if its tool is still there.
+ *
+ * @param {string} origin
+ * @param {Tool[]} tools
+ * @returns {void}
+ */
 export function provide(origin, tools) {
   sets.set(origin, tools);
   const known = all();
+  const id = current?.id;
   if (!current || known.includes(current)) return tellAll();
-  const same = known.find(({ id }) => id === current.id);
+  const same = known.find((tool) => tool.id === id);
   if (same && !same.refusal) {
     current = same;
     return tellAll();
   }
   select(null);
-  if (same) tell("warn", same.refusal);
+  if (same?.refusal) tell("warn", same.refusal);
 }
 
 /** All tools in the order of the toolbar. */
@@ -35,25 +48,42 @@ export const all = () => [...sets.values()].flat().sort((a, b) => a.order - b.or
 export const active = () => current;
 export const isDefault = () => current === fallback;
 
-/** Makes a tool the one to go back to. */
+/**
+ * Makes a tool the one to go back to.
+ *
+ * @param {Tool} tool
+ */
 export function setDefault(tool) {
   fallback = current = tool;
 }
 
-/** Selects a tool; null is the default. One that cannot be used says why. */
+/**
+ * Selects a tool; null is the default. One that cannot be used says why.
+ *
+ * @param {Tool | null} tool
+ * @returns {void}
+ */
 export function select(tool) {
   if (tool?.refusal) return tell("warn", tool.refusal);
   current?.leave?.();
   current = tool ?? fallback;
-  canvas().style.cursor = current.cursor ?? "";
-  current.select?.();
+  canvas().style.cursor = current?.cursor ?? "";
+  current?.select?.();
   tellAll();
 }
 
-/** Selects a tool, or goes back if it is selected. */
+/**
+ * Selects a tool, or goes back if it is selected.
+ *
+ * @param {Tool} tool
+ */
 export const toggle = (tool) => select(tool === current ? null : tool);
 
-/** Calls `listener` when tools change or another one is active; returns what ends it. */
+/**
+ * Calls `listener` when tools change or another one is active; returns what ends it.
+ *
+ * @param {() => void} listener
+ */
 export function onChange(listener) {
   listeners.add(listener);
   return () => listeners.delete(listener);

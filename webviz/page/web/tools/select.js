@@ -14,17 +14,20 @@ import { tell } from "./hint.js";
 import { makeLayer } from "./layer.js";
 import * as selection from "./selection.js";
 
-/** @import {ValuesOf} from "../types.js" */
+/** @import {Box, SceneEvent, SceneThing, Tool, ValuesOf, Vec2} from "../types.js" */
 
 const CLICK_PX = 4;
 const HINT = "Click or drag a box. Shift adds, Ctrl removes, Alt moves the camera.";
 
+/** @type {{pointer: number, from: Vec2, isBox: boolean} | null} */
 let drag = null;
+/** @type {ReturnType<typeof makeBox> | null} */
 let box = null;
 let endPicking = () => {};
 /** @type {ValuesOf<"picking">} */
 let unselectable = new Map(); // by the ids of displays
 
+/** @type {Tool} */
 export const select = {
   id: "select",
   name: "Select",
@@ -59,7 +62,12 @@ export function lookAtSelection() {
   if (point) focus(point);
 }
 
+/**
+ * @param {SceneEvent} event
+ * @returns {boolean}
+ */
 function follow(event) {
+  if (event instanceof WheelEvent) return false;
   const { type, pointerId, clientX, clientY } = event;
   if (type === "pointerdown") {
     if (drag !== null || event.button !== 0 || event.altKey) return drag !== null;
@@ -69,25 +77,34 @@ function follow(event) {
     return true;
   }
   if (drag === null) return false;
-  if (pointerId !== drag.pointer) return type !== "wheel";
+  if (pointerId !== drag.pointer) return true;
   if (type === "pointermove") move(clientX, clientY);
   else if (type === "pointerup") finish(event);
   else if (type === "pointercancel") cancel();
   return true;
 }
 
+/**
+ * @param {number} x
+ * @param {number} y
+ */
 function move(x, y) {
+  if (!drag) return;
   drag.isBox ||= Math.hypot(x - drag.from[0], y - drag.from[1]) >= CLICK_PX;
   if (!drag.isBox) return;
   box ??= makeBox();
   box.layer.place();
-  const { left, top, right, bottom } = boxTo(x, y);
+  const { left, top, right, bottom } = boxBetween(drag.from, [x, y]);
   const { left: x0, top: y0 } = canvas().getBoundingClientRect();
   box.element.style.cssText = `left: ${left - x0}px; top: ${top - y0}px; width: ${right - left}px; height: ${bottom - top}px`;
 }
 
-function boxTo(x, y) {
-  const [fromX, fromY] = drag.from;
+/**
+ * @param {Vec2} from
+ * @param {Vec2} to
+ * @returns {Box}
+ */
+function boxBetween([fromX, fromY], [x, y]) {
   return {
     left: Math.min(x, fromX),
     right: Math.max(x, fromX),
@@ -101,10 +118,13 @@ function makeBox() {
   return { element, layer: makeLayer("select", element) };
 }
 
+/** @param {PointerEvent} event */
 function finish({ clientX, clientY, shiftKey, ctrlKey, metaKey }) {
-  const found = drag.isBox
-    ? pickIn(boxTo(clientX, clientY), selection.MAX_SELECTED, isSelectable)
-    : picked([clientX, clientY]);
+  /** @type {Vec2} */
+  const at = [clientX, clientY];
+  const found = drag?.isBox
+    ? pickIn(boxBetween(drag.from, at), selection.MAX_SELECTED, isSelectable)
+    : picked(at);
   // At once: a moment later there may be another message.
   const find = finder();
   for (const pick of found.picks) outlineOf(pick, find, false);
@@ -122,12 +142,17 @@ function finish({ clientX, clientY, shiftKey, ctrlKey, metaKey }) {
   });
 }
 
+/** @param {Vec2} xy */
 function picked(xy) {
   const found = pickAt(xy, isSelectable);
   return { picks: found ? [found] : [], total: found ? 1 : 0 };
 }
 
-// The group of a node begins with the id of its display.
+/**
+ * The group of a node begins with the id of its display.
+ *
+ * @param {SceneThing} thing
+ */
 const isSelectable = ({ node }) => !unselectable.has(node.group.split("/", 1)[0]);
 
 function cancel() {
@@ -138,9 +163,13 @@ function cancel() {
   box = null;
 }
 
-// As in RViz, F is about the selection while this tool is active.
+/**
+ * As in RViz, F is about the selection while this tool is active.
+ *
+ * @param {KeyboardEvent} event
+ */
 function onKey(event) {
-  const isTyping = /^(INPUT|TEXTAREA|SELECT)$/.test(event.target.tagName);
+  const isTyping = /^(INPUT|TEXTAREA|SELECT)$/.test(/** @type {Element} */ (event.target).tagName);
   const isPlain = !event.ctrlKey && !event.metaKey && !event.altKey;
   if (event.key !== "f" || isTyping || !isPlain || !selection.all().size) return;
   event.stopImmediatePropagation();

@@ -5,17 +5,21 @@ import { act } from "../act.js";
 import * as channel from "../channel.js";
 import { watch } from "../stores.js";
 
-/** @import {ValuesOf} from "../types.js" */
+/** @import {Picked, Selected, ValuesOf} from "../types.js" */
+/** @import {Commands} from "../messages.js" */
 
 /** The most things that are selected. */
 export const MAX_SELECTED = 1000;
 
+/** @type {Set<() => void>} */
 const listeners = new Set();
+/** @type {Map<number, Selected>} */
 let things = new Map(); // by id
 let total = 0;
 let count = 0;
 /** @type {ValuesOf<"selected">} */
 let known = new Map();
+/** @type {() => void} */
 let end = () => {};
 
 /** All things by id: what `pickAt` made of each. */
@@ -23,10 +27,18 @@ export const all = () => things;
 /** The number of things that there were to select. */
 export const totalCount = () => total;
 
-/** True if a thing moves and stays what it is, such as a frame; messages do not. */
+/**
+ * True if a thing moves and stays what it is, such as a frame; messages do not.
+ *
+ * @param {{id?: number}} pick
+ */
 export const moves = ({ id }) => known.get(String(id))?.[1] ?? false;
 
-/** Calls `listener` whenever something else is selected; returns what ends it. */
+/**
+ * Calls `listener` whenever something else is selected; returns what ends it.
+ *
+ * @param {() => void} listener
+ */
 export function onChange(listener) {
   listeners.add(listener);
   return () => listeners.delete(listener);
@@ -47,10 +59,18 @@ export function install() {
   });
 }
 
-/** The identity of a `pickAt`, to compare it with others. */
+/**
+ * The identity of a `pickAt`, to compare it with others.
+ *
+ * @param {Picked} pick
+ */
 const keyOf = ({ group, key, number, at }) => JSON.stringify([group, key, number, at]);
 
-/** The same as the server reads it: of one node, its items. */
+/**
+ * The same as the server reads it: of one node, its items.
+ *
+ * @param {Iterable<Selected>} picks
+ */
 export function sendable(picks) {
   const nodes = new Map();
   for (const { id, group, key, number, at, color } of picks) {
@@ -64,6 +84,10 @@ export function sendable(picks) {
 /**
  * Selects what was picked, in a way: "replace", "add" or "remove". Resolves with what is to be said
  * about it, `{level, text}`.
+ *
+ * @param {"replace" | "add" | "remove"} way
+ * @param {Picked[]} picks
+ * @param {number} [found]
  */
 export async function change(way, picks, found = picks.length) {
   const old = new Map([...things].map(([id, thing]) => [keyOf(thing), id]));
@@ -86,8 +110,13 @@ export async function change(way, picks, found = picks.length) {
   return put(keep, fresh, keep.length + Math.max(found, fresh.size));
 }
 
+/**
+ * @param {number[]} keep
+ * @param {Map<number, Selected>} fresh
+ * @param {number} wanted
+ */
 async function put(keep, fresh, wanted) {
-  things = new Map([...keep.map((id) => [id, things.get(id)]), ...fresh]);
+  things = new Map([...[...things].filter(([id]) => keep.includes(id)), ...fresh]);
   total = Math.max(wanted, things.size);
   tellAll();
   const fields = { picks: sendable(fresh.values()), keep, total };
@@ -105,6 +134,7 @@ function dropUnknown() {
   );
 }
 
+/** @param {number[]} ids */
 function drop(ids) {
   const gone = ids.filter((id) => things.delete(id));
   total -= gone.length;

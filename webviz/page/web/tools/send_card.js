@@ -3,6 +3,8 @@
 import { el } from "../dom.js";
 import { canvas } from "../viser_page.js";
 
+/** @import {Vec2} from "../types.js" */
+
 const GAP = 18; // pixels from the start of the gesture
 const MARGIN = 8;
 const BAR = 96; // of the toolbar and the hint
@@ -10,8 +12,16 @@ const BAR = 96; // of the toolbar and the hint
 /**
  * A card with two buttons; `place([x, y], ahead)` puts it below a point of the canvas, or above it if
  * the heading, a point, too, is below. Without a point it is in the middle.
+ *
+ * @param {() => void} send
+ * @param {() => void} cancel
  */
 export function sendCard(send, cancel) {
+  /**
+   * @param {string} name
+   * @param {string} label
+   * @param {() => void} run
+   */
   const button = (name, label, run) =>
     el("button", { type: "button", class: `wv-button ${name}`, onclick: run }, label);
   const first = button("wv-primary", "Send", send);
@@ -24,12 +34,16 @@ export function sendCard(send, cancel) {
   return {
     element,
     focus: () => first.focus({ preventScroll: true }),
+    /**
+     * @param {Vec2 | null} point
+     * @param {Vec2 | null} ahead
+     */
     place(point, ahead) {
       const { clientWidth: width, clientHeight: height } = canvas();
       const { offsetWidth, offsetHeight } = element;
       const [x, y] = point ?? [width / 2, height / 2];
       const left = clamp(x - offsetWidth / 2, MARGIN, width - offsetWidth - MARGIN);
-      const isAbove = Boolean(ahead) && ahead[1] > y;
+      const isAbove = ahead !== null && ahead[1] > y;
       const beside = isAbove ? y - GAP - offsetHeight : y + GAP;
       const top = clamp(beside, BAR, height - offsetHeight - MARGIN);
       const moved = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
@@ -38,4 +52,9 @@ export function sendCard(send, cancel) {
   };
 }
 
+/**
+ * @param {number} number
+ * @param {number} least
+ * @param {number} most
+ */
 const clamp = (number, least, most) => Math.max(least, Math.min(number, most));

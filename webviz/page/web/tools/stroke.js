@@ -8,24 +8,53 @@ import { fixed } from "./numbers.js";
 import { canvas } from "../viser_page.js";
 import { heightAt, onCanvas, planeAt, surfaceAt } from "../scene/ground.js";
 
-const CLICK_PX = 4;
+/** @import {MadeGesture, ToolFacts, Vec2, Vec3} from "../types.js" */
 
+/**
+ * @typedef {{done: (made: MadeGesture) => void, live: (text: string) => void}} Listener
+ * @typedef {Listener & {
+ *   tool: ToolFacts, start: Vec3, yaw: number, at: Vec2, from: Vec2, pointer: number | null,
+ *   isTurned: boolean, isLifting: boolean, finger: {pointerId: number, y: number} | null,
+ *   raised: number, made: MadeGesture | null, card: ReturnType<typeof sendCard> | null,
+ * }} Stroke
+ */
+
+const CLICK_PX = 4;
+/** @type {Omit<Stroke, "tool" | "start" | keyof Listener>} */
+const AT_REST = {
+  yaw: 0,
+  at: [0, 0],
+  from: [0, 0],
+  pointer: null,
+  isTurned: false,
+  isLifting: false,
+  finger: null,
+  raised: 0,
+  made: null,
+  card: null,
+};
+
+/** @type {ReturnType<typeof makeDrawing> | null} */
 let drawing = null;
+/** @type {Stroke | null} */
 let stroke = null;
 
 /**
  * Begins to follow a pointer, instead of what still waits to be sent. `done` gets the points, the
  * heading and the keys, `live` in words where the gesture is. False where there is nothing to begin
  * on.
+ *
+ * @param {PointerEvent} event
+ * @param {ToolFacts} tool
+ * @param {Listener} listener
  */
 export function begin(event, tool, { done, live }) {
-  /** @type {[number, number]} */
+  /** @type {Vec2} */
   const at = [event.clientX, event.clientY];
   const start = tool.surface ? surfaceAt(at) : planeAt(at, 0);
   if (start === null) return false;
   cancel();
-  const turned = { yaw: 0, isTurned: false, isLifting: false, finger: null, raised: 0 };
-  stroke = { tool, done, live, start, at, from: at, pointer: event.pointerId, ...turned };
+  stroke = { ...AT_REST, tool, done, live, start, at, from: at, pointer: event.pointerId };
   canvas().setPointerCapture(event.pointerId);
   follow(event);
   redraw(stroke);
@@ -34,93 +63,131 @@ export function begin(event, tool, { done, live }) {
 
 export const isGoing = () => stroke !== null && !stroke.made;
 export const isWaiting = () => Boolean(stroke?.made);
-export const follows = (event) => isGoing() && stroke.pointer === event.pointerId;
+/** @param {PointerEvent} event */
+export const follows = (event) => isGoing() && stroke?.pointer === event.pointerId;
 
-/** Takes up where the pointer is; with Ctrl it lifts, else it turns. */
+/**
+ * Takes up where the pointer is; with Ctrl it lifts, else it turns.
+ *
+ * @param {PointerEvent} event
+ */
 export function follow(event) {
+  if (!stroke) return;
   const before = stroke.at;
   stroke.at = [event.clientX, event.clientY];
   if (stroke.tool.gesture === "pose") {
     if (event.ctrlKey) {
       stroke.isLifting = true;
-      lift(before, stroke.at);
+      lift(stroke, before, stroke.at);
     } else {
       if (stroke.isLifting) stroke.from = before; // what was moved to lift it does not turn it
       stroke.isLifting = false;
       const [x, y] = stroke.from;
-      if (stroke.isTurned || Math.hypot(event.clientX - x, event.clientY - y) >= CLICK_PX) turn();
+      const isFar = Math.hypot(event.clientX - x, event.clientY - y) >= CLICK_PX;
+      if (stroke.isTurned || isFar) turn(stroke);
     }
   }
-  stroke.live(words());
+  stroke.live(words(stroke));
 }
 
-/** Takes up where another finger is: moving it up or down lifts, and does not turn. */
+/**
+ * Takes up where another finger is: moving it up or down lifts, and does not turn.
+ *
+ * @param {PointerEvent} event
+ */
 export function followSecond({ type, pointerId, pointerType, clientY }) {
-  if (stroke.tool.gesture !== "pose" || pointerType !== "touch") return;
+  if (stroke?.tool.gesture !== "pose" || pointerType !== "touch") return;
   if (type === "pointerdown") stroke.finger ??= { pointerId, y: clientY };
   if (stroke.finger?.pointerId !== pointerId) return;
   if (type === "pointermove") {
     const { left, top } = canvas().getBoundingClientRect();
     const [x, y] = onCanvas(stroke.start) ?? [0, 0];
-    const from = [left + x, top + y];
-    stroke.raised += lift(from, [from[0], from[1] + clientY - stroke.finger.y]);
+    const by = clientY - stroke.finger.y;
+    stroke.raised += lift(stroke, [left + x, top + y], [left + x, top + y + by]);
     stroke.finger.y = clientY;
-    stroke.live(words());
+    stroke.live(words(stroke));
   } else if (type !== "pointerdown") stroke.finger = null;
 }
 
-// The start goes up along a vertical line as much as what moved from one point of the window to
-// another.
-function lift(...points) {
-  const [from, to] = points.map((xy) => heightAt(xy, stroke.start));
+/**
+ * Lifts the start along a vertical line as much as what moved from one point of the window to
+ * another; returns by how many metres.
+ *
+ * @param {Stroke} stroke
+ * @param {Vec2} before
+ * @param {Vec2} now
+ */
+function lift({ start }, before, now) {
+  const [from, to] = [heightAt(before, start), heightAt(now, start)];
   const metres = from === null || to === null ? 0 : to - from;
-  stroke.start[2] += metres;
+  start[2] += metres;
   return metres;
 }
 
-// Where the pointer is at the height of the start, were it not for the other finger.
-function ahead() {
-  const { start, at, raised } = stroke;
+/**
+ * Where the pointer is at the height of the start, were it not for the other finger.
+ *
+ * @param {Stroke} stroke
+ * @returns {Vec3 | null}
+ */
+function ahead({ start, at, raised }) {
   const point = planeAt(at, start[2] - raised);
   return point && [point[0], point[1], start[2]];
 }
 
-function turn() {
+/** @param {Stroke} stroke */
+function turn(stroke) {
   const { start } = stroke;
-  const point = ahead();
+  const point = ahead(stroke);
   if (point === null) return;
   stroke.isTurned = true;
   stroke.yaw = Math.atan2(point[1] - start[1], point[0] - start[0]);
 }
 
-/** Ends a gesture; its preview stays until it is sent, if somebody `asks`. */
+/**
+ * Ends a gesture; its preview stays until it is sent, if somebody `asks`.
+ *
+ * @param {PointerEvent} event
+ * @param {boolean} asks
+ */
 export function end(event, asks) {
+  if (!stroke) return;
   follow(event);
   const { start, yaw, isTurned } = stroke;
-  const last = isTurned ? ahead() : null;
-  const keys = ["shift", "ctrl", "alt", "meta"].filter((key) => event[`${key}Key`]);
+  const last = isTurned ? ahead(stroke) : null;
+  const { shiftKey: shift, ctrlKey: ctrl, altKey: alt, metaKey: meta } = event;
+  const held = Object.entries({ shift, ctrl, alt, meta }).filter(([, isHeld]) => isHeld);
+  const keys = held.map(([key]) => key);
   stroke.made = { points: last === null ? [start] : [start, last], yaw, keys };
-  if (asks) wait();
+  if (asks) wait(stroke);
   else send();
 }
 
-/** Shows a gesture as it was made, `{points, yaw, keys}`, until it is sent. */
+/**
+ * Shows a gesture as it was made, `{points, yaw, keys}`, until it is sent.
+ *
+ * @param {ToolFacts} tool
+ * @param {MadeGesture} made
+ * @param {Listener} listener
+ */
 export function propose(tool, made, { done, live }) {
   cancel();
-  stroke = { tool, done, live, start: made.points[0], yaw: made.yaw, made };
+  stroke = { ...AT_REST, tool, done, live, start: made.points[0], yaw: made.yaw, made };
   redraw(stroke);
-  wait();
+  wait(stroke);
 }
 
-function wait() {
-  stroke.live(`${words()} · Enter sends, Esc cancels.`);
+/** @param {Stroke} stroke */
+function wait(stroke) {
+  stroke.live(`${words(stroke)} · Enter sends, Esc cancels.`);
   stroke.card = sendCard(send, cancel);
-  drawing.layer.element.append(stroke.card.element);
+  drawing?.layer.element.append(stroke.card.element);
   stroke.card.focus();
 }
 
 /** Sends what waits for that. */
 export function send() {
+  if (!stroke?.made) return;
   const { done, made } = stroke;
   cancel();
   done(made);
@@ -129,7 +196,7 @@ export function send() {
 export function cancel() {
   if (stroke === null) return;
   const { pointer } = stroke;
-  if (pointer !== undefined && canvas().hasPointerCapture(pointer))
+  if (pointer !== null && canvas().hasPointerCapture(pointer))
     canvas().releasePointerCapture(pointer);
   stroke.live("");
   stroke = null;
@@ -137,29 +204,31 @@ export function cancel() {
   drawing = null;
 }
 
-function words() {
-  const { tool, start, yaw } = stroke;
+/** @param {Stroke} stroke */
+function words({ tool, start, yaw }) {
   const [x, y, z] = start.map((number) => fixed(number, 2));
   const heading = tool.gesture === "pose" ? ` · yaw ${fixed((yaw * 180) / Math.PI, 1)}°` : "";
   return `x ${x} y ${y} z ${z} m${heading}`;
 }
 
+/** @param {Stroke} shown */
 function redraw(shown) {
   if (stroke !== shown) return;
   requestAnimationFrame(() => redraw(shown)); // the view may follow a frame that moves
   drawing ??= makeDrawing();
   const { layer, stem, arrow, dot } = drawing;
   const { tool, start, yaw } = stroke;
+  const isPose = tool.gesture === "pose";
   layer.place();
-  set(arrow, { points: ((tool.gesture === "pose" && arrowAt(start, yaw)) || []).join(" ") });
+  set(arrow, { points: ((isPose && arrowAt(start, yaw)) || []).join(" ") });
   const top = onCanvas(start) ?? [-100, -100];
-  const isLifted = tool.gesture === "pose" && start[2] !== 0;
+  const isLifted = isPose && start[2] !== 0;
   const foot = (isLifted && onCanvas([start[0], start[1], 0])) || top;
   set(stem, { x1: top[0], y1: top[1], x2: foot[0], y2: foot[1] });
   set(dot, { cx: top[0], cy: top[1] });
-  /** @type {[number, number, number]} */
+  /** @type {Vec3} */
   const heading = [start[0] + Math.cos(yaw), start[1] + Math.sin(yaw), start[2]];
-  stroke.card?.place(onCanvas(start), tool.gesture === "pose" && onCanvas(heading));
+  stroke.card?.place(onCanvas(start), isPose ? onCanvas(heading) : null);
 }
 
 function makeDrawing() {

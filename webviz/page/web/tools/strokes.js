@@ -12,10 +12,13 @@ import * as stroke from "./stroke.js";
 import * as teleop from "./teleop.js";
 import * as waypoints from "./waypoints.js";
 
+/** @import {Made, MadeGesture, SceneEvent, Tool, ToolFacts, ViewerTool} from "../types.js" */
+
 const FIRST = 10; // of the places in the toolbar; those before are of tools of the page
 const LIFTS = matchMedia("(pointer: coarse)").matches ? "A second finger" : "Ctrl";
 const POSE = `drag towards the heading. ${LIFTS} lifts. Esc cancels.`;
 const SEVERAL = `${LIFTS} lifts, Shift collects waypoints.`;
+/** @type {Record<string, [string, string]>} */
 const HINTS = {
   point: ["Click on the ground. Esc cancels.", "Click on a surface. Esc cancels."],
   pose: [`Press on the ground and ${POSE}`, `Press on a surface and ${POSE}`],
@@ -26,6 +29,7 @@ export function install() {
   gesture("point", strokeTool);
   gesture("pose", strokeTool);
   gesture("drive", teleop.tool);
+  /** @type {ViewerTool[]} */
   let known = [];
   const offer = () => provide("viewer", known.map(toolOf));
   onGesture(offer);
@@ -42,6 +46,11 @@ export function install() {
   );
 }
 
+/**
+ * @param {ViewerTool} tool
+ * @param {number} index
+ * @returns {Tool}
+ */
 function toolOf(tool, index) {
   const make = gestureOf(tool.gesture);
   const refusal =
@@ -52,17 +61,34 @@ function toolOf(tool, index) {
   return { ...known, ...make?.(known, (made) => take(known, { yaw: 0, keys: [], ...made })) };
 }
 
-// Waits to be sent if the tool asks, as a gesture of the page does.
+/**
+ * Waits to be sent if the tool asks, as a gesture of the page does.
+ *
+ * @param {ToolFacts} tool
+ * @param {MadeGesture} made
+ */
 function take(tool, made) {
-  if (tool.asks) stroke.propose(tool, made, { done: (sent) => finish(tool, sent), live: tellLive });
+  if (tool.asks)
+    stroke.propose(tool, made, {
+      done: (/** @type {MadeGesture} */ sent) => finish(tool, sent),
+      live: tellLive,
+    });
   else finish(tool, made);
 }
 
+/**
+ * @param {ToolFacts} tool
+ * @param {MadeGesture} made
+ */
 function finish(tool, made) {
-  if (!active().stays) select(null); // as it is now: somebody may have changed it meanwhile
+  if (!active()?.stays) select(null); // as it is now: somebody may have changed it meanwhile
   history.send(tool, made);
 }
 
+/**
+ * @param {ViewerTool} known
+ * @returns {Made}
+ */
 const strokeTool = (known) => ({
   hint: hintOf(known),
   cursor: "crosshair",
@@ -70,18 +96,35 @@ const strokeTool = (known) => ({
   pointer: (event) => follow(event, known),
 });
 
+/** @param {ViewerTool} tool */
 function hintOf({ gesture, surface, several }) {
   const hint = HINTS[gesture][Number(surface)];
   return several?.length ? hint.replace(`${LIFTS} lifts.`, SEVERAL) : hint;
 }
 
-// Waypoints are sent by a button anyway.
-const asks = ({ shiftKey }) => active().asks && !waypoints.collects(active(), shiftKey);
+/**
+ * Waypoints are sent by a button anyway.
+ *
+ * @param {PointerEvent} event
+ */
+const asks = ({ shiftKey }) => {
+  const tool = active();
+  return tool?.asks === true && !waypoints.collects(tool, shiftKey);
+};
 
-// While a gesture goes on, the camera stays where it is.
+/**
+ * While a gesture goes on, the camera stays where it is.
+ *
+ * @param {SceneEvent} event
+ * @param {ViewerTool} tool
+ * @returns {boolean}
+ */
 function follow(event, tool) {
+  if (event instanceof WheelEvent) {
+    if (stroke.isGoing()) event.preventDefault();
+    return stroke.isGoing();
+  }
   if (stroke.isGoing()) {
-    if (event.type === "wheel") event.preventDefault();
     if (!stroke.follows(event)) {
       stroke.followSecond(event);
       return true;
@@ -93,6 +136,7 @@ function follow(event, tool) {
   }
   if (event.type !== "pointerdown" || event.target !== canvas() || event.button !== 0) return false;
   event.preventDefault();
+  /** @param {MadeGesture} made */
   const done = (made) => {
     if (!waypoints.collect(tool, made)) finish(tool, made);
   };

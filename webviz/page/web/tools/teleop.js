@@ -8,23 +8,46 @@ import { isTyping, takeKeys } from "../shell/commands.js";
 import { places } from "../shell/shell.js";
 import { watch } from "../stores.js";
 import * as registry from "./registry.js";
-import { makeCard } from "./teleop_card.js";
+import { added, makeCard } from "./teleop_card.js";
 import * as gamepad from "./teleop_gamepad.js";
 import * as keys from "./teleop_keys.js";
+
+/** @import {DrivingReport} from "../messages.js" */
+/** @import {Made, ViewerTool} from "../types.js" */
+
+/**
+ * Of the highest speeds: ahead, to the left and counter-clockwise.
+ *
+ * @typedef {readonly number[]} Shares
+ */
+/**
+ * @typedef {{
+ *   id: string, card: ReturnType<typeof makeCard>, beat: number, beats: number, sent: number,
+ *   heard: number, held: Shares, driver: number | null, canGoSideways: boolean,
+ *   ends: (() => void)[], timer: number,
+ * }} Driven
+ */
 
 const BEAT_MS = 50; // while something is held; the server stops the robot after 200 ms without
 const IDLE_BEATS = 2; // one heartbeat in so many while nothing is held
 const GAP_MS = 15; // between two that something changes
 const SILENCE_MS = 200; // of the server, after which heartbeats move nothing
+/** @type {Shares} */
 const STILL = [0, 0, 0];
 const HINT = matchMedia("(pointer: coarse)").matches
   ? "Drag the stick."
   : "Hold W A S D, the arrow keys, or the stick. Esc leaves.";
 
+/** @type {Driven | null} */
 let driven = null; // what is open while a tool that drives is active
 let isHere = true;
 
-/** The gesture of a tool that drives. */
+/**
+ * The gesture of a tool that drives.
+ *
+ * @param {ViewerTool} tool
+ * @returns {Made & {icon: string}}
+ */
 export const tool = ({ icon, gesture }) => ({
   icon: icon === gesture ? "wheel" : icon,
   hint: HINT,
@@ -33,7 +56,7 @@ export const tool = ({ icon, gesture }) => ({
 
 export function install() {
   registry.onChange(follow);
-  takeKeys((event) => {
+  takeKeys((/** @type {KeyboardEvent} */ event) => {
     if (!driven || document.querySelector("dialog[open]")) return false;
     const isTaken = keys.press(event, driven.canGoSideways);
     update();
@@ -61,12 +84,13 @@ export const state = () => driven;
 // The card is there while the tool is active, however it became so.
 function follow() {
   const active = registry.active();
-  const id = active.gesture === "drive" ? active.id : null;
+  const id = active?.gesture === "drive" ? active.id : null;
   if (id === (driven?.id ?? null)) return;
-  if (driven) close();
+  close();
   if (id !== null) open(id);
 }
 
+/** @param {string} id */
 function open(id) {
   const card = makeCard(update);
   places.legend.append(card.element);
@@ -82,15 +106,15 @@ function open(id) {
     driver: null,
     canGoSideways: false,
     ends: [
-      watch(`driving:${id}`, card.showRobot),
+      watch(`driving:${id}`, (values) => card.showRobot(values)),
       watch(`tool:${id}`, (values) => {
-        driven.canGoSideways = Number(values.get("value.lateral")) > 0;
+        if (driven) driven.canGoSideways = Number(values.get("value.lateral")) > 0;
         card.showTool(values);
       }),
     ],
     timer: setInterval(tick, BEAT_MS),
   };
-  card.showRobot(new Map());
+  card.showRobot(null);
   card.showNote("");
   card.focus();
   send();
@@ -98,6 +122,7 @@ function open(id) {
 
 function close() {
   release();
+  if (!driven) return;
   clearInterval(driven.timer);
   for (const end of driven.ends) end();
   driven.card.element.remove();
@@ -119,6 +144,7 @@ function release() {
 
 function tick() {
   update();
+  if (!driven) return;
   driven.beats += 1;
   const isHeld = driven.held !== STILL;
   if (isHeld ? performance.now() - driven.sent >= GAP_MS : driven.beats % IDLE_BEATS === 0) send();
@@ -130,10 +156,11 @@ function tick() {
 function update() {
   if (!driven) return;
   const shares = [keys.share(), driven.card.share(), isHere ? gamepad.share() : STILL];
-  const sums = shares.reduce((a, b) => a.map((part, axis) => part + b[axis]));
+  const sums = shares.reduce(added);
   const held = sums.map((part) => Math.max(-1, Math.min(1, part)));
   const isStill = held.every((part) => part === 0);
-  const isSame = held.every((part, axis) => part === driven.held[axis]);
+  const { held: before } = driven;
+  const isSame = held.every((part, axis) => part === before[axis]);
   driven.held = isStill ? STILL : held;
   driven.card.showHeld(held);
   // Moves of a finger may wait for the next heartbeat; letting go may not.
@@ -141,13 +168,14 @@ function update() {
 }
 
 function send() {
-  if (!channel.isOpen() || document.hidden) return;
+  if (!driven || !channel.isOpen() || document.hidden) return;
   const { id, beat, held } = driven;
   const [linear, lateral, angular] = held;
   driven.sent = performance.now();
   channel.send({ type: "Drive", tool: id, beat, linear, lateral, angular });
 }
 
+/** @param {DrivingReport} report */
 function hear({ tool: id, beat, driver, problem }) {
   if (id !== driven?.id) return;
   driven.heard = performance.now();

@@ -17,6 +17,7 @@ export function share() {
   return isArmed ? held : [0, 0, 0];
 }
 
+/** @param {number} value */
 function alive(value) {
   const size = (Math.min(1, Math.abs(value)) - DEAD) / (1 - DEAD);
   return size > 0 ? Math.sign(value) * size : 0;

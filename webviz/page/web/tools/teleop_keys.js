@@ -1,6 +1,7 @@
 // Keys that drive while they are held, by their places on the keyboard.
 
 const [LINEAR, LATERAL, ANGULAR] = [0, 1, 2];
+/** @type {Record<string, [axis: number, way: number]>} */
 const KEYS = {
   KeyW: [LINEAR, 1],
   ArrowUp: [LINEAR, 1],
@@ -14,9 +15,15 @@ const KEYS = {
   KeyE: [LATERAL, -1],
 };
 
+/** @type {Set<string>} */
 const held = new Set();
 
-/** Hold a key from now on, true if it is for driving. Q and E go sideways, if the robot can. */
+/**
+ * Hold a key from now on, true if it is for driving. Q and E go sideways, if the robot can.
+ *
+ * @param {KeyboardEvent} event
+ * @param {boolean} canGoSideways
+ */
 export function press(event, canGoSideways) {
   const [axis] = KEYS[event.code] ?? [];
   if (event.ctrlKey || event.metaKey || event.altKey)
@@ -29,7 +36,11 @@ export function press(event, canGoSideways) {
   return false;
 }
 
-/** A key is let go. */
+/**
+ * A key is let go.
+ *
+ * @param {KeyboardEvent} event
+ */
 export const lift = ({ code }) => held.delete(code);
 
 /** All keys are let go. */

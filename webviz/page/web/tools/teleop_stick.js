@@ -2,9 +2,16 @@
 
 import { el, set } from "../dom.js";
 
+/** @import {Shares} from "./teleop.js" */
+/** @import {Vec2} from "../types.js" */
+
 const DEAD = 0.08;
 
-/** Makes a stick; `change()` is called when it moves. */
+/**
+ * Makes a stick; `change()` is called when it moves.
+ *
+ * @param {() => void} change
+ */
 export function makeStick(change) {
   const knob = el("div", { class: "wv-stick-knob" });
   const element = el(
@@ -23,9 +30,12 @@ export function makeStick(change) {
     },
     knob,
   );
+  /** @type {number | null} */
   let pointer = null;
+  /** @type {Vec2} */
   let at = [0, 0]; // to the right and up, within a circle of radius 1
 
+  /** @param {PointerEvent} event */
   function press(event) {
     if (pointer !== null || event.button !== 0) return;
     event.preventDefault();
@@ -35,6 +45,7 @@ export function makeStick(change) {
     move(event);
   }
 
+  /** @param {PointerEvent} event */
   function move(event) {
     if (event.pointerId !== pointer) return;
     const { left, top, width, height } = element.getBoundingClientRect();
@@ -46,6 +57,7 @@ export function makeStick(change) {
     change();
   }
 
+  /** @param {PointerEvent} event */
   function lift(event) {
     if (event.pointerId !== pointer) return;
     release();
@@ -62,7 +74,11 @@ export function makeStick(change) {
     release,
     /** The held stick, as `share` of teleop_keys.js. */
     share: () => [at[1], 0, -at[0]],
-    /** Shows what is held, by whatever. */
+    /**
+     * Shows what is held, by whatever.
+     *
+     * @param {Shares} held
+     */
     show([linear, , angular]) {
       const size = 1 / Math.max(1, Math.hypot(linear, angular));
       for (const [name, part] of Object.entries({ "--wv-x": -angular, "--wv-y": -linear })) {

@@ -8,20 +8,35 @@ import * as history from "./history.js";
 import { makePoses } from "./poses.js";
 import * as registry from "./registry.js";
 
+/** @import {MadeGesture, ToolFacts, Vec3} from "../types.js" */
+
 const MAX_POSES = 100;
 
 const show = makePoses("waypoints");
+/** @type {ToolFacts | null} */
 let tool = null; // whose poses these are
+/** @type {{point: Vec3, yaw: number}[]} */
 let poses = [];
 let isCollecting = false;
+/** @type {string | null} */
 let frame = null;
 let update = () => {};
 
-/** True if a gesture of a tool is collected: Shift begins that. */
+/**
+ * True if a gesture of a tool is collected: Shift begins that.
+ *
+ * @param {ToolFacts} of
+ * @param {boolean} isShifted
+ */
 export const collects = (of, isShifted) =>
   Boolean(of.several?.length) && (isCollecting || isShifted);
 
-/** Takes a finished gesture as a waypoint; whether it did. */
+/**
+ * Takes a finished gesture as a waypoint; whether it did.
+ *
+ * @param {ToolFacts} of
+ * @param {MadeGesture} made
+ */
 export function collect(of, { points, yaw, keys }) {
   if (!collects(of, keys.includes("shift"))) return false;
   if (poses.length >= MAX_POSES) {
@@ -64,11 +79,12 @@ export function install() {
     head,
     sends,
   );
+  /** @type {Map<string, HTMLButtonElement>} */
   const buttons = new Map();
 
   update = () => {
     const active = registry.active();
-    const several = (poses.length ? tool : active).several ?? [];
+    const several = (poses.length ? tool : active)?.several ?? [];
     const isHidden = !several.length;
     if (card.hidden !== isHidden) card.hidden = isHidden;
     set(mode, { "aria-pressed": String(isCollecting) });
@@ -99,6 +115,7 @@ export function install() {
   return card;
 }
 
+/** @param {string} label */
 const sendButton = (label) =>
   el(
     "button",
@@ -106,6 +123,11 @@ const sendButton = (label) =>
     label,
   );
 
+/**
+ * @param {string} name
+ * @param {string} label
+ * @param {() => void} run
+ */
 const iconButton = (name, label, run) =>
   el(
     "button",
@@ -124,11 +146,13 @@ function toggle() {
   put(isCollecting ? poses : []);
 }
 
+/** @param {string} several */
 function send(several) {
   const sent = poses;
   isCollecting = false;
   put([]);
-  if (registry.active().id === tool.id && !tool.stays) registry.select(null);
+  if (!tool) return;
+  if (registry.active()?.id === tool.id && !tool.stays) registry.select(null);
   history.send(tool, {
     points: sent.map(({ point }) => point),
     yaws: sent.map(({ yaw }) => yaw),
@@ -138,6 +162,7 @@ function send(several) {
   });
 }
 
+/** @param {{point: Vec3, yaw: number}[]} wanted */
 function put(wanted) {
   poses = wanted;
   show(poses.map((pose, index) => ({ ...pose, number: String(index + 1) })));

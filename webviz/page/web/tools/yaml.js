@@ -3,7 +3,13 @@
 const PLAIN = /^[A-Za-z_/][A-Za-z0-9_/.-]*$/;
 const WORDS = /^(true|false|null|yes|no|on|off|y|n)$/i;
 
-/** A message, given as objects, lists, texts and numbers, as YAML that ends with a new line. */
+/**
+ * A message, given as objects, lists, texts and numbers, as YAML that ends with a new line.
+ *
+ * @param {object} values
+ * @param {string} [indent]
+ * @returns {string}
+ */
 export function yaml(values, indent = "") {
   return Object.entries(values)
     .map(([name, value]) => {
@@ -15,7 +21,12 @@ export function yaml(values, indent = "") {
     .join("");
 }
 
-// JSON is YAML; names need no quotes, and YAML 1.1 takes 1e-7 for a text, but 1.0e-7 for a number.
+/**
+ * JSON is YAML; names need no quotes, and YAML 1.1 takes 1e-7 for a text, but 1.0e-7 for a number.
+ *
+ * @param {unknown} value
+ * @returns {string}
+ */
 function inline(value) {
   if (Array.isArray(value)) return `[${value.map(inline).join(", ")}]`;
   if (value !== null && typeof value === "object") {

@@ -5,7 +5,7 @@ import { anchorOf } from "./pick.js";
 import { lineOf } from "./lines.js";
 import { cornersOf } from "./texts.js";
 
-/** @import {Three, ThreeTree, Vec3} from "../../types.js" */
+/** @import {Outline, Picked, Shape, Three, ThreeTree, Vec3} from "../../types.js" */
 
 // The corners of a box by the bits of their numbers, and which of them its edges join.
 const CORNERS = [0, 1, 2, 3, 4, 5, 6, 7];
@@ -25,9 +25,10 @@ const EDGES = CORNERS.flatMap((from) =>
  * a cloud has no edges. `isOld` says that something else is drawn there now, and the outline is where
  * it was. Null while its node is not shown.
  *
- * @param {any} pick
+ * @param {Picked} pick
  * @param {(name: string, ordinal: number) => Three} find
  * @param {boolean} moves
+ * @returns {Outline | null}
  */
 export function outlineOf(pick, find, moves) {
   const object = find(pick.name, pick.ordinal);
@@ -39,7 +40,7 @@ export function outlineOf(pick, find, moves) {
 
 // An object that does not move is known by where it is.
 /**
- * @param {any} pick
+ * @param {Picked} pick
  * @param {Three} object
  * @param {boolean} moves
  */
@@ -55,7 +56,7 @@ function isSame(pick, object, moves) {
 }
 
 /**
- * @param {any} pick
+ * @param {Picked} pick
  * @param {Three} object
  */
 function make(pick, object) {
@@ -67,7 +68,7 @@ function make(pick, object) {
   if (object.isText) return { points: cornersOf(object), edges: AROUND };
   if (object.isPoints) return { points: [place(pick.local, object.matrixWorld)], edges: [] };
   if (object.isLineSegments2) {
-    const ends = lineOf(object, pick.item).map((xyz) =>
+    const ends = lineOf(object, Number(pick.item)).map((xyz) =>
       place(/** @type {Vec3} */ (xyz), object.matrixWorld),
     );
     return { points: ends, edges: [[0, 1]] };
@@ -114,7 +115,7 @@ function boxOf(node) {
 
 // Of a picture, the cell that was hit.
 /**
- * @param {any} pick
+ * @param {Picked} pick
  * @param {Three} object
  */
 function cell(pick, object) {

@@ -8,7 +8,7 @@ import { colorOf, pointAt, pointOf, pointsIn } from "./points.js";
 import { isTextIn, textAt } from "./texts.js";
 import { isTile, things } from "./things.js";
 
-/** @import {Box, Three, Vec2, Vec3} from "../../types.js" */
+/** @import {Box, Picked, SceneThing, Three, Vec2, Vec3} from "../../types.js" */
 
 const NEAR_PX = 4; // what the pointer means although it is not quite on it
 const PLANE_PX = 1; // what is as close together in depth lies in one plane
@@ -17,14 +17,14 @@ const PLANE_PX = 1; // what is as close together in depth lies in one plane
  * The thing under a point of the window, or null: `{group, key, number, at, color}` as the server knows
  * it, `point` in three.js' coordinates, and `object`, `name`, `ordinal` and `item` of what draws it.
  *
- * Only things that are wanted count, and those within `reach` pixels. What the pointer is on comes first, the nearest of several; then lines and points next to it. A
- * picture, such as a map, comes last of what is not behind it.
+ * Only things that are wanted count, and those within `reach` pixels. What the pointer is on comes
+ * first, the nearest of several; then lines and points next to it. A picture, such as a map, comes
+ * last of what is not behind it.
  *
- * @param {[number, number]} xy
- * @param {(thing: any) => boolean} isWanted
  * @param {Vec2} xy
- * @param {(thing: {node: any}) => boolean} [isWanted]
+ * @param {(thing: SceneThing) => boolean} [isWanted]
  * @param {number} [reach]
+ * @returns {Picked | null}
  */
 export function pickAt(xy, isWanted = () => true, reach = NEAR_PX) {
   const at = onCanvasAt(xy);
@@ -49,12 +49,12 @@ export function pickAt(xy, isWanted = () => true, reach = NEAR_PX) {
  *
  * @param {Box} box
  * @param {number} most
- * @param {(thing: {node: any}) => boolean} [isWanted]
+ * @param {(thing: SceneThing) => boolean} [isWanted]
  */
 export function pickIn({ left, top, right, bottom }, most, isWanted = () => true) {
   const { left: x, top: y } = viser.canvas().getBoundingClientRect();
   const box = { left: left - x, top: top - y, right: right - x, bottom: bottom - y };
-  /** @type {any[]} */
+  /** @type {Picked[]} */
   const picks = [];
   let total = 0;
   for (const thing of things().filter(isWanted)) {
@@ -130,11 +130,12 @@ function isOver(a, b) {
 }
 
 /**
- * @param {any} found
+ * @param {SceneThing & {number: number | null, depth?: number, point?: Three}} found
  * @param {Three} [caster]
+ * @returns {Picked}
  */
 function described(found, caster) {
-  const { object, name, ordinal, number } = found;
+  const { object, name, ordinal, number, depth } = found;
   const { group, key, path, first } = found.node;
   const thing = { group, key, path, name, ordinal, object, number, color: null };
   const local = anchorOf(object, number);
@@ -143,10 +144,12 @@ function described(found, caster) {
     viser.camera().position.clone().fromArray(xyz).applyMatrix4(object.matrixWorld);
   if (object.isText) return { ...thing, item: number, at: local, local, point: object.place };
   if (object.isPoints) {
-    const more = { number: number + first, item: number, color: colorOf(object, number) };
+    const item = Number(number);
+    const more = { number: item + first, item, color: colorOf(object, item) };
     return { ...thing, ...more, at: local, local, point: inThree(local) };
   }
-  const point = found.point ?? (caster && onRay(found, caster)) ?? inThree(local);
+  const point =
+    found.point ?? (depth !== undefined && caster && onRay(depth, caster)) ?? inThree(local);
   if (number !== null) return { ...thing, item: number, at: local, local, point };
   // In the coordinates of the node, which has several objects.
   const whole = viser.node(path) ?? object;
@@ -156,10 +159,10 @@ function described(found, caster) {
 
 // Where a line is next to the pointer.
 /**
- * @param {{depth: number}} hit
+ * @param {number} depth
  * @param {Three} caster
  */
-function onRay({ depth }, caster) {
+function onRay(depth, caster) {
   const forward = caster.ray.direction
     .clone()
     .transformDirection(viser.camera().matrixWorldInverse);

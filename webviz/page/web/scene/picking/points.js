@@ -2,7 +2,7 @@
 
 import { lensOf } from "./lens.js";
 
-/** @import {Box, Three, Vec2} from "../../types.js" */
+/** @import {Box, Three, Vec2, Vec3} from "../../types.js" */
 
 const ROUND = 1000; // above this, the norm of its outline makes a point a square
 
@@ -90,8 +90,11 @@ export const pointOf = (points, number) =>
  *
  * @param {Three} points
  * @param {number} number
+ * @returns {Vec3 | null}
  */
 export function colorOf(points, number) {
   const colors = points.geometry.attributes.color?.array;
-  return colors ? Array.from(colors.subarray(3 * number, 3 * number + 3)) : null;
+  if (!colors) return null;
+  const [red, green, blue] = colors.subarray(3 * number, 3 * number + 3);
+  return [red, green, blue];
 }

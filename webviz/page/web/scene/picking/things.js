@@ -4,7 +4,7 @@ import constants from "../../constants.js";
 import * as viser from "../../viser_page.js";
 import { texts } from "./texts.js";
 
-/** @import {Three} from "../../types.js" */
+/** @import {NodePart, SceneThing, Three} from "../../types.js" */
 
 const { ROOT, TILE_PREFIX, PART_PREFIX, BLOCK_PREFIX, POINTS_PER_PART } = constants;
 
@@ -17,7 +17,7 @@ export function things() {
   const names = new Map(Object.entries(viser.nodes()).map(([name, node]) => [node, name]));
   /** @type {Map<string, number>} */
   const counts = new Map();
-  /** @type {any[]} */
+  /** @type {SceneThing[]} */
   const found = [];
   visit(viser.node(ROOT), ROOT);
   for (const text of texts()) {
@@ -68,6 +68,7 @@ export const isTile = (name) => name.includes(`/${TILE_PREFIX}`);
  * the number of its first point. Null for what is not of a display.
  *
  * @param {string} name
+ * @returns {NodePart | null}
  */
 export function nodeNamed(name) {
   const [, , group, key, part = ""] = name.split("/");
