@@ -1,55 +1,76 @@
 // The axis along which, or about which, a handle is dragged.
 
-import { svgElement } from "../dom.js";
+import { set, svgElement } from "../dom.js";
 import { makeLayer } from "../tools/layer.js";
 import { beforeRender } from "../viser_page.js";
 import { sightOf } from "./sight.js";
 import { add, scaled } from "./vectors.js";
 
+/** @import {HandleControl} from "../contents.js" */
+/** @import {Sight} from "./sight.js" */
+/** @import {Three, Vec2, Vec3} from "../types.js" */
+
+/** @typedef {{object: Three, point: Vec3, axis: Vec3}} Line */
+
 const REACH_PX = 4000; // to either side
 const STEPS = 40; // to find where it goes behind the camera
 
+/** @type {Line | null} */
 let shown = null;
+/** @type {ReturnType<typeof makeLayer> | null} */
 let layer = null;
-let line = null;
+/** @type {SVGLineElement | null} */
+let drawing = null;
 
 export function install() {
   beforeRender(draw);
 }
 
-/** True for a mode whose control has an axis to show. */
+/**
+ * True for a mode whose control has an axis to show.
+ *
+ * @param {HandleControl["mode"]} mode
+ */
 export const isAbout = (mode) => ["move_axis", "move_rotate", "rotate_axis"].includes(mode);
 
-/** Shows a line through a point of a frame, the coordinates of `object`; null for none. */
-export function show(object, point, axis) {
-  shown = object && { object, point, axis };
-  if (!shown) layer?.element.remove();
-  if (!shown) layer = null;
+/**
+ * Shows a line through a point of a frame, the coordinates of `object`; null for none.
+ *
+ * @param {Line | null} line
+ */
+export function show(line) {
+  shown = line;
+  if (line) return;
+  layer?.element.remove();
+  layer = null;
 }
 
 function draw() {
   if (!shown) return;
-  if (!layer) {
-    line = svgElement("line", { class: "wv-handle-axis" });
-    layer = makeLayer("axis", svgElement("svg", {}, line));
-  }
+  drawing ??= svgElement("line", { class: "wv-handle-axis" });
+  layer ??= makeLayer("axis", svgElement("svg", {}, drawing));
   layer.place();
   const sight = sightOf(shown.object);
-  const ends = [-1, 1].map((side) => end(sight, side));
+  const [from, to] = [end(sight, shown, -1), end(sight, shown, 1)];
   const { left, top } = layer.element.getBoundingClientRect();
-  if (ends.includes(null)) return line.setAttribute("visibility", "hidden");
-  line.setAttribute("visibility", "visible");
-  ends.forEach(([x, y], index) => {
-    line.setAttribute(`x${index + 1}`, x - left);
-    line.setAttribute(`y${index + 1}`, y - top);
-  });
+  if (!from || !to) return set(drawing, { visibility: "hidden" });
+  const [start, stop] = [from, to].map(([x, y]) => [x - left, y - top]);
+  const place = { x1: start[0], y1: start[1], x2: stop[0], y2: stop[1] };
+  set(drawing, { visibility: "visible", ...place });
 }
 
-// As far as it goes on this side, and is in front of the camera.
-function end(sight, side) {
-  const whole = (REACH_PX / 100) * sight.unit(shown.point);
+/**
+ * As far as it goes on this side, and is in front of the camera.
+ *
+ * @param {Sight} sight
+ * @param {Line} line
+ * @param {number} side
+ * @returns {Vec2 | null}
+ */
+function end(sight, { point, axis }, side) {
+  const whole = (REACH_PX / 100) * sight.unit(point);
   for (let step = STEPS; step >= 0; step--) {
-    const at = sight.project(add(shown.point, scaled(shown.axis, (side * whole * step) / STEPS)));
+    const at = sight.project(add(point, scaled(axis, (side * whole * step) / STEPS)));
     if (at) return at;
   }
   return null;

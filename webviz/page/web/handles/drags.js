@@ -20,6 +20,24 @@ import {
   unit,
 } from "./vectors.js";
 
+/** @import {HandleControl} from "../contents.js" */
+/** @import {Pose} from "./vectors.js" */
+/** @import {Sight} from "./sight.js" */
+/** @import {Vec2, Vec3} from "../types.js" */
+
+/**
+ * @typedef {Pose & {turned: number}} Moved
+ * @typedef {Pick<HandleControl, "mode" | "facing" | "wxyz">} Control
+ * @typedef {Pick<Sight, "rayAt" | "project" | "perPixel" | "unit" | "right" | "up" | "forward">} View
+ * @typedef {{
+ *   control: Control, pose: Pose, turned: number, grab: Vec3, sight: View, at: Vec2,
+ * }} Start
+ * @typedef {Start & {axis: Vec3}} Axial
+ * @typedef {{at: Vec2, by: Vec2, wheel: number, shift: boolean, ctrl: boolean}} Pointer
+ * @typedef {(pointer: Pointer, sight: View) => Partial<Moved> | null} Step
+ */
+
+/** @type {Vec3} */
 const X = [1, 0, 0];
 const TURN = (2 * Math.PI) / 300; // radians per pixel
 const WHEEL_PX = 20; // that a notch of the wheel stands for
@@ -29,10 +47,14 @@ const WHEEL_PX = 20; // that a notch of the wheel stands for
  *
  * `start`: `{control, pose, turned, grab, sight, at}`; `pose` is that of the handle, `turned` the
  * angle by which the control has been turned so far, `grab` the point that is gripped.
+ *
+ * @param {Start} start
+ * @returns {(pointer: Pointer, sight: View) => Moved | null}
  */
 export function begin(start) {
   const axis = axisOf(start);
-  const make = {
+  /** @type {Partial<Record<Control["mode"], (start: Axial) => Step>>} */
+  const makers = {
     move_axis: alongAxis,
     move_plane: inPlane,
     rotate_axis: aroundAxis,
@@ -40,28 +62,38 @@ export function begin(start) {
     move_3d: freely,
     rotate_3d: freely,
     move_rotate_3d: freely,
-  }[start.control.mode];
-  const fixed = (step) => (pointer, sight) => {
-    const moved = step(pointer, sight);
-    return moved && { ...start.pose, turned: start.turned, ...moved };
   };
-  return make ? fixed(make({ ...start, axis })) : () => null;
+  const step = makers[start.control.mode]?.({ ...start, axis });
+  return (pointer, sight) => {
+    const moved = step?.(pointer, sight);
+    return moved ? { ...start.pose, turned: start.turned, ...moved } : null;
+  };
 }
 
-/** The x axis of a control, along which it moves, or about which it turns. */
+/**
+ * The x axis of a control, along which it moves, or about which it turns.
+ *
+ * @param {Pick<Start, "control" | "pose" | "sight">} start
+ */
 export function axisOf({ control, pose, sight }) {
   if (control.facing === "view_facing") return sight.forward;
   const own = rotate(control.wxyz, X);
   return control.facing === "fixed" ? own : rotate(pose.wxyz, own);
 }
 
-// The point of the axis that is next to the pointer on the screen.
+/**
+ * The point of the axis that is next to the pointer on the screen.
+ *
+ * @param {Axial} start
+ * @returns {Step}
+ */
 function alongAxis({ pose, grab, axis }) {
   return ({ at }, sight) => {
-    const ends = [grab, add(grab, scaled(axis, sight.unit(grab)))].map(sight.project);
-    if (ends.includes(null)) return null;
-    const [[x, y], [toX, toY]] = ends;
-    const [dx, dy] = [toX - x, toY - y];
+    const from = sight.project(grab);
+    const to = sight.project(add(grab, scaled(axis, sight.unit(grab))));
+    if (!from || !to) return null;
+    const [x, y] = from;
+    const [dx, dy] = [to[0] - x, to[1] - y];
     const square = dx * dx + dy * dy;
     if (square < 1e-6) return null; // it points to the camera
     const along = ((at[0] - x) * dx + (at[1] - y) * dy) / square;
@@ -70,6 +102,10 @@ function alongAxis({ pose, grab, axis }) {
   };
 }
 
+/**
+ * @param {Axial} start
+ * @returns {Step}
+ */
 function inPlane({ pose, grab, axis }) {
   return ({ at }, sight) => {
     const hit = onPlane(sight.rayAt(at), grab, axis);
@@ -77,6 +113,10 @@ function inPlane({ pose, grab, axis }) {
   };
 }
 
+/**
+ * @param {Axial} start
+ * @returns {Step}
+ */
 function aroundAxis({ pose, turned, grab, axis }) {
   const out = sub(grab, pose.position);
   const middle = add(pose.position, scaled(axis, dot(out, axis)));
@@ -88,7 +128,12 @@ function aroundAxis({ pose, turned, grab, axis }) {
   };
 }
 
-// As if towed by a rope of constant length: it turns towards the pointer, and follows it.
+/**
+ * As if towed by a rope of constant length: it turns towards the pointer, and follows it.
+ *
+ * @param {Axial} start
+ * @returns {Step}
+ */
 function towed({ pose, turned, grab, axis }) {
   let [{ position, wxyz }, handle, angle] = [pose, grab, turned];
   return ({ at }, sight) => {
@@ -107,10 +152,16 @@ function towed({ pose, turned, grab, axis }) {
   };
 }
 
-// Moves in the plane of the screen, or turns like a ball; with Shift in depth, or like a wheel.
+/**
+ * Moves in the plane of the screen, or turns like a ball; with Shift in depth, or like a wheel.
+ *
+ * @param {Axial} start
+ * @returns {Step}
+ */
 function freely({ control, pose, grab, sight, at }) {
   let { position, wxyz } = pose;
   const away = sight.rayAt(at).direction;
+  /** @type {{from: Vec3 | null, base: Vec3, point: Vec3} | null} */
   let slide = null; // in the plane of the screen, since the keys mean that
   return ({ at, by, wheel, shift, ctrl }, sight) => {
     const gripped = add(grab, sub(position, pose.position));
@@ -122,8 +173,9 @@ function freely({ control, pose, grab, sight, at }) {
       const pixels = up - wheel * WHEEL_PX;
       position = add(position, scaled(away, pixels * sight.perPixel(gripped)));
     } else {
+      /** @param {Vec2} xy */
       const on = (xy) => onPlane(sight.rayAt(xy), gripped, sight.forward);
-      slide ??= { from: on(sub(at, by)), base: position, point: gripped };
+      slide ??= { from: on([at[0] - by[0], at[1] - by[1]]), base: position, point: gripped };
       const hit = onPlane(sight.rayAt(at), slide.point, sight.forward);
       if (!hit || !slide.from) return null;
       position = add(slide.base, sub(hit, slide.from));
@@ -134,6 +186,11 @@ function freely({ control, pose, grab, sight, at }) {
   };
 }
 
+/**
+ * @param {Vec2} by
+ * @param {boolean} shift
+ * @param {View} sight
+ */
 function spin([dx, dy], shift, { up, right, forward }) {
   if (shift) return about(forward, dx * TURN);
   return turnedBy(about(up, dx * TURN), about(right, dy * TURN));

@@ -14,17 +14,41 @@ import * as menu from "./menu.js";
 import * as poses from "./poses.js";
 import { frameNode, sightOf } from "./sight.js";
 
+/** @import {Commands} from "../messages.js" */
+/** @import {HandleControl} from "../contents.js" */
+/** @import {Moved} from "./drags.js" */
+/** @import {Part} from "./known.js" */
+/** @import {Pose} from "./vectors.js" */
+/** @import {SceneEvent, Three, Vec2, Vec3} from "../types.js" */
+
+/**
+ * @typedef {Commands["GripHandle"]["grip"]} Grip
+ * @typedef {Part & {point: Three}} Place
+ * @typedef {Part & {at: Vec2, pointer: number, isResting?: boolean}} Asked
+ * @typedef {Part & {
+ *   pose: Pose, pointer: number, button: number, wasMine: boolean, at: Vec2, before: Vec2,
+ *   wheel: number, shift: boolean, ctrl: boolean, isTouch: boolean, began: number, from: Vec2,
+ *   isMoved: boolean, step: ReturnType<typeof begin>, now: Moved | null, sent: number, first: number,
+ *   axis: Vec3 | null,
+ * }} Drag
+ */
+
 const HOLD_MS = 500; // after which the server is told that the drag goes on
 const LONG_MS = 600; // that a finger rests for the menu
 const VIBRATE_MS = 15;
 const CLICK_PX = 6;
 const BEFORE_PLACING = -1001;
+/** @type {Partial<Record<HandleControl["mode"], string>>} */
 const DOES = { menu: "Show menu", button: "Activate" };
 const TURNS = /^rotate/;
 
+/** @type {Part | null} */
 let over = null; // what the pointer is on
+/** @type {Drag | null} */
 let drag = null;
+/** @type {Asked | null} */
 let asked = null; // a press of the right button, or of a finger that may rest
+/** @type {{hover: Vec2, target: EventTarget | null} | null} */
 let moved = null; // where the pointer went since the last frame
 let said = "";
 
@@ -33,46 +57,53 @@ export function install() {
   eachFrame(BEFORE_PLACING, follow);
   known.onChange(() => {
     const handle = drag && known.all().get(drag.id);
-    if (drag && (!handle || (drag.wasMine && handle.holder !== window.webviz.browser))) lose();
-    else if (drag) drag.wasMine ||= handle.holder === window.webviz.browser;
+    if (!drag) return;
+    const isMine = handle?.holder === window.webviz.browser;
+    if (!handle || (drag.wasMine && !isMine)) lose(drag);
+    else drag.wasMine ||= isMine;
   });
   act.onAnswer("GripHandle", ({ number, text }) => {
     tell("warn", text);
-    if (drag && number >= drag.first) lose();
+    if (drag && number >= drag.first) lose(drag);
   });
-  channel.onOpen(() => drag && lose());
+  channel.onOpen(() => drag && lose(drag));
   window.addEventListener(
     "keydown",
     (event) => {
       if (event.key === "Escape" && drag) {
         event.stopImmediatePropagation();
-        release();
-      } else if (drag) setKeys(event);
+        release(drag);
+      } else if (drag) setKeys(drag, event);
     },
     true,
   );
-  window.addEventListener("keyup", (event) => drag && setKeys(event), true);
+  window.addEventListener("keyup", (event) => drag && setKeys(drag, event), true);
 }
 
 /** Ends what goes on. */
 export function leave() {
-  if (drag) release();
+  if (drag) release(drag);
   point(null);
 }
 
-/** Takes an event of the pointer over the scene; whether it is none of the camera. */
+/**
+ * Takes an event of the pointer over the scene; whether it is none of the camera.
+ *
+ * @param {SceneEvent} event
+ * @returns {boolean}
+ */
 export function pointer(event) {
-  const { type, pointerId, button, clientX, clientY } = event;
   if (!known.all().size) return false;
-  if (type === "wheel") return Boolean(drag) && wheel(event);
+  if (event instanceof WheelEvent) return drag !== null && wheel(drag, event);
+  const { type, pointerId, button, clientX, clientY } = event;
   if (drag) {
     if (pointerId !== drag.pointer) return true;
-    if (type === "pointermove") moveTo(event);
+    if (type === "pointermove") moveTo(drag, event);
     else if (type === "pointercancel" || (type === "pointerup" && button === drag.button))
-      release();
+      release(drag);
     return true;
   }
-  if (asked && type !== "pointerdown") return followAsked(event);
+  if (asked && type !== "pointerdown") return followAsked(asked, event);
   if (type === "pointermove") {
     if (event.buttons === 0) moved = { hover: [clientX, clientY], target: event.target };
     return false;
@@ -88,8 +119,14 @@ export function pointer(event) {
   return press(part, event);
 }
 
+/**
+ * @param {Place} part
+ * @param {PointerEvent} event
+ */
 function press(part, event) {
   const handle = known.all().get(part.id);
+  const control = known.controlOf(part);
+  if (!handle || !control) return false;
   const refusal =
     why("GripHandle") ||
     handle.refusal ||
@@ -101,7 +138,7 @@ function press(part, event) {
   const pose = poses.poseOf(part.id);
   const node = frameNode(handle.frame);
   if (!pose || !node) return false;
-  const control = known.controlOf(part);
+  /** @type {Vec2} */
   const at = [event.clientX, event.clientY];
   const sight = sightOf(node);
   const start = {
@@ -121,6 +158,8 @@ function press(part, event) {
     at,
     before: at,
     wheel: 0,
+    shift: false,
+    ctrl: false,
     isTouch: event.pointerType === "touch",
     began: performance.now(),
     from: at,
@@ -128,27 +167,36 @@ function press(part, event) {
     step: begin(start),
     now: null,
     sent: performance.now(),
+    first: 0,
     axis:
       handle.aids && control.facing !== "view_facing" && aids.isAbout(control.mode)
         ? axisOf(start)
         : null,
   };
-  setKeys(event);
+  setKeys(drag, event);
   canvas().setPointerCapture(event.pointerId);
   glow.light(part, "pressed");
   glow.dim(part.id);
-  drag.first = send("press");
-  showAid();
+  drag.first = send(drag, "press", { point: pointAt(at, part.id) });
+  showAid(drag);
   return true;
 }
 
-function moveTo(event) {
+/**
+ * @param {Drag} drag
+ * @param {PointerEvent} event
+ */
+function moveTo(drag, event) {
   drag.at = [event.clientX, event.clientY];
-  setKeys(event);
+  setKeys(drag, event);
   requestRender();
 }
 
-function wheel(event) {
+/**
+ * @param {Drag} drag
+ * @param {WheelEvent} event
+ */
+function wheel(drag, event) {
   event.preventDefault();
   drag.wheel +=
     event.deltaMode === WheelEvent.DOM_DELTA_LINE ? event.deltaY / 3 : event.deltaY / 120;
@@ -156,7 +204,11 @@ function wheel(event) {
   return true;
 }
 
-const setKeys = ({ shiftKey, ctrlKey, metaKey }) =>
+/**
+ * @param {Drag} drag
+ * @param {MouseEvent | KeyboardEvent} event
+ */
+const setKeys = (drag, { shiftKey, ctrlKey, metaKey }) =>
   Object.assign(drag, { shift: shiftKey, ctrl: ctrlKey || metaKey });
 
 // Once a frame, however many events there were.
@@ -169,99 +221,123 @@ function follow() {
   if (!drag) return;
   const { at, before } = drag;
   const isNews = at[0] !== before[0] || at[1] !== before[1] || drag.wheel;
-  if (isNews) step();
+  if (isNews) step(drag);
   const now = performance.now();
   const isResting = drag.isTouch && !drag.isMoved && now - drag.began > LONG_MS;
-  if (isResting && known.all().get(drag.id)?.menu.length) return rest();
-  if (now - drag.sent > HOLD_MS) send("hold");
+  if (isResting && known.all().get(drag.id)?.menu.length) return rest(drag);
+  if (now - drag.sent > HOLD_MS) send(drag, "hold");
   requestRender();
 }
 
-function step() {
+/** @param {Drag} drag */
+function step(drag) {
   const { at, before, wheel, shift, ctrl, from } = drag;
   const handle = known.all().get(drag.id);
   const node = frameNode(handle?.frame);
   drag.isMoved ||= Math.hypot(at[0] - from[0], at[1] - from[1]) > CLICK_PX;
   Object.assign(drag, { before: at, wheel: 0 });
   if (!node) return;
+  /** @type {Vec2} */
   const by = [at[0] - before[0], at[1] - before[1]];
   const now = drag.step({ at, by, wheel, shift, ctrl }, sightOf(node));
   if (!now || !isSane(now)) return;
   drag.now = now;
   poses.put(drag.id, drag.control, now);
-  showAid();
-  send("move", placed(now));
+  showAid(drag);
+  send(drag, "move", placed(now));
 }
 
+/** @param {Moved | null} now */
 const placed = (now) =>
   now ? { pose: { position: now.position, wxyz: now.wxyz }, turned: now.turned } : {};
 
+/** @param {Moved} now */
 const isSane = ({ position, wxyz }) =>
   position.every((value) => Math.abs(value) < 1e9) && wxyz.every(Number.isFinite);
 
-function release() {
-  if (drag.at !== drag.before) step();
+/** @param {Drag} drag */
+function release(drag) {
+  if (drag.at !== drag.before) step(drag);
   const { id, control, now, at } = drag;
-  const point = pointAt(at);
-  send("release", { ...placed(now), point });
-  end();
+  const point = pointAt(at, id);
+  send(drag, "release", { ...placed(now), point });
+  end(drag);
   poses.letGo(id);
   if (known.controlOf({ id, control })?.mode === "menu") show({ id, control, at, point });
 }
 
-// A finger that rests opens the menu, like the right button of a mouse: as it is lifted, for that
-// would close a menu which is open by then.
-function rest() {
+/**
+ * A finger that rests opens the menu, like the right button of a mouse: as it is lifted, for that
+ * would close a menu which is open by then.
+ *
+ * @param {Drag} drag
+ */
+function rest(drag) {
   const { id, control, at, pointer } = drag;
-  send("release", {});
-  end();
+  send(drag, "release");
+  end(drag);
   poses.letGo(id);
   asked = { id, control, at, pointer, isResting: true };
   navigator.vibrate?.(VIBRATE_MS);
 }
 
-// It was taken from this page: the server's pose counts.
-function lose() {
-  const { id } = drag;
-  end();
-  poses.letGo(id);
+/**
+ * It was taken from this page: the server's pose counts.
+ *
+ * @param {Drag} lost
+ */
+function lose(lost) {
+  end(lost);
+  poses.letGo(lost.id);
 }
 
-function end() {
-  if (canvas().hasPointerCapture(drag.pointer)) canvas().releasePointerCapture(drag.pointer);
+/** @param {Drag} ended */
+function end({ pointer }) {
+  if (canvas().hasPointerCapture(pointer)) canvas().releasePointerCapture(pointer);
   drag = null;
   aids.show(null);
   glow.dim(null);
   glow.light(over, "over");
 }
 
-function followAsked(event) {
-  if (event.pointerId !== asked.pointer) return true;
-  const { at } = asked;
+/**
+ * @param {Asked} part
+ * @param {PointerEvent} event
+ */
+function followAsked(part, event) {
+  if (event.pointerId !== part.pointer) return true;
+  const { at } = part;
   const isFar = Math.hypot(event.clientX - at[0], event.clientY - at[1]) > CLICK_PX;
-  if (event.type === "pointerup" && (event.button === 2 || asked.isResting)) {
-    const part = asked;
+  if (event.type === "pointerup" && (event.button === 2 || part.isResting)) {
     asked = null;
     if (!isFar) show({ ...part, point: pointAt(at, part.id) });
   } else if (event.type === "pointercancel") asked = null;
   return true;
 }
 
+/** @param {Part & {at: Vec2, point: Vec3 | null}} asked */
 function show({ id, control, at, point }) {
   const handle = known.all().get(id);
   if (!handle?.menu.length) return;
   // Not before the event of the pointer has ended, which closes menus elsewhere.
-  const choose = (entry) => sendTo({ id, control }, "choose", { entry, point });
+  const choose = (/** @type {number} */ entry) =>
+    sendTo({ id, control }, "choose", { entry, point });
   setTimeout(() => menu.open(at, handle, choose));
 }
 
-// The point under the pointer, in the frame of the dragged handle; null for nothing.
-function pointAt(at, id = drag?.id) {
+/**
+ * The point under the pointer, in the frame of a handle; null for nothing.
+ *
+ * @param {Vec2} at
+ * @param {string} id
+ */
+function pointAt(at, id) {
   const node = frameNode(known.all().get(id)?.frame);
   const found = node && pickAt(at);
   return found ? sightOf(node).toFrame(found.point) : null;
 }
 
+/** @param {Place | null} part */
 function point(part) {
   over = part;
   glow.light(part, "over");
@@ -270,27 +346,42 @@ function point(part) {
   if (words !== said) tellLive((said = words));
 }
 
+/** @param {Part} part */
 function wordsOf(part) {
   const handle = known.all().get(part.id);
+  const control = known.controlOf(part);
+  if (!handle || !control) return "";
   const reason = why("GripHandle");
   if (reason) return `${handle.name}: ${reason}`;
-  const { mode, help } = known.controlOf(part);
+  const { mode, help } = control;
   const does = DOES[mode] ?? (TURNS.test(mode) ? "Rotate" : "Move");
   const holder = handle.holder === null ? "" : `Browser ${handle.holder} holds it.`;
   const more = mode !== "menu" && handle.menu.length ? "Right-click: Show context menu." : "";
   return [help || handle.name, `Left-click: ${does}.`, more, holder].filter(Boolean).join(" ");
 }
 
-function showAid() {
-  const { id, axis, now, pose } = drag;
-  if (axis) aids.show(frameNode(known.all().get(id)?.frame), (now ?? pose).position, axis);
+/** @param {Drag} drag */
+function showAid({ id, axis, now, pose }) {
+  if (!axis) return;
+  const object = frameNode(known.all().get(id)?.frame);
+  aids.show(object ? { object, point: (now ?? pose).position, axis } : null);
 }
 
-function send(kind, more = {}) {
+/**
+ * @param {Drag} drag
+ * @param {Grip["kind"]} kind
+ * @param {Partial<Grip>} [more]
+ */
+function send(drag, kind, more = {}) {
   drag.sent = performance.now();
-  return sendTo(drag, kind, kind === "press" ? { point: pointAt(drag.at), ...more } : more);
+  return sendTo(drag, kind, more);
 }
 
+/**
+ * @param {Part} part
+ * @param {Grip["kind"]} kind
+ * @param {Partial<Grip>} more
+ */
 function sendTo({ id, control }, kind, more) {
   const [display, handle] = [id.slice(0, id.indexOf("/")), id.slice(id.indexOf("/") + 1)];
   return act.send("GripHandle", { display, grip: { handle, control, kind, ...more } });

@@ -4,11 +4,18 @@ import { active, isDefault, onChange } from "../tools/registry.js";
 import * as viser from "../viser_page.js";
 import * as known from "./known.js";
 
+/** @import {Part} from "./known.js" */
+/** @import {Three} from "../types.js" */
+
+/** @type {Record<"over" | "pressed", number>} */
 const SHINE = { over: 0.12, pressed: 0.28 }; // added in linear light; RViz adds 0.3 and 0.5
 const AFTER_PLACING = -998;
 
+/** @type {Map<Three, {emissive?: Three, color?: Three}>} */
 const shining = new Map(); // materials, and what they were
+/** @type {string | null} */
 let lit = null;
+/** @type {string | null} */
 let held = null; // the handle that is dragged
 
 export function install() {
@@ -16,7 +23,12 @@ export function install() {
   onChange(() => viser.requestRender());
 }
 
-/** Lights a control `{id, control}` up, as the pointer is "over" it or has "pressed" it; null none. */
+/**
+ * Lights a control `{id, control}` up, as the pointer is "over" it or has "pressed" it; null none.
+ *
+ * @param {Part | null} part
+ * @param {keyof typeof SHINE} [level]
+ */
 export function light(part, level = "over") {
   const name = part && `${part.id} ${part.control} ${level}`;
   if (name === lit) return;
@@ -27,19 +39,27 @@ export function light(part, level = "over") {
   }
   shining.clear();
   for (const path of part ? (known.nodesOf(part.id).parts.get(part.control) ?? []) : []) {
-    viser.node(path)?.traverse(({ material }) => {
+    viser.node(path)?.traverse((/** @type {Three} */ { material }) => {
       for (const each of [material].flat()) if (each) shine(each, SHINE[level]);
     });
   }
   viser.requestRender();
 }
 
-/** Hides all other handles while one is dragged; null ends that. */
+/**
+ * Hides all other handles while one is dragged; null ends that.
+ *
+ * @param {string | null} id
+ */
 export function dim(id) {
   held = id;
   viser.requestRender();
 }
 
+/**
+ * @param {Three} material
+ * @param {number} amount
+ */
 function shine(material, amount) {
   if (shining.has(material)) return;
   if (material.emissive) {

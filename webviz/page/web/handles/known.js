@@ -8,14 +8,20 @@ import { watch } from "../stores.js";
 import * as viser from "../viser_page.js";
 import { pathOf } from "./sight.js";
 
-/** @import {ValuesOf} from "../types.js" */
+/** @import {SceneThing, Three, ValuesOf, Vec2} from "../types.js" */
+
+/** @typedef {{groups: Map<string, string>, parts: Map<number, string[]>}} HandleNodes */
+
+/** @typedef {{id: string, control: number}} Part */
 
 const GROUP = /\|(m\d+)(?:\.([^|]*))?$/;
 const PART = /^c(\d+)\//;
 
+/** @type {Set<() => void>} */
 const listeners = new Set();
 /** @type {ValuesOf<"handles">} */
 let handles = new Map();
+/** @type {Map<string, HandleNodes> | null} */
 let index = null; // what there is in the scene of each handle
 let indexed = 0;
 
@@ -30,17 +36,30 @@ export function install() {
 /** All handles by id, those of the store `handles`. */
 export const all = () => handles;
 
-/** Calls `listener` when handles change. */
+/**
+ * Calls `listener` when handles change.
+ *
+ * @param {() => void} listener
+ */
 export const onChange = (listener) => listeners.add(listener);
 
-/** The handle and the number of the control that a node belongs to, or null: `{id, control}`. */
+/**
+ * The handle and the number of the control that a node belongs to, or null: `{id, control}`.
+ *
+ * @param {{group: string, key: string}} node
+ * @returns {Part | null}
+ */
 export function partOf({ group, key }) {
-  const { id } = groupOf(group) ?? {};
+  const id = groupOf(group)?.id;
   const part = PART.exec(key);
-  return handles.has(id) && part ? { id, control: Number(part[1]) } : null;
+  return id && handles.has(id) && part ? { id, control: Number(part[1]) } : null;
 }
 
-/** The id of the handle of a group, and what follows its key, or null: `{id, suffix}`. */
+/**
+ * The id of the handle of a group, and what follows its key, or null: `{id, suffix}`.
+ *
+ * @param {string} group
+ */
 export function groupOf(group) {
   const found = GROUP.exec(group);
   return (
@@ -51,6 +70,9 @@ export function groupOf(group) {
 /**
  * The control under a point of the window, or null: `{id, control, point}`, `point` in three.js'
  * coordinates. What lies in front of it hides it.
+ *
+ * @param {Vec2} xy
+ * @returns {(Part & {point: Three}) | null}
  */
 export function controlAt(xy) {
   if (!handles.size) return null;
@@ -59,20 +81,31 @@ export function controlAt(xy) {
   // Only now, since it looks at every point of the scene.
   const other = pickAt(xy, (thing) => !isUsable(thing), 0);
   if (other && depthOf(other.point) < depthOf(found.point)) return null;
-  return { ...partOf(found), point: found.point };
+  const part = partOf(found);
+  return part && { ...part, point: found.point };
 }
 
+/** @param {SceneThing} thing */
 function isUsable({ node }) {
   const part = partOf(node);
-  return part !== null && controlOf(part)?.mode !== "none";
+  // The handle may have lost the control, whose nodes go a moment later.
+  const control = part && controlOf(part);
+  return control !== null && control.mode !== "none";
 }
 
-/** A control by its handle and number. */
+/**
+ * A control by its handle and number.
+ *
+ * @param {Part} part
+ */
 export const controlOf = ({ id, control }) => handles.get(id)?.controls[control] ?? null;
 
 /**
  * The names of viser's nodes of a handle: `{groups, parts}`, its groups by what follows the key,
  * "" for the first, and the nodes of each control.
+ *
+ * @param {string} id
+ * @returns {HandleNodes}
  */
 export function nodesOf(id) {
   const count = Object.keys(viser.nodes()).length;
@@ -83,14 +116,16 @@ export function nodesOf(id) {
   return index.get(id) ?? { groups: new Map(), parts: new Map() };
 }
 
+/** @param {string[]} names */
 function indexOf(names) {
+  /** @type {Map<string, HandleNodes>} */
   const found = new Map();
   for (const name of names) {
     const node = name.startsWith(`${constants.ROOT}/`) ? nodeNamed(name) : null;
     const place = node && groupOf(node.group);
     if (!place || name !== node.path) continue;
-    if (!found.has(place.id)) found.set(place.id, { groups: new Map(), parts: new Map() });
-    const { groups, parts } = found.get(place.id);
+    const { groups, parts } = found.get(place.id) ?? { groups: new Map(), parts: new Map() };
+    found.set(place.id, { groups, parts });
     groups.set(place.suffix, pathOf(node.group));
     const part = PART.exec(node.key)?.[1];
     if (part) parts.set(Number(part), [...(parts.get(Number(part)) ?? []), name]);

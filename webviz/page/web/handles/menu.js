@@ -2,9 +2,24 @@
 
 import { openMenu } from "../shell/menu.js";
 
-/** Opens the menu of a handle at a place of the window; `choose(id)` gets the chosen entry. */
+/** @import {HandleMenuEntry, SceneHandle} from "../contents.js" */
+/** @import {MenuItem} from "../shell/menu.js" */
+/** @import {Vec2} from "../types.js" */
+
+/**
+ * Opens the menu of a handle at a place of the window; `choose(id)` gets the chosen entry.
+ *
+ * @param {Vec2} at
+ * @param {SceneHandle} handle
+ * @param {(id: number) => unknown} choose
+ */
 export const open = ([x, y], handle, choose) => openMenu(x, y, itemsOf(handle.menu, choose));
 
+/**
+ * @param {HandleMenuEntry[]} entries
+ * @param {(id: number) => unknown} choose
+ * @returns {MenuItem[]}
+ */
 const itemsOf = (entries, choose) =>
   entries.map(({ id, title, checked, refusal, entries: below }) => ({
     label: title || " ",

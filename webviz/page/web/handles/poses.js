@@ -5,19 +5,33 @@ import { nodeNamed } from "../scene/picking/things.js";
 import * as viser from "../viser_page.js";
 import * as known from "./known.js";
 import { frameNode } from "./sight.js";
-import { about, compose, inverse, rotate, turnedBy } from "./vectors.js";
+import { about, compose, inverse, rotate, scaled, turnedBy } from "./vectors.js";
+
+/** @import {Moved} from "./drags.js" */
+/** @import {Pose} from "./vectors.js" */
+/** @import {SceneHandle} from "../contents.js" */
+/** @import {Three, Vec3, Wxyz} from "../types.js" */
+
+/**
+ * `frames` are those that are left after the drag, null while it goes on.
+ *
+ * @typedef {{control: number, pose: Pose, turned: number, frames: number | null}} Dragged
+ */
 
 const FACING = /\|m\d+\.(title|\d+v)$/;
 const BEFORE_PLACING = -1000.5; // viser places nodes at -1000
 const AFTER_PLACING = -999;
 const SETTLE_FRAMES = 3; // for the server's own pose to arrive after a drag
-/** @type {import("./vectors.js").Vector} */
+/** @type {Vec3} */
 const X = [1, 0, 0];
-/** @type {import("./vectors.js").Quaternion} */
+/** @type {Wxyz} */
 const FROM_CAMERA = [0.5, -0.5, 0.5, 0.5]; // from right, up and back to forward, left and up
 
+/** @type {Map<string, Dragged>} */
 const dragged = new Map(); // poses by id of the handle
+/** @type {Map<string, {object: Three, base: Pose}>} */
 const covered = new Map(); // by path of a group, where viser has placed it under a drag
+/** @type {string[]} */
 let facing = [];
 let counted = -1;
 
@@ -27,21 +41,36 @@ export function install() {
   viser.beforeRender(face);
 }
 
-/** The pose of a handle in its frame, `{position, wxyz}`, or null while it is not shown. */
+/**
+ * The pose of a handle in its frame, `{position, wxyz}`, or null while it is not shown.
+ *
+ * @param {string} id
+ */
 export function poseOf(id) {
-  const object = viser.node(known.nodesOf(id).groups.get(""));
+  const path = known.nodesOf(id).groups.get("");
+  const object = path && viser.node(path);
   const frame = frameNode(known.all().get(id)?.frame);
   if (!object || !frame) return null;
   return compose(inverted(localOf(frame)), localOf(object));
 }
 
-/** Shows a handle at a pose in its frame, with its control turned, until `letGo`. */
+/**
+ * Shows a handle at a pose in its frame, with its control turned, until `letGo`.
+ *
+ * @param {string} id
+ * @param {number} control
+ * @param {Moved} moved
+ */
 export function put(id, control, { position, wxyz, turned }) {
   dragged.set(id, { control, pose: { position, wxyz }, turned, frames: null });
   viser.requestRender();
 }
 
-/** Shows a handle where the server wants it, once that can be known. */
+/**
+ * Shows a handle where the server wants it, once that can be known.
+ *
+ * @param {string} id
+ */
 export function letGo(id) {
   const each = dragged.get(id);
   if (each) each.frames = SETTLE_FRAMES;
@@ -70,6 +99,11 @@ function place() {
   }
 }
 
+/**
+ * @param {string} id
+ * @param {SceneHandle} handle
+ * @param {Dragged} dragged
+ */
 function putOver(id, { frame, controls }, { control, pose, turned }) {
   const node = frameNode(frame);
   if (!node) return;
@@ -79,7 +113,7 @@ function putOver(id, { frame, controls }, { control, pose, turned }) {
     if (!object) continue;
     const number = parseInt(suffix, 10);
     const own = controls[number];
-    const angle = number === control ? turned : own?.turned;
+    const angle = number === control ? turned : (own?.turned ?? 0);
     const wxyz = own ? about(rotate(own.wxyz, X), angle) : pose.wxyz;
     const whole = compose(base, { position: pose.position, wxyz });
     covered.set(path, { object, base: localOf(object) });
@@ -109,34 +143,53 @@ function face() {
   }
 }
 
-// By how much the control of a group that faces the camera has been turned.
+/**
+ * By how much the control of a group that faces the camera has been turned.
+ *
+ * @param {string} path
+ */
 function turnedOf(path) {
-  const { id, suffix } = known.groupOf(nodeNamed(`${path}/-`).group);
-  const number = parseInt(suffix, 10);
+  const { id, suffix } = known.groupOf(nodeNamed(`${path}/-`)?.group ?? "") ?? {};
+  if (!id) return 0;
+  const number = parseInt(suffix ?? "", 10);
   const held = dragged.get(id);
   if (held && held.control === number) return held.turned;
   return known.all().get(id)?.controls[number]?.turned ?? 0;
 }
 
+/** @param {string} path */
 function isFacing(path) {
   if (path.split("/").length !== 3) return false;
   const node = nodeNamed(`${path}/-`);
   return node !== null && FACING.test(node.group);
 }
 
+/**
+ * @param {Three} object
+ * @returns {Pose}
+ */
 const localOf = ({ position, quaternion: { w, x, y, z } }) => ({
   position: position.toArray(),
   wxyz: [w, x, y, z],
 });
+/**
+ * @param {Three} object
+ * @param {Wxyz} wxyz
+ */
 const turn = (object, [w, x, y, z]) => object.quaternion.set(x, y, z, w);
+/**
+ * @param {Pose} pose
+ * @returns {Pose}
+ */
 const inverted = ({ position, wxyz }) => {
   const back = inverse(wxyz);
   return {
-    position: rotate(
-      back,
-      position.map((value) => -value),
-    ),
+    position: rotate(back, scaled(position, -1)),
     wxyz: back,
   };
 };
+/**
+ * @param {Wxyz} a
+ * @param {Wxyz} b
+ */
 const isNearly = (a, b) => Math.abs(a.reduce((sum, value, i) => sum + value * b[i], 0)) > 1 - 1e-9;

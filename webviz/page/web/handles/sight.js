@@ -4,39 +4,72 @@ import constants from "../constants.js";
 import { casterAt } from "../scene/rays.js";
 import * as viser from "../viser_page.js";
 
+/** @import {Ray} from "./vectors.js" */
+/** @import {Three, Vec2, Vec3} from "../types.js" */
+
+/** @typedef {ReturnType<typeof sightOf>} Sight */
+
 const { ROOT } = constants;
 
-/** The name of viser's node of a group of the scene. */
+/**
+ * The name of viser's node of a group of the scene.
+ *
+ * @param {string} group
+ */
 export const pathOf = (group) => `${ROOT}/${segment(group)}`;
 
+/** @param {string} text */
 const segment = (text) =>
   encodeURIComponent(text)
     .replace(/[!'()*]/g, (letter) => `%${letter.charCodeAt(0).toString(16).toUpperCase()}`)
     .replaceAll("%20", " ") || "%";
 
-/** The object whose coordinates are those of a frame, given its group, "" for the fixed frame. */
+/**
+ * The object whose coordinates are those of a frame, given its group, "" for the fixed frame.
+ *
+ * @param {string | undefined} group
+ */
 export const frameNode = (group) => viser.node(group ? pathOf(group) : ROOT);
 
 /**
  * Projection of the coordinates of an object: `rayAt(xy)` through a point of the window,
  * `project(point)` to one, or null behind the camera; `right`, `up` and `forward`; `perPixel(point)`
  * and `unit(point)`, how many metres a pixel is there, and a hundred.
+ *
+ * @param {Three} object
  */
 export function sightOf(object) {
   object.updateWorldMatrix(true, false);
   const camera = viser.camera();
+  /**
+   * @param {Vec3} xyz
+   * @returns {Three}
+   */
   const vector = (xyz) => camera.position.clone().fromArray(xyz);
   const back = object.matrixWorld.clone().invert();
   const whole = camera.matrixWorld.elements;
+  /**
+   * @param {number} column
+   * @param {number} sign
+   * @returns {Vec3}
+   */
   const direction = (column, sign) =>
     vector(whole.slice(4 * column, 4 * column + 3))
       .multiplyScalar(sign)
       .transformDirection(back)
       .toArray();
+  /**
+   * @param {Vec2} xy
+   * @returns {Ray}
+   */
   const rayAt = (xy) => {
     const { origin, direction } = casterAt(xy).ray.applyMatrix4(back);
     return { origin: origin.toArray(), direction: direction.toArray() };
   };
+  /**
+   * @param {Vec3} point
+   * @returns {Vec2 | null}
+   */
   const project = (point) => {
     const place = vector(point).applyMatrix4(object.matrixWorld);
     if (place.clone().applyMatrix4(camera.matrixWorldInverse).z >= 0) return null;
@@ -44,6 +77,10 @@ export function sightOf(object) {
     const { left, top, width, height } = viser.canvas().getBoundingClientRect();
     return [left + ((x + 1) / 2) * width, top + ((1 - y) / 2) * height];
   };
+  /**
+   * @param {Vec3} point
+   * @returns {number}
+   */
   const perPixel = (point) => {
     const place = vector(point).applyMatrix4(object.matrixWorld);
     const depth = place.clone().applyMatrix4(camera.matrixWorldInverse);
@@ -56,10 +93,15 @@ export function sightOf(object) {
     rayAt,
     project,
     perPixel,
+    /** @param {Vec3} point */
     unit: (point) => 100 * perPixel(point),
     right: direction(0, 1),
     up: direction(1, 1),
     forward: direction(2, -1),
+    /**
+     * @param {Three} point
+     * @returns {Vec3}
+     */
     toFrame: (point) => point.clone().applyMatrix4(back).toArray(),
   };
 }

@@ -5,6 +5,13 @@ import { el } from "../dom.js";
 import { icon } from "../icons.js";
 import { keyText } from "./keys.js";
 
+/**
+ * @typedef {{
+ *   label: string, icon?: string, key?: string, run?: () => unknown, disabled?: boolean,
+ *   danger?: boolean, checked?: boolean, needs?: string, tip?: string, items?: (MenuItem | null)[],
+ * }} MenuItem
+ */
+
 const GAP = 4;
 
 /**

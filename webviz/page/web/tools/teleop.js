@@ -13,13 +13,9 @@ import * as gamepad from "./teleop_gamepad.js";
 import * as keys from "./teleop_keys.js";
 
 /** @import {DrivingReport} from "../messages.js" */
+/** @import {Shares} from "./teleop_keys.js" */
 /** @import {Made, ViewerTool} from "../types.js" */
 
-/**
- * Of the highest speeds: ahead, to the left and counter-clockwise.
- *
- * @typedef {readonly number[]} Shares
- */
 /**
  * @typedef {{
  *   id: string, card: ReturnType<typeof makeCard>, beat: number, beats: number, sent: number,

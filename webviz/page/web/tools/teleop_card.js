@@ -3,7 +3,7 @@
 import { el, set, setText } from "../dom.js";
 import { makeStick } from "./teleop_stick.js";
 
-/** @import {Shares} from "./teleop.js" */
+/** @import {Shares} from "./teleop_keys.js" */
 /** @import {ValuesOf} from "../types.js" */
 
 /**

@@ -1,5 +1,11 @@
 // Keys that drive while they are held, by their places on the keyboard.
 
+/**
+ * Of the highest speeds: ahead, to the left and counter-clockwise.
+ *
+ * @typedef {readonly number[]} Shares
+ */
+
 const [LINEAR, LATERAL, ANGULAR] = [0, 1, 2];
 /** @type {Record<string, [axis: number, way: number]>} */
 const KEYS = {

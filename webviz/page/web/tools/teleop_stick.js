@@ -2,7 +2,7 @@
 
 import { el, set } from "../dom.js";
 
-/** @import {Shares} from "./teleop.js" */
+/** @import {Shares} from "./teleop_keys.js" */
 /** @import {Vec2} from "../types.js" */
 
 const DEAD = 0.08;
