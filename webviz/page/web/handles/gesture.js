@@ -94,7 +94,7 @@ export function leave() {
  */
 export function pointer(event) {
   if (!known.all().size) return false;
-  if (event instanceof WheelEvent) return drag !== null && wheel(drag, event);
+  if ("deltaY" in event) return drag !== null && wheel(drag, event);
   const { type, pointerId, button, clientX, clientY } = event;
   if (drag) {
     if (pointerId !== drag.pointer) return true;

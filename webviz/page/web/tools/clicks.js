@@ -16,7 +16,7 @@ export function clicks(onClick, onRight = () => {}, onMove = () => {}) {
   /** @type {{pointer: number, at: Vec2} | null} */
   let pressed = null;
   return (/** @type {SceneEvent} */ event) => {
-    if (event instanceof WheelEvent) return false;
+    if ("deltaY" in event) return false;
     if (event.type === "pointerdown") {
       pressed = { pointer: event.pointerId, at: [event.clientX, event.clientY] };
     } else if (event.type === "pointercancel") {

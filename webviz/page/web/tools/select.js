@@ -67,7 +67,7 @@ export function lookAtSelection() {
  * @returns {boolean}
  */
 function follow(event) {
-  if (event instanceof WheelEvent) return false;
+  if ("deltaY" in event) return false;
   const { type, pointerId, clientX, clientY } = event;
   if (type === "pointerdown") {
     if (drag !== null || event.button !== 0 || event.altKey) return drag !== null;

@@ -120,7 +120,7 @@ const asks = ({ shiftKey }) => {
  * @returns {boolean}
  */
 function follow(event, tool) {
-  if (event instanceof WheelEvent) {
+  if ("deltaY" in event) {
     if (stroke.isGoing()) event.preventDefault();
     return stroke.isGoing();
   }
