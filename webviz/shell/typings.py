@@ -21,6 +21,7 @@ from webviz.scene import holding
 from webviz.scene.constants import CONSTANTS
 from webviz.server.access.rules import COMMANDS
 from webviz.server.channel import links, messages
+from webviz.server.images.frames import PictureHeader
 
 FOLDER = Path(page.__file__).parent / "web"
 _MODULES = (messages, links, holding)
@@ -58,7 +59,9 @@ def _messages() -> str:
     to_page = list(_structs(messages.ToPage))
     from_page = list(_structs(messages.FromPage))
     parts = [_interface(struct) for struct in (*to_page, *from_page) if struct is not messages.Do]
-    parts += [_commands(), _DO]
+    pictures = _Names()
+    pictures.of(_struct(PictureHeader))
+    parts += [_commands(), _DO, pictures.interfaces()]
     for name, structs in (("ToPage", to_page), ("FromPage", from_page)):
         parts.append(f"export type {name} =\n  " + "\n  ".join(f"| {s.__name__}" for s in structs))
         parts[-1] += ";\n"
@@ -80,10 +83,8 @@ def _store(make: Callable[..., PageStore | None], names: _Names) -> str:
     returned = get_type_hints(make)["return"]
     types = get_args(returned) or (returned,)
     store = next(each for each in types if each is not type(None))
-    info = inspect.type_info(store)
-    assert isinstance(info, inspect.StructType)
     own, items = [], "never"
-    for field in info.fields:
+    for field in _struct(store).fields:
         prefix = store.spread.get(field.name)
         if prefix is None:
             own.append(_field(field, names, may_lack=type(None) in types))
@@ -95,6 +96,12 @@ def _store(make: Callable[..., PageStore | None], names: _Names) -> str:
         else:
             items = value
     return f"{{ own: {{ {'; '.join(own)} }}; items: {items} }}"
+
+
+def _struct(struct: type[msgspec.Struct]) -> inspect.StructType:
+    info = inspect.type_info(struct)
+    assert isinstance(info, inspect.StructType)
+    return info
 
 
 class _Names:

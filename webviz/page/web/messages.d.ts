@@ -242,6 +242,51 @@ export type Do = { [C in keyof Commands]: {
   type: "Do"; number: number; command: C; arguments: Commands[C]; step?: number;
 } }[keyof Commands];
 
+export interface ColorRange {
+  low: number;
+  high: number;
+  unit: string;
+  colors: Array<[number, number, number]>;
+}
+
+export interface PictureCamera {
+  position: [number, number, number];
+  wxyz: [number, number, number, number];
+  size: [number, number];
+  focal: [number, number];
+  principal: [number, number];
+  part: [number, number, number, number];
+  far: number;
+  zoom: number;
+  overlay: number;
+  is_background: boolean;
+}
+
+export interface PictureHeader {
+  display: string;
+  number: number;
+  stamp: number;
+  video?: string;
+  sizes?: Array<number>;
+  starts?: boolean;
+  mime?: string;
+  topic?: string;
+  type?: string;
+  received?: number;
+  size?: [number, number];
+  legend?: ColorRange;
+  readable?: boolean;
+  swaps?: boolean;
+  sight?: PictureCamera;
+  warp?: PictureWarp | null;
+}
+
+export interface PictureWarp {
+  rows: number;
+  columns: number;
+  places: Array<number | null>;
+}
+
 export type ToPage =
   | Ask
   | Beat

@@ -4,17 +4,88 @@ from __future__ import annotations
 
 import math
 import struct
-from collections.abc import Iterable
-from dataclasses import dataclass, fields
-from typing import Any
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
 import msgspec
 import numpy as np
+from msgspec import UNSET, UnsetType
+from msgspec.structs import replace
 
 from webviz.api.nodes import Pane
 from webviz.api.pictures import OverlayCamera, Packet, Pixels, Readout, Video, Warp
 from webviz.data.images import COLOR_MAPS
 from webviz.server.images.encoding import File
+
+
+class PictureWarp(msgspec.Struct, frozen=True):
+    """A warp; `places` are by rows, each x and y, None outside of what the lens sees."""
+
+    rows: int
+    columns: int
+    places: Sequence[float | None]
+
+
+class PictureCamera(msgspec.Struct, frozen=True):
+    """An overlay camera without its warp; see `webviz.api.pictures.OverlayCamera`."""
+
+    position: tuple[float, float, float]
+    wxyz: tuple[float, float, float, float]
+    size: tuple[int, int]
+    focal: tuple[float, float]
+    principal: tuple[float, float]
+    part: tuple[float, float, float, float]
+    far: float
+    zoom: float
+    overlay: float
+    is_background: bool
+
+
+class ColorRange(msgspec.Struct, frozen=True):
+    """The range of values that the colours of a measurement stand for, 0 to 255 each."""
+
+    low: float
+    high: float
+    unit: str
+    colors: Sequence[tuple[int, int, int]]
+
+
+class PictureHeader(msgspec.Struct, frozen=True, kw_only=True):
+    """The header of a picture; unset fields are not sent.
+
+    Args:
+        display: id of the display.
+        number: of the picture.
+        stamp: seconds.
+        video: the codec of a video.
+        sizes: bytes of each packet of a video.
+        starts: whether the first packet is a key frame.
+        mime: type of the file of a still picture or a text.
+        topic, type, received: of the message of a text; seconds.
+        size: width and height in pixels of the full picture.
+        legend: of a measurement.
+        readable: whether pixels can be read with `ReadPixel`.
+        swaps: whether red and blue are in each other's place.
+        sight: the camera through which the page draws the scene.
+        warp: a new distortion of the picture, None for none.
+    """
+
+    display: str
+    number: int
+    stamp: float
+    video: str | UnsetType = UNSET
+    sizes: Sequence[int] | UnsetType = UNSET
+    starts: bool | UnsetType = UNSET
+    mime: str | UnsetType = UNSET
+    topic: str | UnsetType = UNSET
+    type: str | UnsetType = UNSET
+    received: float | UnsetType = UNSET
+    size: tuple[int, int] | UnsetType = UNSET
+    legend: ColorRange | UnsetType = UNSET
+    readable: bool | UnsetType = UNSET
+    swaps: bool | UnsetType = UNSET
+    sight: PictureCamera | UnsetType = UNSET
+    warp: PictureWarp | UnsetType | None = UNSET
 
 
 @dataclass(frozen=True)
@@ -46,33 +117,35 @@ def frame(
         The message, and what the page has with it; without a new packet of a video it is empty.
     """
     picture = pane.picture
-    head: dict[str, Any] = {"display": display, "number": number, "stamp": pane.stamp_ns / 1e9}
+    head = PictureHeader(display=display, number=number, stamp=pane.stamp_ns / 1e9)
     if isinstance(picture, Video):
         packets = _following(picture.packets, sent.packet)
         if not packets:
             return b"", sent
-        head["video"] = picture.codec
-        head["sizes"] = [len(packet.data) for packet in packets]
-        head["starts"] = packets[0] is picture.packets[0]
+        head = replace(
+            head,
+            video=picture.codec,
+            sizes=[len(packet.data) for packet in packets],
+            starts=packets[0] is picture.packets[0],
+        )
         parts = (np.ascontiguousarray(packet.data).data for packet in packets)
         return _joined(head, parts), Sent(packets[-1].number)
     assert file is not None
-    head["mime"] = file.mime
+    head = replace(head, mime=file.mime)
     if isinstance(picture, Readout):
-        head |= {"topic": picture.topic, "type": picture.type, "received": picture.received_s}
+        head = replace(head, topic=picture.topic, type=picture.type, received=picture.received_s)
         return _joined(head, [file.data]), sent
-    head["size"] = picture.size
+    head = replace(head, size=picture.size)
     if isinstance(picture, Pixels):
-        head |= _legend(picture)
-        head["readable"] = True
+        head = replace(head, legend=_legend(picture), readable=True)
     else:
-        head["swaps"] = picture.swaps_red_and_blue
+        head = replace(head, swaps=picture.swaps_red_and_blue)
     warp = None
     if pane.sight is not None:
         warp = pane.sight.warp
-        head["sight"] = overlay_camera_values(pane.sight)
+        head = replace(head, sight=camera_of(pane.sight))
         if warp is not sent.warp:
-            head["warp"] = warp_values(warp)
+            head = replace(head, warp=warp_of(warp))
     return _joined(head, [file.data]), Sent(sent.packet, warp)
 
 
@@ -82,37 +155,34 @@ def _following(packets: tuple[Packet, ...], sent: int) -> tuple[Packet, ...]:
     return packets[sent + 1 - first :] if first <= sent <= last else packets
 
 
-def _legend(picture: Pixels) -> dict[str, Any]:
+def _legend(picture: Pixels) -> ColorRange | UnsetType:
     """Return the range of values that the colours of a measurement stand for."""
     layout, tone = picture.image.layout, picture.tone
     if not layout.is_scaled or layout.channels > 1:
-        return {}
+        return UNSET
     scale = 1000.0 if layout.unit == "mm" else 1.0
-    return {
-        "legend": {
-            "low": float(f"{tone.low / scale:.4g}"),
-            "high": float(f"{tone.high / scale:.4g}"),
-            "unit": "m" if layout.unit else "",
-            "colors": COLOR_MAPS[tone.color_map],
-        }
-    }
+    return ColorRange(
+        low=float(f"{tone.low / scale:.4g}"),
+        high=float(f"{tone.high / scale:.4g}"),
+        unit="m" if layout.unit else "",
+        colors=COLOR_MAPS[tone.color_map],
+    )
 
 
-def overlay_camera_values(sight: OverlayCamera) -> dict[str, Any]:
-    """A sight as JSON, without its warp."""
-    return {each.name: getattr(sight, each.name) for each in fields(sight) if each.name != "warp"}
+def camera_of(sight: OverlayCamera) -> PictureCamera:
+    """Return an overlay camera as pages read it."""
+    return msgspec.convert(sight, PictureCamera, from_attributes=True)
 
 
-def warp_values(warp: Warp | None) -> dict[str, Any] | None:
-    """A warp as JSON: places by rows, null outside of what the lens sees."""
+def warp_of(warp: Warp | None) -> PictureWarp | None:
+    """Return a warp as pages read it."""
     if warp is None:
         return None
     rows, columns, _ = warp.grid.shape
     flat = np.round(warp.grid.astype(np.float64), 6).ravel().tolist()
-    places = [each if math.isfinite(each) else None for each in flat]
-    return {"rows": rows, "columns": columns, "places": places}
+    return PictureWarp(rows, columns, [each if math.isfinite(each) else None for each in flat])
 
 
-def _joined(head: dict[str, Any], parts: Iterable[bytes | memoryview]) -> bytes:
+def _joined(head: PictureHeader, parts: Iterable[bytes | memoryview]) -> bytes:
     encoded = msgspec.json.encode(head)
     return b"".join((struct.pack("<I", len(encoded)), encoded, *parts))

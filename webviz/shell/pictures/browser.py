@@ -12,13 +12,14 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, TypeVar
 
+import msgspec
 import numpy as np
 import PIL.Image
 from numpy.typing import NDArray
 
 from webviz.api.errors import Error
 from webviz.api.pictures import OverlayCamera
-from webviz.server.images.frames import overlay_camera_values, warp_values
+from webviz.server.images.frames import camera_of, warp_of
 from webviz.shell.pictures.browser_scripts import (
     CANVAS,
     COUNT_UNPACKING,
@@ -264,7 +265,8 @@ class Page:
         file = io.BytesIO()
         picture.save(file, "PNG")
         url = f"data:image/png;base64,{base64.b64encode(file.getvalue()).decode()}"
-        found = [*size, overlay_camera_values(sight), warp_values(sight.warp), [*hidden], url]
+        camera, warp = camera_of(sight), warp_of(sight.warp)
+        found = msgspec.to_builtins([*size, camera, warp, [*hidden], url])
         png = base64.b64decode(self.evaluate(PANE, found).split(",")[1])
         return PIL.Image.open(io.BytesIO(png)).convert("RGB")
 
