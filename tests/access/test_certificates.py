@@ -7,9 +7,12 @@ from pathlib import Path
 
 import pytest
 from certificates import certificate
-from cryptography.hazmat.primitives import serialization
+from cryptography import x509
+from cryptography.hazmat.primitives import hashes, serialization
+from cryptography.hazmat.primitives.asymmetric import ec
+from cryptography.x509.oid import ExtendedKeyUsageOID, NameOID
 
-from webviz.server.access.tls import CertificateError, doubts, server_context
+from webviz.server.access.tls import SOON_S, CertificateError, doubts, server_context
 
 
 @pytest.fixture(scope="module")
@@ -75,3 +78,41 @@ def test_a_certificate_out_of_its_time_is_doubted(folder: Path) -> None:
         f"The certificate in {file} expired on 2031-05-20. Renew it."
     ]
     assert "is not valid before" in at(datetime(1990, 1, 1))[0]
+
+
+def test_a_certificate_is_valid_from_its_first_to_its_last_second(folder: Path) -> None:
+    file = certificate(folder, "exact", ends=datetime(2031, 5, 20, 12))
+    made = x509.load_pem_x509_certificate(file.read_bytes())
+    starts, ends = (
+        int(each.timestamp()) for each in (made.not_valid_before_utc, made.not_valid_after_utc)
+    )
+    context = server_context(file, file.with_suffix(".key"))
+    said = {at: " ".join(doubts(context, file, at)) for at in (starts - 1, starts, ends, ends + 1)}
+    assert "is not valid before" in said[starts - 1]
+    assert said[starts] == ""
+    assert "expires on" in said[ends]
+    assert "expired on" in said[ends + 1]
+    assert doubts(context, file, ends - SOON_S) == []
+    assert doubts(context, file, ends - SOON_S + 1) != []
+
+
+def test_a_certificate_that_is_not_for_servers_is_doubted(folder: Path) -> None:
+    key = ec.generate_private_key(ec.SECP256R1())
+    name = x509.Name([x509.NameAttribute(NameOID.COMMON_NAME, "robot")])
+    made = (
+        x509.CertificateBuilder(name, name, key.public_key(), x509.random_serial_number())
+        .not_valid_before(datetime(2020, 1, 1))
+        .not_valid_after(datetime(2100, 1, 1))
+        .add_extension(x509.ExtendedKeyUsage([ExtendedKeyUsageOID.CLIENT_AUTH]), critical=True)
+        .sign(key, hashes.SHA256())
+    )
+    file = folder / "client.pem"
+    private = key.private_bytes(
+        serialization.Encoding.PEM,
+        serialization.PrivateFormat.PKCS8,
+        serialization.NoEncryption(),
+    )
+    file.write_bytes(private + made.public_bytes(serialization.Encoding.PEM))
+    (said,) = doubts(server_context(file), file)
+    assert said.startswith(f"Browsers will reject the certificate in {file}: ")
+    assert said.endswith("purpose.")

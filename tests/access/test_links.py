@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import socket
 import subprocess
 import sys
 from datetime import UTC, datetime
 from pathlib import Path
+from types import SimpleNamespace
 
+import psutil
 import pytest
 
 from webviz.server.access.announcing import Announcement, announced, reachable
@@ -42,6 +45,18 @@ def test_links_name_the_machine_as_others_reach_it() -> None:
     assert reachable(url, "192.0.2.7", ()) == "https://192.0.2.7:81"
     assert reachable(url, "2001:db8::1", ()) == "https://[2001:db8::1]:81"
     assert "0.0.0.0" not in reachable(url, "0.0.0.0", ())
+
+
+def test_a_link_has_the_first_ipv4_address_of_a_network(monkeypatch: pytest.MonkeyPatch) -> None:
+    families = (
+        (socket.AF_INET, "127.0.0.1"),
+        (socket.AF_PACKET, "02:00:00:00:00:01"),
+        (socket.AF_INET6, "fe80::1"),
+        (socket.AF_INET, "192.0.2.7"),
+    )
+    addresses = [SimpleNamespace(family=family, address=text) for family, text in families]
+    monkeypatch.setattr(psutil, "net_if_addrs", lambda: {"lo": addresses[:1], "eth": addresses[1:]})
+    assert reachable("http://127.0.0.1:81", "0.0.0.0", ()) == "http://192.0.2.7:81"
 
 
 def test_links_are_for_the_viewers_that_run(tmp_path: Path) -> None:

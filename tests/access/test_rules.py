@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import cast
 
 import pytest
 
+import webviz.page
 from webviz import commands
 from webviz.engine.commands import Command
 from webviz.engine.parts.selection import MAX_SELECTED
@@ -138,6 +140,13 @@ def test_every_role_has_limits_and_a_link() -> None:
     shares = [LIMITS[role].share for role in Role]
     assert shares == sorted(shares)
     assert shares[-1] == 1.0
+
+
+def test_the_page_sends_no_longer_config_than_an_owner_may() -> None:
+    source = (Path(webviz.page.__file__).parent / "web/shell/files.js").read_text()
+    assert "const MAX_CHARACTERS = (3 << 20) - 1000;" in source
+    assert LIMITS[Role.OWNER].max_characters == 3 << 20
+    assert LIMITS[Role.OWNER].max_values == 3 << 20
 
 
 def test_the_longest_message_of_a_role_takes_little_of_its_rate() -> None:

@@ -12,7 +12,7 @@ import pytest
 from websockets.datastructures import Headers
 
 from webviz.server.access import login, token_file
-from webviz.server.access.access import EVERYBODY, MAX_MISSED, Access
+from webviz.server.access.access import EVERYBODY, Access
 from webviz.server.access.roles import Role
 from webviz.server.access.starting import access_to, is_local, link, make_missing
 from webviz.server.access.tokens import MAX_TOKENS, Token, TokenError, make
@@ -165,6 +165,31 @@ def test_an_invalid_file_is_an_error_that_quotes_no_secret(path: Path, text: str
     assert caught.value.__cause__ is None
 
 
+def test_a_file_above_a_megabyte_is_not_read(path: Path) -> None:
+    token_file.modify(path, lambda _: [token()])
+    text = path.read_text().rstrip()
+
+    def grow(size: int) -> None:
+        path.write_text(text[:-1] + (size - len(text)) * " " + "}")
+
+    grow(1 << 20)
+    assert len(token_file.read(path)) == 1
+    grow((1 << 20) + 2)
+    with pytest.raises(TokenError, match="is not a valid file of tokens"):
+        token_file.read(path)
+
+
+def test_a_file_that_cannot_be_written_is_an_error_with_the_reason(path: Path) -> None:
+    path.parent.write_text("")
+    with pytest.raises(TokenError) as caught:
+        token_file.modify(path, lambda _: [token()])
+    assert str(caught.value) == f"Cannot write {path}: File exists."
+    path.parent.unlink()
+    path.mkdir(parents=True)
+    with pytest.raises(TokenError, match=f"Cannot (read|write) {path}: Is a directory"):
+        token_file.modify(path, lambda _: [token()])
+
+
 def test_what_is_no_file_is_an_error_at_once(path: Path) -> None:
     path.parent.mkdir()
     os.mkfifo(path, 0o600)
@@ -311,9 +336,9 @@ def test_a_disk_that_does_not_respond_is_logged_once(
 ) -> None:
     known, mounted = Access(True, path), threading.Event()
     monkeypatch.setattr(known, "refresh", lambda: mounted.wait(60.0))
-    for number in range(2 * MAX_MISSED):
+    for number in range(10):
         known.begin_refresh(lambda: None)
-        is_said = number >= MAX_MISSED  # the first look waits for the disk
+        is_said = number >= 5  # the first look waits for the disk
         assert ["does not respond" in text for text in caplog.messages] == [True] * is_said
     mounted.set()
 

@@ -108,10 +108,9 @@ def _refuse() -> str:
 
 
 def _reason(error: Exception, certfile: Path, key: Path) -> str:
-    reason = getattr(error, "reason", None)
-    if reason == "KEY_VALUES_MISMATCH":
+    if getattr(error, "reason", None) == "KEY_VALUES_MISMATCH":
         return f"The key in {key} does not belong to the certificate in {certfile}."
-    if reason in ("NO_START_LINE", "PEM", None) or "PEM" in str(error):
+    if "PEM" in str(error):
         return f"{_without(certfile, key)}."
     return f"Cannot use the certificate in {certfile} with the key in {key}: {_sentence(error)}."
 
