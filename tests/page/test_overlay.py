@@ -41,18 +41,30 @@ def test_the_keyboard_reaches_the_axes(tab: Tab) -> None:
 
 
 @pytest.mark.usefixtures("scene")  # it tells pages where to begin
-def test_the_axes_are_as_before_when_a_lost_connection_is_back(tab: Tab, server: Server) -> None:
+def test_the_view_is_as_before_when_a_lost_connection_is_back(tab: Tab, server: Server) -> None:
+    tab.wait_for(lambda: tab.page.evaluate("window.webviz.hasView()"))
     tab.page.get_by_role("button", name="Look from -Y", exact=True).dispatch_event("click")
     tab.wait_for(lambda: tab.page.evaluate(AXES)[1][2] < -0.999)
     up = tab.page.locator(".wv-gizmo [data-axis=z][data-side=front] line")
     tab.wait_for(lambda: float(up.get_attribute("y2") or 0.0) < -25)
     tab.page.evaluate(
-        """async () => (await import("/webviz/channel.js")).on(
-          "StartView", () => { window.isBack = true; })"""
+        """async () => {
+          const viser = await import("/webviz/viser_page.js");
+          const { on } = await import("/webviz/channel.js");
+          const before = viser.controls().azimuthAngle;
+          window.turned = 0;
+          (function look() {
+            const turned = Math.abs(viser.controls().azimuthAngle - before);
+            window.turned = Math.max(window.turned, turned);
+            requestAnimationFrame(look);
+          })();
+          on("StartView", () => { window.isBack = true; });
+        }"""
     )
     for connection in tuple(server._websock_server._live_connections.values()):
         server.get_event_loop().call_soon_threadsafe(connection.transport.abort)
     tab.wait_for(lambda: tab.page.evaluate("window.isBack"))
+    assert tab.page.evaluate("window.turned") < 0.1
     tab.page.get_by_role("button", name="Look from X", exact=True).dispatch_event("click")
     tab.wait_for(lambda: tab.page.evaluate(AXES)[0][2] > 0.999)
     tab.wait_for(lambda: float(up.get_attribute("y2") or 0.0) < -25)

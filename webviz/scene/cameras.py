@@ -12,7 +12,6 @@ import numpy as np
 import viser
 
 from webviz.api.views import (
-    FIELD_OF_VIEW,
     FIXED_FRAME,
     VIEW_TYPES,
     Camera,
@@ -71,17 +70,14 @@ class ViserCameras:
         link.channel.on(ViewReport, self._hear)
         link.server.on_client_connect(self._join)
         link.server.on_client_disconnect(self._leave)
-        self.start_with(self._start)
 
     def start_with(self, view: View) -> None:
-        """Choose the view of browsers that join."""
+        """Choose the view of browsers that join.
+
+        The page puts its camera there. viser's initial camera would come with every connection, and
+        take browsers whose connection was lost away from where they were.
+        """
         self._start = view
-        camera = camera_of(view, ASSUMED_PX)
-        initial = self._link.server.initial_camera
-        initial.look_at = camera.look_at
-        initial.position = camera.position
-        initial.up = (0.0, 0.0, 1.0)
-        initial.fov = FIELD_OF_VIEW
 
     def show(self, view: View, browser: int | None = None) -> None:
         """Show a view in one browser or in all of them.

@@ -37,7 +37,7 @@ const NEEDS = {
   nodeRefFromName: "nodes of the scene by their names",
   nodePoseData: "texts: picking them, and hiding them in the images of cameras",
   "messageQueue.push()": "controls that go, and noticing that the server is silent",
-  firstMessageBatch: "poses and data in one step, and views after a lost connection",
+  firstMessageBatch: "poses and data in one step",
   "drainMessageQueue()": "poses and data in one step",
   "requestRender()": "drawing what has changed",
   "sendCamera()": "telling the server where a camera is",

@@ -1,11 +1,11 @@
 // Places in the fixed frame, whose plane z = 0 is the ground, as the camera sees them.
 
-import constants from "../constants.js";
+import { toThree } from "./fixed_frame.js";
 import { hit } from "./mouse.js";
 import { casterAt } from "./rays.js";
 import * as viser from "../viser_page.js";
 
-/** @import {Three, ThreeTree, Vec2, Vec3} from "../types.js" */
+/** @import {Three, Vec2, Vec3} from "../types.js" */
 
 const FARTHEST = 1e6; // metres
 const STEEP = 0.01; // square of the sine of an angle to the vertical
@@ -15,13 +15,6 @@ const STEEP = 0.01; // square of the sine of an angle to the vertical
  * @returns {Three}
  */
 const vector = (xyz) => viser.camera().position.clone().fromArray(xyz);
-
-/** @returns {Three} */
-function toThree() {
-  const world = /** @type {ThreeTree} */ (viser.node(constants.ROOT));
-  world.updateWorldMatrix(true, false);
-  return world.matrixWorld;
-}
 
 /**
  * Where a plane z = height is below a point of the window, in metres; null above its horizon.

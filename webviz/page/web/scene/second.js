@@ -3,9 +3,10 @@
 
 import constants from "../constants.js";
 import { pathOf } from "../handles/sight.js";
+import { toThree } from "./fixed_frame.js";
 import * as viser from "../viser_page.js";
 
-/** @import {Three, ThreeTree, Vec3, Wxyz} from "../types.js" */
+/** @import {Three, Vec3, Wxyz} from "../types.js" */
 
 const { ROOT } = constants;
 const NEAR = 0.01; // metres, as RViz
@@ -72,11 +73,9 @@ function makeEye() {
  * @param {Wxyz} wxyz
  */
 function place(position, [w, x, y, z]) {
-  const world = /** @type {ThreeTree} */ (viser.node(ROOT));
-  world.updateWorldMatrix(true, false);
   const at = eye.position.clone().fromArray(position);
   eye.matrix.compose(at, eye.quaternion.clone().set(x, y, z, w), eye.scale.clone().set(1, -1, -1));
-  eye.matrix.premultiply(world.matrixWorld);
+  eye.matrix.premultiply(toThree());
   eye.matrixWorldNeedsUpdate = true;
   eye.updateMatrixWorld();
 }

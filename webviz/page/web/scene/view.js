@@ -9,13 +9,14 @@
 
 import * as channel from "../channel.js";
 import constants from "../constants.js";
+import { toThree } from "./fixed_frame.js";
 import * as viser from "../viser_page.js";
 
 /** @import {PlaceCamera, StartView} from "../messages.js" */
 
 /** @import {Three, Vec3} from "../types.js" */
 
-const { ROOT, RAISED, EYE, FIELD_OF_VIEW, FLAT_FIELD_OF_VIEW } = constants;
+const { RAISED, EYE, FIELD_OF_VIEW, FLAT_FIELD_OF_VIEW } = constants;
 const SENT_MS = 100; // after which viser has reported the camera
 
 /** @type {(() => void)[]} */
@@ -25,17 +26,12 @@ let camera = null;
 /** @type {Three} */
 let canvas = null;
 /** @type {Three} */
-let world = null;
-/** @type {Three} */
 let cross = null;
 /** @type {any} */
 let view = null;
 /** @type {Three} */
 let rig = null;
 let height = 0;
-/** @type {any} */
-let place = null;
-let isLost = false;
 /** @type {Three} */
 let focal = null;
 /** @type {any} */
@@ -96,13 +92,6 @@ const vector = (xyz) => camera.position.clone().fromArray(xyz);
 const matrix = () => camera.matrixWorld.clone().identity();
 const isFlat = () => view !== null && view.view === "TopDownOrtho";
 
-// The world of viser has z up, that of three.js y up.
-const toThree = () => {
-  world = viser.node(ROOT) ?? world; // it is another one after a lost connection
-  world.updateWorldMatrix(true, false);
-  return world.matrixWorld;
-};
-
 // Where the target frame is: its position, and its yaw for a view that turns with it.
 function follow() {
   const node = view !== null && view.frame && viser.node(view.frame);
@@ -148,19 +137,6 @@ function adopt(camera) {
     this.matrixWorld.premultiply(rig);
     this.matrixWorldInverse.copy(this.matrixWorld).invert();
   };
-}
-
-function remember() {
-  if (viser.isFirstBatch()) isLost = true;
-  if (isLost || view === null) return;
-  const controls = viser.controls();
-  place = [controls.getPosition(vector([0, 0, 0])), controls.getTarget(vector([0, 0, 0]))];
-}
-function rejoin() {
-  const [position, target] = place;
-  viser.controls().setLookAt(...position.toArray(), ...target.toArray(), false);
-  viser.sendCamera();
-  setTimeout(report, SENT_MS);
 }
 
 // Adjust what viser keeps before the camera, and the cross where it turns about, without knowing rigs.
@@ -250,15 +226,15 @@ function show(wanted) {
 /** @param {StartView} start */
 function join(start) {
   viser.reveal(); // also of a scene without a page around it
-  isLost = false;
-  if (place === null) show(start);
-  else rejoin();
+  if (view === null) return show(start);
+  // A lost connection is back: the camera has not moved, but the server does not know it.
+  viser.sendCamera();
+  setTimeout(report, SENT_MS);
 }
 
 export function install() {
   camera = viser.camera();
   canvas = viser.canvas();
-  world = viser.node(ROOT);
   height = canvas.clientHeight;
   cross = viser.scene().children.find((child) => {
     let found = false;
@@ -282,9 +258,6 @@ export function install() {
   // Labels stand where their parents were in the frame before, unless that is brought up to date
   // between viser's placing of nodes and of labels.
   viser.eachFrame(-900, () => rig !== null && viser.scene().updateMatrixWorld());
-  // When a lost connection is back, viser puts the camera where browsers begin: it goes back from
-  // there to where it was before the first messages came.
-  viser.eachFrame(-1e6, remember);
 
   viser.beforeRender((gl, scene, camera) => {
     adopt(camera);
