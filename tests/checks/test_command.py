@@ -131,6 +131,7 @@ def test_a_viewer_is_examined_on_request_and_a_recording_notes_the_moment(run_ba
         viewer.seek(4.0)
         (finding,) = [each for each in viewer.doctor() if each.id == "TF002"]
         assert finding.button == webviz.OtherFixedFrame("odom")
+        assert finding in viewer["LaserScan"].findings
         (event,) = [each for each in viewer.state.found if each.name == "TF002"]
         assert event.at_ns == START_NS + ns(4.0)
         viewer.fixed_frame = "odom"

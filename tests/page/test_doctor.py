@@ -10,6 +10,7 @@ from playwright.sync_api import expect
 
 from tests.page.conftest import Tab
 from webviz import Finding, OtherFixedFrame, Severity, Symptom
+from webviz.api.status import Level, Status
 from webviz.engine.commands import SetFixedFrame
 from webviz.engine.state import Row, State
 from webviz.page.content.doctor import findings
@@ -48,8 +49,11 @@ def panel(tab: Tab) -> Iterator[Tab]:
 
 
 def show(tab: Tab, *found: Finding) -> None:
-    row = Row("1", "Grid", Grid(name="Scan"), "Scan", {})
-    tab.loop.show(row, findings=found)
+    late = Status(Level.WARN, "No transform.")
+    row = Row("1", "Grid", Grid(name="Scan"), "Scan", {"Transform": late, "Points": late})
+    well = Row("2", "Grid", Grid(name="Ground"), "Ground", {})
+    unknown = {"Fixed Frame": Status(Level.ERROR, "Unknown.")}
+    tab.loop.show(well, row, findings=found, statuses=unknown)
     tab.turn()
 
 
@@ -81,6 +85,29 @@ def test_the_badge_counts_what_is_more_than_a_note(panel: Tab) -> None:
     expect(badge).to_have_accessible_name("Doctor: 1 finding")
     badge.click()
     expect(page.locator(".wv-finding")).to_have_count(2)
+
+
+def test_statuses_lead_to_the_finding_that_explains_them_and_back(panel: Tab) -> None:
+    page = panel.page
+    panel.show_tab("Displays")
+    show(panel, replace(NOTE, severity=Severity.ERROR), MISSPELT)
+    scan = page.get_by_role("treeitem", name="Scan")
+    link = scan.get_by_role("button", name="Cause: TF002")
+    expect(link).to_be_visible()
+    expect(page.get_by_role("button", name="Cause: TF002")).to_have_count(2)  # and of the viewer
+    scan.get_by_role("button", name="Unfold Scan").click()
+    lines = page.locator(".wv-statuses-lines > li")
+    panel.wait_for(lambda: lines.count() == 2)
+    expect(lines).to_have_text(["Transform: No transform.Cause: TF002", "Points: No transform."])
+    lines.first.get_by_role("button").click()
+    led = page.locator(".wv-finding").nth(1)
+    expect(led).to_be_focused()
+    expect(page.locator(".wv-finding").first).to_contain_text("Repair this first:NET005")
+    led.get_by_role("button", name="Scan: Transform").click()
+    expect(scan).to_have_attribute("aria-selected", "true")
+    show(panel)
+    expect(page.locator(".wv-finding-link")).to_have_count(0)
+    scan.get_by_role("button", name="Fold Scan").click()
 
 
 def test_a_finding_without_a_check_has_no_documentation() -> None:

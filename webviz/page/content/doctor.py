@@ -18,12 +18,26 @@ from webviz.page.content.store import PageStore
 LEVELS = {Severity.NOTE: "ok", Severity.WARNING: "warn", Severity.ERROR: "error"}
 
 
+class ExplainedStatus(msgspec.Struct, frozen=True):
+    """A status that a finding explains.
+
+    Args:
+        display: its id; "" for the viewer as a whole.
+        status: key of the status.
+        name: of the display; "" for the viewer as a whole.
+    """
+
+    display: str
+    status: str
+    name: str
+
+
 class ShownFinding(msgspec.Struct, frozen=True):
     """A finding, see `webviz.api.finding.Finding`.
 
     Args:
         level: "ok" for a note, "warn" or "error".
-        explains: names of displays and of their statuses.
+        explains: the statuses that follow from it.
         button: that repairs it, None if none does.
         why, repair: paragraphs of the documentation of its check.
     """
@@ -34,7 +48,7 @@ class ShownFinding(msgspec.Struct, frozen=True):
     cause: str
     remedy: str
     command: str
-    explains: Sequence[str]
+    explains: Sequence[ExplainedStatus]
     button: RemedyButton | None
     why: Sequence[str]
     repair: Sequence[str]
@@ -53,10 +67,6 @@ def findings(state: State, _: str) -> FindingsStore:
 
 
 def _finding(finding: Finding, names: Mapping[str, str]) -> ShownFinding:
-    explained = [
-        ": ".join(filter(None, (names.get(display, ""), status)))
-        for display, status in finding.explains
-    ]
     why, repair = _texts(finding.id)
     return ShownFinding(
         id=finding.id,
@@ -65,7 +75,10 @@ def _finding(finding: Finding, names: Mapping[str, str]) -> ShownFinding:
         cause=brief(finding.cause),
         remedy=brief(finding.remedy),
         command=brief(finding.command),
-        explains=[brief(each) for each in explained],
+        explains=[
+            ExplainedStatus(display, brief(status), brief(names.get(display, "")))
+            for display, status in finding.explains
+        ],
         button=_button(finding),
         why=why,
         repair=repair,

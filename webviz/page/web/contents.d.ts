@@ -46,6 +46,12 @@ export interface DisplayType {
   picture: string;
 }
 
+export interface ExplainedStatus {
+  display: string;
+  status: string;
+  name: string;
+}
+
 export interface Frame {
   parent: string;
   is_static: boolean;
@@ -185,7 +191,7 @@ export interface ShownFinding {
   cause: string;
   remedy: string;
   command: string;
-  explains: Array<string>;
+  explains: Array<ExplainedStatus>;
   button: RemedyButton | null;
   why: Array<string>;
   repair: Array<string>;

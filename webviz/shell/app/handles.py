@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from webviz.api.errors import Error
+from webviz.api.finding import Finding
 from webviz.api.status import Level, Status
 from webviz.data.words import joined
 from webviz.engine.commands import (
@@ -65,6 +66,16 @@ class DisplayHandle:
     def statuses(self) -> dict[str, Status]:
         """All statuses by key, as in the panel."""
         return dict(self._row().statuses)
+
+    @property
+    def findings(self) -> list[Finding]:
+        """The findings of `Viewer.doctor` that explain its statuses, as of its last round."""
+        own = self._row().id
+        return [
+            finding
+            for finding in self._viewer.state.findings
+            if own in {symptom.display for symptom in finding.explains}
+        ]
 
     @property
     def displays(self) -> list[DisplayHandle]:

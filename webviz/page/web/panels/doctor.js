@@ -4,19 +4,16 @@ import { copy } from "../clipboard.js";
 import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
 import { toast } from "../shell/toasts.js";
+import { openPanel } from "../shell/layout.js";
 import { watch } from "../stores.js";
+import { GLOBAL } from "./displays/model.js";
+import * as selection from "./displays/selection.js";
 import { remedyButton } from "./displays/statuses.js";
+import { isSevere, keyOf, takeWanted } from "./findings.js";
 
 const WELL = "All is well: no check has found a cause of a warning.";
 
-/** @import {ShownFinding} from "../contents.js" */
-
-/**
- * Returns true if a finding is more than a note.
- *
- * @param {ShownFinding} finding
- */
-export const isSevere = ({ level }) => level !== "ok";
+/** @import {ShownFinding, ExplainedStatus} from "../contents.js" */
 
 export const doctor = {
   name: "doctor",
@@ -36,7 +33,11 @@ export const doctor = {
       set(empty, { hidden: all.length > 0 });
       if (JSON.stringify(all) === shown) return;
       shown = JSON.stringify(all);
-      list.replaceChildren(...all.map((finding) => item(finding, unfolded)));
+      const isFirst = all.filter(isSevere).length > 1;
+      list.replaceChildren(...all.map((one, i) => item(one, unfolded, isFirst && i === 0)));
+      const key = takeWanted();
+      const led = [...list.children].find((each) => each.getAttribute("data-finding") === key);
+      if (led instanceof HTMLElement) led.focus();
     });
   },
 };
@@ -44,10 +45,11 @@ export const doctor = {
 /**
  * @param {ShownFinding} finding
  * @param {Set<string>} unfolded
+ * @param {boolean} isFirst whether it is to be repaired before others
  */
-function item(finding, unfolded) {
-  const { id, subject, level, cause, remedy, command, explains, button, why, repair } = finding;
-  const key = `${id} ${subject}`;
+function item(finding, unfolded, isFirst) {
+  const { id, level, cause, remedy, command, explains, button, why, repair } = finding;
+  const key = keyOf(finding);
   const more = el(
     "details",
     { open: unfolded.has(key) },
@@ -57,7 +59,8 @@ function item(finding, unfolded) {
   more.addEventListener("toggle", () => unfolded[more.open ? "add" : "delete"](key));
   return el(
     "li",
-    { class: "wv-finding", "data-level": level },
+    { class: "wv-finding", "data-level": level, "data-finding": key, tabindex: -1 },
+    isFirst ? el("p", { class: "wv-quiet" }, "Repair this first:") : "",
     el(
       "div",
       { class: "wv-finding-head" },
@@ -68,9 +71,29 @@ function item(finding, unfolded) {
     el("p", {}, remedy),
     command ? typed(command) : "",
     button ? remedyButton(button) : "",
-    explains.length ? el("p", { class: "wv-quiet" }, `Explains ${explains.join(", ")}.`) : "",
+    explains.length
+      ? el("p", { class: "wv-quiet" }, "Explains ", ...explains.flatMap(explained), ".")
+      : "",
     more,
   );
+}
+
+/**
+ * A status that a finding explains, with a link to its display.
+ *
+ * @param {ExplainedStatus} status
+ * @param {number} index
+ */
+function explained({ display, status, name }, index) {
+  const link = el("button", { type: "button", class: "wv-link", onclick: () => show(display) });
+  setText(link, name ? `${name}: ${status}` : status);
+  return index ? [", ", link] : [link];
+}
+
+/** @param {string} display */
+function show(display) {
+  openPanel("displays");
+  selection.reveal(display || GLOBAL);
 }
 
 /**

@@ -8,7 +8,7 @@ import * as files from "./files.js";
 import * as history from "./history.js";
 import { fold, openPanel } from "./layout.js";
 import { openMenuBelow } from "./menu.js";
-import { isSevere } from "../panels/doctor.js";
+import { isSevere } from "../panels/findings.js";
 import { watch } from "../stores.js";
 import { roleMark } from "./people.js";
 import { theme } from "./theme.js";
@@ -79,6 +79,7 @@ function badge() {
       hidden: !first,
       "data-level": first?.level,
       "aria-label": `Doctor: ${severe.length === 1 ? "1 finding" : `${severe.length} findings`}`,
+      "aria-description": first?.cause,
       "data-tip": first?.cause,
     });
   });

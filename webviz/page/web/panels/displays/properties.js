@@ -18,6 +18,7 @@ export function properties(element, id) {
   const send = (path, value) =>
     act("SetProperty", { display: id, path, value }, { quiet: true, errors: "caller" });
   const said = statuses({
+    display: id,
     open: (show) =>
       watch(`statuses:${id}`, (values) =>
         show(values.get("statuses") ?? [], values.get("more") ?? 0),
@@ -49,6 +50,7 @@ export function globalOptions(element) {
   let show = null;
   let lines = [[], 0];
   const said = statuses({
+    display: "",
     open(listener) {
       show = listener;
       show(...lines);
@@ -77,6 +79,7 @@ export function globalOptions(element) {
   return () => {
     end();
     made.end();
+    said.end();
     element.replaceChildren();
   };
 }

@@ -5,8 +5,9 @@ import { el, set, setText } from "../../dom.js";
 import { icon } from "../../icons.js";
 import { plain } from "../../plain.js";
 import { watch } from "../../stores.js";
+import { onFindings } from "../findings.js";
 import { globalOptions, properties } from "./properties.js";
-import { remedyButton } from "./statuses.js";
+import { fillHelp } from "./statuses.js";
 
 const LEVELS = { idle: "Not shown", ok: "OK", warn: "Warning", error: "Error" };
 const MAX_TOOLTIP = 1000;
@@ -61,6 +62,9 @@ export function makeRow(first, look) {
   const element = el("div", { class: "wv-tree-node", "data-id": id, role: "none" }, row);
   let inside = null;
   let unwatch = null;
+  let shown = { said: "", remedy: null };
+  /** @type {import("../findings.js").Explaining} */
+  let explaining = () => undefined;
 
   function showInside(isShown, item) {
     if (isShown === Boolean(inside)) return;
@@ -76,11 +80,10 @@ export function makeRow(first, look) {
     }
   }
 
-  function showRemedy(wanted) {
-    const key = JSON.stringify(wanted);
-    if (remedy.dataset.remedy === key) return;
-    set(remedy, { "data-remedy": key, hidden: !wanted });
-    remedy.replaceChildren(...(wanted ? [remedyButton(wanted)] : []));
+  // Without a line the viewer says it on top, or the group's displays do.
+  function showHelp() {
+    const finding = shown.said ? explaining(isGlobal ? "" : id) : undefined;
+    fillHelp(remedy, shown.said ? shown.remedy : null, finding);
   }
 
   function showRate(isShown) {
@@ -125,7 +128,8 @@ export function makeRow(first, look) {
     set(dot, { "data-tip": level && LEVELS[level], hidden: !level });
     setText(line, said);
     set(line, { "data-tip": said || null, hidden: !said });
-    showRemedy(said ? (item.remedy ?? null) : null);
+    shown = { said, remedy: item.remedy ?? null };
+    showHelp();
     if (isGlobal) setText(note, plain(item.note));
     else showRate(hasRate && item.topics.length > 0);
     showInside(isOpen && !item.isGroup, item);
@@ -134,8 +138,13 @@ export function makeRow(first, look) {
   function close() {
     showInside(false);
     showRate(false);
+    forget();
   }
 
   update(first);
+  const forget = onFindings((each) => {
+    explaining = each;
+    showHelp();
+  });
   return { element, row, name, update, close };
 }

@@ -4,6 +4,7 @@ import { needs } from "../../access.js";
 import { act } from "../../act.js";
 import { el, set, setChildren, setText } from "../../dom.js";
 import { icon } from "../../icons.js";
+import { findingLink, keyOf, onFindings } from "../findings.js";
 
 let count = 0;
 
@@ -23,13 +24,28 @@ export const remedyButton = ({ label, command, arguments: fields }) =>
   );
 
 /**
+ * Fills an element with the button of a remedy and the link to the finding that explains a status, if
+ * there are any; it is hidden without.
+ */
+export function fillHelp(element, remedy, finding) {
+  const key = JSON.stringify([remedy, finding && [keyOf(finding), finding.cause]]);
+  if (element.dataset.help === key) return;
+  set(element, { "data-help": key, hidden: !remedy && !finding });
+  element.replaceChildren(
+    ...(remedy ? [remedyButton(remedy)] : []),
+    ...(finding ? [findingLink(finding)] : []),
+  );
+}
+
+/**
  * Statuses that are folded while all is well, until they are unfolded by hand.
  *
  * `open(listener)` is called while they are unfolded, and returns what ends that; the listener gets
  * `lines`: `[key, level, text, remedy]`, and how many `more` there are; a remedy is
- * `{label, command, arguments}`, what a click can do about it. Returns `{element, worst(line), end()}`.
+ * `{label, command, arguments}`, what a click can do about it. `display` is the id of the display, ""
+ * for the viewer; statuses that a finding explains have a link to it. Returns `{element, worst(line), end()}`.
  */
-export function statuses({ open }) {
+export function statuses({ open, display }) {
   count += 1;
   const list = el("ul", { class: "wv-statuses-lines", id: `wv-statuses-${count}` });
   const note = el("span", { class: "wv-status-note" });
@@ -60,31 +76,46 @@ export function statuses({ open }) {
     list.hidden = !isOpen;
     set(toggle, { "aria-expanded": String(isOpen) });
     close?.();
-    close = isOpen ? open(show) : null;
+    close = isOpen ? opened() : null;
   }
 
-  function show(lines, more) {
-    const items = lines.map((line, index) => fill(list.children[index] ?? item(), line));
+  function opened() {
+    let said = [[], 0];
+    /** @type {import("../findings.js").Explaining} */
+    let explaining = () => undefined;
+    const update = () => show(...said, explaining);
+    const ends = [
+      open((lines, more) => {
+        said = [lines, more];
+        update();
+      }),
+      onFindings((each) => {
+        explaining = each;
+        update();
+      }),
+    ];
+    return () => ends.forEach((end) => end());
+  }
+
+  function show(lines, more, explaining) {
+    const items = lines.map((line, index) =>
+      fill(list.children[index] ?? item(), line, explaining),
+    );
     const rest = more ? [el("li", { class: "wv-quiet" }, `and ${more} more`)] : [];
     setChildren(list, [...items, ...rest]);
   }
 
-  function fill(element, [key, own, text, remedy]) {
-    const [name, said] = element.children;
+  function fill(element, [key, own, text, remedy], explaining) {
+    const [name, said, helps] = element.children;
+    const finding = own === "ok" || own === "idle" ? undefined : explaining(display, key);
     set(element, { "data-level": own });
     setText(name, `${key}: `);
     setText(said, text);
-    const isThere = element.children.length > 2;
-    if (isThere && element.dataset.remedy !== JSON.stringify(remedy))
-      element.lastElementChild.remove();
-    if (remedy && element.children.length === 2) {
-      set(element, { "data-remedy": JSON.stringify(remedy) });
-      element.append(remedyButton(remedy));
-    }
+    fillHelp(helps, remedy, finding);
     return element;
   }
 
-  const item = () => el("li", {}, el("b"), el("span"));
+  const item = () => el("li", {}, el("b"), el("span"), el("span"));
 
   set(toggle, { "aria-expanded": "false" });
   list.hidden = true;

@@ -1,0 +1,73 @@
+// Findings of the doctor: what explains a status, and the way to them.
+
+import { el } from "../dom.js";
+import { openPanel } from "../shell/layout.js";
+import { watch } from "../stores.js";
+
+/** @import {ShownFinding} from "../contents.js" */
+/** @typedef {(display: string, status?: string) => ShownFinding | undefined} Explaining */
+
+let wanted = "";
+
+/**
+ * Returns true if a finding is more than a note.
+ *
+ * @param {ShownFinding} finding
+ */
+export const isSevere = ({ level }) => level !== "ok";
+
+/**
+ * The id and subject of a finding, by which it is known again.
+ *
+ * @param {ShownFinding} finding
+ */
+export const keyOf = ({ id, subject }) => `${id} ${subject}`;
+
+/**
+ * Calls `listener(explaining)` now and after each change; `explaining(display, status)` returns the
+ * finding to repair first of those that explain a status, or any status of the display without one.
+ * The viewer as a whole is the display "". Returns what ends it.
+ *
+ * @param {(explaining: Explaining) => void} listener
+ */
+export function onFindings(listener) {
+  return watch("findings", (values) => {
+    const all = values.get("all") ?? [];
+    listener((display, status) =>
+      all.find(({ explains }) =>
+        explains.some(
+          (one) => one.display === display && (status === undefined || one.status === status),
+        ),
+      ),
+    );
+  });
+}
+
+/**
+ * A link that opens the doctor at a finding.
+ *
+ * @param {ShownFinding} finding
+ */
+export function findingLink(finding) {
+  return el(
+    "button",
+    {
+      type: "button",
+      class: "wv-link wv-finding-link",
+      "data-finding": keyOf(finding),
+      "data-tip": finding.cause,
+      onclick: () => {
+        wanted = keyOf(finding);
+        openPanel("doctor");
+      },
+    },
+    `Cause: ${finding.id}`,
+  );
+}
+
+/** The key of the finding that a link has led to, once; "" for none. */
+export function takeWanted() {
+  const key = wanted;
+  wanted = "";
+  return key;
+}
