@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import json
 import sqlite3
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -125,7 +126,7 @@ def write_mcap(
 
 
 def write_db3(path: Path, drive: Drive, size: int) -> None:
-    """Write a db3 file with rosbag2's tables."""
+    """Write a db3 file with rosbag2's tables, and the metadata that webviz reads beside it."""
     db = sqlite3.connect(path)
     db.executescript(
         "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF;"
@@ -146,4 +147,13 @@ def write_db3(path: Path, drive: Drive, size: int) -> None:
         ((numbers[c], stamp, data) for c, stamp, data in drive.repeated(size)),
     )
     db.commit()
+    counts = db.execute("SELECT topic_id, count(*) FROM messages GROUP BY topic_id").fetchall()
     db.close()
+    names = {number: channel.topic for channel, number in numbers.items()}
+    topics = [
+        {"topic_metadata": {"name": names[number]}, "message_count": count}
+        for number, count in counts
+    ]
+    information = {"relative_file_paths": [path.name], "topics_with_message_count": topics}
+    text = json.dumps({"rosbag2_bagfile_information": information})
+    path.with_name("metadata.yaml").write_text(text)

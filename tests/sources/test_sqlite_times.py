@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import random
 import sqlite3
-from collections.abc import Iterable
+import threading
+from collections.abc import Iterable, Iterator
 from contextlib import closing
 from pathlib import Path
 from types import SimpleNamespace
@@ -14,7 +15,7 @@ import pytest
 from bags import START_NS, Bag, files, ns, strings
 from rosbags.rosbag2 import StoragePlugin
 
-from webviz.data.recordings import open_recording, sqlite
+from webviz.data.recordings import open_recording, sqlite, sqlite_times
 from webviz.data.recordings.recording import RecordedMessage
 from webviz.data.recordings.sqlite import SqliteRecording
 
@@ -120,6 +121,31 @@ def test_what_a_histogram_read_is_not_searched_again(
     assert list(recording.newest(channels, recording.span_ns[1])) == []
     assert asked == []
     recording.close()
+
+
+def test_of_a_topic_whose_messages_are_all_found_the_rest_of_the_table_is_not_waited_for(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bag = strings(*range(100))
+    bag.add("/map", "std_msgs/msg/String")
+    bag.put(1.5, "/map", {"data": "map"})
+    (file,) = files(bag.write(tmp_path / "run", StoragePlugin.SQLITE3), ".db3")
+    slices, is_over = sqlite_times._slices, threading.Event()
+
+    def slow(db: sqlite3.Connection) -> Iterator[tuple[int, int]]:
+        first, *others = slices(db)
+        yield first[0], first[1] + 10
+        is_over.wait(60.0)
+        yield from others
+
+    monkeypatch.setattr(sqlite_times, "_slices", slow)
+    hasten(monkeypatch, random.Random(1), share=1.0)
+    recording = SqliteRecording(file)
+    channels = [channel for channel in recording.channels if channel.topic == "/map"]
+    found = [each.stamp_ns for each in recording.newest(channels, START_NS + ns(90))]
+    is_over.set()
+    recording.close()
+    assert found == [START_NS + ns(1.5)]
 
 
 def test_a_message_that_is_no_valid_text_is_skipped(tmp_path: Path) -> None:

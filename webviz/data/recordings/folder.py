@@ -6,12 +6,10 @@ import contextlib
 import heapq
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
-from pathlib import Path, PurePath
-from typing import Any, NamedTuple
+from pathlib import Path
+from typing import NamedTuple
 
-from ruamel.yaml import YAML
-
-from webviz.data.lfs import is_lfs
+from webviz.data.recordings.metadata import METADATA, read_metadata
 from webviz.data.recordings.opening import open_file
 from webviz.data.recordings.recording import (
     END_MISSING,
@@ -23,11 +21,8 @@ from webviz.data.recordings.recording import (
     RecordingError,
     TimeParts,
 )
-from webviz.data.recordings.unpacking import COMPRESSIONS, MAX_BYTES, unpack
+from webviz.data.recordings.unpacking import MAX_BYTES, unpack
 
-METADATA = "metadata.yaml"
-INFORMATION = "rosbag2_bagfile_information"
-MAX_METADATA = 16 << 20
 ENDINGS = (".mcap", ".db3", ".zstd", ".zst")
 """Of files that are read if metadata.yaml misnames all."""
 
@@ -46,7 +41,7 @@ class FolderRecording:
     def __init__(self, path: Path) -> None:
         self._losses = Losses("message", "skipped")
         if (path / METADATA).is_file():
-            names, self._compression = _metadata(path)
+            names, self._compression = read_metadata(path)
         else:
             names, self._compression = [file.name for file in _files_in(path)], ""
             self._losses.notes.append(
@@ -201,30 +196,3 @@ def _files_in(folder: Path) -> list[Path]:
         f"{folder} is not a bag: it has no {METADATA}, MCAP or db3 file. Give an MCAP or db3 file, "
         "or a rosbag2 folder."
     )
-
-
-def _metadata(folder: Path) -> tuple[list[str], str]:
-    """The names of the files, and the compression of each message, "" for none.
-
-    Raises:
-        RecordingError: the metadata are broken.
-        OSError: they cannot be read.
-    """
-    path = folder / METADATA
-    remedy = f"run `ros2 bag reindex {folder}`, or give one of the files in it."
-    with path.open("rb") as file:
-        text = file.read(MAX_METADATA + 1)
-    if is_lfs(text):
-        raise RecordingError(f"{path} is a Git LFS pointer: run `git lfs pull`.")
-    try:
-        if len(text) > MAX_METADATA:
-            raise ValueError
-        information: dict[str, Any] = YAML(typ="safe").load(text)[INFORMATION]
-        names = [PurePath(name).name for name in information["relative_file_paths"]]
-        mode = str(information.get("compression_mode") or "").lower()
-        compression = str(information["compression_format"]) if mode == "message" else ""
-    except Exception as error:  # of YAML, or of the wrong types
-        raise RecordingError(f"{path} is damaged: {remedy}") from error
-    if compression not in COMPRESSIONS:
-        raise RecordingError(f"{folder} has messages in {compression!r}, which is unsupported.")
-    return list(dict.fromkeys(names)), compression

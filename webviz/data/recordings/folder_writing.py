@@ -12,9 +12,9 @@ from typing import Any
 from ruamel.yaml import YAML
 
 from webviz.data.messages import UnknownTypeError, type_hash
-from webviz.data.recordings.folder import INFORMATION, METADATA
 from webviz.data.recordings.latched import LatchedMessages
 from webviz.data.recordings.mcap_writing import McapFile
+from webviz.data.recordings.metadata import INFORMATION, METADATA
 from webviz.data.recordings.recording import RecordedChannel, RecordingError
 
 VERSION = 9

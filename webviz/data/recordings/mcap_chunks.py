@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import struct
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import BinaryIO
+from typing import BinaryIO, NamedTuple
 from zlib import crc32
 
 import numpy as np
 import numpy.typing as npt
 
-from webviz.data.recordings.mcap_records import PREFIX, BrokenRecord, RecordFields
+from webviz.data.recordings.mcap_records import (
+    MESSAGE_INDEX,
+    PREFIX,
+    BrokenRecord,
+    RecordFields,
+)
 from webviz.data.recordings.unpacking import COMPRESSIONS, MAX_BYTES, unpack
 
 CHUNK_FIELDS = struct.Struct("<QQQII")
@@ -124,6 +129,43 @@ def _counts(offsets: bytes, size: int) -> tuple[ChannelCounts | None, tuple[int,
     if not all(0 < count < 1 << 32 for _, count in counts):  # its writer left out the index
         return counts_of((number, 0) for number, _ in counts), (0, 0)
     return counts_of(counts), (first, size)
+
+
+class IndexOfMessages(NamedTuple):
+    """The records behind a chunk that index its messages.
+
+    Args:
+        size: bytes of them.
+        counts: channels and their numbers of messages.
+        span_ns: times of the first and the last message, None without any.
+        is_cut: whether more may follow.
+    """
+
+    size: int
+    counts: Sequence[tuple[int, int]]
+    span_ns: tuple[int, int] | None
+    is_cut: bool
+
+
+def index_in(data: bytes) -> IndexOfMessages:
+    """The index at the beginning of some bytes."""
+    counts: list[tuple[int, int]] = []
+    entries: list[bytes] = []
+    at, is_cut = 0, True
+    while at + INDEX_FIELDS.size <= len(data):
+        opcode, length, number, size = INDEX_FIELDS.unpack_from(data, at)
+        start, end = at + INDEX_FIELDS.size, at + PREFIX.size + length
+        is_cut = opcode == MESSAGE_INDEX and start + size == end > len(data)
+        if opcode != MESSAGE_INDEX or start + size != end or is_cut:
+            break
+        if size:
+            counts.append((number, size // INDEX_ENTRY.itemsize))
+            entries.append(data[start : end - size % INDEX_ENTRY.itemsize])
+        at, is_cut = end, True
+    if not entries:
+        return IndexOfMessages(at, counts, None, is_cut)
+    stamps = np.frombuffer(b"".join(entries), INDEX_ENTRY)["stamp_ns"]
+    return IndexOfMessages(at, counts, (int(stamps.min()), int(stamps.max())), is_cut)
 
 
 def header_of(chunk: McapChunk) -> int:

@@ -21,11 +21,15 @@ from webviz.data.recordings.mcap_chunks import (
     contents_of,
     counts_of,
     header_of,
+    index_in,
 )
 from webviz.data.recordings.mcap_records import (
+    ATTACHMENT,
     CHANNEL,
     CHUNK,
     CHUNK_INDEX,
+    DATA_END,
+    DATA_END_SIZE,
     END_SIZE,
     FIRST_PRIVATE_OPCODE,
     FOOTER,
@@ -35,6 +39,8 @@ from webviz.data.recordings.mcap_records import (
     MAGIC,
     MESSAGE,
     MESSAGE_FIELDS,
+    MESSAGE_INDEX,
+    METADATA,
     PREFIX,
     SCHEMA,
     STATISTICS,
@@ -58,6 +64,8 @@ MAX_SUMMARY = 64 << 20
 """Bytes of a summary; an index of 100 GB in chunks of 1 MiB has 10 MB."""
 MAX_RECORD = 16 << 20
 """Bytes of a schema or channel."""
+INDEX_BYTES = 32 << 10
+"""Bytes that are read at first of the index behind a chunk, 16 for each message."""
 REGION = 4 << 20
 """Bytes of consecutive messages outside of chunks that are read together."""
 MAX_SEARCHED = 64 << 20
@@ -90,6 +98,7 @@ class McapIndex:
         self._channels: dict[int, McapChannel] = {}
         self._allowance = TextAllowance()
         self._left_to_search = MAX_SEARCHED
+        self._index_size = INDEX_BYTES
         profile = self._profile()
         if profile not in ("ros2", ""):
             raise RecordingError(
@@ -205,7 +214,7 @@ class McapIndex:
             opcode, length = self._prefix(at)
             start = at + PREFIX.size
             try:
-                self._note(opcode, start, length)
+                end = self._note(opcode, start, length)
             except BrokenRecord:
                 if (found := self._next_record(at + 1)) is None:
                     break
@@ -213,25 +222,72 @@ class McapIndex:
                 at = found
             else:
                 is_ended = opcode == FOOTER
-                at = start + length
+                at = end
         if not is_ended:
             self._losses.others.append(END_MISSING)
 
-    def _note(self, opcode: int, start: int, length: int) -> None:
-        """Note what a record in the file contains."""
+    def _note(self, opcode: int, start: int, length: int) -> int:
+        """Note what a record in the file contains; where the next one begins that says more."""
         if opcode == CHUNK:
-            self.chunks += self._looked_into(self._chunk(start, length))
-            return
+            chunk = self._chunk(start, length)
+            if indexed := self._indexed(chunk):
+                self.chunks.append(indexed)
+                return sum(indexed.index)
+            self.chunks += self._looked_into(chunk)
+            return start + length
         is_known = 0 < opcode <= LAST_OPCODE or opcode >= FIRST_PRIVATE_OPCODE
         is_misplaced = opcode == FOOTER and start != self._size - END_SIZE + PREFIX.size
         if not is_known or is_misplaced or start + length > self._size:
             raise BrokenRecord
+        if opcode == MESSAGE_INDEX and length != self._index_length(start):
+            raise BrokenRecord  # lest the search goes on within a chunk behind it
         if opcode == MESSAGE:
             self._note_message(start, length)
         elif opcode in (SCHEMA, CHANNEL):
             if length > MAX_RECORD:
                 raise BrokenRecord
             self._learn(opcode, RecordFields(self._read(start, length)))
+        return start + length
+
+    def _index_length(self, start: int) -> int:
+        """The length of the index of a channel in a chunk, as its contents say."""
+        _, size = RecordFields(self._read(start, 6)).numbers("HI")
+        return 6 + size
+
+    def _indexed(self, chunk: McapChunk) -> McapChunk | None:
+        """The chunk as the records behind it index it, which is quicker than to unpack it.
+
+        Returns:
+            None if the index is missing, may be incomplete, contradicts the chunk, or has an
+            unknown channel.
+        """
+        start = chunk.offset + chunk.packed_size
+        index = index_in(self._read(start, self._index_size))
+        while index.is_cut and start + self._index_size < self._size:
+            if self._index_size >= MAX_RECORD:
+                return None
+            self._index_size *= 2
+            index = index_in(self._read(start, self._index_size))
+        numbers = {number for number, _ in index.counts}
+        is_known = len(numbers) == len(index.counts) and numbers <= self._channels.keys()
+        is_same = index.span_ns == (chunk.start_ns, chunk.end_ns)
+        if not is_known or not is_same or not self._is_end_of_index(start + index.size):
+            return None
+        return replace(chunk, counts=counts_of(index.counts), index=(start, index.size))
+
+    def _is_end_of_index(self, at: int) -> bool:
+        """Return whether a record begins that follows the index of a chunk.
+
+        Not one of those whose opcode differs from that of an index by one bit.
+        """
+        try:
+            opcode, length = self._prefix(at)
+            if opcode == CHUNK:
+                self._chunk(at + PREFIX.size, length)
+                return True
+        except BrokenRecord:
+            return False
+        return opcode in (ATTACHMENT, METADATA) or (opcode, length) == (DATA_END, DATA_END_SIZE)
 
     def _note_message(self, start: int, length: int) -> None:
         """Add a message outside of chunks to the region that ends where it begins."""

@@ -7,14 +7,15 @@ import math
 import sqlite3
 import struct
 import time
-from collections import deque
-from collections.abc import Collection, Iterator, Sequence
+from collections import Counter, deque
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from webviz.data.recordings.metadata import recorded_counts
 from webviz.data.recordings.recording import (
     END_MISSING,
     Counts,
@@ -130,7 +131,7 @@ class SqliteRecording:
         self.channels = tuple(dict.fromkeys(self._numbers.values()))
         self.losses.notes += [_unread(path, journal) for journal in _journals(path)]
         self.used = self._used()
-        self._times = TopicTimes(path, self.span_ns or (0, 0))
+        self._times = TopicTimes(path, self.span_ns or (0, 0), self._totals(path))
 
     def messages(
         self, channels: Collection[RecordedChannel], start_ns: int, end_ns: int
@@ -187,6 +188,7 @@ class SqliteRecording:
 
     def close(self) -> None:
         """Close the file."""
+        self._times.close()
         self._db.close()
 
     def _used(self) -> frozenset[RecordedChannel]:
@@ -234,6 +236,19 @@ class SqliteRecording:
                 found[str(name)] = str(text)
         return found
 
+    def _totals(self, path: Path) -> Mapping[int, int]:
+        """The numbers of messages of topics, if metadata.yaml has those of this file alone."""
+        try:
+            (last,) = self._db.execute("SELECT max(id) FROM messages").fetchone()
+        except sqlite3.Error:
+            return {}
+        counts = recorded_counts(path)
+        if sum(counts.values()) != last:
+            return {}
+        topics = Counter(channel.topic for channel in self._numbers.values())
+        numbers = {n: c.topic for n, c in self._numbers.items() if topics[c.topic] == 1}
+        return {number: counts.get(topic, 0) for number, topic in numbers.items()}
+
     def _span(self) -> tuple[int, int] | None:
         try:
             first, last = self._db.execute(
@@ -262,7 +277,7 @@ class SqliteRecording:
         if not wanted:
             return
         query = _Query(wanted, start_ns, end_ns, is_backwards)
-        if not self._times.is_known:
+        if not self._times.knows(wanted):
             row = None
             try:
                 for row in self._queried(query, PATIENCE_S):

@@ -3,18 +3,24 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
+import math
 import sqlite3
 import threading
-from collections.abc import Collection, Iterable, Iterator
+from collections import Counter
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 
+from webviz.data.disk import in_thread
 from webviz.data.recordings.recording import Counts, RecordingError, TimeParts
 from webviz.data.recordings.unpacking import MAX_BYTES
 
 PARTS = 500
 """Of the span of the file: the next message of a topic is searched within one of them."""
+SLICES = 100
+"""Of the table, in the order of writing: what is found in each is known at once."""
 
 _Span = tuple[int, int]
 """First and last time in ns, both included."""
@@ -26,16 +32,20 @@ class TopicTimes:
     Args:
         path: of the file.
         span_ns: of all of its messages.
+        totals: numbers of messages of topics as the recorder noted them. Once that many of a topic
+            are found, the rest of the table is not waited for; empty if unknown.
     """
 
-    def __init__(self, path: Path, span_ns: _Span) -> None:
+    def __init__(self, path: Path, span_ns: _Span, totals: Mapping[int, int]) -> None:
         self._path = path
         self._parts = TimeParts(*span_ns, PARTS)
+        self._totals = totals
         self._reading = threading.Lock()
-        self._spans: dict[int, list[_Span]] | None = None
-        """By topic, in the order of time; None if the table was not read, or is damaged."""
-        self.is_known = False
-        """True once the whole table was read, or cannot be."""
+        self._progress = threading.Condition()
+        """Held while the following are changed."""
+        self._spans: dict[int, list[_Span]] = {}
+        self._found = Counter[int]()
+        self._is_read = self._is_damaged = self._is_closed = False
 
     def count(self, parts: TimeParts) -> dict[int, Counts]:
         """Count the messages of each topic by reading the whole table, from any thread.
@@ -46,54 +56,99 @@ class TopicTimes:
         with self._reading:
             try:
                 return self._read(parts)
+            except BaseException:
+                self._is_damaged = True
+                raise
             finally:
-                self.is_known = True
+                with self._progress:
+                    self._is_read = True
+                    self._progress.notify_all()
+
+    def knows(self, topics: Collection[int]) -> bool:
+        """Return whether all messages of some topics are found, or cannot be."""
+        return self._is_read or all(
+            self._found[topic] >= self._totals.get(topic, math.inf) for topic in topics
+        )
 
     def spans(
         self, topics: Collection[int], start_ns: int, end_ns: int, is_backwards: bool
     ) -> Iterator[_Span]:
         """Spans that contain all messages of some topics between two times, by time or against it.
 
-        The first call reads the whole table, unless `count` has.
+        Waits until a worker has found them.
         """
-        with self._reading:
-            is_known = self.is_known
-        if not is_known:
-            with contextlib.suppress(sqlite3.Error):
-                self.count(self._parts)
-        spans = [(start_ns, end_ns)]
-        if self._spans is not None:
+        with self._progress:
+            if not self.knows(topics) and not self._reading.locked():
+                self._start_reading()
+            self._progress.wait_for(lambda: self.knows(topics))
             spans = _joined(span for topic in topics for span in self._spans.get(topic, ()))
+        if self._is_damaged:
+            spans = [(start_ns, end_ns)]
         for first_ns, last_ns in reversed(spans) if is_backwards else spans:
             if first_ns <= end_ns and start_ns <= last_ns:
                 yield max(first_ns, start_ns), min(last_ns, end_ns)
 
+    def close(self) -> None:
+        """Let a worker end early."""
+        self._is_closed = True
+
+    def _start_reading(self) -> None:
+        try:
+            in_thread(lambda: self.count(self._parts))
+        except OSError:  # no thread is free
+            with contextlib.suppress(sqlite3.Error):
+                self.count(self._parts)
+
     def _read(self, parts: TimeParts) -> dict[int, Counts]:
-        spans: dict[int, list[_Span]] = {}
         counts: dict[int, Counts] = {}
         with contextlib.closing(connected(self._path)) as db:
-            for topic, part, _, count, first_ns, last_ns in db.execute(
-                "SELECT topic_id, (timestamp - ?) / ? AS part, (timestamp - ?) / ? AS own, "
-                "count(*), min(timestamp), max(timestamp) FROM messages "
-                "WHERE typeof(timestamp) = 'integer' AND timestamp BETWEEN ? AND ? "
-                "GROUP BY topic_id, part, own ORDER BY topic_id, part, own",
-                (
-                    *(parts.start_ns, parts.length_ns),
-                    *(self._parts.start_ns, self._parts.length_ns),
-                    *(parts.start_ns, parts.end_ns),
-                ),
-            ):
-                if topic not in counts:
-                    counts[topic] = np.zeros(parts.count, np.int64)
-                    spans[topic] = [(first_ns, last_ns)]
-                counts[topic][part] += count
-                began_ns, ended_ns = spans[topic][-1]
-                if first_ns - ended_ns <= self._parts.length_ns:
-                    spans[topic][-1] = began_ns, last_ns
-                else:
-                    spans[topic].append((first_ns, last_ns))
-        self._spans = spans
+            for after, until in _slices(db):
+                if self._is_closed:
+                    break
+                rows = db.execute(
+                    "SELECT topic_id, (timestamp - ?) / ? AS part, (timestamp - ?) / ? AS own, "
+                    "count(*), min(timestamp), max(timestamp) FROM messages "
+                    "WHERE typeof(timestamp) = 'integer' AND timestamp BETWEEN ? AND ? "
+                    "AND id > ? AND id <= ? "
+                    "GROUP BY topic_id, part, own ORDER BY topic_id, part, own",
+                    (
+                        *(parts.start_ns, parts.length_ns),
+                        *(self._parts.start_ns, self._parts.length_ns),
+                        *(parts.start_ns, parts.end_ns),
+                        *(after, until),
+                    ),
+                ).fetchall()
+                with self._progress:
+                    for topic, part, _, count, first_ns, last_ns in rows:
+                        if topic not in counts:
+                            counts[topic] = np.zeros(parts.count, np.int64)
+                        counts[topic][part] += count
+                        self._note(topic, count, first_ns, last_ns)
+                    self._progress.notify_all()
         return counts
+
+    def _note(self, topic: int, count: int, first_ns: int, last_ns: int) -> None:
+        """Add messages, unless the table was read before."""
+        if self._is_read:
+            return
+        self._found[topic] += count
+        spans = self._spans.setdefault(topic, [])
+        reach_ns = self._parts.length_ns
+        if spans and spans[-1][0] - reach_ns <= last_ns and first_ns <= spans[-1][1] + reach_ns:
+            spans[-1] = min(spans[-1][0], first_ns), max(spans[-1][1], last_ns)
+        else:
+            spans.append((first_ns, last_ns))
+
+
+def _slices(db: sqlite3.Connection) -> Sequence[_Span]:
+    """Ids of messages: those after the first and up to the second of each pair."""
+    first, last = db.execute("SELECT min(id), max(id) FROM messages").fetchone()
+    if first is None:
+        return ()
+    if not isinstance(first, int) or not isinstance(last, int):
+        raise sqlite3.DataError("the messages are not numbered")
+    ends = [first - 1 + (last + 1 - first) * number // SLICES for number in range(SLICES + 1)]
+    return list(itertools.pairwise(ends))
 
 
 def _joined(spans: Iterable[_Span]) -> list[_Span]:
