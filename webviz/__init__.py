@@ -48,7 +48,7 @@ if TYPE_CHECKING:
     from webviz.api.ports import Input, Output
     from webviz.api.sample import Sample
     from webviz.api.status import Level, OtherFixedFrame, Remedy, Status
-    from webviz.api.tool import Stroke, Tool, ToolContext
+    from webviz.api.tool import Gesture, Tool, ToolContext
     from webviz.engine.state import State
     from webviz.shell.app.viewer import Viewer
     from webviz.shell.pictures.capture import capture
@@ -70,6 +70,7 @@ __all__ = [
     "Finding",
     "FramePoses",
     "Frames",
+    "Gesture",
     "Glb",
     "Group",
     "Hit",
@@ -106,7 +107,6 @@ __all__ = [
     "Solid",
     "State",
     "Status",
-    "Stroke",
     "Sweep",
     "Symptom",
     "Sync",
@@ -160,7 +160,7 @@ _HOMES = {
     "webviz.api.ports": ("Input", "Output"),
     "webviz.api.sample": ("Sample",),
     "webviz.api.status": ("Level", "OtherFixedFrame", "Remedy", "Status"),
-    "webviz.api.tool": ("Stroke", "Tool", "ToolContext"),
+    "webviz.api.tool": ("Gesture", "Stroke", "Tool", "ToolContext"),
     "webviz.engine.state": ("State",),
     "webviz.shell.pictures.capture": ("capture",),
 }

@@ -476,7 +476,7 @@ def test_a_pen_makes_a_stroke_as_well(page: Page, graph: RememberingGraph) -> No
 
 
 @pytest.mark.parametrize(
-    "stroke",
+    "gesture",
     [
         {"tool": "TOOL", "points": [[1e308, 0, 0]], "yaw": 0, "keys": []},
         {"tool": "TOOL", "points": [], "yaw": 0, "keys": []},
@@ -487,13 +487,13 @@ def test_a_pen_makes_a_stroke_as_well(page: Page, graph: RememberingGraph) -> No
     ],
 )
 def test_a_stroke_that_is_not_valid_publishes_nothing(
-    page: Page, graph: RememberingGraph, viewer: webviz.Viewer, stroke: dict[str, Any]
+    page: Page, graph: RememberingGraph, viewer: webviz.Viewer, gesture: dict[str, Any]
 ) -> None:
     goal = next(tool for tool in viewer.state.tools if tool.name == "2D Goal Pose")
-    if stroke["tool"] == "TOOL":
-        stroke = {**stroke, "tool": goal.id}
-    send = "async (stroke) => void (await import('./webviz/act.js')).send('UseTool', stroke)"
-    page.tab.evaluate(send, stroke)
+    if gesture["tool"] == "TOOL":
+        gesture = {**gesture, "tool": goal.id}
+    send = "async (gesture) => void (await import('./webviz/act.js')).send('UseTool', gesture)"
+    page.tab.evaluate(send, gesture)
     drag_works(page, graph)
 
 
@@ -538,5 +538,5 @@ def test_a_program_uses_a_tool_as_a_page_does(
     assert (point.point.x, point.point.y, point.point.z) == (5.0, 6.0, 7.0)
     with pytest.raises(webviz.Error, match=r"Unknown tool `2D Gaol Pose`: did you mean"):
         viewer.tool("2D Gaol Pose").send(0.0, 0.0)
-    with pytest.raises(webviz.Error, match="a stroke has 1 to 1000 points within"):
+    with pytest.raises(webviz.Error, match="a gesture has 1 to 1000 points within"):
         viewer.tool("2D Goal Pose").send(math.nan, 0.0)

@@ -37,9 +37,9 @@ class Robot:
         assert self.use(((x, 2.0, 0.0),)) == ""
         return self.graph.goals[-1]
 
-    def use(self, points: Any, **stroke: Any) -> str:
-        """Why a stroke is refused, "" if it is not."""
-        command = UseTool("Nav2 Goal", points, 0.5, **stroke, report=self.told.append)
+    def use(self, points: Any, **gesture: Any) -> str:
+        """Why a gesture is refused, "" if it is not."""
+        command = UseTool("Nav2 Goal", points, 0.5, **gesture, report=self.told.append)
         answer = self.bench.viewer.enqueue(command)
         self.bench.until_done(answer)
         return str(answer.exception(0) or "")
@@ -229,8 +229,8 @@ def test_a_new_goal_replaces_the_previous_one_once_it_is_accepted(robot: Robot) 
 def test_waypoints_go_to_the_action_of_their_button_after_the_previous_goal(robot: Robot) -> None:
     first = robot.drag()
     robot.accept(first)
-    stroke = {"points": ((1.0, 0.0, 0.0), (2.0, 0.0, 0.5)), "yaws": (0.0, math.pi)}
-    assert robot.use(**stroke, several="Drive through") == ""
+    gesture = {"points": ((1.0, 0.0, 0.0), (2.0, 0.0, 0.5)), "yaws": (0.0, math.pi)}
+    assert robot.use(**gesture, several="Drive through") == ""
     # At another action the previous goal has to end first.
     assert [goal.phase for goal in robot.shown()] == ["canceling", "sending"]
     assert len(first.cancels) == 1
@@ -246,7 +246,7 @@ def test_waypoints_go_to_the_action_of_their_button_after_the_previous_goal(robo
     assert robot.only().values["Waypoints left"] == "2"
     end(through, SUCCEEDED, THROUGH)
     assert robot.outcome() == (Level.OK, "Drove through all 2 waypoints.")
-    assert robot.use(**stroke, several="Stop at each") == ""
+    assert robot.use(**gesture, several="Stop at each") == ""
     each = robot.graph.goals[-1]
     robot.accept(each)
     feedback(each, EACH, current_waypoint=1)
@@ -347,7 +347,7 @@ def test_a_goal_that_the_server_never_ends_can_be_dismissed(robot: Robot, code: 
 
 
 @pytest.mark.parametrize(
-    ("points", "stroke"),
+    ("points", "gesture"),
     [
         (((1e308, 0.0, 0.0),), {}),
         (((NAN, 0.0, 0.0),), {}),
@@ -358,8 +358,8 @@ def test_a_goal_that_the_server_never_ends_can_be_dismissed(robot: Robot, code: 
     ],
 )
 def test_poses_that_are_not_valid_are_refused(
-    robot: Robot, points: Any, stroke: dict[str, Any]
+    robot: Robot, points: Any, gesture: dict[str, Any]
 ) -> None:
-    assert robot.use(points, **stroke).startswith("Nav2 Goal: ")
+    assert robot.use(points, **gesture).startswith("Nav2 Goal: ")
     assert robot.graph.goals == []
     assert robot.shown() == []

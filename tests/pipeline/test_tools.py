@@ -26,7 +26,7 @@ def b(bench: Callable[..., Any]) -> Any:
 
 
 def use(b: Any, tool: str, x: float, y: float, z: float = 0.0, yaw: float = 0.0) -> Any:
-    """Return what a tool publishes for a stroke, and where."""
+    """Return what a tool publishes for a gesture, and where."""
     answer = b.viewer.enqueue(UseTool(tool, ((x, y, z),), yaw))
     b.turn()
     assert answer.result() == ""

@@ -7,16 +7,17 @@
 
         topic: Annotated[Topic, Output("geometry_msgs/msg/PoseStamped")] = Topic("/goal_pose")
 
-        def done(self, stroke, ctx):
+        def done(self, gesture, ctx):
             ctx.publish("topic", {"header": ctx.header, ...})
 
-The page follows the gesture and draws its preview itself; the tool gets the finished `Stroke`.
+The page follows the gesture and draws its preview itself; the tool gets the finished `Gesture`.
 """
 
 from __future__ import annotations
 
 import functools
 import math
+import warnings
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from dataclasses import dataclass
@@ -25,6 +26,7 @@ from typing import Annotated, Any, ClassVar, Literal
 import msgspec
 
 from webviz.api.declared import Declared, Prop, Topic
+from webviz.api.former_names import former_names
 from webviz.api.frames import Frames
 from webviz.api.goal import GoalRequest, goal_request, nothing
 from webviz.api.ports import Output
@@ -33,7 +35,7 @@ from webviz.api.status import Level, Status
 from webviz.api.vehicle import Vehicle
 from webviz.data.messages import encode, interfaces
 
-Gesture = Literal["point", "pose", "drive"]
+GestureKind = Literal["point", "pose", "drive"]
 """A click on a position, a drag from a position towards a heading, or keys and sticks that are
 held to drive the `vehicle` of the tool. A tool with a `module` may have one of its own."""
 
@@ -44,7 +46,7 @@ Position = tuple[float, float, float]
 
 
 @dataclass(frozen=True)
-class Stroke:
+class Gesture:
     """A finished gesture.
 
     Args:
@@ -93,7 +95,7 @@ def _pose(position: Position, yaw: float) -> dict[str, dict[str, float]]:
 
 
 class ToolContext:
-    """The context of a tool for one stroke.
+    """The context of a tool for one gesture.
 
     Args:
         frames: the current transforms.
@@ -102,7 +104,7 @@ class ToolContext:
             the result.
         call: sends an encoded request to a service: name, type, request, timeout in seconds.
         send_goal: sends a goal to an action.
-        report: reports to the browser that made the stroke.
+        report: reports to the browser that made the gesture.
     """
 
     def __init__(
@@ -125,7 +127,7 @@ class ToolContext:
 
     @property
     def fixed_frame(self) -> str:
-        """The frame of the points of a stroke."""
+        """The frame of the points of a gesture."""
         return self.frames.fixed_frame
 
     @property
@@ -186,11 +188,12 @@ class ToolContext:
         *,
         definition: str = "",
         label: str = "",
-        stroke: Stroke | None = None,
+        gesture: Gesture | None = None,
         remedy: str = "Start its node, or choose another name.",
         success: str = "Succeeded.",
         feedback: Callable[[Any], Mapping[str, str]] | None = None,
         fault: Callable[[Any], str] = nothing,
+        stroke: Gesture | None = None,
     ) -> None:
         """Send a goal to an action. All pages show its progress; every operator can cancel it.
 
@@ -203,11 +206,12 @@ class ToolContext:
             goal: values by field; missing fields have their defaults.
             definition: text of the .action file, for types unknown to webviz.
             label: what the goal is, in a few words.
-            stroke: whose poses pages show while the goal is active.
+            gesture: whose poses pages show while the goal is active.
             remedy: what to do if no node offers the action; a sentence.
             success: what to report if it succeeds without a fault; a sentence.
             feedback: called with the newest feedback; returns what to show of it, texts by label.
             fault: called with the result; returns what went wrong, "" for nothing; a sentence.
+            stroke: the former name of `gesture`.
 
         `feedback` and `fault` are called by the frame loop.
 
@@ -215,8 +219,11 @@ class ToolContext:
             EncodeError: a value does not fit the goal.
             UnknownTypeError: the message type has no known definition.
         """
-        yaws = (stroke.yaws or (stroke.yaw,)) if stroke else ()
-        points = stroke.points if stroke else ()  # a drag has its end, too
+        if stroke is not None:
+            warnings.warn("send_goal's stroke is gesture now.", DeprecationWarning, stacklevel=2)
+            gesture = stroke
+        yaws = (gesture.yaws or (gesture.yaw,)) if gesture else ()
+        points = gesture.points if gesture else ()  # a drag has its end, too
         poses = [(*point, yaw) for point, yaw in zip(points, yaws, strict=False)]
         self._send_goal(
             goal_request(
@@ -234,7 +241,7 @@ class ToolContext:
         )
 
     def ok(self, text: str) -> None:
-        """Report a result to the browser that made the stroke."""
+        """Report a result to the browser that made the gesture."""
         self._report(Status(Level.OK, text))
 
     def warn(self, text: str) -> None:
@@ -258,7 +265,7 @@ class Tool(Declared, kw_only=True):
     """The class of the panel that does the same in RViz; its `Topic` is the property `topic`."""
     order: ClassVar[int] = 100
     """Place in a toolbar that no config orders; those of webviz come first, as in RViz."""
-    gesture: ClassVar[Gesture | str] = "point"
+    gesture: ClassVar[GestureKind | str] = "point"
     surface: ClassVar[bool] = False
     """True if a gesture starts on the surface under the pointer instead of on the ground, the plane
     z = 0 of the fixed frame."""
@@ -291,7 +298,7 @@ class Tool(Declared, kw_only=True):
         """Return the vehicle, with the present properties; None unless its gesture is "drive"."""
         return None
 
-    def done(self, stroke: Stroke, ctx: ToolContext) -> None:
+    def done(self, gesture: Gesture, ctx: ToolContext) -> None:
         """Act on a finished gesture; called by the frame loop."""
 
 
@@ -305,3 +312,6 @@ def outputs_of(cls: type[Tool]) -> dict[str, Output]:
 def outputs(tool: Tool) -> list[tuple[str, Output, Topic]]:
     """Each output of a tool: property name, declaration, and the topic chosen for it."""
     return [(name, spec, getattr(tool, name)) for name, spec in outputs_of(type(tool)).items()]
+
+
+__getattr__ = former_names(__name__, {"Stroke": Gesture})

@@ -1,4 +1,4 @@
-"""The toolbar of every page: shows the tools, and passes strokes on to the frame loop."""
+"""The toolbar of every page: shows the tools, and passes gestures on to the frame loop."""
 
 from __future__ import annotations
 
@@ -43,8 +43,8 @@ class Toolbar:
             self._shown = tools
             self._channel.send(tools)
 
-    def use(self, asked: Asked, stroke: UseTool) -> None:
-        """Pass a stroke on to the frame loop; the tool answers, maybe more than once."""
+    def use(self, asked: Asked, gesture: UseTool) -> None:
+        """Pass a gesture on to the frame loop; the tool answers, maybe more than once."""
 
         def tell(status: Status) -> None:
             asked.answer(status.text, Level(status.level).name.lower())
@@ -53,7 +53,7 @@ class Toolbar:
             encoded = msgspec.Raw(msgspec.json.encode(values, enc_hook=_plain))
             self._channel.send(Published(asked.number, topic, type, encoded), asked.browser)
 
-        command = replace(stroke, report=tell, published=published)
+        command = replace(gesture, report=tell, published=published)
         self._enqueue(command, asked.sender).add_done_callback(asked.refused_by)
 
 

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from webviz.api.declared import Prop, Topic
 from webviz.api.ports import Output
-from webviz.api.tool import Confirm, Stroke, Tool, ToolContext
+from webviz.api.tool import Confirm, Gesture, Tool, ToolContext
 
 
 class GoalPose(Tool):
@@ -27,6 +27,6 @@ class GoalPose(Tool):
     ] = Topic("/goal_pose")
     confirm: Confirm = False
 
-    def done(self, stroke: Stroke, ctx: ToolContext) -> None:
+    def done(self, gesture: Gesture, ctx: ToolContext) -> None:
         """Publish the pose in the fixed frame, stamped now, as RViz does."""
-        ctx.publish("topic", {"header": ctx.header, "pose": stroke.pose})
+        ctx.publish("topic", {"header": ctx.header, "pose": gesture.pose})

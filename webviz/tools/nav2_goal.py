@@ -6,7 +6,7 @@ import functools
 from typing import Annotated, Any
 
 from webviz.api.declared import Prop
-from webviz.api.tool import Confirm, Stroke, Tool, ToolContext
+from webviz.api.tool import Confirm, Gesture, Tool, ToolContext
 
 THROUGH, EACH = "Drive through", "Stop at each"
 
@@ -75,15 +75,15 @@ class Nav2Goal(Tool):
         """Its actions."""
         return self.navigate_to_pose, self.navigate_through_poses, self.follow_waypoints
 
-    def done(self, stroke: Stroke, ctx: ToolContext) -> None:
+    def done(self, gesture: Gesture, ctx: ToolContext) -> None:
         """Send the goal in the fixed frame. Like RViz's, its stamp is 0: the newest transform."""
-        poses = [{"header": {"frame_id": ctx.fixed_frame}, "pose": p} for p in stroke.poses]
-        x, y = (round(value, 2) + 0.0 for value in stroke.position[:2])  # no -0.00
-        label = f"{len(poses)} waypoints" if stroke.several else f"x {x:.2f} y {y:.2f} m"
+        poses = [{"header": {"frame_id": ctx.fixed_frame}, "pose": p} for p in gesture.poses]
+        x, y = (round(value, 2) + 0.0 for value in gesture.position[:2])  # no -0.00
+        label = f"{len(poses)} waypoints" if gesture.several else f"x {x:.2f} y {y:.2f} m"
         send = functools.partial(
-            ctx.send_goal, label=label, stroke=stroke, feedback=progress, fault=_fault
+            ctx.send_goal, label=label, gesture=gesture, feedback=progress, fault=_fault
         )
-        if stroke.several == EACH:
+        if gesture.several == EACH:
             send(
                 self.follow_waypoints,
                 "nav2_msgs/action/FollowWaypoints",
@@ -92,7 +92,7 @@ class Nav2Goal(Tool):
                 success=f"Stopped at all {len(poses)} waypoints.",
                 remedy=_remedy("waypoint_follower"),
             )
-        elif stroke.several == THROUGH:
+        elif gesture.several == THROUGH:
             send(
                 self.navigate_through_poses,
                 "nav2_msgs/action/NavigateThroughPoses",

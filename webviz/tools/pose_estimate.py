@@ -7,7 +7,7 @@ from typing import Annotated
 
 from webviz.api.declared import Prop, Topic
 from webviz.api.ports import Output
-from webviz.api.tool import Confirm, Stroke, Tool, ToolContext
+from webviz.api.tool import Confirm, Gesture, Tool, ToolContext
 
 X, Y, YAW = 0, 7, 35
 """Places on the diagonal of a covariance of 6 x 6."""
@@ -43,10 +43,10 @@ class PoseEstimate(Tool):
     ] = (math.pi / 12) ** 2
     confirm: Confirm = False
 
-    def done(self, stroke: Stroke, ctx: ToolContext) -> None:
+    def done(self, gesture: Gesture, ctx: ToolContext) -> None:
         """Publish the pose in the fixed frame, stamped now, as RViz does."""
         covariance = [0.0] * 36
         covariance[X], covariance[Y] = self.covariance_x, self.covariance_y
         covariance[YAW] = self.covariance_yaw
-        pose = {"pose": stroke.pose, "covariance": covariance}
+        pose = {"pose": gesture.pose, "covariance": covariance}
         ctx.publish("topic", {"header": ctx.header, "pose": pose})

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from webviz.api.declared import Prop, Topic
 from webviz.api.ports import Output
-from webviz.api.tool import Confirm, Stroke, Tool, ToolContext
+from webviz.api.tool import Confirm, Gesture, Tool, ToolContext
 
 
 class PublishPoint(Tool):
@@ -32,6 +32,6 @@ class PublishPoint(Tool):
         """Return whether more points may follow."""
         return not self.single_click
 
-    def done(self, stroke: Stroke, ctx: ToolContext) -> None:
+    def done(self, gesture: Gesture, ctx: ToolContext) -> None:
         """Publish the point in the fixed frame, stamped now, as RViz does."""
-        ctx.publish("topic", {"header": ctx.header, "point": stroke.point})
+        ctx.publish("topic", {"header": ctx.header, "point": gesture.point})

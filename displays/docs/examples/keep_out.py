@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from webviz import Output, Stroke, Tool, ToolContext, Topic
+from webviz import Gesture, Output, Tool, ToolContext, Topic
 
 
 class KeepOut(Tool):
@@ -14,10 +14,10 @@ class KeepOut(Tool):
 
     topic: Annotated[Topic, Output("geometry_msgs/msg/PolygonStamped")] = Topic("/keep_out")
 
-    def done(self, stroke: Stroke, ctx: ToolContext) -> None:
+    def done(self, gesture: Gesture, ctx: ToolContext) -> None:
         """Publish the area."""
-        if len(stroke.points) < 3:
+        if len(gesture.points) < 3:
             ctx.error("An area needs at least 3 corners. Draw a longer outline.")
             return
-        corners = [dict(zip("xyz", point, strict=True)) for point in stroke.points]
+        corners = [dict(zip("xyz", point, strict=True)) for point in gesture.points]
         ctx.publish("topic", {"header": ctx.header, "polygon": {"points": corners}})

@@ -1,6 +1,6 @@
 """A tool that calls a service with the point that is clicked."""
 
-from webviz import Stroke, Tool, ToolContext
+from webviz import Gesture, Tool, ToolContext
 
 
 class SpawnTurtle(Tool):
@@ -15,9 +15,9 @@ class SpawnTurtle(Tool):
         """The service, which the list `publish` of a config may leave out."""
         return (self.service,)
 
-    def done(self, stroke: Stroke, ctx: ToolContext) -> None:
+    def done(self, gesture: Gesture, ctx: ToolContext) -> None:
         """Call the service, and report the name of the turtle."""
-        x, y, _ = stroke.position
+        x, y, _ = gesture.position
         srv = "float32 x\nfloat32 y\nfloat32 theta\nstring name\n---\nstring name"
         ctx.call(
             self.service,

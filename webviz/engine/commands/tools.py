@@ -18,11 +18,11 @@ def unheard(topic: str, type: str, values: Mapping[str, Any]) -> None:
 
 @dataclass(frozen=True)
 class UseTool(Command):
-    """Let a tool act on a finished gesture; see `webviz.api.tool.Stroke`.
+    """Let a tool act on a finished gesture; see `webviz.api.tool.Gesture`.
 
     Args:
         tool: id of the tool, or its name.
-        points, yaw, keys, yaws, several: of the stroke.
+        points, yaw, keys, yaws, several: of the gesture.
         report: called with the result from any thread; must not block.
         published: called with the topic, type and values of each message.
     """

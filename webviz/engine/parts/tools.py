@@ -13,7 +13,7 @@ from typing import Any
 from webviz.api.declared import Topic
 from webviz.api.goal import GoalRequest
 from webviz.api.status import Status
-from webviz.api.tool import Stroke, Tool, ToolContext, outputs
+from webviz.api.tool import Gesture, Tool, ToolContext, outputs
 from webviz.api.vehicle import Vehicle
 from webviz.data.transforms.geometry import REACH_M
 from webviz.engine.commands import Command, Sender, SetToolProperty, UseTool
@@ -30,7 +30,7 @@ from webviz.sources import Advertisement
 log = logging.getLogger("webviz")
 
 MAX_POINTS = 1000
-"""Of a stroke."""
+"""Of a gesture."""
 DRIVING_DEPTH = 1
 """Of velocity commands: only the newest counts."""
 
@@ -117,7 +117,7 @@ class ToolsPart(Part):
 
     def _use(self, command: UseTool, sender: Sender) -> None:
         id, tool = self.list.find(command.tool)
-        stroke = _stroke(tool, command, sender)
+        gesture = _gesture(tool, command, sender)
         ports = {name: (output, topic) for name, output, topic in outputs(tool)}
 
         def publish(name: str, payload: bytes, values: Mapping[str, Any]) -> None:
@@ -132,7 +132,7 @@ class ToolsPart(Part):
         context = ToolContext(
             tool, core.frames, core.source.now_ns(), publish, self._call, send_goal, report
         )
-        tool.done(stroke, context)
+        tool.done(gesture, context)
 
     def _call(self, service: str, type: str, request: bytes, timeout_s: float) -> Future[bytes]:
         name = self.core.source.resolve(service)
@@ -158,17 +158,17 @@ class ToolsPart(Part):
         self.list.set(command.tool, command.path, command.value)
 
 
-def _stroke(tool: Tool, command: UseTool, sender: Sender) -> Stroke:
+def _gesture(tool: Tool, command: UseTool, sender: Sender) -> Gesture:
     points, yaws = command.points, command.yaws
     numbers = [*(number for point in points for number in point), *yaws, command.yaw]
     is_finite = all(math.isfinite(n) and abs(n) <= REACH_M for n in numbers)
     if not 1 <= len(points) <= MAX_POINTS or not is_finite:
         raise ConfigError(
-            f"{tool.name}: a stroke has 1 to {MAX_POINTS} points within {REACH_M:.0e} m."
+            f"{tool.name}: a gesture has 1 to {MAX_POINTS} points within {REACH_M:.0e} m."
         )
     if command.several and (command.several not in tool.several or len(yaws) != len(points)):
         raise ConfigError(f"{tool.name}: expected several poses, for one of its buttons.")
-    return Stroke(points, command.yaw, command.keys, sender.browser, yaws, command.several)
+    return Gesture(points, command.yaw, command.keys, sender.browser, yaws, command.several)
 
 
 def _button(id: str, tool: Tool, shortcut: str, refusal: str) -> ToolButton:

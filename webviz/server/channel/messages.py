@@ -198,10 +198,10 @@ class Tools(ToPage, frozen=True):
 
 
 class Published(ToPage, frozen=True):
-    """A message that a stroke published.
+    """A message that a gesture published.
 
     Args:
-        number: of the `Do` with the stroke.
+        number: of the `Do` with the gesture.
         topic, message_type: as chosen.
         values: by field.
     """

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from webviz.shell.app.running import Running
 
 PATIENCE_S = 5.0
-"""For a tool to report the result of a stroke."""
+"""For a tool to report the result of a gesture."""
 
 
 class ToolHandle:
@@ -25,7 +25,7 @@ class ToolHandle:
         self.name = name
 
     def send(self, x: float, y: float, yaw: float = 0.0, z: float = 0.0) -> str:
-        """Use the tool as with a stroke on the page.
+        """Use the tool as with a gesture on the page.
 
         Args:
             x, y, z: position in metres in the fixed frame.
