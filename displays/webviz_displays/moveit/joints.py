@@ -101,13 +101,13 @@ class Stance:
     Args:
         poses: by link, in the frame of the joints; those that cannot be drawn are left out.
         assumed: joints without a known position, which have their default.
-        strangers: joints that the robot does not have.
+        unknown_joints: joints that the robot does not have.
         outside: links whose joint is outside its limits.
     """
 
     poses: Mapping[str, Pose]
     assumed: tuple[str, ...]
-    strangers: tuple[str, ...]
+    unknown_joints: tuple[str, ...]
     outside: tuple[str, ...]
 
 

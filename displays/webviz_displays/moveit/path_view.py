@@ -173,8 +173,8 @@ class PathView:
     def _report(self, path: JointPath, newest: JointPath, ctx: Context) -> None:
         ctx.ok("Path", f"{_point(path, self.player.index)}.")
         model = self.robots.model
-        if newest.strangers:
-            names = listed([named(name) for name in newest.strangers], NAMED)
+        if newest.unknown_joints:
+            names = listed([named(name) for name in newest.unknown_joints], NAMED)
             ctx.warn(
                 "Joints",
                 f"The robot has no joint {names}. Check that its URDF is that of the path.",

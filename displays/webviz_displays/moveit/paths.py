@@ -32,7 +32,7 @@ class JointPath:
         frame: that the root link is placed in, "" if unknown.
         moving: joints that the trajectory names.
         attached: what the robot holds.
-        strangers: joints that the robot does not have.
+        unknown_joints: joints that the robot does not have.
         faults: what is left out and why, sentences.
         model: name of the robot that it is for, "" if not said.
     """
@@ -43,7 +43,7 @@ class JointPath:
     frame: str = ""
     moving: tuple[str, ...] = ()
     attached: Mapping[str, Attached] | None = None
-    strangers: tuple[str, ...] = ()
+    unknown_joints: tuple[str, ...] = ()
     faults: tuple[str, ...] = ()
     model: str = ""
 
@@ -59,7 +59,7 @@ def path_of(message: Any, poser: Poser) -> JointPath:
         builder.add(each)
     start = joints_of(message.trajectory_start)
     names = tuple(builder.names)
-    strangers = [name for name in (*start.positions, *names) if name not in poser.robot.joints]
+    unknown_joints = [name for name in (*start.positions, *names) if name not in poser.robot.joints]
     faults = (*start.faults, *scene.faults, *builder.faults)
     times = np.array(builder.times, float)
     return JointPath(
@@ -69,7 +69,7 @@ def path_of(message: Any, poser: Poser) -> JointPath:
         start.frame or builder.frame,
         names,
         scene.attached,
-        tuple(dict.fromkeys(strangers)),
+        tuple(dict.fromkeys(unknown_joints)),
         tuple(dict.fromkeys(faults)),
         message.model_id,
     )

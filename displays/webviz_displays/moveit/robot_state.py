@@ -130,7 +130,7 @@ class RobotState(Display):
         scene = received.scene
         stance = model.poser.stance(scene.joints)
         known = len(scene.joints.positions) + len(scene.joints.poses)
-        report_names(known, stance.assumed, stance.strangers, "The state", ctx)
+        report_names(known, stance.assumed, stance.unknown_joints, "The state", ctx)
         if scene.faults:
             ctx.warn("State", joined(*scene.faults[:3]))
         look = self._look(self._highlights(received, model.robot.links, ctx))
@@ -170,9 +170,9 @@ class RobotState(Display):
         if not self.show_highlights:
             return {}
         valid = {link: rgba for link, rgba in received.highlights if _is_color(rgba)}
-        strangers = [link for link, rgba in received.highlights if link not in links]
-        if strangers:
-            ctx.warn("Highlights", f"The robot has no link {named(strangers[0])}.")
+        unknown_links = [link for link, rgba in received.highlights if link not in links]
+        if unknown_links:
+            ctx.warn("Highlights", f"The robot has no link {named(unknown_links[0])}.")
         elif len(valid) < len({link for link, _ in received.highlights}):
             ctx.warn("Highlights", "A colour is not in 0 to 1. Fix the publisher.")
         return {

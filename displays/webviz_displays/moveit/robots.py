@@ -12,7 +12,7 @@ from webviz_displays.moveit.joints import Poser
 from webviz_displays.robot_model.details import TRAIL, link_details
 from webviz_displays.robot_model.loading import Loadings, load, progress
 from webviz_displays.robot_model.parts import Choices, LinkSettings, Paint, parts_of
-from webviz_displays.robot_model.statuses import report_link, report_robot, report_strangers
+from webviz_displays.robot_model.statuses import report_link, report_robot, report_unknown
 from webviz_displays.shared.trails import Trails
 from webviz_urdf import LoadRequest, Robot, RobotDescriptionError
 
@@ -167,7 +167,7 @@ class Robots:
     def report(self, look: RobotLook, ctx: Context) -> None:
         """Report settings of links that the robot does not have."""
         if self.model is not None:
-            report_strangers("Link", list(look.links), list(self.model.robot.links), ctx)
+            report_unknown("Link", list(look.links), list(self.model.robot.links), ctx)
 
     def follow(self, look: RobotLook, prefix: str, ctx: Context) -> None:
         """Draw the trails of links and report their poses."""

@@ -118,7 +118,7 @@ class DrawnWorld:
         if model is not None:
             stance = self._posed(model.poser, geometry.scene_display_time, ctx.frames.now_ns)
             links = stance.poses
-            report_joints(scene, stance.assumed, stance.strangers, ctx)
+            report_joints(scene, stance.assumed, stance.unknown_joints, ctx)
         look = look_of(robot)
         self.robots.draw(links, look, frame, "", ctx)
         self.robots.report(look, ctx)
@@ -186,27 +186,27 @@ def look_of(robot: SceneRobot) -> RobotLook:
 
 
 def report_joints(
-    scene: KnownScene, assumed: tuple[str, ...], strangers: tuple[str, ...], ctx: Context
+    scene: KnownScene, assumed: tuple[str, ...], unknown_joints: tuple[str, ...], ctx: Context
 ) -> None:
     """Report joints that the scene or the robot does not know."""
     known = len(scene.joints.positions) + len(scene.joints.poses)
-    report_names(known, assumed, strangers, "The scene", ctx)
+    report_names(known, assumed, unknown_joints, "The scene", ctx)
 
 
 def report_names(
-    known: int, assumed: tuple[str, ...], strangers: tuple[str, ...], what: str, ctx: Context
+    known: int, assumed: tuple[str, ...], unknown_joints: tuple[str, ...], what: str, ctx: Context
 ) -> None:
     """Report joints that a message or the robot does not know.
 
     Args:
         known: joints with a position.
         assumed: joints without one.
-        strangers: joints that the robot does not have.
+        unknown_joints: joints that the robot does not have.
         what: the message.
         ctx: receives the status.
     """
-    if strangers:
-        names = listed([named(name) for name in strangers], NAMED)
+    if unknown_joints:
+        names = listed([named(name) for name in unknown_joints], NAMED)
         ctx.warn(
             "Joints", f"The robot has no joint {names}. Check that its URDF is that of the message."
         )

@@ -36,11 +36,11 @@ def report_robot(robot: Robot, full: Robot | None, ctx: Context) -> None:
         ctx.warn("URDF warnings", _first(robot.warnings))
 
 
-def report_strangers(kind: str, chosen: Sequence[str], known: Sequence[str], ctx: Context) -> None:
+def report_unknown(kind: str, chosen: Sequence[str], known: Sequence[str], ctx: Context) -> None:
     """Report settings of links or joints that the robot does not have."""
-    strangers = sorted(set(chosen) - set(known))
-    if strangers:
-        names = listed(strangers, NAMED)
+    unknown = sorted(set(chosen) - set(known))
+    if unknown:
+        names = listed(unknown, NAMED)
         ctx.warn(f"{kind} settings", f"The robot has no {kind.lower()} named {names}.")
 
 
