@@ -23,7 +23,7 @@ from webviz import (
     Sample,
     Topic,
 )
-from webviz.api.evidence import Way
+from webviz.api.consistency import RobotPath
 from webviz.data import messages
 from webviz.data.rotations import matrices, normalized, w_first
 from webviz.data.words import counted
@@ -128,7 +128,7 @@ class Path(Display, Comparable):
         if self.pose_style != "None":
             self._draw_poses(xyz, orientations, rows, group, ctx)
 
-    def evidence(self, samples: Sequence[Sample], ctx: Context) -> Way | None:
+    def consistency_input(self, samples: Sequence[Sample], ctx: Context) -> RobotPath | None:
         """The newest path."""
         if not samples:
             return None
@@ -136,7 +136,7 @@ class Path(Display, Comparable):
         xyz = sample.message.poses.positions
         if len(xyz) < 2 or not is_drawable(xyz).all():
             return None
-        return Way(sample.frame, sample.received_ns, xyz)
+        return RobotPath(sample.frame, sample.received_ns, xyz)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
         """A pose, or the one that a piece of the line begins at."""

@@ -19,7 +19,7 @@ from websockets.exceptions import ConnectionClosed
 from tests.access.conftest import PATIENCE_S, House, wait_until
 from tests.scene.conftest import Peer
 from tests.support.guest import Guest
-from webviz.engine.commands import Command, GripHandle, UseTool
+from webviz.engine.commands import Command, DragHandle, UseTool
 from webviz.engine.parts.selection import MAX_SELECTED
 from webviz.page.dispatcher import NOT_OF_PAGES
 from webviz.scene import open_server
@@ -127,10 +127,10 @@ def test_everything_that_a_page_sends_is_held_against_its_role(
     assert {*house.reached} - internal == allowed | acted
 
 
-SILENT = (GripHandle, UseTool)
+SILENT = (DragHandle, UseTool)
 """Commands of which only refusals and what tools say are answered."""
 FIELDS: dict[str, dict[str, object]] = {
-    "GripHandle": {"display": "d", "grip": {"handle": "h", "control": 0, "kind": "press"}},
+    "DragHandle": {"display": "d", "drag": {"handle": "h", "control": 0, "kind": "press"}},
     "Identify": {"picks": {"group": "g", "key": "k", "items": []}},
     "Invite": {"name": "Ada", "role": "watcher", "days": None, "url": "http://a"},
     "SetBackground": {"color": [1, 2, 3]},

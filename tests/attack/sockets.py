@@ -46,7 +46,7 @@ WORDS = (
 FROM_PAGE = sorted(MESSAGES)
 REQUIRED = {class_.__name__: role for class_, role in COMMANDS.items()}
 
-SILENT = ("GripHandle", "UseTool")
+SILENT = ("DragHandle", "UseTool")
 """Commands of which only refusals and what tools say are answered."""
 DRAWN = sorted(REQUIRED.keys() - {"Dismiss"})
 """Of these; an owner would end the other attackers."""

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from webviz import Axes, Context, Error, Frames, Group, Hit, Instances, Level, Pose
-from webviz.api.handles import Grip, GripKind, Handle
-from webviz.api.wire import Heard
+from webviz.api.connection import ReceivedMessages
+from webviz.api.handles import Drag, DragKind, Handle
 from webviz.data.messages import decode, encode, interfaces
 from webviz.data.transforms import TransformBuffer
 from webviz_displays.interactive_markers import InteractiveMarkers
@@ -66,10 +66,10 @@ class Server:
         self.asked: list[Future[bytes]] = []
         self.jobs: list[tuple[Future[Any], Callable[[], Any]]] = []
 
-    def listen(self, topic: str, type: str, depth: int) -> Heard:
+    def listen(self, topic: str, type: str, depth: int) -> ReceivedMessages:
         messages, self.messages = tuple(self.messages), []
         publishers = ("/server",) * len(self.endpoints)
-        return Heard(messages, publishers, self.endpoints, self.is_ready, self.has_gap)
+        return ReceivedMessages(messages, publishers, self.endpoints, self.is_ready, self.has_gap)
 
     def query(
         self, service: str, type: str, timeout_s: float, request: Mapping[str, Any] | None = None
@@ -492,8 +492,8 @@ class Shown:
         self, server: Server, display: Mapping[str, Any] | None = None, **values: Any
     ) -> None:
         self.display = InteractiveMarkers(interactive_markers_namespace="/arm", **(display or {}))
-        self.state, self.wire, self.around = self.display.new_state(), server, frames("map")
-        self.display.talk(server, self.context())
+        self.state, self.connection, self.around = self.display.new_state(), server, frames("map")
+        self.display.communicate(server, self.context())
         cdr = encode(MARKER, {"name": "a", "header": {"frame_id": "odom"}, **values})
         found = completed(decode(MARKER, cdr))
         assert isinstance(found, Completed)
@@ -517,12 +517,12 @@ class Shown:
         self.display.draw_all((), ctx)
         return {key.rpartition("|")[2]: group for key, group in ctx.groups.items()}
 
-    def grip(
-        self, kind: GripKind, x: float | None = None, **values: Any
+    def drag(
+        self, kind: DragKind, x: float | None = None, **values: Any
     ) -> list[tuple[int, float]]:
         """Do it; the events that the server gets, and where the marker is in them."""
         pose = None if x is None else Pose((x, 0.0, 0.0))
-        self.display.grip(Grip("m1", 0, kind, pose, **values), self.wire, self.context())
+        self.display.drag(Drag("m1", 0, kind, pose, **values), self.connection, self.context())
         outgoing = self.known.outgoing
         sent = list(iter(outgoing.next, None))
         return [(each["event_type"], each["pose"]["position"]["x"]) for each in sent]
@@ -530,40 +530,40 @@ class Shown:
 
 def test_a_gesture_is_reported_to_the_server_event_by_event(server: Server) -> None:
     shown = Shown(server, controls=[{"interaction_mode": MOVE_AXIS}])
-    assert shown.grip("move", 5.0) == []  # nobody has pressed
-    assert shown.grip("press") == [(POSE_UPDATE, 0.0), (MOUSE_DOWN, 0.0)]
-    assert shown.grip("move", 1.0, turned=0.5) == [(POSE_UPDATE, 1.0)]
-    assert shown.grip("move", 1.0, turned=0.5) == []
+    assert shown.drag("move", 5.0) == []  # nobody has pressed
+    assert shown.drag("press") == [(POSE_UPDATE, 0.0), (MOUSE_DOWN, 0.0)]
+    assert shown.drag("move", 1.0, turned=0.5) == [(POSE_UPDATE, 1.0)]
+    assert shown.drag("move", 1.0, turned=0.5) == []
     assert shown.handle().controls[0].turned == 0.5
-    assert shown.grip("hold") == [(STAYS, 1.0)]
-    assert shown.grip("release", 2.0) == [(POSE_UPDATE, 2.0), (MOUSE_UP, 2.0)]
-    assert shown.grip("hold", 7.0) == [(STAYS, 2.0)]
+    assert shown.drag("hold") == [(STAYS, 1.0)]
+    assert shown.drag("release", 2.0) == [(POSE_UPDATE, 2.0), (MOUSE_UP, 2.0)]
+    assert shown.drag("hold", 7.0) == [(STAYS, 2.0)]
 
     button = Shown(server, controls=[{"interaction_mode": BUTTON}])
-    assert button.grip("press", 3.0) == [(POSE_UPDATE, 0.0), (MOUSE_DOWN, 0.0)]
+    assert button.drag("press", 3.0) == [(POSE_UPDATE, 0.0), (MOUSE_DOWN, 0.0)]
     clicked = [(BUTTON_CLICK, 0.0), (POSE_UPDATE, 0.0), (MOUSE_UP, 0.0)]
-    assert button.grip("release") == clicked
+    assert button.drag("release") == clicked
     menu = [{"id": 4, "title": "Go"}, {"id": 5, "title": "rm", "command_type": 1}]
     chosen = Shown(server, controls=[{"interaction_mode": MENU}], menu_entries=menu)
-    assert chosen.grip("choose", entry=4) == [(MENU_SELECT, 0.0)]
-    assert chosen.grip("choose", entry=5) == []
+    assert chosen.drag("choose", entry=4) == [(MENU_SELECT, 0.0)]
+    assert chosen.drag("choose", entry=5) == []
     still = Shown(server, controls=[{"interaction_mode": 0}])
-    assert still.grip("press") == []
+    assert still.drag("press") == []
 
 
 def test_what_nobody_has_pressed_stays_when_it_is_released(server: Server) -> None:
     shown = Shown(server, controls=[{"interaction_mode": MOVE_AXIS}])
-    assert shown.grip("release", 5.0) == [(POSE_UPDATE, 0.0), (MOUSE_UP, 0.0)]
+    assert shown.drag("release", 5.0) == [(POSE_UPDATE, 0.0), (MOUSE_UP, 0.0)]
 
 
 def test_the_point_under_the_pointer_is_that_of_presses_and_clicks(server: Server) -> None:
     shown = Shown(server, controls=[{"interaction_mode": MOVE_AXIS}])
-    grips = (
-        Grip("m1", 0, "press", point=(1.0, 2.0, 3.0)),
-        Grip("m1", 0, "move", Pose((4.0, 0, 0))),
+    drags = (
+        Drag("m1", 0, "press", point=(1.0, 2.0, 3.0)),
+        Drag("m1", 0, "move", Pose((4.0, 0, 0))),
     )
-    for grip in grips:
-        shown.display.grip(replace(grip, point=(1.0, 2.0, 3.0)), server, shown.context())
+    for drag in drags:
+        shown.display.drag(replace(drag, point=(1.0, 2.0, 3.0)), server, shown.context())
     sent = list(iter(shown.known.outgoing.next, None))
     assert [each["mouse_point_valid"] for each in sent] == [False, True, False]
 
@@ -571,7 +571,7 @@ def test_the_point_under_the_pointer_is_that_of_presses_and_clicks(server: Serve
 def test_a_server_is_known_as_long_as_its_namespace_is_that_of_the_display(server: Server) -> None:
     shown = Shown(server)
     known = shown.known
-    shown.display.talk(server, shown.context())
+    shown.display.communicate(server, shown.context())
     assert shown.known is known
 
 
@@ -592,7 +592,7 @@ def test_axes_are_as_long_as_the_marker_and_only_texts_have_a_ball_to_grip(serve
     solid = {"type": 1, "color": {"a": 1.0}}
     controls = [{"interaction_mode": BUTTON, "markers": [solid]}]
     nodes = Shown(server, {"show_axes": True}, scale=2.0, controls=controls).groups()["m1"].nodes
-    assert "c0/m1/grip" not in nodes
+    assert "c0/m1/drag" not in nodes
     axes = nodes["axes/m1"]
     assert isinstance(axes, Axes)
     assert (axes.length, axes.radius) == (2.0, 2.0 * AXES_RADIUS)
@@ -617,8 +617,8 @@ def test_a_fixed_control_turns_about_its_own_axis(server: Server) -> None:
     up = {"w": math.sqrt(0.5), "y": -math.sqrt(0.5)}
     for orientation, axis in (({"w": 1.0}, (1.0, 0.0, 0.0)), (up, (0.0, 0.0, 1.0))):
         shown = Shown(server, controls=[{"orientation": orientation, **control}])
-        shown.grip("press")
-        shown.grip("move", 0.0, turned=0.5)
+        shown.drag("press")
+        shown.drag("move", 0.0, turned=0.5)
         wanted = [math.cos(0.25), *(math.sin(0.25) * each for each in axis)]
         assert shown.groups()["m1.0"].placement.offset.wxyz == pytest.approx(wanted)
 
@@ -646,7 +646,7 @@ def test_shapes_turn_with_the_marker_or_apart_from_it(server: Server) -> None:
     turned = {key: group.placement.offset.wxyz[3] for key, group in groups.items()}
     assert turned == pytest.approx({"m1": math.sqrt(0.5), "m1.1": 0.0, "m1.2v": 0.0})
     assert {"c0/m1/box", "c3/m1/box"} <= groups["m1"].nodes.keys()
-    ball = groups["m1"].nodes["c0/m1/grip"]  # around the text
+    ball = groups["m1"].nodes["c0/m1/drag"]  # around the text
     assert isinstance(ball, Instances)
     np.testing.assert_allclose(ball.scales, [(1.0, 1.0, 0.5)])
 
@@ -673,11 +673,11 @@ def test_what_hides_a_marker_is_an_error_and_what_it_lacks_a_warning(server: Ser
 
 def test_feedback_has_the_newest_stamp_of_the_frame_of_a_marker(server: Server) -> None:
     shown = Shown(server, header={"frame_id": "cart"}, controls=[{"interaction_mode": MOVE_AXIS}])
-    assert shown.grip("press") == []  # its frame is unknown
+    assert shown.drag("press") == []  # its frame is unknown
     at = (0.0, 0.0, 0.0)
     for stamp_ns in (3_000_000_001, 5_000_000_002):
         shown.around.buffer.set_transform("map", "cart", stamp_ns, at, (0.0, 0.0, 0.0, 1.0))
-    shown.display.grip(Grip("m1", 0, "press", point=(1.0, 2.0, 3.0)), server, shown.context())
+    shown.display.drag(Drag("m1", 0, "press", point=(1.0, 2.0, 3.0)), server, shown.context())
     move, down = iter(shown.known.outgoing.next, None)
     for each in (move, down):
         assert each["header"] == {"stamp": {"sec": 5, "nanosec": 2}, "frame_id": "cart"}

@@ -26,10 +26,10 @@ from webviz import (
     Topic,
 )
 from webviz.api.capabilities import CAPABILITIES
-from webviz.api.handles import Control, Grip, Handle
+from webviz.api.connection import GraphConnection
+from webviz.api.handles import Control, Drag, Handle
 from webviz.api.status import Level
-from webviz.api.wire import Wire
-from webviz.engine.commands import GripHandle, Identify, Picks, Refresh, SetBackground, SetProperty
+from webviz.engine.commands import DragHandle, Identify, Picks, Refresh, SetBackground, SetProperty
 
 SECOND = 1_000_000_000
 T = 100 * SECOND
@@ -112,18 +112,18 @@ class Faulty(Display, Comparable, Draggable, Selective, Sweep):
     def inspect(self, hit: Hit, ctx: Context) -> None:
         self._raise_in("inspect")
 
-    def evidence(self, samples: Sequence[Sample], ctx: Context) -> None:
-        self._raise_in("evidence")
+    def consistency_input(self, samples: Sequence[Sample], ctx: Context) -> None:
+        self._raise_in("consistency_input")
 
-    def talk(self, wire: Wire, ctx: Context) -> None:
-        self._raise_in("talk")
+    def communicate(self, connection: GraphConnection, ctx: Context) -> None:
+        self._raise_in("communicate")
 
     def handles(self, ctx: Context) -> Mapping[str, Handle]:
         self._raise_in("handles")
         return KNOB
 
-    def grip(self, grip: Grip, wire: Wire, ctx: Context) -> None:
-        self._raise_in("grip")
+    def drag(self, drag: Drag, connection: GraphConnection, ctx: Context) -> None:
+        self._raise_in("drag")
 
 
 class FaultyFold(Faulty):
@@ -163,7 +163,7 @@ def test_what_a_hook_raises_is_a_status_of_its_display_and_logged_once(
     for _ in range(5):
         feed(b)
         b.viewer.enqueue(Identify(dot))
-        b.viewer.enqueue(GripHandle("display1", Grip("m1", 0, "press")))
+        b.viewer.enqueue(DragHandle("display1", Drag("m1", 0, "press")))
         b.turn()
     before = sound.turns
     feed(b)

@@ -12,11 +12,11 @@ from ruamel.yaml import YAML
 
 from webviz import Display, ProtocolClient
 from webviz import Pose as At
+from webviz.api.connection import GraphConnection
 from webviz.api.context import Context
 from webviz.api.declared import Topic
 from webviz.api.frames import Frames
 from webviz.api.robots import NamespacedRobot, RobotFrames, robot_of
-from webviz.api.wire import Wire
 from webviz.data.transforms import TransformBuffer
 from webviz.engine.commands import Open, Save, SetProperty, Undo
 from webviz.engine.pipeline.transform_layout import MIN_TRANSFORMS
@@ -167,8 +167,8 @@ def test_without_robots_a_placeholder_is_an_error_of_its_display() -> None:
 class Follower(Display, ProtocolClient):
     """Listens on a topic that no input declares, as displays with a protocol of their own."""
 
-    def talk(self, wire: Wire, ctx: Context) -> None:
-        wire.listen("/robot1/markers/update", "std_msgs/msg/String", 1)
+    def communicate(self, connection: GraphConnection, ctx: Context) -> None:
+        connection.listen("/robot1/markers/update", "std_msgs/msg/String", 1)
         NAMES.append(ctx.frames.named("base_link"))
 
 

@@ -10,8 +10,8 @@ import pytest
 import trimesh
 
 from webviz import Level
-from webviz.api.handles import Grip, Handle
-from webviz.engine.commands import GripHandle, Sender
+from webviz.api.handles import Drag, Handle
+from webviz.engine.commands import DragHandle, Sender
 from webviz.shell.testing import LiveViewer
 from webviz_displays.interactive_markers import InteractiveMarkers
 
@@ -223,8 +223,8 @@ def test_feedback_is_that_of_rviz_and_poses_of_the_server_wait_for_the_release(
     connected(viewer, 2)
     display = viewer.viewer.snapshot().rows[0].id
 
-    def grip(key: str, kind: Any, browser: int = 1, **more: Any) -> Any:
-        command = GripHandle(display, Grip(key, 0, kind, **more))
+    def drag(key: str, kind: Any, browser: int = 1, **more: Any) -> Any:
+        command = DragHandle(display, Drag(key, 0, kind, **more))
         return viewer.viewer.enqueue(command, Sender(browser))
 
     def received(count: int) -> list[Feedback]:
@@ -234,35 +234,35 @@ def test_feedback_is_that_of_rviz_and_poses_of_the_server_wait_for_the_release(
         )
         return server.feedback
 
-    grip("m1", "press", point=(1.0, 0.0, 0.2)).result(30)
+    drag("m1", "press", point=(1.0, 0.0, 0.2)).result(30)
     back = Pose()
     back.position.x = 7.0
     server.set_pose("moved", back)
     server.apply()
     with pytest.raises(Exception, match="browser 1 holds it"):
-        grip("m1", "press", browser=2).result(30)
-    grip("m1", "move", pose=At((2.0, 0.0, 0.0))).result(30)
+        drag("m1", "press", browser=2).result(30)
+    drag("m1", "move", pose=At((2.0, 0.0, 0.0))).result(30)
     viewer.wait_for(lambda: position(viewer, "m1")[0] == 12.0, "the drag")
     received(3)
-    grip("m1", "release", pose=At((3.0, 0.0, 0.0))).result(30)
+    drag("m1", "release", pose=At((3.0, 0.0, 0.0))).result(30)
     feedback = received(5)
     assert [each.event_type for each in feedback] == [1, 4, 1, 1, 5]
     assert [each.pose.position.x for each in feedback] == [1.0, 1.0, 2.0, 3.0, 3.0]
     assert [each.mouse_point_valid for each in feedback] == [False, True, False, False, False]
     assert {each.header.frame_id for each in feedback} == {"hand"}
 
-    grip("m2", "press")
-    grip("m2", "release", pose=At((11.0, 5.0, 0.0)))
+    drag("m2", "press")
+    drag("m2", "release", pose=At((11.0, 5.0, 0.0)))
     last = received(9)[-1]
     assert (last.header.frame_id, last.header.stamp.sec) == ("map", 0)
     assert (last.pose.position.x, last.pose.position.y) == (11.0, 5.0)
     for wrong in (math.inf, NAN, 1e300):
-        grip("m1", "press").result(30)
+        drag("m1", "press").result(30)
         with pytest.raises(Exception, match="not finite"):
-            grip("m1", "move", pose=At((wrong, 0.0, 0.0))).result(30)
-        grip("m1", "release").result(30)
+            drag("m1", "move", pose=At((wrong, 0.0, 0.0))).result(30)
+        drag("m1", "release").result(30)
     with pytest.raises(Exception, match="does not exist"):
-        grip("m9", "press").result(30)
+        drag("m9", "press").result(30)
 
 
 def test_the_scene_of_the_tutorials_is_shown_as_a_whole(

@@ -1,7 +1,7 @@
 """Capabilities that a display opts into with a base class of its own, beside `Display`.
 
     class Docks(Display, ProtocolClient):
-        def talk(self, wire, ctx):
+        def communicate(self, connection, ctx):
             ...
 
 The pipeline asks for each of them once, when a display starts to run.
@@ -14,11 +14,11 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 if TYPE_CHECKING:
+    from webviz.api.connection import GraphConnection
+    from webviz.api.consistency import ConsistencyInput
     from webviz.api.context import Context
-    from webviz.api.evidence import Evidence
-    from webviz.api.handles import Grip, Handle
+    from webviz.api.handles import Drag, Handle
     from webviz.api.sample import Sample
-    from webviz.api.wire import Wire
 
 
 class Selective:
@@ -52,7 +52,7 @@ class Comparable:
 
     __slots__ = ()
 
-    def evidence(self, samples: Sequence[Sample], ctx: Context) -> Evidence | None:
+    def consistency_input(self, samples: Sequence[Sample], ctx: Context) -> ConsistencyInput | None:
         """Return the held samples, oldest first, as inputs of the consistency check.
 
         The viewer compares it with that of other displays and reports contradictions. Called once
@@ -72,7 +72,7 @@ class ProtocolClient:
         """The topics it publishes on: they may be written unless the config says otherwise."""
         return ()
 
-    def talk(self, wire: Wire, ctx: Context) -> None:
+    def communicate(self, connection: GraphConnection, ctx: Context) -> None:
         """Send and receive.
 
         Called on every turn of the frame loop while a browser is connected, before the hooks that
@@ -88,44 +88,59 @@ class Draggable(ProtocolClient):
     def handles(self, ctx: Context) -> Mapping[str, Handle]:
         """Return the handles browsers can drag, by key; the same mapping until something changes.
 
-        Called on every turn of the frame loop, after `talk`.
+        Called on every turn of the frame loop, after `communicate`.
         """
         return {}
 
-    def grip(self, grip: Grip, wire: Wire, ctx: Context) -> None:
+    def drag(self, drag: Drag, connection: GraphConnection, ctx: Context) -> None:
         """Take up what a browser does with a handle. One at a time holds it."""
 
 
 CAPABILITIES = (Comparable, Draggable, ProtocolClient, Selective, Sweep)
+
+FORMER_HOOKS = {"communicate": "talk", "drag": "grip"}
+"""Names that hooks had in the version before."""
 
 C = TypeVar("C", bound=Comparable | ProtocolClient | Selective | Sweep)
 
 
 def capability(display: object, kind: type[C]) -> C | None:
     """Return a display as one with a capability, None if it has not opted in."""
-    if isinstance(display, kind):
-        return display
-    hooks = [hook for hook in vars(kind) if not hook.startswith("_") and hook != "uses"]
-    if not any(callable(getattr(type(display), hook, None)) for hook in hooks):
-        return None
+    own = [hook for hook in vars(kind) if not hook.startswith("_") and hook != "uses"]
     name = type(display).__name__
-    warnings.warn(
+    former = {hook: FORMER_HOOKS[hook] for hook in own if _has(display, FORMER_HOOKS.get(hook))}
+    for hook, old in former.items():
+        _warn(f"{name}.{old} is {hook} now, and the next version calls nothing else.")
+    if isinstance(display, kind):
+        return cast("C", _Adapted(display, kind, former)) if former else display
+    if not former and not any(_has(display, hook) for hook in own):
+        return None
+    _warn(
         f"{name} has {kind.__name__}'s hooks but not its base class, which the next version "
-        f"requires. Derive it from webviz.{kind.__name__}, too.",
-        DeprecationWarning,
-        stacklevel=2,
+        f"requires. Derive it from webviz.{kind.__name__}, too."
     )
-    return cast("C", _Undeclared(display, kind))
+    return cast("C", _Adapted(display, kind, former))
 
 
-class _Undeclared:
-    """A display with some hooks of a capability, but without its base class."""
+def _has(display: object, hook: str | None) -> bool:
+    """Return whether the class of a display has a hook; a property may have its name."""
+    return hook is not None and callable(getattr(type(display), hook, None))
 
-    def __init__(self, display: object, kind: type) -> None:
+
+def _warn(text: str) -> None:
+    warnings.warn(text, DeprecationWarning, stacklevel=3)
+
+
+class _Adapted:
+    """A display without the base class of a capability, or with former names of its hooks."""
+
+    def __init__(self, display: object, kind: type, former: Mapping[str, str]) -> None:
         self._display = display
         self._kind = kind
+        self._former = former
 
     def __getattr__(self, name: str) -> Any:
+        name = self._former.get(name, name)
         if hasattr(self._display, name):
             return getattr(self._display, name)
         return getattr(self._kind, name).__get__(self._display)

@@ -1,7 +1,7 @@
 """Handles that browsers drag: controls, and the events of people.
 
 A display that has some is `Draggable` (`webviz.api.capabilities`). Pages follow a drag at their
-own frame rate, with the rules of `Control`, and report it as grips.
+own frame rate, with the rules of `Control`, and report it as drags.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from typing import Annotated, Literal
 
 import msgspec
 
+from webviz.api.former_names import former_names
 from webviz.api.nodes import Pose
 
 Mode = Literal[
@@ -36,7 +37,7 @@ Position = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Control:
-    """A part of a handle that can be gripped.
+    """A part of a handle that can be dragged.
 
     Its nodes have keys that begin with `c<index>/`, where `index` is its place in the handle. They
     are in the group of the handle or, if it is turned apart from it, in one with the key
@@ -69,7 +70,7 @@ class MenuEntry:
     """An entry of the menu of a handle.
 
     Args:
-        id: for `Grip.entry`.
+        id: for `Drag.entry`.
         title: as shown.
         is_checked: None for an entry without a check box.
         refusal: why it cannot be chosen, a sentence; "" if it can.
@@ -85,7 +86,7 @@ class MenuEntry:
 
 @dataclass(frozen=True)
 class Handle:
-    """Something in the scene that browsers grip, by a key of the display, `m` and a number.
+    """Something in the scene that browsers drag, by a key of the display, `m` and a number.
 
     Its nodes are in the group with this key (`Context.follow`), at its pose in `frame`; there is at
     least one, if only without content.
@@ -107,13 +108,13 @@ class Handle:
     refusal: str = ""
 
 
-GripKind = Literal["press", "move", "hold", "release", "choose"]
+DragKind = Literal["press", "move", "hold", "release", "choose"]
 """A button or finger goes down, moves, stays where it is for a while, goes up; or an entry of the
 menu is chosen."""
 
 
 @dataclass(frozen=True)
-class Grip:
+class Drag:
     """Something that a browser does with a control.
 
     Args:
@@ -128,8 +129,11 @@ class Grip:
 
     handle: str
     control: int
-    kind: GripKind
+    kind: DragKind
     pose: Pose | None = None
     turned: float = 0.0
     point: Position | None = None
     entry: Annotated[int, msgspec.Meta(ge=0, lt=1 << 32)] = 0
+
+
+__getattr__ = former_names(__name__, {"Grip": Drag})

@@ -7,10 +7,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from webviz.api.consistency import MapFit
 from webviz.api.declared import Topic
 from webviz.api.display import Display
 from webviz.api.environment import Environment
-from webviz.api.evidence import MapFit
 from webviz.api.finding import Symptom
 from webviz.api.offer import Offer
 from webviz.api.status import Level, Status

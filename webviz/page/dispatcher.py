@@ -12,7 +12,7 @@ from typing import Any, get_type_hints
 
 import msgspec
 
-from webviz.engine.commands import Command, GripHandle, Load, Open, Save, Sender, UseTool
+from webviz.engine.commands import Command, DragHandle, Load, Open, Save, Sender, UseTool
 from webviz.files.config import MAX_DEPTH, MAX_VALUES
 from webviz.page.asked import Asked
 from webviz.page.content.forms import MAX_TEXT
@@ -27,8 +27,8 @@ NOT_OF_PAGES = frozenset({"browser", "made", "deliver", "report", "published"})
 NOTED = (Dismiss, Invite, Load, Open, Revoke, Save, UseTool)
 """Commands noted for the owner."""
 
-MAX_STROKES, MAX_GRIPS = 20, 50
-"""Strokes of tools, and grips of handles other than moves, of a browser within a second; people
+MAX_GESTURES, MAX_DRAGS = 20, 50
+"""Gestures of tools, and drags of handles other than moves, of a browser within a second; people
 make one or two."""
 
 Handler = Callable[[Asked, Any], object]
@@ -108,9 +108,9 @@ def _most_per_second(command: Any) -> int:
     """Return how many such commands a browser may send within a second, 0 for no limit."""
     match command:
         case UseTool():
-            return MAX_STROKES
-        case GripHandle(grip=grip) if grip.kind != "move":  # of moves, only the newest is done
-            return MAX_GRIPS
+            return MAX_GESTURES
+        case DragHandle(drag=drag) if drag.kind != "move":  # of moves, only the newest is done
+            return MAX_DRAGS
         case _:
             return 0
 

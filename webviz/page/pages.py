@@ -9,7 +9,7 @@ from functools import partial
 from typing import Any
 
 from webviz.api.registry import display_types
-from webviz.engine.commands import Command, GripHandle, Refresh, Sender, UseTool
+from webviz.engine.commands import Command, DragHandle, Refresh, Sender, UseTool
 from webviz.engine.commands.guard import Guard
 from webviz.engine.state import State
 from webviz.page.content import MAKERS
@@ -17,8 +17,8 @@ from webviz.page.content.store import PageStore
 from webviz.page.dependency_tracking import DependencyTracker
 from webviz.page.derived_subscriptions import DerivedSubscriptions
 from webviz.page.dispatcher import Dispatcher, Handler
+from webviz.page.dragging import DragMessages
 from webviz.page.driving import DrivingMessages, Steer
-from webviz.page.gripping import GripMessages
 from webviz.page.people import MAKERS_OF_PEOPLE, People
 from webviz.page.plugin_panels import MAKERS_OF_PANELS, PluginPanels
 from webviz.page.toolbar import Toolbar
@@ -67,7 +67,7 @@ class Pages:
         people = People(channel, journal, access or Access())
         handlers: dict[type[Any], Handler] = {
             Dismiss: people.dismiss,
-            GripHandle: GripMessages(request).grip,
+            DragHandle: DragMessages(request).drag,
             Invite: people.invite,
             Revoke: people.revoke,
             UseTool: toolbar.use,

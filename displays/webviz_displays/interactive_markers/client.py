@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from webviz import Error, Level, Status
-from webviz.api.wire import Heard, Wire
+from webviz.api.connection import GraphConnection, ReceivedMessages
 from webviz.data.messages import MessageError
 from webviz.data.words import joined
 from webviz_displays.interactive_markers.reading import (
@@ -56,7 +56,7 @@ class Client:
     """Why it had to ask again, or could not, a sentence."""
     gaps: int = 0
     """Number of gaps in the sequence of updates."""
-    _heard: Heard = field(default_factory=Heard)
+    _received: ReceivedMessages = field(default_factory=ReceivedMessages)
     _answer: Future[bytes] | None = None
     _reading: Future[ServerMessage] | None = None
     """The answer or the first update; those after it wait, as their order matters."""
@@ -68,33 +68,34 @@ class Client:
     _is_early: bool = False
     """True if the update that is being read is one of these."""
 
-    def step(self, wire: Wire) -> list[News]:
+    def step(self, connection: GraphConnection) -> list[News]:
         """Take up what has happened since the last call; what changed, in order.
 
         Raises:
             ValueError: the namespace is invalid; one sentence.
         """
-        before = self._heard.endpoints
-        heard = self._heard = wire.listen(f"{self.namespace}/update", UPDATE, DEPTH)
-        if heard.has_gap or heard.endpoints != before:  # the server may have been started again
+        before = self._received.endpoints
+        received = self._received = connection.listen(f"{self.namespace}/update", UPDATE, DEPTH)
+        # In both cases the server may have been started again.
+        if received.has_gap or received.endpoints != before:
             self._restart()
-        self._waiting += heard.messages
-        if not heard.publishers:
+        self._waiting += received.messages
+        if not received.publishers:
             self._restart()
             return [News(is_all=True)] if before else []
         if len(self._waiting) > MAX_WAITING or sum(map(len, self._waiting)) > MAX_WAITING_BYTES:
             self._restart()
-        if self.state == "searching" and heard.is_ready and wire.clock_s >= self._next_s:
-            self._ask(wire.query)
-            self._next_s = wire.clock_s + PAUSE_S
-        news = self._take_answer(wire) if self.state in ("asking", "reading") else []
+        if self.state == "searching" and received.is_ready and connection.clock_s >= self._next_s:
+            self._ask(connection.query)
+            self._next_s = connection.clock_s + PAUSE_S
+        news = self._take_answer(connection) if self.state in ("asking", "reading") else []
         if self.state == "running":
-            news += self._follow(wire)
+            news += self._follow(connection)
         return news
 
     def status(self, count: int) -> Status:
         """Return the status of the connection, given the number of markers."""
-        service, publishers = f"{self.namespace}/get_interactive_markers", self._heard.publishers
+        service, publishers = f"{self.namespace}/get_interactive_markers", self._received.publishers
         if not publishers:
             text = f"No interactive marker server at {self.namespace}. Start it, or choose another."
             return Status(Level.WARN, text)
@@ -123,15 +124,15 @@ class Client:
         self.state = "asking"
         self._answer = query(f"{self.namespace}/get_interactive_markers", SERVICE, ANSWER_S)
 
-    def _take_answer(self, wire: Wire) -> list[News]:
+    def _take_answer(self, connection: GraphConnection) -> list[News]:
         try:
             if self._answer is not None and self._answer.done():
                 self.state, answer, self._answer = "reading", self._answer, None
-                self._reading = _started(read_answer, answer.result(), wire)
+                self._reading = _started(read_answer, answer.result(), connection)
             message = self._read()
         except (Error, MessageError, CancelledError) as error:
             self._restart()
-            self.problem, self._next_s = str(error), wire.clock_s + PAUSE_S
+            self.problem, self._next_s = str(error), connection.clock_s + PAUSE_S
             return []
         if message is None:
             return []
@@ -139,12 +140,12 @@ class Client:
         self.sequence, self._early = message.number, len(self._waiting)
         return [message.news] if message.news else []
 
-    def _follow(self, wire: Wire) -> list[News]:
+    def _follow(self, connection: GraphConnection) -> list[News]:
         """Apply the updates that wait, in order, until one is still being read."""
         found: list[News] = []
         while True:
             if self._reading is None and self._waiting:
-                self._reading = _started(read_update, self._waiting.popleft(), wire)
+                self._reading = _started(read_update, self._waiting.popleft(), connection)
                 self._is_early, self._early = self._early > 0, max(0, self._early - 1)
             try:
                 update = self._read()
@@ -161,7 +162,7 @@ class Client:
                     f"Update {update.number} came instead of {self.sequence + 1}. Asking again."
                 )
                 self._restart()
-                wire.wake()
+                connection.wake()
                 return found
             self.sequence += 1
             self.problem = ""
@@ -181,11 +182,11 @@ class Client:
 
 
 def _started(
-    read: Callable[[bytes], ServerMessage], cdr: bytes, wire: Wire
+    read: Callable[[bytes], ServerMessage], cdr: bytes, connection: GraphConnection
 ) -> Future[ServerMessage]:
     """Read a message, a large one in a worker."""
     if len(cdr) >= SLOW_BYTES:
-        return wire.run(read, cdr)
+        return connection.run(read, cdr)
     done: Future[ServerMessage] = Future()
     try:
         done.set_result(read(cdr))

@@ -17,9 +17,9 @@ from webviz import (
     Sample,
     Status,
 )
-from webviz.api.handles import Grip, Handle
+from webviz.api.connection import GraphConnection
+from webviz.api.handles import Drag, Handle
 from webviz.api.ports import Namespace
-from webviz.api.wire import Wire
 from webviz_displays.interactive_markers.drawing import MarkerLook
 from webviz_displays.interactive_markers.feedback import (
     BUTTON_CLICK,
@@ -92,7 +92,7 @@ class InteractiveMarkers(Display, Draggable):
         """Not connected."""
         return _State()
 
-    def talk(self, wire: Wire, ctx: Context) -> None:
+    def communicate(self, connection: GraphConnection, ctx: Context) -> None:
         """Follow the server, and send it what people do."""
         state: _State = ctx.state
         namespace = self.interactive_markers_namespace.rstrip("/")
@@ -100,19 +100,19 @@ class InteractiveMarkers(Display, Draggable):
             state.server, state.problem = None, NO_NAMESPACE
             return
         if state.server is None or state.server.client.namespace != namespace:
-            state.server = InteractiveMarkerServer(namespace, f"{wire.node}_{state.token}")
+            state.server = InteractiveMarkerServer(namespace, f"{connection.node}_{state.token}")
         server, topic = state.server, f"{namespace}/feedback"
         try:
-            news = server.client.step(wire)
-            state.refusal = wire.advertise(topic, FEEDBACK, DEPTH)
+            news = server.client.step(connection)
+            state.refusal = connection.advertise(topic, FEEDBACK, DEPTH)
         except ValueError as error:
             state.server, state.problem = None, f"{error}. Correct the namespace."
             return
         server.take(news)
         if (values := server.outgoing.next()) is not None:
-            wire.publish(topic, values)
+            connection.publish(topic, values)
         if server.outgoing or news or server.undrawn:
-            wire.wake()
+            connection.wake()
 
     def depends(self, ctx: Context) -> object:
         """The markers, and the transforms that some of them wait for."""
@@ -156,50 +156,50 @@ class InteractiveMarkers(Display, Draggable):
             return {}
         return state.server.handles(ctx.frames, self.show_visual_aids, state.refusal)
 
-    def grip(self, grip: Grip, wire: Wire, ctx: Context) -> None:
+    def drag(self, drag: Drag, connection: GraphConnection, ctx: Context) -> None:
         """Move a marker, and report it to the server as RViz does."""
         state: _State = ctx.state
         server = state.server
-        marker = server.find(grip.handle) if server else None
-        if server is None or marker is None or grip.control >= len(marker.made.parts):
+        marker = server.find(drag.handle) if server else None
+        if server is None or marker is None or drag.control >= len(marker.made.parts):
             return
-        part, frames = marker.made.parts[grip.control], ctx.frames
+        part, frames = marker.made.parts[drag.control], ctx.frames
         if part.control.mode == "none" or (
-            grip.kind == "choose" and not can_choose(marker.made.menu, grip.entry)
+            drag.kind == "choose" and not can_choose(marker.made.menu, drag.entry)
         ):
             return
 
         def send(event: int, *, is_placed: bool = True, entry: int = 0) -> None:
-            point = grip.point if is_placed else None
+            point = drag.point if is_placed else None
             values = values_of(
                 event, marker, part.control.name, frames, server.client_id, point, entry
             )
             if values is not None:
                 server.outgoing.add(values)
 
-        if grip.kind == "press":
+        if drag.kind == "press":
             marker.press()
-        is_moved = grip.pose is not None and _moves(part.control.mode) and marker.is_held
-        if is_moved and grip.pose is not None:
-            is_moved = marker.drag(part.control.name, grip.pose, grip.turned, frames)
+        is_moved = drag.pose is not None and _moves(part.control.mode) and marker.is_held
+        if is_moved and drag.pose is not None:
+            is_moved = marker.drag(part.control.name, drag.pose, drag.turned, frames)
             server.version += is_moved
-        if grip.kind == "press":
+        if drag.kind == "press":
             send(POSE_UPDATE, is_placed=False)
             send(MOUSE_DOWN)
-        elif grip.kind == "move" and is_moved:
+        elif drag.kind == "move" and is_moved:
             send(POSE_UPDATE, is_placed=False)
-        elif grip.kind == "hold":
+        elif drag.kind == "hold":
             send(KEEP_ALIVE, is_placed=False)
-        elif grip.kind == "release":
+        elif drag.kind == "release":
             if part.control.mode == "button":
                 send(BUTTON_CLICK)
             send(POSE_UPDATE, is_placed=False)
             send(MOUSE_UP)
             marker.release()
             server.version += 1
-        elif grip.kind == "choose":
-            send(MENU_SELECT, entry=grip.entry)
-        wire.wake()
+        elif drag.kind == "choose":
+            send(MENU_SELECT, entry=drag.entry)
+        connection.wake()
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
         """A marker and its control: where it is and what it can do."""

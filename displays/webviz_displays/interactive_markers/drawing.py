@@ -140,12 +140,12 @@ class ShownMarker:
             files, missing, named = self._assets.of(batch)
             self.requests |= named
             for _, level, text in (*missing, *faults_of(batch)):
-                # Invisible shapes that can be gripped are deliberate.
+                # Invisible shapes that can be dragged are deliberate.
                 if level is Level.ERROR and not self.fault:
                     self.fault = f"Control '{part.control.name}': {text}"
             nodes = nodes_of(batch, files)
             if part.control.mode != "none" and (batch.types == Marker.TEXT_VIEW_FACING).any():
-                nodes["grip"] = _around_texts(batch)
+                nodes["drag"] = _around_texts(batch)
             whose = f"c{index}/{marker.key}"
             self._nodes.append({f"{whose}/{key}": node for key, node in nodes.items()})
 

@@ -24,7 +24,7 @@ MAX_BEAMS = 100_000
 
 
 @dataclass(frozen=True)
-class BeamHits:
+class BeamPoints:
     """The beams of a scan that hit something.
 
     Args:
@@ -67,7 +67,7 @@ def fault(scan: messages.LaserScan) -> str:
     return ""
 
 
-def project(scan: messages.LaserScan) -> BeamHits:
+def project(scan: messages.LaserScan) -> BeamPoints:
     """The points of a scan without `fault`, as seen from where it was at its stamp.
 
     The rules are those of laser_geometry: a range counts if range_min <= range < range_max, and
@@ -82,9 +82,9 @@ def project(scan: messages.LaserScan) -> BeamHits:
     if over:
         beams = beams[evenly(len(beams), MAX_BEAMS)]
     angles = scan.angle_min + beams * scan.angle_increment
-    hits = ranges[beams]
-    xyz = np.zeros((len(hits), 3))
-    xyz[:, 0], xyz[:, 1] = hits * np.cos(angles), hits * np.sin(angles)
+    measured = ranges[beams]
+    xyz = np.zeros((len(measured), 3))
+    xyz[:, 0], xyz[:, 1] = measured * np.cos(angles), measured * np.sin(angles)
     others = ranges[~is_hit]
     nan, infinite = np.isnan(others), np.isinf(others)
     near, far = ~infinite & (others < scan.range_min), ~infinite & (others >= farthest)
@@ -97,17 +97,17 @@ def project(scan: messages.LaserScan) -> BeamHits:
     dropped = {reason: int(mask.sum()) for reason, mask in counts.items() if mask.any()}
     if over:
         dropped[f"over the limit of {MAX_BEAMS}"] = over
-    return BeamHits(beams, xyz, len(ranges), dropped)
+    return BeamPoints(beams, xyz, len(ranges), dropped)
 
 
-def deskew(hits: BeamHits, sample: Sample, frames: Frames) -> tuple[F64, int]:
+def deskew(points: BeamPoints, sample: Sample, frames: Frames) -> tuple[F64, int]:
     """The points as if all beams had been measured at the stamp of the scan.
 
     Each beam is placed in the fixed frame with the transform at its own time, stamp +
     i * time_increment. If it is missing, the transform of the nearest beam that has one is used.
 
     Args:
-        hits: of the scan in `sample`.
+        points: of the scan in `sample`.
         sample: of a LaserScan with a stamp.
         frames: knows the fixed frame and the transforms.
 
@@ -115,16 +115,16 @@ def deskew(hits: BeamHits, sample: Sample, frames: Frames) -> tuple[F64, int]:
         Points float64 (N, 3) in the frame of the scan at its stamp, and the number of beams
         without a transform of their own.
     """
-    ahead_ns = np.round(hits.beams * (sample.message.time_increment * 1e9)).astype(np.int64)
+    ahead_ns = np.round(points.beams * (sample.message.time_increment * 1e9)).astype(np.int64)
     positions, wxyzs, known = frames.along(sample.frame, sample.stamp_ns + ahead_ns)
     known &= is_drawable(positions)
     missing = int(len(known) - known.sum())
     if missing == len(known):
-        return hits.xyz, missing
+        return points.xyz, missing
     if missing:
         has = np.flatnonzero(known)
         middles = (has[1:] + has[:-1] + 1) // 2
         nearest = has[np.searchsorted(middles, np.arange(len(known)), side="right")]
         positions, wxyzs = positions[nearest], wxyzs[nearest]
-    fixed = np.einsum("nij,nj->ni", matrices(wxyzs), hits.xyz) + positions
+    fixed = np.einsum("nij,nj->ni", matrices(wxyzs), points.xyz) + positions
     return (fixed - sample.pose.position) @ matrices(sample.pose.wxyz), missing

@@ -23,7 +23,7 @@ from webviz import (
     Sweep,
     Topic,
 )
-from webviz.api.evidence import Hits
+from webviz.api.consistency import ScanPoints
 from webviz.data import messages
 from webviz.data.rotations import conjugate
 from webviz_displays.laser_scan import beams
@@ -84,30 +84,30 @@ class LaserScan(PointsDisplay, Comparable, Sweep):
         if problem := beams.fault(scan):
             ctx.error("Points", problem)
             return
-        hits = beams.project(scan)
-        say = ctx.ok if len(hits.beams) else ctx.warn
-        say("Points", hits.sentence())
+        points = beams.project(scan)
+        say = ctx.ok if len(points.beams) else ctx.warn
+        say("Points", points.sentence())
         if self.alpha == 0:
-            ctx.warn("Points", f"Invisible: alpha is 0. {hits.sentence()}", opaque())
+            ctx.warn("Points", f"Invisible: alpha is 0. {points.sentence()}", opaque())
             return
-        if scan.angle_increment == 0 and hits.total > 1:
+        if scan.angle_increment == 0 and points.total > 1:
             ctx.warn(
                 "Angles",
                 "angle_increment is 0, so all beams lie on one line. Set it in the laser driver.",
             )
-        xyz = self._place(hits, sample, ctx)
-        colors = self._colors(scan, hits, xyz, sample, ctx)
+        xyz = self._place(points, sample, ctx)
+        colors = self._colors(scan, points, xyz, sample, ctx)
         # RViz draws scans in the fixed frame, so the sides of boxes lie along its axes.
         turn = conjugate(sample.pose.wxyz)
-        self.draw_points(xyz, colors, ctx, ctx, turn, ids=hits.beams)
+        self.draw_points(xyz, colors, ctx, ctx, turn, ids=points.beams)
 
-    def evidence(self, samples: Sequence[Sample], ctx: Context) -> Hits | None:
+    def consistency_input(self, samples: Sequence[Sample], ctx: Context) -> ScanPoints | None:
         """The points of the newest scan."""
         if not samples or beams.fault(samples[-1].message):
             return None
         sample = samples[-1]
         xyz = self._place(beams.project(sample.message), sample, ctx)
-        return Hits(sample.frame, sample.stamp_ns, xyz)
+        return ScanPoints(sample.frame, sample.stamp_ns, xyz)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
         """A beam: its range, intensity and angle."""
@@ -122,16 +122,16 @@ class LaserScan(PointsDisplay, Comparable, Sweep):
             values["Time after the first beam"] = Quantity(time_ms, "ms")
         return Details(f"Beam {hit.id}", values | {"Beams in the scan": len(scan.ranges)})
 
-    def _place(self, hits: beams.BeamHits, sample: Sample, ctx: Context) -> F64:
+    def _place(self, points: beams.BeamPoints, sample: Sample, ctx: Context) -> F64:
         """The points in the frame of the laser at the stamp."""
         scan: messages.LaserScan = sample.message
-        duration = (hits.total - 1) * scan.time_increment
+        duration = (points.total - 1) * scan.time_increment
         if not abs(duration) < _ENDLESS_SCAN_S:
             ctx.warn(
                 "Scan Time",
                 f"time_increment is {scan.time_increment}; using 0. Fix it in the laser driver.",
             )
-            return hits.xyz
+            return points.xyz
         if duration > LONG_SCAN_S:
             ctx.warn(
                 "Scan Time",
@@ -139,8 +139,8 @@ class LaserScan(PointsDisplay, Comparable, Sweep):
                 f"{scan.time_increment:g} s. Check that the driver gives it in seconds.",
             )
         if self.deskew == "As measured" or not duration or not sample.stamp_ns:
-            return hits.xyz
-        xyz, missing = beams.deskew(hits, sample, ctx.frames)
+            return points.xyz
+        xyz, missing = beams.deskew(points, sample, ctx.frames)
         if missing:
             ctx.warn(
                 "De-skew",
@@ -150,31 +150,41 @@ class LaserScan(PointsDisplay, Comparable, Sweep):
         return xyz
 
     def _colors(
-        self, scan: messages.LaserScan, hits: beams.BeamHits, xyz: F64, sample: Sample, ctx: Context
+        self,
+        scan: messages.LaserScan,
+        points: beams.BeamPoints,
+        xyz: F64,
+        sample: Sample,
+        ctx: Context,
     ) -> U8 | Rgb:
         """A colour for each point (N, 3), or one for all."""
         if self.color_transformer == "FlatColor":
             return self.color
         if self.color_transformer == "AxisColor":
             return self.axis_colors(xyz, Pose(), sample.pose, ctx)
-        return self.intensity_colors(self._channel(scan, hits, xyz, sample, ctx), ctx)
+        return self.intensity_colors(self._channel(scan, points, xyz, sample, ctx), ctx)
 
     def _channel(
-        self, scan: messages.LaserScan, hits: beams.BeamHits, xyz: F64, sample: Sample, ctx: Context
+        self,
+        scan: messages.LaserScan,
+        points: beams.BeamPoints,
+        xyz: F64,
+        sample: Sample,
+        ctx: Context,
     ) -> F64:
         """The values (N,) that determine the colour."""
         if self.channel_name in ("x", "y", "z"):
             return coordinate(sample.pose, xyz, "xyz".index(self.channel_name))
         if self.channel_name == "intensity":
             count = len(scan.intensities)
-            if count == hits.total:
-                return scan.intensities[hits.beams].astype(np.float64)
+            if count == points.total:
+                return scan.intensities[points.beams].astype(np.float64)
             if count:
                 ctx.warn(
                     "Intensity",
-                    f"The scan has {count} intensities for {hits.total} ranges; "
+                    f"The scan has {count} intensities for {points.total} ranges; "
                     "colouring by range.",
                 )
             else:
                 ctx.ok("Intensity", "The scan has no intensities; colouring by range.")
-        return scan.ranges[hits.beams].astype(np.float64)
+        return scan.ranges[points.beams].astype(np.float64)

@@ -27,7 +27,7 @@ from webviz import (
     Topic,
     compose,
 )
-from webviz.api.evidence import Walls
+from webviz.api.consistency import OccupiedCells
 from webviz.data.words import counted, joined
 from webviz_displays.map.cells import MEANINGS, cell_details, tile_key
 from webviz_displays.map.palettes import lookup_table
@@ -276,12 +276,12 @@ class Map(MapDisplay, Comparable):
         Prop(help="Topic of partial updates; empty means the map's topic + _updates."),
     ] = Topic()
 
-    def evidence(self, samples: Sequence[Sample], ctx: Context) -> Walls | None:
+    def consistency_input(self, samples: Sequence[Sample], ctx: Context) -> OccupiedCells | None:
         """Where the map has walls; costmaps have what a robot keeps away from."""
         grid: TiledGrid | None = samples[-1].message.grid if samples else None
         if grid is None or self.color_scheme != "map" or not self.alpha:
             return None
-        return Walls(
+        return OccupiedCells(
             self.topic.name, grid.frame, grid.origin, grid.resolution, partial(window, grid)
         )
 

@@ -24,8 +24,8 @@ from webviz import (
     Topic,
     compose,
 )
+from webviz.api.connection import GraphConnection
 from webviz.api.nodes import POINTS_HELD
-from webviz.api.wire import Wire
 from webviz.data.words import counted, joined
 from webviz_displays.map_cloud.known import KnownMap
 from webviz_displays.map_cloud.node_cloud import CloudSettings, NodeCloud
@@ -186,18 +186,18 @@ class MapCloud(PointsDisplay, ProtocolClient):
         )
         return (state or KnownMap()).merged(sample.message, settings)
 
-    def talk(self, wire: Wire, ctx: Context) -> None:
+    def communicate(self, connection: GraphConnection, ctx: Context) -> None:
         """Ask for the data of nodes that were published before the viewer listened."""
         state: _State = ctx.state
         try:
-            state.refused = wire.advertise(self._requests, IDS, 1)
+            state.refused = connection.advertise(self._requests, IDS, 1)
         except ValueError as error:
             state.refused = joined(str(error), "Correct Download Namespace.")
         missing = frozenset(state.missing[:MAX_ASKED])
-        if missing - state.asked or (missing and wire.clock_s >= state.again_s):
-            state.asked, state.again_s = missing, wire.clock_s + AGAIN_S
+        if missing - state.asked or (missing and connection.clock_s >= state.again_s):
+            state.asked, state.again_s = missing, connection.clock_s + AGAIN_S
             if not state.refused:
-                wire.publish(self._requests, {"data": sorted(missing)})
+                connection.publish(self._requests, {"data": sorted(missing)})
 
     def depends(self, ctx: Context) -> tuple[int, str]:
         """Return how many points browsers hold, and why no data can be asked for."""

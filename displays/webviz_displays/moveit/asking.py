@@ -6,7 +6,7 @@ from concurrent.futures import CancelledError, Future
 from dataclasses import dataclass, field
 
 from webviz import Context, Error
-from webviz.api.wire import Wire
+from webviz.api.connection import GraphConnection
 from webviz.data.messages import decode
 from webviz.data.words import joined
 from webviz_displays.moveit.scene import KnownScene, updated
@@ -38,7 +38,7 @@ class Asking:
     _next_s: float = 0.0
     _tries: int = field(default=0)
 
-    def step(self, namespace: str, wire: Wire, ctx: Context) -> None:
+    def step(self, namespace: str, connection: GraphConnection, ctx: Context) -> None:
         """Ask, or take the answer."""
         service = "/".join(["", *filter(None, namespace.split("/")), "get_planning_scene"])
         if service != self.service:
@@ -49,17 +49,17 @@ class Asking:
         if self._received is not None:
             self._read(self._received, ctx)
             return
-        if self._answer is None and self._tries < MAX_TRIES and wire.clock_s >= self._next_s:
+        if self._answer is None and self._tries < MAX_TRIES and connection.clock_s >= self._next_s:
             self._tries += 1
             try:
-                self._answer = wire.query(service, SERVICE, ANSWER_S)
+                self._answer = connection.query(service, SERVICE, ANSWER_S)
             except ValueError as error:
                 self.problem = joined(str(error), "Correct the namespace.")
                 self._tries = MAX_TRIES
                 return
         if self._answer is not None and self._answer.done():
-            self._take(self._answer, wire.clock_s)
-            wire.wake()
+            self._take(self._answer, connection.clock_s)
+            connection.wake()
 
     def _take(self, answer: Future[bytes], clock_s: float) -> None:
         self._answer, self._next_s = None, clock_s + PAUSE_S

@@ -22,7 +22,7 @@ from webviz import (
     Sample,
     Topic,
 )
-from webviz.api.wire import Wire
+from webviz.api.connection import GraphConnection
 from webviz_displays.moveit.asking import Asking
 from webviz_displays.moveit.bodies import SLOW_BYTES
 from webviz_displays.moveit.joints import JointValues, joints_of
@@ -137,12 +137,12 @@ class MotionPlanning(Display, ProtocolClient):
             return replace(before, ends=tuple(ends.items()))
         return replace(before, received=before.received.with_sample(name, sample))
 
-    def talk(self, wire: Wire, ctx: Context) -> None:
+    def communicate(self, connection: GraphConnection, ctx: Context) -> None:
         """Ask move_group for the whole scene, and for the next turn while the robot moves."""
         state: MotionPlanningDrawing = ctx.state
-        state.asking.step(self.move_group_namespace, wire, ctx)
+        state.asking.step(self.move_group_namespace, connection, ctx)
         if state.view.player.is_moving:
-            wire.wake()
+            connection.wake()
 
     def depends(self, ctx: Context) -> object:
         """Loading progress, the scene of move_group, frames, and the point of the path."""

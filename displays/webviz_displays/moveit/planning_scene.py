@@ -17,7 +17,7 @@ from webviz import (
     Sample,
     Topic,
 )
-from webviz.api.wire import Wire
+from webviz.api.connection import GraphConnection
 from webviz.data.words import joined
 from webviz_displays.moveit.asking import Asking
 from webviz_displays.moveit.bodies import SLOW_BYTES
@@ -108,10 +108,10 @@ class PlanningScene(Display, ProtocolClient):
         """Apply each change to the scene."""
         return (state or ReceivedPlanningScene()).with_sample(name, sample)
 
-    def talk(self, wire: Wire, ctx: Context) -> None:
+    def communicate(self, connection: GraphConnection, ctx: Context) -> None:
         """Ask move_group for the whole scene."""
         state: PlanningSceneDrawing = ctx.state
-        state.asking.step(self.move_group_namespace, wire, ctx)
+        state.asking.step(self.move_group_namespace, connection, ctx)
 
     def depends(self, ctx: Context) -> object:
         """Loading progress, the answer of move_group, and frames that objects wait for."""

@@ -21,7 +21,7 @@ from webviz import (
     Sample,
     Topic,
 )
-from webviz.api.wire import Wire
+from webviz.api.connection import GraphConnection
 from webviz.data.words import counted
 from webviz_displays.moveit.bodies import SLOW_BYTES, named
 from webviz_displays.moveit.octomap import Coloring, Rendering
@@ -184,15 +184,15 @@ class MotionPlanningTasks(Display, ProtocolClient):
         """Remember stages and numbers of each task, and the newest solution."""
         return (state or KnownTasks()).with_message(name, sample.message)
 
-    def talk(self, wire: Wire, ctx: Context) -> None:
+    def communicate(self, connection: GraphConnection, ctx: Context) -> None:
         """Ask for the chosen solution, and for the next turn while the robot moves."""
         state: TasksDrawing = ctx.state
         task = state.tasks.task_of(self.solution) if self.solution else ""
         folder = self.task_solution_topic.name.rpartition("/")[0]
         service = f"{folder}/get_solution_{task}"
-        state.request.step((service, self.solution) if task else None, wire)
+        state.request.step((service, self.solution) if task else None, connection)
         if state.view.player.is_moving:
-            wire.wake()
+            connection.wake()
 
     def depends(self, ctx: Context) -> object:
         """Loading progress, frames, the answer, and the point of the path."""

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from webviz import Context, Details, Error, Hit
-from webviz.api.wire import Wire
+from webviz.api.connection import GraphConnection
 from webviz.data.messages import decode
 from webviz.data.messages.markers import MarkerSequence
 from webviz_displays.markers.assets import Assets
@@ -103,17 +103,17 @@ class SolutionRequest:
     _answer: Future[bytes] | None = None
     _reading: Future[Any] | None = None
 
-    def step(self, wanted: tuple[str, int] | None, wire: Wire) -> None:
+    def step(self, wanted: tuple[str, int] | None, connection: GraphConnection) -> None:
         """Ask once, and take the answer."""
         if wanted != self.wanted:
             self.wanted, self.solution, self.problem = wanted, None, ""
             self._answer = self._reading = None
             if wanted is not None:
-                self._ask(*wanted, wire)
+                self._ask(*wanted, connection)
         try:
             if self._answer is not None and self._answer.done():
                 answer, self._answer = self._answer, None
-                self._reading = wire.run(_solution_of, answer.result())
+                self._reading = connection.run(_solution_of, answer.result())
             if self._reading is not None and self._reading.done():
                 reading, self._reading = self._reading, None
                 self.solution = reading.result()
@@ -122,14 +122,14 @@ class SolutionRequest:
                         None,
                         "The task does not have it any more. Choose another.",
                     )
-                wire.wake()
+                connection.wake()
         except (Error, CancelledError) as error:
             self.problem = str(error)
-            wire.wake()
+            connection.wake()
 
-    def _ask(self, service: str, solution: int, wire: Wire) -> None:
+    def _ask(self, service: str, solution: int, connection: GraphConnection) -> None:
         try:
-            self._answer = wire.query(service, SERVICE, ANSWER_S, {"solution_id": solution})
+            self._answer = connection.query(service, SERVICE, ANSWER_S, {"solution_id": solution})
         except ValueError as error:
             self.problem = str(error)
 

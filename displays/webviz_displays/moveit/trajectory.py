@@ -16,7 +16,7 @@ from webviz import (
     Sample,
     Topic,
 )
-from webviz.api.wire import Wire
+from webviz.api.connection import GraphConnection
 from webviz_displays.moveit.path_view import PREFIX, PathView, playback_of
 from webviz_displays.moveit.properties import (
     ATTACHED,
@@ -84,11 +84,11 @@ class Trajectory(Display, ProtocolClient):
         """Paths are played when they arrive."""
         return False
 
-    def talk(self, wire: Wire, ctx: Context) -> None:
+    def communicate(self, connection: GraphConnection, ctx: Context) -> None:
         """Ask for the next turn while the robot moves."""
         state: TrajectoryDrawing = ctx.state
         if state.view.player.is_moving:
-            wire.wake()
+            connection.wake()
 
     def depends(self, ctx: Context) -> object:
         """Loading progress, and the point of the path."""

@@ -23,7 +23,7 @@ from webviz_displays.robot_model.statuses import (
     report_link,
     report_places,
     report_robot,
-    report_strangers,
+    report_unknown,
 )
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.frame_names import prefixed
@@ -157,8 +157,8 @@ class RobotModel(Display):
                 "Neither visual nor collision shapes are switched on. Enable one of them.",
                 Remedy("visual_enabled", True, "Show visual shapes"),
             )
-        report_strangers("Link", list(self.links), list(model.robot.links), ctx)
-        report_strangers("Joint", list(self.joints), list(model.robot.joints), ctx)
+        report_unknown("Link", list(self.links), list(model.robot.links), ctx)
+        report_unknown("Joint", list(self.joints), list(model.robot.joints), ctx)
         for name in [joint for joint in self.joints if joint in model.robot.joints][:NAMED]:
             report_joint(model.robot.joints[name], ctx)
         paint = state.paint

@@ -3,8 +3,8 @@
 from webviz.engine.commands.command import MAX_PRIORITY, PROGRAM, Command, Sender
 from webviz.engine.commands.displays import (
     AddDisplay,
+    DragHandle,
     DuplicateDisplay,
-    GripHandle,
     MoveDisplay,
     RemoveDisplay,
     ResetDisplay,
@@ -84,12 +84,12 @@ __all__ = [
     "ChangeView",
     "Command",
     "DismissGoal",
+    "DragHandle",
     "DuplicateDisplay",
     "Export",
     "FileCommand",
     "FocusDisplay",
     "FocusFrame",
-    "GripHandle",
     "Identify",
     "InspectSelections",
     "InspectTopic",

@@ -7,7 +7,7 @@ from concurrent.futures import Future
 from dataclasses import dataclass, field
 from typing import Any
 
-from webviz.api.handles import Grip
+from webviz.api.handles import Drag
 from webviz.engine.commands.command import Command, ignore
 from webviz.engine.state.trace import Trace
 
@@ -94,13 +94,13 @@ class TraceDisplay(Command):
 
 
 @dataclass(frozen=True)
-class GripHandle(Command):
-    """Do something with a handle; see `webviz.api.handles.Grip`.
+class DragHandle(Command):
+    """Do something with a handle; see `webviz.api.handles.Drag`.
 
     Args:
         display: id of the display that has it.
-        grip: what is done.
+        drag: what is done.
     """
 
     display: str
-    grip: Grip
+    drag: Drag

@@ -23,7 +23,7 @@ def observe(
         environment: of this machine, None if unknown.
     """
     runners = {runner.id: runner for runner in displays.list.active()}
-    comparison = displays.comparison
+    consistency = displays.consistency
     seen = [
         DisplaySeen(
             id=row.id,
@@ -31,8 +31,8 @@ def observe(
             display=row.display,
             statuses=row.statuses,
             inputs=runners[row.id].observed(),
-            fit=comparison.fits.get(row.id),
-            blocked=comparison.blocked.get(row.id, 0),
+            fit=consistency.fits.get(row.id),
+            blocked=consistency.blocked.get(row.id, 0),
         )
         for row in state.rows
         if row.id in runners and isinstance(row.display, Display) and not _is_group(row)

@@ -22,7 +22,7 @@ from webviz.engine.commands import (
     SetProperty,
     TraceDisplay,
 )
-from webviz.engine.parts.comparison import Comparison
+from webviz.engine.parts.consistency import ConsistencyCheck
 from webviz.engine.parts.display_list import DisplayList
 from webviz.engine.parts.display_rows import rows
 from webviz.engine.parts.part import Batches, Core, Handler, Part
@@ -50,7 +50,7 @@ class DisplaysPart(Part):
         super().__init__(core)
         self.list = DisplayList(services)
         self._tracer = services.tracer
-        self.comparison = Comparison(core, self.list)
+        self.consistency = ConsistencyCheck(core, self.list)
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
@@ -90,7 +90,7 @@ class DisplaysPart(Part):
 
     def state(self) -> Mapping[str, Any]:
         """The list of displays."""
-        self.core.guard("Comparison", self.comparison.update)
+        self.core.guard("Consistency check", self.consistency.update)
         return {"rows": rows(self.list.entries, self._statuses_of)}
 
     def _statuses_of(self, runner: Runner) -> Mapping[str, Status]:

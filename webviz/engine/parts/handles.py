@@ -9,9 +9,9 @@ from typing import Any
 
 from webviz.api.errors import Error
 from webviz.api.frames import is_placeable
-from webviz.api.handles import Grip, Handle
+from webviz.api.handles import Drag, Handle
 from webviz.api.nodes import Pose
-from webviz.engine.commands import Command, GripHandle, Sender
+from webviz.engine.commands import Command, DragHandle, Sender
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.pipeline import Runner
@@ -26,12 +26,12 @@ class _Hold:
 
     Args:
         browser: that holds it.
-        grip: its newest.
+        drag: its newest.
         heard_s: when that came, monotonic.
     """
 
     browser: int | None
-    grip: Grip
+    drag: Drag
     heard_s: float
 
 
@@ -56,7 +56,7 @@ class HandlesPart(Part):
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
         """The handler of each command."""
-        return {GripHandle: self._grip}
+        return {DragHandle: self._drag}
 
     def keep_up(self, commanded: bool) -> None:
         """Release what silent browsers hold, and forget handles that are gone."""
@@ -66,8 +66,8 @@ class HandlesPart(Part):
                 del self._holds[display, key]
             elif self.core.clock() - hold.heard_s > SILENCE_S:
                 del self._holds[display, key]
-                grip = replace(hold.grip, kind="release", pose=None, point=None)
-                runner.grip(grip, self.core.frames)
+                drag = replace(hold.drag, kind="release", pose=None, point=None)
+                runner.drag(drag, self.core.frames)
 
     def state(self) -> Mapping[str, Any]:
         """All handles, with the browsers that hold them."""
@@ -85,45 +85,45 @@ class HandlesPart(Part):
             }
         return {"handles": self._found}
 
-    def _grip(self, command: GripHandle, sender: Sender) -> None:
-        grip, place = _checked(command.grip), (command.display, command.grip.handle)
+    def _drag(self, command: DragHandle, sender: Sender) -> None:
+        drag, place = _checked(command.drag), (command.display, command.drag.handle)
         runner = self._runner(command.display)
-        handle = runner.handles().get(grip.handle) if runner else None
-        if runner is None or handle is None or not 0 <= grip.control < len(handle.controls):
+        handle = runner.handles().get(drag.handle) if runner else None
+        if runner is None or handle is None or not 0 <= drag.control < len(handle.controls):
             raise Error("This handle does not exist any more.")
         if handle.refusal:
             raise Error(handle.refusal)
         hold = self._holds.get(place)
         if hold is not None and hold.browser != sender.browser:
             raise Error(f"{handle.name}: browser {hold.browser} holds it. Wait until it lets go.")
-        if grip.kind == "press":
+        if drag.kind == "press":
             if hold is not None:  # whose release got lost
-                runner.grip(replace(hold.grip, kind="release", pose=None), self.core.frames)
-            self._holds[place] = _Hold(sender.browser, grip, self.core.clock())
-        elif grip.kind == "release":
+                runner.drag(replace(hold.drag, kind="release", pose=None), self.core.frames)
+            self._holds[place] = _Hold(sender.browser, drag, self.core.clock())
+        elif drag.kind == "release":
             if self._holds.pop(place, None) is None:
                 return
-        elif grip.kind != "choose":
-            if hold is None or hold.grip.control != grip.control:
+        elif drag.kind != "choose":
+            if hold is None or hold.drag.control != drag.control:
                 return  # it was taken from a browser that was silent for too long
-            hold.grip, hold.heard_s = grip, self.core.clock()
-        runner.grip(grip, self.core.frames)
+            hold.drag, hold.heard_s = drag, self.core.clock()
+        runner.drag(drag, self.core.frames)
 
     def _runner(self, id: str) -> Runner | None:
         return next((each for each in self._displays.list.active() if each.id == id), None)
 
 
-def _checked(grip: Grip) -> Grip:
-    """A grip with a pose and a point that are finite and near enough, and a unit quaternion."""
-    pose = grip.pose
+def _checked(drag: Drag) -> Drag:
+    """A drag with a pose and a point that are finite and near enough, and a unit quaternion."""
+    pose = drag.pose
     if pose is not None:
         length = math.hypot(*pose.wxyz)
         if not (is_placeable(pose) and length > 1e-6):
             raise Error("Not moved: the pose is not finite, or too far away.")
         w, x, y, z = (value / length for value in pose.wxyz)
         pose = Pose(pose.position, (w, x, y, z))
-    if grip.point is not None and not is_placeable(Pose(grip.point)):
-        grip = replace(grip, point=None)
-    if not math.isfinite(grip.turned):
+    if drag.point is not None and not is_placeable(Pose(drag.point)):
+        drag = replace(drag, point=None)
+    if not math.isfinite(drag.turned):
         raise Error("Not moved: the angle is not finite.")
-    return replace(grip, pose=pose, turned=math.remainder(grip.turned, 4 * math.pi))
+    return replace(drag, pose=pose, turned=math.remainder(drag.turned, 4 * math.pi))

@@ -6,19 +6,19 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from webviz.api.capabilities import Comparable, capability
+from webviz.api.consistency import ConsistencyInput
 from webviz.api.context import ColorScale
 from webviz.api.declared import set_property
 from webviz.api.display import Display, inputs, overrides
-from webviz.api.evidence import Evidence
 from webviz.api.frames import Frames
-from webviz.api.handles import Grip, Handle
+from webviz.api.handles import Drag, Handle
 from webviz.api.observation import InputSeen
 from webviz.api.picking import Details
 from webviz.api.robots import NamespacedRobot, RobotFrames, robot_of
 from webviz.api.status import Level, OtherFixedFrame, Status, worst
 from webviz.engine.commands import Picks
 from webviz.engine.commands.guard import Guard
-from webviz.engine.pipeline.gripping import Gripping
+from webviz.engine.pipeline.dragging import Dragging
 from webviz.engine.pipeline.history import held_samples
 from webviz.engine.pipeline.picking import Found
 from webviz.engine.pipeline.renderer import Renderer
@@ -49,7 +49,7 @@ class Runner:
         """Statuses from elsewhere, shown with those of the display."""
         self._services = services
         self._renderer = Renderer(id, services.scene, services.workers, services.points)
-        self._gripping = Gripping(id, display, services)
+        self._dragging = Dragging(id, display, services)
         self._comparable = capability(display, Comparable)
         self._guard = self._new_guard()
         self._sample_buffer = self._new_sample_buffer()
@@ -82,7 +82,7 @@ class Runner:
         """
         old, self.display = self.display, display
         self._guard = self._new_guard()
-        self._gripping.replace(display)
+        self._dragging.replace(display)
         self._comparable = capability(display, Comparable)
         if _sample_source(old) != _sample_source(display):
             self.reset()
@@ -105,28 +105,28 @@ class Runner:
         """Draw nothing until the next call of `draw`; messages are kept, latched ones read anew."""
         self._sample_buffer.inputs.ask()
         self._renderer.hide()
-        self._gripping.hide()
+        self._dragging.hide()
 
     def subscriptions(self) -> dict[str, Subscription]:
         """The subscriptions by topic, none while the display is disabled."""
         if not self.display.enabled:
             return {}
-        return merged([self._sample_buffer.inputs.subscriptions(), self._gripping.subscriptions()])
+        return merged([self._sample_buffer.inputs.subscriptions(), self._dragging.subscriptions()])
 
     def advertisements(self) -> list[Advertisement]:
         """Return the publishers of the display, none while it is disabled."""
-        return self._gripping.advertisements() if self.display.enabled else []
+        return self._dragging.advertisements() if self.display.enabled else []
 
     def reset(self) -> None:
         """Discard all messages, such as after a jump of time."""
         self._sample_buffer.reset()
         self._services.tracer.forget(self.id)
         self._renderer.forget()
-        self._gripping.hide()
+        self._dragging.hide()
 
     def close(self) -> None:
         """Remove everything from the scene, and end the slow work."""
-        self._gripping.hide()
+        self._dragging.hide()
         self._renderer.close()
         self._services.tracer.forget(self.id)
 
@@ -138,7 +138,7 @@ class Runner:
         """Take the messages of this turn; cheap, also called without browsers."""
         if self.display.enabled:
             self._guard("take", self._sample_buffer.take, batches, self._own(frames), offers)
-            self._gripping.take(batches, offers)
+            self._dragging.take(batches, offers)
 
     def draw(self, frames: Frames) -> None:
         """Update the scene."""
@@ -156,7 +156,7 @@ class Runner:
     def is_busy(self) -> bool:
         """Return whether the result of slow work is not drawn yet."""
         is_busy = (
-            self._sample_buffer.busy_with or self._renderer.is_busy() or self._gripping.is_busy()
+            self._sample_buffer.busy_with or self._renderer.is_busy() or self._dragging.is_busy()
         )
         return self.display.enabled and bool(is_busy)
 
@@ -164,13 +164,13 @@ class Runner:
         """The frames whose poses `draw` needs."""
         if not self.display.enabled:
             return set()
-        return self._renderer.followed() | self._gripping.followed()
+        return self._renderer.followed() | self._dragging.followed()
 
     def color_scale(self) -> ColorScale | None:
         """Return the range of values that colours stand for, None if none is visible."""
         return None if self._renderer.is_empty() else self._renderer.color_scale()
 
-    def evidence(self, frames: Frames) -> Evidence | None:
+    def consistency_input(self, frames: Frames) -> ConsistencyInput | None:
         """Return the inputs of the consistency check; None if nothing of it can be seen."""
         if self._comparable is None or self._renderer.is_empty():
             return None
@@ -178,7 +178,9 @@ class Runner:
         if context is None:
             return None
         samples = held_samples(self._sample_buffer.histories)
-        return self._guard.attempt("evidence", None, self._comparable.evidence, samples, context)
+        return self._guard.attempt(
+            "consistency_input", None, self._comparable.consistency_input, samples, context
+        )
 
     def observed(self) -> tuple[InputSeen, ...]:
         """Its inputs, as the checks of the doctor see them."""
@@ -188,12 +190,12 @@ class Runner:
 
     def handles(self) -> Mapping[str, Handle]:
         """Return the handles browsers can drag, by key; another object only after a change."""
-        return self._gripping.handles
+        return self._dragging.handles
 
-    def grip(self, grip: Grip, frames: Frames) -> None:
+    def drag(self, drag: Drag, frames: Frames) -> None:
         """Let the display take up what a browser does with a handle."""
         if context := self._renderer.context(self.display, self._guard, self._own(frames)):
-            self._gripping.grip(grip, self._guard, context)
+            self._dragging.drag(drag, self._guard, context)
 
     # Selection
 
@@ -245,7 +247,7 @@ class Runner:
         robots = self._services.robots()
         if not robots:
             return frames
-        known_by = robots, self._sample_buffer, self._gripping.topics()
+        known_by = robots, self._sample_buffer, self._dragging.topics()
         if known_by != self._known_by:
             self._known_by = known_by
             self._robot = robot_of([*self._sample_buffer.inputs.topics(), *known_by[-1]], robots)
@@ -261,7 +263,7 @@ class Runner:
     def _draw(self, frames: Frames) -> None:
         self._renderer.is_stale |= self._sample_buffer.prepare(frames)
         if context := self._renderer.context(self.display, self._guard, frames):
-            self._gripping.talk(self._guard, context)
+            self._dragging.communicate(self._guard, context)
         self._renderer.draw(self.display, self._guard, self._sample_buffer.histories, frames)
         if self._services.tracer.wants(self.id) and not self._renderer.busy_with:
             self._services.tracer.drawn(self.id)

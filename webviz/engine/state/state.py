@@ -309,7 +309,7 @@ class State:
         panels: of plug-ins, in the order of their tabs.
         goals: that tools sent to actions, oldest first.
         driving: the vehicles that browsers attend to, by id of their tool.
-        handles: what browsers can grip, by id of the display and key, each with the id of the
+        handles: what browsers can drag, by id of the display and key, each with the id of the
             browser that holds it.
         history: what can be undone and redone.
         playback: the recording that is played, None for live topics.

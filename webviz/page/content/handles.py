@@ -8,7 +8,7 @@ from typing import ClassVar
 import msgspec
 
 from webviz.api.handles import Control, Facing, Handle, MenuEntry, Mode, Wxyz
-from webviz.engine.pipeline.gripping import reference_group
+from webviz.engine.pipeline.dragging import reference_group
 from webviz.engine.state import State
 from webviz.page.content.forms import brief
 from webviz.page.content.store import PageStore

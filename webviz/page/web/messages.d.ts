@@ -188,11 +188,11 @@ export interface Commands {
   ChangeView: { key: string; value: unknown };
   Dismiss: { visitor: number; revokes: boolean };
   DismissGoal: { goal: string };
+  DragHandle: { display: string; drag: { handle: string; control: number; kind: "choose" | "hold" | "move" | "press" | "release"; pose?: { position?: [number, number, number]; wxyz?: [number, number, number, number] } | null; turned?: number; point?: [number, number, number] | null; entry?: number } };
   DuplicateDisplay: { display: string };
   Export: { name?: string };
   FocusDisplay: { display: string };
   FocusFrame: { frame: string };
-  GripHandle: { display: string; grip: { handle: string; control: number; kind: "choose" | "hold" | "move" | "press" | "release"; pose?: { position?: [number, number, number]; wxyz?: [number, number, number, number] } | null; turned?: number; point?: [number, number, number] | null; entry?: number } };
   Identify: { picks: { group: string; key: string; items: Array<[number, number | null, [number, number, number], [number, number, number] | null]> } };
   Invite: { name: string; role: "operator" | "owner" | "watcher"; days: number | null; url: string };
   Load: { text: string; name: string };

@@ -27,7 +27,7 @@ COMMANDS: Mapping[type[Any], Role] = {
     commands.CancelGoal: Role.OPERATOR,
     commands.DismissGoal: Role.OPERATOR,
     commands.DuplicateDisplay: Role.OPERATOR,
-    commands.GripHandle: Role.OPERATOR,
+    commands.DragHandle: Role.OPERATOR,
     commands.MoveDisplay: Role.OPERATOR,
     commands.Pause: Role.OPERATOR,
     commands.Play: Role.OPERATOR,

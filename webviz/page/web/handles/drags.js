@@ -46,7 +46,7 @@ const WHEEL_PX = 20; // that a notch of the wheel stands for
  * Begins a drag of a control.
  *
  * `start`: `{control, pose, turned, grab, sight, at}`; `pose` is that of the handle, `turned` the
- * angle by which the control has been turned so far, `grab` the point that is gripped.
+ * angle by which the control has been turned so far, `grab` the point that is dragged.
  *
  * @param {Start} start
  * @returns {(pointer: Pointer, sight: View) => Moved | null}
@@ -164,18 +164,18 @@ function freely({ control, pose, grab, sight, at }) {
   /** @type {{from: Vec3 | null, base: Vec3, point: Vec3} | null} */
   let slide = null; // in the plane of the screen, since the keys mean that
   return ({ at, by, wheel, shift, ctrl }, sight) => {
-    const gripped = add(grab, sub(position, pose.position));
+    const dragged = add(grab, sub(position, pose.position));
     if (control.mode === "rotate_3d" || (control.mode === "move_rotate_3d" && ctrl)) {
       wxyz = unit(turnedBy(spin(by, shift, sight), wxyz));
     } else if (shift || wheel) {
       const [dx, dy] = shift ? by : [0, 0];
       const up = Math.abs(dx) > Math.abs(dy) ? dx : -dy;
       const pixels = up - wheel * WHEEL_PX;
-      position = add(position, scaled(away, pixels * sight.perPixel(gripped)));
+      position = add(position, scaled(away, pixels * sight.perPixel(dragged)));
     } else {
       /** @param {Vec2} xy */
-      const on = (xy) => onPlane(sight.rayAt(xy), gripped, sight.forward);
-      slide ??= { from: on([at[0] - by[0], at[1] - by[1]]), base: position, point: gripped };
+      const on = (xy) => onPlane(sight.rayAt(xy), dragged, sight.forward);
+      slide ??= { from: on([at[0] - by[0], at[1] - by[1]]), base: position, point: dragged };
       const hit = onPlane(sight.rayAt(at), slide.point, sight.forward);
       if (!hit || !slide.from) return null;
       position = add(slide.base, sub(hit, slide.from));

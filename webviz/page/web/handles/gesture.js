@@ -22,7 +22,7 @@ import { frameNode, sightOf } from "./sight.js";
 /** @import {SceneEvent, Three, Vec2, Vec3} from "../types.js" */
 
 /**
- * @typedef {Commands["GripHandle"]["grip"]} Grip
+ * @typedef {Commands["DragHandle"]["grip"]} Grip
  * @typedef {Part & {point: Three}} Place
  * @typedef {Part & {at: Vec2, pointer: number, isResting?: boolean}} Asked
  * @typedef {Part & {
@@ -62,7 +62,7 @@ export function install() {
     if (!handle || (drag.wasMine && !isMine)) lose(drag);
     else drag.wasMine ||= isMine;
   });
-  act.onAnswer("GripHandle", ({ number, text }) => {
+  act.onAnswer("DragHandle", ({ number, text }) => {
     tell("warn", text);
     if (drag && number >= drag.first) lose(drag);
   });
@@ -128,7 +128,7 @@ function press(part, event) {
   const control = known.controlOf(part);
   if (!handle || !control) return false;
   const refusal =
-    why("GripHandle") ||
+    why("DragHandle") ||
     handle.refusal ||
     (handle.holder !== null && `Browser ${handle.holder} holds it.`);
   if (refusal) {
@@ -351,7 +351,7 @@ function wordsOf(part) {
   const handle = known.all().get(part.id);
   const control = known.controlOf(part);
   if (!handle || !control) return "";
-  const reason = why("GripHandle");
+  const reason = why("DragHandle");
   if (reason) return `${handle.name}: ${reason}`;
   const { mode, help } = control;
   const does = DOES[mode] ?? (TURNS.test(mode) ? "Rotate" : "Move");
@@ -384,5 +384,5 @@ function send(drag, kind, more = {}) {
  */
 function sendTo({ id, control }, kind, more) {
   const [display, handle] = [id.slice(0, id.indexOf("/")), id.slice(id.indexOf("/") + 1)];
-  return act.send("GripHandle", { display, grip: { handle, control, kind, ...more } });
+  return act.send("DragHandle", { display, drag: { handle, control, kind, ...more } });
 }

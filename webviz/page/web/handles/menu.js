@@ -27,6 +27,6 @@ const itemsOf = (entries, choose) =>
     disabled: Boolean(refusal),
     tip: refusal,
     items: below.length ? itemsOf(below, choose) : undefined,
-    needs: "GripHandle",
+    needs: "DragHandle",
     run: () => choose(id),
   }));

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz.api.evidence import GOOD, Fit
+from webviz.api.consistency import GOOD, Fit
 
 F64 = NDArray[np.float64]
 C128 = NDArray[np.complex128]
@@ -67,7 +67,7 @@ def fit(
         heading: direction of the laser's x axis there, in radians.
         points: (N,), the points of the scan relative to the laser, likewise.
         resolution: edge of a cell in metres.
-        window: see `webviz.api.evidence.Walls`.
+        window: see `webviz.api.consistency.OccupiedCells`.
     """
     reach = min(REACH_CELLS, math.ceil((np.abs(points).max(initial=0.0) + SHIFT_M) / resolution))
     distances = np.abs(points)

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from dataclasses import dataclass
 
-from webviz.engine.commands import Command, GripHandle, Sender
+from webviz.engine.commands import Command, DragHandle, Sender
 from webviz.page.asked import Asked
 
 FORGOTTEN_S = 10.0
@@ -25,12 +25,12 @@ class _Hand:
     """
 
     sent: Future[str] | None = None
-    next: tuple[Asked, GripHandle] | None = None
+    next: tuple[Asked, DragHandle] | None = None
     heard_s: float = 0.0
 
 
-class GripMessages:
-    """Passes on grips. Of these, only refusals are answered.
+class DragMessages:
+    """Passes on drags. Of these, only refusals are answered.
 
     Args:
         enqueue: takes commands, from any thread.
@@ -46,14 +46,14 @@ class GripMessages:
         self._clock = clock
         self._hands: dict[int, _Hand] = {}
 
-    def grip(self, asked: Asked, command: GripHandle) -> None:
-        """Pass a grip on, at once unless a move before it still waits for the frame loop."""
+    def drag(self, asked: Asked, command: DragHandle) -> None:
+        """Pass a drag on, at once unless a move before it still waits for the frame loop."""
         now = self._clock()
         hands = self._hands.items()
         self._hands = {id: hand for id, hand in hands if now - hand.heard_s < FORGOTTEN_S}
         hand = self._hands.setdefault(asked.browser, _Hand())
         hand.heard_s = now
-        if command.grip.kind == "move":
+        if command.drag.kind == "move":
             hand.next = asked, command
             if hand.sent is None or hand.sent.done():
                 self._move(hand)
@@ -68,7 +68,7 @@ class GripMessages:
         if move is not None:
             hand.sent = self._send(*move)
 
-    def _send(self, asked: Asked, command: GripHandle) -> Future[str]:
+    def _send(self, asked: Asked, command: DragHandle) -> Future[str]:
         sent = self._enqueue(command, asked.sender)
         sent.add_done_callback(asked.refused_by)
         return sent

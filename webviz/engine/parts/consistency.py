@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from webviz.api.evidence import Fit, Hits, MapFit, Walls, Way
+from webviz.api.consistency import Fit, MapFit, OccupiedCells, RobotPath, ScanPoints
 from webviz.api.frames import compose, is_placeable, to_pose
 from webviz.api.nodes import Pose
 from webviz.api.status import Level, Status
@@ -13,7 +13,7 @@ from webviz.data.transforms import TransformException
 from webviz.engine.parts.display_list import DisplayList
 from webviz.engine.parts.part import Core
 from webviz.engine.pipeline import Runner
-from webviz.engine.state.matching import C128, fit, in_the_way
+from webviz.engine.state.consistency import C128, fit, in_the_way
 
 EVERY_S = 1.0
 """Interval of the consistency check."""
@@ -27,7 +27,7 @@ OLD_S = 3.0
 """Age of a path whose planner seems to have stopped."""
 
 
-class Comparison:
+class ConsistencyCheck:
     """Compares what displays know of where things are, while browsers are connected.
 
     Args:
@@ -57,56 +57,60 @@ class Comparison:
             self._compare()
 
     def _compare(self) -> None:
-        scans: list[tuple[Runner, Hits]] = []
-        ways: list[tuple[Runner, Way]] = []
-        maps: list[Walls] = []
+        scans: list[tuple[Runner, ScanPoints]] = []
+        paths: list[tuple[Runner, RobotPath]] = []
+        maps: list[OccupiedCells] = []
         for runner in self._displays.active():
-            match runner.evidence(self._core.frames):
-                case Hits() as hits:
-                    scans.append((runner, hits))
-                case Way() as way:
-                    ways.append((runner, way))
-                case Walls() as walls:
-                    maps.append(walls)
-        trusted: list[Hits] = []
-        fits = [self._on_map(hits, maps) for _, hits in scans]
+            match runner.consistency_input(self._core.frames):
+                case ScanPoints() as scan:
+                    scans.append((runner, scan))
+                case RobotPath() as path:
+                    paths.append((runner, path))
+                case OccupiedCells() as cells:
+                    maps.append(cells)
+        trusted: list[ScanPoints] = []
+        fits = [self._on_map(scan, maps) for _, scan in scans]
         is_placed = any(found and found[0].is_good for found in fits)
-        for (runner, hits), found in zip(scans, fits, strict=True):
+        for (runner, scan), found in zip(scans, fits, strict=True):
             if found is not None:
-                runner.external_statuses[ON_MAP] = _status(*found, hits, is_placed)
-                best, walls = found
-                self.fits[runner.id] = MapFit(best, hits.frame, walls.topic, walls.frame, is_placed)
+                runner.external_statuses[ON_MAP] = _status(*found, scan, is_placed)
+                best, cells = found
+                self.fits[runner.id] = MapFit(best, scan.frame, cells.topic, cells.frame, is_placed)
             if found is None or found[0].is_good:
-                trusted.append(hits)
-        for runner, way in ways:
-            if (count := sum(self._in_the_way(hits, way) for hits in trusted)) >= FEWEST:
-                age_s = (self._core.now_ns - way.received_ns) / 1e9
+                trusted.append(scan)
+        for runner, path in paths:
+            if (count := sum(self._in_the_way(scan, path) for scan in trusted)) >= FEWEST:
+                age_s = (self._core.now_ns - path.received_ns) / 1e9
                 self.blocked[runner.id] = count
                 runner.external_statuses[ON_WAY] = Status(Level.WARN, _blocked(count, age_s))
 
-    def _on_map(self, hits: Hits, maps: list[Walls]) -> tuple[Fit, Walls] | None:
+    def _on_map(
+        self, scan: ScanPoints, maps: list[OccupiedCells]
+    ) -> tuple[Fit, OccupiedCells] | None:
         """Return the fit of a scan to the best map; None if it is unknown."""
-        found: list[tuple[Fit, Walls]] = []
-        for walls in maps:
-            if placed := self._placed(hits, walls.frame, walls.origin):
-                result = fit(*placed, walls.resolution, walls.window)
-                found += [(result, walls)] if result else []
+        found: list[tuple[Fit, OccupiedCells]] = []
+        for cells in maps:
+            if placed := self._placed(scan, cells.frame, cells.origin):
+                result = fit(*placed, cells.resolution, cells.window)
+                found += [(result, cells)] if result else []
         return max(found, key=lambda each: each[0].share, default=None)
 
-    def _in_the_way(self, hits: Hits, way: Way) -> int:
-        placed = self._placed(hits, way.frame, Pose())
+    def _in_the_way(self, scan: ScanPoints, path: RobotPath) -> int:
+        placed = self._placed(scan, path.frame, Pose())
         if placed is None:
             return 0
         laser, _, points = placed
-        return in_the_way(laser, points, way.xyz[:, 0] + 1j * way.xyz[:, 1])
+        return in_the_way(laser, points, path.xyz[:, 0] + 1j * path.xyz[:, 1])
 
-    def _placed(self, hits: Hits, frame: str, origin: Pose) -> tuple[complex, float, C128] | None:
+    def _placed(
+        self, scan: ScanPoints, frame: str, origin: Pose
+    ) -> tuple[complex, float, C128] | None:
         """The sensor, its heading, and its points relative to it, in the plane of `origin`.
 
         Returns None without a transform, or if the sensor is tilted out of that plane.
         """
         try:
-            pose = to_pose(self._core.buffer.lookup(frame, hits.frame, hits.stamp_ns))
+            pose = to_pose(self._core.buffer.lookup(frame, scan.frame, scan.stamp_ns))
         except TransformException:
             return None
         back = tuple(conjugate(origin.wxyz).tolist())
@@ -115,14 +119,14 @@ class Comparison:
         turn = matrices(pose.wxyz)
         if not is_placeable(pose) or abs(turn[2, 2]) < LEVEL:
             return None
-        xy = hits.xyz @ turn[:2].T
+        xy = scan.xyz @ turn[:2].T
         laser, points = complex(*pose.position[:2]), xy[:, 0] + 1j * xy[:, 1]
         return laser, math.atan2(turn[1, 0], turn[0, 0]), points
 
 
-def _status(best: Fit, walls: Walls, hits: Hits, is_placed: bool) -> Status:
+def _status(best: Fit, cells: OccupiedCells, scan: ScanPoints, is_placed: bool) -> Status:
     """Say how well a scan fits; with `is_placed`, another shows that the robot is in place."""
-    text = _sentence(best, walls, hits)
+    text = _sentence(best, cells, scan)
     if best.is_good:
         return Status(Level.OK, text)
     measured, _, conclusion = text.partition(" The robot is misplaced")
@@ -131,19 +135,19 @@ def _status(best: Fit, walls: Walls, hits: Hits, is_placed: bool) -> Status:
     text = f"{measured} Another scan fits, so the robot is in place"
     if best.shift is None:  # such as a scan that is computed, or of what the map leaves out
         return Status(Level.OK, f"{text}.")
-    return Status(Level.WARN, f"{text}: check the transform of '{hits.frame}'.")
+    return Status(Level.WARN, f"{text}: check the transform of '{scan.frame}'.")
 
 
-def _sentence(best: Fit, walls: Walls, hits: Hits) -> str:
+def _sentence(best: Fit, cells: OccupiedCells, scan: ScanPoints) -> str:
     """Return a sentence on the fit of a scan and its remedy."""
-    text = f"{best.share:.0%} of {best.points} points lie on walls of {walls.topic}"
+    text = f"{best.share:.0%} of {best.points} points lie on walls of {cells.topic}"
     if best.is_good:
         return f"{text}."
     text = f"Only {text}"
     if best.turn is not None:
         return (
-            f"{text}; turned by {math.degrees(best.turn):.0f}° about '{hits.frame}' "
-            f"{best.cured:.0%} would. Check the yaw of '{hits.frame}' on the robot, then the "
+            f"{text}; turned by {math.degrees(best.turn):.0f}° about '{scan.frame}' "
+            f"{best.cured:.0%} would. Check the yaw of '{scan.frame}' on the robot, then the "
             "localisation."
         )
     if best.shift is not None:
@@ -151,12 +155,12 @@ def _sentence(best: Fit, walls: Walls, hits: Hits) -> str:
         return (
             f"{text}; shifted by ({x:.1f}, {y:.1f}) m in the map {best.cured:.0%} would. The robot "
             "is misplaced: give a 2D Pose Estimate, or check what publishes the transform from "
-            f"'{walls.frame}'."
+            f"'{cells.frame}'."
         )
     if best.is_mirrored:
         return (
             f"{text}; mirrored {best.cured:.0%} would. The laser is upside down: give "
-            f"'{hits.frame}' a roll of 180° on the robot."
+            f"'{scan.frame}' a roll of 180° on the robot."
         )
     return (
         f"{text}. The robot is misplaced, its laser's transform is wrong, or this is the map of "

@@ -1,7 +1,8 @@
 """Inputs of the consistency check between displays.
 
 A laser scan that lies beside the walls of the map, or a path that leads through what the scan sees,
-is a fault that no display finds alone. A display returns one of these from `Comparable.evidence`.
+is a fault that no display finds alone. A display returns one of these from
+`Comparable.consistency_input`.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ BAD = 0.4
 
 
 @dataclass(frozen=True, eq=False)
-class Hits:
+class ScanPoints:
     """Where a sensor hit something.
 
     Args:
@@ -36,7 +37,7 @@ class Hits:
 
 
 @dataclass(frozen=True, eq=False)
-class Walls:
+class OccupiedCells:
     """Occupied cells of a map.
 
     Args:
@@ -56,7 +57,7 @@ class Walls:
 
 
 @dataclass(frozen=True, eq=False)
-class Way:
+class RobotPath:
     """Where a robot is about to drive.
 
     Args:
@@ -70,7 +71,7 @@ class Way:
     xyz: NDArray[np.float64]
 
 
-Evidence = Hits | Walls | Way
+ConsistencyInput = ScanPoints | OccupiedCells | RobotPath
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from bench import Bench
 
 from webviz.api.declared import Topic
 from webviz.data.rotations import from_rpy
-from webviz.engine.state.matching import fit
+from webviz.engine.state.consistency import fit
 from webviz.shell.testing.messages import header
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Map

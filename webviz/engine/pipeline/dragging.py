@@ -1,4 +1,4 @@
-"""The handles of one display, and its talk with the outside."""
+"""The handles of one display, and its protocol client."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from webviz.api.capabilities import Draggable, ProtocolClient, capability
 from webviz.api.context import Context
 from webviz.api.display import Display
 from webviz.api.frames import Frames
-from webviz.api.handles import Grip, Handle
+from webviz.api.handles import Drag, Handle
 from webviz.engine.commands.guard import Guard
+from webviz.engine.pipeline.connection import DisplayConnection
 from webviz.engine.pipeline.services import Services
-from webviz.engine.pipeline.wire import DisplayWire
 from webviz.sources import Advertisement, Offer, Raw, Subscription
 
 UNSEEN_TURNS = 2
@@ -23,7 +23,7 @@ def reference_group(display: str, frame: str) -> str:
     return f"{display}/frame of handles/{frame}"
 
 
-class Gripping:
+class Dragging:
     """Calls the hooks of a display that follows a protocol or has handles; most have neither.
 
     Args:
@@ -37,7 +37,7 @@ class Gripping:
         """Handles browsers can drag, by key; another object only after a change."""
         self._id = id
         self._scene = services.scene
-        self._wire = DisplayWire(services, services.gate) if services.gate else None
+        self._connection = DisplayConnection(services, services.gate) if services.gate else None
         self._framed: tuple[Mapping[str, Handle], set[str]] = self.handles, set()
         """Handles, and their frames."""
         self._placed: set[str] = set()
@@ -51,56 +51,56 @@ class Gripping:
 
     def subscriptions(self) -> Mapping[str, Subscription]:
         """Return the subscriptions of the display."""
-        return self._wire.subscriptions() if self._wire else {}
+        return self._connection.subscriptions() if self._connection else {}
 
     def topics(self) -> tuple[str, ...]:
         """The names of these topics."""
-        return self._wire.topics() if self._wire else ()
+        return self._connection.topics() if self._connection else ()
 
     def advertisements(self) -> list[Advertisement]:
         """Return the publishers of the display."""
-        return self._wire.advertisements() if self._wire else []
+        return self._connection.advertisements() if self._connection else []
 
     def followed(self) -> set[str]:
-        """The frames whose poses `talk` needs."""
+        """The frames whose poses `communicate` needs."""
         return self._placed
 
     def is_busy(self) -> bool:
         """Return whether slow work of the protocol is under way."""
-        return self._wire is not None and self._wire.is_busy()
+        return self._connection is not None and self._connection.is_busy()
 
     def take(self, batches: Mapping[str, Iterable[Raw]], offers: Mapping[str, Offer]) -> None:
         """Keep the messages of this turn."""
-        if self._wire is None:
+        if self._connection is None:
             return
         self._unseen += 1
         if self._unseen > UNSEEN_TURNS:
-            self._wire.pause()
+            self._connection.pause()
         else:
-            self._wire.take(batches, offers)
+            self._connection.take(batches, offers)
 
-    def talk(self, guard: Guard, ctx: Context) -> None:
+    def communicate(self, guard: Guard, ctx: Context) -> None:
         """Let the display send and receive, and take up its handles."""
-        if self._wire is not None and self._client is not None:
+        if self._connection is not None and self._client is not None:
             self._unseen = 0
-            guard("talk", self._client.talk, self._wire, ctx)
-            self._wire.forget_unnamed()
+            guard("communicate", self._client.communicate, self._connection, ctx)
+            self._connection.forget_unnamed()
         if self._draggable is not None:
             self.handles = guard.attempt("handles", {}, self._draggable.handles, ctx)
             self._place(ctx.frames)
 
-    def grip(self, grip: Grip, guard: Guard, ctx: Context) -> None:
+    def drag(self, drag: Drag, guard: Guard, ctx: Context) -> None:
         """Pass on what a browser does with a handle."""
-        if self._wire is not None and self._draggable is not None:
-            guard("grip", self._draggable.grip, grip, self._wire, ctx)
+        if self._connection is not None and self._draggable is not None:
+            guard("drag", self._draggable.drag, drag, self._connection, ctx)
 
     def hide(self) -> None:
-        """Have no handles, and hear nothing, until the next talk."""
+        """Have no handles, and receive nothing, until the next call of `communicate`."""
         self.handles = {}
         self._remove(self._placed)
         self._placed = set()
-        if self._wire is not None:
-            self._wire.close()
+        if self._connection is not None:
+            self._connection.close()
 
     def _place(self, frames: Frames) -> None:
         if self._framed[0] is not self.handles:

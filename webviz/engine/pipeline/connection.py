@@ -8,8 +8,8 @@ from concurrent.futures import Future
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
+from webviz.api.connection import ReceivedMessages
 from webviz.api.declared import Topic
-from webviz.api.wire import Heard
 from webviz.data.messages import encode, interfaces
 from webviz.engine.pipeline.services import Services
 from webviz.sources import Advertisement, Gate, Offer, Raw, Subscription
@@ -39,8 +39,8 @@ class _Line:
     is_open: bool = True
 
 
-class DisplayWire:
-    """Implements `webviz.api.wire.Wire` for one display.
+class DisplayConnection:
+    """Implements `webviz.api.connection.GraphConnection` for one display.
 
     Args:
         services: with a gate.
@@ -68,8 +68,8 @@ class DisplayWire:
         """Full name of the viewer's node."""
         return self._services.resolve("~/node").rpartition("/")[0]
 
-    def listen(self, topic: str, type: str, depth: int) -> Heard:
-        """Return the events on a topic since the last call; see `webviz.api.wire.Wire`."""
+    def listen(self, topic: str, type: str, depth: int) -> ReceivedMessages:
+        """Return the events on a topic since the last call; see `GraphConnection.listen`."""
         name = self._services.resolve(topic)
         self._named.add(name)
         wanted = Subscription(type, Topic(name, "reliable", "volatile", depth))
@@ -78,7 +78,7 @@ class DisplayWire:
             line = self._lines[name] = _Line(wanted)
         offer = self._offers.get(name)
         publishers = [each for each in (offer.publishers if offer else ()) if each.type == type]
-        heard = Heard(
+        received = ReceivedMessages(
             messages=tuple(line.waiting),
             publishers=tuple(each.label for each in publishers),
             endpoints=frozenset(each.endpoint for each in publishers),
@@ -87,12 +87,12 @@ class DisplayWire:
         )
         line.waiting.clear()
         line.has_gap, line.is_open = False, True
-        return heard
+        return received
 
     def query(
         self, service: str, type: str, timeout_s: float, request: Mapping[str, Any] | None = None
     ) -> Future[bytes]:
-        """Call a service that changes nothing; see `webviz.api.wire.Wire`."""
+        """Call a service that changes nothing; see `GraphConnection.listen`."""
         name = self._services.resolve(service)
         data = encode(interfaces.service(type).request, request or {})
         answer = self._gate.query(name, type, data, timeout_s)
@@ -100,7 +100,7 @@ class DisplayWire:
         return answer
 
     def advertise(self, topic: str, type: str, depth: int) -> str:
-        """Create a publisher ahead of its first message; see `webviz.api.wire.Wire`."""
+        """Create a publisher ahead of its first message; see `GraphConnection.listen`."""
         name = self._services.resolve(topic)
         self._named.add(name)
         self._advertisements[name] = Advertisement(name, type, "reliable", "volatile", depth)
@@ -112,13 +112,13 @@ class DisplayWire:
         self._gate.publish(advertisement, encode(advertisement.type, values))
 
     def run(self, fn: Callable[..., T], *args: Any) -> Future[T]:
-        """Run slow work in a thread; see `webviz.api.wire.Wire`."""
+        """Run slow work in a thread; see `GraphConnection.listen`."""
         job = self._services.workers.submit(fn, *args)
         self._jobs = [each for each in self._jobs if not each.done()] + [job]
         return job
 
     def wake(self) -> None:
-        """Have `talk` called again soon."""
+        """Have `communicate` called again soon."""
         self._services.wake()
 
     # For the runner
@@ -150,7 +150,7 @@ class DisplayWire:
                     self._break(line)
 
     def forget_unnamed(self) -> None:
-        """Drop the topics that `talk` has not named since the last call."""
+        """Drop the topics that `communicate` has not named since the last call."""
         named, self._named = self._named, set()
         self._lines = {name: line for name, line in self._lines.items() if name in named}
         self._advertisements = {
