@@ -12,7 +12,7 @@ import { tell, tellLive } from "../tools/hint.js";
 import * as history from "../tools/history.js";
 import { fixed } from "../tools/numbers.js";
 import * as registry from "../tools/registry.js";
-import * as stroke from "../tools/stroke.js";
+import * as preview from "../tools/preview.js";
 import { yaml } from "../tools/yaml.js";
 import { maker } from "./displays/properties.js";
 
@@ -125,7 +125,7 @@ async function sendAgain(entry) {
     if (!registry.active().stays) registry.select(null);
     history.again(entry);
   };
-  stroke.propose(tool, entry, { done, live: tellLive });
+  preview.propose(tool, entry, { done, live: tellLive });
 }
 
 async function copyYaml({ messages }) {

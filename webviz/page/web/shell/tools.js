@@ -11,8 +11,8 @@ import * as history from "../tools/history.js";
 import { measure } from "../tools/measure.js";
 import * as registry from "../tools/registry.js";
 import * as selecting from "../tools/select.js";
-import * as stroke from "../tools/stroke.js";
-import * as strokes from "../tools/strokes.js";
+import * as preview from "../tools/preview.js";
+import * as viewerTools from "../tools/viewer_tools.js";
 import * as waypoints from "../tools/waypoints.js";
 import { canvas } from "../viser_page.js";
 import { command, provide } from "./commands.js";
@@ -40,7 +40,7 @@ export function install() {
   glow.install();
   selecting.install();
   history.install();
-  strokes.install();
+  viewerTools.install();
   cards.append(waypoints.install(), goals.install());
   provide(() =>
     registry.all().map((tool) => ({
@@ -64,8 +64,8 @@ export function install() {
     key: "Enter",
     group: "Tools",
     isHidden: true,
-    run: stroke.send,
-    isThere: () => stroke.isWaiting() && !document.activeElement.closest("button"),
+    run: preview.send,
+    isThere: () => preview.isWaiting() && !document.activeElement.closest("button"),
   });
   for (const name of ["pointerdown", "pointermove", "pointerup", "pointercancel", "wheel"]) {
     window.addEventListener(name, onPointer, { capture: true, passive: false });

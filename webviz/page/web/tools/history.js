@@ -47,10 +47,10 @@ export function onChange(listener) {
  * @param {MadeGesture} made
  */
 export function send(tool, { points, yaw, keys, yaws = [], several = "" }) {
-  const stroke = { points, yaw, keys, yaws, several };
+  const gesture = { points, yaw, keys, yaws, several };
   const result = { level: "", text: "", messages: [] };
-  const number = act.send("UseTool", { tool: tool.id, ...stroke });
-  const entry = { number, tool, ...stroke, frame, time: new Date(), ...result };
+  const number = act.send("UseTool", { tool: tool.id, ...gesture });
+  const entry = { number, tool, ...gesture, frame, time: new Date(), ...result };
   sent = [entry, ...sent].slice(0, MAX_KEPT);
   tellAll();
 }

@@ -16,11 +16,11 @@ import { heightAt, onCanvas, planeAt, surfaceAt } from "../scene/ground.js";
  *   tool: ToolFacts, start: Vec3, yaw: number, at: Vec2, from: Vec2, pointer: number | null,
  *   isTurned: boolean, isLifting: boolean, finger: {pointerId: number, y: number} | null,
  *   raised: number, made: MadeGesture | null, card: ReturnType<typeof sendCard> | null,
- * }} Stroke
+ * }} Preview
  */
 
 const CLICK_PX = 4;
-/** @type {Omit<Stroke, "tool" | "start" | keyof Listener>} */
+/** @type {Omit<Preview, "tool" | "start" | keyof Listener>} */
 const AT_REST = {
   yaw: 0,
   at: [0, 0],
@@ -36,8 +36,8 @@ const AT_REST = {
 
 /** @type {ReturnType<typeof makeDrawing> | null} */
 let drawing = null;
-/** @type {Stroke | null} */
-let stroke = null;
+/** @type {Preview | null} */
+let current = null;
 
 /**
  * Begins to follow a pointer, instead of what still waits to be sent. `done` gets the points, the
@@ -54,17 +54,17 @@ export function begin(event, tool, { done, live }) {
   const start = tool.surface ? surfaceAt(at) : planeAt(at, 0);
   if (start === null) return false;
   cancel();
-  stroke = { ...AT_REST, tool, done, live, start, at, from: at, pointer: event.pointerId };
+  current = { ...AT_REST, tool, done, live, start, at, from: at, pointer: event.pointerId };
   canvas().setPointerCapture(event.pointerId);
   follow(event);
-  redraw(stroke);
+  redraw(current);
   return true;
 }
 
-export const isGoing = () => stroke !== null && !stroke.made;
-export const isWaiting = () => Boolean(stroke?.made);
+export const isGoing = () => current !== null && !current.made;
+export const isWaiting = () => Boolean(current?.made);
 /** @param {PointerEvent} event */
-export const follows = (event) => isGoing() && stroke?.pointer === event.pointerId;
+export const follows = (event) => isGoing() && current?.pointer === event.pointerId;
 
 /**
  * Takes up where the pointer is; with Ctrl it lifts, else it turns.
@@ -72,22 +72,22 @@ export const follows = (event) => isGoing() && stroke?.pointer === event.pointer
  * @param {PointerEvent} event
  */
 export function follow(event) {
-  if (!stroke) return;
-  const before = stroke.at;
-  stroke.at = [event.clientX, event.clientY];
-  if (stroke.tool.gesture === "pose") {
+  if (!current) return;
+  const before = current.at;
+  current.at = [event.clientX, event.clientY];
+  if (current.tool.gesture === "pose") {
     if (event.ctrlKey) {
-      stroke.isLifting = true;
-      lift(stroke, before, stroke.at);
+      current.isLifting = true;
+      lift(current, before, current.at);
     } else {
-      if (stroke.isLifting) stroke.from = before; // what was moved to lift it does not turn it
-      stroke.isLifting = false;
-      const [x, y] = stroke.from;
+      if (current.isLifting) current.from = before; // what was moved to lift it does not turn it
+      current.isLifting = false;
+      const [x, y] = current.from;
       const isFar = Math.hypot(event.clientX - x, event.clientY - y) >= CLICK_PX;
-      if (stroke.isTurned || isFar) turn(stroke);
+      if (current.isTurned || isFar) turn(current);
     }
   }
-  stroke.live(words(stroke));
+  current.live(words(current));
 }
 
 /**
@@ -96,24 +96,24 @@ export function follow(event) {
  * @param {PointerEvent} event
  */
 export function followSecond({ type, pointerId, pointerType, clientY }) {
-  if (stroke?.tool.gesture !== "pose" || pointerType !== "touch") return;
-  if (type === "pointerdown") stroke.finger ??= { pointerId, y: clientY };
-  if (stroke.finger?.pointerId !== pointerId) return;
+  if (current?.tool.gesture !== "pose" || pointerType !== "touch") return;
+  if (type === "pointerdown") current.finger ??= { pointerId, y: clientY };
+  if (current.finger?.pointerId !== pointerId) return;
   if (type === "pointermove") {
     const { left, top } = canvas().getBoundingClientRect();
-    const [x, y] = onCanvas(stroke.start) ?? [0, 0];
-    const by = clientY - stroke.finger.y;
-    stroke.raised += lift(stroke, [left + x, top + y], [left + x, top + y + by]);
-    stroke.finger.y = clientY;
-    stroke.live(words(stroke));
-  } else if (type !== "pointerdown") stroke.finger = null;
+    const [x, y] = onCanvas(current.start) ?? [0, 0];
+    const by = clientY - current.finger.y;
+    current.raised += lift(current, [left + x, top + y], [left + x, top + y + by]);
+    current.finger.y = clientY;
+    current.live(words(current));
+  } else if (type !== "pointerdown") current.finger = null;
 }
 
 /**
  * Lifts the start along a vertical line as much as what moved from one point of the window to
  * another; returns by how many metres.
  *
- * @param {Stroke} stroke
+ * @param {Preview} current
  * @param {Vec2} before
  * @param {Vec2} now
  */
@@ -127,7 +127,7 @@ function lift({ start }, before, now) {
 /**
  * Where the pointer is at the height of the start, were it not for the other finger.
  *
- * @param {Stroke} stroke
+ * @param {Preview} current
  * @returns {Vec3 | null}
  */
 function ahead({ start, at, raised }) {
@@ -135,13 +135,13 @@ function ahead({ start, at, raised }) {
   return point && [point[0], point[1], start[2]];
 }
 
-/** @param {Stroke} stroke */
-function turn(stroke) {
-  const { start } = stroke;
-  const point = ahead(stroke);
+/** @param {Preview} current */
+function turn(current) {
+  const { start } = current;
+  const point = ahead(current);
   if (point === null) return;
-  stroke.isTurned = true;
-  stroke.yaw = Math.atan2(point[1] - start[1], point[0] - start[0]);
+  current.isTurned = true;
+  current.yaw = Math.atan2(point[1] - start[1], point[0] - start[0]);
 }
 
 /**
@@ -151,15 +151,15 @@ function turn(stroke) {
  * @param {boolean} asks
  */
 export function end(event, asks) {
-  if (!stroke) return;
+  if (!current) return;
   follow(event);
-  const { start, yaw, isTurned } = stroke;
-  const last = isTurned ? ahead(stroke) : null;
+  const { start, yaw, isTurned } = current;
+  const last = isTurned ? ahead(current) : null;
   const { shiftKey: shift, ctrlKey: ctrl, altKey: alt, metaKey: meta } = event;
   const held = Object.entries({ shift, ctrl, alt, meta }).filter(([, isHeld]) => isHeld);
   const keys = held.map(([key]) => key);
-  stroke.made = { points: last === null ? [start] : [start, last], yaw, keys };
-  if (asks) wait(stroke);
+  current.made = { points: last === null ? [start] : [start, last], yaw, keys };
+  if (asks) wait(current);
   else send();
 }
 
@@ -172,52 +172,52 @@ export function end(event, asks) {
  */
 export function propose(tool, made, { done, live }) {
   cancel();
-  stroke = { ...AT_REST, tool, done, live, start: made.points[0], yaw: made.yaw, made };
-  redraw(stroke);
-  wait(stroke);
+  current = { ...AT_REST, tool, done, live, start: made.points[0], yaw: made.yaw, made };
+  redraw(current);
+  wait(current);
 }
 
-/** @param {Stroke} stroke */
-function wait(stroke) {
-  stroke.live(`${words(stroke)} · Enter sends, Esc cancels.`);
-  stroke.card = sendCard(send, cancel);
-  drawing?.layer.element.append(stroke.card.element);
-  stroke.card.focus();
+/** @param {Preview} current */
+function wait(current) {
+  current.live(`${words(current)} · Enter sends, Esc cancels.`);
+  current.card = sendCard(send, cancel);
+  drawing?.layer.element.append(current.card.element);
+  current.card.focus();
 }
 
 /** Sends what waits for that. */
 export function send() {
-  if (!stroke?.made) return;
-  const { done, made } = stroke;
+  if (!current?.made) return;
+  const { done, made } = current;
   cancel();
   done(made);
 }
 
 export function cancel() {
-  if (stroke === null) return;
-  const { pointer } = stroke;
+  if (current === null) return;
+  const { pointer } = current;
   if (pointer !== null && canvas().hasPointerCapture(pointer))
     canvas().releasePointerCapture(pointer);
-  stroke.live("");
-  stroke = null;
+  current.live("");
+  current = null;
   drawing?.layer.element.remove();
   drawing = null;
 }
 
-/** @param {Stroke} stroke */
+/** @param {Preview} current */
 function words({ tool, start, yaw }) {
   const [x, y, z] = start.map((number) => fixed(number, 2));
   const heading = tool.gesture === "pose" ? ` · yaw ${fixed((yaw * 180) / Math.PI, 1)}°` : "";
   return `x ${x} y ${y} z ${z} m${heading}`;
 }
 
-/** @param {Stroke} shown */
+/** @param {Preview} shown */
 function redraw(shown) {
-  if (stroke !== shown) return;
+  if (current !== shown) return;
   requestAnimationFrame(() => redraw(shown)); // the view may follow a frame that moves
   drawing ??= makeDrawing();
   const { layer, stem, arrow, dot } = drawing;
-  const { tool, start, yaw } = stroke;
+  const { tool, start, yaw } = current;
   const isPose = tool.gesture === "pose";
   layer.place();
   set(arrow, { points: ((isPose && arrowAt(start, yaw)) || []).join(" ") });
@@ -228,7 +228,7 @@ function redraw(shown) {
   set(dot, { cx: top[0], cy: top[1] });
   /** @type {Vec3} */
   const heading = [start[0] + Math.cos(yaw), start[1] + Math.sin(yaw), start[2]];
-  stroke.card?.place(onCanvas(start), isPose ? onCanvas(heading) : null);
+  current.card?.place(onCanvas(start), isPose ? onCanvas(heading) : null);
 }
 
 function makeDrawing() {

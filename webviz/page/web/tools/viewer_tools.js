@@ -8,7 +8,7 @@ import { tell, tellLive } from "./hint.js";
 import { gesture, gestureOf, onGesture } from "./gestures.js";
 import * as history from "./history.js";
 import { active, provide, select } from "./registry.js";
-import * as stroke from "./stroke.js";
+import * as preview from "./preview.js";
 import * as teleop from "./teleop.js";
 import * as waypoints from "./waypoints.js";
 
@@ -26,8 +26,8 @@ const HINTS = {
 
 export function install() {
   teleop.install();
-  gesture("point", strokeTool);
-  gesture("pose", strokeTool);
+  gesture("point", pointerTool);
+  gesture("pose", pointerTool);
   gesture("drive", teleop.tool);
   /** @type {ViewerTool[]} */
   let known = [];
@@ -69,7 +69,7 @@ function toolOf(tool, index) {
  */
 function take(tool, made) {
   if (tool.asks)
-    stroke.propose(tool, made, {
+    preview.propose(tool, made, {
       done: (/** @type {MadeGesture} */ sent) => finish(tool, sent),
       live: tellLive,
     });
@@ -89,10 +89,10 @@ function finish(tool, made) {
  * @param {ViewerTool} known
  * @returns {Made}
  */
-const strokeTool = (known) => ({
+const pointerTool = (known) => ({
   hint: hintOf(known),
   cursor: "crosshair",
-  leave: stroke.cancel,
+  leave: preview.cancel,
   pointer: (event) => follow(event, known),
 });
 
@@ -121,17 +121,17 @@ const asks = ({ shiftKey }) => {
  */
 function follow(event, tool) {
   if ("deltaY" in event) {
-    if (stroke.isGoing()) event.preventDefault();
-    return stroke.isGoing();
+    if (preview.isGoing()) event.preventDefault();
+    return preview.isGoing();
   }
-  if (stroke.isGoing()) {
-    if (!stroke.follows(event)) {
-      stroke.followSecond(event);
+  if (preview.isGoing()) {
+    if (!preview.follows(event)) {
+      preview.followSecond(event);
       return true;
     }
-    if (event.type === "pointermove") stroke.follow(event);
-    if (event.type === "pointerup") stroke.end(event, asks(event));
-    if (event.type === "pointercancel") stroke.cancel();
+    if (event.type === "pointermove") preview.follow(event);
+    if (event.type === "pointerup") preview.end(event, asks(event));
+    if (event.type === "pointercancel") preview.cancel();
     return true;
   }
   if (event.type !== "pointerdown" || event.target !== canvas() || event.button !== 0) return false;
@@ -140,7 +140,7 @@ function follow(event, tool) {
   const done = (made) => {
     if (!waypoints.collect(tool, made)) finish(tool, made);
   };
-  if (!stroke.begin(event, tool, { done, live: tellLive })) {
+  if (!preview.begin(event, tool, { done, live: tellLive })) {
     const surface = "Nothing is there. Press on a surface.";
     tell("warn", tool.surface ? surface : "There is no ground. Press below the horizon.");
   }
