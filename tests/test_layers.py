@@ -48,7 +48,7 @@ FOLDERS = {
     "webviz.server": ("access", "sending", "channel", "images", "http"),
 }
 """Folders of a room, each of which may import itself and those before it."""
-STRANGERS = (
+UNRELATED = (
     ("webviz.ros", "webviz.server"),
     ("webviz.ros", "webviz.scene"),
     ("webviz.ros", "webviz.page"),
@@ -179,7 +179,7 @@ def test_the_folders_of_a_room_import_in_one_direction(room: str) -> None:
     assert not wrong
 
 
-@pytest.mark.parametrize("pair", STRANGERS)
+@pytest.mark.parametrize("pair", UNRELATED)
 def test_some_rooms_do_not_know_each_other(pair: tuple[str, str]) -> None:
     wrong = {
         (name, other)

@@ -401,7 +401,7 @@ def test_a_request_with_all_its_cookies_costs_little_beside_many_tokens() -> Non
     assert time.process_time() - start < 0.2  # 2 ms each; comparing with every token took 11 ms
 
 
-def test_the_page_for_strangers_sets_commands_apart() -> None:
+def test_the_page_without_access_sets_commands_apart() -> None:
     assert b"<p>Run <code>a &lt;b</code> or <code>c</code>.</p>" in login.page("Run `a <b` or `c`.")
 
 

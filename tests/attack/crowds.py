@@ -12,7 +12,7 @@ from tests.attack.attack import Attack, Case, Outcome, Violation
 from tests.attack.target import ANSWER_S, Target
 from webviz.server.access.roles import Role
 
-STRANGER = "127.0.0.2"
+ELSEWHERE = "127.0.0.2"
 """Another address of this machine than that of the owner."""
 MAX_CONNECTIONS = 200
 """More than may be opening at once."""
@@ -22,7 +22,7 @@ class Crowd(msgspec.Struct):
     """A case.
 
     Args:
-        connections: of the stranger.
+        connections: of the untrusted client.
         sent: by each of them.
         sent_before: bytes of the owner's request that arrive before them.
     """
@@ -60,15 +60,15 @@ class Crowds(Attack):
             owner = stack.enter_context(socket.create_connection(address, ANSWER_S))
             owner.sendall(request[: crowd.sent_before])
             for _ in range(crowd.connections):
-                stranger = socket.create_connection(address, ANSWER_S, (STRANGER, 0))
-                stack.enter_context(stranger)
+                client = socket.create_connection(address, ANSWER_S, (ELSEWHERE, 0))
+                stack.enter_context(client)
                 with contextlib.suppress(ConnectionError):  # it may be ended at once
-                    stranger.sendall(crowd.sent.encode())
+                    client.sendall(crowd.sent.encode())
             try:
                 owner.sendall(request[crowd.sent_before :])
                 answer = owner.recv(12)
             except OSError as error:
-                raise Violation(f"strangers end the request of the owner: {error!r}") from error
+                raise Violation(f"clients end the request of the owner: {error!r}") from error
         if answer != b"HTTP/1.1 200":
-            raise Violation(f"strangers end the request of the owner: {answer!r}")
+            raise Violation(f"clients end the request of the owner: {answer!r}")
         return Outcome.SURVIVED

@@ -70,12 +70,12 @@ class Requests(Attack):
         answer = b""
         cookie = f"Cookie: {self._target.headers(Role.OWNER)['Cookie']}".encode()
         try:
-            with socket.create_connection(("127.0.0.1", self._target.port), ANSWER_S) as stranger:
-                stranger.sendall(case.data.replace(COOKIE, cookie))
+            with socket.create_connection(("127.0.0.1", self._target.port), ANSWER_S) as client:
+                client.sendall(case.data.replace(COOKIE, cookie))
                 # What is not complete waits for more, so it is ended.
-                if not select.select([stranger], [], [], MORE_S)[0]:
-                    stranger.shutdown(socket.SHUT_WR)
-                while part := stranger.recv(1 << 16):
+                if not select.select([client], [], [], MORE_S)[0]:
+                    client.shutdown(socket.SHUT_WR)
+                while part := client.recv(1 << 16):
                     answer += part
         except TimeoutError as error:
             raise Violation(f"no answer within {ANSWER_S:g} s") from error

@@ -54,7 +54,7 @@ DRAWN = sorted(REQUIRED.keys() - {"Dismiss"})
 
 def kind_of(role: Role | None) -> str:
     """The kind of attacks by somebody of a role."""
-    return f"ws {role.label if role else 'stranger'}"
+    return f"ws {role.label if role else 'no token'}"
 
 
 class Sockets(Attack):
@@ -143,9 +143,7 @@ class Sockets(Attack):
         return mutated(random, text) if random.random() < 0.15 else text
 
     def _throw(self, data: bytes) -> Outcome:
-        with socket.create_connection(
-            ("127.0.0.1", self._target.port), timeout=ANSWER_S
-        ) as stranger:
+        with socket.create_connection(("127.0.0.1", self._target.port), timeout=ANSWER_S) as client:
             key = base64.b64encode(os.urandom(16)).decode()
             lines = [
                 "GET / HTTP/1.1",
@@ -157,9 +155,9 @@ class Sockets(Attack):
                 f"Sec-WebSocket-Protocol: viser-v{viser.__version__}",
                 *(f"{name}: {value}" for name, value in self._target.headers(self._role).items()),
             ]
-            stranger.sendall("\r\n".join([*lines, "", ""]).encode() + data)
-            stranger.shutdown(socket.SHUT_WR)
-            while stranger.recv(1 << 16):
+            client.sendall("\r\n".join([*lines, "", ""]).encode() + data)
+            client.shutdown(socket.SHUT_WR)
+            while client.recv(1 << 16):
                 pass
         return Outcome.REFUSED
 

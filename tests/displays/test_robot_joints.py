@@ -101,7 +101,7 @@ def test_names_without_end_are_not_all_remembered(
     rail: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz_displays.robot_model.joint_states.MAX_JOINTS", 3)
-    report(rail, **{f"stranger_{i}": 0.0 for i in range(2)})
+    report(rail, **{f"unknown_{i}": 0.0 for i in range(2)})
     report(rail, slide=0.1, more=1.0, turn=1.0)
     report(rail, slide=0.2)
     assert rail.poses()["cart visual visual_0"].position == pytest.approx((5.2, 0.0, 0.0))

@@ -121,7 +121,7 @@ def choose(page: Page, robot: Robot) -> None:
     page.wait_for(lambda: page.tab.get_by_role("button", name="Teleop").count() == 1, "the tool")
     if page.tab.locator(".wv-teleop").count() == 0:
         page.tab.keyboard.press("t")
-    page.wait_for(lambda: page.evaluate(DRIVER_OF) == [True, None], "a free helm", PATIENCE_S)
+    page.wait_for(lambda: page.evaluate(DRIVER_OF) == [True, None], "nobody drives", PATIENCE_S)
     page.wait_for(lambda: robot.publishers() > 0, "the publisher", PATIENCE_S)
 
 

@@ -25,7 +25,7 @@ test("a time of day is a date here, and of a simulation the time since its start
   assert.equal(timeOfDay(1e300), "1e+300 s", "no date");
 });
 
-test("text of strangers is one line that reads from left to right", () => {
+test("untrusted text is one line that reads from left to right", () => {
   assert.equal(plain("a\nb\u202ec\u0000d\u2028e"), "a b c d e");
   assert.equal(plain("Grüße, 世界 🤖"), "Grüße, 世界 🤖");
   assert.equal(plain("half \ud83e"), "half  ");

@@ -159,7 +159,7 @@ def test_very_many_options_are_not_all_made(bench: Bench) -> None:
     assert bench.options() == ["frame_4999"]
 
 
-def test_names_of_strangers_are_text(bench: Bench) -> None:
+def test_untrusted_names_are_text(bench: Bench) -> None:
     name = "<img src=x onerror=alert(1)>"
     bench.mount("combobox", "combobox", label=name, value=name, options=[{"value": name}])
     bench.field().click()

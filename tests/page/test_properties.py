@@ -417,7 +417,7 @@ def test_every_property_of_every_display_has_a_control(tab: Tab, name: str) -> N
     tab.page.evaluate("ended(); document.querySelector('#bench').remove()")
 
 
-def test_names_of_strangers_are_text(pane: Pane, make_row: MakeRow) -> None:
+def test_untrusted_names_are_text(pane: Pane, make_row: MakeRow) -> None:
     name = "<img src=x onerror=alert(1)>\u202e" + "x" * 10_000
     status = Status(Level.ERROR, name)
     row = make_row("a", channel=name, frame=name, shown={name: True}, statuses={name: status})

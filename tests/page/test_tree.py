@@ -389,7 +389,7 @@ def test_the_rate_is_read_at_the_selected_row_only(
     assert tree.row("b").inner_text() == "b"
 
 
-def test_names_of_strangers_are_shown_as_text_on_one_line(
+def test_untrusted_names_are_shown_as_text_on_one_line(
     loop: Loop, tree: Tree, make_row: MakeRow
 ) -> None:
     names = {

@@ -222,9 +222,9 @@ def ask(server: viser.ViserServer) -> Callable[[bytes], tuple[int, bytes, bytes]
     """Sends the bytes of a request; returns status, headers and body of the answer."""
 
     def ask(request: bytes) -> tuple[int, bytes, bytes]:
-        with socket.create_connection(("127.0.0.1", server.get_port()), timeout=60) as stranger:
-            stranger.sendall(request)
-            answer = b"".join(iter(lambda: stranger.recv(1 << 16), b""))
+        with socket.create_connection(("127.0.0.1", server.get_port()), timeout=60) as client:
+            client.sendall(request)
+            answer = b"".join(iter(lambda: client.recv(1 << 16), b""))
         head, _, body = answer.partition(b"\r\n\r\n")
         return int(head.split()[1]), head, body
 

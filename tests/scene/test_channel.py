@@ -123,7 +123,7 @@ def test_a_page_measures_its_way_before_the_viewer_is_ready(
 @pytest.mark.parametrize(
     "first", [hello("x"), hello(""), "", "[", '{"type":"Hello"}', b"\x00", '{"type":"Wish"}']
 )
-def test_a_stranger_without_a_key_is_sent_away(
+def test_a_client_without_a_key_is_sent_away(
     server: Server, call: Callable[..., Any], first: str | bytes
 ) -> None:
     key_of(call())

@@ -40,14 +40,14 @@ def test_connections_that_never_ask_keep_no_browser_out(
     server: viser.ViserServer, ask: Callable[..., Any]
 ) -> None:
     address = ("127.0.0.1", server.get_port())
-    strangers = [socket.create_connection(address, timeout=60) for _ in range(3 * MAX_BROWSERS)]
-    for stranger in strangers:
-        stranger.sendall(b"GET / HT")
+    clients = [socket.create_connection(address, timeout=60) for _ in range(3 * MAX_BROWSERS)]
+    for client in clients:
+        client.sendall(b"GET / HT")
     assert ask(PAGE)[0] == 200
     with contextlib.suppress(ConnectionResetError):  # as good an end
-        assert strangers[0].recv(1) == b""
-    for stranger in strangers:
-        stranger.close()
+        assert clients[0].recv(1) == b""
+    for client in clients:
+        client.close()
 
 
 @pytest.mark.parametrize("sent", [b"", PAGE[:10]])
@@ -251,8 +251,8 @@ def test_a_server_that_stops_waits_for_no_browser(
     call: Callable[..., Any], server: viser.ViserServer, ask: Callable[..., Any]
 ) -> None:
     call()  # does not read, so that it never answers a farewell
-    with socket.create_connection(("127.0.0.1", server.get_port())) as stranger:
-        stranger.sendall(b"GET / HT")
+    with socket.create_connection(("127.0.0.1", server.get_port())) as client:
+        client.sendall(b"GET / HT")
         assert ask(PAGE)[0] == 200
         thread = server._websock_server._server_thread
         server.stop()

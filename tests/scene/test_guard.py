@@ -1,4 +1,4 @@
-"""Strangers are refused, and browsers may only do what webviz offers them."""
+"""Untrusted clients are refused, and browsers may only do what webviz offers them."""
 
 from __future__ import annotations
 

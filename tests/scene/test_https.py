@@ -62,21 +62,21 @@ def test_https_for_all_ports_of_loopback_is_not_demanded(server: viser.ViserServ
     assert b"Strict-Transport-Security" not in answer
 
 
-def test_strangers_who_only_connect_keep_no_browser_out(
+def test_clients_that_only_connect_keep_no_browser_out(
     server: viser.ViserServer, caplog: pytest.LogCaptureFixture
 ) -> None:
     address = ("127.0.0.1", server.get_port())
-    strangers = [socket.create_connection(address, 60) for _ in range(MAX_HANDSHAKES + 2)]
-    assert strangers[0].recv(1) == strangers[1].recv(1) == b""
-    strangers[2].sendall(b"GET / HTTP/1.1\r\n\r\n")
-    strangers[3].sendall(b"\x16\x03\x01" + 500 * b"\xff")
+    clients = [socket.create_connection(address, 60) for _ in range(MAX_HANDSHAKES + 2)]
+    assert clients[0].recv(1) == clients[1].recv(1) == b""
+    clients[2].sendall(b"GET / HTTP/1.1\r\n\r\n")
+    clients[3].sendall(b"\x16\x03\x01" + 500 * b"\xff")
     assert ask(server, b"HEAD / HTTP/1.1\r\nHost: localhost\r\n\r\n").startswith(b"HTTP/1.1 200 ")
-    for stranger in strangers:
-        stranger.close()
+    for client in clients:
+        client.close()
     assert caplog.messages == []
 
 
-def test_strangers_who_only_connect_end_no_handshake_of_another_address(
+def test_clients_that_only_connect_end_no_handshake_of_another_address(
     server: viser.ViserServer,
 ) -> None:
     address = ("127.0.0.1", server.get_port())
@@ -84,11 +84,11 @@ def test_strangers_who_only_connect_end_no_handshake_of_another_address(
     authority().configure_trust(context)
     with (
         socket.create_connection(address, timeout=60) as plain,
-        contextlib.ExitStack() as strangers,
+        contextlib.ExitStack() as clients,
     ):
         for _ in range(2 * MAX_HANDSHAKES):
-            stranger = socket.create_connection(address, 60, source_address=("127.0.0.2", 0))
-            strangers.enter_context(stranger)
+            client = socket.create_connection(address, 60, source_address=("127.0.0.2", 0))
+            clients.enter_context(client)
         with context.wrap_socket(plain, server_hostname="robot.example") as caller:
             caller.sendall(b"HEAD / HTTP/1.1\r\nHost: localhost\r\n\r\n")
             assert caller.recv(12) == b"HTTP/1.1 200"

@@ -63,10 +63,10 @@ def test_one_who_sends_nothing_more_is_answered(
     server: viser.ViserServer, caplog: pytest.LogCaptureFixture
 ) -> None:
     for path, status in ((b"/", b"200"), (b"/nothing", b"404")):
-        with socket.create_connection(("127.0.0.1", server.get_port()), timeout=60) as stranger:
-            stranger.sendall(b"GET " + path + b" HTTP/1.1\r\n" + HOST + b"\r\n")
-            stranger.shutdown(socket.SHUT_WR)
-            answer = b"".join(iter(lambda: stranger.recv(1 << 16), b""))
+        with socket.create_connection(("127.0.0.1", server.get_port()), timeout=60) as client:
+            client.sendall(b"GET " + path + b" HTTP/1.1\r\n" + HOST + b"\r\n")
+            client.shutdown(socket.SHUT_WR)
+            answer = b"".join(iter(lambda: client.recv(1 << 16), b""))
         assert answer.startswith(b"HTTP/1.1 " + status)
     assert caplog.messages == []
 
@@ -132,7 +132,7 @@ def test_a_link_cannot_make_the_page_obey_another_server(
     assert not called.is_set()
 
 
-def test_strangers_who_only_connect_do_not_fill_the_log(
+def test_clients_that_only_connect_do_not_fill_the_log(
     server: viser.ViserServer,
     caplog: pytest.LogCaptureFixture,
     call: Callable[..., Any],

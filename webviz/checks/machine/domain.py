@@ -8,7 +8,7 @@ from webviz.api.check import Check
 from webviz.api.finding import Finding, Severity
 from webviz.api.observation import Observation
 
-MOST = 232
+MAX_DOMAIN = 232
 
 
 class DomainOutOfRange(Check):
@@ -31,9 +31,9 @@ class DomainOutOfRange(Check):
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
         value = seen.environment.variables.get("ROS_DOMAIN_ID", "") if seen.environment else ""
-        if value and not (value.isdecimal() and int(value) <= MOST):
+        if value and not (value.isdecimal() and int(value) <= MAX_DOMAIN):
             yield self.found(
-                f"ROS_DOMAIN_ID is {value}, not a number from 0 to {MOST}.",
+                f"ROS_DOMAIN_ID is {value}, not a number from 0 to {MAX_DOMAIN}.",
                 "Choose a number from 0 to 101, the same on all machines.",
                 severity=Severity.ERROR,
                 evidence={"ROS_DOMAIN_ID": value},

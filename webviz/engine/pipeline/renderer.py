@@ -305,7 +305,7 @@ class Renderer:
     ) -> None:
         """Call a hook that draws and update the scene; after a crash the previous nodes stay.
 
-        Calls with one voice replace each other's statuses.
+        Calls with one source replace each other's statuses.
         """
         if guard(scope, hook, *args, context) is CRASHED:
             return

@@ -1,4 +1,4 @@
-// Texts of strangers: names, topics and sentences may hold anything at all.
+// Untrusted texts: names, topics and sentences may hold anything at all.
 
 // Control characters, line ends, marks that turn the direction of what follows, halves of pairs.
 const UNREADABLE =

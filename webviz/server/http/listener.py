@@ -37,7 +37,7 @@ class PortInUse(CannotListen):
 
 
 class Handshakes:
-    """Limits the TLS handshakes that are not complete, as of strangers who only connect."""
+    """Limits the TLS handshakes that are not complete, as of clients that only connect."""
 
     def __init__(self) -> None:
         self._sockets: dict[int, tuple[socket.socket, str]] = {}
@@ -104,11 +104,11 @@ class Listener(socket.socket):
     def _refuse(self) -> None:
         self._close_spare()
         with contextlib.suppress(OSError):
-            stranger, _ = super().accept()
-            with stranger:
-                stranger.setblocking(False)
+            untrusted, _ = super().accept()
+            with untrusted:
+                untrusted.setblocking(False)
                 if self.handshakes is None:
-                    stranger.send(_refusal())
+                    untrusted.send(_refusal())
 
     def _keep_spare(self) -> None:
         if self._spare is None:

@@ -22,7 +22,7 @@ import { frameNode, sightOf } from "./sight.js";
 /** @import {SceneEvent, Three, Vec2, Vec3} from "../types.js" */
 
 /**
- * @typedef {Commands["DragHandle"]["drag"]} Drag
+ * @typedef {Commands["DragHandle"]["drag"]} SentDrag
  * @typedef {Part & {point: Three}} Place
  * @typedef {Part & {at: Vec2, pointer: number, isResting?: boolean}} Asked
  * @typedef {Part & {
@@ -369,8 +369,8 @@ function showAid({ id, axis, now, pose }) {
 
 /**
  * @param {Drag} drag
- * @param {Drag["kind"]} kind
- * @param {Partial<Drag>} [more]
+ * @param {SentDrag["kind"]} kind
+ * @param {Partial<SentDrag>} [more]
  */
 function send(drag, kind, more = {}) {
   drag.sent = performance.now();
@@ -379,8 +379,8 @@ function send(drag, kind, more = {}) {
 
 /**
  * @param {Part} part
- * @param {Drag["kind"]} kind
- * @param {Partial<Drag>} more
+ * @param {SentDrag["kind"]} kind
+ * @param {Partial<SentDrag>} more
  */
 function sendTo({ id, control }, kind, more) {
   const [display, handle] = [id.slice(0, id.indexOf("/")), id.slice(id.indexOf("/") + 1)];

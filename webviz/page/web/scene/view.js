@@ -141,7 +141,7 @@ function adopt(camera) {
 
 // Adjust what viser keeps before the camera, and the cross where it turns about, without knowing rigs.
 /** @param {Three} camera */
-function dress(camera) {
+function adjust(camera) {
   if (cross) cross.visible = rig === null;
   for (const child of viser.scene().children) {
     if (child.material && child.material === viser.backgroundMaterial()) {
@@ -264,7 +264,7 @@ export function install() {
     if (isFlat()) flatten(camera);
     follow();
     camera.updateMatrixWorld();
-    dress(camera);
+    adjust(camera);
     settle();
   });
 

@@ -33,74 +33,74 @@ ARGUMENTS: list[dict[str, Any]] = [
 
 
 @pytest.fixture
-def stranger(
+def guest(
     viewer: webviz.Viewer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> Iterator[Guest]:
     monkeypatch.chdir(tmp_path)  # for recordings that it starts
     viewer.config = {"displays": [{"type": "Grid"}]}
-    stranger = Guest(viewer._scene.link.server)
-    yield stranger
-    stranger.close()
+    guest = Guest(viewer._scene.link.server)
+    yield guest
+    guest.close()
 
 
 def test_commands_that_make_no_sense_are_refused_in_one_short_sentence(
-    stranger: Guest, caplog: pytest.LogCaptureFixture
+    guest: Guest, caplog: pytest.LogCaptureFixture
 ) -> None:
     for class_ in COMMANDS:
         for arguments in ARGUMENTS:
-            answer = stranger.do(class_.__name__, **arguments)
+            answer = guest.do(class_.__name__, **arguments)
             assert len(answer) <= 1000, class_
-    assert "nested that deeply" in stranger.do(
-        "SetProperty", display=next(iter(ids(stranger))), path="name" + ".x" * 1000, value=1
+    assert "nested that deeply" in guest.do(
+        "SetProperty", display=next(iter(ids(guest))), path="name" + ".x" * 1000, value=1
     )
     assert caplog.messages == []
 
 
-def test_a_text_of_a_page_has_a_limit(stranger: Guest, viewer: webviz.Viewer) -> None:
-    (grid,) = ids(stranger)
-    answer = stranger.do("SetProperty", display=grid, path="name", value="x" * (MAX_TEXT + 1))
+def test_a_text_of_a_page_has_a_limit(guest: Guest, viewer: webviz.Viewer) -> None:
+    (grid,) = ids(guest)
+    answer = guest.do("SetProperty", display=grid, path="name", value="x" * (MAX_TEXT + 1))
     assert answer == f"Not done: expected at most {MAX_TEXT} characters."
     deep: Any = 1
     for _ in range(100):
         deep = [deep]
-    answer = stranger.do("AddDisplay", type="Grid", values={"name": deep})
+    answer = guest.do("AddDisplay", type="Grid", values={"name": deep})
     assert answer == "Not done: expected at most 64 nested levels."
-    assert "at most" in stranger.do("WriteDisplays", displays=[""] * 60_000)
+    assert "at most" in guest.do("WriteDisplays", displays=[""] * 60_000)
     assert [display.name for display in viewer.displays] == ["Grid"]
 
 
 def test_numbers_that_json_cannot_hold_reach_no_page(
-    stranger: Guest, viewer: webviz.Viewer, caplog: pytest.LogCaptureFixture
+    guest: Guest, viewer: webviz.Viewer, caplog: pytest.LogCaptureFixture
 ) -> None:
-    stranger.send("Do", number=2**70, command="Undo", arguments={})  # it could not be answered
-    stranger.do("AddDisplay", type="LaserScan", values={"topic": {"name": "/a", "depth": 2**64}})
-    scan = ids(stranger)[-1]
-    stranger.send("Watch", store=f"properties:{scan}")
-    values = stranger.receive("Values")["set"]
+    guest.send("Do", number=2**70, command="Undo", arguments={})  # it could not be answered
+    guest.do("AddDisplay", type="LaserScan", values={"topic": {"name": "/a", "depth": 2**64}})
+    scan = ids(guest)[-1]
+    guest.send("Watch", store=f"properties:{scan}")
+    values = guest.receive("Values")["set"]
     assert (values["name"], values["value.topic.depth"]) == ("LaserScan", 2**64)
     assert [m for m in caplog.messages if "ignored" not in m] == []
 
 
-def test_the_view_of_another_browser_is_not_sent(stranger: Guest) -> None:
-    own = stranger.page["browser"]
+def test_the_view_of_another_browser_is_not_sent(guest: Guest) -> None:
+    own = guest.page["browser"]
     for store in (f"view:{own + 1}", f"view_type:{own + 1}", "view:", f"view_type:{own}"):
-        stranger.send("Watch", store=store)
-    assert stranger.receive("Values")["store"] == f"view_type:{own}"
+        guest.send("Watch", store=store)
+    assert guest.receive("Values")["store"] == f"view_type:{own}"
 
 
-def test_a_page_watches_so_many_stores_and_not_more(stranger: Guest) -> None:
+def test_a_page_watches_so_many_stores_and_not_more(guest: Guest) -> None:
     for number in range(500):
-        stranger.send("Watch", store=f"properties:{number}")
-    stranger.send("Watch", store="x" * 100_000)
-    stranger.do("Undo")
-    stranger.send("Watch", store="history")
-    stranger.do("Undo")
-    assert len(stranger.channel.watched()) == 64
+        guest.send("Watch", store=f"properties:{number}")
+    guest.send("Watch", store="x" * 100_000)
+    guest.do("Undo")
+    guest.send("Watch", store="history")
+    guest.do("Undo")
+    assert len(guest.channel.watched()) == 64
 
 
-def ids(stranger: Guest) -> list[str]:
+def ids(guest: Guest) -> list[str]:
     """The displays of the viewer."""
-    stranger.send("Watch", store="displays")
-    order = stranger.receive("Values")["set"]["order"]
-    stranger.send("Unwatch", store="displays")
+    guest.send("Watch", store="displays")
+    order = guest.receive("Values")["set"]["order"]
+    guest.send("Unwatch", store="displays")
     return order
