@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from webviz import Axes, Context, Error, Frames, Group, Hit, Instances, Level, Pose
+from webviz import Axes, Context, Error, Frames, Group, Hit, Instances, Labels, Level, Pose
 from webviz.api.connection import ReceivedMessages
 from webviz.api.handles import Drag, DragKind, Handle
 from webviz.data.messages import decode, encode, interfaces
@@ -584,7 +584,12 @@ def test_a_marker_that_is_picked_is_inspected(server: Server) -> None:
         hit = Hit(key, node, 0, (0.0, 0.0, 0.0), "odom", ())
         return shown.display.inspect(hit, shown.context())
 
-    assert "An arm" in str(inspect("c0/m1/box"))
+    whole = {"Marker": "a", "Description": "An arm", "Scale": 1.0}
+    control = {"Control": "(no name)", "Interaction": "move axis"}
+    pose = {"Pose in odom": Pose()}
+    assert inspect("c0/m1/box").values == whole | control | pose
+    assert inspect("c1/m1/box").values == whole | pose  # it has one control less than before
+    assert inspect("title/m1").values == whole | pose
     assert inspect("c0/m9/box") is None
 
 
@@ -597,6 +602,14 @@ def test_axes_are_as_long_as_the_marker_and_only_texts_have_a_ball_to_grip(serve
     assert isinstance(axes, Axes)
     assert (axes.length, axes.radius) == (2.0, 2.0 * AXES_RADIUS)
     assert (axes.positions.tolist(), axes.wxyzs.tolist()) == ([[0, 0, 0]], [[1, 0, 0, 0]])
+
+
+def test_a_title_is_above_its_marker_in_the_size_of_the_marker(server: Server) -> None:
+    shown = Shown(server, {"show_descriptions": True}, scale=2.0, description="An arm")
+    title = shown.groups()["m1.title"].nodes["title/m1"]
+    assert isinstance(title, Labels)
+    assert (title.texts, title.height) == (("An arm",), pytest.approx(0.3))
+    np.testing.assert_allclose(title.positions, [(0.0, 0.0, 2.8)])
 
 
 def test_without_transparency_all_that_is_visible_is_opaque(server: Server) -> None:
@@ -617,6 +630,7 @@ def test_a_fixed_control_turns_about_its_own_axis(server: Server) -> None:
     up = {"w": math.sqrt(0.5), "y": -math.sqrt(0.5)}
     for orientation, axis in (({"w": 1.0}, (1.0, 0.0, 0.0)), (up, (0.0, 0.0, 1.0))):
         shown = Shown(server, controls=[{"orientation": orientation, **control}])
+        assert shown.groups()["m1.0"].placement.offset.wxyz == (1.0, 0.0, 0.0, 0.0)
         shown.drag("press")
         shown.drag("move", 0.0, turned=0.5)
         wanted = [math.cos(0.25), *(math.sin(0.25) * each for each in axis)]
@@ -660,14 +674,16 @@ def test_what_hides_a_marker_is_an_error_and_what_it_lacks_a_warning(server: Ser
         {"name": "frameless"},
         {"name": "late", "header": late, "controls": [{}]},
         {"name": "lost", "header": lost, "controls": [{}]},
+        {"name": "strange", **there, "controls": [{"markers": [{"type": 99}]}]},
         {"name": "odd", **there, "controls": [{}, {"interaction_mode": 10}]},
         {"name": "bare", **there},
     ]
     shown.known.take([news_of(markers=markers)])
+    shown.groups()
     ctx = shown.context()
     shown.display.tick(ctx)
     levels = {key: status.level for key, status in ctx.statuses.items() if key != "Server"}
-    hidden = dict.fromkeys(("refused", "frameless", "late", "lost"), Level.ERROR)
+    hidden = dict.fromkeys(("refused", "frameless", "late", "lost", "strange"), Level.ERROR)
     assert levels == {"a": Level.OK, **hidden, "odd": Level.WARN, "bare": Level.WARN}
 
 

@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 import numpy as np
+import pytest
 
 from webviz.data.messages import decode, encode
 from webviz_displays.interactive_markers.completion import (
@@ -20,7 +21,7 @@ from webviz_displays.interactive_markers.reading import UPDATE, read_update
 
 MARKER = "visualization_msgs/msg/InteractiveMarker"
 NAN = math.nan
-MENU, MOVE_AXIS, ROTATE_AXIS, MOVE_ROTATE = 1, 3, 5, 6
+MENU, MOVE_AXIS, MOVE_PLANE, ROTATE_AXIS, MOVE_ROTATE = 1, 3, 4, 5, 6
 
 
 def made(**values: Any) -> Completed | RefusedMarker:
@@ -63,6 +64,10 @@ def test_controls_without_markers_get_handles_in_the_size_and_colour_of_ros() ->
     assert angles[:4].tolist() == [[0, 10, 10], [10, 10, 20], [0, 10, 0], [10, 20, 20]]
     radii = np.hypot(corners[..., 1], corners[..., 2]).round(6)
     assert (radii == 0.65).sum(axis=1)[:4].tolist() == [1, 1, 2, 2]
+
+    plane = part(interaction_mode=MOVE_PLANE).shapes.contents[0]
+    assert plane.points.shape == (216, 3)
+    np.testing.assert_allclose(plane.colors, [(1, 0, 0, 0.5)] * 72)
 
     title = part(interaction_mode=MENU, description="Options")
     assert (title.control.facing, title.shapes.contents[0].text) == ("view_facing", "Options")
@@ -123,6 +128,15 @@ def test_names_titles_and_frames_are_kept_or_said_to_be_too_long() -> None:
         refused = made(**values)
         assert isinstance(refused, RefusedMarker)
         assert f"{what or 'frame id'} has 1001 characters; the limit is 1000" in refused.reason
+
+
+@pytest.mark.parametrize(
+    ("count", "problems"), [(200, ()), (201, ("Only 200 of 201 controls are shown.",))]
+)
+def test_a_marker_has_at_most_200_controls(count: int, problems: tuple[str, ...]) -> None:
+    result = made(controls=[{}] * count)
+    assert isinstance(result, Completed)
+    assert (len(result.parts), result.problems) == (200, problems)
 
 
 def test_a_name_that_is_given_twice_is_said() -> None:
