@@ -343,6 +343,11 @@ def test_a_disk_that_does_not_respond_is_logged_once(
     mounted.set()
 
 
+def test_a_viewer_with_a_token_of_the_environment_makes_none(path: Path) -> None:
+    make_missing(access_to("0.0.0.0", path=path, environment={"WEBVIZ_TOKEN_OWN": SECRET}))
+    assert not path.exists()
+
+
 def test_a_viewer_that_nobody_could_enter_does_not_start(path: Path) -> None:
     old = Token("a", "owner", SECRET, NOW, datetime(2000, 1, 1, tzinfo=UTC))
     token_file.modify(path, lambda _: [old])

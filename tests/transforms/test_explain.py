@@ -103,6 +103,15 @@ def test_no_name_is_guessed_that_is_no_slip(
     )
 
 
+@pytest.mark.parametrize(("length", "is_compared"), [(200, True), (201, False)])
+def test_names_of_any_length_are_not_compared_in_each_turn(
+    buffer: TransformBuffer, put: Put, length: int, is_compared: bool
+) -> None:
+    put("map", length * "n", 1.0)
+    for slip in (f"{(length - 1) * 'n'}m", f"{199 * 'n'}m"):
+        assert ("Did you mean" in why(buffer, slip, 1.0).sentence) == is_compared
+
+
 def test_a_fixed_frame_never_seen_comes_with_what_was_meant_or_the_root_of_the_largest_tree(
     buffer: TransformBuffer, put: Put
 ) -> None:

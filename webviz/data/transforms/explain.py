@@ -14,6 +14,8 @@ from webviz.data.transforms.tree import FrameTree, ancestors
 
 SLIP = 0.85
 """Similarity, by difflib, from which a name counts as a misspelling of another."""
+MAX_COMPARED = 200
+"""Characters of names that are compared: 70 000 of two names would take a second in each turn."""
 
 
 def explain(
@@ -122,7 +124,10 @@ def _nearest(buffer: TransformBuffer, name: str) -> str:
 
     Frames that differ by a number, a namespace, left or right are distinct.
     """
-    candidates = {frame.lower(): frame for frame in buffer.frames()}
+    if len(name) > MAX_COMPARED:
+        return ""
+    frames = (frame for frame in buffer.frames() if len(frame) <= MAX_COMPARED)
+    candidates = {frame.lower(): frame for frame in frames}
     slip = name.lower()
     for frame in candidates:
         if frame == slip or frame.rpartition("/")[-1] == slip or slip.rpartition("/")[-1] == frame:
