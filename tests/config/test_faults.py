@@ -14,6 +14,7 @@ from webviz.api.panel import Panel
 from webviz.api.properties import properties_of
 from webviz.api.registry import plugin_types
 from webviz.api.tool import Tool
+from webviz.api.views import Orbit
 from webviz.files.config import Settings
 from webviz.files.config.faults import Fault, first_fault
 
@@ -26,6 +27,7 @@ ODD: tuple[Any, ...] = (
 CLASSES = [
     *(cls for base in (Display, Tool, Panel) for cls in plugin_types(base).values()),
     Settings,
+    Orbit,
 ]
 
 
@@ -74,6 +76,7 @@ def _is_at(fault: Fault, refusal: str) -> bool:
         ({"watch": [{"display": "Map"}]}, "a rule is about a display or about a topic."),
         ({"views": {1: {}}}, 'expected text as keys, such as "0":'),
         ({"bookmarks": {"a": "b"}}, "expected a number, got `b`"),
+        ({"watch": [{"status": "bad"}]}, "expected warn or error, got `bad`"),
     ],
 )
 def test_a_clause_says_what_was_expected(values: Mapping[str, Any], clause: str) -> None:

@@ -6,6 +6,7 @@ import functools
 import math
 import operator
 import re
+import typing
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -128,7 +129,9 @@ def _tagged(structs: Sequence[StructType], value: Mapping[Any, Any], path: Path)
     """A struct of several that one of its keys tells apart."""
     key = structs[0].tag_field or ""
     if key not in value:
-        return None if len(structs) == 1 else Fault(path, f"the key `{key}` is missing")
+        if len(structs) == 1:
+            return _in_struct(structs[0], value, path)
+        return Fault(path, f"the key `{key}` is missing")
     named = next((each for each in structs if each.tag == value[key]), None)
     if named is None:
         return _expected(choices([each.tag for each in structs]), value[key], (*path, key))
@@ -137,16 +140,14 @@ def _tagged(structs: Sequence[StructType], value: Mapping[Any, Any], path: Path)
 
 def _in_struct(type_: StructType, value: Mapping[Any, Any], path: Path) -> Fault | None:
     fields = {field.encode_name: field for field in type_.fields}
-    orders = {each.path: each.choices for each in properties_of(type_.cls)}
+    hints = {each.path: each.hint for each in properties_of(type_.cls)}
     for key, item in value.items():
         if not isinstance(key, str):
             return Fault(path, TEXT_AS_KEYS)
         if key == type_.tag_field:
             continue
         if field := fields.get(key):
-            order = orders[field.name]  # msgspec sorts the values of a Literal
-            known = LiteralType(order) if order else field.type
-            if fault := _fault(known, item, (*path, key)):
+            if fault := _fault(_in_order(field.type, hints[field.name]), item, (*path, key)):
                 return fault
         elif type_.forbid_unknown_fields:
             return Fault((*path, key), unknown_key(key, fields))
@@ -159,6 +160,20 @@ def _in_struct(type_: StructType, value: Mapping[Any, Any], path: Path) -> Fault
         except msgspec.ValidationError as error:  # in our own words
             return Fault(path, str(error.__cause__ or error))
     return None
+
+
+def _in_order(type_: Type, hint: Any) -> Type:
+    """A type whose choices are in the order of their declaration; msgspec sorts them."""
+    match type_:
+        case Metadata():
+            return _in_order(type_.type, hint)
+        case LiteralType():
+            literals = [hint, *typing.get_args(hint)]
+            chosen = next(each for each in literals if typing.get_origin(each) is typing.Literal)
+            return LiteralType(typing.get_args(chosen))
+        case UnionType():
+            return UnionType(tuple(_in_order(each, hint) for each in type_.types))
+    return type_
 
 
 def _in_dict(type_: DictType, value: Mapping[Any, Any], path: Path) -> Fault | None:
