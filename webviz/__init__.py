@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     from webviz.api.picking import Details, Hit, Quantity
     from webviz.api.ports import Input, Output
     from webviz.api.sample import Sample
-    from webviz.api.status import Level, OtherFixedFrame, Remedy, Status
+    from webviz.api.status import Level, Measurement, OtherFixedFrame, Remedy, Status
     from webviz.api.tool import Gesture, Tool, ToolContext
     from webviz.engine.state import State
     from webviz.shell.app.viewer import Viewer
@@ -83,6 +83,7 @@ __all__ = [
     "Level",
     "Lines",
     "Lookback",
+    "Measurement",
     "Mesh",
     "Models",
     "Node",
@@ -159,7 +160,7 @@ _HOMES = {
     "webviz.api.picking": ("Details", "Hit", "Quantity"),
     "webviz.api.ports": ("Input", "Output"),
     "webviz.api.sample": ("Sample",),
-    "webviz.api.status": ("Level", "OtherFixedFrame", "Remedy", "Status"),
+    "webviz.api.status": ("Level", "Measurement", "OtherFixedFrame", "Remedy", "Status"),
     "webviz.api.tool": ("Gesture", "Stroke", "Tool", "ToolContext"),
     "webviz.engine.state": ("State",),
     "webviz.shell.pictures.capture": ("capture",),

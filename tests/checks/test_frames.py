@@ -179,11 +179,11 @@ def test_odometry_is_missing(robot: Harness) -> None:
 
 
 def test_two_trees(robot: Harness) -> None:
-    robot.transform("sensors", "laser")
+    robot.transform("sensor mount", "laser")
     robot.turn()
     scan(robot)
     finding = only(examined(robot))
-    assert (finding.id, finding.subject) == ("TF006", "sensors")
+    assert (finding.id, finding.subject) == ("TF006", "sensor mount")
 
 
 def test_a_loop(robot: Harness) -> None:

@@ -110,7 +110,7 @@ def test_a_stamp_older_than_the_cache_says_by_how_much(robot: Robot, page: Page)
     wait_for(
         page,
         's older than the oldest transform kept of "map" → "beacon"',
-        "10.0 s are kept. The data arrives too late",
+        "10 s are kept. The data arrives too late",
     )
     robot.scans["/old"] = Scan("beacon")
     wait_until_ok(page, "too late")

@@ -169,7 +169,7 @@ def test_a_machine_whose_clock_is_two_seconds_ahead_is_named_until_it_is_set_rig
     wait_for(
         page,
         'The transforms of "camera" are stamped 2.0 s ahead of the clock of this computer, the '
-        "others are not: synchronise the clocks",
+        "others are not. Synchronise the clocks",
     )
     camera.links = {("base_link", "camera"): 0.0}
     page.wait_for(lambda: "synchronise" not in page.text(), "that it clears", 60)

@@ -12,6 +12,7 @@ from shown_stores import shown_by
 from webviz.api.declared import Topic
 from webviz.api.group import DisplayGroup
 from webviz.api.status import Level, OtherFixedFrame, Remedy, Status
+from webviz.data.transforms.reasons import Explanation, Kind
 from webviz.engine.state import Row, State, Traffic
 from webviz.page.content import MAKERS
 from webviz.page.dependency_tracking import DependencyTracker
@@ -36,21 +37,6 @@ def test_a_row_says_its_worst_status_and_nothing_while_all_is_well(make_row: Mak
     assert row_of(make_row("a", statuses={"Topic": STATUSES["Topic"]}))["line"] == ""
 
 
-@pytest.mark.parametrize(
-    ("text", "shown"),
-    [
-        (
-            "No message for 137.5 s on /map, before at 20.72 Hz.",
-            "No message for 140 s on /map, before at 21 Hz.",
-        ),
-        ("3.4 s old; 0.25 s apart; 1234567.8 s.", "3 s old; 0.25 s apart; 1200000 s."),
-        ("scan_2.5 s, 12 m, v1.25.3 seconds", "scan_2.5 s, 12 m, v1.25.3 seconds"),
-    ],
-)
-def test_ages_and_rates_in_a_line_change_seldom(make_row: MakeRow, text: str, shown: str) -> None:
-    assert row_of(make_row("a", statuses={"Topic": Status(Level.WARN, text)}))["line"] == shown
-
-
 def test_a_group_names_the_display_that_has_the_problem() -> None:
     group = Row("g", "Group", DisplayGroup(name="G"), "G", {"Front scan": STATUSES["Points"]})
     assert row_of(group)["line"] == "Front scan: No points."
@@ -69,8 +55,10 @@ def test_a_row_offers_what_helps(make_row: MakeRow) -> None:
 def test_a_cause_that_the_viewer_names_is_said_once_and_its_remedy_offered_everywhere(
     make_row: MakeRow,
 ) -> None:
-    cause = Status(Level.ERROR, "Fixed frame does not exist.", OtherFixedFrame("odom"))
-    own = Status(Level.ERROR, f"{cause.text} 3 messages were given up.")
+    reason = Explanation(Kind.UNKNOWN_FIXED_FRAME, "Fixed frame does not exist.")
+    cause = Status(Level.ERROR, reason.sentence, OtherFixedFrame("odom"), reason)
+    given_up = replace(reason, sentence=f"{reason.sentence} 3 messages were given up.")
+    own = Status(Level.ERROR, given_up.sentence, reason=given_up)
     few = Status(Level.ERROR, "0 of 3 links.")  # first, and because of the cause
     rows = (
         make_row("a", statuses={"Links": few, "Transform": own}),

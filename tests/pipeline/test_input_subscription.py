@@ -124,6 +124,12 @@ def test_silence_after_a_stream_and_a_publisher_that_left(bench: Callable[..., A
     level, text = b.statuses()["Topic"]
     assert level == "WARN"
     assert text == "No publisher on /pose any more, last message 5.1 s ago. Restart it."
+    measured = b.states[-1].rows[0].statuses["Topic"].values
+    assert [(each.name, each.value, each.unit) for each in measured] == [
+        ("messages", 10, ""),
+        ("rate", 10.0, "Hz"),
+        ("age", 5.1, "s"),
+    ]
 
 
 def test_a_slow_stream_is_late_after_five_of_its_gaps(bench: Callable[..., Any]) -> None:
@@ -267,7 +273,7 @@ def test_transforms_that_come_long_after_the_data_are_a_warning_until_they_keep_
     level, text = b.statuses()["Transform"]
     assert level == "WARN"
     assert text.startswith(
-        "Drawn 0.6 s late: the transforms arrive that long after the data. The stamp"
+        "Drawn 600 ms late: the transforms arrive that long after the data. The stamp"
     )
     assert '"map" → "base" (from /test)' in text
     for _ in range(3):

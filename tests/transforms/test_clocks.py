@@ -21,7 +21,7 @@ def test_usual_delays_and_amcls_tolerance_are_no_fault(
     buffer: TransformBuffer, offset_s: float
 ) -> None:
     hear(buffer, "odom", offset_s)
-    assert clock_problem(buffer, NOW) == ""
+    assert clock_problem(buffer, NOW) is None
 
 
 @pytest.mark.parametrize(("offset_s", "words"), [(2.0, "ahead of"), (-2.0, "behind")])
@@ -30,52 +30,52 @@ def test_one_machine_that_is_off_is_named_with_its_offset(
 ) -> None:
     hear(buffer, "odom", -0.01)
     hear(buffer, "camera", offset_s)
-    assert clock_problem(buffer, NOW) == (
+    assert str(clock_problem(buffer, NOW)) == (
         f'The transforms of "camera" are stamped 2.0 s {words} the clock of this computer, the '
-        "others are not: synchronise the clocks of the machines (chrony, NTP)."
+        "others are not. Synchronise the clocks of the machines (chrony, NTP)."
     )
 
 
 def test_if_all_are_off_no_frame_is_blamed(buffer: TransformBuffer) -> None:
     for child in ("odom", "camera"):
         hear(buffer, child, 3.0)
-    assert clock_problem(buffer, NOW).startswith("All transforms are stamped 3.0 s ahead of")
+    assert str(clock_problem(buffer, NOW)).startswith("All transforms are stamped 3.0 s ahead of")
 
 
 def test_a_replayed_bag_comes_with_the_way_to_follow_its_time(buffer: TransformBuffer) -> None:
     hear(buffer, "odom", -3 * 86400.0)
-    sentence = clock_problem(buffer, NOW)
+    sentence = str(clock_problem(buffer, NOW))
     assert "stamped 3 days behind the time of this computer" in sentence
     assert "use_sim_time:=true" in sentence
 
 
 def test_simulated_time_is_recognised_and_not_counted_in_years(buffer: TransformBuffer) -> None:
     hear(buffer, "odom", 12.5 - NOW / S)
-    assert clock_problem(buffer, NOW) == (
+    assert str(clock_problem(buffer, NOW)) == (
         '"odom" is stamped with simulated time (12.5 s), but webviz follows the clock of this '
-        "computer. Start it with --ros-args -p use_sim_time:=true."
+        "computer. Start webviz with --ros-args -p use_sim_time:=true."
     )
 
 
 def test_simulated_time_may_be_behind_simulated_time(buffer: TransformBuffer) -> None:
     hear(buffer, "odom", -4000.0, 5000 * S)
-    assert "stamped 67 min behind the time of this computer" in clock_problem(buffer, 5000 * S)
+    assert "stamped 67 min behind the time of this computer" in str(clock_problem(buffer, 5000 * S))
 
 
 def test_who_fell_silent_is_not_blamed_any_more(buffer: TransformBuffer) -> None:
     hear(buffer, "odom", 2.0)
     assert clock_problem(buffer, NOW + 5 * S)
-    assert clock_problem(buffer, NOW + 11 * S) == ""
+    assert clock_problem(buffer, NOW + 11 * S) is None
 
 
 def test_without_a_time_nothing_can_be_said(buffer: TransformBuffer) -> None:
     hear(buffer, "odom", 2.0, received_ns=0)
-    assert clock_problem(buffer, 0) == ""
+    assert clock_problem(buffer, 0) is None
 
 
 def test_a_bag_comes_without_options_that_it_does_not_have(buffer: TransformBuffer) -> None:
     hear(buffer, "odom", -3 * 86400.0)
-    assert clock_problem(buffer, NOW, is_recorded=True) == (
-        '"odom" is stamped 3 days behind the time of the bag: the clocks differed when it was '
-        "recorded."
+    assert str(clock_problem(buffer, NOW, is_recorded=True)) == (
+        '"odom" is stamped 3 days behind the time of the bag. Synchronise the clocks of the '
+        "machines before you record again."
     )

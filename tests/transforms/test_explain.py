@@ -187,7 +187,7 @@ def test_a_link_that_stopped_is_told_from_one_that_is_late(
     found = why(buffer, "odom", 23.0, 23.1)
     assert found.kind == Kind.AHEAD
     assert not found.is_catching_up
-    assert "which has stopped: its last is 12.1 s old" in found.sentence
+    assert "which has stopped: its last is 12 s old" in found.sentence
 
 
 def test_a_stamp_in_the_future_blames_the_clock_of_the_data(
@@ -230,7 +230,7 @@ def test_a_stamp_older_than_the_cache_says_by_how_much(buffer: TransformBuffer, 
     found = why(buffer, "odom", 96.5, 110.0)
     assert found.kind == Kind.BEHIND
     assert "3.5 s older than the oldest transform kept" in found.sentence
-    assert "10.0 s are kept" in found.sentence
+    assert "10 s are kept" in found.sentence
 
 
 def test_a_stamp_from_before_the_first_transform_will_pass(
@@ -274,7 +274,7 @@ def test_a_jump_back_in_time_is_recognised_by_refused_transforms(
         assert not put("map", "odom", stamp)
     found = why(buffer, "odom", 50.1, 50.2)
     assert found.kind == Kind.JUMPED_BACK
-    assert "59.9 s older" in found.sentence
+    assert "60 s older" in found.sentence
     assert "2 older transforms were refused" in found.sentence
     assert "Reset" in found.sentence
 

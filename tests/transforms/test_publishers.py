@@ -27,7 +27,7 @@ def test_two_authorities_that_take_turns_are_told_from_a_restart(
     assert contest(buffer, "odom") == Contest(("amcl again", "amcl"), 1_300_000_000)
     assert set(buffer.publishers["odom"].names()) == {"amcl", "amcl again"}
     assert list(conflicts(buffer, "odom")) == [
-        '"odom" has two publishers, amcl again and amcl: stop one of them.'
+        '"odom" has two publishers, amcl again and amcl. Stop one of the publishers.'
     ]
 
 

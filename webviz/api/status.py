@@ -7,6 +7,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
+import msgspec
+
 from webviz.data.transforms.reasons import Explanation
 
 
@@ -58,6 +60,20 @@ class OtherFixedFrame:
         return f"Use {self.frame}"
 
 
+class Measurement(msgspec.Struct, frozen=True):
+    """A value that a status was made of, as exact as it was measured.
+
+    Args:
+        name: such as "age" or "rate".
+        value: in `unit`.
+        unit: an SI unit, or "" for counts and shares.
+    """
+
+    name: str
+    value: float
+    unit: str = ""
+
+
 @dataclass(frozen=True)
 class Status:
     """A status: its level, and a sentence with the cause and a remedy.
@@ -67,12 +83,15 @@ class Status:
         text: a sentence.
         remedy: a change that would help, None if none would.
         reason: why a frame has no pose, if that is the cause; for checks, which see more.
+        values: measured, for programs. Words for people have few digits, so that they change
+            seldom.
     """
 
     level: Level
     text: str
     remedy: Remedy | OtherFixedFrame | None = None
     reason: Explanation | None = None
+    values: tuple[Measurement, ...] = ()
 
 
 def worst(statuses: Iterable[Status]) -> Level:

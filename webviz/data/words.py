@@ -1,11 +1,22 @@
-"""Counts, lists and joins of sentences."""
+"""Counts, lists, problems and joins of sentences."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 ENDS = ".!?:…"
 """Characters that end a sentence; a list follows the colon."""
+
+
+class Problem(NamedTuple):
+    """A cause and its remedy, one sentence each."""
+
+    cause: str
+    remedy: str
+
+    def __str__(self) -> str:
+        return joined(self.cause, self.remedy)
 
 
 def counted(number: int, noun: str) -> str:

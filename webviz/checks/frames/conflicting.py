@@ -9,6 +9,7 @@ from webviz.api.check import Check
 from webviz.api.finding import Finding
 from webviz.api.observation import Observation
 from webviz.data.transforms.conflicts import ConflictKind
+from webviz.data.words import Problem, counted, joined
 
 
 class ConflictCheck(Check):
@@ -20,16 +21,16 @@ class ConflictCheck(Check):
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for the frames with this sign that have the same parents."""
-        found: dict[tuple[str, ...], list[tuple[str, str]]] = {}
+        found: dict[tuple[str, ...], list[tuple[str, Problem]]] = {}
         for frame, conflict in seen.conflicts(self.kind):
-            cause, _, _ = conflict.sentence.partition(":")
-            found.setdefault(conflict.parents, []).append((frame, cause))
+            found.setdefault(conflict.parents, []).append((frame, conflict.problem))
         for parents, several in found.items():
-            frame, cause = several[0]
-            more = f", and so have {len(several) - 1} other frames" if len(several) > 1 else ""
+            frame, problem = several[0]
+            others = len(several) - 1
+            more = f"The same holds for {counted(others, 'other frame')}." if others else ""
             yield self.found(
-                f"{cause}{more}.",
-                "Stop one of the publishers.",
+                joined(problem.cause, more),
+                problem.remedy,
                 subject=frame,
                 evidence={
                     "frames": tuple(name for name, _ in several),

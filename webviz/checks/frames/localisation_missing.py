@@ -36,7 +36,7 @@ class LocalisationMissing(Check):
         frames, explains = seen.buffer.frames(), []
         for symptom, reason in seen.lost(Kind.UNKNOWN_FIXED_FRAME, Kind.NOT_CONNECTED):
             is_unknown = reason.kind is Kind.UNKNOWN_FIXED_FRAME and not reason.near
-            if is_unknown or reason.cause == f"odom {seen.fixed_frame}":
+            if is_unknown or reason.roots == ("odom", seen.fixed_frame):
                 explains.append(symptom)
         is_wanted = seen.fixed_frame == "map"
         for symptom, reason in seen.lost(Kind.UNKNOWN_FRAME):

@@ -30,7 +30,7 @@ class OdometryMissing(Check):
         """Yield a finding if the base is the root of a tree besides that of odom."""
         tree, explains, base = seen.buffer.tree, [], ""
         for symptom, reason in seen.lost(Kind.NOT_CONNECTED):
-            root, _, fixed_root = reason.cause.partition(" ")
+            root, fixed_root = reason.roots or ("", "")
             known = "odom" in tree.names and tree.root("odom") == fixed_root
             if root.startswith("base") and known:
                 explains.append(symptom)

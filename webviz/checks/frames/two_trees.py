@@ -32,9 +32,9 @@ class TwoTrees(Check):
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each pair of trees that displays need together."""
         for symptom, reason in seen.lost(Kind.NOT_CONNECTED):
-            if not reason.cause:
+            if not reason.roots:
                 continue  # it was not connected at that time, and now it is
-            root, _, fixed_root = reason.cause.partition(" ")
+            root, fixed_root = reason.roots
             yield self.found(
                 f'No transform connects the tree of "{root}" with that of "{fixed_root}".',
                 f'Publish the transform from a frame of one to "{root}".',

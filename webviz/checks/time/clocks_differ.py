@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from webviz.api.check import Check
 from webviz.api.finding import Finding
 from webviz.api.observation import Observation
+from webviz.data.transforms.clocks import clock_problem
 
 
 class ClocksDiffer(Check):
@@ -27,14 +28,13 @@ class ClocksDiffer(Check):
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        status = seen.statuses.get("Clocks")
         explains = seen.symptom("Clocks")
-        if status and explains:
-            cause, _, remedy = status.text.partition(": ")
+        problem = clock_problem(seen.buffer, seen.now_ns, seen.is_recorded)
+        if problem and explains:
             yield self.found(
-                f"{cause.rstrip('.')}.",
-                f"{remedy[:1].upper()}{remedy[1:]}" or "Use one clock for all nodes.",
-                evidence={"status": status.text},
+                problem.cause,
+                problem.remedy,
+                evidence={"status": str(problem)},
                 command="chronyc tracking",
                 explains=explains,
             )

@@ -6,6 +6,7 @@ from webviz.data.transforms.buffer import TransformBuffer
 from webviz.data.transforms.cache import TimeCache
 from webviz.data.transforms.errors import NS_PER_S
 from webviz.data.transforms.reasons import HOUR_NS, WALL_NS, YEAR_NS, in_words
+from webviz.data.words import Problem
 
 TOLERANCE_NS = 1_500_000_000
 """Tolerated offset: AMCL stamps its transform up to 1 s ahead (its transform_tolerance)."""
@@ -13,8 +14,10 @@ RECENT_NS = 10 * NS_PER_S
 SHOWN = 3
 
 
-def clock_problem(buffer: TransformBuffer, now_ns: int, is_recorded: bool = False) -> str:
-    """Report transforms whose stamps differ from our time, and by how much.
+def clock_problem(
+    buffer: TransformBuffer, now_ns: int, is_recorded: bool = False
+) -> Problem | None:
+    """Return which transforms have stamps that differ from our time, and by how much.
 
     Args:
         buffer: transforms inserted with the time at which they were received.
@@ -22,7 +25,7 @@ def clock_problem(buffer: TransformBuffer, now_ns: int, is_recorded: bool = Fals
         is_recorded: whether they are of a bag, whose time cannot be chosen.
 
     Returns:
-        A sentence, "" if the clocks agree.
+        None if the clocks agree.
     """
     offsets: dict[str, int] = {}  # stamp minus time of reception
     for child, publishers in buffer.publishers.items():
@@ -34,32 +37,34 @@ def clock_problem(buffer: TransformBuffer, now_ns: int, is_recorded: bool = Fals
             offsets[child] = -delay_ns
     wrong = {child: ns for child, ns in offsets.items() if abs(ns) > TOLERANCE_NS}
     if not now_ns or not wrong:
-        return ""
+        return None
     child, worst = max(wrong.items(), key=lambda item: abs(item[1]))
     if is_recorded:
         side = "ahead of" if worst > 0 else "behind"
-        return (
-            f'"{child}" is stamped {in_words(worst)} {side} the time of the bag: the clocks '
-            "differed when it was recorded."
+        return Problem(
+            f'"{child}" is stamped {in_words(worst)} {side} the time of the bag.',
+            "Synchronise the clocks of the machines before you record again.",
         )
     stamp_ns = buffer.tree.caches[child].newest_stamp
     if stamp_ns < YEAR_NS and now_ns > WALL_NS:
-        return (
+        return Problem(
             f'"{child}" is stamped with simulated time ({stamp_ns / NS_PER_S:.1f} s), but webviz '
-            "follows the clock of this computer. Start it with --ros-args -p use_sim_time:=true."
+            "follows the clock of this computer.",
+            "Start webviz with --ros-args -p use_sim_time:=true.",
         )
     offset = f"{in_words(worst)} {'ahead of' if worst > 0 else 'behind'}"
     if len(wrong) == len(offsets) and abs(worst) > HOUR_NS:
-        return (
+        return Problem(
             f"The transforms are stamped {offset} the time of this computer, as those of a "
-            "replayed bag are. To follow its time, play it with --clock and start webviz with "
-            "--ros-args -p use_sim_time:=true."
+            "replayed bag are.",
+            "To follow its time, play it with --clock and start webviz with --ros-args -p "
+            "use_sim_time:=true.",
         )
     names = [f'"{child}"' for child in wrong]
     shown = ", ".join(names[:SHOWN]) + (" …" if len(names) > SHOWN else "")
     who = "All transforms" if len(wrong) == len(offsets) else f"The transforms of {shown}"
     rest = "" if len(wrong) == len(offsets) else ", the others are not"
-    return (
-        f"{who} are stamped {offset} the clock of this computer{rest}: synchronise the clocks of "
-        "the machines (chrony, NTP)."
+    return Problem(
+        f"{who} are stamped {offset} the clock of this computer{rest}.",
+        "Synchronise the clocks of the machines (chrony, NTP).",
     )

@@ -16,6 +16,7 @@ from math import dist
 from webviz.data.transforms.buffer import TransformBuffer
 from webviz.data.transforms.cache import ParentedPose, TimeCache
 from webviz.data.transforms.publishers import Contest
+from webviz.data.words import Problem
 
 RECENT = 100
 """Newest samples searched."""
@@ -42,18 +43,18 @@ class Conflict:
 
     Attributes:
         kind: its kind.
-        sentence: the cause with a remedy.
+        problem: the cause with a remedy.
         parents: of the frame, as far as they are known.
     """
 
     kind: ConflictKind
-    sentence: str
+    problem: Problem
     parents: tuple[str, ...] = ()
 
 
 def conflicts(buffer: TransformBuffer, frame: str) -> Iterator[str]:
     """Sentences, one for each sign of two publishers of a child frame."""
-    return (conflict.sentence for conflict in found_conflicts(buffer, frame))
+    return (str(conflict.problem) for conflict in found_conflicts(buffer, frame))
 
 
 def found_conflicts(buffer: TransformBuffer, frame: str) -> Iterator[Conflict]:
@@ -73,8 +74,10 @@ def found_conflicts(buffer: TransformBuffer, frame: str) -> Iterator[Conflict]:
         both = " and ".join(f'"{name}"' for name in names)
         yield Conflict(
             ConflictKind.TWO_PARENTS,
-            f'"{frame}" changed its parent {changes} times between {both}: two publishers give it '
-            "different parents, stop one of them.",
+            Problem(
+                f'"{frame}" changed its parent {changes} times between {both}.',
+                "Stop one of the two publishers.",
+            ),
             tuple(names),
         )
         return
@@ -82,13 +85,15 @@ def found_conflicts(buffer: TransformBuffer, frame: str) -> Iterator[Conflict]:
     if twins > 1:
         yield Conflict(
             ConflictKind.TWO_PUBLISHERS,
-            f'"{frame}" has {twins} pairs of different poses with the same stamp: two publishers, '
-            "or one whose clock stands still.",
+            Problem(
+                f'"{frame}" has {twins} pairs of different poses with the same stamp.',
+                "Stop one of the two publishers, or start the clock of the only one.",
+            ),
         )
     elif _takes_turns(cache.samples):
         yield Conflict(
             ConflictKind.TWO_PUBLISHERS,
-            f'"{frame}" alternates between two poses: it has two publishers, stop one of them.',
+            Problem(f'"{frame}" alternates between two poses.', "Stop one of the two publishers."),
         )
 
 
@@ -99,27 +104,22 @@ def _contested(frame: str, contest: Contest) -> Conflict:
     if len(parents) == 2:
         both = " and ".join(f'"{parent}"' for parent in parents)
         kind = ConflictKind.TWO_PARENTS
-        text = (
-            f'"{frame}" has two parents in static transforms, {both}: stop one of their publishers.'
-        )
+        cause = f'"{frame}" has two parents in static transforms, {both}.'
     elif len(statics) == 2:
         apart = dist(statics[0][:3], statics[1][:3])
         kind = ConflictKind.TWO_STATIC_POSES
-        text = (
+        cause = (
             f'"{frame}" has two static poses in "{parents[0]}", {apart:.3f} m apart and '
-            "perhaps rotated: stop one of their publishers."
+            "perhaps rotated."
         )
     elif statics:
         kind = ConflictKind.STATIC_AND_MOVING
-        text = (
-            f'"{frame}" is published on /tf and as a static transform in "{parents[0]}": stop one '
-            "of the publishers."
-        )
+        cause = f'"{frame}" is published on /tf and as a static transform in "{parents[0]}".'
     else:
         names = " and ".join(str(claim) or "an unknown node" for claim in contest.claims)
         kind = ConflictKind.TWO_PUBLISHERS
-        text = f'"{frame}" has two publishers, {names}: stop one of them.'
-    return Conflict(kind, text, tuple(parents))
+        cause = f'"{frame}" has two publishers, {names}.'
+    return Conflict(kind, Problem(cause, "Stop one of the publishers."), tuple(parents))
 
 
 def _takes_turns(samples: deque[ParentedPose]) -> bool:

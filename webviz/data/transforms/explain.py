@@ -188,7 +188,7 @@ def _not_connected(tree: FrameTree, fixed_frame: str, frame: str) -> Explanation
         Kind.NOT_CONNECTED,
         f'"{frame}" and "{fixed_frame}" are in two trees that no transform connects: one has the '
         f'root "{root}", the other "{fixed_root}". {remedy}',
-        cause=f"{root} {fixed_root}",
+        roots=(root, fixed_root),
         other_frame="" if link else root,
     )
 

@@ -48,6 +48,7 @@ class Explanation:
         lag_ns: by how much the transforms are behind the stamp, if they are.
         is_catching_up: the transforms are behind, but still arriving.
         cause: what is missing, equal for all frames that lack it; "" for this frame alone.
+        roots: of two trees that are not connected, the frame's and the fixed frame's.
         filter_size: of a queue that would be long enough, 0 if it is unknown.
         other_frame: a fixed frame in which the frame has a pose, "" if the sentence names none.
         frame: the one without a pose.
@@ -60,6 +61,7 @@ class Explanation:
     lag_ns: int = 0
     is_catching_up: bool = False
     cause: str = ""
+    roots: tuple[str, str] | None = None
     filter_size: int = 0
     other_frame: str = ""
     frame: str = field(default="", compare=False)
@@ -83,12 +85,12 @@ def distinct(
         explain: the reason of one frame.
         most: maximum number of reasons.
     """
-    found: dict[tuple[Kind, str], tuple[str, Explanation]] = {}
+    found: dict[tuple[Kind, object], tuple[str, Explanation]] = {}
     for frame in frames[:MAX_TRIED]:
         reason = explain(frame)
         if reason.kind in FOR_ALL:
             return {frame: reason}
-        found.setdefault((reason.kind, reason.cause or frame), (frame, reason))
+        found.setdefault((reason.kind, reason.roots or reason.cause or frame), (frame, reason))
     return dict(list(found.values())[:most])
 
 
@@ -99,12 +101,13 @@ def listed(frames: Sequence[str], link: str = ", ") -> str:
 
 
 def in_words(duration_ns: int) -> str:
-    """A duration in a suitable unit."""
+    """A duration in a suitable unit, with so few digits that a growing one changes seldom."""
     size = abs(duration_ns)
     for limit, unit, digits, name in (
         (10_000_000, 1_000_000, 1, "ms"),
         (NS_PER_S, 1_000_000, 0, "ms"),
-        (120 * NS_PER_S, NS_PER_S, 1, "s"),
+        (10 * NS_PER_S, NS_PER_S, 1, "s"),
+        (120 * NS_PER_S, NS_PER_S, 0, "s"),
         (2 * HOUR_NS, 60 * NS_PER_S, 0, "min"),
         (48 * HOUR_NS, HOUR_NS, 1, "hours"),
         (2 * YEAR_NS, 24 * HOUR_NS, 0, "days"),

@@ -7,9 +7,10 @@ import math
 from webviz.api.consistency import Fit, MapFit, OccupiedCells, RobotPath, ScanPoints
 from webviz.api.frames import compose, is_placeable, to_pose
 from webviz.api.nodes import Pose
-from webviz.api.status import Level, Status
+from webviz.api.status import Level, Measurement, Status
 from webviz.data.rotations import conjugate, matrices
 from webviz.data.transforms import TransformException
+from webviz.data.transforms.reasons import in_words
 from webviz.engine.parts.display_list import DisplayList
 from webviz.engine.parts.part import Core
 from webviz.engine.pipeline import Runner
@@ -82,7 +83,10 @@ class ConsistencyCheck:
             if (count := sum(self._in_the_way(scan, path) for scan in trusted)) >= FEWEST:
                 age_s = (self._core.now_ns - path.received_ns) / 1e9
                 self.blocked[runner.id] = count
-                runner.external_statuses[ON_WAY] = Status(Level.WARN, _blocked(count, age_s))
+                values = (Measurement("points", count), Measurement("age", round(age_s, 1), "s"))
+                runner.external_statuses[ON_WAY] = Status(
+                    Level.WARN, _blocked(count, age_s), values=values
+                )
 
     def _on_map(
         self, scan: ScanPoints, maps: list[OccupiedCells]
@@ -126,46 +130,40 @@ class ConsistencyCheck:
 
 def _status(best: Fit, cells: OccupiedCells, scan: ScanPoints, is_placed: bool) -> Status:
     """Say how well a scan fits; with `is_placed`, another shows that the robot is in place."""
-    text = _sentence(best, cells, scan)
+    measured = f"{best.share:.0%} of {best.points} points lie on walls of {cells.topic}"
+    values = (Measurement("share", round(best.share, 2)), Measurement("points", best.points))
     if best.is_good:
-        return Status(Level.OK, text)
-    measured, _, conclusion = text.partition(" The robot is misplaced")
-    if not is_placed or not conclusion:
-        return Status(Level.WARN, text)
-    text = f"{measured} Another scan fits, so the robot is in place"
-    if best.shift is None:  # such as a scan that is computed, or of what the map leaves out
-        return Status(Level.OK, f"{text}.")
-    return Status(Level.WARN, f"{text}: check the transform of '{scan.frame}'.")
-
-
-def _sentence(best: Fit, cells: OccupiedCells, scan: ScanPoints) -> str:
-    """Return a sentence on the fit of a scan and its remedy."""
-    text = f"{best.share:.0%} of {best.points} points lie on walls of {cells.topic}"
-    if best.is_good:
-        return f"{text}."
-    text = f"Only {text}"
+        return Status(Level.OK, f"{measured}.", values=values)
+    measured, level = f"Only {measured}", Level.WARN
     if best.turn is not None:
-        return (
-            f"{text}; turned by {math.degrees(best.turn):.0f}° about '{scan.frame}' "
+        text = (
+            f"{measured}; turned by {math.degrees(best.turn):.0f}° about '{scan.frame}' "
             f"{best.cured:.0%} would. Check the yaw of '{scan.frame}' on the robot, then the "
             "localisation."
         )
-    if best.shift is not None:
+    elif best.shift is not None:
         x, y = best.shift
-        return (
-            f"{text}; shifted by ({x:.1f}, {y:.1f}) m in the map {best.cured:.0%} would. The robot "
-            "is misplaced: give a 2D Pose Estimate, or check what publishes the transform from "
-            f"'{cells.frame}'."
+        measured = f"{measured}; shifted by ({x:.1f}, {y:.1f}) m in the map {best.cured:.0%} would."
+        text = (
+            f"{measured} Another scan fits, so the robot is in place: check the transform of "
+            f"'{scan.frame}'."
+            if is_placed
+            else f"{measured} The robot is misplaced: give a 2D Pose Estimate, or check what "
+            f"publishes the transform from '{cells.frame}'."
         )
-    if best.is_mirrored:
-        return (
-            f"{text}; mirrored {best.cured:.0%} would. The laser is upside down: give "
+    elif best.is_mirrored:
+        text = (
+            f"{measured}; mirrored {best.cured:.0%} would. The laser is upside down: give "
             f"'{scan.frame}' a roll of 180° on the robot."
         )
-    return (
-        f"{text}. The robot is misplaced, its laser's transform is wrong, or this is the map of "
-        "another place."
-    )
+    elif is_placed:  # such as a scan that is computed, or of what the map leaves out
+        text, level = f"{measured}. Another scan fits, so the robot is in place.", Level.OK
+    else:
+        text = (
+            f"{measured}. The robot is misplaced, its laser's transform is wrong, or this is the "
+            "map of another place."
+        )
+    return Status(level, text, values=values)
 
 
 def _blocked(count: int, age_s: float) -> str:
@@ -173,8 +171,8 @@ def _blocked(count: int, age_s: float) -> str:
     text = f"The path leads through {count} points of the laser scan"
     if age_s > OLD_S:
         return (
-            f"{text} and is {age_s:.1f} s old: the planner has not planned again since. Check "
-            "that it still runs."
+            f"{text} and is {in_words(round(age_s * 1e9))} old: the planner has not planned again "
+            "since. Check that it still runs."
         )
     return (
         f"{text}: the planner does not know this obstacle. Check that its costmap subscribes to "

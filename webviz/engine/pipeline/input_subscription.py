@@ -14,9 +14,10 @@ from webviz.api.lookback import Lookback
 from webviz.api.observation import InputSeen
 from webviz.api.ports import ANY, Input
 from webviz.api.sample import Sample
-from webviz.api.status import Level, OtherFixedFrame, Remedy, Status
+from webviz.api.status import Level, Measurement, OtherFixedFrame, Remedy, Status
 from webviz.data.messages import MessageError, decode, peek_header
 from webviz.data.transforms import MessageFilter
+from webviz.data.transforms.reasons import in_words
 from webviz.data.words import counted, joined
 from webviz.engine.pipeline.topic_statistics import TopicStatistics
 from webviz.sources import Offer, Raw, Subscription
@@ -271,18 +272,25 @@ class InputSubscription:
             if size:
                 label = f"Set the filter size to {size}"
                 remedy = Remedy(f"{self.path}.filter_size", size, label)
-            return Status(Level.ERROR, waiting.sentence, remedy, waiting)
+            return Status(Level.ERROR, waiting.sentence, remedy, waiting, _lag(waiting.lag_ns))
         if not self._placed_at:
             # In a bag nothing arrives while its time stands still.
             if waiting and frames.buffer.recorded:
-                return Status(Level.WARN, waiting.sentence, reason=waiting)
+                return Status(
+                    Level.WARN, waiting.sentence, reason=waiting, values=_lag(waiting.lag_ns)
+                )
             return None
         if self._late_s > LATE_S and clock - self._placed_at < PATIENCE_S:
-            text = (
-                f"Drawn {self._late_s:.1f} s late: the transforms arrive that long after the data."
-            )
-            return Status(Level.WARN, joined(text, waiting.sentence) if waiting else text)
+            late = round(self._late_s * 1e9)
+            text = f"Drawn {in_words(late)} late: the transforms arrive that long after the data."
+            text = joined(text, waiting.sentence) if waiting else text
+            return Status(Level.WARN, text, reason=waiting, values=_lag(late))
         return Status(Level.OK, "Transform OK")
+
+
+def _lag(lag_ns: int) -> tuple[Measurement, ...]:
+    """By how much the transforms are behind the data."""
+    return (Measurement("lag", round(lag_ns / 1e9, 3), "s"),) if lag_ns else ()
 
 
 def input_subscriptions_of(

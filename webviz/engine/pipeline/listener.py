@@ -220,7 +220,7 @@ class TransformListener:
         is_recorded = any(offer.is_recorded for offer in offers.values())
         found = {
             "Transforms": joined(*problems, *_few(refused)),
-            "Clocks": clock_problem(buffer, now_ns, is_recorded),
+            "Clocks": str(clock_problem(buffer, now_ns, is_recorded) or ""),
         }
         return {key: Status(Level.WARN, text) for key, text in found.items() if text}
 

@@ -12,7 +12,8 @@ from dataclasses import replace
 
 from webviz.api.declared import Topic
 from webviz.api.ports import ANY, Input
-from webviz.api.status import Level, Remedy, Status
+from webviz.api.status import Level, Measurement, Remedy, Status
+from webviz.data.transforms.reasons import in_words
 from webviz.sources import Offer, Publisher, Raw
 
 AUTOMATIC = {"reliability": "auto", "durability": "auto"}
@@ -106,22 +107,18 @@ class TopicStatistics:
         # While simulated time is paused, silence is not a problem.
         silence = min(age, (now_ns - self.last.received_ns) / 1e9) if self.last else 0.0
         if rate and not self._is_sporadic and silence > max(2.0, 5.0 * self._longest_gap()):
-            return Status(
-                Level.WARN,
-                f"No message for {age:.1f} s on {self._name}, previously at {rate:.1f} Hz; "
-                f"from {who}.",
-            )
+            text = f"No message for {_age(age)} on {self._name}, previously at {rate:.1f} Hz; "
+            return Status(Level.WARN, f"{text}from {who}.", values=self._values(age))
         pace = f" at {rate:.1f} Hz" if rate else ""
         count = f"{self.count} message{'s' if self.count != 1 else ''}"
-        return Status(Level.OK, f"{count}{pace}, the newest {age:.1f} s ago, from {who}.")
+        text = f"{count}{pace}, the newest {age:.1f} s ago, from {who}."
+        return Status(Level.OK, text, values=self._values(age))
 
     def _no_publisher(self, offers: Mapping[str, Offer], clock: float) -> Status:
         if self.count:
             age = clock - self._times[-1] if self._times else 0.0
-            text = (
-                f"No publisher on {self._name} any more, last message {age:.1f} s ago. Restart it."
-            )
-            return Status(Level.WARN, text)
+            text = f"No publisher on {self._name} any more, last message {_age(age)} ago."
+            return Status(Level.WARN, f"{text} Restart it.", values=self._values(age))
         if other := self._nearest(offers):
             text = f"No publisher on {self._name}. Choose {other}, the nearest topic of its type."
             return Status(Level.WARN, text, self._choose(other))
@@ -132,6 +129,13 @@ class TopicStatistics:
         if any(offer.is_recorded for offer in offers.values()):
             text = f"The bag has no topic {self._name}. Choose another topic."
         return Status(Level.WARN, text)
+
+    def _values(self, age: float) -> tuple[Measurement, ...]:
+        return (
+            Measurement("messages", self.count),
+            Measurement("rate", round(self.rate(), 1), "Hz"),
+            Measurement("age", round(age, 1), "s"),
+        )
 
     def _choose(self, topic: str) -> Remedy:
         return Remedy(f"{self._path}.name", topic, f"Use {topic}")
@@ -192,6 +196,10 @@ def _is_match(reliability: str, durability: str, publisher: Publisher) -> bool:
     unreliable = reliability == "reliable" and publisher.reliability == "best_effort"
     forgetful = durability == "transient_local" and publisher.durability == "volatile"
     return not unreliable and not forgetful
+
+
+def _age(seconds: float) -> str:
+    return in_words(round(seconds * 1e9))
 
 
 def _words(reliability: str, durability: str) -> str:

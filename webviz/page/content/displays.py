@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, ClassVar, Literal
 
@@ -11,6 +10,7 @@ import msgspec
 
 from webviz.api.display import Display, inputs
 from webviz.api.status import Level, OtherFixedFrame, Status
+from webviz.data.transforms.reasons import FOR_ALL
 from webviz.engine.state import Row, State
 from webviz.page.content.forms import sendable
 from webviz.page.content.store import PageStore
@@ -23,8 +23,6 @@ _LEVELS: Mapping[Level, LevelName] = {
     Level.WARN: "warn",
     Level.ERROR: "error",
 }
-_CHANGING = re.compile(r"(?<![\w.-])(\d{1,9}(?:\.\d{1,9})?)( (?:s|Hz)\b)")
-"""Ages and rates in sentences."""
 
 
 class RemedyButton(msgspec.Struct, frozen=True):
@@ -136,7 +134,7 @@ def remedy_of(status: Status, display: str, known: Sequence[Status] = ()) -> Rem
         display: id of the display.
         known: see `causes`.
     """
-    cause = next((each for each in known if each.text in status.text), None)
+    cause = next((each for each in known if _follows(status, each)), None)
     remedy = status.remedy or (cause.remedy if cause else None)
     if remedy is None:
         return None
@@ -148,10 +146,16 @@ def remedy_of(status: Status, display: str, known: Sequence[Status] = ()) -> Rem
     return RemedyButton(str(sendable(remedy.label)), command, sendable(fields))
 
 
+def _follows(status: Status, cause: Status) -> bool:
+    """Return whether a problem of the viewer, such as its fixed frame, is the reason for this."""
+    same = status.reason and cause.reason and status.reason.kind is cause.reason.kind
+    return bool(same and cause.reason and cause.reason.kind in FOR_ALL)
+
+
 def _row(row: Row, causes: Sequence[Status]) -> DisplayRow:
     level = row.level
     worst = next((s for s in row.statuses.values() if s.level == level), None)
-    is_said = any(each.text in status.text for each in causes for status in row.statuses.values())
+    is_said = any(_follows(status, each) for each in causes for status in row.statuses.values())
     has_own = worst and level > Level.OK and not is_said and row.type != "Group"
     remedy = remedy_of(worst, row.id) if worst and has_own else None
     return DisplayRow(
@@ -174,18 +178,12 @@ def _worst(row: Row, level: Level) -> str:
     if level < Level.WARN:
         return ""
     key, status = next((k, s) for k, s in row.statuses.items() if s.level == level)
-    text = f"{key}: {status.text}" if row.type == "Group" or not status.text else status.text
-    return _CHANGING.sub(lambda found: f"{_steady(float(found[1])):.9g}{found[2]}", text)
+    return f"{key}: {status.text}" if row.type == "Group" or not status.text else status.text
 
 
 def _topics(row: Row | None) -> list[str]:
     display = row.display if row else None
     return [topic.name for _, _, topic in inputs(display) if topic.name] if display else []
-
-
-def _steady(value: float) -> float:
-    """An age or a rate with so few digits that it does not change all the time."""
-    return value if value < 1.0 else _rounded(value) if value >= 10.0 else float(round(value))
 
 
 def _rounded(value: float) -> float:

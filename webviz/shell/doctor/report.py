@@ -9,7 +9,7 @@ from typing import Annotated
 import msgspec
 
 from webviz.api.finding import Fact, Finding, Severity
-from webviz.api.status import Level
+from webviz.api.status import Level, Measurement
 from webviz.data.words import counted
 from webviz.engine.state import State
 
@@ -25,6 +25,9 @@ class ReportedStatus(msgspec.Struct):
     display: Annotated[str, Meta(description='Name of the display; "" for the whole viewer.')]
     status: Annotated[str, Meta(description="Name of the status.")]
     text: Annotated[str, Meta(description="What it says.")] = ""
+    values: Annotated[
+        Sequence[Measurement], Meta(description="What was measured, more exact than in the text.")
+    ] = ()
 
 
 class ReportedFinding(msgspec.Struct, kw_only=True):
@@ -84,7 +87,10 @@ def report_of(
 
     def reported(place: tuple[str, str]) -> ReportedStatus:
         status = statuses.get(place)
-        return ReportedStatus(names.get(place[0], ""), place[1], status.text if status else "")
+        name = names.get(place[0], "")
+        if status is None:
+            return ReportedStatus(name, place[1])
+        return ReportedStatus(name, place[1], status.text, status.values)
 
     explained = {symptom for finding in findings for symptom in finding.explains}
     return DoctorReport(
