@@ -135,7 +135,7 @@ def test_a_bag_is_drawn_at_a_time(tmp_path: Path, capsys: pytest.CaptureFixture[
     capsys.readouterr()
     assert main(arguments) == 3
     said = capsys.readouterr().out
-    assert said.startswith("map\n└─ odom  [10.0 Hz, 50.0 s old, from /tf]  !\n")
+    assert said.startswith("map\n└─ odom  [10.0 Hz, 50 s old, from /tf]  !\n")
     assert '"odom" has stopped' in said
 
 

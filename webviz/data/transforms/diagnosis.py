@@ -182,7 +182,7 @@ def _report(buffer: TransformBuffer, frame: str, cache: Cache, now_ns: int) -> F
     rate_hz = (len(cache) - 1) * NS_PER_S / history_ns if history_ns else 0.0
     age_ns = now_ns - cache.newest_stamp if isinstance(cache, TimeCache) and cache.stamps else None
     found = [*found_conflicts(buffer, frame)]
-    problems = [conflict.sentence for conflict in found]
+    problems = [str(conflict.problem) for conflict in found]
     parents = dict.fromkeys(parent for conflict in found for parent in conflict.parents)
     if newest is None:
         problems.append(f'No transform of "{frame}" has arrived since the transforms were cleared.')
