@@ -144,3 +144,53 @@ def test_the_transform_between_two_frames_is_read_out(loop: Loop, panel: Tab) ->
 def test_what_names_no_two_frames_is_ignored(argument: str) -> None:
     assert pair_of(argument) is None
     assert between(State(), argument) is None
+
+
+@pytest.fixture
+def picture(loop: Loop, panel: Tab) -> Iterator[Tab]:
+    """The tab with the tree of a thousand frames as a picture."""
+    links = [
+        replace(LASER, frame=f"link_{n}", parent="base" if n < 10 else f"link_{n // 3}")
+        for n in range(1000)
+    ]
+    stale = replace(BASE, problems=("It has stopped.",))
+    loop.show(transforms=Diagnosis(("map",), (), (ODOM, stale, *links)))
+    panel.page.get_by_role("button", name="Show the tree as a picture").click()
+    yield panel
+    panel.page.get_by_role("dialog").get_by_role("button", name="Close").click()
+
+
+def test_the_tree_is_a_picture_in_which_frames_are_found(loop: Loop, picture: Tab) -> None:
+    dialog = picture.page.get_by_role("dialog", name="Transform tree")
+    canvas = dialog.get_by_role("img", name="Tree of 1003 frames, 1 of them with faults")
+    picture.wait_for(canvas.is_visible)
+    search = dialog.get_by_role("searchbox", name="Find frames")
+    search.fill("base")
+    picture.wait_for(lambda: "1 of 1003" in dialog.inner_text())
+    search.press("Enter")
+    picture.wait_for(lambda: "base: in odom, 20.0 Hz" in dialog.inner_text())
+    assert "It has stopped." in dialog.inner_text()
+    search.fill("odom")
+    search.press("Enter")  # it is in the middle then
+    picture.wait_for(lambda: "odom: in map" in dialog.inner_text())
+    box = canvas.bounding_box()
+    assert box is not None
+    canvas.click(position={"x": box["width"] / 2, "y": 2})
+    picture.wait_for(lambda: "Click a frame for its facts." in dialog.inner_text())
+    canvas.click(position={"x": box["width"] / 2, "y": box["height"] / 2})
+    picture.wait_for(
+        lambda: "odom: in map, 20.0 Hz, 120 ms old, from /slam." in dialog.inner_text()
+    )
+
+
+def test_names_in_the_picture_are_no_markup(loop: Loop, panel: Tab) -> None:
+    loop.show(transforms=Diagnosis(("map",), (), (replace(ODOM, frame=HOSTILE),)))
+    panel.page.get_by_role("button", name="Show the tree as a picture").click()
+    dialog = panel.page.get_by_role("dialog", name="Transform tree")
+    search = dialog.get_by_role("searchbox", name="Find frames")
+    search.fill("onerror")
+    panel.wait_for(lambda: "1 of 2" in dialog.inner_text())
+    search.press("Enter")
+    panel.wait_for(lambda: f"{HOSTILE}: in map" in dialog.inner_text())
+    assert dialog.locator("img[src]").count() == 0
+    panel.page.get_by_role("dialog").get_by_role("button", name="Close").click()

@@ -43,7 +43,10 @@ def _derived(stores: set[str]) -> set[Command]:
         InspectSelections(
             _browsers("selected", stores), _browsers("selection", stores), "picking" in stores
         ),
-        InspectTransforms("transforms" in stores, frozenset(pair for pair in pairs if pair)),
+        InspectTransforms(
+            not stores.isdisjoint({"transforms", "frame_tree"}),
+            frozenset(pair for pair in pairs if pair),
+        ),
         OpenPanels(frozenset(_arguments("panel", stores))),
     }
 

@@ -25,7 +25,7 @@ from webviz.page.content.selection import picking, selected, selection
 from webviz.page.content.store import PageStore
 from webviz.page.content.tools import driving, tool
 from webviz.page.content.topics import message, topics, traffic
-from webviz.page.content.transforms import between, transforms
+from webviz.page.content.transforms import between, frame_tree, transforms
 from webviz.page.content.types import types
 from webviz.page.content.viewer import file, frames, graph, settings, view_type
 from webviz.page.content.views import view, views
@@ -41,6 +41,7 @@ MAKERS: Mapping[str, Callable[[State, str], PageStore | None]] = {
     "events": events,
     "file": file,
     "findings": findings,
+    "frame_tree": frame_tree,
     "frames": frames,
     "goals": goals,
     "graph": graph,

@@ -11,6 +11,7 @@ import numpy as np
 
 from webviz.data.rotations import to_rpy, w_first
 from webviz.data.transforms import FrameReport
+from webviz.data.transforms.layout import lay_out
 from webviz.engine.state import State
 from webviz.page.content.store import PageStore
 
@@ -46,6 +47,20 @@ class TransformsStore(PageStore, frozen=True):
     problems: Sequence[str] = msgspec.field(name="/problems")
 
 
+class FrameTreeStore(PageStore, frozen=True):
+    """The layout of the tree of transforms as a picture, see `webviz.data.transforms.layout`.
+
+    Args:
+        places: name, column and row of each frame.
+        edges: parent, child, and whether the child has its place elsewhere.
+        rows: how many the picture has.
+    """
+
+    places: Sequence[tuple[str, int, float]]
+    edges: Sequence[tuple[str, str, bool]]
+    rows: int
+
+
 class BetweenStore(PageStore, frozen=True):
     """The transform of a source frame in a target frame; without one, the problem alone.
 
@@ -77,6 +92,16 @@ def transforms(state: State, _: str) -> TransformsStore | None:
     told = {problem for report in tree.frames for problem in report.problems}
     problems = [problem for problem in tree.problems if problem not in told]
     return TransformsStore(frames, roots, problems)
+
+
+def frame_tree(state: State, _: str) -> FrameTreeStore | None:
+    """The layout of the tree of transforms, None while it is not inspected."""
+    if state.transforms is None:
+        return None
+    layout = lay_out(state.transforms)
+    places = [(frame, place.column, place.row) for frame, place in layout.places.items()]
+    edges = [(edge.parent, edge.child, edge.is_extra) for edge in layout.edges]
+    return FrameTreeStore(places, edges, layout.rows)
 
 
 def between(state: State, pair: str) -> BetweenStore | None:

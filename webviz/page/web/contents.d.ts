@@ -262,6 +262,7 @@ export interface Stores {
   events: { own: { logged?: Array<[number, "error" | "idle" | "ok" | "warn", string]>; displays?: Array<[number, "error" | "idle" | "ok" | "warn", string]>; findings?: Array<[number, "error" | "idle" | "ok" | "warn", string]> }; items: never };
   file: { own: { path: string; is_changed: boolean; folder: string; others: Array<string> }; items: never };
   findings: { own: { all: Array<ShownFinding> }; items: never };
+  frame_tree: { own: { places?: Array<[string, number, number]>; edges?: Array<[string, string, boolean]>; rows?: number }; items: never };
   frames: { own: { frames: Array<string> }; items: never };
   goals: { own: {  }; items: ShownGoal };
   graph: { own: { is_empty: boolean }; items: never };

@@ -7,6 +7,7 @@ import { icon } from "../icons.js";
 import { recall, remember } from "../remember.js";
 import { watch } from "../stores.js";
 import { between } from "./frame_between.js";
+import { openFramePicture } from "./frame_picture.js";
 import { ageText, factOf, frameNames, frameRows, makeFrame, updateFrame } from "./frame_rows.js";
 
 const ROW_PX = 26;
@@ -42,6 +43,17 @@ export const transforms = {
       onKey,
     });
     list.element.addEventListener("click", onFold, { capture: true });
+    const picture = el(
+      "button",
+      {
+        type: "button",
+        class: "wv-icon",
+        "aria-label": "Show the tree as a picture",
+        "data-tip": "Show the tree as a picture",
+        onclick: () => openFramePicture((name, frame) => detailOf({ name, frame })),
+      },
+      icon("tree"),
+    );
     const problems = el("div", {
       class: "wv-tf-problems",
       role: "status",
@@ -55,7 +67,7 @@ export const transforms = {
       el(
         "div",
         { class: "wv-tf" },
-        el("div", { class: "wv-search" }, icon("search"), search),
+        el("div", { class: "wv-search wv-frame-search" }, icon("search"), search, picture),
         problems,
         empty,
         list.element,
