@@ -136,3 +136,16 @@ def test_a_viewer_is_examined_on_request_and_a_recording_notes_the_moment(run_ba
         assert event.at_ns == START_NS + ns(4.0)
         viewer.fixed_frame = "odom"
         assert "TF002" not in {each.id for each in viewer.doctor()}
+
+
+def test_a_warning_without_a_cause_is_not_called_well(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    bag = Bag()
+    bag.add("/poses", "geometry_msgs/msg/PoseArray")
+    bag.put(0.0, "/poses", {"header": {"frame_id": "map"}, "poses": []})
+    assert main(["doctor", "--bag", str(bag.write(tmp_path / "run"))]) == 0
+    said = capsys.readouterr().out
+    assert "The message has no poses." in said
+    assert "All is well" not in said
+    assert said.splitlines()[-1].startswith("No finding, but 2 warnings above")

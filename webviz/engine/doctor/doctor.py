@@ -31,6 +31,9 @@ ASKED_S = 10.0
 LOOK_S = 10.0
 """Interval between two looks at this machine."""
 
+MAX_EVENTS = 1000
+"""Findings whose beginning is kept; after these, that of others is not noted."""
+
 Key = tuple[str, str]
 """Id and subject, by which a finding is known again."""
 
@@ -150,7 +153,7 @@ class Doctor:
     def _note(self, at_ns: int) -> None:
         """Note the findings that are new at a position of the recording."""
         new = [each for each in self.findings if each.severity > Severity.NOTE]
-        for each in new:
+        for each in new[: max(0, MAX_EVENTS - len(self._noted))]:
             level = Level.ERROR if each.severity is Severity.ERROR else Level.WARN
             self._noted.setdefault(_key(each), Event(at_ns, level, each.id, each.cause))
         if len(self._noted) != len(self.events):

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import platform
 import socket
-import struct
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -92,7 +91,7 @@ def _multicast_returns() -> bool | None:
             socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender,
         ):
             receiver.bind((GROUP, 0))
-            membership = struct.pack("4sl", socket.inet_aton(GROUP), socket.INADDR_ANY)
+            membership = socket.inet_aton(GROUP) + socket.inet_aton("0.0.0.0")
             receiver.settimeout(PROBE_S)
             sender.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, 0)  # this machine only
             probe = os.urandom(16)

@@ -23,7 +23,8 @@ Examples:
   webviz doctor -d nav2.rviz --json  examine the displays of a config, for a program
   webviz doctor --explain TF003      explain a finding
 
-Exit status: 0 if all is well, 1 after an error, 2 for invalid arguments, 3 with findings.
+Exit status: 0 without findings above "note", 3 with some, 1 after an error, 2 for invalid
+arguments.
 
 """
 FOUND = 3

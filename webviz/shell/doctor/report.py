@@ -166,6 +166,8 @@ def _lines(report: DoctorReport, is_colored: bool) -> Iterator[str]:
     if severe:
         first = next(each.id for each in report.findings)
         yield f"{counted(severe, 'finding')} ({scope}). More: webviz doctor --explain {first}"
+    elif report.unexplained:
+        yield f"No finding, but {counted(len(report.unexplained), 'warning')} above ({scope})."
     else:
         yield f"{paint('All is well', 'ok')} ({scope})."
 
