@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import msgspec
@@ -9,6 +10,7 @@ import pytest
 from bags import START_NS, Bag, ns
 
 import webviz
+import webviz.checks
 from webviz.api.check_registry import known_checks, register_checks
 from webviz.engine.commands import ReloadPlugin
 from webviz.shell.cli import main
@@ -27,6 +29,27 @@ class Laser(Check):
             if port.topic == "/scan" and port.received:
                 yield self.found("There is a laser.", "{remedy}")
 """
+ROS2 = {
+    "bag play": {"--clock"},
+    "daemon stop": set[str](),
+    "interface show": set[str](),
+    "lifecycle get": set[str](),
+    "lifecycle set": set[str](),
+    "multicast receive": set[str](),
+    "multicast send": set[str](),
+    "node info": set[str](),
+    "node list": set[str](),
+    "param get": set[str](),
+    "param set": set[str](),
+    "topic delay": set[str](),
+    "topic echo": {"--field", "--once"},
+    "topic find": set[str](),
+    "topic hz": set[str](),
+    "topic info": {"--verbose"},
+    "topic list": set[str](),
+    "topic type": set[str](),
+}
+"""Verbs of ros2cli and ros2bag that checks name, each with the options of them that they use."""
 SCAN = "sensor_msgs/msg/LaserScan"
 
 
@@ -115,6 +138,15 @@ def test_every_check_is_documented() -> None:
         assert text.what, check
         assert text.why, check
         assert text.repair, check
+
+
+def test_commands_of_remedies_exist() -> None:
+    folder = Path(webviz.checks.__file__).parent
+    sources = "\n".join(path.read_text() for path in folder.rglob("*.py"))
+    used = re.findall(r"ros2 ((?!run|launch)\w+ \w+)([^\"`;\n]*)", sources)
+    assert {verb for verb, _ in used} <= ROS2.keys()
+    for verb, rest in used:
+        assert {*re.findall(r"--\w+", rest)} <= ROS2[verb], verb
 
 
 def test_a_fault_that_would_end_ros_is_found_before_it_starts(

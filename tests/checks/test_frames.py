@@ -74,9 +74,11 @@ def mount(stage: Harness) -> None:
     stage.turn()
 
 
-def examined(stage: Harness, seconds: float = 1.1) -> dict[str, Finding]:
+def examined(
+    stage: Harness, seconds: float = 1.1, publish: Callable[[], object] = lambda: None
+) -> dict[str, Finding]:
     """The findings about frames."""
-    return examining.examined(stage, CauseLevel.FRAMES, seconds)
+    return examining.examined(stage, CauseLevel.FRAMES, seconds, publish)
 
 
 def only(found: dict[str, Finding]) -> Finding:
@@ -277,3 +279,46 @@ def test_a_frame_that_is_too_far(robot: Harness) -> None:
     scan(robot)
     robot.turn()
     assert "TF022" in {each.id for each in examined(robot).values()}
+
+
+@pytest.mark.parametrize(("every", "id"), [(5, "TF019 odom"), (1, "")])
+def test_a_transform_slower_than_the_data(robot: Harness, every: int, id: str) -> None:
+    mount(robot)
+    count = 0
+
+    def publish() -> None:
+        nonlocal count
+        count += 1
+        if count % every == 0:
+            drive(robot)
+        scan(robot)
+
+    for _ in range(25):
+        robot.source.now += SECOND // 5
+        robot.clock += 0.2
+        publish()
+        robot.turn()
+    assert [*examined(robot, 0.2, publish)] == ([id] if id else [])
+
+
+@pytest.mark.parametrize(("late_s", "id"), [(30, "TF020 odom"), (0, "")])
+def test_data_older_than_the_transforms(robot: Harness, late_s: int, id: str) -> None:
+    mount(robot)
+
+    def publish() -> None:
+        drive(robot)
+        scan(robot, stamp_ns=robot.source.now - late_s * SECOND)
+
+    assert [*examined(robot, 0.5, publish)] == ([id] if id else [])
+
+
+@pytest.mark.parametrize(("size", "id"), [(2, "TF021 odom"), (20, "")])
+def test_a_queue_too_short_for_its_transform(webviz_harness: Make, size: int, id: str) -> None:
+    stage = viewer(webviz_harness, LaserScan(topic=Topic("/scan", filter_size=size)))
+    mount(stage)
+
+    def publish() -> None:
+        drive(stage, stage.source.now - 6 * SECOND // 10)
+        scan(stage)
+
+    assert [*examined(stage, 0.1, publish)] == ([id] if id else [])

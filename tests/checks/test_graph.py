@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 
 import pytest
 import rclpy
-from examining import display, live_findings
+from examining import display, examined, live_findings
 from geometry_msgs.msg import PoseStamped
 from rclpy.context import Context
 from rclpy.node import Node
@@ -14,8 +14,11 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import LaserScan
 
 import webviz
+import webviz.ros.node
 from webviz.api.finding import CauseLevel
+from webviz.api.offer import Offer, Publisher
 from webviz.engine.commands import SetProperty
+from webviz.shell.testing.harness import Harness
 from webviz.shell.testing.live import LiveViewer
 from webviz_displays.laser_scan import LaserScan as LaserScanDisplay
 from webviz_displays.path import Path
@@ -114,3 +117,51 @@ def test_a_goal_that_nobody_has_sent_is_a_note(
         ]
 
     viewer.wait_for(lambda: found() == [("GRAPH008", webviz.Severity.NOTE)], lambda: f"{found()}")
+
+
+def test_a_graph_without_any_other_node(
+    webviz_domain: int, webviz_viewer: Callable[..., LiveViewer]
+) -> None:
+    viewer = webviz_viewer(scan("/scan"), scan("/back/scan"))
+    found = wait_for(viewer, "GRAPH001")
+    assert len(found["GRAPH001"].explains) == 2
+    context = Context()
+    rclpy.init(context=context, domain_id=webviz_domain)
+    node = Node("robot", context=context)
+    wait_for(viewer, "GRAPH010 /back/scan", "GRAPH010 /scan")
+    node.destroy_node()
+    context.try_shutdown()
+
+
+def test_messages_above_the_limit(
+    robot: Node, webviz_viewer: Callable[..., LiveViewer], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(webviz.ros.node, "MAX_MESSAGE", 1000)
+    publisher = robot.create_publisher(LaserScan, "/scan", 1)
+    viewer = webviz_viewer(scan("/scan"))
+    viewer.wait_for(publisher.get_subscription_count)
+    message = LaserScan(ranges=[1.0] * 1000)
+    message.header.frame_id = "map"
+
+    def found() -> dict[str, webviz.Finding]:
+        publisher.publish(message)  # the first ones may be lost
+        return live_findings(viewer, CauseLevel.GRAPH)
+
+    viewer.wait_for(lambda: "GRAPH007 /scan" in found())
+    assert found()["GRAPH007 /scan"].remedy == "Publish smaller messages."
+    message.ranges = [1.0] * 10
+    viewer.wait_for(lambda: not found())
+
+
+def test_a_publisher_that_stops(webviz_harness: Callable[..., Harness]) -> None:
+    stage = webviz_harness(scan("/scan"), fixed_frame="map")
+    stage.source.known["/scan"] = Offer((Publisher("/lidar", SCAN, "reliable", "volatile"),), None)
+
+    def publish() -> None:
+        stage.publish("/scan", SCAN, {"ranges": [2.0], "range_max": 10.0}, frame="map")
+
+    assert examined(stage, CauseLevel.GRAPH, 0.2, publish) == {}
+    (found,) = examined(stage, CauseLevel.GRAPH).values()
+    assert (found.id, found.subject) == ("GRAPH009", "/scan")
+    assert found.cause == "/lidar has stopped sending /scan, which came at 5.0 Hz."
+    assert examined(stage, CauseLevel.GRAPH, 0.2, publish) == {}

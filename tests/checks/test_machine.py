@@ -117,6 +117,13 @@ ETH = (
 )
 OTHER = "ip link set eth1 down; ip link set eth1 name docker0; ip link set docker0 up"
 NO_MULTICAST = "ip link set eth0 multicast off; ip link set eth1 multicast off"
+FLOOD = """
+import socket
+full = socket.socket(type=socket.SOCK_DGRAM)
+full.bind(("127.0.0.1", 0))
+for _ in range(1000):
+    full.sendto(bytes(1000), full.getsockname())
+"""
 SHM = "mount -t tmpfs none /dev/shm -o"
 
 
@@ -128,6 +135,7 @@ SHM = "mount -t tmpfs none /dev/shm -o"
         ("NET003", LO, ETH),
         ("NET004", f"{ETH}; {OTHER}", ETH),
         ("NET005", f"{ETH}; ip link set eth0 mtu 1400", ETH),
+        ("NET006", f"{LO}; {sys.executable} -c '{FLOOD}'", LO),
         ("SHM002", f"{SHM} size=64m", f"{SHM} size=1g"),
         (
             "SHM003",

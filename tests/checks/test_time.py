@@ -10,6 +10,7 @@ import pytest
 from webviz import Finding
 from webviz.api.finding import CauseLevel
 from webviz.api.offer import Offer, Publisher
+from webviz.engine.commands import Reset
 from webviz.shell.testing.harness import Harness
 from webviz.shell.testing.source import SECOND
 from webviz_displays.laser_scan import LaserScan
@@ -123,3 +124,25 @@ def test_data_and_transforms_of_two_clocks(stage: Harness) -> None:
     stage.publish("/scan", SCAN, {"header": {"frame_id": "base_link", "stamp": {"sec": sec}}})
     stage.turn()
     assert "TIME011 base_link" in examined(stage)
+
+
+def test_a_bag_that_started_again_beside_a_robot(stage: Harness) -> None:
+    def publish(stamp_ns: int) -> None:
+        stage.transform("map", "arm", stamp_ns=stage.source.now)
+        stage.transform("map", "odom", stamp_ns=stamp_ns)
+        sec, nanosec = divmod(stamp_ns, SECOND)
+        stamp = {"sec": sec, "nanosec": nanosec}
+        stage.publish("/scan", SCAN, {"header": {"frame_id": "odom", "stamp": stamp}})
+
+    for _ in range(5):
+        stage.source.now += SECOND // 10
+        publish(stage.source.now)
+        stage.turn()
+    found = examining.examined(
+        stage, CauseLevel.TIME, 0.5, lambda: publish(stage.source.now - 60 * SECOND)
+    )
+    assert "TIME012 odom" in found
+    stage.viewer.enqueue(Reset())
+    assert "TIME012 odom" not in examining.examined(
+        stage, CauseLevel.TIME, 0.5, lambda: publish(stage.source.now)
+    )

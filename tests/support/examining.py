@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from webviz import Finding, Severity
 from webviz.api.finding import CauseLevel
@@ -26,14 +26,27 @@ def live_findings(viewer: LiveViewer, level: CauseLevel) -> dict[str, Finding]:
     return by_key(viewer.viewer.snapshot().findings, level)
 
 
-def examined(stage: Harness, level: CauseLevel, seconds: float = 1.1) -> dict[str, Finding]:
-    """The findings of a viewer on one level after some rounds, between which time passes."""
+def examined(
+    stage: Harness,
+    level: CauseLevel,
+    seconds: float = 1.1,
+    publish: Callable[[], object] = lambda: None,
+) -> dict[str, Finding]:
+    """The findings of a viewer on one level after some rounds.
+
+    Args:
+        stage: the viewer.
+        level: of the causes.
+        seconds: that pass between two turns.
+        publish: called before each turn.
+    """
     doctor = stage.viewer.doctor
     doctor.slice_s = math.inf
     until, state = doctor.rounds + ROUNDS, stage.viewer.snapshot()
     while doctor.rounds < until:
         stage.clock += seconds
         stage.source.now += round(seconds * SECOND)
+        publish()
         stage.turn()
         state = stage.viewer.snapshot()
     return by_key(state.findings, level)

@@ -1,23 +1,28 @@
-"""Transforms that come later than the data."""
+"""Transforms that come more rarely than the data."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from webviz.api.check import Check
-from webviz.api.finding import Finding, Severity
+from webviz.api.finding import Finding
 from webviz.api.observation import Observation
-from webviz.data.transforms.reasons import Kind
+from webviz.data.transforms import FrameReport
+from webviz.data.transforms.tree import ancestors
+
+SLOW_HZ, FEWEST = 2.0, 3
+"""A transform at this rate delays data by half a second and more; samples that show a rate."""
 
 
 class LateLink(Check):
-    """Transform that lags behind.
+    """Transform slower than the data.
 
-    Data waits for a transform that arrives much later than the data does.
+    A transform on the way to the fixed frame is published at 2 Hz or less, and the data comes at
+    more than twice that rate.
 
     Why:
-        A transform that is published at a low rate, or after a long computation, delays everything
-        that is drawn with it.
+        A message waits for a transform that is not older than itself. So everything that is drawn
+        with this one lags behind by up to its period.
 
     Repair:
         Raise the rate of its publisher (`transform_publish_period` of slam_toolbox, `publish_rate`
@@ -27,20 +32,35 @@ class LateLink(Check):
     id = "TF019"
 
     def find(self, seen: Observation) -> Iterator[Finding]:
-        """Yield a finding for each such frame."""
-        for symptom, reason in seen.lost(Kind.AHEAD):
-            if not (reason.is_catching_up):
-                continue
-            yield self.found(
-                f'The transform of "{reason.link}" is {reason.lag_ns / 1e9:.1f} s behind the data.',
-                "Raise the rate of its publisher.",
-                subject=reason.link or reason.frame,
-                severity=Severity.ERROR,
-                evidence={
-                    "frame": reason.frame,
-                    "link": reason.link,
-                    "lag_s": round(reason.lag_ns / 1e9, 3),
-                },
-                command=f"ros2 run tf2_ros tf2_echo {seen.fixed_frame} {reason.link}",
-                explains=(symptom,),
-            )
+        """Yield a finding for each link that is slower than a topic."""
+        tree = seen.buffer.tree
+        reports = {report.frame: report for report in seen.tree.frames}
+        fixed = {*ancestors(tree, seen.fixed_frame)}
+        for display, each in seen.inputs():
+            links = {*ancestors(tree, each.frame)} ^ fixed if each.frame else set[str]()
+            slow = [
+                reports[link]
+                for link in links & reports.keys()
+                if _is_slow(reports[link]) and each.rate_hz > 2 * reports[link].rate_hz
+            ]
+            for link in slow:
+                yield self.found(
+                    f'The transform from "{link.parent}" to "{link.frame}" comes at '
+                    f"{link.rate_hz:.1f} Hz, {each.topic} at {each.rate_hz:.1f} Hz.",
+                    "Raise the rate of its publisher, or let it stamp its transforms ahead.",
+                    subject=link.frame,
+                    evidence={
+                        "link": link.frame,
+                        "rate_hz": round(link.rate_hz, 3),
+                        "topic": each.topic,
+                        "topic_hz": round(each.rate_hz, 3),
+                    },
+                    command=f"ros2 run tf2_ros tf2_monitor {seen.fixed_frame} {link.frame}",
+                    explains=display.symptom("Transform"),
+                )
+
+
+def _is_slow(link: FrameReport) -> bool:
+    is_ahead = link.delay_ns is None or link.delay_ns < 0
+    is_moving = not link.is_static and link.samples >= FEWEST
+    return is_moving and 0.0 < link.rate_hz <= SLOW_HZ and not is_ahead

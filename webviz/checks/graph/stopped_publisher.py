@@ -33,8 +33,11 @@ class StoppedPublisher(Check):
             if not each.received or not offer.publishers or offer.problem:
                 continue
             who = seen.nodes_of(each.topic)
+            rate = f"{each.rate_hz:.1f} Hz"
             yield self.found(
-                f"{who} has stopped sending {each.topic}, which came at {each.rate_hz:.1f} Hz.",
+                f"{each.topic} falls silent in the bag; it came at {rate}."
+                if seen.is_recorded
+                else f"{who} has stopped sending {each.topic}, which came at {rate}.",
                 "Look at the log of the node and at its sensor.",
                 subject=each.topic,
                 severity=Severity.NOTE if each.type in COMMANDS else Severity.WARNING,

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from webviz.api.check import Check
 from webviz.api.finding import Finding, Severity
 from webviz.api.observation import Observation
+from webviz.data.words import counted
 
 ENOUGH = 8 << 20
 
@@ -34,8 +35,8 @@ class LostDatagrams(Check):
         environment = seen.environment
         if environment and environment.lost_datagrams and environment.receive_buffer < ENOUGH:
             yield self.found(
-                f"{environment.lost_datagrams} datagrams were dropped since this machine started, "
-                f"as receive buffers are limited to {environment.receive_buffer // 1024} kB.",
+                f"{counted(environment.lost_datagrams, 'datagram')} got lost, as a receive buffer "
+                "was full.",
                 "Allow receive buffers of 8 MB.",
                 severity=Severity.NOTE,
                 evidence={

@@ -34,6 +34,6 @@ class TwoTimes(Check):
                 subject=reason.link,
                 severity=Severity.ERROR,
                 evidence={"frame": reason.frame, "link": reason.link},
-                command="ros2 param list --filter use_sim_time",
+                command="for n in $(ros2 node list); do ros2 param get $n use_sim_time; done",
                 explains=(symptom,),
             )

@@ -137,7 +137,8 @@ class MessageFilter(Generic[P]):
         reason = _why(buffer, fixed_frame, message, now_ns)
         caught_up = reason.kind == Kind.AVAILABLE or reason.is_catching_up
         if self._lost and caught_up:
-            reason = self._queue_full(buffer, fixed_frame, now_ns)
+            full = self._queue_full(buffer, fixed_frame, now_ns)
+            reason = replace(full, frame=reason.frame, link=reason.link)
         if self._lost:
             given_up = "1 message was" if self._lost == 1 else f"{self._lost} messages were"
             reason = replace(reason, sentence=joined(reason.sentence, f"{given_up} given up."))
