@@ -169,6 +169,17 @@ def test_what_becomes_objects_has_a_limit(monkeypatch):
         decode(name, encode(name, {"name": ["a"] * 4}))
 
 
+@pytest.mark.parametrize("frame", ["", "map", "odom", "base_link", "camera_link_17"])
+def test_a_path_of_equal_frames_that_is_cut_off_is_refused(frame: str) -> None:
+    for count in range(2, 6):
+        poses = [{"header": {"frame_id": frame}}] * count
+        cdr = encode("nav_msgs/msg/Path", {"poses": poses})
+        assert decode("nav_msgs/msg/Path", cdr).poses.frame_ids == [frame] * count
+        for size in range(20, len(cdr)):
+            with pytest.raises(DecodeError):
+                decode("nav_msgs/msg/Path", cdr[:size])
+
+
 def test_a_trajectory_that_is_cut_off_says_where() -> None:
     cdr = encode("trajectory_msgs/msg/JointTrajectory", {"points": [{"positions": [1.0, 2.0]}]})
     found = set[str]()

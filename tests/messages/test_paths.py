@@ -29,6 +29,7 @@ STATUS = message_class("diagnostic_msgs/msg/DiagnosticStatus")
 DIAGNOSTICS = message_class("diagnostic_msgs/msg/DiagnosticArray")(
     status=[STATUS(name="motor: left", level=2), STATUS(name="battery")]
 )
+POLYGON = message_class("geometry_msgs/msg/Polygon")(points=np.array([[1, 2, 3]]))
 POSES = PoseStampedSequence(np.ones((2, 3)), np.ones((2, 4)), np.array([10**9, 0]), ["map"] * 2)
 
 
@@ -45,11 +46,7 @@ POSES = PoseStampedSequence(np.ones((2, 3)), np.ones((2, 4)), np.array([10**9, 0
         (Path(poses=POSES), "poses[1].pose.position.z", 1.0),
         (Odometry(), "pose.covariance[35]", 0.0),
         (JointState(position=np.array([1e308])), "position[0]", 1e308),
-        (
-            message_class("geometry_msgs/msg/Polygon")(points=np.array([[1, 2, 3]])),
-            "points[0].y",
-            2,
-        ),
+        (POLYGON, "points[0].y", 2),
     ],
 )
 def test_a_number_is_found_by_its_path(message: Any, path: str, number: float) -> None:
@@ -66,6 +63,7 @@ def test_a_number_is_found_by_its_path(message: Any, path: str, number: float) -
         (JOINTS, "speed", "No field `speed` for `speed`. Choose one of header, name, position"),
         (JOINTS, "position", "`position` is not a number. Choose one of its parts."),
         (JOINTS, "position[0].x", "No field `x` for `position[0].x`. Choose a path without it."),
+        (POLYGON, "points.x", "No field `x` for `points.x`. Choose a path without it."),
         (JOINTS, "header[0]", "`header[0]` asks for an element of what is not an array."),
         (String("text"), "data[0]", "`data[0]` asks for an element of what is not an array."),
         (String("text"), "data", "`data` is not a number. Choose one of its parts."),
