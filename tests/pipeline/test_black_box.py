@@ -105,7 +105,7 @@ def test_levels_are_those_of_messages(type_name: str, values: dict[str, Any], le
         ("{topic: /a, rate: '<5', level: warn}", "watch[0]: a rule is about a display or about"),
         ("{topic: /a, rate: '5'}", "watch[0]: rate `5` is not a condition. Write it like"),
         ("{topic: /a, rate: '<5', for: soon}", "watch[0]: for `soon` is not a duration."),
-        ("{display: Scan, status: bad}", "watch[0].status: expected error or warn, got `bad`."),
+        ("{display: Scan, status: bad}", "watch[0].status: expected warn or error, got `bad`."),
         ("{display: Scan, state: error}", "watch[0].state: unknown key"),
     ],
 )
