@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import msgspec
 import pytest
@@ -15,14 +15,14 @@ from rosbags.rosbag2 import StoragePlugin
 
 from webviz import Context, Display, Input, Lookback, Sample, Topic
 from webviz.api.display import inputs
-from webviz.engine.commands import Seek
+from webviz.engine.commands import OpenPanels, Play, Seek, SelectSpan, SetRate
 from webviz.engine.loop import loop
 from webviz.files.config import Config
+from webviz.page.recorded_ui import RecordedUi
 from webviz.shell.app.bag_config import config_of
 from webviz.shell.testing import BagViewer, check_seeks, header
 from webviz.sources.bag.file import Recorded
 from webviz.sources.bag.source import BagSource
-from webviz_displays.odometry.display import Odometry
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
@@ -88,9 +88,37 @@ def test_a_seek_in_a_real_bag_shows_what_playing_shows(name: str) -> None:
     for display in config.displays:  # their transforms come late
         for path, _, topic in inputs(display):  # pyright: ignore[reportArgumentType]
             setattr(display, path, msgspec.structs.replace(topic, filter_size=100))
-        if isinstance(display, Odometry):  # its trail begins anew after a seek
-            display.position_tolerance = display.angle_tolerance = 0.0
     check_seeks(BAGS / name, config, count=5, seed=3)
+
+
+def test_a_plot_shows_its_window_after_a_seek(theater: Callable) -> None:
+    config = "panels: [{type: Plot, curves: [/odom.pose.pose.position.x], window: 2.0}]\n"
+
+    def plotted(viewer: Any) -> list[tuple[float, float]]:
+        (tab,) = viewer.loop.state().panels
+        tab.panel.show(viewer.loop.state())
+        (series,) = tab.panel.series.values()
+        newest_s, _ = series.history.newest
+        return [point for point in series.history.points() if point[0] > newest_s - 2.0]
+
+    def opened() -> Any:
+        viewer = theater(bag, config)
+        (tab,) = viewer.loop.state().panels
+        tab.panel.build(RecordedUi(), lambda *_: None)
+        tab.panel.show(viewer.loop.state())
+        viewer.do(OpenPanels(frozenset({tab.tab})))
+        return viewer
+
+    bag = recorded(duration_s=8.0)
+    played, sought = opened(), opened()
+    played.do(SetRate(0.0))
+    played.do(Seek(0.0))
+    played.do(SelectSpan(0.0, 5.0))
+    played.do(Play())
+    played.turn_until(lambda: not played.loop.state().playback.is_playing)
+    sought.do(Seek(5.0))
+    assert len(plotted(sought)) == 20
+    assert plotted(sought) == plotted(played)
 
 
 def test_before_the_first_transform_no_status_is_left_of_what_was_drawn_later(

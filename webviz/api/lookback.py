@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -20,9 +20,12 @@ class Lookback:
         since: another input: only messages since the first one that is read of it count.
         starts_over: called with a message of this input and its type; returns whether none before
             it counts.
+        chooses: called with an iterator of the messages that the above leave, the newest first,
+            each decoded when it is asked for; returns which of these count, 0 for the newest.
     """
 
     count: int = 0
     seconds: float = 0.0
     since: str = ""
     starts_over: Callable[[Any, str], bool] | None = None
+    chooses: Callable[[Iterator[Any]], Sequence[int]] | None = None

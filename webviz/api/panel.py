@@ -24,6 +24,7 @@ from typing import Any, ClassVar, Literal, Protocol, TypeVar
 
 from webviz.api.chart import Chart, Remove
 from webviz.api.declared import Declared
+from webviz.api.lookback import Lookback
 
 T = TypeVar("T")
 Modifier = Literal["cmd/ctrl", "cmd/ctrl+shift"]
@@ -221,6 +222,13 @@ class Panel(Declared, kw_only=True, dict=True):
     def subscriptions(self) -> Mapping[str, str]:
         """The topics to read while the tab is open: message types by full name."""
         return {}
+
+    def lookback(self, topic: str) -> Lookback:
+        """Return which past messages of one of these topics make up what is shown.
+
+        A seek in a recording reads these. By default the newest.
+        """
+        return Lookback(count=1)
 
     def take(self, topic: str, message: Any) -> None:
         """Take a message of one of these topics; called by the frame loop, oldest first.

@@ -22,18 +22,15 @@ from webviz import (
     Selective,
     Topic,
 )
-from webviz.data import messages
 from webviz.data.words import counted
 from webviz_displays.odometry.covariance_marks import MAX_COVARIANCES, draw_covariances
 from webviz_displays.odometry.details import details
-from webviz_displays.odometry.poses import fault, has_moved, is_sound
+from webviz_displays.odometry.lookback import TrailRule, kept_poses
+from webviz_displays.odometry.poses import fault
 from webviz_displays.shared.geometry import origin_near
 from webviz_displays.shared.pose_history import GrowingTrail
 from webviz_displays.shared.pose_marks import draw_poses
 from webviz_displays.shared.pose_properties import Covariance, PoseShape
-
-LOOKBACK_S = 30.0
-"""After a seek in a recording the trail begins here: which poses are kept depends on all before."""
 
 
 class Odometry(Display, Selective):
@@ -64,8 +61,12 @@ class Odometry(Display, Selective):
         return Keep(count=self.keep)
 
     def lookback(self, name: str) -> Lookback:
-        """The messages of some time: each pose that is kept depends on all before it."""
-        return Lookback(seconds=LOOKBACK_S)
+        """The poses that are kept, as far as they do not take too many messages to find."""
+        return Lookback(chooses=lambda past: kept_poses(past, self.keep, self.rule()))
+
+    def rule(self) -> TrailRule:
+        """The rule by which poses are kept."""
+        return TrailRule(self.position_tolerance, self.angle_tolerance, self.covariance.value)
 
     def accept(self, new: Sample, kept: Sequence[Sample]) -> bool | str:
         """Return whether the robot moved by one of the tolerances, or why the pose is invalid.
@@ -74,12 +75,8 @@ class Odometry(Display, Selective):
         """
         if problem := fault(new.message):
             return problem
-        if not kept:
-            return True
-        last: messages.Odometry = kept[-1].message
-        if has_moved(new.message, last, self.position_tolerance, self.angle_tolerance):
-            return True
-        return self.covariance.value and is_sound(new.message) != is_sound(last)
+        rule = self.rule()
+        return not kept or rule.keeps(rule.place_of(new.message), rule.place_of(kept[-1].message))
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """All poses as one node, and their covariances as a few more."""

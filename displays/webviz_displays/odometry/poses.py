@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import dist
+from typing import NamedTuple
 
 import numpy as np
 
@@ -29,16 +30,32 @@ def fault(message: messages.Odometry) -> str:
     return ""
 
 
-def has_moved(
-    new: messages.Odometry, last: messages.Odometry, distance: float, angle: float
-) -> bool:
+class TrailPlace(NamedTuple):
+    """A pose, as far as it decides on the poses that are kept after it.
+
+    Args:
+        position: metres.
+        wxyz: quaternion.
+        is_sound: whether the covariance is, where covariances are shown.
+    """
+
+    position: tuple[float, float, float]
+    wxyz: tuple[float, float, float, float]
+    is_sound: bool
+
+
+def place_of(message: messages.Odometry, *, with_covariance: bool) -> TrailPlace:
+    """The place of a pose."""
+    p, q = message.pose.pose.position, message.pose.pose.orientation
+    is_known_sound = not with_covariance or is_sound(message)
+    return TrailPlace((p.x, p.y, p.z), (q.w, q.x, q.y, q.z), is_known_sound)
+
+
+def has_moved(new: TrailPlace, last: TrailPlace, distance: float, angle: float) -> bool:
     """Return whether a pose is at least this far (m) or turned this much (rad) from the last."""
-    a, b = new.pose.pose, last.pose.pose
-    p, q = a.position, b.position
-    if dist((p.x, p.y, p.z), (q.x, q.y, q.z)) >= distance:
+    if dist(new.position, last.position) >= distance:
         return True
-    p, q = a.orientation, b.orientation
-    return angle_between((p.w, p.x, p.y, p.z), (q.w, q.x, q.y, q.z)) >= angle
+    return angle_between(new.wxyz, last.wxyz) >= angle
 
 
 def is_sound(message: messages.Odometry) -> bool:

@@ -9,6 +9,7 @@ from typing import Any
 import msgspec
 
 from webviz.api.declared import Topic, make
+from webviz.api.lookback import Lookback
 from webviz.api.panel import Panel
 from webviz.api.registry import plugin_types, type_name
 from webviz.api.status import Status
@@ -61,7 +62,12 @@ class PanelsPart(Part):
         for tab in self._attended():
             subscriber = self._subscribers[tab.tab] = known.get(tab.tab) or Subscriber()
             topics = self._topics(tab.panel, "subscriptions").items()
-            subscriptions = {topic: Subscription(type_, Topic(topic)) for topic, type_ in topics}
+            subscriptions = {
+                topic: Subscription(
+                    type_, Topic(topic), lookbacks=(self._lookback(tab.panel, topic),)
+                )
+                for topic, type_ in topics
+            }
             wanted.append(subscriber.subscribe(subscriptions))
         return merged(wanted)
 
@@ -101,6 +107,10 @@ class PanelsPart(Part):
     def statuses(self) -> Mapping[str, Status]:
         """Return the statuses of unusable panels."""
         return self.list.statuses()
+
+    def _lookback(self, panel: Panel, topic: str) -> Lookback:
+        lookback = self.core.guard(f"The panel {panel.name}", panel.lookback, topic)
+        return lookback if isinstance(lookback, Lookback) else Lookback(count=1)
 
     def _attended(self) -> list[PanelTab]:
         if not self._open:

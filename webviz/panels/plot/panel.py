@@ -10,6 +10,7 @@ import msgspec
 
 from webviz.api.chart import Curve
 from webviz.api.declared import Prop
+from webviz.api.lookback import Lookback
 from webviz.api.panel import Panel, Send, Ui
 from webviz.data.messages.paths import numeric_paths
 from webviz.engine.commands import SetPanelProperty
@@ -62,6 +63,10 @@ class Plot(Panel):
         """The topics of the curves, and the one whose fields are offered."""
         wanted = {each.topic for each in self.series.values()} | {self.topic}
         return {topic: self.types[topic] for topic in wanted if topic in self.types}
+
+    def lookback(self, topic: str) -> Lookback:
+        """The messages of the window."""
+        return Lookback(seconds=self.window)
 
     def receive(self, topic: str, message: Any, received_ns: int) -> None:
         """Add a value to each curve of a topic."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import heapq
 import itertools
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from typing import Generic, Protocol, TypeVar
+from typing import Any, Generic, Protocol, TypeVar
 
 from webviz.api.lookback import Lookback
 from webviz.data.messages import MessageError, decode
@@ -106,6 +106,10 @@ class BagPast(Generic[C, M]):
         for channel in channels:
             self._channels.setdefault(channel.topic, []).append(channel)
         self._starts: dict[str, int] = {}
+        self._whole_from: dict[str, int] = {}
+        """By topic, from when on all messages are needed; of those before, the following."""
+        self._chosen: dict[str, set[int]] = {}
+        """Stamps by topic."""
 
     def messages(self) -> Iterator[M]:
         """The messages by time of recording, those at the time included."""
@@ -123,7 +127,7 @@ class BagPast(Generic[C, M]):
             if start_ns > recent_ns:
                 together += channels
                 continue
-            alone.append(self._file.messages(channels, start_ns, self._at_ns))
+            alone.append(self._read(channels, start_ns, self._at_ns))
             spans = self._spans(channels, start_ns, recent_ns)
             timed += spans
             if (wish := self._wanted.get(topic)) and wish.is_placed:
@@ -146,8 +150,16 @@ class BagPast(Generic[C, M]):
     def _young(self, channels: Sequence[C], recent_ns: int) -> Iterator[M]:
         """The messages of several topics, each from its start on."""
         for recorded in self._file.messages(channels, recent_ns, self._at_ns):
-            if recorded.stamp_ns >= self._starts[recorded.topic]:
+            if self._is_needed(recorded):
                 yield recorded
+
+    def _read(self, channels: Sequence[C], start_ns: int, end_ns: int) -> Iterator[M]:
+        """The messages of a topic that are needed."""
+        return filter(self._is_needed, self._file.messages(channels, start_ns, end_ns))
+
+    def _is_needed(self, recorded: PastMessage) -> bool:
+        topic, stamp_ns = recorded.topic, recorded.stamp_ns
+        return stamp_ns >= self._whole_from[topic] or stamp_ns in self._chosen[topic]
 
     def _within(self, channels: Sequence[C], spans: Sequence[tuple[int, int]]) -> Iterator[M]:
         """The messages of channels within some spans of time, each once."""
@@ -162,7 +174,7 @@ class BagPast(Generic[C, M]):
         self, channels: Sequence[C], start_ns: int, recent_ns: int
     ) -> Sequence[tuple[int, int]]:
         """When the transforms and the clock are needed for the older messages of a topic."""
-        older = self._file.messages(channels, start_ns, recent_ns)
+        older = self._read(channels, start_ns, recent_ns)
         stamps = [each.stamp_ns for each in itertools.islice(older, MAX_OLD + 1)]
         if len(stamps) > MAX_OLD:
             return [(start_ns - BEFORE_NS, recent_ns)]
@@ -173,11 +185,37 @@ class BagPast(Generic[C, M]):
         if topic not in self._starts:
             self._starts[topic] = self._file.start_ns  # if inputs refer to each other
             wish, channels = self._wanted[topic], self._channels[topic]
-            starts = [self._start_of(channels, lookback, wish) for lookback in wish.lookbacks]
-            self._starts[topic] = min(starts, default=self._at_ns + 1)
+            plain = [each for each in wish.lookbacks if each.chooses is None]
+            starts = [self._start_of(channels, lookback, wish) for lookback in plain]
+            self._whole_from[topic] = min(starts, default=self._at_ns + 1)
+            chosen = self._chosen[topic] = {
+                stamp_ns
+                for lookback in wish.lookbacks
+                for stamp_ns in self._chosen_by(channels, lookback, wish)
+            }
+            self._starts[topic] = min([self._whole_from[topic], *chosen])
         return self._starts[topic]
 
     def _start_of(self, channels: Sequence[C], lookback: Lookback, wish: Subscription) -> int:
+        limit_ns = self._limit_ns(lookback)
+        if not (lookback.count or lookback.starts_over):
+            return limit_ns
+        newest = self._newest(channels, lookback, wish, limit_ns)
+        return min((recorded.stamp_ns for recorded in newest), default=self._at_ns + 1)
+
+    def _chosen_by(
+        self, channels: Sequence[C], lookback: Lookback, wish: Subscription
+    ) -> Iterator[int]:
+        """The stamps of the messages that a lookback chooses."""
+        if lookback.chooses is None:
+            return
+        stamps: list[int] = []
+        newest = self._newest(channels, lookback, wish, self._limit_ns(lookback))
+        for number in lookback.chooses(_decoded(newest, wish.type, stamps)):
+            yield stamps[number]
+
+    def _limit_ns(self, lookback: Lookback) -> int:
+        """From when on messages may count."""
         limit_ns = self._file.start_ns
         if lookback.seconds:
             limit_ns = max(limit_ns, self._at_ns - round(min(lookback.seconds, 1e9) * 1e9))
@@ -185,16 +223,29 @@ class BagPast(Generic[C, M]):
             is_read = lookback.since in self._channels
             since_ns = self._start_ns(lookback.since) if is_read else self._at_ns + 1
             limit_ns = max(limit_ns, since_ns)
-        if not lookback.count and lookback.starts_over is None:
-            return limit_ns
-        start_ns = self._at_ns + 1
+        return limit_ns
+
+    def _newest(
+        self, channels: Collection[C], lookback: Lookback, wish: Subscription, limit_ns: int
+    ) -> Iterator[M]:
+        """The messages that a lookback leaves, the newest first."""
         for number, recorded in enumerate(self._file.newest(channels, self._at_ns), 1):
             if recorded.stamp_ns < limit_ns:
-                break
-            start_ns = recorded.stamp_ns
+                return
+            yield recorded
             if number == lookback.count or _starts_over(lookback, recorded, wish):
-                break
-        return start_ns
+                return
+
+
+def _decoded(newest: Iterator[PastMessage], type_name: str, stamps: list[int]) -> Iterator[Any]:
+    """Messages, of which those that cannot be decoded are skipped; the others' stamps are noted."""
+    for recorded in newest:
+        try:
+            message = decode(type_name, recorded.cdr)
+        except MessageError:
+            continue
+        stamps.append(recorded.stamp_ns)
+        yield message
 
 
 def _starts_over(lookback: Lookback, recorded: PastMessage, wish: Subscription) -> bool:
