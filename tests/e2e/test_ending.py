@@ -30,9 +30,19 @@ PATIENCE_S = 60.0
 
 def has_handlers(program: Program) -> bool:
     """Return whether the program, and not the Python that starts it, is who hears a signal."""
+    return bool(signals(program, "SigCgt") & 1 << signal.SIGTERM - 1)
+
+
+def signals(program: Program, name: str) -> int:
+    """A set of signals of a program, see proc(5)."""
     status = Path(f"/proc/{program.process.pid}/status").read_text()
-    (caught,) = re.findall(r"SigCgt:\s*(\w+)", status)
-    return bool(int(caught, 16) & 1 << signal.SIGTERM - 1)
+    (found,) = re.findall(rf"{name}:\s*(\w+)", status)
+    return int(found, 16)
+
+
+def has_simulator(program: Program) -> bool:
+    """Return whether the program has started the simulator."""
+    return any("webviz_sim" in line for line in command_lines(program.process.pid).values())
 
 
 def family_of(program: Program) -> list[psutil.Process]:
@@ -69,7 +79,7 @@ def test_a_signal_at_any_moment_of_its_start_ends_the_demo_with_one_line_and_lea
             time.sleep(delay)
         else:
             assert b"<html" in urllib.request.urlopen(program.url(), timeout=60).read()
-            assert any("webviz_sim" in line for line in command_lines(program.process.pid).values())
+            assert has_simulator(program)
         family = family_of(program)
         files = shared_memory(family)
         status = program.end(number)
@@ -81,9 +91,10 @@ def test_a_signal_at_any_moment_of_its_start_ends_the_demo_with_one_line_and_lea
 
 
 def test_the_simulator_ends_when_the_viewer_is_killed(start: Callable[..., Program]) -> None:
-    for wait in (lambda program: program.url(), lambda _: time.sleep(1.5)):
+    for is_ready in (lambda program: program.url(), has_simulator):
         program = start("webviz", "demo", "--port", "0")
-        wait(program)
+        while not is_ready(program):
+            time.sleep(0.01)
         family = family_of(program)
         program.end(signal.SIGKILL)
         check_nothing_is_left(family)
@@ -122,8 +133,9 @@ def test_a_closed_terminal_does_not_end_what_nohup_started(
     command = ["nohup", sys.executable, "-m", "webviz", "--port", "0"]
     program = Program(command, ros_env, tmp_path / "log.txt")
     program.url()
+    assert signals(program, "SigIgn") & 1 << signal.SIGHUP - 1
     program.process.send_signal(signal.SIGHUP)
-    time.sleep(0.5)
+    assert b"<html" in urllib.request.urlopen(program.url(), timeout=60).read()
     assert program.process.poll() is None
     assert program.end(signal.SIGTERM) == 0
 

@@ -169,13 +169,16 @@ def test_keys_do_nothing_in_a_dialog_and_letters_nothing_in_a_field(tab: Tab, lo
     assert loop.commands == []
 
 
+TWO_FRAMES = "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
+
+
 def test_the_camera_stays_when_a_key_is_a_command(tab: Tab) -> None:
     eye = "window.__viserMutable.cameraControl.getPosition().toArray().join()"
     before = tab.page.evaluate(eye)
     for key in ("Control+s", "Control+o"):
         tab.page.keyboard.press(key)
         tab.page.keyboard.press("Escape")
-    tab.page.wait_for_timeout(200)
+    tab.page.evaluate(TWO_FRAMES)
     assert tab.page.evaluate(eye) == before
 
 

@@ -131,7 +131,6 @@ def test_what_is_refused_stays_for_correction(frames: Bench) -> None:
     frames.keyboard.press("Enter")
     frames.page.wait_for_function("refused.at(-1) === 'Not changed: no such frame.'")
     frames.update(value="map")
-    frames.page.wait_for_timeout(700)
     frames.wait_for_text("came")
     assert frames.field().get_attribute("aria-invalid") == "true"
     frames.keyboard.press("Escape")

@@ -497,16 +497,17 @@ def test_a_picture_that_is_decoded_later_is_not_drawn_over_a_newer_one(
         window.createImageBitmap = decode;  // the next is not delayed
         window.isDecoding = true;
         await new Promise((resolve) => { window.decodeIt = resolve; });
+        requestAnimationFrame(() => requestAnimationFrame(() => { window.isLate = true; }));
         return decode(...image);
       };
     }""")
     pictures.show("Color", pixels(np.full_like(COLORS, 200), "rgb8"))
     tab.wait_for(lambda: tab.page.evaluate("window.isDecoding"))
     pictures.show("Color", pixels(np.full_like(COLORS, 100), "rgb8"))
-    tab.page.wait_for_timeout(200)
+    tab.turn()
     tab.page.evaluate("window.decodeIt()")
     tab.wait_for(lambda: near(shown(tab, "Color"), (100, 100, 100), 3))
-    tab.page.wait_for_timeout(200)
+    tab.page.wait_for_function("window.isLate")
     assert near(shown(tab, "Color"), (100, 100, 100), 3)
 
 

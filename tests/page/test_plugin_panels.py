@@ -16,7 +16,7 @@ from webviz.api.declared import Prop, make
 from webviz.api.panel import Panel, Send, Slide, Ui
 from webviz.engine.commands import AddPanel, InspectTopic, RemovePanel, Reset, SetPanelProperty
 from webviz.engine.pipeline.plugins import load
-from webviz.engine.state import PanelTab, State, Traffic
+from webviz.engine.state import PanelTab, PanelTimes, State, Traffic
 from webviz.page.plugin_panels import MAX_WAITING
 from webviz.page.recorded_ui import RecordedUi
 from webviz.page.widgets import MAX_HTML, MAX_LINES
@@ -184,9 +184,8 @@ def test_what_somebody_types_stays_while_the_panel_shows_something_else(
     name.click()
     name.press("End")
     name.press("x")
-    loop.show(frames=("map",))
-    tab.page.wait_for_timeout(300)
-    tab.turn()
+    loop.show(frames=("map",), clock=PanelTimes(is_paused=True))
+    tab.wait_for(lambda: tab.page.get_by_text("Resume", exact=True).count() > 0)
     assert name.input_value() == "robotx"
     name.blur()
     tab.wait_for(lambda: name.input_value() == "map")
@@ -270,13 +269,11 @@ def test_a_command_of_a_panel_has_a_key_and_stands_in_the_list(loop: Loop, tab: 
     loop.show()
     open_panel(loop, tab, Frames)
     tab.wait_for(lambda: "Forget all" in tab.text())
-    tab.page.wait_for_timeout(200)
-    tab.turn()
-    tab.page.keyboard.press("j")
-    tab.wait_for_command(Reset())
-    loop.commands.clear()
     tab.page.keyboard.press("Control+k")
     tab.page.get_by_role("dialog").get_by_text("Forget frames").click()
+    tab.wait_for_command(Reset())
+    loop.commands.clear()
+    tab.page.keyboard.press("j")
     tab.wait_for_command(Reset())
 
 

@@ -140,7 +140,7 @@ class Finger:
     def hold(self, x: float, y: float) -> None:
         """Rest on a place."""
         self._send("touchStart", (x, y))
-        self._page.wait_for_timeout(600)
+        self._page.locator(".wv-tree-held").wait_for()
 
     def move(self, x: float, y: float) -> None:
         """Go to a place."""

@@ -17,13 +17,20 @@ LOST = re.compile(
 )
 
 
+TWO_BEATS = """async () => {
+  const { on } = await import("/webviz/channel.js");
+  let beats = 0;
+  await new Promise((resolve) => on("Beat", () => ++beats === 2 && resolve()));
+}"""
+
+
 def test_a_page_says_that_its_server_is_gone_until_it_is_back(
     browser: playwright.Browser, server: viser.ViserServer, scene: ViserScene
 ) -> None:
     port = server.get_port()
     page = Page(browser, f"http://127.0.0.1:{port}", 600, 400)
     banner = page.tab.get_by_role("alert").filter(has_text=LOST)
-    page.tab.wait_for_timeout(5000)
+    page.tab.evaluate(TWO_BEATS)
     assert banner.count() == 0  # nothing happens, and all is well
 
     hanging = threading.Event()

@@ -1,0 +1,59 @@
+import assert from "node:assert/strict";
+import { mock, test } from "node:test";
+
+import { sync } from "../../webviz/page/web/controls/sync.js";
+
+mock.timers.enable({ apis: ["setTimeout"] });
+
+/** A control, what it shows and why it was refused, and how the viewer answers. */
+function control() {
+  const seen = { shown: [], refusals: [], answer: () => {} };
+  const it = sync({
+    show: (value) => seen.shown.push(value),
+    send: () => new Promise((resolve) => Object.assign(seen, { answer: resolve })),
+    refused: (text) => seen.refusals.push(text),
+    isFocused: () => true,
+  });
+  return { it, seen };
+}
+
+/** Lets promises that are settled call what waits for them. */
+const turn = () => new Promise((resolve) => setImmediate(resolve));
+
+test("what the viewer refuses stays for correction, however long", async () => {
+  const { it, seen } = control();
+  it.show(1);
+  it.hold();
+  it.edit(-1);
+  it.release();
+  seen.answer({ level: "error", text: "Not changed: expected > 0." });
+  await turn();
+  it.show(1);
+  mock.timers.tick(60_000);
+  assert.deepEqual(seen.shown, [1]);
+  assert.deepEqual(seen.refusals, ["Not changed: expected > 0."]);
+  it.cancel();
+  assert.deepEqual([seen.shown, seen.refusals.at(-1)], [[1, 1], ""]);
+});
+
+test("older values do not set a control back, and the newest is shown in the end", async () => {
+  const { it, seen } = control();
+  it.show(1);
+  it.edit(2);
+  it.show(1);
+  seen.answer({ level: "ok", text: "" });
+  await turn();
+  it.show(1);
+  it.show(2);
+  assert.deepEqual(seen.shown, [1], "it moves under the hand");
+  mock.timers.tick(500);
+  assert.deepEqual(seen.shown, [1, 2]);
+});
+
+test("a viewer that does not answer is reported", async () => {
+  const { it, seen } = control();
+  it.edit(2);
+  mock.timers.tick(8000);
+  await turn();
+  assert.match(seen.refusals.at(-1), /does not answer/);
+});
