@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import socket
 import subprocess
 import sys
@@ -69,6 +70,17 @@ def test_links_are_for_the_viewers_that_run(tmp_path: Path) -> None:
     assert announced(tmp_path / "viewers") == ["http://robot:80"]
     second.close()
     assert announced(tmp_path / "viewers") == []
+
+
+def test_others_cannot_read_where_viewers_are(tmp_path: Path) -> None:
+    old = os.umask(0)
+    try:
+        viewer = Announcement("http://robot:80", 80, tmp_path / "viewers")
+    finally:
+        os.umask(old)
+    (file,) = (tmp_path / "viewers").iterdir()
+    assert [path.stat().st_mode & 0o777 for path in (file.parent, file)] == [0o700, 0o600]
+    viewer.close()
 
 
 def test_what_is_no_address_hides_no_viewer(tmp_path: Path) -> None:

@@ -12,6 +12,7 @@ from webviz import Context, Display, Input, Sample, Topic
 from webviz.api.status import OtherFixedFrame, Remedy
 from webviz.data.transforms import filter as transform_filter
 from webviz.engine.commands import SetFixedFrame, SetProperty
+from webviz.engine.pipeline.input_subscription import DROPS_S, Drops
 from webviz.engine.pipeline.topic_statistics import TopicStatistics
 from webviz.shell.testing.messages import header
 from webviz.sources import Offer, Publisher, Raw
@@ -314,6 +315,12 @@ def test_messages_that_did_not_fit_the_inbox_are_counted(bench: Callable[..., An
     for _ in range(1001):
         b.pose("/pose", "base", T)
     assert b.statuses()["Message"][1].startswith("1 message dropped")
+
+
+def test_messages_that_were_dropped_before_the_first_look_count() -> None:
+    drops = Drops()
+    assert [drops.recent(1, at) for at in (100.0, 101.0, 100.0 + DROPS_S)] == [1, 1, 1]
+    assert drops.recent(1, 100.1 + DROPS_S) == 0
 
 
 def test_a_flood_of_junk_leaves_the_viewer_running(bench: Callable[..., Any]) -> None:

@@ -180,6 +180,23 @@ def test_a_new_fixed_frame_moves_what_is_drawn_and_loses_nothing(
     assert b.scene.upserts > drawn
 
 
+def test_in_a_new_fixed_frame_data_stay_at_their_stamp_and_followers_follow(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Dot(name="Dot"), Poster(name="Poster"))
+    b.transform("map", "odom", 0, 100.0, static=True)
+    b.transform("odom", "base", T, 1.0)
+    b.pose("/pose", "base", T, 1.0)
+    b.turn()
+    assert at(b) == [101.0, 102.0]
+    b.transform("odom", "base", T + SECOND, 50.0)
+    b.turn()
+    assert at(b) == [102.0, 150.0]
+    b.viewer.enqueue(SetFixedFrame("odom"))
+    b.turn()
+    assert at(b) == [2.0, 50.0]
+
+
 def test_what_was_drawn_leaves_memory_when_it_is_replaced(bench: Callable[..., Any]) -> None:
     b = bench(Dot(name="Dot"))
     b.transform("map", "base", T, static=True)
