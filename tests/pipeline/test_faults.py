@@ -287,7 +287,7 @@ def test_a_turn_that_raises_does_not_end_the_loop(
             b.viewer.stop()
         raise Boom
 
-    monkeypatch.setattr(b.viewer, "turn", boom)
+    monkeypatch.setattr(b.viewer, "_advance", boom)
     b.viewer._wake()
     b.viewer.run()
     assert len(turns) == 3

@@ -52,9 +52,12 @@ from webviz.files.config import Config, Settings
 from webviz.sources import Gate, Rights, Source
 from webviz.sources.rewindable import Rewindable
 
-IDLE_S = 0.25
+IDLE_S = 0.5
 """Interval of turns while nothing arrives: ages in statuses, frames that fade."""
 PANEL_S = 0.2
+"""Interval of housekeeping: subscriptions, statuses, the panel."""
+PAUSE_S = 0.002
+"""Before housekeeping, in which what was drawn is sent, and new messages go first."""
 SEEKING_S = 0.1
 """Of a turn while a recording is read up to a position."""
 FAILURE_S = 15.0
@@ -112,6 +115,7 @@ class FrameLoop:
         self._requests = Requests(self._guard, self._wake)
         self._workers = Workers(self._wake)
         self._next_panel = 0.0
+        self._offers: object = None
         self._shown = State()
         self._named_robots: tuple[object, tuple[NamespacedRobot, ...]] = None, ()
         rights = Rights(
@@ -227,15 +231,23 @@ class FrameLoop:
         self._wake()
 
     def run(self) -> None:
-        """Run until `stop`: a turn whenever something arrives, at most `frame_rate` per second."""
+        """Run until `stop`: a turn whenever something arrives, at most `frame_rate` per second.
+
+        A turn may come early once, and the next one late: after a rest, two may follow at once.
+        """
         arrived = self._source.inbox.arrived
+        due = 0.0
         try:
             while not self._stop.is_set():
-                began = time.monotonic()
+                began, period = time.monotonic(), 1.0 / self.settings.frame_rate
+                due = max(due, began - period) + period
                 arrived.clear()
-                self._guard("Frame loop", self.turn)
+                self._guard("Frame loop", self._advance)
+                late = time.monotonic() - self._next_panel
+                if late >= 0.0 and (late > PANEL_S or not arrived.wait(PAUSE_S)):
+                    self._guard("Frame loop", self._keep_up)
                 arrived.wait(IDLE_S)
-                rest = 1.0 / self.settings.frame_rate - (time.monotonic() - began)
+                rest = due - time.monotonic()
                 if rest > 0:
                     self._stop.wait(rest)
         finally:
@@ -249,8 +261,16 @@ class FrameLoop:
         self._workers.close()
 
     def turn(self) -> None:
-        """One turn of the frame loop."""
-        core, parts = self._core, self._parts
+        """One turn by hand: its subscriptions are made at once."""
+        self._advance()
+        if time.monotonic() >= self._next_panel:
+            self._keep_up()
+        else:
+            self._subscribe()
+
+    def _advance(self) -> None:
+        """Carry out commands, take what has arrived, and draw it."""
+        core = self._core
         self._owed += self._requests.obey(self._do)
         self._receive()
         is_seeking = self._playback.is_seeking
@@ -259,13 +279,23 @@ class FrameLoop:
             runners = self._displays.list.active()
             self._showing.draw(runners, core.frames, self.settings.background)
             self._tracer.sent()
-        self._guard("Source", self._source.want, parts.subscriptions())
-        if answers or time.monotonic() >= self._next_panel:
-            self._next_panel = time.monotonic() + PANEL_S
-            parts.keep_up(bool(answers))
-            self._guard("Panel", self._show_state)
+        if answers:
+            self._keep_up(commanded=True)
+        elif core.offers is not self._offers:
+            self._subscribe()
         for answer in answers:
             answer()  # once the effect is visible
+
+    def _keep_up(self, commanded: bool = False) -> None:
+        """Do the housekeeping."""
+        self._next_panel = time.monotonic() + PANEL_S
+        self._subscribe()
+        self._parts.keep_up(commanded)
+        self._guard("Panel", self._show_state)
+
+    def _subscribe(self) -> None:
+        self._offers = self._core.offers
+        self._guard("Source", self._source.want, self._parts.subscriptions())
 
     def _receive(self) -> None:
         """Take what has arrived; of a recording, as much as brings the position to be shown."""
@@ -274,7 +304,7 @@ class FrameLoop:
             if self._playback.is_seeking:
                 # The source reads what they need of the past, and repeats what was latched if time
                 # goes back on the way.
-                self._guard("Source", self._source.want, self._parts.subscriptions())
+                self._subscribe()
             is_late = any(runner.is_late() for runner in self._displays.list.active())
             self._guard("Playback", self._playback.advance, is_late)
             batches = self._arrivals.take(self._parts)
