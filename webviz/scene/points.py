@@ -46,10 +46,13 @@ class PointsDrawn:
         while len(self._parts) > 2 * needed:
             self._parts.pop().remove()
             self._link.count_removals(1)
+        if len(self._parts) == 1:
+            self._node = None
+            self._parts[0].draw(node)
+            return
         self._version += not self._has(node.xyz, node.colors)
         self._node = node
-        is_whole = len(self._parts) == 1 or node.thins
-        cloud = None if is_whole else (self._name, self._version, len(self._parts))
+        cloud = None if node.thins else (self._name, self._version, len(self._parts))
         for index, part in enumerate(self._parts):
             rows = slice(index * PART, (index + 1) * PART)
             colors = node.colors if isinstance(node.colors, tuple) else node.colors[rows]

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 import viser
 from numpy.typing import NDArray
-from viser import _messages as wire
 
 from webviz.scene.adapter.acknowledging import AcknowledgementRequest, Acknowledgements
 from webviz.scene.adapter.hints import evaluate_hints_once
@@ -22,6 +21,7 @@ from webviz.scene.adapter.poses import (
     queue_moves,
 )
 from webviz.scene.adapter.sender import SceneSender
+from webviz.scene.adapter.updates import UpdateMessage
 from webviz.scene.label_budget import LabelBudget
 from webviz.scene.late import Late
 from webviz.server.http.viser_server import Server
@@ -77,7 +77,7 @@ class Adapter:
         The message replaces an unsent one with the same property names. Hence always send the
         properties of a node in the same disjoint sets.
         """
-        self._queue(wire.SceneNodeUpdateMessage(name, props))
+        self._queue(UpdateMessage(name, props))
 
     @contextlib.contextmanager
     def atomic(self) -> Iterator[None]:
