@@ -85,19 +85,23 @@ def project(scan: messages.LaserScan) -> BeamPoints:
     measured = ranges[beams]
     xyz = np.zeros((len(measured), 3))
     xyz[:, 0], xyz[:, 1] = measured * np.cos(angles), measured * np.sin(angles)
-    others = ranges[~is_hit]
-    nan, infinite = np.isnan(others), np.isinf(others)
-    near, far = ~infinite & (others < scan.range_min), ~infinite & (others >= farthest)
+    dropped = {} if is_hit.all() else _reasons(scan, ranges[~is_hit], farthest)
+    if over:
+        dropped[f"over the limit of {MAX_BEAMS}"] = over
+    return BeamPoints(beams, xyz, len(ranges), dropped)
+
+
+def _reasons(scan: messages.LaserScan, ranges: F64, farthest: float) -> dict[str, int]:
+    """Counts of the ranges (N,) of a scan that are no hits, by reason."""
+    nan, infinite = np.isnan(ranges), np.isinf(ranges)
+    near, far = ~infinite & (ranges < scan.range_min), ~infinite & (ranges >= farthest)
     counts = {
         "NaN": nan,
         "infinite": infinite,
         f"nearer than range_min ({scan.range_min:g} m)": near,
         f"not nearer than range_max ({scan.range_max:g} m)": far,
     }
-    dropped = {reason: int(mask.sum()) for reason, mask in counts.items() if mask.any()}
-    if over:
-        dropped[f"over the limit of {MAX_BEAMS}"] = over
-    return BeamPoints(beams, xyz, len(ranges), dropped)
+    return {reason: int(mask.sum()) for reason, mask in counts.items() if mask.any()}
 
 
 def deskew(points: BeamPoints, sample: Sample, frames: Frames) -> tuple[F64, int]:

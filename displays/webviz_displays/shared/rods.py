@@ -29,12 +29,17 @@ class Rods(NamedTuple):
     wxyzs: F64
 
 
-def rods(tails: ArrayLike, tips: ArrayLike, diameters: ArrayLike) -> Rods:
-    """Rods from `tails` (N, 3) to `tips` (N, 3), with one diameter each or for all."""
+def rods(tails: ArrayLike, tips: ArrayLike, diameters: ArrayLike, wxyzs: F64 | None = None) -> Rods:
+    """Rods from `tails` (N, 3) to `tips` (N, 3), with one diameter each or for all.
+
+    `wxyzs` are the rotations of z to their directions, if they are known, such as those of a shaft
+    for its head.
+    """
     tails, tips = np.asarray(tails, np.float64), np.asarray(tips, np.float64)
     ways = tips - tails
     lengths = np.linalg.norm(ways, axis=1)
-    wxyzs = from_z(ways / np.maximum(lengths, _LEAST_LENGTH)[:, None])
+    if wxyzs is None:
+        wxyzs = from_z(ways / np.maximum(lengths, _LEAST_LENGTH)[:, None])
     widths = np.broadcast_to(np.asarray(diameters, np.float64), lengths.shape)
     return Rods((tails + tips) / 2, np.stack((widths, widths, lengths), axis=1), wxyzs)
 
@@ -74,9 +79,10 @@ def add_solid_arrows(
     ways = tips - tails
     lengths = np.maximum(np.linalg.norm(ways, axis=1), _LEAST_LENGTH)
     necks = tips - np.minimum(head_length / lengths, 1.0)[:, None] * ways
+    turns = from_z(ways / lengths[:, None])
     kinds: tuple[tuple[str, Solid, Rods], ...] = (
-        ("shafts", "cylinder", rods(tails, necks, 2 * np.asarray(shaft_radius))),
-        ("heads", "cone", rods(necks, tips, 2 * np.asarray(head_radius))),
+        ("shafts", "cylinder", rods(tails, necks, 2 * np.asarray(shaft_radius), turns)),
+        ("heads", "cone", rods(necks, tips, 2 * np.asarray(head_radius), turns)),
     )
     for name, shape, solids in kinds:
         group.instances(

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from webviz import Group, Solid
 from webviz.data.rotations import matrices
-from webviz_displays.shared.rods import Rods, rods
+from webviz_displays.shared.rods import Rods, from_z, rods
 from webviz_displays.tf.fading import faded
 
 F64 = NDArray[np.float64]
@@ -82,8 +82,9 @@ def add_arrows(group: Group, marks: Marks, tips: F64, scale: float) -> None:
     full = HEAD_LENGTH * scale
     lengths = np.minimum(np.where(distances < full, full * distances, full), distances)
     necks = tips - (lengths / distances)[:, None] * ways
-    shafts = rods(marks.positions, necks, SHAFT_DIAMETER * scale)
-    heads = rods(necks, tips, HEAD_DIAMETER * scale)
+    turns = from_z(ways / distances[:, None])
+    shafts = rods(marks.positions, necks, SHAFT_DIAMETER * scale, turns)
+    heads = rods(necks, tips, HEAD_DIAMETER * scale, turns)
     shaft_colors, head_colors = np.moveaxis(faded(_ARROW, marks.greyness), 1, 0)
     _add(group, "cylinder", "shafts", shafts, shaft_colors, marks.opacity, marks.names)
     _add(group, "cone", "heads", heads, head_colors, marks.opacity, marks.names)

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from webviz.api.check import Check
 from webviz.api.finding import Finding, Severity, Symptom
 from webviz.api.observation import Observation
+from webviz.data.transforms.diagnosis import loops
 from webviz.data.transforms.reasons import Kind, listed
 
 
@@ -29,7 +30,7 @@ class LoopOfFrames(Check):
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each loop."""
         lost: list[Symptom] = [symptom for symptom, _ in seen.lost(Kind.LOOP)]
-        for loop in seen.tree.loops:
+        for loop in loops(seen.buffer):
             yield self.found(
                 f"The frames {listed(loop, ' → ')} form a loop.",
                 "Stop one of the two publishers that disagree about the parents.",

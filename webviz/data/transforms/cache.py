@@ -163,29 +163,17 @@ class TimeCache:
 
     def _prune(self) -> int:
         """Drop what is too old; returns the stamp from which samples are kept."""
-        stamps = self.stamps
-        horizon = stamps[-1] - self._cache_time_ns
-        if stamps[0] < horizon:
-            self._drop_oldest(self._count_before(horizon))
-        elif len(stamps) >= MAX_SAMPLES:
-            self._drop_oldest(1)
-        return horizon
-
-    def _count_before(self, horizon_ns: int) -> int:
-        count = 1
-        while self.stamps[count] < horizon_ns:
-            count += 1
-        return count
-
-    def _drop_oldest(self, count: int) -> None:
-        for _ in range(count):
-            self.stamps.popleft()
-            self.samples.popleft()
-        if self._packed:
-            self._dead += count
+        stamps, samples = self.stamps, self.samples
+        horizon, before = stamps[-1] - self._cache_time_ns, len(stamps)
+        while stamps[0] < horizon or len(stamps) >= MAX_SAMPLES:
+            stamps.popleft()
+            samples.popleft()
+        if self._packed and len(stamps) < before:
+            self._dead += before - len(stamps)
             if 7 * self._dead > len(self._packed) // 2:
                 del self._packed[: 7 * self._dead]
                 self._dead = 0
+        return horizon
 
     def at(self, stamp_ns: int) -> ParentedPose | None:
         """The sample interpolated at a time, 0 for the newest; None if `refusal` has a reason."""

@@ -124,9 +124,12 @@ def _contested(frame: str, contest: Contest) -> Conflict:
 
 def _takes_turns(samples: deque[ParentedPose]) -> bool:
     """Return whether the newest poses alternate between two places."""
-    newest = [pose[:3] for pose, _ in islice(reversed(samples), MIN_TURNS + 2)]
-    if len(newest) < MIN_TURNS + 2:
+    if len(samples) < MIN_TURNS + 2:
         return False
+    last, before = samples[-1][0][:3], samples[-3][0][:3]
+    if dist(last, samples[-2][0][:3]) <= max(LEAP * dist(last, before), MIN_LEAP_M):
+        return False  # nearly always
+    newest = [pose[:3] for pose, _ in islice(reversed(samples), MIN_TURNS + 2)]
     steps = [dist(a, b) for a, b in pairwise(newest)]
     two_steps = [dist(a, b) for a, b in zip(newest, newest[2:], strict=False)]
     return min(steps) > max(LEAP * max(two_steps), MIN_LEAP_M)

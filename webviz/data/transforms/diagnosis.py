@@ -103,14 +103,20 @@ def diagnose(buffer: TransformBuffer, now_ns: int = 0) -> Diagnosis:
     tree = buffer.tree
     now_ns = now_ns or max((cache.newest_stamp for cache in tree.caches.values()), default=0)
     tops = dict.fromkeys(roots(tree).values())
-    loops = [tuple(chain) for top in tops if len(chain := ancestors(tree, top)) > 1]
     frames = [
         _report(buffer, name, tree.caches[name], now_ns)
         for name in tree.names
         if name in tree.caches
     ]
     ends = tuple(name for name in tree.names if name in tops and len(ancestors(tree, name)) == 1)
-    return Diagnosis(ends, tuple(loops), tuple(frames))
+    return Diagnosis(ends, loops(buffer), tuple(frames))
+
+
+def loops(buffer: TransformBuffer) -> tuple[tuple[str, ...], ...]:
+    """The cycles of parents, each from a frame back to itself."""
+    tree = buffer.tree
+    tops = dict.fromkeys(roots(tree).values())
+    return tuple(tuple(chain) for top in tops if len(chain := ancestors(tree, top)) > 1)
 
 
 def tree_text(buffer: TransformBuffer, now_ns: int = 0) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 import inspect
 import logging
 import math
@@ -171,8 +172,13 @@ def _gesture(tool: Tool, command: UseTool, sender: Sender) -> Gesture:
     return Gesture(points, command.yaw, command.keys, sender.browser, yaws, command.several)
 
 
+@functools.cache
+def _tooltip(cls: type[Tool]) -> str:
+    return (inspect.getdoc(cls) or "").partition("\n")[0]
+
+
 def _button(id: str, tool: Tool, shortcut: str, refusal: str) -> ToolButton:
-    tooltip = (inspect.getdoc(tool) or "").partition("\n")[0]
+    tooltip = _tooltip(type(tool))
     return ToolButton(
         id=id,
         name=tool.name,

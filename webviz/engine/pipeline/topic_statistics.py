@@ -8,7 +8,6 @@ import itertools
 import time
 from collections import deque
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 
 from webviz.api.declared import Topic
 from webviz.api.ports import ANY, Input
@@ -54,7 +53,7 @@ class TopicStatistics:
 
         The bytes of a latched one are kept, to notice when it is delivered again.
         """
-        self.last = raw if is_latched else replace(raw, cdr=b"")
+        self.last = raw if is_latched else Raw(b"", raw.received_ns, raw.arrived_s)
         self.count += 1
         self._times.append(clock - (time.monotonic() - raw.arrived_s))
 
