@@ -8,6 +8,7 @@ import pytest
 
 from webviz.data.transforms import TransformBuffer
 from webviz.data.transforms.cache import TimeCache
+from webviz.data.transforms.geometry import PACKED
 
 S = 1_000_000_000
 Row = tuple[str, str, int, list[float]]
@@ -73,11 +74,9 @@ def test_all_at_once_is_as_one_by_one(seed: int) -> None:
         assert isinstance(cache, TimeCache)
         assert isinstance(other, TimeCache)
         assert other.stamps == cache.stamps
-        for (pose, parent), (other_pose, other_parent) in zip(
-            cache.samples, other.samples, strict=True
-        ):
-            assert other_parent == parent
-            assert other_pose == pytest.approx(pose, abs=1e-12)
+        assert other.parents == cache.parents
+        for pose, other_pose in zip(cache.poses, other.poses, strict=True):
+            assert PACKED.unpack(other_pose) == pytest.approx(PACKED.unpack(pose), abs=1e-12)
         whose, others = expected.publishers[child], found.publishers[child]
         assert (others.current, others.claim) == (whose.current, whose.claim)
         assert (others.contest, others.delay_ns) == (whose.contest, whose.delay_ns)

@@ -9,30 +9,26 @@ floats, which halves the time of joining two poses (measured).
 
 from __future__ import annotations
 
-from array import array
 from collections.abc import Iterable
 from itertools import starmap
-from struct import Struct
 
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz.data.transforms.geometry import PoseTuple
+from webviz.data.transforms.geometry import PACKED, PoseTuple
 
 F64 = NDArray[np.float64]
 C128 = NDArray[np.complex128]
 
 IDENTITY_PAIRS = np.array([[0], [0], [1], [0]], np.complex128)
 
-_POSE = Struct("7d")
-
 
 def poses_to_rows(poses: Iterable[PoseTuple]) -> F64:
     """Poses as rows (7, N)."""
-    return packed_to_rows(b"".join(starmap(_POSE.pack, poses)))
+    return packed_to_rows(b"".join(starmap(PACKED.pack, poses)))
 
 
-def packed_to_rows(packed: bytes | array[float]) -> F64:
+def packed_to_rows(packed: bytes) -> F64:
     """Poses that lie one after the other in memory, as rows (7, N)."""
     return np.frombuffer(packed, np.float64).reshape(-1, 7).T.copy()
 

@@ -137,14 +137,12 @@ class TransformBuffer:
         elif parent not in tree.names:
             tree.names[parent] = None
             self.structure_version += 1
-        before = cache.newest
+        before = cache.newest if is_static else cache.parent
         sample = ((x, y, z, qx, qy, qz, qw), parent)
         if not cache.insert(stamp_ns, sample):
             fault = too_old(stamp_ns, cache.newest_stamp)
             return self._reject(child, stamp_ns, received_ns, fault)
-        after = cache.newest
-        assert after is not None
-        if before is None or before[1] != after[1] or (is_static and before != after):
+        if before != (cache.newest if is_static else cache.parent):
             self.structure_version += 1
         claim = sample if is_static else authority
         publishers = self._publishers.get(child)

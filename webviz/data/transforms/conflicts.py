@@ -14,7 +14,8 @@ from itertools import islice, pairwise
 from math import dist
 
 from webviz.data.transforms.buffer import TransformBuffer
-from webviz.data.transforms.cache import ParentedPose, TimeCache
+from webviz.data.transforms.cache import TimeCache
+from webviz.data.transforms.geometry import PACKED
 from webviz.data.transforms.publishers import Contest
 from webviz.data.words import Problem
 
@@ -67,7 +68,7 @@ def found_conflicts(buffer: TransformBuffer, frame: str) -> Iterator[Conflict]:
         return
     stamps = list(islice(reversed(cache.stamps), RECENT))
     is_mixed = cache.mixed_ns >= stamps[-1]
-    parents = [p for _, p in islice(reversed(cache.samples), RECENT)] if is_mixed else []
+    parents = list(islice(reversed(cache.parents), RECENT)) if is_mixed else []
     changes = sum(a != b for a, b in pairwise(parents))
     if changes > 1:
         names = sorted(set(parents))
@@ -90,7 +91,7 @@ def found_conflicts(buffer: TransformBuffer, frame: str) -> Iterator[Conflict]:
                 "Stop one of the two publishers, or start the clock of the only one.",
             ),
         )
-    elif _takes_turns(cache.samples):
+    elif _takes_turns(cache.poses):
         yield Conflict(
             ConflictKind.TWO_PUBLISHERS,
             Problem(f'"{frame}" alternates between two poses.', "Stop one of the two publishers."),
@@ -122,14 +123,14 @@ def _contested(frame: str, contest: Contest) -> Conflict:
     return Conflict(kind, Problem(cause, "Stop one of the publishers."), tuple(parents))
 
 
-def _takes_turns(samples: deque[ParentedPose]) -> bool:
+def _takes_turns(poses: deque[bytes]) -> bool:
     """Return whether the newest poses alternate between two places."""
-    if len(samples) < MIN_TURNS + 2:
+    if len(poses) < MIN_TURNS + 2:
         return False
-    last, before = samples[-1][0][:3], samples[-3][0][:3]
-    if dist(last, samples[-2][0][:3]) <= max(LEAP * dist(last, before), MIN_LEAP_M):
+    last, other, before = (PACKED.unpack(poses[-place])[:3] for place in (1, 2, 3))
+    if dist(last, other) <= max(LEAP * dist(last, before), MIN_LEAP_M):
         return False  # nearly always
-    newest = [pose[:3] for pose, _ in islice(reversed(samples), MIN_TURNS + 2)]
+    newest = [PACKED.unpack(pose)[:3] for pose in islice(reversed(poses), MIN_TURNS + 2)]
     steps = [dist(a, b) for a, b in pairwise(newest)]
     two_steps = [dist(a, b) for a, b in zip(newest, newest[2:], strict=False)]
     return min(steps) > max(LEAP * max(two_steps), MIN_LEAP_M)

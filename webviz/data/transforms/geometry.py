@@ -9,11 +9,15 @@ matrix to quaternion gives to a rotation by 120 or 180 degrees depends on the la
 from __future__ import annotations
 
 from math import acos, nan, sin, sqrt
+from struct import Struct
 from typing import Any
 
 PoseTuple = tuple[float, float, float, float, float, float, float]
 Quaternion = tuple[float, float, float, float]
 Matrix = tuple[float, float, float, float, float, float, float, float, float]
+
+PACKED = Struct("7d")
+"""A pose as bytes, in the order of this machine."""
 
 IDENTITY: PoseTuple = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 

@@ -193,10 +193,10 @@ def _stamps(tree: FrameTree, target: str, frames: list[str], stamp_ns: int) -> S
     while frame not in spine:
         spine[frame] = common
         cache = caches.get(frame)
-        if cache is None or (newest := cache.newest) is None:
+        if cache is None or (parent := cache.parent) is None:
             break
         common = _older(common, cache.newest_stamp)
-        frame = newest[1]
+        frame = parent
     else:
         # Chains that meet a loop do not end: only those through the target itself have a time.
         spine = {target: None}
@@ -212,10 +212,10 @@ def _stamps(tree: FrameTree, target: str, frames: list[str], stamp_ns: int) -> S
         while frame not in meets:
             meets[frame] = None  # stays None for other roots and loops
             cache = caches.get(frame)
-            if cache is None or (newest := cache.newest) is None:
+            if cache is None or (parent := cache.parent) is None:
                 break
             climbed.append((frame, cache.newest_stamp))
-            frame = newest[1]
+            frame = parent
         meet = meets[frame]
         if meet is None:
             stamps.append(None)

@@ -8,6 +8,7 @@ import numpy as np
 
 from webviz.data.transforms.arrays import F64, canonical_many
 from webviz.data.transforms.cache import TimeCache
+from webviz.data.transforms.geometry import PACKED
 from webviz.data.transforms.publishers import Publishers
 from webviz.data.transforms.tree import FrameTree
 
@@ -58,16 +59,18 @@ class ManyInserts:
         """
         with np.errstate(all="ignore"):  # a rotation of length zero becomes NaN
             rotations = canonical_many(poses[:, 3:].T)
-        columns = np.concatenate((poses[:, :3].T, rotations))
-        is_finite = np.isfinite(columns.sum(axis=0)).tolist()
+        rows = np.concatenate((poses[:, :3], rotations.T), axis=1)
+        is_finite, packed = np.isfinite(rows.sum(axis=1)).tolist(), rows.tobytes()
         frames = self._expected(names, structure)
-        rows = zip(frames, stamps_ns, zip(*columns.tolist(), strict=True), is_finite, strict=True)
         others = []
-        for place, (frame, stamp_ns, pose, finite) in enumerate(rows):
+        for place, (frame, stamp_ns, finite) in enumerate(
+            zip(frames, stamps_ns, is_finite, strict=True)
+        ):
             if frame is not None and finite:
                 cache, whose, parent = frame
                 if stamp_ns > cache.stamps[-1] and whose.claim == authority:
-                    cache.append(stamp_ns, (pose, parent))
+                    start = place * PACKED.size
+                    cache.append(stamp_ns, packed[start : start + PACKED.size], parent)
                     if received_ns:
                         whose.delay_ns = received_ns - stamp_ns
                     continue
@@ -85,6 +88,6 @@ class ManyInserts:
 
     def _frame(self, parent: str, child: str) -> tuple[TimeCache, Publishers, str] | None:
         cache, whose = self._tree.caches.get(child), self._publishers.get(child)
-        if whose is None or not isinstance(cache, TimeCache) or not cache.samples:
+        if whose is None or not isinstance(cache, TimeCache) or not len(cache):
             return None
-        return (cache, whose, parent) if cache.samples[-1][1] == parent else None
+        return (cache, whose, parent) if cache.parent == parent else None

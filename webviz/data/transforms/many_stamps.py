@@ -76,19 +76,18 @@ class _History:
         stamps = cache.stamps
         low = max(bisect_left(stamps, first_ns) - 1, 0)
         high = bisect_right(stamps, last_ns) + 1
-        part = slice(low, high)
         self.oldest_ns, self.newest_ns = stamps[0], stamps[-1]
         self._known = list(islice(stamps, low, high))
         self.stamps = np.array(self._known, np.int64)
         # Each sample with its successor; the last, and one before a change of parent, with itself.
-        start = packed_to_rows(cache.poses(part))
+        start = packed_to_rows(b"".join(islice(cache.poses, low, high)))
         end = np.concatenate((start[:, 1:], start[:, -1:]), axis=1)
         self.parent: str | None = None
         self.parents: NDArray[np.object_] | None = None
         if self._known[0] > cache.mixed_ns:
-            self.parent = cache.samples[-1][1]
+            self.parent = cache.parents[-1]
         else:
-            parents = [parent for _, parent in islice(cache.samples, low, high)]
+            parents = list(islice(cache.parents, low, high))
             self.parents = np.array(parents, object)
             changes = np.flatnonzero([a != b for a, b in pairwise(parents)])
             end[:, changes] = start[:, changes]
@@ -218,10 +217,11 @@ def _part(group: _Group, keep: NDArray[np.bool_]) -> _Group:
 def _climb(histories: _Histories, group: _Group, stamps: I64) -> tuple[list[_Group], _Group | None]:
     """The group one link higher, split by parent; and the requests without such a link."""
     cache = histories.caches.get(group.frame)
-    if cache is None or cache.newest is None:
+    if cache is None or cache.parent is None:
         return [], group
     if not isinstance(cache, TimeCache):
-        pose, parent = cache.newest
+        assert cache.sample is not None
+        pose, parent = cache.sample
         return [
             _Group(parent, group.rows, _onto(to_pairs(np.reshape(pose, (7, 1))), group.pose))
         ], None

@@ -16,6 +16,7 @@ from webviz.data.transforms.arrays import (
     interpolate_many,
     interpolation_table,
     inverse_many,
+    packed_to_rows,
     poses_to_rows,
     to_pairs,
     to_rows,
@@ -98,7 +99,7 @@ class Topology:
                 break
             climbed[above] = None
             cache = tree.caches.get(above)
-            above = cache.newest[1] if cache is not None and cache.newest is not None else None
+            above = cache.parent if cache is not None else None
         parent = -1 if above is None else self._nodes[above]
         for name in reversed(climbed):
             self._nodes[name] = len(self._parents)
@@ -123,7 +124,7 @@ class Topology:
         if len(times) > MAX_STAMPS:
             return None
         if self._moving:
-            rows = poses_to_rows([cache.samples[-1][0] for cache in self._moving])
+            rows = packed_to_rows(b"".join([cache.poses[-1] for cache in self._moving]))
             self._links[:, self._moving_nodes] = to_pairs(rows)
         for time in times:
             chosen = np.flatnonzero(is_wanted & (stamps == time))
@@ -166,7 +167,7 @@ class Topology:
             ratios: list[float] = []
             for place in np.flatnonzero(needed).tolist():
                 bracket = self._moving[place].bracket(time)
-                if bracket is None or bracket[3] != self._moving[place].samples[-1][1]:
+                if bracket is None or bracket[3] != self._moving[place].parent:
                     return None  # no data, or another parent at that time
                 starts.append(bracket[0])
                 ends.append(bracket[1])

@@ -64,11 +64,11 @@ class FrameTree:
         common: int | None = None
         frame = source
         depth = 0
-        while (cache := caches.get(frame)) is not None and (newest := cache.newest) is not None:
+        while (cache := caches.get(frame)) is not None and (parent := cache.parent) is not None:
             stamp = cache.newest_stamp
             if stamp != 0 and (common is None or stamp < common):
                 common = stamp
-            frame = newest[1]
+            frame = parent
             if frame == target:
                 return common or 0
             ancestors.setdefault(frame, common)
@@ -78,11 +78,11 @@ class FrameTree:
         common = None
         frame = target
         depth = 0
-        while (cache := caches.get(frame)) is not None and (newest := cache.newest) is not None:
+        while (cache := caches.get(frame)) is not None and (parent := cache.parent) is not None:
             stamp = cache.newest_stamp
             if stamp != 0 and (common is None or stamp < common):
                 common = stamp
-            frame = newest[1]
+            frame = parent
             if frame in ancestors:
                 other = ancestors[frame]
                 if common is None or (other is not None and other < common):
@@ -180,8 +180,7 @@ class FrameTree:
         for name in self.names:
             cache = self.caches.get(name)
             if cache is not None:
-                newest = cache.newest
-                parent = newest[1] if newest else "NO_PARENT"
+                parent = cache.parent or "NO_PARENT"
                 lines.append(f"Frame {name} exists with parent {parent}.\n")
         return "".join(lines)
 
@@ -212,9 +211,9 @@ def ancestors(tree: FrameTree, frame: str) -> list[str]:
     while frame not in chain:
         chain[frame] = None
         cache = tree.caches.get(frame)
-        if cache is None or cache.newest is None:
+        if cache is None or cache.parent is None:
             return list(chain)
-        frame = cache.newest[1]
+        frame = cache.parent
     return [*chain, frame]
 
 
@@ -229,8 +228,8 @@ def roots(tree: FrameTree) -> dict[str, str]:
             chain.append(frame)
             seen.add(frame)
             cache = tree.caches.get(frame)
-            if cache is None or cache.newest is None:
+            if cache is None or cache.parent is None:
                 break
-            frame = cache.newest[1]
+            frame = cache.parent
         found |= dict.fromkeys(chain, found.get(frame, frame))
     return found
