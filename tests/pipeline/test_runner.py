@@ -189,7 +189,8 @@ def test_in_a_new_fixed_frame_data_stay_at_their_stamp_and_followers_follow(
     b.pose("/pose", "base", T, 1.0)
     b.turn()
     assert at(b) == [101.0, 102.0]
-    b.transform("odom", "base", T + SECOND, 50.0)
+    b.source.now = T + SECOND
+    b.transform("odom", "base", b.source.now, 50.0)
     b.turn()
     assert at(b) == [102.0, 150.0]
     b.viewer.enqueue(SetFixedFrame("odom"))
