@@ -138,6 +138,8 @@ def test_what_is_answered_is_refused_in_words() -> None:
 def test_every_role_has_limits_and_a_link() -> None:
     assert {*LIMITS} == {*LINKS.values()} == {*Role}
     assert [LIMITS[role].messages_per_second for role in Role] == [100.0, 200.0, 200.0]
+    assert [LIMITS[role].bytes_per_message >> 10 for role in Role] == [1, 32, 32]
+    assert [LIMITS[role].max_characters >> 10 for role in Role] == [256, 1024, 3072]
     shares = [LIMITS[role].share for role in Role]
     assert shares == sorted(shares)
     assert shares[-1] == 1.0

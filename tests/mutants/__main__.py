@@ -28,7 +28,7 @@ TESTS = {
     "webviz/engine/driving": (
         "tests/pipeline/test_velocity_controller.py tests/pipeline/test_driving.py"
     ),
-    "webviz/engine/pipeline": "tests/pipeline",
+    "webviz/engine/pipeline": "tests/pipeline tests/plugins/test_reload.py",
     "webviz/sources": "tests/sources tests/playback tests/pipeline/test_rights.py",
     "webviz/sources/gate.py": (
         "tests/pipeline/test_rights.py tests/pipeline/test_driving.py "

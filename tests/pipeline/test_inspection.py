@@ -105,6 +105,27 @@ def test_the_delay_of_a_topic_is_from_its_stamp_to_its_arrival(bench: Callable[.
     assert do(b).traffic["/path"].delay_s == pytest.approx(0.25)
 
 
+def test_the_delay_of_a_topic_is_measured_once_a_second_and_unknown_without_a_stamp(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Path(name="P", topic=Topic("/path")))
+    do(b)
+
+    def delay_s(after_s: float, stamp: dict[str, Any]) -> float | None:
+        b.clock += after_s
+        b.publish("/path", PATH, {"header": stamp, "poses": []})
+        b.turn()
+        b.clock += 0.25
+        return do(b).traffic["/path"].delay_s
+
+    now = header("map", b.source.now)
+    assert delay_s(2.0, now) == 0.0
+    b.source.now += SECOND
+    assert delay_s(0.25, now) == 0.0
+    assert delay_s(2.0, now) == pytest.approx(1.0)
+    assert delay_s(2.0, header("map", 0)) is None
+
+
 def test_a_topic_that_no_display_shows_can_be_looked_into(bench: Callable[..., Any]) -> None:
     b = bench()
     assert do(b, InspectTopic("/text")).inspected["/text"].problem == "No publisher on this topic."
