@@ -32,7 +32,7 @@ from webviz.ros.types import learn, message_class
 from webviz.sources import Inbox, Offer, Publisher, Raw, Subscription
 from webviz.sources.inbox import MAX_TOTAL
 
-REST_S = 0.25
+REST_S = 0.5
 """Time to wait before looking at the publishers of subscribed topics. Finite, because the
 events executor of rclpy 7.1.6 spins at full load in an unlimited wait."""
 PENDING_S = 0.05

@@ -8,6 +8,7 @@ from webviz.api.check import Check
 from webviz.api.finding import Finding
 from webviz.api.observation import Observation
 from webviz.data.transforms import FrameReport
+from webviz.data.transforms.diagnosis import report
 from webviz.data.transforms.tree import ancestors
 
 SLOW_HZ, FEWEST = 2.0, 3
@@ -34,15 +35,13 @@ class LateLink(Check):
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each link that is slower than a topic."""
         tree = seen.buffer.tree
-        reports = {report.frame: report for report in seen.tree.frames}
         fixed = {*ancestors(tree, seen.fixed_frame)}
         for display, each in seen.inputs():
             links = {*ancestors(tree, each.frame)} ^ fixed if each.frame else set[str]()
-            slow = [
-                reports[link]
-                for link in links & reports.keys()
-                if _is_slow(reports[link]) and each.rate_hz > 2 * reports[link].rate_hz
+            reports = [
+                report(seen.buffer, link, seen.now_ns) for link in links & tree.caches.keys()
             ]
+            slow = [link for link in reports if _is_slow(link) and each.rate_hz > 2 * link.rate_hz]
             for link in slow:
                 yield self.found(
                     f'The transform from "{link.parent}" to "{link.frame}" comes at '

@@ -103,11 +103,7 @@ def diagnose(buffer: TransformBuffer, now_ns: int = 0) -> Diagnosis:
     tree = buffer.tree
     now_ns = now_ns or max((cache.newest_stamp for cache in tree.caches.values()), default=0)
     tops = dict.fromkeys(roots(tree).values())
-    frames = [
-        _report(buffer, name, tree.caches[name], now_ns)
-        for name in tree.names
-        if name in tree.caches
-    ]
+    frames = [report(buffer, name, now_ns) for name in tree.names if name in tree.caches]
     ends = tuple(name for name in tree.names if name in tops and len(ancestors(tree, name)) == 1)
     return Diagnosis(ends, loops(buffer), tuple(frames))
 
@@ -181,7 +177,9 @@ def _gap(cache: Cache) -> int:
     return longest if longest >= max(GAP_NS, GAP_PERIODS * usual) else 0
 
 
-def _report(buffer: TransformBuffer, frame: str, cache: Cache, now_ns: int) -> FrameReport:
+def report(buffer: TransformBuffer, frame: str, now_ns: int) -> FrameReport:
+    """Diagnose one child frame."""
+    cache = buffer.tree.caches[frame]
     newest = cache.newest
     publishers = buffer.publishers[frame]
     history_ns = cache.newest_stamp - cache.oldest_stamp
