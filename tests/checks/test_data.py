@@ -10,12 +10,11 @@ import building
 import examining
 import numpy as np
 import pytest
-from examining import display
+from examining import HERE, display, look
 
 import webviz
 from webviz import Finding, Symptom, Topic
 from webviz.api.finding import CauseLevel
-from webviz.data.rotations import from_rpy
 from webviz.shell.testing.harness import Harness
 from webviz.shell.testing.messages import header
 from webviz_displays.laser_scan import LaserScan
@@ -25,7 +24,6 @@ from webviz_displays.path import Path
 from webviz_displays.robot_model import RobotModel
 from webviz_sim.pose import Pose2D
 
-HERE = Pose2D(-2.0, 0.0)
 SCAN = "sensor_msgs/msg/LaserScan"
 ROBOT = """<robot name="r"><link name="map"><visual><geometry>
 <mesh filename="package://nowhere/part.stl"/></geometry></visual></link></robot>"""
@@ -36,19 +34,6 @@ Make = Callable[..., Harness]
 def examined(stage: Harness, level: CauseLevel = CauseLevel.DATA) -> dict[str, Finding]:
     """The findings on a level."""
     return examining.examined(stage, level)
-
-
-def look(stage: Harness, pose: Pose2D, scan: Any = None, roll: float = 0.0) -> None:
-    """Publish where the laser is said to be, the map, and what it sees from `HERE`."""
-    w, x, y, z = from_rpy(roll, 0.0, pose.yaw)
-    stage.transform("map", "laser", (pose.x, pose.y, 0.0), (x, y, z, w))
-    now = stage.source.now
-    stage.publish(
-        "/map", "nav_msgs/msg/OccupancyGrid", {"header": header("map", now)} | building.grid()
-    )
-    scan = building.scan(HERE) if scan is None else scan
-    stage.publish("/scan", SCAN, {"header": header("laser", now)} | scan)
-    stage.turn()
 
 
 @pytest.mark.parametrize(

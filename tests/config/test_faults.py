@@ -73,7 +73,7 @@ def _is_at(fault: Fault, refusal: str) -> bool:
         ({"background": 5}, "expected a list of 3 numbers, got 5"),
         ({"robots": [5]}, "expected text or keys such as `namespace:`, got 5"),
         ({"robots": [{"prefix": "a"}]}, "the key `namespace` is missing"),
-        ({"watch": [{"display": "Map"}]}, "a rule is about a display or about a topic."),
+        ({"watch": [{"display": "Map"}]}, "a rule is one condition."),
         ({"views": {1: {}}}, 'expected text as keys, such as "0":'),
         ({"bookmarks": {"a": "b"}}, "expected a number, got `b`"),
         ({"watch": [{"status": "bad"}]}, "expected warn or error, got `bad`"),

@@ -101,8 +101,10 @@ def test_levels_are_those_of_messages(type_name: str, values: dict[str, Any], le
 @pytest.mark.parametrize(
     ("rule", "reason"),
     [
-        ("{display: Scan}", "watch[0]: a rule is about a display or about a topic. Write {display"),
-        ("{topic: /a, rate: '<5', level: warn}", "watch[0]: a rule is about a display or about"),
+        ("{display: Scan}", "watch[0]: a rule is one condition. Write {rule: Scan.walls > 0.8}"),
+        ("{topic: /a, rate: '<5', level: warn}", "watch[0]: a rule is one condition."),
+        ("{rule: Scan.walls > 0.8, for: 2s}", "watch[0]: a rule is one condition."),
+        ("{rule: Scan.wals > 0.8}", "watch[0]: `Scan.wals > 0.8`: unknown value wals. Use status,"),
         ("{topic: /a, rate: '5'}", "watch[0]: rate `5` is not a condition. Write it like"),
         ("{topic: /a, rate: '<5', for: soon}", "watch[0]: for `soon` is not a duration."),
         ("{display: Scan, status: bad}", "watch[0].status: expected warn or error, got `bad`."),
@@ -177,6 +179,14 @@ def test_a_rule_saves_what_was_and_what_comes(make: Callable[..., Bench]) -> Non
     assert recording.span_ns
     assert len(list(recording.messages(recording.channels, *recording.span_ns))) == 3
     recording.close()
+
+
+def test_a_violated_condition_saves_what_led_to_it(make: Callable[..., Bench]) -> None:
+    bench = make(WatchRule(rule="Plan.status < error"))
+    publish(bench, 1.0)
+    bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
+    (path,) = saved(bench)
+    assert path.name.endswith("_Plan_status_error")
 
 
 def test_no_more_is_saved_than_the_limits_allow(make: Callable[..., Bench]) -> None:

@@ -4,13 +4,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from typing import Any
+
+import building
 
 from webviz import Finding, Severity
 from webviz.api.finding import CauseLevel
+from webviz.data.rotations import from_rpy
 from webviz.shell.testing.harness import Harness
 from webviz.shell.testing.live import LiveViewer
+from webviz.shell.testing.messages import header
 from webviz.shell.testing.source import SECOND
+from webviz_sim.pose import Pose2D
 
+HERE = Pose2D(-2.0, 0.0)
+"""Where the robot is in the simulator's building."""
+SCAN = "sensor_msgs/msg/LaserScan"
 ROUNDS = 4
 """Two in a row make a finding; one may be under way, and messages have to wait for a while."""
 
@@ -55,3 +64,16 @@ def examined(
 def display(viewer: Harness | LiveViewer, name: str) -> str:
     """The id of a display."""
     return next(row.id for row in viewer.viewer.snapshot().rows if row.name == name)
+
+
+def look(stage: Harness, pose: Pose2D, scan: Any = None, roll: float = 0.0) -> None:
+    """Publish where the laser is said to be, the map, and what it sees from `HERE`."""
+    w, x, y, z = from_rpy(roll, 0.0, pose.yaw)
+    stage.transform("map", "laser", (pose.x, pose.y, 0.0), (x, y, z, w))
+    now = stage.source.now
+    stage.publish(
+        "/map", "nav_msgs/msg/OccupancyGrid", {"header": header("map", now)} | building.grid()
+    )
+    scan = building.scan(HERE) if scan is None else scan
+    stage.publish("/scan", SCAN, {"header": header("laser", now)} | scan)
+    stage.turn()

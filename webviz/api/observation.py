@@ -11,8 +11,9 @@ from webviz.api.consistency import MapFit
 from webviz.api.declared import Topic
 from webviz.api.display import Display
 from webviz.api.environment import Environment
-from webviz.api.finding import Symptom
+from webviz.api.finding import Finding, Symptom
 from webviz.api.offer import Offer
+from webviz.api.rule import Verdict
 from webviz.api.status import Level, Status
 from webviz.data.transforms import Diagnosis, TransformBuffer, diagnose
 from webviz.data.transforms.conflicts import Conflict, ConflictKind, found_conflicts
@@ -103,6 +104,8 @@ class Observation:
         is_paused: whether a person has paused time.
         is_recorded: whether messages come from a bag.
         environment: of this machine, None with a bag or until it is known.
+        findings: of the round before, without violated rules.
+        verdicts: of the rules of the config.
     """
 
     now_ns: int
@@ -117,6 +120,8 @@ class Observation:
     is_paused: bool = False
     is_recorded: bool = False
     environment: Environment | None = None
+    findings: Sequence[Finding] = ()
+    verdicts: Sequence[Verdict] = ()
 
     def inputs(self) -> Iterator[tuple[DisplaySeen, InputSeen]]:
         """All inputs that have a topic, each with its display."""

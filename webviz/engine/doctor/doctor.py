@@ -12,9 +12,11 @@ from webviz.api.check import Check
 from webviz.api.check_registry import known_checks
 from webviz.api.environment import Environment
 from webviz.api.finding import Finding, Severity
+from webviz.api.rule import Rule, Verdict
 from webviz.api.status import Level
 from webviz.data.disk import in_thread
 from webviz.engine.doctor.environment import look_around, lost_datagrams
+from webviz.engine.doctor.judging import Judge
 from webviz.engine.doctor.observing import observe
 from webviz.engine.doctor.ordering import ordered
 from webviz.engine.parts.displays import DisplaysPart
@@ -33,6 +35,9 @@ LOOK_S = 10.0
 
 MAX_EVENTS = 1000
 """Findings whose beginning is kept; after these, that of others is not noted."""
+
+OF_RULES = "DATA012"
+"""Id of the findings about rules, which rules about findings do not count."""
 
 Key = tuple[str, str]
 """Id and subject, by which a finding is known again."""
@@ -63,6 +68,9 @@ class Doctor:
         self._looking: Future[Environment] | None = None
         self._next_look_s = 0.0
         self._lost_before = lost_datagrams()
+        self._judge = Judge()
+        self.verdicts: Sequence[Verdict] = ()
+        """Of the rules of the config, in the last round."""
         self.rounds = 0
         """Number of completed rounds."""
         self._noted: dict[Key, Event] = {}
@@ -81,7 +89,8 @@ class Doctor:
         Args:
             state: of this turn.
         """
-        if not (self._core.is_watched() or time.monotonic() < self._asked_until_s):
+        is_asked = time.monotonic() < self._asked_until_s or any(_rules(state))
+        if not (self._core.is_watched() or is_asked):
             self._round = None
         elif self._round is not None or self._is_due():
             self._round = self._round or self._examined(state)
@@ -122,6 +131,9 @@ class Doctor:
         """Run all checks on what is seen now, with a pause after each."""
         core = self._core
         seen = observe(core, self._displays, state, self._environment(state))
+        seen = replace(seen, findings=[each for each in self.findings if each.id != OF_RULES])
+        self.verdicts = self._judge.judge(_rules(state), seen)
+        seen = replace(seen, verdicts=self.verdicts)
         found: list[Finding] = []
         for check in self._current():
             found += core.guard.attempt(f"Check {check.id}", [], lambda c=check: list(c.find(seen)))
@@ -158,6 +170,11 @@ class Doctor:
             self._noted.setdefault(_key(each), Event(at_ns, level, each.id, each.cause))
         if len(self._noted) != len(self.events):
             self.events = tuple(sorted(self._noted.values(), key=lambda event: event.at_ns))
+
+
+def _rules(state: State) -> Iterator[Rule]:
+    """The conditions among the rules of the config."""
+    return (rule.condition for rule in state.settings.watch if rule.condition)
 
 
 def _key(finding: Finding) -> Key:

@@ -317,7 +317,7 @@ class FrameLoop:
         """A snapshot for a panel, as of the last turn."""
         state, statuses = self._parts.state(), self._parts.statuses()
         crashed = failures(self._guard.crashes)
-        self._black_box.look(state.rows)
+        self._black_box.look(state.rows, self.doctor.verdicts)
         seen = replace(
             state,
             statuses=statuses | crashed | self._showing.statuses,

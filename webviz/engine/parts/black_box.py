@@ -13,6 +13,7 @@ from typing import Any
 
 from webviz.api.declared import Topic
 from webviz.api.errors import Error
+from webviz.api.rule import DOCTOR, Verdict
 from webviz.api.status import Level, Status
 from webviz.data.disk import in_thread
 from webviz.data.recordings.folder_writing import RecordingFolder
@@ -69,6 +70,7 @@ class BlackBoxPart(Part):
         self._watcher = RuleWatcher(())
         self._subscriber = Subscriber()
         self._rows: Sequence[Row] = ()
+        self._verdicts: Sequence[Verdict] = ()
         self._saving: _Saving | None = None
         self._listing: Future[tuple[SavedMoment, ...]] | None = None
         self._saved: tuple[SavedMoment, ...] = ()
@@ -88,9 +90,10 @@ class BlackBoxPart(Part):
                 wanted[name] = Subscription(types[0], Topic(name))
         return self._subscriber.subscribe(wanted)
 
-    def look(self, rows: Sequence[Row]) -> None:
-        """Take the displays of the last state."""
+    def look(self, rows: Sequence[Row], verdicts: Sequence[Verdict]) -> None:
+        """Take the displays of the last state, and what became of the rules."""
         self._rows = rows
+        self._verdicts = verdicts
 
     def keep_up(self, commanded: bool) -> None:
         """Follow the rules, and what is being saved."""
@@ -127,9 +130,11 @@ class BlackBoxPart(Part):
             return {}
         names = [row.name for row in self._rows]
         for rule in self._watcher.rules:
-            if rule.display and names and rule.display not in names:
-                text = f"A rule watches the display `{rule.display}`, which is not there."
-                remedy = nearest_name(rule.display, names)
+            watched = rule.condition.subject if rule.condition else rule.display
+            is_display = watched != DOCTOR and not watched.startswith("/")
+            if watched and is_display and names and watched not in names:
+                text = f"A rule watches the display `{watched}`, which is not there."
+                remedy = nearest_name(watched, names)
                 return {"Black box": Status(Level.WARN, f"{text} {remedy}")}
         if self._watcher.rules and not self._live.memory.is_on:
             text = "Rules have nothing to save, since nothing is remembered. Raise memory.seconds."
@@ -162,7 +167,8 @@ class BlackBoxPart(Part):
                 rates[rule.topic] = rates[name]
             if name in levels:
                 levels[rule.topic] = levels[name]
-        return WatchedMoment(now_s, displays, rates, levels)
+        kept = {each.rule.text: each.holds for each in self._verdicts} if is_live else {}
+        return WatchedMoment(now_s, displays, rates, levels, kept)
 
     def _save(self, rule: WatchRule, live: Rewindable) -> None:
         """Begin to save, unless that goes on already or is too much."""

@@ -31,12 +31,14 @@ class WatchedMoment:
         displays: levels by name; of several displays of a name, the worst.
         rates: messages per second by topic, of those that were received long enough.
         levels: the worst level of the last messages by topic.
+        kept: whether the conditions of rules hold, by their text; None while that is unknown.
     """
 
     at_s: float
     displays: Mapping[str, Level] = field(default_factory=dict)
     rates: Mapping[str, float] = field(default_factory=dict)
     levels: Mapping[str, Level] = field(default_factory=dict)
+    kept: Mapping[str, bool | None] = field(default_factory=dict)
 
 
 class TopicObserver:

@@ -36,6 +36,9 @@ class RuleWatcher:
 
 def holds(rule: WatchRule, now: WatchedMoment) -> bool | None:
     """Return whether the condition of a rule holds; None while that is unknown."""
+    if condition := rule.condition:
+        is_kept = now.kept.get(condition.text)
+        return None if is_kept is None else not is_kept
     if rule.display:
         level, least = now.displays.get(rule.display), rule.status
     elif rule.rate_limit is not None:

@@ -8,10 +8,11 @@ from typing import Annotated, Literal
 import msgspec
 
 from webviz.api.declared import Prop
+from webviz.api.rule import Rule, parse_rule
 
 FORMS = (
-    "Write {display: NAME, status: error}, {topic: /diagnostics, level: error} or "
-    '{topic: /scan, rate: "<5"}.'
+    "Write {rule: Scan.walls > 0.8}, {display: NAME, status: error}, {topic: /diagnostics, level: "
+    'error} or {topic: /scan, rate: "<5"}.'
 )
 _NAME = "[A-Za-z_][A-Za-z0-9_]*"
 RATE = re.compile(r"[<>] ?\d+(\.\d+)?")
@@ -26,8 +27,16 @@ class WatchRule(
     omit_defaults=True,
     rename={"lasting": "for"},
 ):
-    """A condition; when it holds, the last minute and the next seconds are saved."""
+    """A condition; when it holds, the last minute and the next seconds are saved.
 
+    A `rule` is one that must hold, so that a violation is saved.
+    """
+
+    rule: Annotated[
+        str,
+        msgspec.Meta(max_length=300),
+        Prop(help="Condition that must hold, such as Scan.walls > 0.8; see `webviz test`."),
+    ] = ""
     display: Annotated[
         str, msgspec.Meta(max_length=256), Prop(help="Name of the display whose status is watched.")
     ] = ""
@@ -61,8 +70,12 @@ class WatchRule(
         of_topic = self.level is not None, bool(self.rate)
         is_display = all(of_display) and not self.topic and not any(of_topic)
         is_topic = bool(self.topic) and sum(of_topic) == 1 and not any(of_display)
-        if not (is_display or is_topic):
-            raise ValueError(f"a rule is about a display or about a topic. {FORMS}")
+        is_rule = bool(self.rule) and not (self.display or self.topic or self.lasting)
+        if self.rule and is_rule:
+            parse_rule(self.rule)
+            is_rule = self.status is None and not any(of_topic)
+        if is_display + is_topic + is_rule != 1 or (self.rule and not is_rule):
+            raise ValueError(f"a rule is one condition. {FORMS}")
         if self.rate and not RATE.fullmatch(self.rate):
             raise ValueError(
                 f'rate `{self.rate}` is not a condition. Write it like "<5" or ">100".'
@@ -71,8 +84,15 @@ class WatchRule(
             raise ValueError(f"for `{self.lasting}` is not a duration. Write it like 2s or 500ms.")
 
     @property
+    def condition(self) -> Rule | None:
+        """The condition of a `rule`, None of other forms."""
+        return parse_rule(self.rule) if self.rule else None
+
+    @property
     def seconds(self) -> float:
-        """Time that the condition has to hold."""
+        """Time that the condition has to hold, or to be violated."""
+        if self.condition:
+            return self.condition.seconds
         unit = self.lasting.lstrip("0123456789. ")
         return float(self.lasting.removesuffix(unit)) * _SECONDS[unit] if unit else 0.0
 
@@ -85,7 +105,7 @@ class WatchRule(
     def title(self) -> str:
         """Its name, or what it is about."""
         about = self.status or self.level or f"rate {self.rate}"
-        return self.name or f"{self.display or self.topic} {about}"
+        return self.name or self.rule or f"{self.display or self.topic} {about}"
 
 
 class WatchLimits(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

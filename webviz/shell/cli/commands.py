@@ -43,6 +43,7 @@ for name, summary in {
     "record": "Record topics to MCAP files that ROS 2 plays.",
     "doctor": "Find the causes of what is not shown, live or in a bag, without a browser.",
     "frames": "Print or draw the tree of transforms, live or of a bag.",
+    "test": "Check that rules hold, over a bag or live topics, for CI.",
     "convert": "Convert a config between RViz's format (*.rviz) and webviz's (any other name).",
     "token": "List, make, rotate and revoke the links by which others may use a viewer.",
     "schema": "Write the JSON Schema of config files, for completion and checks in editors.",

@@ -7,6 +7,8 @@ import time
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
+import msgspec
+
 from webviz.api.check_registry import known_checks
 from webviz.api.environment import Environment
 from webviz.api.finding import CauseLevel, Finding
@@ -19,6 +21,7 @@ from webviz.engine.state import State
 from webviz.files.config import Config
 from webviz.shell.app.bag_config import displays_of, fixed_frame_of
 from webviz.shell.doctor.report import DoctorReport, report_of
+from webviz.shell.doctor.rule_results import RuleResults
 from webviz.shell.doctor.scene import NoScene
 from webviz.sources import Offer, Source
 from webviz.sources.bag.source import BagSource
@@ -47,9 +50,21 @@ class Examination:
         config: the displays to examine.
         source: of messages.
         progress: called now and then.
+        results: of rules, which take the place of those of the config; None for no rules.
     """
 
-    def __init__(self, config: Config, source: Source, progress: Progress) -> None:
+    def __init__(
+        self,
+        config: Config,
+        source: Source,
+        progress: Progress,
+        results: RuleResults | None = None,
+    ) -> None:
+        watched = results.watched if results else ()
+        config = replace(config, settings=msgspec.structs.replace(config.settings, watch=watched))
+        self._results = results
+        self._rounds = 0
+        self._began_s = time.monotonic()
         self._source = source
         self._progress = progress
         self._loop = FrameLoop(config, source, NoScene())
@@ -98,6 +113,14 @@ class Examination:
             key = each.id, each.subject
             known = self._seen.get(key, each)
             self._seen[key] = replace(each, first_ns=known.first_ns or each.first_ns)
+        doctor = self._loop.doctor
+        if self._results and doctor.rounds != self._rounds:
+            self._rounds = doctor.rounds
+            playback = state.playback
+            at_s = time.monotonic() - self._began_s
+            if playback is not None and playback.is_live is None:
+                at_s = playback.position_s
+            self._results.note(doctor.verdicts, at_s)
         return state
 
     def _choose_frame(self) -> None:
@@ -108,7 +131,11 @@ class Examination:
 
 
 def examine_live(
-    source: Source, config: Config | None, seconds: float, progress: Progress
+    source: Source,
+    config: Config | None,
+    seconds: float,
+    progress: Progress,
+    results: RuleResults | None = None,
 ) -> DoctorReport:
     """Examine the ROS graph.
 
@@ -117,6 +144,7 @@ def examine_live(
         config: the displays to examine; None for those that fit the published topics.
         seconds: for the examination, after the discovery of topics.
         progress: called now and then.
+        results: of rules, which take the verdicts.
     """
     until = time.monotonic() + DISCOVERY_S
     while (left := until - time.monotonic()) > 0.0:
@@ -126,14 +154,20 @@ def examine_live(
     if config is None:
         offers = {topic: offer for topic, offer in source.offers().items() if offer.publishers}
         config = live_config(offers)
-    examination = Examination(config, source, progress)
+    examination = Examination(config, source, progress, results)
     try:
         return examination.watch(seconds, is_given)
     finally:
         examination.close()
 
 
-def examine_bag(bag: BagSource, config: Config, name: str, progress: Progress) -> DoctorReport:
+def examine_bag(
+    bag: BagSource,
+    config: Config,
+    name: str,
+    progress: Progress,
+    results: RuleResults | None = None,
+) -> DoctorReport:
     """Examine a bag from its beginning to its end.
 
     Args:
@@ -141,8 +175,9 @@ def examine_bag(bag: BagSource, config: Config, name: str, progress: Progress) -
         config: the displays to examine.
         name: of the bag, for the report.
         progress: called now and then.
+        results: of rules, which take the verdicts.
     """
-    examination = Examination(config, bag, progress)
+    examination = Examination(config, bag, progress, results)
     try:
         return examination.play(bag, name)
     finally:

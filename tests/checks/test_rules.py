@@ -1,0 +1,132 @@
+"""Rules: `webviz test`, and findings about those of the config."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from xml.etree import ElementTree
+
+import building
+import examining
+import pytest
+from bags import START_NS, Bag, ns
+from examining import HERE, look
+
+from webviz.api.finding import CauseLevel
+from webviz.api.rule import parse_rule
+from webviz.files.config import WatchRule
+from webviz.shell.cli import main
+from webviz.shell.testing.harness import Harness
+from webviz_displays.laser_scan import LaserScan
+from webviz_displays.map import Map
+from webviz_sim.pose import Pose2D
+
+SCAN = "sensor_msgs/msg/LaserScan"
+
+
+@pytest.fixture
+def run(tmp_path: Path) -> Path:
+    """A bag whose scans stop for two seconds."""
+    bag = Bag()
+    bag.add("/scan", SCAN)
+    bag.transform(0.0, "base_link", "laser", static=True)
+    for number in range(100):
+        at_s = number / 10
+        bag.transform(at_s, "odom", "base_link", at_s)
+        if 5.0 < at_s < 7.5:
+            continue
+        seconds, rest = divmod(START_NS + ns(at_s), 1_000_000_000)
+        values = {
+            "header": {"frame_id": "laser", "stamp": {"sec": seconds, "nanosec": rest}},
+            "angle_max": 1.0,
+            "angle_increment": 0.5,
+            "range_max": 10.0,
+            "ranges": [1.0, 2.0, 1.5],
+        }
+        bag.put(at_s, "/scan", values)
+    return bag.write(tmp_path / "run")
+
+
+@pytest.mark.parametrize(
+    ("text", "subject", "expectation", "seconds"),
+    [
+        ("Scan.walls > 0.8", "Scan", "> 0.8", 0.0),
+        ("Front Scan v1.2.rate>=5 for 500 ms", "Front Scan v1.2", ">= 5", 0.5),
+        ("/front/scan.status < warn for 2min", "/front/scan", "< warn", 120.0),
+        ("doctor.errors == 0", "doctor", "== 0", 0.0),
+    ],
+)
+def test_a_rule_is_a_subject_a_value_and_a_limit(
+    text: str, subject: str, expectation: str, seconds: float
+) -> None:
+    rule = parse_rule(f" {text} ")
+    assert (rule.text, rule.subject, rule.expectation) == (text, subject, expectation)
+    assert rule.seconds == seconds
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("Scan > 1", "`Scan > 1` is not a rule. Write it like"),
+        ("Scan.rate > 5 for ever", "is not a rule"),
+        ("Scan.mood > 5", "unknown value mood. Use status, rate,"),
+        ("Scan.rate > error", "error is a limit of status; rate needs a number."),
+        ("doctor.rate > 5", "doctor has findings and errors, which nothing else has."),
+        ("Scan.errors == 0", "doctor has findings and errors, which nothing else has."),
+    ],
+)
+def test_a_bad_rule_is_one_sentence(
+    text: str, reason: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["test", "--rule", text]) == 1
+    assert reason in capsys.readouterr().err
+
+
+def test_rules_over_a_bag_are_test_cases(
+    run: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    junit = tmp_path / "report.xml"
+    rules = ["LaserScan.rate > 5 for 10s", "LaserScan.status < error", "doctor.errors == 0"]
+    given = [word for rule in rules for word in ("--rule", rule)]
+    assert main(["test", "--bag", str(run), *given, "--junit", str(junit)]) == 0
+    assert "3 of 3 rules hold." in capsys.readouterr().out
+    suite = ElementTree.parse(junit).getroot()
+    assert [case.get("name") for case in suite.iter("testcase")] == rules
+    assert (suite.get("failures"), [*suite.iter("failure")]) == ("0", [])
+
+    failing = ["/scan.rate > 5 for 1s", "Scan.walls > 0.8"]
+    given = [word for rule in failing for word in ("--rule", rule)]
+    assert main(["test", "--bag", str(run), *given, "--junit", str(junit)]) == 3
+    said = capsys.readouterr().out
+    assert "FAILED /scan.rate > 5 for 1s\n       /scan.rate is 0." in said
+    assert "Scan.walls never had a value. Check the name" in said
+    messages = [each.get("message", "") for each in ElementTree.parse(junit).iter("failure")]
+    assert len(messages) == 2
+    assert messages[0].endswith("expected > 5.")
+
+
+def test_a_rule_of_the_config_is_tested(
+    run: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    config = tmp_path / "lab.yaml"
+    config.write_text("displays: [{type: LaserScan}]\nfixed_frame: odom\n")
+    assert main(["test", "--bag", str(run), "-d", str(config)]) == 1
+    assert "No rules to check." in capsys.readouterr().err
+    rule = "watch: [{rule: LaserScan.delay < 1}]\n"
+    config.write_text(rule + config.read_text())
+    assert main(["test", "--bag", str(run), "-d", str(config)]) == 0
+    assert "ok     LaserScan.delay < 1" in capsys.readouterr().out
+
+
+def test_a_violated_rule_is_a_finding(webviz_harness: Callable[..., Harness]) -> None:
+    stage = webviz_harness(LaserScan(name="Scan"), Map(), fixed_frame="map")
+    stage.viewer.settings.watch = (WatchRule(rule="Scan.walls > 0.8 for 2s"),)
+    look(stage, HERE)
+    assert examining.examined(stage, CauseLevel.DATA) == {}
+    look(stage, Pose2D(-1.0, 0.5, 0.0), building.scan(HERE))
+    found = examining.examined(stage, CauseLevel.DATA)
+    finding = found["DATA012 Scan.walls > 0.8 for 2s"]
+    assert finding.cause.startswith("Scan.walls is 0.")
+    assert finding.cause.endswith(", expected > 0.8.")
+    look(stage, HERE)
+    assert examining.examined(stage, CauseLevel.DATA) == {}

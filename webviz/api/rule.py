@@ -1,0 +1,129 @@
+"""Rules: conditions that must hold, such as `Scan.walls > 0.8 for 2s`."""
+
+from __future__ import annotations
+
+import functools
+import operator
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+COMPARISONS: Mapping[str, Callable[[float, float], bool]] = {
+    "<=": operator.le,
+    ">=": operator.ge,
+    "==": operator.eq,
+    "!=": operator.ne,
+    "<": operator.lt,
+    ">": operator.gt,
+}
+LEVELS = {"ok": 0.0, "warn": 1.0, "error": 2.0}
+"""Limits of the value `status` by name."""
+VALUES: Mapping[str, str] = {
+    "status": "Worst status: ok, warn or error.",
+    "rate": "Messages per second.",
+    "age": "Time since the stamp of the newest message, in s.",
+    "delay": "Time from the stamp of the newest message to its reception, in s.",
+    "walls": "Share of the points of a laser scan that lie on walls of the map, from 0 to 1.",
+    "blocked": "Points of a laser scan on a path.",
+    "findings": "Findings of the doctor that are more than notes; the subject is `doctor`.",
+    "errors": "Findings of the doctor that are errors; the subject is `doctor`.",
+}
+"""Meaning of each value."""
+OF_DOCTOR = ("findings", "errors")
+DOCTOR = "doctor"
+
+_UNITS = {"ms": 0.001, "s": 1.0, "min": 60.0}
+_LINE = re.compile(
+    r"(?P<subject>\S.*?)\.(?P<value>[a-z]+) *(?P<comparison>[<>]=?|[=!]=) *"
+    r"(?P<limit>-?\d+(\.\d+)?|ok|warn|error)"
+    r"( +for +(?P<count>\d+(\.\d+)?) ?(?P<unit>ms|s|min))?"
+)
+FORM = 'Write it like "Scan.walls > 0.8", "/scan.rate >= 5 for 2s" or "doctor.errors == 0".'
+
+
+@dataclass(frozen=True)
+class Rule:
+    """A condition that must hold.
+
+    Args:
+        text: as it was written.
+        subject: name of a display, a topic that a display shows, or `DOCTOR`.
+        value: one of `VALUES`.
+        comparison: one of `COMPARISONS`.
+        limit: that the value is compared with.
+        seconds: a violation counts once it has lasted as long.
+    """
+
+    text: str
+    subject: str
+    value: str
+    comparison: str
+    limit: float
+    seconds: float = 0.0
+
+    def holds(self, value: float) -> bool:
+        """Return whether the condition holds for a value."""
+        return COMPARISONS[self.comparison](value, self.limit)
+
+    @property
+    def expectation(self) -> str:
+        """The comparison and its limit, such as "> 0.8"."""
+        names = {level: name for name, level in LEVELS.items()} if self.value == "status" else {}
+        return f"{self.comparison} {names.get(self.limit, f'{self.limit:g}')}"
+
+    def shown(self, value: float) -> str:
+        """A value for sentences."""
+        names = {level: name for name, level in LEVELS.items()} if self.value == "status" else {}
+        return names.get(value, f"{value:.4g}")
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """A rule at one moment.
+
+    Args:
+        rule: the rule.
+        value: that it is about, None while it is unknown.
+        lasting_s: time since when it has been violated; 0 while it holds.
+    """
+
+    rule: Rule
+    value: float | None
+    lasting_s: float = 0.0
+
+    @property
+    def holds(self) -> bool | None:
+        """Return whether the condition holds, None while that is unknown."""
+        return None if self.value is None else self.rule.holds(self.value)
+
+    @property
+    def is_violated(self) -> bool:
+        """Return whether it has been violated for long enough."""
+        return self.holds is False and self.lasting_s >= self.rule.seconds
+
+
+@functools.lru_cache
+def parse_rule(text: str) -> Rule:
+    """Read a rule.
+
+    Raises:
+        ValueError: it is not a rule; a sentence.
+    """
+    found = _LINE.fullmatch(text.strip())
+    if found is None:
+        raise ValueError(f"`{text}` is not a rule. {FORM}")
+    subject, value, limit = found["subject"], found["value"], found["limit"]
+    if value not in VALUES:
+        raise ValueError(f"`{text}`: unknown value {value}. Use {', '.join(VALUES)}.")
+    if (subject == DOCTOR) != (value in OF_DOCTOR):
+        raise ValueError(f"`{text}`: doctor has {' and '.join(OF_DOCTOR)}, which nothing else has.")
+    if limit in LEVELS and value != "status":
+        raise ValueError(f"`{text}`: {limit} is a limit of status; {value} needs a number.")
+    return Rule(
+        text=text.strip(),
+        subject=subject,
+        value=value,
+        comparison=found["comparison"],
+        limit=LEVELS[limit] if limit in LEVELS else float(limit),
+        seconds=float(found["count"]) * _UNITS[found["unit"]] if found["count"] else 0.0,
+    )

@@ -1,0 +1,112 @@
+"""`webviz test`: checks rules over a bag or live topics, for CI."""
+
+import contextlib
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import App, Parameter, validators
+
+from webviz.shell.cli.ending import Stop, until_signal
+from webviz.shell.cli.options import ROS_ARGS_HELP, File, Plugins, Repeatable, RosArgs
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from webviz.files.config import Config
+    from webviz.shell.doctor.rule_results import RuleResults
+
+EXAMPLES = """\
+Examples:
+  webviz test --bag run.mcap --rule "Scan.walls > 0.8"
+  webviz test --bag run.mcap -d nav2.yaml --junit report.xml
+  webviz test --rule "/scan.rate >= 5 for 2s" --rule "doctor.errors == 0" --seconds 30
+
+A rule names a display, a topic that a display shows, or the doctor, and a value: status, rate, age,
+delay, walls, blocked; findings and errors of the doctor. Rules of the config (`watch:`) count, too.
+They are judged once a second.
+
+Exit status: 0 if all rules hold, 1 after an error, 2 for invalid arguments, 3 if one does not hold.
+
+"""
+VIOLATED = 3
+
+app = App("test", help_epilogue=EXAMPLES + ROS_ARGS_HELP)
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class RuleOptions:
+    """Rules, what they are about, and the form of the report."""
+
+    rule: Annotated[Repeatable[str], Parameter(metavar="RULE")] = ()
+    """A condition that must hold (repeatable)."""
+    bag: Annotated[File | None, Parameter(alias="-b")] = None
+    """Play a bag from its beginning to its end, instead of live topics."""
+    display_config: Annotated[File | None, Parameter(alias="-d")] = None
+    """The displays of this config (default: those that fit the topics)."""
+    seconds: Annotated[
+        float, Parameter(validator=validators.Number(gt=0, lte=86400), metavar="SECONDS")
+    ] = 10.0
+    """Time for live topics, after their discovery."""
+    junit: Annotated[File | None, Parameter()] = None
+    """Write the results to this file as JUnit XML, too."""
+    plugin: Plugins = ()
+
+
+@app.default
+def check_rules(*, options: RuleOptions = RuleOptions(), ros: RosArgs) -> int:
+    """Check that rules hold, over a bag or live topics."""
+
+    def work(stop: Stop) -> int:
+        from webviz.files.config.atomic import write_text
+
+        results = _examined(options, ros)
+        print(results.to_text(), flush=True)
+        if options.junit is not None:
+            write_text(results.to_junit(), options.junit)
+        return VIOLATED if results.failed else 0
+
+    return until_signal(work)
+
+
+def _examined(options: RuleOptions, ros: "Sequence[str]") -> "RuleResults":
+    from webviz.engine.pipeline import plugins
+    from webviz.shell.app.reading import read_config
+    from webviz.shell.bag_source import bag_source
+    from webviz.shell.cli.doctor import progress
+    from webviz.shell.doctor.examination import examine_bag, examine_live
+    from webviz.shell.ros_source import ros_source
+
+    for path in options.plugin:
+        plugins.load(path)
+    path = options.display_config
+    _rules(options, None)  # mistakes in them come before the bag is read
+    if options.bag is not None:
+        with contextlib.closing(bag_source(options.bag, ros_args=ros)) as bag:
+            config = read_config(path, bag)
+            results = _rules(options, config)
+            examine_bag(bag, config, str(options.bag), progress, results)
+            return results
+    given = read_config(path) if path else None
+    results = _rules(options, given)
+    with contextlib.closing(ros_source(ros)) as source:
+        examine_live(source, given, options.seconds, progress, results)
+    return results
+
+
+def _rules(options: RuleOptions, config: "Config | None") -> "RuleResults":
+    """The rules of the config and of the command line, without results yet."""
+    from webviz.api.errors import Error
+    from webviz.files.config import WatchRule
+    from webviz.shell.doctor.rule_results import RuleResults
+
+    try:
+        own = [WatchRule(rule=text) for text in options.rule]
+    except ValueError as error:
+        raise Error(f"--rule {error}") from error
+    results = RuleResults(
+        str(options.bag or "live"), [*(config.settings.watch if config else ()), *own]
+    )
+    if (config or not options.display_config) and not results.all:
+        raise Error("No rules to check. Give --rule, or a config with rules in `watch:`.")
+    return results

@@ -1,0 +1,111 @@
+"""Results of rules over an examination: for people, and as JUnit XML."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from xml.etree import ElementTree
+
+from webviz.api.rule import Rule, Verdict
+from webviz.data.words import counted
+from webviz.files.config import WatchRule
+
+
+@dataclass
+class RuleResult:
+    """A rule over an examination.
+
+    Args:
+        rule: the rule.
+        lowest, highest: values that were seen; None without one.
+        violated: the first verdict that counts as a violation; None without one.
+        at_s: when that was, in seconds since the start.
+    """
+
+    rule: Rule
+    lowest: float | None = None
+    highest: float | None = None
+    violated: Verdict | None = None
+    at_s: float = 0.0
+
+    def note(self, verdict: Verdict, at_s: float) -> None:
+        """Take a verdict."""
+        value = verdict.value
+        if value is None:
+            return
+        self.lowest = value if self.lowest is None else min(self.lowest, value)
+        self.highest = value if self.highest is None else max(self.highest, value)
+        if verdict.is_violated and self.violated is None:
+            self.violated, self.at_s = verdict, at_s
+
+    @property
+    def problem(self) -> str:
+        """The reason why the rule failed, a sentence; "" if it held."""
+        name = f"{self.rule.subject}.{self.rule.value}"
+        if self.violated is not None and self.violated.value is not None:
+            value = self.rule.shown(self.violated.value)
+            return f"{name} is {value} at {self.at_s:.1f} s, expected {self.rule.expectation}."
+        if self.lowest is None:
+            return f"{name} never had a value. Check the name, and that its topic has messages."
+        return ""
+
+    @property
+    def extent(self) -> str:
+        """The values that were seen, such as "0.93 to 1"."""
+        if self.lowest is None or self.highest is None:
+            return "no value"
+        ends = dict.fromkeys(map(self.rule.shown, (self.lowest, self.highest)))
+        return " to ".join(ends)
+
+
+class RuleResults:
+    """The results of several rules.
+
+    Args:
+        name: of what is examined.
+        rules: of a config or the command line.
+    """
+
+    def __init__(self, name: str, rules: Iterable[WatchRule]) -> None:
+        self.name = name
+        conditions = [rule.condition for rule in rules]
+        self.all = {rule.text: RuleResult(rule) for rule in conditions if rule}
+
+    @property
+    def watched(self) -> tuple[WatchRule, ...]:
+        """The rules as a config has them."""
+        return tuple(WatchRule(rule=text) for text in self.all)
+
+    @property
+    def failed(self) -> Sequence[RuleResult]:
+        """The rules that did not hold."""
+        return [each for each in self.all.values() if each.problem]
+
+    def note(self, verdicts: Iterable[Verdict], at_s: float) -> None:
+        """Take the verdicts of a moment, in seconds since the start."""
+        for verdict in verdicts:
+            self.all[verdict.rule.text].note(verdict, at_s)
+
+    def to_text(self) -> str:
+        """The results for a person."""
+        lines = [
+            f"FAILED {each.rule.text}\n       {each.problem}"
+            if each.problem
+            else f"ok     {each.rule.text} ({each.extent})"
+            for each in self.all.values()
+        ]
+        held = len(self.all) - len(self.failed)
+        return "\n".join([*lines, f"{held} of {counted(len(self.all), 'rule')} hold."])
+
+    def to_junit(self) -> str:
+        """The results as JUnit XML: a test case for each rule."""
+        counts = {"tests": str(len(self.all)), "failures": str(len(self.failed))}
+        root = ElementTree.Element("testsuites", counts)
+        suite = ElementTree.SubElement(root, "testsuite", {"name": "webviz test", **counts})
+        for each in self.all.values():
+            attributes = {"classname": self.name, "name": each.rule.text}
+            case = ElementTree.SubElement(suite, "testcase", attributes)
+            if each.problem:
+                ElementTree.SubElement(case, "failure", {"message": each.problem})
+        ElementTree.indent(root)
+        return ElementTree.tostring(root, encoding="unicode", xml_declaration=True) + "\n"
