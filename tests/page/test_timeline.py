@@ -271,7 +271,7 @@ def test_a_link_names_a_moment_once(timeline: Tab) -> None:
 
 def test_topics_are_listed_and_chosen_for_steps(timeline: Tab) -> None:
     timeline.button("Topics").click()
-    rows = timeline.page.get_by_role("listbox", name="Topics of the recording")
+    rows = timeline.page.get_by_role("listbox", name="Topics of the timeline")
     timeline.wait_for(lambda: rows.get_by_role("option").count() == 4)
     texts = rows.get_by_role("option").all_inner_texts()
     assert texts == ["All displayed topics", "/map", "/odom", "/scan"]

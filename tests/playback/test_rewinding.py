@@ -45,6 +45,7 @@ from webviz.shell.testing.recording import RecordingScene
 from webviz.shell.testing.source import HandFedSource
 from webviz.sources import Advertisement, Offer, Publisher, Raw, Subscription
 from webviz.sources.bag.files import BagFiles
+from webviz.sources.bag.log import LOG, ROSOUT
 from webviz.sources.memory_past import WallClock
 from webviz.sources.past_state import PlaybackState
 from webviz.sources.rewindable import MEMORY_OFF, Rewindable
@@ -360,3 +361,45 @@ def test_a_recording_goes_on_while_the_past_is_shown(
     bench.do(ReturnToLive())
     publish(bench, 0)
     assert bench.ask(StopRecording()) == "Recorded 2 messages to run."
+
+
+def test_the_timeline_counts_what_is_in_memory_or_shown(make: Callable[..., Bench]) -> None:
+    bench = make()
+
+    def counted() -> tuple[float, list[int]]:
+        state = bench.do(Refresh())
+        assert state.playback is not None
+        assert state.playback.counted is not None
+        first_s, last_s = state.playback.counted
+        assert len(state.recorded["/path"]) == round(last_s - first_s)
+        return last_s - state.playback.first_s, list(state.recorded["/path"])
+
+    length_s, counts = counted()
+    assert 4.0 <= length_s <= 5.0
+    assert counts == [1, 1, 1, 1, 1]
+    rewind(bench, 3.5)
+    bench.source.inbox.put("/path", Raw(b"", 0, time.monotonic() + 100.0))  # forgets the others
+    assert counted()[1] == counts
+
+
+def test_the_timeline_marks_what_nodes_log_meanwhile(make: Callable[..., Bench]) -> None:
+    bench = make()
+    publisher = Publisher("/driver", LOG, "reliable", "transient_local")
+    bench.source.known[ROSOUT] = Offer((publisher,), type=LOG)
+    bench.turn()
+    now_s = time.monotonic()
+    texts = (3.0, 20, "fine"), (2.0, 40, "lost track\nof it"), (1.0, 30, "late")
+    for ago_s, level, text in texts:
+        cdr = encode(LOG, {"level": level, "name": "amcl", "msg": text})
+        bench.source.inbox.put(ROSOUT, Raw(cdr, bench.source.now, now_s - ago_s))
+
+    def logged() -> list[tuple[int, str, str]]:
+        state = bench.do(Refresh())
+        return [
+            (round(now_s - WallClock().arrived_s(event.at_ns)), event.level.name, event.text)
+            for event in state.logged
+        ]
+
+    assert logged() == [(2, "ERROR", "lost track"), (1, "WARN", "late")]
+    rewind(bench, 3.0)
+    assert logged() == [(2, "ERROR", "lost track"), (1, "WARN", "late")]

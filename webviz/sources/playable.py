@@ -107,6 +107,11 @@ class Playable(Protocol):
         """
         ...
 
+    @property
+    def counted_ns(self) -> tuple[int, int] | None:
+        """Return the first and the last time of what `histogram` has counted, None for all."""
+        ...
+
     def logged(self) -> Sequence[Event]:
         """Warnings and errors of nodes by time, bounded, as far as they are known.
 

@@ -6,10 +6,14 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from webviz.api.declared import Topic
 from webviz.api.lookback import Lookback
+from webviz.sources.bag.log import LOG, ROSOUT
 from webviz.sources.bag.past import BagPast
 from webviz.sources.graph import Graph
 from webviz.sources.inbox import Raw
+from webviz.sources.live_histogram import LiveHistogram
+from webviz.sources.live_log import LiveLog
 from webviz.sources.memory_past import MemoryChannel, MemoryMessage, MemoryPast, WallClock
 from webviz.sources.past_state import Event
 from webviz.sources.recording import Channels, RecentMessages
@@ -18,7 +22,6 @@ from webviz.sources.source import Offer, Source, Subscription
 
 NEARLY_NS = 150_000_000
 """Before now, where playing becomes live: what arrived until then is in memory for sure."""
-NOT_COUNTED: Mapping[str, Sequence[int]] = {}
 NOT_REMEMBERED = "none was received before this moment, since only displayed topics are remembered"
 """Why a topic has no message in the past."""
 MEMORY_OFF = (
@@ -45,6 +48,9 @@ class Rewindable:
         self.memory = RecentMessages(self.channels.latched)
         self._clock = WallClock()
         self._origin_ns = self._clock.now_ns()
+        self._histogram = LiveHistogram(self.memory, self._clock)
+        self._log = LiveLog(self._clock)
+        live.inbox.read_along(lambda: self._log.put)
         self._held: list[tuple[str, Raw]] = []
         self._replay: Replay[MemoryChannel, MemoryMessage] | None = None
         """None while live."""
@@ -130,6 +136,7 @@ class Rewindable:
         if self._replay is None:
             self.inbox.divert()
             self._held = self.memory.last(math.inf).whole
+            self._histogram.hold()
         if not self._held:
             self._become_live()
             return
@@ -162,12 +169,17 @@ class Rewindable:
         return replay.neighbour(channels, is_forward)
 
     def histogram(self, buckets: int) -> Mapping[str, Sequence[int]]:
-        """None: of live topics it would never be the same."""
-        return NOT_COUNTED
+        """`Playable.histogram`, in parts of a second or more."""
+        return self._histogram.counts(self.end_ns)
+
+    @property
+    def counted_ns(self) -> tuple[int, int]:
+        """`Playable.counted_ns`."""
+        return self._histogram.span_ns
 
     def logged(self) -> Sequence[Event]:
-        """None: the log is not remembered unless it is displayed."""
-        return ()
+        """`Playable.logged`, of what was received."""
+        return self._log.events(self.start_ns)
 
     # The interface of webviz.sources.Source
 
@@ -186,7 +198,7 @@ class Rewindable:
         if not is_same:
             self._told = {topic: self._passed_on(topic, w) for topic, w in subscriptions.items()}
             self._asked = {topic: self._asked[topic] for topic in subscriptions}
-        self.live.want(self._told)
+        self.live.want(self._with_log(self._told))
         if self._replay is None or is_same:
             return
         served, self._served = self._served, {}
@@ -254,6 +266,7 @@ class Rewindable:
         after_s = None if replay is None else self._clock.arrived_s(replay.position_ns)
         self.inbox.rejoin(lambda: () if after_s is None else self.memory.after(after_s))
         self._held, self._served = [], {}
+        self._histogram.release()
 
     def _channels_to_read(self) -> list[MemoryChannel]:
         """The subscribed channels that are remembered as this type."""
@@ -275,6 +288,15 @@ class Rewindable:
         wanted = {**self._wanted, topic: replace(wish, lookbacks=lookbacks)}
         for message in BagPast(replay.past, channels, wanted, replay.position_ns).messages():
             self._deliver(message)
+
+    def _with_log(self, told: Mapping[str, Subscription]) -> Mapping[str, Subscription]:
+        """These, and the log of all nodes, if there is a memory for it and no other reader."""
+        offer = self.live.offers().get(ROSOUT)
+        is_offered = offer is not None and any(each.type == LOG for each in offer.publishers)
+        if not self.memory.is_on or ROSOUT in told or not is_offered:
+            return told
+        # What was logged before is not of the time at which it would be received.
+        return {**told, ROSOUT: Subscription(LOG, Topic(ROSOUT, durability="volatile"))}
 
     def _passed_on(self, topic: str, wish: Subscription) -> Subscription:
         """The wish for the live source: nothing is repeated while the past is shown."""

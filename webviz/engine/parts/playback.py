@@ -107,9 +107,10 @@ class PlaybackPart(Part):
         playback = self._control.playback
         if playback.absence:
             return {"playback": None, "recorded": {}, "logged": ()}
+        recorded = playback.histogram(BUCKETS)
         return {
             "playback": _state_of(self._control),
-            "recorded": playback.histogram(BUCKETS),
+            "recorded": recorded,
             "logged": playback.logged(),
         }
 
@@ -219,13 +220,6 @@ class PlaybackPart(Part):
 def _state_of(control: PlaybackControl) -> PlaybackState:
     playback = control.playback
     start_ns, is_bag = playback.origin_ns, bool(playback.names)
-    selected = None
-    if control.selected:
-        first_ns, last_ns = control.selected
-        selected = (first_ns - start_ns) / 1e9, (last_ns - start_ns) / 1e9
-    gap = None
-    if playback.gap_ns:
-        gap = (playback.gap_ns[0] - start_ns) / 1e9, (playback.gap_ns[1] - start_ns) / 1e9
     return PlaybackState(
         names=tuple(playback.names),
         start_ns=start_ns,
@@ -237,6 +231,12 @@ def _state_of(control: PlaybackControl) -> PlaybackState:
         is_playing=control.is_playing,
         is_seeking=control.is_seeking,
         loop=control.loop,
-        selected=selected,
-        gap=gap,
+        selected=_seconds(control.selected, start_ns),
+        gap=_seconds(playback.gap_ns, start_ns),
+        counted=_seconds(playback.counted_ns, start_ns),
     )
+
+
+def _seconds(span_ns: tuple[int, int] | None, start_ns: int) -> tuple[float, float] | None:
+    """A span in seconds from the start."""
+    return span_ns and ((span_ns[0] - start_ns) / 1e9, (span_ns[1] - start_ns) / 1e9)

@@ -14,7 +14,7 @@ from webviz.engine.state import State
 from webviz.page.content.displays import LevelName, level_name
 from webviz.page.content.forms import brief, sendable
 from webviz.page.content.store import PageStore
-from webviz.sources.past_state import Event
+from webviz.sources.past_state import Event, PlaybackState
 
 
 class PlaybackStore(PageStore, frozen=True):
@@ -62,9 +62,16 @@ class BookmarksStore(PageStore, frozen=True):
 
 
 class DensityStore(PageStore, frozen=True):
-    """Counts of all messages in equal parts of the recording, none without one."""
+    """Counts of all messages in equal parts of a span, none without a recording or memory.
+
+    Args:
+        counts: by part.
+        first, last: seconds of the span.
+    """
 
     counts: Sequence[int]
+    first: float
+    last: float
 
 
 class RecordedStore(PageStore, frozen=True):
@@ -133,7 +140,16 @@ def bookmarks(state: State, _: str) -> BookmarksStore | None:
 def density(state: State, _: str) -> DensityStore:
     """Counts of all messages."""
     counts = list(state.recorded.values())
-    return DensityStore(np.sum(counts, axis=0).tolist() if counts else [])
+    first_s, last_s = _counted(state.playback)
+    total = np.sum(counts, axis=0).tolist() if counts else []
+    return DensityStore(total, round(first_s, 3), round(last_s, 3))
+
+
+def _counted(recording: PlaybackState | None) -> tuple[float, float]:
+    """First and last second of the counts."""
+    if recording is None:
+        return 0.0, 0.0
+    return recording.counted or (0.0, (recording.end_ns - recording.start_ns) / 1e9)
 
 
 def recorded(state: State, _: str) -> RecordedStore:

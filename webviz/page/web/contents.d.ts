@@ -256,7 +256,7 @@ export interface Stores {
   bookmarks: { own: { all?: Array<[string, number]> }; items: never };
   clock: { own: { pace: [number, number, number]; began: [number, number]; is_known: boolean; is_paused: boolean; is_simulated: boolean; hz: number }; items: never };
   commands: { own: {  }; items: PanelCommand };
-  density: { own: { counts: Array<number> }; items: never };
+  density: { own: { counts: Array<number>; first: number; last: number }; items: never };
   displays: { own: { order: Array<string> }; items: DisplayRow };
   driving: { own: { speed?: number | null; turn_rate?: number | null; problem?: string }; items: never };
   events: { own: { logged?: Array<[number, "error" | "idle" | "ok" | "warn", string]>; displays?: Array<[number, "error" | "idle" | "ok" | "warn", string]>; findings?: Array<[number, "error" | "idle" | "ok" | "warn", string]> }; items: never };

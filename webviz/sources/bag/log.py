@@ -114,19 +114,9 @@ def _read(files: BagFiles) -> BagLog:
         is_short = len(recorded.cdr) <= LEVEL_AT
         if recorded.type == LOG and (is_short or recorded.cdr[LEVEL_AT] < WARN):
             continue
-        try:
-            message = decode(recorded.type, recorded.cdr)
-        except MessageError:
+        if (found := event_of(recorded.type, recorded.cdr, recorded.stamp_ns)) is None:
             continue
-        level = message.level if recorded.type == LOG else ROS_1_LEVELS.get(message.level, 0)
-        if level < WARN:
-            continue
-        event = Event(
-            recorded.stamp_ns,
-            Level.ERROR if level >= ERROR else Level.WARN,
-            shortened(message.name, MAX_NAME),
-            _first_line(message.msg),
-        )
+        level, event = found
         count += 1
         entry = (level, chance.random(), count, event)
         if len(kept) < MAX_EVENTS:
@@ -135,6 +125,19 @@ def _read(files: BagFiles) -> BagLog:
             heapq.heappushpop(kept, entry)
     events = tuple(event for *_, event in sorted(kept, key=lambda entry: entry[2]))
     return BagLog(events, remark)
+
+
+def event_of(type_name: str, cdr: bytes, at_ns: int) -> tuple[int, Event] | None:
+    """The level and the event of a message, None if it is neither a warning nor an error."""
+    try:
+        message = decode(type_name, cdr)
+    except MessageError:
+        return None
+    level = message.level if type_name == LOG else ROS_1_LEVELS.get(message.level, 0)
+    if level < WARN:
+        return None
+    name, text = shortened(message.name, MAX_NAME), _first_line(message.msg)
+    return level, Event(at_ns, Level.ERROR if level >= ERROR else Level.WARN, name, text)
 
 
 def _channels(files: BagFiles) -> Sequence[BagChannel]:

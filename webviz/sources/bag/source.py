@@ -80,8 +80,8 @@ class BagSource:
     """A bag has a past,"""
     is_live = False
     """and nothing else,"""
-    gap_ns = None
-    """of which nothing is forgotten."""
+    gap_ns = counted_ns = None
+    """of which nothing is forgotten, and all is counted."""
 
     @property
     def origin_ns(self) -> int:

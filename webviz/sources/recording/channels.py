@@ -8,6 +8,7 @@ from datetime import datetime
 from webviz.api.offer import Offer, Publisher
 from webviz.data.messages import UnknownTypeError, definition
 from webviz.data.recordings import RecordedChannel
+from webviz.sources.bag.log import ROSOUT
 from webviz.sources.bag.qos import text_of
 
 
@@ -57,6 +58,8 @@ class Channels:
         if offers is self._seen:
             return
         for topic, offer in offers.items():
+            if topic == ROSOUT:
+                continue  # latched by every node, but nothing that is still so
             count = sum(each.durability == "transient_local" for each in offer.publishers)
             if count:
                 self._latched[topic] = max(count, self._latched.get(topic, 0))

@@ -7,7 +7,7 @@ import math
 import threading
 import time
 from bisect import bisect_left
-from collections import deque
+from collections import Counter, deque
 from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple
@@ -19,6 +19,10 @@ OVERHEAD = 200
 """Bytes of a message besides its own."""
 MAX_PINNED_BYTES = 128_000_000
 """Of all latched messages that are kept beyond the bounds; the newest is, however large."""
+
+MAX_PARTS = 240
+"""Parts of the time that is remembered in which messages are counted."""
+MIN_PART_S = 1.0
 
 Entry = tuple[str, Raw]
 """Topic and message."""
@@ -65,6 +69,9 @@ class RecentMessages:
         self._latched = LatchedMessages[Raw]()
         self._bytes = 0
         self._full_s: float | None = None
+        self._part_s = MIN_PART_S
+        self._counts: dict[str, Counter[int]] = {}
+        """Messages by topic and part, which is the number of parts since time began."""
         self.forgotten_s = -math.inf
         """Arrival of the newest message that was forgotten, in monotonic seconds."""
         self.seconds = seconds
@@ -80,6 +87,7 @@ class RecentMessages:
         with self._lock:
             self._messages.append((topic, raw))
             self._bytes += len(raw.cdr) + OVERHEAD
+            self._count(topic, raw, 1)
             self._forget(raw.arrived_s)
 
     def size(self) -> tuple[float, int]:
@@ -137,6 +145,30 @@ class RecentMessages:
         found.reverse()
         return [*(entry for entry in latched if entry[1].arrived_s > arrived_s), *found]
 
+    def counts(self) -> tuple[float, dict[str, Counter[int]]]:
+        """Count the messages of each topic.
+
+        Returns:
+            The duration of a part; and messages by topic and part, of which number 0 begins at 0 in
+            monotonic seconds.
+        """
+        part_s = max(MIN_PART_S, self.seconds / MAX_PARTS)
+        with self._lock:
+            if part_s != self._part_s:
+                self._part_s, self._counts = part_s, {}
+                for topic, raw in self._messages:
+                    self._count(topic, raw, 1)
+            return part_s, {topic: own.copy() for topic, own in self._counts.items()}
+
+    def _count(self, topic: str, raw: Raw, change: int) -> None:
+        own = self._counts.setdefault(topic, Counter())
+        part = int(raw.arrived_s // self._part_s)
+        own[part] += change
+        if not own[part]:
+            del own[part]
+            if not own:
+                del self._counts[topic]
+
     def _forget(self, now_s: float) -> None:
         begin_s = now_s - self.seconds
         while self._messages:
@@ -148,6 +180,7 @@ class RecentMessages:
             self._messages.popleft()
             self.forgotten_s = raw.arrived_s
             self._bytes -= len(raw.cdr) + OVERHEAD
+            self._count(topic, raw, -1)
             if self._pin(self._latched, topic, raw):
                 self._bound_pinned()
 

@@ -35,18 +35,18 @@ export function fitted(canvas) {
 }
 
 /**
- * Draws `{range, whole, counts, selected, bookmarks, events, past, position, hover}`: times in seconds, `selected`
+ * Draws `{range, counted, counts, selected, bookmarks, events, past, position, hover}`: times in seconds, `selected`
  * and `hover` may be null, `bookmarks` are pairs of name and time, `events` begin with time and level.
  * `past` is what is remembered of live topics, `{first, now, gap}`, null for a bag.
  *
  * @param {HTMLCanvasElement} canvas
- * @param {{range: Range, whole: number, counts: number[], selected: Range | null,
+ * @param {{range: Range, counted: Range, counts: number[], selected: Range | null,
  *   bookmarks: [string, number][], events: LoggedEvent[], position: number, hover: number | null,
  *   past: {first: number, now: number, gap: Range | null} | null}} shown
  */
 export function draw(
   canvas,
-  { range, whole, counts, selected, bookmarks, events, past, position, hover },
+  { range, counted, counts, selected, bookmarks, events, past, position, hover },
 ) {
   const { context, width, color } = fitted(canvas);
   /** @param {number} time */
@@ -57,8 +57,8 @@ export function draw(
   context.beginPath();
   context.rect(MARGIN, TOP, width - 2 * MARGIN, BAR);
   context.clip();
-  bars(context, counts, { x, whole, range, top: TOP, height: BAR, color: color("accent") });
   if (past) held(context, past, { x, color });
+  bars(context, counts, { x, counted, range, top: TOP, height: BAR, color: color("accent") });
   if (selected) {
     context.fillStyle = color("back");
     context.globalAlpha = 0.7;
@@ -83,23 +83,26 @@ export function draw(
 }
 
 /**
- * Draws counts of messages, a column of pixels as strong as the part of it with most messages.
+ * Draws counts of messages in equal parts of the seconds `counted`, a column of pixels as strong as the
+ * part of it with most messages.
  *
  * @param {CanvasRenderingContext2D} context
  * @param {number[]} counts
- * @param {{x: (time: number) => number, whole: number, range: Range, top: number, height: number, color: string}} strip
+ * @param {{x: (time: number) => number, counted: Range, range: Range, top: number, height: number, color: string}} strip
  */
-export function bars(context, counts, { x, whole, range, top, height, color }) {
+export function bars(context, counts, { x, counted, range, top, height, color }) {
   const most = Math.max(...counts, 0);
   if (!most) return;
   context.fillStyle = color;
   const [from, to] = [Math.floor(x(range[0])), Math.ceil(x(range[1]))];
   const each = (to - from) / (range[1] - range[0]); // pixels a second
   /** @param {number} column */
-  const part = (column) => ((range[0] + (column - from) / each) / whole) * counts.length;
+  const part = (column) => share(range[0] + (column - from) / each, counted) * counts.length;
   for (let column = from; column < to; column++) {
     const first = Math.max(0, Math.floor(part(column)));
-    const last = Math.min(counts.length, Math.max(first + 1, Math.ceil(part(column + 1))));
+    const end = Math.ceil(part(column + 1));
+    if (end <= 0) continue;
+    const last = Math.min(counts.length, Math.max(first + 1, end));
     let count = 0;
     for (let i = first; i < last; i++) count = Math.max(count, counts[i]);
     if (!count) continue;
@@ -117,7 +120,7 @@ export function bars(context, counts, { x, whole, range, top, height, color }) {
  */
 function held(context, { first, now, gap }, { x, color }) {
   context.fillStyle = color("accent");
-  context.globalAlpha = 0.5;
+  context.globalAlpha = 0.3;
   context.fillRect(x(first), TOP, x(now) - x(first), BAR);
   context.globalAlpha = 1;
   if (!gap) return;

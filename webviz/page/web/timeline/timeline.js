@@ -51,7 +51,7 @@ export function timeline(places) {
   const track = makeTrack(seek, () => topics.redraw());
   const topics = topicList({
     range: track.range,
-    whole: () => shownLength(recording.get("duration")),
+    counted: track.counted,
     step,
     toggled: () => show(),
   });
@@ -79,7 +79,10 @@ export function timeline(places) {
     if (!isThere) return;
     if (!isBag()) timer = setInterval(() => document.hidden || show(), TICK_MS);
     ends = [
-      watch("density", (density) => track.setCounts(density.get("counts") ?? [])),
+      watch("density", (density) => {
+        const [first, last] = [density.get("first") ?? 0, density.get("last") ?? 0];
+        track.setCounts(density.get("counts") ?? [], [first, first + shownLength(last - first)]);
+      }),
       watch("bookmarks", (known) => {
         bookmarks.show(known.get("all") ?? []);
         track.setBookmarks(known.get("all") ?? []);
@@ -189,14 +192,12 @@ export function timeline(places) {
     eventCommand(false, among),
     { name: "Add bookmark…", icon: "flag", key: "b", needs: "SaveBookmark", run: bookmarks.add },
   ].map(about);
-  const ofBags = [
-    { name: "Copy link to this moment", icon: "copy", run: copyLink },
-    { name: "Topics of the recording", icon: "list", run: topics.toggle },
-  ].map(about);
+  const ofBags = [{ name: "Copy link to this moment", icon: "copy", run: copyLink }].map(about);
+  const ofAll = about({ name: "Topics of the timeline", icon: "list", run: topics.toggle });
   provide(() => {
     if (!values) return [];
-    if (isBag()) return [...commands, ...ofBags];
-    return isRewound(values) ? commands : [about(back)];
+    if (isBag()) return [...commands, ...ofBags, ofAll];
+    return isRewound(values) ? [...commands, ofAll] : [about(back), ofAll];
   });
 
   return {

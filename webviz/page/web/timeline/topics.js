@@ -14,18 +14,18 @@ const ROW = 22;
 /** @typedef {ReturnType<typeof topics>} Topics */
 
 /**
- * Returns `{element, redraw(), toggle(), isOpen()}`. `range()` and `whole()` are those of the track; `step` is
+ * Returns `{element, redraw(), toggle(), isOpen()}`. `range()` and `counted()` are those of the track; `step` is
  * `{topic(), choose(topic)}`: of which topic the next message is shown.
  *
- * @param {{range: () => Range, whole: () => number, step: {topic(): string, choose(topic: string): void}, toggled: () => void}} timeline
+ * @param {{range: () => Range, counted: () => Range, step: {topic(): string, choose(topic: string): void}, toggled: () => void}} timeline
  */
-export function topics({ range, whole, step, toggled }) {
+export function topics({ range, counted, step, toggled }) {
   /** @type {(() => void) | null} */
   let end = null;
   /** @type {Strip[]} */
   let items = [];
   const list = rowList({
-    label: "Topics of the recording",
+    label: "Topics of the timeline",
     height: ROW,
     make,
     update,
@@ -65,7 +65,7 @@ export function topics({ range, whole, step, toggled }) {
     const x = (time) => MARGIN + share(time, range()) * (width - 2 * MARGIN);
     bars(context, counts, {
       x,
-      whole: whole(),
+      counted: counted(),
       range: range(),
       top: 2,
       height: height - 4,

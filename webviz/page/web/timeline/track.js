@@ -33,7 +33,7 @@ function boundsOf(recording) {
 }
 
 /**
- * Returns `{element, range, length, show(recording), setCounts(counts), setBookmarks(bookmarks), setEvents(events)}`:
+ * Returns `{element, range, counted, length, show(recording), setCounts(counts, span), setBookmarks(bookmarks), setEvents(events)}`:
  * `seek` is of `seeks.js`, `recording` the store "playback", a Map, `events` are of `events.js`. `redrawn()`
  * is called when the window is another.
  *
@@ -45,6 +45,8 @@ export function track(seek, redrawn = () => {}) {
   let recording = null;
   /** @type {number[]} */
   let counts = [];
+  /** @type {Range} */
+  let counted = [0, 1]; // the seconds that they are of
   /** @type {[string, number][]} */
   let bookmarks = [];
   /** @type {LoggedEvent[]} */
@@ -144,7 +146,7 @@ export function track(seek, redrawn = () => {}) {
             };
       draw(canvas, {
         range,
-        whole: bounds[1],
+        counted,
         counts,
         selected,
         bookmarks,
@@ -270,12 +272,18 @@ export function track(seek, redrawn = () => {}) {
   return {
     element,
     range: () => range,
+    counted: () => counted,
     length: () => range[1] - range[0],
     show,
-    /** @param {number[]} next */
-    setCounts(next) {
+    /**
+     * @param {number[]} next
+     * @param {Range} span
+     */
+    setCounts(next, span) {
       counts = next;
+      counted = span;
       later();
+      redrawn();
     },
     /** @param {[string, number][]} next */
     setBookmarks(next) {

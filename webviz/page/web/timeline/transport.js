@@ -148,7 +148,7 @@ export function transport(seek, step, topics, bookmarks) {
     if (document.activeElement !== field) write();
     setText(length, isBag() ? `/ ${duration(recording.get("duration"))}` : "");
     set(field, { "data-tip": isBag() ? HELP : AGO_HELP });
-    for (const each of [loop, list]) set(each, { hidden: !isBag() });
+    set(loop, { hidden: !isBag() });
     set(bookmarks.element, { hidden: !isBag() && !isRewound(recording) });
     set(live, { hidden: !isRewound(recording) });
     setText(rate, rateText(recording.get("rate")));
