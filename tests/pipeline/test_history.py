@@ -104,6 +104,23 @@ def test_longer_than_any_clock_is_for_ever(bench: Callable[..., Any]) -> None:
     assert sorted(lengths(b)) == [1, 2]
 
 
+class Two(Note):
+    """Another dot for every text of another topic."""
+
+    other: Annotated[Topic, Input("std_msgs/msg/String")] = Topic("/other")
+
+
+def test_inputs_share_the_number_of_samples(
+    bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(history, "MAX_SAMPLES", 5)
+    b = bench(Two(name="Two", count=0, seconds=100.0))
+    for second in range(4):
+        note(b, 10 + second, second)
+        note(b, 20 + second, second, "/other")
+    assert sorted(lengths(b)) == [12, 13, 22, 23]
+
+
 def test_one_message_at_a_time_is_no_shortage(bench: Callable[..., Any]) -> None:
     b = bench(Note(name="Note"))
     for second in range(6):
