@@ -11,7 +11,6 @@ import numpy as np
 import PIL.Image
 import playwright.sync_api as playwright
 import pytest
-from remembering_graph import RememberingGraph
 
 import webviz
 from tests.page.test_whole_page import FONT, HAS_FONT
@@ -21,6 +20,7 @@ from webviz.files.opening import parse
 from webviz.shell.app.running import checked_view
 from webviz.shell.pictures.browser import Page
 from webviz.shell.testing.pictures import ReferenceImages
+from webviz.shell.testing.remembering_graph import RememberingGraph
 from webviz.shell.testing.source import HandFedSource
 
 CONFIG = """\

@@ -9,7 +9,6 @@ from typing import Any
 import playwright.sync_api as playwright
 import pytest
 from pages import open_pages
-from remembering_graph import RememberingGraph
 
 import webviz
 from webviz.engine.commands import SetToolProperty, ShowView
@@ -17,6 +16,7 @@ from webviz.files.config import Config
 from webviz.files.opening import parse
 from webviz.shell.app.running import checked_view
 from webviz.shell.pictures.browser import Page
+from webviz.shell.testing.remembering_graph import RememberingGraph
 from webviz.shell.testing.source import HandFedSource
 from webviz.sources import Advertisement
 

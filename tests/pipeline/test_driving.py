@@ -11,13 +11,13 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-from remembering_graph import RememberingGraph
 
 from webviz.api.vehicle import STILL, Velocity
 from webviz.commands import Load, SetToolProperty, Undo
 from webviz.engine.driving import DrivingAnswer, VelocityControllers
 from webviz.engine.driving.velocity_controller import PERIOD_S, TAIL
 from webviz.engine.state import Driving
+from webviz.shell.testing.remembering_graph import RememberingGraph
 from webviz.shell.testing.source import HandFedSource
 from webviz.sources import Advertisement, Gate, NotConnected, Rights
 from webviz.tools.teleop import Teleop

@@ -7,7 +7,6 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
-from remembering_graph import RememberingGraph, SentGoal
 
 from webviz.api.status import Level, Status
 from webviz.data.messages import encode
@@ -15,6 +14,7 @@ from webviz.engine.commands import CancelGoal, DismissGoal, Refresh, UseTool
 from webviz.engine.parts.goals import MAX_ACTIVE, SHOWN_S
 from webviz.engine.state import GoalProgress
 from webviz.engine.state.goals import ANSWER_S, SILENCE_S
+from webviz.shell.testing.remembering_graph import RememberingGraph, SentGoal
 from webviz.sources import Missing
 
 TO_POSE = "nav2_msgs/action/NavigateToPose"

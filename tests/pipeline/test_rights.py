@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from remembering_graph import RememberingGraph
 
 import webviz
 from webviz.api.status import Level, Status
@@ -19,6 +18,7 @@ from webviz.engine.pipeline.own_names import own_names
 from webviz.files.opening import parse
 from webviz.panels.nav2 import Nav2
 from webviz.shell.app.allow_list import report_everything
+from webviz.shell.testing.remembering_graph import RememberingGraph
 from webviz.shell.testing.source import HandFedSource
 from webviz.sources import Advertisement, Gate, NotConnected, Rights
 

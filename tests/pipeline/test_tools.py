@@ -7,10 +7,10 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
-from remembering_graph import RememberingGraph
 
 from webviz.api.status import Level, Status
 from webviz.engine.commands import SetToolProperty, UseTool
+from webviz.shell.testing.remembering_graph import RememberingGraph
 from webviz.sources import Advertisement
 
 QUARTER = math.pi / 2

@@ -13,7 +13,6 @@ import pytest
 from bags import START_NS, Bag, ns
 from bench import Bench, benches
 from drives import CONFIG, recorded
-from remembering_graph import RememberingGraph
 
 from webviz.api.declared import Topic
 from webviz.api.lookback import Lookback
@@ -42,6 +41,7 @@ from webviz.files.config.model import MemorySettings
 from webviz.files.opening import parse
 from webviz.shell.testing import BagViewer
 from webviz.shell.testing.recording import RecordingScene
+from webviz.shell.testing.remembering_graph import RememberingGraph
 from webviz.shell.testing.source import HandFedSource
 from webviz.sources import Advertisement, Offer, Publisher, Raw, Subscription
 from webviz.sources.bag.files import BagFiles

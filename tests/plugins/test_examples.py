@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from remembering_graph import RememberingGraph
 
 from webviz.api import registry
 from webviz.api.display import Display
@@ -17,6 +16,7 @@ from webviz.data.messages import decode, encode
 from webviz.engine.commands import Load, Refresh, UseTool
 from webviz.engine.pipeline.plugins import load
 from webviz.shell.testing.messages import header
+from webviz.shell.testing.remembering_graph import RememberingGraph
 
 EXAMPLES = Path(__file__).parents[2] / "displays/docs/examples"
 T = 100_000_000_000

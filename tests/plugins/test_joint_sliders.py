@@ -8,12 +8,12 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
-from remembering_graph import RememberingGraph
 
 from webviz.engine.commands import AddPanel, OpenPanels, Sender
 from webviz.page.recorded_ui import RecordedUi
 from webviz.panels import joints as module
 from webviz.panels.joints import Joints
+from webviz.shell.testing.remembering_graph import RememberingGraph
 
 PI = math.pi
 HAND = """

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from remembering_graph import RememberingGraph
 
 from webviz.api import registry
 from webviz.data.messages import encode
@@ -26,6 +25,7 @@ from webviz.engine.pipeline.plugins import load
 from webviz.files.config import ConfigError, Unreadable, document
 from webviz.files.config.overrides import override
 from webviz.files.opening import parse
+from webviz.shell.testing.remembering_graph import RememberingGraph
 
 CODE = """\
 from typing import Annotated

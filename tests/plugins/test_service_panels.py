@@ -8,7 +8,6 @@ from collections.abc import Callable
 from typing import Any, Generic, TypeVar
 
 import pytest
-from remembering_graph import RememberingGraph
 
 from webviz.api.errors import Error
 from webviz.api.panel import Panel
@@ -25,6 +24,7 @@ from webviz.panels.planning_tasks import MotionPlanningTasks
 from webviz.panels.selector import Selector
 from webviz.panels.slam_toolbox import INITIAL_POSE, SlamToolbox
 from webviz.panels.visual_tools import RvizVisualToolsGui
+from webviz.shell.testing.remembering_graph import RememberingGraph
 from webviz_displays import moveit as displays
 
 PARAMETERS = "rcl_interfaces/srv/GetParameters"

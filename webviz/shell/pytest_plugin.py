@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from webviz.api.display import Display
     from webviz.api.views import View
     from webviz.files.config import Config
+    from webviz.shell.testing.bench import DisplayBench
     from webviz.shell.testing.harness import Harness
     from webviz.shell.testing.live import LiveViewer
     from webviz.shell.testing.pictures import SnapshotFixture
@@ -91,6 +92,20 @@ def webviz_harness(
             return harness
 
         yield make
+
+
+@pytest.fixture
+def webviz_bench() -> Iterator[Callable[..., DisplayBench]]:
+    """Creates displays at work without ROS and browser: `webviz_bench(Grid(), fixed_frame="map")`.
+
+    They receive messages and draw nodes and statuses when their test says so.
+    """
+    from webviz.engine.pipeline.background import Workers
+    from webviz.shell.testing.bench import DisplayBench
+
+    workers = Workers(lambda: None)
+    yield lambda display, **options: DisplayBench(display, workers, **options)
+    workers.close()
 
 
 @pytest.fixture

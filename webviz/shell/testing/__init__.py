@@ -6,7 +6,9 @@ They are created by the fixtures of `webviz.shell.pytest_plugin`; import them fo
 import warnings
 
 from webviz.data.messages import encode as serialized
+from webviz.shell.testing.bench import DisplayBench, check_details
 from webviz.shell.testing.comparing import NOTICEABLE, TOLERANCE, share_of_difference
+from webviz.shell.testing.display_checks import DisplayChecks
 from webviz.shell.testing.harness import Harness
 from webviz.shell.testing.live import LiveViewer
 from webviz.shell.testing.messages import header, turned
@@ -19,9 +21,12 @@ __all__ = [
     "SECOND",
     "TOLERANCE",
     "BagViewer",
+    "DisplayBench",
+    "DisplayChecks",
     "Harness",
     "LiveViewer",
     "Shown",
+    "check_details",
     "check_seeks",
     "header",
     "serialized",

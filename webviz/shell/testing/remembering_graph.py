@@ -24,6 +24,7 @@ class SentGoal:
     cancels: list[Future[int]] = field(default_factory=list)
 
     def cancel(self) -> Future[int]:
+        """Remember that it was asked to end."""
         self.cancels.append(Future())
         return self.cancels[-1]
 
@@ -42,14 +43,17 @@ class RememberingGraph:
     goals: list[SentGoal] = field(default_factory=list)
 
     def advertise(self, advertisements: Collection[Advertisement]) -> Future[None]:
+        """Remember what may be published."""
         self.advertised = advertisements
         return done(None)
 
     def publish(self, advertisement: Advertisement, cdr: bytes) -> Future[int]:
+        """Remember a message, decoded."""
         self.published.append((advertisement, decode(advertisement.type, cdr)))
         return done(self.subscriptions)
 
     def call(self, service: str, type: str, request: bytes, timeout_s: float) -> Future[bytes]:
+        """Remember a request, and return the response that a test has set."""
         self.requests.append((service, type, request))
         if service in self.responses:
             return done(self.responses[service])
@@ -60,15 +64,18 @@ class RememberingGraph:
     def send_goal(
         self, action: str, type: str, goal: bytes, feedback: Callable[[bytes], object]
     ) -> Goal:
+        """Remember a goal, whose answers a test gives."""
         sent = SentGoal(action, type, decode(f"{type}_Goal", goal), feedback)
         self.goals.append(sent)
         return Goal(bytes(16), sent.accepted, sent.result, sent.cancel)
 
     def nodes(self) -> tuple[str, ...]:
+        """Return no nodes."""
         return ()
 
 
 def done(result: Any) -> Future[Any]:
+    """Return a future with a result."""
     future: Future[Any] = Future()
     future.set_result(result)
     return future

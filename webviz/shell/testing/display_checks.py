@@ -1,0 +1,178 @@
+"""Checks that every display should pass, derived from its declaration.
+
+    class TestDocks(webviz.testing.DisplayChecks):
+        display = Docks
+        messages = {"dock_msgs/msg/Docks": {"docks": [{"name": "left"}]}}
+
+A subclass in the test file of a display is all that they need.
+"""
+
+from __future__ import annotations
+
+import copy
+import time
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, ClassVar
+
+import msgspec
+import pytest
+
+from webviz.api.declared import set_property
+from webviz.api.display import Display, inputs_of
+from webviz.shell.testing.bench import DisplayBench
+from webviz.shell.testing.changes import Change, changes
+from webviz.shell.testing.extremes import Values, cases, change, faults, send
+
+MAX_CASES = 128
+"""Of one message; of twice as many every other one is tried."""
+LOADING_S = 60.0
+PATIENCE_S = "webviz.engine.pipeline.input_subscription.PATIENCE_S"
+"""After which a status names a missing transform; with extreme values at once."""
+
+Benches = Callable[[Display], DisplayBench]
+
+
+class DisplayChecks:
+    """Tests of one display: every property shows, and no value of a message is drawn as nonsense.
+
+    A subclass sets `display` and either `messages` or `publish`.
+    """
+
+    display: ClassVar[type[Display]]
+    messages: ClassVar[Mapping[str, Values]] = {}
+    """A message of each type that it reads, with which it draws something; fields left out are zero
+    or empty. Each field of them is tried with extreme values."""
+    variants: ClassVar[Sequence[Callable[[], Display]]] = ()
+    """Displays that read extreme values; () is one with defaults."""
+    values: ClassVar[Mapping[str, Sequence[Any]]] = {}
+    """Other values of properties by path, where the derived ones do not show."""
+    needs: ClassVar[Mapping[str, Mapping[str, Any]]] = {}
+    """Properties that must be set for another one to show, besides those that `when` declares."""
+    later: ClassVar[Collection[str]] = ("decay_time", "history_length")
+    """Paths of properties that affect only what is received later."""
+    elsewhere: ClassVar[Collection[str]] = ()
+    """Paths of properties that the page acts on, or that other tests hold."""
+
+    def publish(self, bench: DisplayBench) -> None:
+        """Publish what shows every property: here `messages`, twice, in the frame `sensor`."""
+        bench.transform("map", "sensor", (1.0, 2.0, 0.0), (0.0, 0.0, 0.6, 0.8))
+        for _ in range(2):
+            for name, spec in inputs_of(type(bench.display)).items():
+                if spec.type in self.messages:
+                    send(bench, name, copy.deepcopy(self.messages[spec.type]))
+
+    def pytest_generate_tests(self, metafunc: pytest.Metafunc) -> None:
+        """One test for each property, and for each input of each variant."""
+        if "changed" in metafunc.fixturenames:
+            found = [each for each in changes(self.display) if each.path not in self.elsewhere]
+            metafunc.parametrize("changed", found, ids=lambda each: each.path)
+        if "made" in metafunc.fixturenames:
+            metafunc.parametrize(("made", "name"), list(self.read_inputs()))
+
+    @classmethod
+    def read_inputs(cls) -> Iterator[Any]:
+        """Each variant with each of its inputs whose messages are given."""
+        for number, make in enumerate(cls.variants or (cls.display,)):
+            for name, spec in inputs_of(type(make())).items():
+                if spec.type in cls.messages:
+                    yield pytest.param(make, name, id=f"{name}-{number}")
+
+    def test_every_property_changes_what_is_drawn_or_reported(
+        self, webviz_bench: Benches, changed: Change, tmp_path: Path
+    ) -> None:
+        """Other values of a property show, and the default shows what it did before."""
+        needs = {**changed.needs, **self.needs.get(changed.path, {})}
+        before = _value(_made(self.display, needs), changed.path)
+        others = self.other_values(replace(changed, value=before), tmp_path)
+        valid = [each for each in others if _is_valid(self.display(), changed.path, each)]
+        assert valid, f"Name other values of {changed.path} in `values`."
+        bench = webviz_bench(_made(self.display, needs))
+        self.publish(bench)
+        for value in valid:
+            former = _picture(bench)
+            if changed.path in self.later or "show_trail=True" in str(value):
+                again = webviz_bench(_made(self.display, {changed.path: value} | needs))
+                self.publish(again)
+                assert _picture(again) != former, f"{value} shows as {before} does"
+                continue
+            _set(bench, changed.path, before)
+            assert _picture(bench) == former, "What changes by itself would prove nothing."
+            _set(bench, changed.path, value)
+            assert _picture(bench) != former, f"{value} shows as {before} does"
+            _set(bench, changed.path, before)
+
+    def other_values(self, changed: Change, folder: Path) -> Sequence[Any]:
+        """Other values of a property; a `folder` may hold files for them."""
+        return self.values.get(changed.path) or changed.others()
+
+    def test_an_extreme_value_is_neither_drawn_as_nonsense_nor_ignored_in_silence(
+        self,
+        webviz_bench: Benches,
+        made: Callable[[], Display],
+        name: str,
+        monkeypatch: pytest.MonkeyPatch,
+    ) -> None:
+        """Infinite, huge, negative and empty values of every field of a message."""
+        monkeypatch.setattr(PATIENCE_S, -1.0)
+        type_name = inputs_of(type(made()))[name].type
+        known = list(cases(type_name, self.messages[type_name]))
+        found = []
+        for case in known[:: len(known) // MAX_CASES or 1]:
+            values = copy.deepcopy(self.messages[type_name])
+            change(values, case)
+            bench = self.at_work(webviz_bench, made, name)
+            send(bench, name, values)
+            found += [f"{case[0]} = {str(case[1])[:40]}: {fault}" for fault in faults(bench)]
+        assert found == []
+
+    @classmethod
+    def at_work(cls, benches: Benches, made: Callable[[], Display], name: str) -> DisplayBench:
+        """A display that has what it needs before a message for an input arrives."""
+        bench = benches(made())
+        bench.transform("map", "sensor", (1.0, 2.0, 0.0), (0.0, 0.0, 0.6, 0.8))
+        for number, (other, spec) in enumerate(inputs_of(type(bench.display)).items()):
+            if other != name and (number == 0 or spec.latched) and spec.type in cls.messages:
+                send(bench, other, copy.deepcopy(cls.messages[spec.type]))
+        return bench
+
+
+def _is_valid(display: Display, path: str, value: Any) -> bool:
+    try:
+        set_property(display, path, value)
+    except msgspec.ValidationError:
+        return False  # out of bounds
+    return True
+
+
+def _made(cls: type[Display], values: Mapping[str, Any]) -> Display:
+    display = cls()
+    for path, value in values.items():
+        set_property(display, path, value)
+    return display
+
+
+def _value(display: Display, path: str) -> Any:
+    value: Any = display
+    for part in path.split("."):
+        value = getattr(value, part)
+    return value
+
+
+def _set(bench: DisplayBench, path: str, value: Any) -> None:
+    """Change a property, and let slow work finish."""
+    bench.set(path, value)
+    deadline = time.monotonic() + LOADING_S
+    bench.turn()
+    while "Loading" in bench.statuses() or bench.runner.is_busy():
+        assert time.monotonic() < deadline, bench.statuses()
+        time.sleep(0.005)
+        bench.turn()
+
+
+def _picture(bench: DisplayBench) -> tuple[Any, ...]:
+    """Everything a user sees but counts and ages of messages."""
+    statuses = bench.statuses().items()
+    shown = {key: said for key, said in statuses if not key.startswith(("Topic", "Message"))}
+    return bench.nodes(), bench.poses(), bench.runner.handles(), shown
