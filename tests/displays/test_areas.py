@@ -8,6 +8,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from built_in_checks import BuiltInChecks
+from display_messages import MESSAGES
+from plain_scenes import in_moving_frame
 
 from webviz_displays.areas import GridCells, Polygon
 from webviz_displays.areas import grid_cells as grid_cells_module
@@ -113,3 +116,25 @@ def test_cells_that_are_not_drawn_are_counted(
     at.turn()
     assert len(at.nodes()["cells"].faces) == 10
     assert at.statuses()["Cells"] == ("WARN", "Showing 5 of 50 cells, evenly picked.")
+
+
+class TestGridCells(BuiltInChecks):
+    display = GridCells
+    messages = MESSAGES
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame(
+            "nav_msgs/msg/GridCells",
+            *({"cell_width": 0.1, "cell_height": 0.2, "cells": [{"x": x}]} for x in (0.0, 1.0)),
+        )(bench)
+
+
+class TestPolygon(BuiltInChecks):
+    display = Polygon
+    messages = MESSAGES
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame(
+            "geometry_msgs/msg/PolygonStamped",
+            *({"polygon": {"points": [{"x": x}, {"y": x}, {"z": x}]}} for x in (1.0, 2.0)),
+        )(bench)

@@ -9,6 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 from autoware_scenes import (
+    ALL_FOLLOWED,
+    ALL_FORESEEN,
+    ALL_FOUND,
     CAR,
     DETECTED,
     FOLLOWED,
@@ -21,6 +24,9 @@ from autoware_scenes import (
     pose_at,
     unaccelerated,
 )
+from built_in_checks import BuiltInChecks
+from display_messages import MESSAGES
+from plain_scenes import in_moving_frame
 
 from webviz_displays.autoware import DetectedObjects, PredictedObjects, TrackedObjects, objects
 from webviz_displays.autoware.objects_look import (
@@ -175,3 +181,31 @@ def test_too_many_objects_are_cut_with_a_warning(
     monkeypatch.setattr(objects, "MAX_OBJECTS", 1)
     at = shown(DetectedObjects(), FOUND)
     assert at.statuses()["Objects"] == ("WARN", "Showing the first 1 of 3 objects.")
+
+
+class TestDetectedObjects(BuiltInChecks):
+    display = DetectedObjects
+    messages = MESSAGES
+    variants = (
+        DetectedObjects,
+        lambda: DetectedObjects(shape=ShapeView(shape_type="Fill")),
+    )
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame(DETECTED, ALL_FOUND)(bench)
+
+
+class TestPredictedObjects(BuiltInChecks):
+    display = PredictedObjects
+    messages = MESSAGES
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame(PREDICTED, ALL_FORESEEN)(bench)
+
+
+class TestTrackedObjects(BuiltInChecks):
+    display = TrackedObjects
+    messages = MESSAGES
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame(TRACKED, ALL_FOLLOWED)(bench)

@@ -9,6 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 from autoware_scenes import BOUNDED, PASSED, PATH, POSE, TIMED, TRAJECTORY, WAY, planned
+from built_in_checks import BuiltInChecks
+from display_messages import MESSAGES
+from plain_scenes import in_moving_frame
 
 from webviz_displays.autoware import AutowarePath, AutowareTrajectory, PoseHistory, path
 from webviz_displays.autoware.look import FootprintView, LaneView, PointView, TextView
@@ -131,3 +134,29 @@ def test_poses_become_a_line_of_the_newest(bench: Callable[..., Any]) -> None:
     at.set("line.value", False)
     assert at.statuses()["Poses"] == ("WARN", "2 poses; Line is switched off.")
     assert at.nodes() == {}
+
+
+class TestAutowarePath(BuiltInChecks):
+    display = AutowarePath
+    messages = MESSAGES
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame(PATH, BOUNDED)(bench)
+
+
+class TestAutowareTrajectory(BuiltInChecks):
+    display = AutowareTrajectory
+    messages = MESSAGES
+    variants = (lambda: AutowareTrajectory(view_footprint=FootprintView(value=True)),)
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame(TRAJECTORY, TIMED)(bench)
+
+
+class TestPoseHistory(BuiltInChecks):
+    display = PoseHistory
+    messages = MESSAGES
+    later = ("buffer_size",)
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame(POSE, *PASSED * 110)(bench)

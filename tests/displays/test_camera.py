@@ -9,6 +9,8 @@ import lenses
 import numpy as np
 import photos
 import pytest
+from built_in_checks import BuiltInChecks
+from display_scenes import cameras
 
 from webviz import Topic
 from webviz.api.declared import make
@@ -209,3 +211,12 @@ def test_rviz_nests_the_switches_of_displays() -> None:
     for wrong in (deep, "text", {"Grid": "perhaps"}, {"Robot": {"Arm": [1]}}):
         with pytest.raises(Unfit):
             switch_tree.read(wrong)
+
+
+class TestCamera(BuiltInChecks):
+    display = Camera
+    later = ("median_window",)
+    elsewhere = ("undistort", "visibility")
+
+    def publish(self, bench: Any) -> None:
+        cameras(bench)

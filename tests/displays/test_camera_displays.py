@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 import photos
 import pytest
+from built_in_checks import BuiltInChecks
+from display_scenes import camera_infos
 
 from webviz import Topic
 from webviz_displays.camera_info import CameraInfo
@@ -266,3 +268,10 @@ def test_hidden_points_go_when_the_camera_moves(bench: Benches, moved: float, le
 def test_hidden_points_go_after_the_time_out(bench: Benches) -> None:
     at = hiding(bench, occlusion_time_out=0.5)
     assert len(at.xyz("points")) == 192
+
+
+class TestCameraInfo(BuiltInChecks):
+    display = CameraInfo
+
+    def publish(self, bench: Any) -> None:
+        camera_infos(bench)

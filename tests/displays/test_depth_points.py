@@ -1,10 +1,15 @@
 """Pixels that the points of a depth image belong to."""
 
+from typing import Any, ClassVar
+
 import numpy as np
 import pytest
+from built_in_checks import BuiltInChecks
+from display_scenes import depth_clouds
 
 from webviz.data.images import RawImage
 from webviz.data.images.camera_model import CameraModel
+from webviz_displays.depth_cloud import DepthCloud
 from webviz_displays.depth_cloud.cloud import depth_points
 
 WIDTH, HEIGHT = 6, 4
@@ -22,3 +27,13 @@ def test_points_carry_the_pixel_of_the_whole_image(most: int, ids: list[int]) ->
     rows, columns = np.divmod(points.ids, WIDTH)
     np.testing.assert_allclose(points.xyz[:, :2], np.column_stack((columns, rows)), atol=1e-6)
     assert 2.0 * points.spacing == pytest.approx(columns[1] - columns[0])
+
+
+class TestDepthCloud(BuiltInChecks):
+    display = DepthCloud
+    later = ("decay_time", "occlusion_compensation")
+    elsewhere = ("occlusion_time_out",)
+    needs: ClassVar = {"max_points": {"max_points": 40}}
+
+    def publish(self, bench: Any) -> None:
+        depth_clouds(bench)

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import tracemalloc
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
+from built_in_checks import BuiltInChecks
+from display_messages import MESSAGES
+from plain_scenes import torques
 
 from webviz import Pose
 from webviz_displays.vectors import Effort
@@ -199,3 +202,12 @@ def test_a_long_name_takes_no_memory_for_each_joint() -> None:
     tracemalloc.stop()
     assert rings.names.tolist() == names
     assert peak < 50e6
+
+
+class TestEffort(BuiltInChecks):
+    display = Effort
+    messages = MESSAGES
+    values: ClassVar = {"joints": [{"slide": False}]}
+
+    def publish(self, bench: Any) -> None:
+        torques(bench)

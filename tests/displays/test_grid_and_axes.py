@@ -3,6 +3,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from built_in_checks import BuiltInChecks
+from display_scenes import robot_frame
 
 from webviz.scene.schemes import SCHEMES
 from webviz_displays.axes import Axes
@@ -140,3 +142,17 @@ def test_a_grid_of_too_many_lines_offers_those_that_are_shown(
     before = len(made.nodes()["grid"].segments)
     made.press("Grid")
     assert len(made.nodes()["grid"].segments) == before
+
+
+class TestAxes(BuiltInChecks):
+    display = Axes
+
+    def publish(self, bench: Any) -> None:
+        robot_frame(bench)
+
+
+class TestGrid(BuiltInChecks):
+    display = Grid
+
+    def publish(self, bench: Any) -> None:
+        robot_frame(bench)

@@ -10,7 +10,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from built_in_checks import BuiltInChecks
+from display_messages import MESSAGES
 from grid_maps import GRID_MAP, grid_map
+from mapping_scenes import terrain
+from plain_scenes import in_moving_frame
 
 from webviz_displays.grid_map import GridMap
 from webviz_displays.grid_map import display as display_module
@@ -199,3 +203,15 @@ def test_a_layer_of_another_size_says_so(shown: Callable) -> None:
     level, text = at.statuses()["Grid map"]
     assert level == "ERROR"
     assert text.startswith("The layer 'variance' has 2 rows and 2 columns, the first one 3 rows")
+
+
+class TestGridMap(BuiltInChecks):
+    display = GridMap
+    messages = MESSAGES
+    variants = (
+        GridMap,
+        lambda: GridMap(height_transformer="Flat", color_transformer="ColorLayer"),
+    )
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame(GRID_MAP, terrain(), terrain())(bench)

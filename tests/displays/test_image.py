@@ -11,6 +11,8 @@ from typing import Any
 import numpy as np
 import photos
 import pytest
+from built_in_checks import BuiltInChecks
+from display_scenes import images
 from PIL import Image as Pillow
 
 from webviz.api.nodes import Pane
@@ -219,3 +221,11 @@ def test_no_message_breaks_the_display(bench: Benches, type_: str) -> None:
     at.send_bytes(type_, good)
     at.turn()
     assert "pane" in at.nodes()
+
+
+class TestImage(BuiltInChecks):
+    display = Image
+    later = ("median_window",)
+
+    def publish(self, bench: Any) -> None:
+        images(bench)

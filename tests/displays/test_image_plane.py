@@ -8,6 +8,9 @@ from typing import Any
 import numpy as np
 import photos
 import pytest
+from built_in_checks import BuiltInChecks
+from display_messages import MESSAGES
+from display_scenes import image_planes
 
 from webviz_displays.image_plane import ImagePlane
 from webviz_displays.shared.geometry import transformed
@@ -105,3 +108,12 @@ def test_every_image_lies_where_its_frame_was(bench: Benches) -> None:
                 seen.add((int(image.cells[0, 0, 0]), at.poses()["image"].position[0] + 1.0))
     assert seen <= {(value, float(value)) for value in (10, 20, 30, 40)}
     assert {(20, 20.0), (30, 30.0), (40, 40.0)} <= seen
+
+
+class TestImagePlane(BuiltInChecks):
+    display = ImagePlane
+    messages = MESSAGES
+    later = ("median_window",)
+
+    def publish(self, bench: Any) -> None:
+        image_planes(bench)

@@ -8,6 +8,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from built_in_checks import BuiltInChecks
+from display_messages import MESSAGES
+from mapping_scenes import FIELD as SCENE_FIELD
+from mapping_scenes import IMU as SCENE_IMU
+from plain_scenes import in_moving_frame
 
 from webviz.data.rotations import multiply
 from webviz_displays.imu import Imu, Mag
@@ -124,3 +129,23 @@ def test_a_field_without_a_direction_says_so(
     at = shown(Mag(alpha=alpha), FIELD, {"magnetic_field": field})
     assert at.nodes() == {}
     assert at.statuses()["Field"][0] == level
+
+
+class TestImu(BuiltInChecks):
+    display = Imu
+    messages = MESSAGES
+    variants = (
+        lambda: Imu(acceleration_properties=AccelerationSettings(enable_acceleration=True)),
+    )
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame("sensor_msgs/msg/Imu", SCENE_IMU)(bench)
+
+
+class TestMag(BuiltInChecks):
+    display = Mag
+    messages = MESSAGES
+    variants = (lambda: Mag(is_2d=False),)
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame("sensor_msgs/msg/MagneticField", SCENE_FIELD)(bench)

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
+from built_in_checks import BuiltInChecks
+from display_scenes import interactive_markers
 
 from webviz.data.messages import decode, encode
+from webviz_displays.interactive_markers import InteractiveMarkers
 from webviz_displays.interactive_markers.completion import (
     FAR,
     Completed,
@@ -187,3 +190,17 @@ def test_menus_are_nested_checked_and_free_of_shell_commands() -> None:
     while menu:
         menu, depth = menu[0].entries, depth + 1
     assert depth == MAX_DEPTH
+
+
+class TestInteractiveMarkers(BuiltInChecks):
+    display = InteractiveMarkers
+    needs: ClassVar = {
+        "show_descriptions": {"interactive_markers_namespace": "/arm"},
+        "show_axes": {"interactive_markers_namespace": "/arm"},
+        "show_visual_aids": {"interactive_markers_namespace": "/arm"},
+        "enable_transparency": {"interactive_markers_namespace": "/arm"},
+        "enabled": {"interactive_markers_namespace": "/arm"},
+    }
+
+    def publish(self, bench: Any) -> None:
+        interactive_markers(bench)

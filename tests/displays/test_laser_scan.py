@@ -3,6 +3,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from built_in_checks import BuiltInChecks
+from display_messages import MESSAGES
+from display_scenes import scans
 
 from webviz.api.nodes import Instances, Lines, Points
 from webviz_displays.laser_scan import LaserScan
@@ -342,3 +345,15 @@ def test_scans_decay_by_the_time_they_arrived(bench: Benches) -> None:
     assert len(made.nodes()) == 1
     made.turn(100.0)
     assert len(made.nodes()) == 1
+
+
+class TestLaserScan(BuiltInChecks):
+    display = LaserScan
+    messages = MESSAGES
+    variants = (
+        LaserScan,
+        lambda: LaserScan(color_transformer="AxisColor", style="Boxes", decay_time=1.0),
+    )
+
+    def publish(self, bench: Any) -> None:
+        scans(bench)

@@ -1,13 +1,18 @@
 """The Map display: grids and updates to tiles."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
+from built_in_checks import BuiltInChecks
+from display_messages import MESSAGES
+from display_scenes import maps
+from mapping_scenes import costmaps
 
 from webviz import Image, Topic
 from webviz.shell.testing.messages import header
-from webviz_displays.map import Map
+from webviz_displays.map import Costmap, Map
 from webviz_displays.map.palettes import lookup_table
 from webviz_displays.map.tiles import LONGEST_TILE, MAX_CELLS, MAX_TILES, TILE
 
@@ -366,3 +371,23 @@ def test_an_invisible_map_is_not_called_ok(bench) -> None:
     at = bench(Map(alpha=0.0))
     send_map(at, [[0]])
     assert at.statuses()["Map"][0] == "WARN"
+
+
+class TestCostmap(BuiltInChecks):
+    display = Costmap
+    messages = MESSAGES
+
+    def publish(self, bench: Any) -> None:
+        costmaps(bench)
+
+
+class TestMap(BuiltInChecks):
+    display = Map
+    messages = MESSAGES
+    variants = (
+        Map,
+        lambda: Map(use_timestamp=True, color_scheme="costmap"),
+    )
+
+    def publish(self, bench: Any) -> None:
+        maps(bench)

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import photos
 import pytest
+from built_in_checks import BuiltInChecks
+from display_messages import MESSAGES
+from plain_scenes import in_moving_frame
 from rtabmap_scenes import (
     BOTH,
     MAP_DATA,
@@ -222,3 +225,34 @@ def test_too_many_points_are_dropped_or_thinned_with_a_word(
         "Increase Cloud Decimation or Cloud Voxel Size."
     )
     assert shown(MAPPED).statuses()["Nodes"] == ("WARN", sentence)
+
+
+class TestMapCloud(BuiltInChecks):
+    display = MapCloud
+    messages = MESSAGES
+    variants = (
+        MapCloud,
+        lambda: MapCloud(cloud_from_scan=True),
+    )
+    later = ("decay_time", "cloud_decimation", "cloud_from_scan")
+    elsewhere = (
+        "cloud_max_depth",
+        "cloud_min_depth",
+        "cloud_voxel_size",
+        "download_namespace",
+        "filter_ceiling",
+        "filter_floor",
+        "node_filtering_angle",
+        "node_filtering_radius",
+    )
+    needs: ClassVar = {
+        "autocompute_intensity_bounds": {"color_transformer": "Intensity", "cloud_from_scan": True},
+        "invert_rainbow": {"color_transformer": "Intensity", "cloud_from_scan": True},
+        "min_color": {"color_transformer": "Intensity", "cloud_from_scan": True},
+        "min_intensity": {"color_transformer": "Intensity", "cloud_from_scan": True},
+        "max_color": {"color_transformer": "Intensity", "cloud_from_scan": True},
+        "max_intensity": {"color_transformer": "Intensity", "cloud_from_scan": True},
+    }
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame(MAP_DATA, MAPPED)(bench)

@@ -7,7 +7,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from built_in_checks import BuiltInChecks
+from display_messages import MESSAGES
 from mapping_scenes import GRAPH
+from plain_scenes import in_moving_frame
 
 from webviz_displays.map_graph import MapGraph
 
@@ -69,3 +72,11 @@ def test_alpha_0_hides_and_types_of_later_versions_are_drawn(shown: Callable) ->
     at.set("alpha", 0.0)
     assert at.nodes() == {}
     assert "alpha is 0" in at.statuses()["Graph"][1]
+
+
+class TestMapGraph(BuiltInChecks):
+    display = MapGraph
+    messages = MESSAGES
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame("rtabmap_msgs/msg/MapGraph", GRAPH)(bench)

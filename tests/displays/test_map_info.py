@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from built_in_checks import BuiltInChecks
+from display_messages import MESSAGES
+from plain_scenes import in_moving_frame
 from rtabmap_scenes import CLOSED, INFO
 
 from webviz_displays.map_info import MapInfo
@@ -34,3 +37,11 @@ def test_statistics_without_values_are_said(bench: Callable[..., Any]) -> None:
     assert said["Info"] == ("OK", "Node 4, no loop.")
     assert said["Statistics"] == ("ERROR", "1 values for 2 names. Fix the publisher.")
     assert "Position" not in said
+
+
+class TestMapInfo(BuiltInChecks):
+    display = MapInfo
+    messages = MESSAGES
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame(INFO, CLOSED)(bench)

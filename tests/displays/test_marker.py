@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from built_in_checks import BuiltInChecks
+from display_scenes import markers as markers_of_both_kinds
 
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.source import SECOND
@@ -477,3 +479,17 @@ def test_raw_bytes_that_are_no_markers_leave_the_others(shown: Benches) -> None:
     bench.turn()
     assert xs(bench) == [1.0]
     assert bench.statuses()["Message"][0] == "ERROR"
+
+
+class TestMarker(BuiltInChecks):
+    display = Marker
+
+    def publish(self, bench: Any) -> None:
+        markers_of_both_kinds(bench)
+
+
+class TestMarkerArray(BuiltInChecks):
+    display = MarkerArray
+
+    def publish(self, bench: Any) -> None:
+        markers_of_both_kinds(bench)

@@ -7,7 +7,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from built_in_checks import BuiltInChecks
+from display_messages import MESSAGES
 from mapping_scenes import MESH, VOXELS
+from plain_scenes import in_moving_frame
 
 from webviz_displays.nvblox import NvbloxMesh, NvbloxVoxelBlockLayer, layer
 
@@ -128,3 +131,19 @@ def test_too_large_maps_are_cut_with_a_warning(
     at = shown(NvbloxVoxelBlockLayer(), VOXELS)
     sentence = "1 block left out: the map is too large. Send it with clear set."
     assert at.statuses()["Blocks"] == ("WARN", sentence)
+
+
+class TestNvbloxMesh(BuiltInChecks):
+    display = NvbloxMesh
+    messages = MESSAGES
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame("nvblox_msgs/msg/Mesh", MESH)(bench)
+
+
+class TestNvbloxVoxelBlockLayer(BuiltInChecks):
+    display = NvbloxVoxelBlockLayer
+    messages = MESSAGES
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame("nvblox_msgs/msg/VoxelBlockLayer", VOXELS)(bench)

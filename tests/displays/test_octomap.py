@@ -8,14 +8,24 @@ import random
 from collections.abc import Callable
 from itertools import product
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
+from built_in_checks import BuiltInChecks
+from display_messages import MESSAGES
+from mapping_scenes import hill, seen_from_above
 from octrees import OCTOMAP, Key, Node, binary, full, octree, signed
+from plain_scenes import in_moving_frame
 
 from webviz.data.memory import DECODING
-from webviz_displays.octomap import ColorOccupancyGrid, OccupancyGrid, OccupancyMap
+from webviz_displays.octomap import (
+    ColorOccupancyGrid,
+    OccupancyGrid,
+    OccupancyGridStamped,
+    OccupancyMap,
+    OccupancyMapStamped,
+)
 from webviz_displays.octomap import octree as octree_module
 from webviz_displays.octomap import projection as projection_module
 from webviz_displays.octomap import seen as seen_module
@@ -335,3 +345,45 @@ def test_a_dense_tree_is_read_beside_the_frame_loop(bench: Benches, kind: Any) -
     assert at.runner.is_busy()
     at.settle()
     assert at.nodes()
+
+
+class TestColorOccupancyGrid(BuiltInChecks):
+    display = ColorOccupancyGrid
+    needs: ClassVar = {"max_height": {"max_height": 0.3}, "min_height": {"min_height": 0.3}}
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame(OCTOMAP, hill("ColorOcTree"))(bench)
+
+
+class TestOccupancyGrid(BuiltInChecks):
+    display = OccupancyGrid
+    messages = MESSAGES
+    needs: ClassVar = {"max_height": {"max_height": 0.3}, "min_height": {"min_height": 0.3}}
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame(OCTOMAP, hill("ColorOcTree"))(bench)
+
+
+class TestOccupancyGridStamped(BuiltInChecks):
+    display = OccupancyGridStamped
+    needs: ClassVar = {"max_height": {"max_height": 0.3}, "min_height": {"min_height": 0.3}}
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame(OCTOMAP, hill("ColorOcTree"))(bench)
+
+
+class TestOccupancyMap(BuiltInChecks):
+    display = OccupancyMap
+    messages = MESSAGES
+    later = ("max_octree_depth",)
+
+    def publish(self, bench: Any) -> None:
+        seen_from_above(bench)
+
+
+class TestOccupancyMapStamped(BuiltInChecks):
+    display = OccupancyMapStamped
+    later = ("max_octree_depth",)
+
+    def publish(self, bench: Any) -> None:
+        seen_from_above(bench)

@@ -1,8 +1,11 @@
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
+from built_in_checks import BuiltInChecks
+from display_messages import MESSAGES
+from display_scenes import odometries
 from numpy.typing import NDArray
 
 from webviz.data.rotations import matrices
@@ -298,3 +301,20 @@ def test_far_from_the_origin_a_trail_keeps_its_millimetres(bench: Benches) -> No
     xyz = made.nodes()["poses"].segments[:, 0].astype(float) + made.poses()["poses"].position
     expected = [(448_262.123, 5_411_932.456, 0), (448_262.373, 5_411_932.456, 0)]
     np.testing.assert_allclose(xyz, expected, atol=1e-4, rtol=0)
+
+
+class TestOdometry(BuiltInChecks):
+    display = Odometry
+    messages = MESSAGES
+    variants = (
+        Odometry,
+        lambda: Odometry(shape=PoseShape(value="Axes")),
+    )
+    later = ("angle_tolerance", "keep", "position_tolerance")
+    needs: ClassVar = {
+        "position_tolerance": {"angle_tolerance": 10.0},
+        "angle_tolerance": {"position_tolerance": 1000.0},
+    }
+
+    def publish(self, bench: Any) -> None:
+        odometries(bench)

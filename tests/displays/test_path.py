@@ -3,6 +3,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from built_in_checks import BuiltInChecks
+from display_messages import MESSAGES
+from display_scenes import paths
 
 from webviz_displays.path import Path
 
@@ -159,3 +162,17 @@ def test_far_from_the_origin_a_path_keeps_its_millimetres(shown: Benches) -> Non
     bench = shown(path((east, north, 0), (east + 0.25, north, 0)))
     expected = [[(10 - north, east, 0), (10 - north, east + 0.25, 0)]]
     np.testing.assert_allclose(bench.xyz("line"), expected, atol=1e-4, rtol=0)
+
+
+class TestPath(BuiltInChecks):
+    display = Path
+    messages = MESSAGES
+    variants = (
+        Path,
+        lambda: Path(line_style="Billboards", pose_style="Axes"),
+        lambda: Path(pose_style="Arrows"),
+    )
+    later = ("buffer_length",)
+
+    def publish(self, bench: Any) -> None:
+        paths(bench)

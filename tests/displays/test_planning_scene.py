@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import octrees
 import pytest
+from built_in_checks import BuiltInChecks
+from display_messages import MESSAGES
+from display_scenes import OTHER_LINKS
+from moveit_scenes import moveit
 from robot_arm import ARM, describe, is_loaded, wait
 
 from webviz import Topic
@@ -336,3 +340,14 @@ def test_a_hand_holds_a_limited_number_of_objects(
     text = world.statuses()["Objects"][1]
     assert text == "Only the first 3 attached objects are kept."
     assert "3 attached" in world.statuses()["Scene"][1]
+
+
+class TestPlanningScene(BuiltInChecks):
+    display = PlanningScene
+    messages = MESSAGES
+    later = ("move_group_namespace",)
+    elsewhere = ("scene_geometry.scene_display_time",)
+    values: ClassVar = {"scene_robot.links": OTHER_LINKS}
+
+    def publish(self, bench: Any) -> None:
+        moveit(bench)

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, ClassVar
 
 import pytest
+from built_in_checks import BuiltInChecks
+from display_messages import MESSAGES as SCENE_MESSAGES
+from display_scenes import OTHER_LINKS
 from moveit_scenes import NUMBERS, SOLUTION, TASK, plan_task
 
 from webviz_displays.moveit import MotionPlanningTasks
@@ -114,3 +117,25 @@ def test_an_answer_without_a_solution_is_said(planned: Any) -> None:
     planned.settle()
     text = "Solution 5: The task does not have it any more. Choose another."
     assert planned.statuses()["Solution"] == ("WARN", text)
+
+
+class TestMotionPlanningTasks(BuiltInChecks):
+    display = MotionPlanningTasks
+    messages = SCENE_MESSAGES
+    later = ("interrupt_display", "loop_animation", "state_display_time", "use_sim_time")
+    needs: ClassVar = {
+        "interrupt_display": {"state_display_time": "3x", "use_sim_time": True},
+        "state_display_time": {"use_sim_time": True},
+        "trail_step_size": {"paused": True},
+        "loop_animation": {
+            "state_display_time": "3x",
+            "use_sim_time": True,
+            "interrupt_display": True,
+        },
+        "paused": {"state_display_time": "3x"},
+        "use_sim_time": {"state_display_time": "3x"},
+    }
+    values: ClassVar = {"robot.links": OTHER_LINKS}
+
+    def publish(self, bench: Any) -> None:
+        plan_task(bench)

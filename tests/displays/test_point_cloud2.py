@@ -1,11 +1,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
+from built_in_checks import BuiltInChecks
 from clouds import CLOUD, FLOAT32, XYZ, cloud, xyz_cloud
+from display_messages import MESSAGES
+from display_scenes import clouds
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -453,3 +456,17 @@ def test_a_cloud_waits_for_its_transform(bench: Benches) -> None:
 def test_voxels_have_a_least_size() -> None:
     xyz = np.array([[0.0, 0.0, 0.0], [0.00005, 0.0, 0.0], [0.00015, 0.0, 0.0]], np.float32)
     assert one_per_voxel(xyz, 0.0).tolist() == [0, 2]
+
+
+class TestPointCloud2(BuiltInChecks):
+    display = PointCloud2
+    messages = MESSAGES
+    variants = (
+        PointCloud2,
+        lambda: PointCloud2(color_transformer="RGB8", style="Points", decay_time=1.0),
+        lambda: PointCloud2(color_transformer="AxisColor", style="Boxes", voxel_size=0.1),
+    )
+    needs: ClassVar = {"max_points": {"max_points": 3}}
+
+    def publish(self, bench: Any) -> None:
+        clouds(bench)

@@ -8,6 +8,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from built_in_checks import BuiltInChecks
+from display_messages import MESSAGES
+from plain_scenes import COVARIANCE, at, in_moving_frame, turned
 
 from webviz.data.rotations import matrices
 from webviz_displays.poses import (
@@ -210,3 +213,67 @@ def test_far_from_the_origin_points_and_poses_keep_their_millimetres(shown: Benc
     assert at.xyz("poses")[0, 0] == pytest.approx((10, east, 0), abs=1e-4)
     at = shown(PoseArray(shape="Axes"), ARRAY, {"poses": [pose(east)]})
     assert at.xyz("poses")[0] == pytest.approx((10, east, 0), abs=1e-4)
+
+
+class TestParticleCloud(BuiltInChecks):
+    display = ParticleCloud
+    messages = MESSAGES
+    variants = (
+        lambda: ParticleCloud(shape="Axes"),
+        ParticleCloud,
+    )
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame(
+            "nav2_msgs/msg/ParticleCloud",
+            *({"particles": [{"pose": at(x), "weight": 0.3}]} for x in (0.0, 1.0)),
+        )(bench)
+
+
+class TestPointStamped(BuiltInChecks):
+    display = PointStamped
+    messages = MESSAGES
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame(
+            "geometry_msgs/msg/PointStamped", {"point": {"x": 1.0}}, {"point": {"x": 2.0}}
+        )(bench)
+
+
+class TestPose(BuiltInChecks):
+    display = Pose
+    messages = MESSAGES
+    variants = (
+        Pose,
+        lambda: Pose(shape="Axes", history_length=3),
+    )
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame("geometry_msgs/msg/PoseStamped", {"pose": at(1.0)}, {"pose": at(2.0)})(
+            bench
+        )
+
+
+class TestPoseArray(BuiltInChecks):
+    display = PoseArray
+    messages = MESSAGES
+    variants = (
+        PoseArray,
+        lambda: PoseArray(shape="Arrow (3D)", history_length=3),
+    )
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame(
+            "geometry_msgs/msg/PoseArray", {"poses": [at(1.0)]}, {"poses": [at(2.0), at(3.0)]}
+        )(bench)
+
+
+class TestPoseWithCovariance(BuiltInChecks):
+    display = PoseWithCovariance
+    messages = MESSAGES
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame(
+            "geometry_msgs/msg/PoseWithCovarianceStamped",
+            *({"pose": {"pose": turned(x), "covariance": COVARIANCE}} for x in (1.0, 2.0)),
+        )(bench)

@@ -1,9 +1,16 @@
 """Links and joints of the RobotModel display: where they are, and what is said of them."""
 
+from typing import Any, ClassVar
+
 import pytest
+from built_in_checks import BuiltInChecks
+from display_messages import MESSAGES
+from display_scenes import OTHER_LINKS
+from moveit_scenes import moveit
 from robot_arm import ARM, describe, place_arm
 
 from webviz import Mesh
+from webviz_displays.moveit import RobotState
 from webviz_displays.robot_model import RobotModel
 from webviz_displays.robot_model.parts import GREY, JointSettings, LinkSettings
 
@@ -148,3 +155,12 @@ def test_a_tick_without_news_makes_no_node_anew(bench) -> None:
     assert at.poses()["tool visual grip"].position == pytest.approx((1.0, 4.0, 2.0))
     assert all(after[key] is before[key] for key in before)
     assert all(isinstance(node, Mesh) for node in after.values())
+
+
+class TestRobotState(BuiltInChecks):
+    display = RobotState
+    messages = MESSAGES
+    values: ClassVar = {"links": OTHER_LINKS}
+
+    def publish(self, bench: Any) -> None:
+        moveit(bench)

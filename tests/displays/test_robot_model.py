@@ -5,12 +5,17 @@ import subprocess
 import sys
 import threading
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from types import FrameType, SimpleNamespace
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
+import trimesh
+from built_in_checks import BuiltInChecks
+from display_messages import MESSAGES
+from display_scenes import OTHER_LINKS, robots
 from processes import command_lines, send
 from psutil import wait_procs
 from robot_arm import ARM, describe, is_loaded, place_arm, wait
@@ -20,8 +25,10 @@ import webviz
 import webviz_urdf
 from webviz.data.disk import MAX_THREADS, within
 from webviz.engine.pipeline.background import Workers
+from webviz.shell.testing.changes import Change
 from webviz_displays.robot_model import RobotModel
 from webviz_displays.robot_model import loading as disk_of_robots
+from webviz_displays.robot_model.parts import JointSettings
 from webviz_urdf import Loading, LoadingStopped, LoadRequest
 
 DEMO = Path(webviz_urdf.__file__).parent / "demo" / "robot.urdf"
@@ -319,3 +326,28 @@ def test_what_reads_meshes_is_imported_by_the_process_that_loads_robots_only() -
         "assert not {'trimesh', 'yourdfpy', 'scipy', 'lxml'} & sys.modules.keys()"
     )
     subprocess.run([sys.executable, "-c", script], check=True)
+
+
+class TestRobotModel(BuiltInChecks):
+    display = RobotModel
+    messages = MESSAGES
+    later = ("update_interval",)
+    values: ClassVar = {
+        "links": OTHER_LINKS,
+        "joints": [
+            {"slide": JointSettings(show_axes=True)},
+            {"slide": JointSettings(show_joint_axis=True)},
+        ],
+    }
+
+    def publish(self, bench: Any) -> None:
+        robots(bench)
+
+    def other_values(self, changed: Change, folder: Path) -> Sequence[Any]:
+        if changed.path != "package_paths":
+            return super().other_values(changed, folder)
+        package = folder / "somewhere"
+        package.mkdir()
+        (package / "package.xml").write_text("<package><name>somewhere</name></package>")
+        trimesh.creation.box().export(package / "part.stl")
+        return [[str(folder)]]

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
+from built_in_checks import BuiltInChecks
+from display_messages import MESSAGES
+from plain_scenes import in_moving_frame, old_clouds
 
 from webviz.data.rotations import matrices
 from webviz_displays.sensors import (
@@ -147,3 +150,65 @@ def test_a_channel_of_another_length_is_named(shown: Benches) -> None:
     assert len(at.nodes()["points"].xyz) == 2
     level, text = at.statuses()["Data"]
     assert (level, "ignored: 'intensity' with 1." in text) == ("WARN", True)
+
+
+class TestFluidPressure(BuiltInChecks):
+    display = FluidPressure
+    messages = MESSAGES
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame(
+            "sensor_msgs/msg/FluidPressure", {"fluid_pressure": 1e5}, {"fluid_pressure": 1.01e5}
+        )(bench)
+
+
+class TestIlluminance(BuiltInChecks):
+    display = Illuminance
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame(
+            "sensor_msgs/msg/Illuminance", {"illuminance": 300.0}, {"illuminance": 400.0}
+        )(bench)
+
+
+class TestPointCloud(BuiltInChecks):
+    display = PointCloud
+    messages = MESSAGES
+    variants = (lambda: PointCloud(style="Boxes"),)
+    needs: ClassVar = {"max_points": {"max_points": 3}}
+
+    def publish(self, bench: Any) -> None:
+        old_clouds(bench)
+
+
+class TestRange(BuiltInChecks):
+    display = Range
+    messages = MESSAGES
+    later = ("buffer_length",)
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame(
+            "sensor_msgs/msg/Range",
+            *({"field_of_view": 0.5, "max_range": 4.0, "range": each} for each in (1.0, 2.0)),
+        )(bench)
+
+
+class TestRelativeHumidity(BuiltInChecks):
+    display = RelativeHumidity
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame(
+            "sensor_msgs/msg/RelativeHumidity",
+            {"relative_humidity": 0.3},
+            {"relative_humidity": 0.4},
+        )(bench)
+
+
+class TestTemperature(BuiltInChecks):
+    display = Temperature
+    messages = MESSAGES
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame(
+            "sensor_msgs/msg/Temperature", {"temperature": 30.0}, {"temperature": 40.0}
+        )(bench)

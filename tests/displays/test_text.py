@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
+from built_in_checks import BuiltInChecks
+from display_scenes import texts
 
 from webviz import Topic
 from webviz.api.pictures import Readout
@@ -141,3 +143,20 @@ def test_pictures_have_the_text_too(at: Any) -> None:
     picture = np.asarray(written(readout(at), (200, 120)))
     assert picture.shape == (120, 200, 3)
     assert (picture.max(axis=(1, 2)) > 200).sum() > 20
+
+
+class TestText(BuiltInChecks):
+    display = Text
+    later = ("update_interval",)
+    needs: ClassVar = {
+        "enabled": {"topic": Topic("/any")},
+        "topic": {"topic": Topic("/any")},
+        "fields": {"topic": Topic("/any")},
+        "digits": {"topic": Topic("/any")},
+        "array_length": {"topic": Topic("/any")},
+        "update_interval": {"topic": Topic("/any")},
+    }
+    values: ClassVar = {"fields": [["voltage"]]}
+
+    def publish(self, bench: Any) -> None:
+        texts(bench)

@@ -1,7 +1,11 @@
 """The TF display: frames to batched nodes, and how they age."""
 
+from typing import Any
+
 import numpy as np
 import pytest
+from built_in_checks import BuiltInChecks
+from display_scenes import frames
 
 from webviz import Axes as AxesNode
 from webviz import Instances, Labels
@@ -248,3 +252,11 @@ def test_a_new_fixed_frame_places_all_frames_anew_without_making_them_young(benc
     places = dict(zip(at.nodes()["names"].texts, near(at, "names").tolist(), strict=True))
     assert places["map"] == pytest.approx([-1.0, 0.0, 0.0])
     assert len(at.nodes()["old axes"].positions) == 3
+
+
+class TestTF(BuiltInChecks):
+    display = TF
+    later = ("update_interval",)
+
+    def publish(self, bench: Any) -> None:
+        frames(bench)

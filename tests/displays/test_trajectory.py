@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
+from built_in_checks import BuiltInChecks
+from display_messages import MESSAGES
+from display_scenes import OTHER_LINKS
+from moveit_scenes import moveit
 from robot_arm import describe, is_loaded, wait
 
 from webviz import Instances, Mesh, Topic
@@ -264,3 +268,51 @@ def test_the_description_must_come_and_be_readable(bench: Benches) -> None:
     at.send("std_msgs/msg/String", {"data": "<robot"}, topic="/robot_description")
     wait(at, lambda: is_loaded(at))
     wait(at, lambda: at.statuses()["URDF"][0] == "ERROR")
+
+
+class TestMotionPlanning(BuiltInChecks):
+    display = MotionPlanning
+    later = (
+        "move_group_namespace",
+        "planned_path.interrupt_display",
+        "planned_path.loop_animation",
+        "planned_path.state_display_time",
+        "planned_path.use_sim_time",
+    )
+    elsewhere = ("scene_geometry.scene_display_time",)
+    needs: ClassVar = {
+        "planning_request.start_state_color": {"planning_request.query_start_state": True},
+        "planning_request.start_state_alpha": {"planning_request.query_start_state": True},
+        "planning_request.goal_state_color": {"planning_request.query_goal_state": True},
+        "planning_request.goal_state_alpha": {"planning_request.query_goal_state": True},
+        "planned_path.interrupt_display": {"planned_path.use_sim_time": True},
+        "planned_path.state_display_time": {"planned_path.use_sim_time": True},
+        "planned_path.trail_step_size": {"planned_path.paused": True},
+        "planned_path.loop_animation": {
+            "planned_path.use_sim_time": True,
+            "planned_path.interrupt_display": True,
+        },
+        "workspace_center": {"planning_request.show_workspace": True},
+        "workspace_size": {"planning_request.show_workspace": True},
+    }
+    values: ClassVar = {"scene_robot.links": OTHER_LINKS, "planned_path.links": OTHER_LINKS}
+
+    def publish(self, bench: Any) -> None:
+        moveit(bench)
+
+
+class TestTrajectory(BuiltInChecks):
+    display = Trajectory
+    messages = MESSAGES
+    variants = (lambda: Trajectory(show_trail=True),)
+    later = ("interrupt_display", "loop_animation", "state_display_time", "use_sim_time")
+    needs: ClassVar = {
+        "interrupt_display": {"use_sim_time": True},
+        "state_display_time": {"use_sim_time": True},
+        "trail_step_size": {"paused": True},
+        "loop_animation": {"use_sim_time": True, "interrupt_display": True},
+    }
+    values: ClassVar = {"links": OTHER_LINKS}
+
+    def publish(self, bench: Any) -> None:
+        moveit(bench)

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
+from built_in_checks import BuiltInChecks
+from display_messages import MESSAGES
+from plain_scenes import MOTION, in_moving_frame, velocity
+from plain_scenes import NAN as SCENE_NAN
 
 from webviz_displays.vectors import AccelStamped, Twist, TwistStamped, Wrench
 
@@ -148,3 +152,59 @@ def test_a_velocity_without_a_header_moves_with_the_reference_frame(bench: Bench
         np.testing.assert_allclose(at.xyz("linear shafts"), [(x + 1.0, 0, 0)], atol=1e-6)
     at.set("reference_frame", "<Fixed Frame>")
     np.testing.assert_allclose(at.xyz("linear shafts"), [(1.0, 0, 0)], atol=1e-6)
+
+
+class TestAccelStamped(BuiltInChecks):
+    display = AccelStamped
+    messages = MESSAGES
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame("geometry_msgs/msg/AccelStamped", {"accel": MOTION}, {"accel": MOTION})(
+            bench
+        )
+
+
+class TestTwist(BuiltInChecks):
+    display = Twist
+    messages = MESSAGES
+    variants = (lambda: Twist(reference_frame="sensor"),)
+
+    def publish(self, bench: Any) -> None:
+        velocity(bench)
+
+
+class TestTwistStamped(BuiltInChecks):
+    display = TwistStamped
+    messages = MESSAGES
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame("geometry_msgs/msg/TwistStamped", {"twist": MOTION}, {"twist": MOTION})(
+            bench
+        )
+
+
+class TestWrench(BuiltInChecks):
+    display = Wrench
+    messages = MESSAGES
+    variants = (
+        Wrench,
+        lambda: Wrench(accept_nan_values=True, history_length=3),
+    )
+    needs: ClassVar = {
+        "alpha": {"accept_nan_values": True},
+        "arrow_width": {"accept_nan_values": True},
+        "force_color": {"accept_nan_values": True},
+        "force_arrow_scale": {"accept_nan_values": True},
+        "history_length": {"accept_nan_values": True},
+        "torque_color": {"accept_nan_values": True},
+        "torque_arrow_scale": {"accept_nan_values": True},
+    }
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame(
+            "geometry_msgs/msg/WrenchStamped",
+            *(
+                {"wrench": {"force": {"x": 1.0, "y": SCENE_NAN}, "torque": {"z": 1.0}}}
+                for _ in range(2)
+            ),
+        )(bench)

@@ -9,6 +9,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from built_in_checks import BuiltInChecks
+from display_messages import MESSAGES
+from mapping_scenes import VOXEL_GRID
+from plain_scenes import in_moving_frame
 
 from webviz_displays import voxel_grid as voxel_grid_module
 from webviz_displays.map import Costmap
@@ -137,3 +141,12 @@ def test_costs_have_the_colors_of_their_occupancies(bench: Benches) -> None:
     at.turn()
     assert at.nodes()["tile 0 0"].rgba[1, 3].tolist() == [200, 200, 200, 255]
     assert at.statuses()["Map"][0] == "OK"
+
+
+class TestVoxelGrid(BuiltInChecks):
+    display = VoxelGrid
+    messages = MESSAGES
+    variants = (lambda: VoxelGrid(show_unknown=True, show_free=True),)
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame("nav2_msgs/msg/VoxelGrid", VOXEL_GRID)(bench)

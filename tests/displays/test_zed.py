@@ -7,7 +7,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from built_in_checks import BuiltInChecks
+from display_messages import MESSAGES
 from perception_scenes import NAN, ZED_CAR, ZED_OBJECTS, ZED_PERSON, ZED_SCENE
+from plain_scenes import in_moving_frame
 
 from webviz_displays.zed import ZedOdDisplay, display
 from webviz_displays.zed.bodies import BODIES
@@ -115,3 +118,11 @@ def test_too_many_objects_are_cut_with_a_warning(
     at = shown(ZED_CAR, ZED_PERSON)
     assert at.nodes()["labels"].texts == ("3-Vehicle [Car]",)
     assert at.statuses()["Objects"] == ("WARN", "1 of 2 objects shown: 1 too many.")
+
+
+class TestZedOdDisplay(BuiltInChecks):
+    display = ZedOdDisplay
+    messages = MESSAGES
+
+    def publish(self, bench: Any) -> None:
+        in_moving_frame(ZED_OBJECTS, ZED_SCENE)(bench)

@@ -6,11 +6,11 @@ import random
 from collections.abc import Mapping
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, cast
 
 import pytest
 from bags import START_NS, TF, Bag, ns
-from display_scenes import SCENES
+from built_in_checks import built_in_checks
 
 from webviz.api.declared import Topic, make
 from webviz.api.display import inputs
@@ -20,6 +20,7 @@ from webviz.files.config import Config, dump
 from webviz.shell.testing import check_seeks
 from webviz.shell.testing.messages import header
 
+CHECKS = built_in_checks()
 MAX_STEP_S = 0.5
 """Longest time between two ticks of a scene."""
 NOT_COMPARED = {"Grid", "Axes", "MotionPlanningTasks"}
@@ -134,7 +135,7 @@ class Tape:
             self._bag.put(self._at_s, topic, values)
 
 
-@pytest.mark.parametrize("name", sorted(SCENES.keys() - NOT_COMPARED))
+@pytest.mark.parametrize("name", sorted(CHECKS.keys() - NOT_COMPARED))
 def test_a_seek_shows_what_playing_shows(tmp_path: Path, name: str) -> None:
     display = make(display_types()[name], dict(SHORT.get(name, {})))
     for path, _, topic in inputs(display):
@@ -144,7 +145,7 @@ def test_a_seek_shows_what_playing_shows(tmp_path: Path, name: str) -> None:
     bag = Bag()
     tape = Tape(bag, display, chance)
     for _ in range(4):
-        SCENES[name](tape)
+        CHECKS[name].publish(cast("Any", tape))
         tape.turn(chance.uniform(0.0, 5.0))
     config = Config(displays=[display])
     config.set_fixed_frame("map")

@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
-
-from plain_scenes import in_moving_frame
 
 Values = dict[str, Any]
 
@@ -137,14 +134,6 @@ ALL_FOUND, ALL_FOLLOWED, ALL_FORESEEN = messages_of(
 )
 """One of each class, too."""
 
-AUTOWARE_SCENES: dict[str, Callable[[Any], None]] = {
-    "AutowarePath": in_moving_frame(PATH, BOUNDED),
-    "AutowareTrajectory": in_moving_frame(TRAJECTORY, TIMED),
-    "DetectedObjects": in_moving_frame(DETECTED, ALL_FOUND),
-    "TrackedObjects": in_moving_frame(TRACKED, ALL_FOLLOWED),
-    "PredictedObjects": in_moving_frame(PREDICTED, ALL_FORESEEN),
-    "PoseHistory": in_moving_frame(POSE, *PASSED * 110),  # more than its default shows
-}
 
 AUTOWARE_MESSAGES: dict[str, Values] = {
     PATH: BOUNDED,

@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import photos
-from autoware_scenes import AUTOWARE_SCENES
 from clouds import CLOUD, xyz_cloud
-from mapping_scenes import MAPPING_SCENES
-from moveit_scenes import moveit, plan_task, settle
-from perception_scenes import PERCEPTION_SCENES
-from plain_scenes import PLAIN_SCENES
-from rtabmap_scenes import RTABMAP_SCENES
+from moveit_scenes import settle
 
 from webviz.api.display import inputs
 from webviz.shell.testing.messages import header
+from webviz_displays.robot_model.parts import LinkSettings
 
 SECOND = 1_000_000_000
 
@@ -225,30 +220,10 @@ def texts(bench: Any) -> None:
         bench.turn()
 
 
-SCENES: dict[str, Callable[[Any], None]] = {
-    "Axes": robot_frame,
-    "Camera": cameras,
-    "CameraInfo": camera_infos,
-    "DepthCloud": depth_clouds,
-    "Grid": robot_frame,
-    "Image": images,
-    "ImagePlane": image_planes,
-    "InteractiveMarkers": interactive_markers,
-    "LaserScan": scans,
-    "Map": maps,
-    "Marker": markers,
-    "MarkerArray": markers,
-    "Odometry": odometries,
-    "Path": paths,
-    "PointCloud2": clouds,
-    "RobotModel": robots,
-    "TF": frames,
-    "Text": texts,
-    "MotionPlanningTasks": plan_task,
-    **dict.fromkeys(("MotionPlanning", "PlanningScene", "RobotState", "Trajectory"), moveit),
-    **PLAIN_SCENES,
-    **MAPPING_SCENES,
-    **PERCEPTION_SCENES,
-    **AUTOWARE_SCENES,
-    **RTABMAP_SCENES,
-}
+OTHER_LINKS = [
+    {"base": LinkSettings(enabled=False)},
+    {"base": LinkSettings(alpha=0.5)},
+    {"base": LinkSettings(show_axes=True)},
+    {"rider": LinkSettings(show_trail=True)},
+]
+"""Each differs from no settings of links in one."""

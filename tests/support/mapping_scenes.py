@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 from grid_maps import GRID_MAP, grid_map
 from octrees import OCTOMAP, Node, full
-from plain_scenes import in_moving_frame
 
 SECOND = 1_000_000_000
 
@@ -112,22 +110,6 @@ def seen_from_above(bench: Any) -> None:
     bench.send(type_name, update, frame="room", stamp_ns=stamp_ns, topic=topic)
     bench.turn()
 
-
-MAPPING_SCENES: dict[str, Callable[[Any], None]] = {
-    "OccupancyGrid": in_moving_frame(OCTOMAP, hill("ColorOcTree")),
-    "ColorOccupancyGrid": in_moving_frame(OCTOMAP, hill("ColorOcTree")),
-    "OccupancyGridStamped": in_moving_frame(OCTOMAP, hill("ColorOcTree")),
-    "OccupancyMap": seen_from_above,
-    "OccupancyMapStamped": seen_from_above,
-    "GridMap": in_moving_frame(GRID_MAP, terrain(), terrain()),
-    "VoxelGrid": in_moving_frame("nav2_msgs/msg/VoxelGrid", VOXEL_GRID),
-    "MapGraph": in_moving_frame("rtabmap_msgs/msg/MapGraph", GRAPH),
-    "NvbloxMesh": in_moving_frame("nvblox_msgs/msg/Mesh", MESH),
-    "NvbloxVoxelBlockLayer": in_moving_frame("nvblox_msgs/msg/VoxelBlockLayer", VOXELS),
-    "Costmap": costmaps,
-    "Imu": in_moving_frame("sensor_msgs/msg/Imu", IMU),
-    "Mag": in_moving_frame("sensor_msgs/msg/MagneticField", FIELD),
-}
 
 MAPPING_MESSAGES: dict[str, dict[str, Any]] = {
     OCTOMAP: hill("OcTree"),

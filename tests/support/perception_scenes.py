@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from typing import Any
-
-from plain_scenes import in_moving_frame
 
 Values = dict[str, Any]
 NAN = float("nan")
@@ -60,9 +58,6 @@ ZED_PERSON = {
 ZED_SCENE = {"objects": [ZED_CAR, ZED_PERSON]}
 """A car that is tracked, and a person that is not, with a skeleton."""
 
-PERCEPTION_SCENES: dict[str, Callable[[Any], None]] = {
-    "ZedOdDisplay": in_moving_frame(ZED_OBJECTS, ZED_SCENE),
-}
 
 PERCEPTION_MESSAGES: dict[str, Values] = {
     ZED_OBJECTS: ZED_SCENE,

@@ -89,60 +89,6 @@ COVARIANCE = np.diag([0.1, 0.2, 0.3, 0.1, 0.2, 0.3]).ravel()
 MOTION = {"linear": {"x": 0.2, "y": 0.1}, "angular": {"z": 0.2}}
 NAN = float("nan")
 
-PLAIN_SCENES: dict[str, Callable[[Any], None]] = {
-    "AccelStamped": in_moving_frame(
-        "geometry_msgs/msg/AccelStamped", {"accel": MOTION}, {"accel": MOTION}
-    ),
-    "Effort": torques,
-    "FluidPressure": in_moving_frame(
-        "sensor_msgs/msg/FluidPressure", {"fluid_pressure": 1e5}, {"fluid_pressure": 1.01e5}
-    ),
-    "GridCells": in_moving_frame(
-        "nav_msgs/msg/GridCells",
-        *({"cell_width": 0.1, "cell_height": 0.2, "cells": [{"x": x}]} for x in (0.0, 1.0)),
-    ),
-    "Illuminance": in_moving_frame(
-        "sensor_msgs/msg/Illuminance", {"illuminance": 300.0}, {"illuminance": 400.0}
-    ),
-    "ParticleCloud": in_moving_frame(
-        "nav2_msgs/msg/ParticleCloud",
-        *({"particles": [{"pose": at(x), "weight": 0.3}]} for x in (0.0, 1.0)),
-    ),
-    "PointCloud": old_clouds,
-    "PointStamped": in_moving_frame(
-        "geometry_msgs/msg/PointStamped", {"point": {"x": 1.0}}, {"point": {"x": 2.0}}
-    ),
-    "Polygon": in_moving_frame(
-        "geometry_msgs/msg/PolygonStamped",
-        *({"polygon": {"points": [{"x": x}, {"y": x}, {"z": x}]}} for x in (1.0, 2.0)),
-    ),
-    "Pose": in_moving_frame("geometry_msgs/msg/PoseStamped", {"pose": at(1.0)}, {"pose": at(2.0)}),
-    "PoseArray": in_moving_frame(
-        "geometry_msgs/msg/PoseArray", {"poses": [at(1.0)]}, {"poses": [at(2.0), at(3.0)]}
-    ),
-    "PoseWithCovariance": in_moving_frame(
-        "geometry_msgs/msg/PoseWithCovarianceStamped",
-        *({"pose": {"pose": turned(x), "covariance": COVARIANCE}} for x in (1.0, 2.0)),
-    ),
-    "Range": in_moving_frame(
-        "sensor_msgs/msg/Range",
-        *({"field_of_view": 0.5, "max_range": 4.0, "range": each} for each in (1.0, 2.0)),
-    ),
-    "RelativeHumidity": in_moving_frame(
-        "sensor_msgs/msg/RelativeHumidity", {"relative_humidity": 0.3}, {"relative_humidity": 0.4}
-    ),
-    "Temperature": in_moving_frame(
-        "sensor_msgs/msg/Temperature", {"temperature": 30.0}, {"temperature": 40.0}
-    ),
-    "Twist": velocity,
-    "TwistStamped": in_moving_frame(
-        "geometry_msgs/msg/TwistStamped", {"twist": MOTION}, {"twist": MOTION}
-    ),
-    "Wrench": in_moving_frame(
-        "geometry_msgs/msg/WrenchStamped",
-        *({"wrench": {"force": {"x": 1.0, "y": NAN}, "torque": {"z": 1.0}}} for _ in range(2)),
-    ),
-}
 
 UNTURNED = {"w": 1.0}
 POSE = {"position": {"x": 1.0}, "orientation": UNTURNED}

@@ -11,7 +11,6 @@ import numpy as np
 import photos
 from numpy.typing import NDArray
 from PIL import Image
-from plain_scenes import in_moving_frame
 
 Values = dict[str, Any]
 
@@ -99,9 +98,5 @@ CLOSED = {
 }
 """Information of a node that closes a loop."""
 
-RTABMAP_SCENES: dict[str, Callable[[Any], None]] = {
-    "MapCloud": in_moving_frame(MAP_DATA, MAPPED),
-    "MapInfo": in_moving_frame(INFO, CLOSED),
-}
 RTABMAP_MESSAGES: dict[str, Values] = {MAP_DATA: MAPPED, INFO: CLOSED}
 """A message of each type that draws something."""
