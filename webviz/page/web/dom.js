@@ -43,6 +43,15 @@ export function set(element, attributes) {
 }
 
 /**
+ * The 2D context of a canvas, which has no other.
+ *
+ * @param {HTMLCanvasElement} canvas
+ * @param {CanvasRenderingContext2DSettings} [settings]
+ */
+export const contextOf = (canvas, settings) =>
+  /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", settings));
+
+/**
  * Changes the text of an element, if it is another one.
  *
  * @param {Element} element

@@ -1,5 +1,6 @@
 // Draws curves, grid and cursor of a chart on a canvas.
 
+import { contextOf } from "../dom.js";
 import { timeOfDay } from "../shell/time_text.js";
 import { visit } from "./curves.js";
 import { numberText, share, ticks } from "./scale.js";
@@ -37,7 +38,7 @@ export function draw(canvas, { curves, colors, times, values, cursor }) {
   const { clientWidth: width, clientHeight: height } = canvas;
   const [w, h] = [Math.round(width * ratio), Math.round(height * ratio)];
   if (canvas.width !== w || canvas.height !== h) Object.assign(canvas, { width: w, height: h });
-  const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+  const context = contextOf(canvas);
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.clearRect(0, 0, width, height);
   const area = inside(width, height);

@@ -1,6 +1,11 @@
 // Bends images, so that they look as if taken without lens distortion: a grid of triangles, whose
 // corners the server computes.
 
+/** @import {PictureWarp} from "../messages.js" */
+/** @import {Vec2} from "../types.js" */
+
+/** @typedef {(image: TexImageSource, warp: PictureWarp, width: number, height: number) => HTMLCanvasElement} Bench */
+
 const VERTEX = `
   attribute vec2 to;
   attribute vec2 from;
@@ -18,9 +23,16 @@ const FRAGMENT = `
     gl_FragColor = texture2D(image, place);
   }`;
 
+/** @type {Bench | null} */
 let bench = null; // one for all images: browsers have few contexts
 
-/** Draws `image` bent by `warp` into a 2D context, over all of its canvas. */
+/**
+ * Draws `image` bent by `warp` into a 2D context, over all of its canvas.
+ *
+ * @param {HTMLCanvasElement} image
+ * @param {PictureWarp} warp
+ * @param {CanvasRenderingContext2D} context
+ */
 export function bend(image, warp, context) {
   bench ??= makeBench();
   const { width, height } = context.canvas;
@@ -28,6 +40,7 @@ export function bend(image, warp, context) {
   context.drawImage(bench(image, warp, width, height), 0, 0);
 }
 
+/** @returns {Bench} */
 function makeBench() {
   const canvas = document.createElement("canvas");
   const gl = canvas.getContext("webgl", { premultipliedAlpha: true, antialias: true });
@@ -35,7 +48,7 @@ function makeBench() {
   const program = gl.createProgram();
   const sources = { [gl.VERTEX_SHADER]: VERTEX, [gl.FRAGMENT_SHADER]: FRAGMENT };
   for (const [type, source] of Object.entries(sources)) {
-    const shader = gl.createShader(Number(type));
+    const shader = /** @type {WebGLShader} */ (gl.createShader(Number(type)));
     gl.shaderSource(shader, source);
     gl.compileShader(shader);
     gl.attachShader(program, shader);
@@ -57,6 +70,7 @@ function makeBench() {
     gl.enableVertexAttribArray(at);
     gl.vertexAttribPointer(at, 2, gl.FLOAT, false, 16, 8 * i);
   }
+  /** @type {PictureWarp | null} */
   let loaded = null;
   let corners = 0;
   return (image, warp, width, height) => {
@@ -77,8 +91,13 @@ function makeBench() {
   };
 }
 
-// Cells with a corner that the lens does not see are left out.
+/**
+ * Cells with a corner that the lens does not see are left out.
+ *
+ * @param {PictureWarp} warp
+ */
 function trianglesOf({ rows, columns, places }) {
+  /** @type {number[]} */
   const found = [];
   for (let row = 0; row + 1 < rows; row++) {
     for (let column = 0; column + 1 < columns; column++) {
@@ -92,23 +111,35 @@ function trianglesOf({ rows, columns, places }) {
         const at = 2 * (r * columns + c);
         return [c / (columns - 1), r / (rows - 1), places[at], places[at + 1]];
       });
-      if (cell.flat().includes(null)) continue;
-      for (const corner of [0, 1, 2, 2, 1, 3]) found.push(...cell[corner]);
+      const corners = cell.map((corner) => corner.filter((each) => each !== null));
+      if (corners.some((corner) => corner.length < 4)) continue;
+      for (const corner of [0, 1, 2, 2, 1, 3]) found.push(...corners[corner]);
     }
   }
   return new Float32Array(found);
 }
 
-/** The place of the image, as shares of its size, that is shown at a place of the bent one; or null. */
-export function straight({ rows, columns, places }, /** @type {number[]} */ [x, y]) {
+/**
+ * The place of the image, as shares of its size, that is shown at a place of the bent one; or null.
+ *
+ * @param {PictureWarp} warp
+ * @param {Vec2} place
+ * @returns {Vec2 | null}
+ */
+export function straight({ rows, columns, places }, [x, y]) {
   const [across, down] = [x * (columns - 1), y * (rows - 1)];
   const column = Math.min(Math.floor(across), columns - 2);
   const row = Math.min(Math.floor(down), rows - 2);
   if (column < 0 || row < 0 || across > columns - 1 || down > rows - 1) return null;
   const [u, v] = [across - column, down - row];
   const share = [0, 1].map((axis) => {
+    /**
+     * @param {number} r
+     * @param {number} c
+     */
     const at = (r, c) => places[2 * ((row + r) * columns + column + c) + axis] ?? NaN;
     return (at(0, 0) * (1 - u) + at(0, 1) * u) * (1 - v) + (at(1, 0) * (1 - u) + at(1, 1) * u) * v;
   });
-  return share.every((each) => each >= 0 && each < 1) ? share : null;
+  const isIn = share.every((each) => each >= 0 && each < 1);
+  return isIn ? [share[0], share[1]] : null;
 }

@@ -2,23 +2,38 @@
 // picture. It has the same functions as that of a pane without the scene, see picture.js.
 
 import * as viser from "../viser_page.js";
+import { contextOf } from "../dom.js";
 import { bend, straight } from "./bend.js";
 import { boxIn, paint } from "./over.js";
 import { makePicture } from "./picture.js";
 
+/** @import {Picture, PictureListener} from "./picture.js" */
+/** @import {PictureCamera, PictureHeader, PictureWarp} from "../messages.js" */
+/** @import {Vec2} from "../types.js" */
+
 const SCENE_MS = 100; // at most so often for what moves in the scene; for each picture anyway
 
+/** @type {Set<() => void>} */
 const open = new Set();
 let isInstalled = false;
 
-/** `drawn()` is called whenever there is another picture, `fail(sentence)` if a video is damaged. */
+/**
+ * `drawn()` is called whenever there is another picture, `fail(sentence)` if a video is damaged.
+ *
+ * @param {HTMLCanvasElement} canvas
+ * @param {PictureListener} listener
+ * @returns {Picture}
+ */
 export function makeCamera(canvas, { drawn, fail }) {
-  const context = canvas.getContext("2d");
+  const context = contextOf(canvas);
   const sheet = document.createElement("canvas");
-  const bent = document.createElement("canvas").getContext("2d");
+  const bent = contextOf(document.createElement("canvas"));
   const picture = makePicture(sheet, { drawn: take, fail });
+  /** @type {PictureCamera | null} */
   let sight = null;
+  /** @type {PictureWarp | null} */
   let warp = null;
+  /** @type {string[]} */
   let hidden = [];
   let isDue = false;
   let painted = 0;
@@ -66,13 +81,21 @@ export function makeCamera(canvas, { drawn, fail }) {
 
   return {
     size: picture.size,
+    /**
+     * @param {PictureHeader} header
+     * @param {Uint8Array<ArrayBuffer>} data
+     */
     async take(header, data) {
       sight = header.sight ?? null;
       if (header.warp !== undefined) warp = header.warp;
       if (!sight) warp = null;
       return picture.take(header, data);
     },
-    /** Displays that are not drawn, by their ids. */
+    /**
+     * Displays that are not drawn, by their ids.
+     *
+     * @param {string[]} ids
+     */
     hide(ids) {
       if (ids.join() !== hidden.join()) ask();
       hidden = ids;
@@ -85,11 +108,16 @@ export function makeCamera(canvas, { drawn, fail }) {
         boxIn(sight, picture.size(), clientWidth, clientHeight).width * devicePixelRatio,
       );
     },
+    /**
+     * @param {{clientX: number, clientY: number}} pointer
+     * @returns {Vec2 | null}
+     */
     pixelAt({ clientX, clientY }) {
       const [wide, tall] = picture.size();
       const pane = canvas.getBoundingClientRect();
       if (!wide || !pane.width) return null;
       const box = boxIn(sight, picture.size(), pane.width, pane.height);
+      /** @type {Vec2} */
       const place = [
         (clientX - pane.left - box.left) / box.width,
         (clientY - pane.top - box.top) / box.height,

@@ -17,9 +17,12 @@ const LEAST_ROOM = 400; // for scene and images beside each other
 
 const narrow = matchMedia("(max-width: 640px)");
 
+/** @param {HTMLElement} page */
 export function install(page) {
+  /** @type {Map<string, ReturnType<typeof makePane>>} */
   const panes = new Map();
   const list = el("div", { class: "wv-panes" });
+  /** @type {HTMLElement} */
   const border = el("div", {
     class: "wv-dock-border",
     role: "separator",
@@ -41,8 +44,8 @@ export function install(page) {
     border,
   );
   page.append(dock);
-  const side = page.querySelector(".wv-side");
-  let size = recall("dock", null);
+  const side = /** @type {HTMLElement} */ (page.querySelector(".wv-side"));
+  let size = recall("dock", /** @type {number | null} */ (null));
 
   watch("panes", (rows) => {
     for (const [id, pane] of panes) {
@@ -52,12 +55,15 @@ export function install(page) {
     }
     const order = rows.get("order") ?? [];
     for (const id of order) {
-      if (!panes.has(id)) panes.set(id, makePane(id, layOut, Boolean(rows.get(id).hidden)));
-      panes.get(id).update(rows.get(id));
+      const row = rows.get(id);
+      if (!row) continue;
+      const pane = panes.get(id) ?? makePane(id, layOut, Boolean(row.hidden));
+      panes.set(id, pane);
+      pane.update(row);
     }
     setChildren(
       list,
-      order.map((id) => panes.get(id).element),
+      [...order].flatMap((id) => panes.get(id)?.element ?? []),
     );
     layOut();
   });
@@ -90,12 +96,14 @@ export function install(page) {
     frames.refresh();
   }
 
+  /** @param {PointerEvent} event */
   function drag(event) {
     if (!border.hasPointerCapture(event.pointerId)) return;
     const box = dock.getBoundingClientRect();
     resize(isBelow() ? box.bottom - event.clientY : box.right - event.clientX);
   }
 
+  /** @param {KeyboardEvent} event */
   function step(event) {
     const keys = isBelow() ? ["ArrowUp", "ArrowDown"] : ["ArrowLeft", "ArrowRight"];
     const change = { [keys[0]]: STEP, [keys[1]]: -STEP }[event.key];
@@ -106,6 +114,7 @@ export function install(page) {
     keep();
   }
 
+  /** @param {number | null} pixels */
   function resize(pixels) {
     size = pixels === null ? null : Math.max(MIN_SIZE, Math.round(pixels));
     layOut();

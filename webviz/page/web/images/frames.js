@@ -3,11 +3,22 @@
 import * as channel from "../channel.js";
 import constants from "../constants.js";
 
+/** @import {PictureHeader} from "../messages.js" */
+
+/**
+ * @typedef {{
+ *   width: () => number, take: (header: PictureHeader, data: Uint8Array<ArrayBuffer>) => unknown,
+ * }} PicturePane
+ */
+
 const COARSE = 64;
 const SETTLE_MS = 100;
 
+/** @type {Map<string, PicturePane>} */
 const panes = new Map();
+/** @type {Map<string, Promise<unknown>>} */
 const taken = new Map(); // by display, the promise of the newest picture
+/** @type {Map<string, number>} */
 const shown = new Map();
 let asked = ""; // each page says once that it has panes, and which it shows
 let timer = 0;
@@ -15,6 +26,7 @@ let isDue = false;
 
 channel.onBytes((buffer) => {
   const length = new DataView(buffer).getUint32(0, true);
+  /** @type {PictureHeader} */
   const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
   const data = new Uint8Array(buffer, 4 + length);
   const { display, number } = header;
@@ -34,12 +46,16 @@ document.addEventListener("visibilitychange", ask);
 /**
  * Shows the pictures of a display. `pane.width()` is how wide they are shown in pixels of the
  * screen, 0 for not at all; `pane.take(header, data)` resolves when the next picture can come.
+ *
+ * @param {string} display
+ * @param {PicturePane} pane
  */
 export function open(display, pane) {
   panes.set(display, pane);
   refresh();
 }
 
+/** @param {string} display */
 export function close(display) {
   panes.delete(display);
   taken.delete(display);
@@ -53,10 +69,11 @@ export function refresh() {
 }
 
 function ask() {
-  const all = document.hidden ? [] : [...panes].map(([display, pane]) => [display, pane.width()]);
-  const looked = all.filter(([, width]) => width > 0).slice(0, constants.MAX_PANES);
+  const all = document.hidden ? [] : [...panes];
+  const shown = all.map(([display, pane]) => ({ display, width: pane.width() }));
+  const looked = shown.filter(({ width }) => width > 0).slice(0, constants.MAX_PANES);
   const widths = Object.fromEntries(
-    looked.map(([display, width]) => [
+    looked.map(({ display, width }) => [
       display,
       Math.min(Math.ceil(width / COARSE) * COARSE, 1 << 16),
     ]),
@@ -67,7 +84,12 @@ function ask() {
   if (channel.isOpen()) channel.send({ type: "ShowPictures", widths });
 }
 
-// All panes in one message per frame that the browser draws.
+/**
+ * All panes in one message per frame that the browser draws.
+ *
+ * @param {string} display
+ * @param {number} number
+ */
 function confirm(display, number) {
   shown.set(display, number);
   if (isDue) return;

@@ -2,9 +2,15 @@
 
 import { drawSecond } from "../scene/second.js";
 
+/** @import {PictureCamera} from "../messages.js" */
+/** @import {Vec2} from "../types.js" */
+
 /**
  * Fills a 2D context. `image` shows what the camera sees, undistorted; `size` is that of the picture;
  * `sight` is that of the server, null for the picture alone; `hidden` has ids of displays to leave out.
+ *
+ * @param {CanvasRenderingContext2D} context
+ * @param {{image: HTMLCanvasElement, size: Vec2, sight: PictureCamera | null, hidden: string[]}} shown
  */
 export function paint(context, { image, size, sight, hidden }) {
   const { width, height } = context.canvas;
@@ -22,7 +28,14 @@ export function paint(context, { image, size, sight, hidden }) {
   context.globalAlpha = 1;
 }
 
-/** Where the picture is, in pixels of a pane so large. */
+/**
+ * Where the picture is, in pixels of a pane so large.
+ *
+ * @param {PictureCamera | null} sight
+ * @param {Vec2} size
+ * @param {number} width
+ * @param {number} height
+ */
 export function boxIn(sight, size, width, height) {
   const [wide, tall] = sight ? extent(sight, width, height) : fitting(size, width, height);
   const [left, top, right, bottom] = sight ? sight.part : [0, 0, 1, 1];
@@ -34,23 +47,47 @@ export function boxIn(sight, size, width, height) {
   };
 }
 
+/**
+ * @param {Vec2} size
+ * @param {number} width
+ * @param {number} height
+ * @returns {Vec2}
+ */
 function fitting([wide, tall], width, height) {
   const scale = Math.min(width / wide, height / tall);
   return [(wide * scale) / width, (tall * scale) / height];
 }
 
-// The size of all that the camera sees at a zoom of 1, as shares of the pane; as RViz does it.
+/**
+ * The size of all that the camera sees at a zoom of 1, as shares of the pane; as RViz does it.
+ *
+ * @param {PictureCamera} sight
+ * @param {number} width
+ * @param {number} height
+ * @returns {Vec2}
+ */
 function extent({ size, focal, zoom }, width, height) {
   const aspect = size[0] / focal[0] / (size[1] / focal[1]);
   const own = width / height;
   return aspect > own ? [zoom, (zoom / aspect) * own] : [(zoom / own) * aspect, zoom];
 }
 
-// Left, right, top and bottom of what the pane shows 1 m ahead of the camera, y upwards. The corner of
-// the first pixel is at -0.5, -0.5.
+/**
+ * Left, right, top and bottom of what the pane shows 1 m ahead of the camera, y upwards. The corner of
+ * the first pixel is at -0.5, -0.5.
+ *
+ * @param {PictureCamera} sight
+ * @param {number} width
+ * @param {number} height
+ */
 function edgesOf(sight, width, height) {
   const { size, focal, principal } = sight;
   const [wide, tall] = extent(sight, width, height);
+  /**
+   * @param {0 | 1} axis
+   * @param {number} share
+   * @param {number} side
+   */
   const at = (axis, share, side) =>
     (((1 + side / share) * size[axis]) / 2 - 0.5 - principal[axis]) / focal[axis];
   return [at(0, wide, -1), at(0, wide, 1), -at(1, tall, -1), -at(1, tall, 1)];

@@ -11,16 +11,25 @@ import { makePicture } from "./picture.js";
 import { makeReadout } from "./readout.js";
 import { makeZoom } from "./zoom.js";
 
+/** @import {ColorRange, PictureHeader, PixelValue} from "../messages.js" */
+/** @import {PaneCaption} from "../contents.js" */
+/** @import {Vec2} from "../types.js" */
+
 const READ_MS = 100;
 const RATE_MS = 1000;
 const TEXT = "application/json";
 
+/** @type {Map<string, (value: PixelValue) => void>} */
 const readers = new Map();
 channel.on("PixelValue", (value) => readers.get(value.display)?.(value));
 
 /**
  * The pane of a display; `changed()` is called when it takes more or less room. One `withScene` draws
  * the scene, too.
+ *
+ * @param {string} id
+ * @param {() => void} changed
+ * @param {boolean} withScene
  */
 export function makePane(id, changed, withScene) {
   const canvas = el("canvas", {
@@ -63,13 +72,18 @@ export function makePane(id, changed, withScene) {
   let isFolded = false;
   let said = "";
   let failed = "";
+  /** @type {{clientX: number, clientY: number} | null} */
   let mouse = null;
+  /** @type {Partial<PictureHeader>} */
   let last = {};
   let asked = 0;
   let later = 0;
+  /** @type {number[]} */
   let times = [];
+  /** @type {string | null} */
   let scale = null;
   let size = "";
+  /** @type {ReturnType<typeof makeReadout> | null} */
   let readout = null;
 
   function toggle() {
@@ -97,6 +111,7 @@ export function makePane(id, changed, withScene) {
     frames.refresh(); // a larger picture has more to show
   }
 
+  /** @param {boolean} wanted */
   function setFull(wanted) {
     element.classList.toggle("wv-pane-full", wanted);
     if (wanted) element.focus(); // for Escape
@@ -149,6 +164,7 @@ export function makePane(id, changed, withScene) {
   }
   const ticking = setInterval(tellRate, RATE_MS);
 
+  /** @param {ColorRange | undefined} wanted */
   function showLegend(wanted) {
     legend.hidden = !wanted;
     if (!wanted) return;
@@ -176,8 +192,11 @@ export function makePane(id, changed, withScene) {
     channel.send({ type: "ReadPixel", display: id, x: pixel[0], y: pixel[1] });
   }
 
-  const tell = (/** @type {number[]} */ [x, y], text) =>
-    setText(value, `x ${x} · y ${y}${text && ` · ${text}`}`);
+  /**
+   * @param {Vec2} pixel
+   * @param {string} text
+   */
+  const tell = ([x, y], text) => setText(value, `x ${x} · y ${y}${text && ` · ${text}`}`);
   readers.set(id, ({ x, y, text }) => mouse && tell([x, y], text));
   canvas.addEventListener("pointermove", (event) => {
     mouse = { clientX: event.clientX, clientY: event.clientY };
@@ -198,24 +217,33 @@ export function makePane(id, changed, withScene) {
     frames.refresh();
   }
 
+  /** @param {string} sentence */
   function fail(sentence) {
     failed = sentence;
     mark();
   }
 
+  /**
+   * @param {PictureHeader} header
+   * @param {Uint8Array<ArrayBuffer>} data
+   */
   async function take(header, data) {
     try {
       if (header.mime === TEXT) return takeText(header, data);
       await picture.take(header, data);
       last = header;
-      element.dataset.stamp = header.stamp;
+      element.dataset.stamp = String(header.stamp);
       showLegend(header.legend);
       read();
     } catch (error) {
-      fail(error.message);
+      fail(error instanceof Error ? error.message : String(error));
     }
   }
 
+  /**
+   * @param {PictureHeader} header
+   * @param {Uint8Array<ArrayBuffer>} data
+   */
   function takeText(header, data) {
     if (!readout) {
       readout = makeReadout(body, id);
@@ -223,7 +251,7 @@ export function makePane(id, changed, withScene) {
       mark();
     }
     readout.take(header, data);
-    element.dataset.stamp = header.stamp;
+    element.dataset.stamp = String(header.stamp);
     tellRate();
   }
 
@@ -239,6 +267,7 @@ export function makePane(id, changed, withScene) {
   return {
     element,
     isFolded: () => isFolded,
+    /** @param {PaneCaption} row */
     update(row) {
       const wanted = plain(row.title, 200);
       if (wanted !== title)
@@ -246,7 +275,7 @@ export function makePane(id, changed, withScene) {
       title = wanted;
       about = [plain(row.name, 100), wanted].join("\n");
       said = plain(row.problem);
-      picture.hide?.(row.hidden);
+      picture.hide?.(row.hidden ?? []);
       element.classList.toggle("wv-pane-empty", !row.has_picture);
       mark();
     },

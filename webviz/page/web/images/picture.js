@@ -1,16 +1,41 @@
 // The canvas of a pane: draws still pictures and video, and knows which pixel is under the mouse.
 
+import { contextOf } from "../dom.js";
 import { makeVideo } from "./video.js";
+
+/** @import {PictureHeader} from "../messages.js" */
+/** @import {Vec2} from "../types.js" */
+
+/**
+ * @typedef {{drawn: () => void, fail: (sentence: string) => void}} PictureListener
+ * @typedef {{
+ *   size: () => Vec2, take: (header: PictureHeader, data: Uint8Array<ArrayBuffer>) => Promise<void>,
+ *   width: () => number, pixelAt: (pointer: {clientX: number, clientY: number}) => Vec2 | null,
+ *   colorAt: (pixel: Vec2) => number[], hide?: (ids: string[]) => void, close: () => void,
+ * }} Picture
+ */
 
 const SHARP = 2;
 
-/** `drawn()` is called whenever there is another picture, `fail(sentence)` if a video is damaged. */
+/**
+ * `drawn()` is called whenever there is another picture, `fail(sentence)` if a video is damaged.
+ *
+ * @param {HTMLCanvasElement} canvas
+ * @param {PictureListener} listener
+ * @returns {Picture}
+ */
 export function makePicture(canvas, { drawn, fail }) {
-  const context = canvas.getContext("2d");
-  const reader = document.createElement("canvas").getContext("2d", { willReadFrequently: true });
+  const context = contextOf(canvas);
+  const reader = contextOf(document.createElement("canvas"), { willReadFrequently: true });
+  /** @type {Vec2} */
   let size = [0, 0];
+  /** @type {ReturnType<typeof makeVideo> | null} */
   let video = null;
 
+  /**
+   * @param {PictureHeader} header
+   * @param {Uint8Array<ArrayBuffer>} data
+   */
   async function still({ mime, size: full, swaps }, data) {
     let bitmap = null;
     try {
@@ -23,11 +48,15 @@ export function makePicture(canvas, { drawn, fail }) {
     if (swaps) swapRedAndBlue();
   }
 
+  /**
+   * @param {ImageBitmap | VideoFrame} image
+   * @param {Vec2} [full]
+   */
   function draw(image, full) {
-    const [width, height] = [
-      image.displayWidth ?? image.width,
-      image.displayHeight ?? image.height,
-    ];
+    const [width, height] =
+      "displayWidth" in image
+        ? [image.displayWidth, image.displayHeight]
+        : [image.width, image.height];
     if (canvas.width !== width || canvas.height !== height)
       Object.assign(canvas, { width, height });
     context.drawImage(image, 0, 0);
@@ -37,7 +66,14 @@ export function makePicture(canvas, { drawn, fail }) {
     drawn();
   }
 
-  // Pixels of a part of the picture, read from memory: to read what a graphics card draws is slow.
+  /**
+   * Pixels of a part of the picture, read from memory: to read what a graphics card draws is slow.
+   *
+   * @param {number} left
+   * @param {number} top
+   * @param {number} width
+   * @param {number} height
+   */
   function read(left, top, width, height) {
     Object.assign(reader.canvas, { width, height });
     reader.drawImage(canvas, left, top, width, height, 0, 0, width, height);
@@ -53,7 +89,12 @@ export function makePicture(canvas, { drawn, fail }) {
 
   return {
     size: () => size,
-    /** Shows a picture; fails with a sentence if it cannot be decoded. */
+    /**
+     * Shows a picture; fails with a sentence if it cannot be decoded.
+     *
+     * @param {PictureHeader} header
+     * @param {Uint8Array<ArrayBuffer>} data
+     */
     async take(header, data) {
       if (!header.video) {
         video?.close();
@@ -69,7 +110,12 @@ export function makePicture(canvas, { drawn, fail }) {
       const aspect = size[1] ? size[0] / size[1] : clientWidth / Math.max(clientHeight, 1);
       return Math.min(clientWidth, clientHeight * aspect) * devicePixelRatio;
     },
-    /** Column and row of the full picture under a pointer, null beside it. */
+    /**
+     * Column and row of the full picture under a pointer, null beside it.
+     *
+     * @param {{clientX: number, clientY: number}} pointer
+     * @returns {Vec2 | null}
+     */
     pixelAt({ clientX, clientY }) {
       const box = canvas.getBoundingClientRect();
       if (!size[0] || !box.width) return null;
@@ -79,7 +125,7 @@ export function makePicture(canvas, { drawn, fail }) {
       return x >= 0 && y >= 0 && x < size[0] && y < size[1] ? [x, y] : null;
     },
     /** Red, green and blue of a pixel as it is drawn. */
-    colorAt(/** @type {number[]} */ [x, y]) {
+    colorAt([x, y]) {
       const column = Math.floor((x * canvas.width) / size[0]);
       const row = Math.floor((y * canvas.height) / size[1]);
       return Array.from(read(column, row, 1, 1).data.subarray(0, 3));

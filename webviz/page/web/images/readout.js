@@ -6,14 +6,22 @@ import { messageRows } from "../panels/message_rows.js";
 import { spanText } from "../panels/units.js";
 import { watch } from "../stores.js";
 
+/** @import {PictureHeader} from "../messages.js" */
+
 const AGE_MS = 500;
 const OLD_S = 1; // until then, an age says nothing that the rate does not say
 
-/** Fills `place` with the readout of a display: `{take(header, data), facts(), close()}`. */
+/**
+ * Fills `place` with the readout of a display: `{take(header, data), facts(), close()}`.
+ *
+ * @param {HTMLElement} place
+ * @param {string} id
+ */
 export function makeReadout(place, id) {
   const about = el("div", { class: "wv-readout-about wv-quiet wv-ellipsis" });
-  const rows = messageRows({ label: "Message", topic: () => last.topic });
+  const rows = messageRows({ label: "Message", topic: () => last?.topic ?? "" });
   place.append(el("div", { class: "wv-readout" }, about, rows.element));
+  /** @type {PictureHeader | null} */
   let last = null;
   let rate = "";
   let age = "";
@@ -22,11 +30,16 @@ export function makeReadout(place, id) {
       rate = values.has("hz") ? `${values.get("hz")} Hz` : "";
     }),
     watchTime(AGE_MS, (clock) => {
-      const old = last && clock.has("pace") ? rosNow(clock) - last.received : 0;
+      const received = clock.has("pace") ? last?.received : undefined;
+      const old = received === undefined ? 0 : rosNow(clock) - received;
       age = old > OLD_S ? `${spanText(old)} ago` : "";
     }),
   ];
   return {
+    /**
+     * @param {PictureHeader} header
+     * @param {Uint8Array<ArrayBuffer>} data
+     */
     take(header, data) {
       last = header;
       setText(about, [header.topic, header.type].filter(Boolean).join(" · "));

@@ -1,24 +1,35 @@
 // Video by the decoder of the browser (WebCodecs).
 
+/** @import {PictureHeader} from "../messages.js" */
+
 // Codecs of the packets: baseline strings, since the streams carry their own parameters.
+/** @type {Record<string, string>} */
 const CODECS = {
   h264: "avc1.640033",
   h265: "hev1.1.6.L153.B0",
   vp9: "vp09.00.50.08",
   av1: "av01.0.12M.08",
 };
+/** @type {Record<string, string>} */
 const NAMES = { h264: "H.264", h265: "H.265", vp9: "VP9", av1: "AV1" };
 const MAX_QUEUED = 30;
 
 /**
  * Calls `draw(frame)` with each picture, and `fail(sentence)` if the video is damaged. `take` fails
  * with a sentence if there is no decoder.
+ *
+ * @param {(frame: VideoFrame) => void} draw
+ * @param {(sentence: string) => void} fail
  */
 export function makeVideo(draw, fail) {
+  /** @type {VideoDecoder | null} */
   let decoder = null;
+  /** @type {string | null} */
   let codec = null;
   let time = 0;
+  /** @type {DOMException | null} */
   let failure = null;
+  /** @type {() => void} */
   let goOn = () => {}; // ends the wait for a decoder that is closed
 
   function close() {
@@ -27,6 +38,7 @@ export function makeVideo(draw, fail) {
     decoder = null;
   }
 
+  /** @param {string} wanted */
   async function open(wanted) {
     close();
     failure = null;
@@ -34,9 +46,9 @@ export function makeVideo(draw, fail) {
     if (!window.VideoDecoder) {
       throw new Error("Browsers decode video on pages from localhost or by https only.");
     }
-    const config = { codec: CODECS[codec], optimizeForLatency: true };
+    const config = { codec: CODECS[wanted], optimizeForLatency: true };
     const { supported } = await VideoDecoder.isConfigSupported(config);
-    if (!supported) throw new Error(`This browser has no decoder for ${NAMES[codec]} video.`);
+    if (!supported) throw new Error(`This browser has no decoder for ${NAMES[wanted]} video.`);
     decoder = new VideoDecoder({
       output(frame) {
         draw(frame);
@@ -52,10 +64,15 @@ export function makeVideo(draw, fail) {
   }
 
   return {
-    async take({ video, sizes, starts }, data) {
+    /**
+     * @param {PictureHeader} header
+     * @param {Uint8Array<ArrayBuffer>} data
+     * @returns {Promise<void>}
+     */
+    async take({ video = "", sizes = [], starts = false }, data) {
       if (failure && !starts) return; // until the next key frame
       if (video !== codec || (starts && (failure || !decoder))) await open(video);
-      if (!decoder) throw new Error(`This browser has no decoder for ${NAMES[codec]} video.`);
+      if (!decoder) throw new Error(`This browser has no decoder for ${NAMES[video]} video.`);
       let at = 0;
       for (const [index, size] of sizes.entries()) {
         const type = starts && index === 0 ? "key" : "delta";
@@ -68,7 +85,7 @@ export function makeVideo(draw, fail) {
       while (decoder?.state === "configured" && decoder.decodeQueueSize > MAX_QUEUED) {
         await new Promise((resolve) => {
           goOn = () => resolve(undefined);
-          decoder.addEventListener("dequeue", goOn, { once: true });
+          decoder?.addEventListener("dequeue", goOn, { once: true });
         });
       }
     },

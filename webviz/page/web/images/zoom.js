@@ -1,11 +1,14 @@
 // The part of a picture that a pane shows: zoomed by wheel, pinch and keys, moved by a drag.
 
+/** @import {Vec2} from "../types.js" */
+
 const MAX_ZOOM = 32;
 const WHEEL_STEP = 0.002; // per pixel of the wheel, as an exponent
 const PINCH_STEP = 0.01; // pinching on a touchpad comes as small turns of the wheel with Ctrl
 const LINE_PX = 16;
 const KEY_STEP = 1.5;
 const MOVE_STEP = 0.1; // of the pane
+/** @type {Record<string, Vec2>} */
 const MOVES = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
 /**
@@ -16,10 +19,16 @@ const MOVES = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDo
  * @param {() => void} changed
  */
 export function makeZoom(canvas, changed) {
+  /** @type {Map<number, Vec2>} */
   const fingers = new Map();
   let zoom = 1;
   let [x, y] = [0, 0]; // of the left upper corner, as shares of the pane
 
+  /**
+   * @param {number} nextZoom
+   * @param {number} nextX
+   * @param {number} nextY
+   */
   function show(nextZoom, nextX, nextY) {
     zoom = Math.max(1, Math.min(nextZoom, MAX_ZOOM));
     [x, y] = [nextX, nextY].map((share) => Math.max(1 - zoom, Math.min(share, 0)));
@@ -28,16 +37,25 @@ export function makeZoom(canvas, changed) {
     changed();
   }
 
-  // What is at a place stays there.
-  function zoomBy(factor, /** @type {number[]} */ [shareX, shareY] = [0.5, 0.5]) {
+  /**
+   * What is at a place stays there.
+   *
+   * @param {number} factor
+   * @param {Vec2} [at]
+   */
+  function zoomBy(factor, [shareX, shareY] = [0.5, 0.5]) {
     const next = Math.max(1, Math.min(zoom * factor, MAX_ZOOM));
+    /**
+     * @param {number} share
+     * @param {number} corner
+     */
     const moved = (share, corner) => share - ((share - corner) * next) / zoom;
     show(next, moved(shareX, x), moved(shareY, y));
   }
 
-  /** @returns {[number, number]} */
-  const shareOf = (/** @type {number[]} */ [clientX, clientY]) => {
-    const box = canvas.parentElement.getBoundingClientRect();
+  /** @returns {Vec2} */
+  const shareOf = (/** @type {Vec2} */ [clientX, clientY]) => {
+    const box = /** @type {HTMLElement} */ (canvas.parentElement).getBoundingClientRect();
     return [(clientX - box.left) / box.width, (clientY - box.top) / box.height];
   };
 
@@ -75,15 +93,14 @@ export function makeZoom(canvas, changed) {
     show(zoom, x + to[0] - from[0], y + to[1] - from[1]);
     if (before.size && after.size) zoomBy(after.size / before.size, to);
   });
-  for (const name of ["pointerup", "pointercancel"]) {
-    canvas.addEventListener(name, (/** @type {PointerEvent} */ event) =>
-      fingers.delete(event.pointerId),
-    );
+  for (const name of /** @type {const} */ (["pointerup", "pointercancel"])) {
+    canvas.addEventListener(name, (event) => fingers.delete(event.pointerId));
   }
 
   return {
     zoom: () => zoom,
     reset: () => show(1, 0, 0),
+    /** @param {KeyboardEvent} event */
     key(event) {
       if (event.ctrlKey || event.metaKey || event.altKey) return false;
       const move = zoom > 1 ? MOVES[event.key] : undefined;
@@ -97,12 +114,17 @@ export function makeZoom(canvas, changed) {
   };
 }
 
-/** The middle of all fingers, and how far the first two are apart. */
+/**
+ * The middle of all fingers, and how far the first two are apart.
+ *
+ * @param {Map<number, Vec2>} fingers
+ */
 function spread(fingers) {
   const places = [...fingers.values()];
-  const middle = [0, 1].map(
-    (axis) => places.reduce((sum, place) => sum + place[axis], 0) / places.length,
-  );
+  /** @param {0 | 1} axis */
+  const mean = (axis) => places.reduce((sum, place) => sum + place[axis], 0) / places.length;
+  /** @type {Vec2} */
+  const middle = [mean(0), mean(1)];
   const [first, second] = places;
   const size = second ? Math.hypot(first[0] - second[0], first[1] - second[1]) : 0;
   return { middle, size };

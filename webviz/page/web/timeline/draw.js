@@ -1,6 +1,7 @@
 // Draws the timeline on a canvas: when there are messages, the span that is played, and the head.
 
 import { share, ticks } from "../charts/scale.js";
+import { contextOf } from "../dom.js";
 import { duration } from "../shell/time_text.js";
 import { beforeText } from "./moment.js";
 
@@ -22,7 +23,7 @@ export function fitted(canvas) {
   const { clientWidth: width, clientHeight: height } = canvas;
   const [w, h] = [Math.round(width * ratio), Math.round(height * ratio)];
   if (canvas.width !== w || canvas.height !== h) Object.assign(canvas, { width: w, height: h });
-  const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+  const context = contextOf(canvas);
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.clearRect(0, 0, width, height);
   const style = getComputedStyle(canvas);

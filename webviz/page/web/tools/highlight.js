@@ -1,6 +1,6 @@
 // Marks what is selected, over the scene of this page alone.
 
-import { el } from "../dom.js";
+import { contextOf, el } from "../dom.js";
 import { outlineOf } from "../scene/picking/outline.js";
 import { finder } from "../scene/picking/things.js";
 import * as viser from "../viser_page.js";
@@ -48,7 +48,7 @@ function draw() {
   const [width, height] = [wide, tall].map((size) => Math.round(size * devicePixelRatio));
   if (drawing.width !== width || drawing.height !== height)
     Object.assign(drawing, { width, height });
-  const pen = /** @type {CanvasRenderingContext2D} */ (drawing.getContext("2d"));
+  const pen = contextOf(drawing);
   pen.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
   pen.clearRect(0, 0, wide, tall);
   const find = finder();
