@@ -1,6 +1,6 @@
 // Types that modules share; those of the server are in messages.d.ts and stores.d.ts.
 
-import type { Stores } from "./contents.js";
+import type { LiveTopic, Stores } from "./contents.js";
 import type { Tools } from "./messages.js";
 
 /** x and y, in pixels unless it is said otherwise. */
@@ -40,6 +40,35 @@ export type Attribute = string | number | boolean | null | undefined | ((event: 
 export type Child = Node | string | null | undefined;
 /** Ends what was begun. */
 export type End = () => void;
+
+/** What became of a command, and what it made, such as `display`. */
+export type Outcome = { level: string; text: string; [made: string]: string };
+
+/** An option of a list: `label` is shown in place of the value, `note` at the right. */
+export type Choice = { value: string; label?: string; note?: string; level?: string };
+/** What messages tell of a property: the rate of a topic, or names and how many have each. */
+export type Known = LiveTopic | Record<string, number | string>;
+/** Sends the value of a property by its path; returns the promise of `act`. */
+export type SendProperty = (path: string, value: unknown) => unknown;
+/** The values of a form, by "value.", "offered." or "topic." and a path. */
+export type FormValues = { has(key: string): boolean; get(key: string): unknown };
+/** What a control is made with; see `control.js`. Its values are of the kind of its property. */
+export interface ControlOptions {
+  label: string;
+  change(value: unknown): unknown;
+  refused(text: string): void;
+}
+/** A control of a property; see `control.js`. */
+export interface Control {
+  element: HTMLElement;
+  focus(): void;
+  describe(text: string): void;
+  update(value: unknown): void;
+  handle?(label: HTMLElement): void;
+  live?(known: Known): void;
+  follow?(value: unknown): void;
+  end?(): void;
+}
 
 /** An object of three.js or of viser's page, which have no types here. */
 export type Three = any;

@@ -3,7 +3,16 @@
 import { el, set } from "../dom.js";
 import { entry } from "./entry.js";
 
-/** A colour of three bytes, or null if that is the default: automatic; see `control.js`. */
+/** @import {Control, ControlOptions} from "../types.js" */
+/** @import {DeclaredProperty} from "../contents.js" */
+
+/**
+ * A colour of three bytes, or null if that is the default: automatic; see `control.js`.
+ *
+ * @param {DeclaredProperty} property
+ * @param {ControlOptions} options
+ * @returns {Control}
+ */
 export function color({ default: standard }, options) {
   const { label } = options;
   const isOptional = standard === null;
@@ -16,7 +25,7 @@ export function color({ default: standard }, options) {
   const swatch = el("input", { class: "wv-swatch", type: "color", "aria-label": label });
   const field = entry(text, {
     ...options,
-    encode: (rgb) => rgb?.join(", ") ?? "",
+    encode: (/** @type {number[] | null} */ rgb) => rgb?.join(", ") ?? "",
     decode: (typed) => (isOptional && !typed.trim() ? null : parse(typed)),
     after: () => {
       const shown = attempt(text.value);
@@ -35,7 +44,11 @@ export function color({ default: standard }, options) {
   };
 }
 
-/** "255, 0, 10", RViz's "255; 0; 10" or "#ff000a" as numbers; throws a sentence. */
+/**
+ * "255, 0, 10", RViz's "255; 0; 10" or "#ff000a" as numbers; throws a sentence.
+ *
+ * @param {string} text
+ */
 export function parse(text) {
   const hex = /^#?([0-9a-f]{2})([0-9a-f]{2})([0-9a-f]{2})$/i.exec(text.trim());
   if (hex) return hex.slice(1).map((byte) => parseInt(byte, 16));
@@ -54,6 +67,7 @@ export function parse(text) {
   return parts;
 }
 
+/** @param {string} text */
 function attempt(text) {
   try {
     return `#${parse(text)

@@ -6,6 +6,9 @@ import { listbox } from "./listbox.js";
 import { MIXED, MIXED_TEXT } from "./mixed.js";
 import { sync } from "./sync.js";
 
+/** @import {Choice} from "../types.js" */
+/** @import {Mixed} from "./mixed.js" */
+
 /**
  * A field that calls `change(value)` with what was chosen or typed.
  *
@@ -16,9 +19,9 @@ import { sync } from "./sync.js";
  * `{element, input, restore(), update({value, options})}`.
  *
  * @param {{
- *   label: string, value: any, options: any[], change: (value: any) => unknown,
+ *   label: string, value: string | Mixed, options: Choice[], change: (value: string) => unknown,
  *   refused?: (text: string) => void, free?: boolean, placeholder?: string,
- *   opened?: () => (() => void) | void,
+ *   opened?: () => (() => void) | undefined,
  * }} options
  */
 export function combobox({
@@ -29,9 +32,10 @@ export function combobox({
   refused,
   free = true,
   placeholder = "",
-  opened = () => {},
+  opened = () => undefined,
 }) {
-  let closed = null;
+  /** @type {(() => void) | undefined} */
+  let closed;
   let current = value;
   let isTyped = false; // since the list was opened or the last choice
 
@@ -57,15 +61,19 @@ export function combobox({
     list.element,
   );
 
+  /** @param {string | Mixed} wanted */
   const option = (wanted) => options.find((one) => one.value === wanted);
+  /** @param {string | Mixed} wanted */
   const textOf = (wanted) => (wanted === MIXED ? "" : (option(wanted)?.label ?? wanted));
   const state = sync({
+    /** @param {string | Mixed} shown */
     show(shown) {
       current = shown;
       if (!isTyped) write();
     },
     send: change,
     isFocused: () => input.matches(":focus"),
+    /** @param {string} text */
     refused(text) {
       set(input, { "aria-invalid": text ? "true" : null });
       refused?.(text);
@@ -81,6 +89,7 @@ export function combobox({
     set(input, { title: text.length > 24 ? text.slice(0, 1000) : null });
   }
 
+  /** @param {string} [text] */
   function open(text) {
     const wasOpen = list.isOpen();
     if (wasOpen && text === undefined) return;
@@ -92,9 +101,10 @@ export function combobox({
     list.close();
     isTyped = false;
     closed?.();
-    closed = null;
+    closed = undefined;
   }
 
+  /** @param {string} chosen */
   function choose(chosen) {
     const isNew = chosen !== current || input.getAttribute("aria-invalid");
     close();
@@ -163,6 +173,7 @@ export function combobox({
     input,
     /** Shows what the viewer has instead of what it refused. */
     restore: back,
+    /** @param {{value?: string | Mixed, options?: Choice[]}} next */
     update(next) {
       if (next.options) {
         options = next.options;

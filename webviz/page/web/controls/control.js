@@ -17,6 +17,12 @@ import { switches } from "./switches.js";
 import { topic } from "./topic.js";
 import { vector } from "./vector.js";
 
+/** @import {Control, ControlOptions} from "../types.js" */
+/** @import {DeclaredProperty} from "../contents.js" */
+
+/**
+ * @type {Partial<Record<DeclaredProperty["kind"], (property: DeclaredProperty, options: ControlOptions) => Control>>}
+ */
 const MAKERS = {
   bool: checkbox,
   choice,
@@ -34,9 +40,17 @@ const MAKERS = {
 
 const WIDEST = 1000; // a slider over more than that hits nothing
 
-/** The control for a property. */
+/**
+ * The control for a property.
+ *
+ * @param {DeclaredProperty} property
+ * @param {ControlOptions} options
+ * @returns {Control}
+ */
 export function control(property, options) {
   const { kind, low, high } = property;
-  const isSlider = (kind === "float" || kind === "int") && high - low <= WIDEST;
-  return (isSlider ? slider : (MAKERS[kind] ?? text))(property, options);
+  const isNumber = kind === "float" || kind === "int";
+  const isSlider = isNumber && low !== undefined && high !== undefined && high - low <= WIDEST;
+  if (isSlider) return slider({ ...property, low, high }, options);
+  return (MAKERS[kind] ?? text)(property, options);
 }

@@ -8,11 +8,13 @@ const COARSE = 10;
  * start, null for not at all. Shift makes it ten times coarser, Alt ten times finer. A click selects
  * what is in the field.
  *
+ * @template {object} S
  * @param {HTMLElement} handle
  * @param {HTMLInputElement} input
- * @param {{begin: () => any, move: (start: any, pixels: number, isFine: boolean) => void, end: () => void}} drag
+ * @param {{begin: () => S | null, move: (start: S, pixels: number, isFine: boolean) => void, end: () => void}} drag
  */
 export function drag(handle, input, { begin, move, end }) {
+  /** @type {{start: S | null, x: number, by: number, isDragged: boolean} | null} */
   let from = null;
 
   handle.addEventListener("pointerdown", (event) => {
@@ -30,6 +32,7 @@ export function drag(handle, input, { begin, move, end }) {
     from.by += by * (event.shiftKey ? COARSE : event.altKey ? 1 / COARSE : 1);
     move(from.start, from.by, event.altKey);
   });
+  /** @param {PointerEvent} event */
   const finish = ({ type }) => {
     if (!from) return;
     const { isDragged } = from;

@@ -4,6 +4,8 @@ import { set } from "../dom.js";
 import { MIXED, MIXED_TEXT } from "./mixed.js";
 import { sync } from "./sync.js";
 
+/** @import {Mixed} from "./mixed.js" */
+
 const MAX_TEXT = 100_000;
 
 /**
@@ -11,22 +13,34 @@ const MAX_TEXT = 100_000;
  * `decode(text)` the inverse, which throws a sentence if the text means nothing. `after()` is called
  * when the text has changed. Besides what all controls have, `put(value)` changes it as if typed, and
  * `take()` takes over what is typed so far.
+ *
+ * @template T
+ * @template {HTMLInputElement | HTMLTextAreaElement} Field
+ * @param {Field} field
+ * @param {{
+ *   change(value: T): unknown, refused: (text: string) => void, encode: (value: T) => string,
+ *   decode: (text: string) => T, after?: () => void,
+ * }} options
  */
 export function entry(field, { change, refused, encode, decode, after = () => {} }) {
   const isLong = field instanceof HTMLTextAreaElement;
+  /** @type {T | Mixed | undefined} */
   let current;
   let isTyped = false;
   const { placeholder } = field;
-  const textOf = (value) => (value === MIXED ? "" : encode(value));
+  /** @param {T | Mixed | undefined} value */
+  const textOf = (value) => (value === MIXED ? "" : encode(/** @type {T} */ (value)));
 
   set(field, { autocomplete: "off", spellcheck: "false" });
   const state = sync({
+    /** @param {T | Mixed} value */
     show(value) {
       current = value;
       write();
     },
     send: change,
     isFocused: () => field.matches(":focus"),
+    /** @param {string} text */
     refused(text) {
       set(field, { "aria-invalid": text ? "true" : null });
       refused(text);
@@ -55,10 +69,11 @@ export function entry(field, { change, refused, encode, decode, after = () => {}
       state.release();
       state.edit(value);
     } catch (error) {
-      state.refuse(error.message);
+      state.refuse(error instanceof Error ? error.message : String(error));
     }
   }
 
+  /** @param {T} value */
   function put(value) {
     if (value === current) return;
     current = value;
@@ -66,12 +81,14 @@ export function entry(field, { change, refused, encode, decode, after = () => {}
     state.edit(value);
   }
 
-  field.addEventListener("input", () => {
+  /** @type {HTMLElement} */
+  const element = field;
+  element.addEventListener("input", () => {
     isTyped = true;
     state.hold();
     after();
   });
-  field.addEventListener("keydown", (event) => {
+  element.addEventListener("keydown", (event) => {
     if (event.key === "Enter" && (!isLong || event.ctrlKey || event.metaKey)) {
       take();
     } else if (event.key === "Escape") {
@@ -86,13 +103,14 @@ export function entry(field, { change, refused, encode, decode, after = () => {}
     event.preventDefault();
     event.stopPropagation();
   });
-  field.addEventListener("blur", () => {
+  element.addEventListener("blur", () => {
     if (isTyped) take();
   });
 
   return {
-    element: field,
+    element,
     focus: () => field.focus(),
+    /** @param {string} text */
     describe: (text) => set(field, { title: text }),
     update: state.show,
     edit: state.edit,

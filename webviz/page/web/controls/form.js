@@ -5,6 +5,9 @@ import { icon } from "../icons.js";
 import { recall, remember } from "../remember.js";
 import { row } from "./property_row.js";
 
+/** @import {DeclaredProperty, LiveTopic} from "../contents.js" */
+/** @import {FormValues, Known, SendProperty} from "../types.js" */
+
 /**
  * Rows for properties as `content/forms.py` declares them.
  *
@@ -12,14 +15,25 @@ import { row } from "./property_row.js";
  * what this browser remembers by which sections are folded. `marks`: whether what differs from the
  * default is marked. `command`: of the viewer, that `send` uses, if a role may not be allowed it. Returns `{element, update(values, changed), end()}`: values of a store with "value.",
  * "offered." and "topic." before the paths, and which are new.
+ *
+ * @param {DeclaredProperty[]} declared
+ * @param {{send: SendProperty, name: string, marks?: boolean, command?: string}} options
  */
 export function form(declared, { send, name, marks = true, command = "" }) {
+  /** @type {Map<string, ReturnType<typeof row>>} */
   const rows = new Map();
+  /** @type {{element: HTMLElement, when: [string, unknown[]][]}[]} */
   const parts = []; // what is hidden while it does not apply
+  /** @type {Map<string, (known: LiveTopic) => void>} */
   const lives = new Map();
+  /** @type {{key: string, made: ReturnType<typeof row>}[]} */
   const followers = [];
   let depth = 0;
 
+  /**
+   * @template T
+   * @param {() => T} make
+   */
   function deeper(make) {
     depth += 1;
     const made = make();
@@ -27,6 +41,7 @@ export function form(declared, { send, name, marks = true, command = "" }) {
     return made;
   }
 
+  /** @param {DeclaredProperty} property */
   function add(property) {
     const element = build(property);
     element.style.setProperty("--wv-depth", String(depth));
@@ -34,6 +49,10 @@ export function form(declared, { send, name, marks = true, command = "" }) {
     return element;
   }
 
+  /**
+   * @param {DeclaredProperty} property
+   * @returns {HTMLElement}
+   */
   function build(property) {
     if (property.kind === "topic") return topic(property);
     if (property.kind === "group") return section(property);
@@ -43,8 +62,9 @@ export function form(declared, { send, name, marks = true, command = "" }) {
     return made.element;
   }
 
+  /** @param {DeclaredProperty} property */
   function topic(property) {
-    const [named, ...rest] = property.children;
+    const [named, ...rest] = property.children ?? [];
     const { label, help, type } = property;
     const made = row({ ...named, kind: "topic", label, help, type }, send, { marks, command });
     rows.set(named.path, made);
@@ -59,8 +79,12 @@ export function form(declared, { send, name, marks = true, command = "" }) {
     return el("div", { class: "wv-topic-property" }, made.element, fold);
   }
 
-  // As in RViz, a group may have a value of its own, which stands in its line.
-  function section({ path, label, help, children }) {
+  /**
+   * As in RViz, a group may have a value of its own, which stands in its line.
+   *
+   * @param {DeclaredProperty} property
+   */
+  function section({ path, label, help, children = [] }) {
     const own = children.find((child) => child.path === `${path}.value`);
     const rest = children.filter((child) => child !== own);
     const made = own && row({ ...own, help: own.help || help }, send, { marks, command });
@@ -69,6 +93,14 @@ export function form(declared, { send, name, marks = true, command = "" }) {
     return foldable(path, label, made ? made.element : null, inner, true, help);
   }
 
+  /**
+   * @param {string} path
+   * @param {string} label
+   * @param {HTMLElement | null} beside
+   * @param {HTMLElement[]} children
+   * @param {boolean} isOpenAtFirst
+   * @param {string} [help]
+   */
   function foldable(path, label, beside, children, isOpenAtFirst, help = "") {
     const key = `fold.${name}.${path}`;
     const inner = el(
@@ -83,12 +115,13 @@ export function form(declared, { send, name, marks = true, command = "" }) {
         class: "wv-section-fold",
         title: help || null,
         "aria-label": label,
-        onclick: () => show(inner.hidden),
+        onclick: () => show(Boolean(inner.hidden)),
       },
       icon("chevron", 12),
       beside?.matches(".wv-property") ? null : label,
     );
 
+    /** @param {boolean} isOpen */
     function show(isOpen) {
       inner.hidden = !isOpen;
       set(toggle, { "aria-expanded": String(isOpen) });
@@ -107,13 +140,17 @@ export function form(declared, { send, name, marks = true, command = "" }) {
   const element = el("div", { class: "wv-form" }, declared.map(add));
   return {
     element,
+    /**
+     * @param {FormValues} values
+     * @param {Set<string>} changed
+     */
     update(values, changed) {
       for (const key of changed) {
         const [kind, path] = split(key);
         if (!values.has(key)) continue;
         if (kind === "value") rows.get(path)?.update(values.get(key));
-        if (kind === "offered") rows.get(path)?.live(values.get(key));
-        if (kind === "topic") lives.get(path)?.(values.get(key));
+        if (kind === "offered") rows.get(path)?.live(/** @type {Known} */ (values.get(key)));
+        if (kind === "topic") lives.get(path)?.(/** @type {LiveTopic} */ (values.get(key)));
       }
       for (const { key, made } of followers) if (changed.has(key)) made.follow(values.get(key));
       for (const part of parts) {
@@ -129,6 +166,7 @@ export function form(declared, { send, name, marks = true, command = "" }) {
   };
 }
 
+/** @param {string} key */
 function split(key) {
   const dot = key.indexOf(".");
   return [key.slice(0, dot), key.slice(dot + 1)];

@@ -3,9 +3,20 @@
 import { el } from "../dom.js";
 import { entry } from "./entry.js";
 
+/** @import {Control, ControlOptions} from "../types.js" */
+
+/** @typedef {unknown[] | Record<string, unknown>} Lines */
+/** @import {DeclaredProperty} from "../contents.js" */
+
 const MAX_ROWS = 12;
 
-/** A field of several lines; see `control.js`. */
+/**
+ * A field of several lines; see `control.js`.
+ *
+ * @param {DeclaredProperty} property
+ * @param {ControlOptions} options
+ * @returns {Control}
+ */
 export function lines(property, options) {
   const area = el("textarea", {
     class: "wv-field wv-lines",
@@ -19,13 +30,18 @@ export function lines(property, options) {
   };
   return entry(area, {
     ...options,
-    encode: (value) => encode(property, value),
+    encode: (/** @type {Lines} */ value) => encode(property, value),
     decode: (text) => decode(property, text),
     after: fit,
   });
 }
 
-/** The text for a list or a dictionary. */
+/**
+ * The text for a list or a dictionary.
+ *
+ * @param {Pick<DeclaredProperty, "items">} property
+ * @param {Lines} value
+ */
 export function encode({ items }, value) {
   const dump = items === "text" ? flat : JSON.stringify;
   if (Array.isArray(value)) return value.map((item) => dump(item)).join("\n");
@@ -34,9 +50,14 @@ export function encode({ items }, value) {
     .join("\n");
 }
 
-/** The inverse; throws a sentence. */
+/**
+ * The inverse; throws a sentence.
+ *
+ * @param {Pick<DeclaredProperty, "kind" | "items">} property
+ * @param {string} text
+ */
 export function decode({ kind, items }, text) {
-  const load = items === "text" ? (item) => item : parse;
+  const load = items === "text" ? (/** @type {string} */ item) => item : parse;
   const all = text
     .split(/\r?\n/)
     .map((line) => line.trim())
@@ -51,6 +72,7 @@ export function decode({ kind, items }, text) {
   return Object.fromEntries(entries);
 }
 
+/** @param {string} text */
 function parse(text) {
   try {
     return JSON.parse(text);
@@ -60,5 +82,7 @@ function parse(text) {
   }
 }
 
+/** @param {string} text */
 const flat = (text) => text.replace(/[\r\n]+/g, " ");
+/** @param {string} text */
 const short = (text) => (text.length > 60 ? `${text.slice(0, 59)}…` : text);

@@ -3,10 +3,19 @@
 import { el, set } from "../dom.js";
 import { wordsOf } from "../words.js";
 
+/** @import {Choice} from "../types.js" */
+/** @import {Mixed} from "./mixed.js" */
+
 const MAX_SHOWN = 100;
 let count = 0;
 
-/** A list of options for an input that is its combobox; `choose` is called with the value picked. */
+/**
+ * A list of options for an input that is its combobox; `choose` is called with the value picked.
+ *
+ * @param {HTMLInputElement} input
+ * @param {string} label
+ * @param {(value: string) => void} choose
+ */
 export function listbox(input, label, choose) {
   count += 1;
   const id = `wv-list-${count}`;
@@ -20,7 +29,9 @@ export function listbox(input, label, choose) {
     onpointerdown: (event) => event.preventDefault(), // the field keeps the focus
   });
   set(input, { "aria-controls": id });
+  /** @type {Choice[]} */
   let options = [];
+  /** @type {Choice[]} */
   let shown = [];
   let search = "";
   let active = -1;
@@ -41,6 +52,10 @@ export function listbox(input, label, choose) {
     mark();
   }
 
+  /**
+   * @param {Choice} choice
+   * @param {number} index
+   */
   function item({ value, label: text, note, level }, index) {
     const name = el("span", { class: "wv-list-name" }, (text ?? value) || "(none)");
     return el(
@@ -90,7 +105,13 @@ export function listbox(input, label, choose) {
     element,
     isOpen: () => isOpen,
     close: hide,
-    /** Shows the options that fit a text, with one of them marked. */
+    /**
+     * Shows the options that fit a text, with one of them marked.
+     *
+     * @param {Choice[]} all
+     * @param {string | Mixed | null} value
+     * @param {string} [text]
+     */
     open(all, value, text = "") {
       options = all;
       search = text;
@@ -107,6 +128,7 @@ export function listbox(input, label, choose) {
       place();
       mark();
     },
+    /** @param {Choice[]} all */
     update(all) {
       const isSame = JSON.stringify(all) === JSON.stringify(options);
       options = all;
@@ -115,6 +137,7 @@ export function listbox(input, label, choose) {
         place();
       }
     },
+    /** @param {number} by */
     move(by) {
       if (!shown.length) return;
       const last = shown.length - 1;
@@ -129,6 +152,10 @@ export function listbox(input, label, choose) {
   };
 }
 
+/**
+ * @param {Choice} choice
+ * @param {string[]} words
+ */
 function fits({ value, label }, words) {
   const text = `${value} ${label ?? ""}`.toLowerCase();
   return words.every((word) => text.includes(word));

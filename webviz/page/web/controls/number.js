@@ -3,13 +3,23 @@
 import { el, set } from "../dom.js";
 import { drag } from "./drag.js";
 import { entry } from "./entry.js";
-import { MIXED, MIXED_TEXT } from "./mixed.js";
+import { MIXED_TEXT } from "./mixed.js";
 import { format, parse, stepOf, within } from "./units.js";
 
+/** @import {ControlOptions} from "../types.js" */
+/** @import {NumberProperty} from "./units.js" */
+
+/** @type {Record<string, number>} */
+const STEPS = { ArrowUp: 1, ArrowDown: -1, PageUp: 10, PageDown: -10 };
 const STEP_PX = 4;
 const DOUBLE_PX = 70; // for what can only be positive, right doubles and left halves
 
-/** A field for a number; see `control.js`. `prefix` stands in it at the left, such as "X". */
+/**
+ * A field for a number; see `control.js`. `prefix` stands in it at the left, such as "X".
+ *
+ * @param {NumberProperty} property
+ * @param {ControlOptions & {prefix?: string}} options
+ */
 export function number(property, { label, change, refused, prefix = "" }) {
   const input = el("input", {
     class: "wv-field",
@@ -45,27 +55,34 @@ export function number(property, { label, change, refused, prefix = "" }) {
     },
   });
 
+  /** @param {KeyboardEvent} event */
   function step(event) {
-    if (field.value() === MIXED) return;
-    const by = { ArrowUp: 1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[event.key];
-    const size =
-      stepOf(property, field.value()) * (property.kind !== "int" && event.altKey ? 0.1 : 1);
-    field.put(within(property, field.value() + by * size * (event.shiftKey ? 10 : 1), size));
+    const value = field.value();
+    if (typeof value !== "number") return;
+    const by = STEPS[event.key];
+    const size = stepOf(property, value) * (property.kind !== "int" && event.altKey ? 0.1 : 1);
+    field.put(within(property, value + by * size * (event.shiftKey ? 10 : 1), size));
     input.select();
   }
 
   input.addEventListener("keydown", (event) => {
-    if (!/^(Arrow(Up|Down)|Page(Up|Down))$/.test(event.key)) return;
+    if (!Object.hasOwn(STEPS, event.key)) return;
     if (field.isTyped()) field.take();
     if (!input.getAttribute("aria-invalid")) step(event);
     event.preventDefault();
     event.stopPropagation();
   });
   const dragged = {
-    begin: () =>
-      field.isTyped() || field.value() === MIXED || input.matches(":disabled")
-        ? null
-        : { value: field.value(), size: stepOf(property, field.value()) },
+    begin() {
+      const value = field.value();
+      if (field.isTyped() || typeof value !== "number" || input.matches(":disabled")) return null;
+      return { value, size: stepOf(property, value) };
+    },
+    /**
+     * @param {{value: number, size: number}} start
+     * @param {number} by pixels
+     * @param {boolean} isFine
+     */
     move({ value, size }, by, isFine) {
       field.hold();
       const isScale = property.above === 0 && property.kind !== "int";
@@ -79,5 +96,9 @@ export function number(property, { label, change, refused, prefix = "" }) {
   };
   drag(input, input, dragged);
 
-  return { ...field, element, handle: (label) => drag(label, input, dragged) };
+  return {
+    ...field,
+    element,
+    handle: (/** @type {HTMLElement} */ label) => drag(label, input, dragged),
+  };
 }

@@ -6,18 +6,29 @@ import { icon } from "../icons.js";
 import { control } from "./control.js";
 import { bounds } from "./units.js";
 
+/** @import {DeclaredProperty} from "../contents.js" */
+/** @import {Known, SendProperty} from "../types.js" */
+
+/** @type {Partial<Record<DeclaredProperty["kind"], string>>} */
+const ITEMS = { dict: "One entry per line, name: value.", list: "One entry per line." };
+
 let count = 0;
 
 /**
  * A row for a property as `content/forms.py` declares it. `send(path, value)` sends it to the viewer, and
  * returns the promise of `act`. `marks`: whether it shows what differs from the default; `command`: see `form`. Returns
  * `{element, update(value), live(known), follow(value), end()}`.
+ *
+ * @param {DeclaredProperty} property
+ * @param {SendProperty} send
+ * @param {{marks?: boolean, command?: string}} [options]
  */
 export function row(property, send, { marks = true, command = "" } = {}) {
   count += 1;
   const id = `wv-refused-${count}`;
   const { path, label, kind, default: standard } = property;
   const refusal = el("div", { class: "wv-refused", id, role: "alert", hidden: true });
+  /** @param {string} text */
   const tell = (text) => {
     setText(refusal, text);
     refusal.hidden = !text;
@@ -65,6 +76,7 @@ export function row(property, send, { marks = true, command = "" } = {}) {
 
   return {
     element,
+    /** @param {unknown} value */
     update(value) {
       made.update(value);
       const isChanged = marks && JSON.stringify(value) !== JSON.stringify(standard);
@@ -72,18 +84,22 @@ export function row(property, send, { marks = true, command = "" } = {}) {
       const isOffered = isChanged && standard !== undefined && !(command && why(command));
       if (reset.hidden === isOffered) reset.hidden = !isOffered;
     },
+    /** @param {Known} known */
     live: (known) => made.live?.(known),
+    /** @param {unknown} value */
     follow: (value) => made.follow?.(value),
     end: () => made.end?.(),
   };
 }
 
-/** The tooltip of a property: its purpose, its bounds and its default. */
+/**
+ * The tooltip of a property: its purpose, its bounds and its default.
+ *
+ * @param {DeclaredProperty} property
+ */
 function about(property) {
   const range = bounds(property);
-  const items = { dict: "One entry per line, name: value.", list: "One entry per line." }[
-    property.kind
-  ];
+  const items = ITEMS[property.kind];
   const facts = [
     property.help,
     property.type,
@@ -94,6 +110,10 @@ function about(property) {
   return facts.filter(Boolean).join("\n");
 }
 
+/**
+ * @param {DeclaredProperty} property
+ * @param {unknown} value
+ */
 function words({ kind, unit }, value) {
   if (kind === "bool") return value ? "on" : "off";
   if (value === null) return "automatic";

@@ -4,6 +4,8 @@
 
 import { el, set } from "../dom.js";
 
+/** @typedef {HTMLElement & {wvKey: string, wvTop?: number, wvDepth?: number}} Row */
+
 const BEYOND = 6; // rows above and below what is seen that are there too
 
 const INDENT_PX = 14;
@@ -19,10 +21,12 @@ let lists = 0;
  *
  * Returns `{element, show(items), resize(height), mark(key), marked()}`; `height` is of a row in pixels.
  *
+ * @template {{key: string}} T
+ * @template {HTMLElement} [E=HTMLElement]
  * @param {{
- *   label: string, role?: string, rowRole?: string, height: number, make: (item: any) => any,
- *   update: (...parts: any[]) => void, choose?: (item: any) => void,
- *   onKey?: (event: KeyboardEvent, item: any) => boolean, host?: HTMLElement | null,
+ *   label: string, role?: string, rowRole?: string, height: number, make: (item: T) => E,
+ *   update: (row: E, item: T) => void, choose?: (item: T) => void,
+ *   onKey?: (event: KeyboardEvent, item: T) => boolean, host?: HTMLElement | null,
  * }} options
  */
 export function rowList({
@@ -38,10 +42,14 @@ export function rowList({
 }) {
   lists += 1;
   const id = `wv-rows-${lists}`;
+  /** @type {Map<string, Row & E>} */
   const mounted = new Map();
+  /** @type {Map<string, number>} */
   const places = new Map();
   let numbers = 0;
+  /** @type {T[]} */
   let items = [];
+  /** @type {string | null} */
   let marked = null;
   let total = -1;
 
@@ -56,11 +64,14 @@ export function rowList({
         const key = event.target.closest(".wv-row")?.wvKey;
         if (key === undefined || event.target.closest("button")) return;
         mark(key);
-        choose?.(items[places.get(key)]);
+        const item = itemOf(key);
+        if (item) choose?.(item);
       },
     },
     canvas,
   );
+  /** @param {string | null} key */
+  const itemOf = (key) => (key === null ? undefined : items[places.get(key) ?? -1]);
   const focused = host ?? element;
   set(focused, { role, tabindex: 0, "aria-label": label, onkeydown: press });
   let seenHeight = 0;
@@ -73,11 +84,12 @@ export function rowList({
   });
   observer.observe(element);
 
+  /** @param {T[]} next */
   function show(next) {
     items = next;
     places.clear();
     items.forEach((item, index) => places.set(item.key, index));
-    if (!places.has(marked)) marked = null;
+    if (marked !== null && !places.has(marked)) marked = null;
     render(true);
   }
 
@@ -97,9 +109,10 @@ export function rowList({
       mounted.delete(key);
     }
     seen.forEach((item, index) => {
-      let row = mounted.get(item.key);
-      const isNew = !row;
-      if (isNew) mounted.set(item.key, (row = mount(item)));
+      const known = mounted.get(item.key);
+      const row = known ?? mount(item);
+      const isNew = !known;
+      mounted.set(item.key, row);
       place(row, first + index);
       if (isNew || isChanged === true) update(row, item);
       if (canvas.children[index] !== row) canvas.insertBefore(row, canvas.children[index] ?? null);
@@ -107,15 +120,20 @@ export function rowList({
     showMark();
   }
 
+  /** @param {T} item */
   function mount(item) {
     numbers += 1;
-    const row = make(item);
+    const row = /** @type {Row & E} */ (make(item));
     row.classList.add("wv-row");
     set(row, { id: `${id}-${numbers}`, role: rowRole });
     row.wvKey = item.key;
     return row;
   }
 
+  /**
+   * @param {Row} row
+   * @param {number} index
+   */
   function place(row, index) {
     if (row.wvTop !== index * height) row.style.top = `${(row.wvTop = index * height)}px`;
     if (rowRole === "row") set(row, { "aria-rowindex": index + 2 });
@@ -124,9 +142,10 @@ export function rowList({
 
   function showMark() {
     for (const [key, row] of mounted) set(row, { "aria-selected": String(key === marked) });
-    set(focused, { "aria-activedescendant": mounted.get(marked)?.id });
+    set(focused, { "aria-activedescendant": mounted.get(marked ?? "")?.id });
   }
 
+  /** @param {string} key */
   function mark(key) {
     marked = key;
     const index = places.get(key);
@@ -139,19 +158,22 @@ export function rowList({
     render();
   }
 
+  /** @param {KeyboardEvent} event */
   function press(event) {
     const { key } = event;
     if (event.target !== focused || event.ctrlKey || event.metaKey || event.altKey) return;
-    const at = places.get(marked) ?? -1;
+    const at = places.get(marked ?? "") ?? -1;
     const page = Math.max(1, Math.floor(element.clientHeight / height) - 1);
-    const next = {
+    /** @type {Record<string, number>} */
+    const steps = {
       ArrowDown: at + 1,
       ArrowUp: at - 1,
       PageDown: at + page,
       PageUp: at - page,
       Home: 0,
       End: items.length - 1,
-    }[key];
+    };
+    const next = steps[key];
     if (items[at] && onKey(event, items[at])) {
       // done
     } else if (next !== undefined && items.length) {
@@ -166,7 +188,8 @@ export function rowList({
     element,
     show,
     mark,
-    marked: () => items[places.get(marked)] ?? null,
+    marked: () => itemOf(marked) ?? null,
+    /** @param {number} pixels */
     resize(pixels) {
       if (pixels === height) return;
       height = pixels;
@@ -176,13 +199,23 @@ export function rowList({
   };
 }
 
-/** The height of a row in pixels where fingers touch it. */
+/**
+ * The height of a row in pixels where fingers touch it.
+ *
+ * @param {number} height
+ */
 export function touchable(height) {
   return matchMedia("(pointer: coarse)").matches ? Math.max(height, FINGER_PX) : height;
 }
 
-/** Indents a row of a tree by its depth: `--wv-indent`. */
-export function indent(row, depth) {
+/**
+ * Indents a row of a tree by its depth: `--wv-indent`.
+ *
+ * @param {HTMLElement} element
+ * @param {number} depth
+ */
+export function indent(element, depth) {
+  const row = /** @type {Row} */ (element);
   if (row.wvDepth === depth) return;
   row.wvDepth = depth;
   row.style.setProperty("--wv-indent", `${depth * INDENT_PX}px`);

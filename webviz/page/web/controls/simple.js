@@ -6,7 +6,16 @@ import { entry } from "./entry.js";
 import { MIXED, MIXED_TEXT } from "./mixed.js";
 import { sync } from "./sync.js";
 
-/** A check box; see `control.js`. */
+/** @import {Control, ControlOptions} from "../types.js" */
+/** @import {DeclaredProperty} from "../contents.js" */
+
+/**
+ * A check box; see `control.js`.
+ *
+ * @param {DeclaredProperty} _
+ * @param {ControlOptions} options
+ * @returns {Control}
+ */
 export function checkbox(_, { label, change, refused }) {
   const input = el("input", { class: "wv-check", type: "checkbox", "aria-label": label });
   const state = sync({
@@ -26,12 +35,19 @@ export function checkbox(_, { label, change, refused }) {
   };
 }
 
-/** One of a few values; see `control.js`. */
-export function choice({ choices }, { label, change, refused }) {
+/**
+ * One of a few values; see `control.js`.
+ *
+ * @param {DeclaredProperty} property
+ * @param {ControlOptions} options
+ * @returns {Control}
+ */
+export function choice({ choices = [] }, { label, change, refused }) {
   const select = el("select", { class: "wv-field", "aria-label": label });
   const mixed = el("option", { hidden: true }, MIXED_TEXT);
   let offered = choices;
 
+  /** @param {unknown[]} values */
   function offer(values) {
     offered = values;
     select.replaceChildren(
@@ -64,7 +80,13 @@ export function choice({ choices }, { label, change, refused }) {
   };
 }
 
-/** A line of text; see `control.js`. */
+/**
+ * A line of text; see `control.js`.
+ *
+ * @param {DeclaredProperty} _
+ * @param {ControlOptions} options
+ * @returns {Control}
+ */
 export function text(_, options) {
   const input = el("input", { class: "wv-field", type: "text", "aria-label": options.label });
   return entry(input, { ...options, encode: String, decode: (typed) => typed });

@@ -6,7 +6,15 @@ import { number } from "./number.js";
 import { sync } from "./sync.js";
 import { stepOf } from "./units.js";
 
-/** A slider; see `control.js`. */
+/** @import {ControlOptions} from "../types.js" */
+/** @import {NumberProperty} from "./units.js" */
+
+/**
+ * A slider; see `control.js`.
+ *
+ * @param {NumberProperty & {low: number, high: number}} property
+ * @param {ControlOptions} options
+ */
 export function slider(property, options) {
   const { label, change, refused } = options;
   const range = el("input", {
@@ -23,7 +31,7 @@ export function slider(property, options) {
       const isMixed = value === MIXED;
       set(range, { "data-mixed": isMixed, "aria-valuetext": isMixed ? MIXED_TEXT : null });
       const place = isMixed ? property.low : value;
-      if (Number(range.value) !== place) range.value = place;
+      if (Number(range.value) !== place) range.value = String(place);
       fill();
       field.update(value);
     },
@@ -50,6 +58,7 @@ export function slider(property, options) {
     element: el("div", { class: "wv-slide" }, range, field.element),
     focus: () => range.focus(),
     handle: field.handle,
+    /** @param {string} text */
     describe(text) {
       set(range, { title: text });
       field.describe(text);

@@ -9,6 +9,9 @@ import { wordsOf } from "../words.js";
 import { rowList, touchable } from "./rows.js";
 import { sync } from "./sync.js";
 
+/** @import {Control, ControlOptions} from "../types.js" */
+/** @import {DeclaredProperty} from "../contents.js" */
+
 const MAX_ROWS = 8;
 const ROW_PX = 24;
 
@@ -16,14 +19,22 @@ const ROW_PX = 24;
  * A dictionary of switches by the names of frames, or, if they are `offered`, by those that
  * `live(known)` sets, with how many things have each; see `control.js`. `follow(value)` sets what holds
  * for names that have no switch of their own.
+ *
+ * @param {Pick<DeclaredProperty, "offered">} property
+ * @param {ControlOptions} options
+ * @returns {Control}
  */
 export function switches({ offered }, { label, change, refused }) {
   const height = touchable(ROW_PX);
   const noun = label.toLowerCase();
+  /** @type {string[]} */
   let names = [];
+  /** @type {Record<string, number | string>} */
   let counts = {};
+  /** @type {Record<string, boolean>} */
   let current = {};
   let otherwise = true;
+  /** @type {string[]} */
   let shown = [];
 
   const search = el("input", {
@@ -34,6 +45,11 @@ export function switches({ offered }, { label, change, refused }) {
     "aria-label": `Filter ${noun}`,
     oninput: show,
   });
+  /**
+   * @param {string} text
+   * @param {boolean} value
+   * @param {string} tip
+   */
   const button = (text, value, tip) =>
     el(
       "button",
@@ -59,6 +75,7 @@ export function switches({ offered }, { label, change, refused }) {
   });
   set(list.element, { "aria-multiselectable": "true" });
   const state = sync({
+    /** @param {Record<string, boolean>} value */
     show(value) {
       current = value;
       show();
@@ -67,9 +84,15 @@ export function switches({ offered }, { label, change, refused }) {
     refused,
   });
 
+  /** @param {string} name */
   const isOn = (name) => (Object.hasOwn(current, name) ? current[name] : otherwise);
 
-  // What holds anyway needs no switch: names that come and go leave nothing behind.
+  /**
+   * What holds anyway needs no switch: names that come and go leave nothing behind.
+   *
+   * @param {string[]} names
+   * @param {boolean} value
+   */
   function put(names, value) {
     const own = new Map(Object.entries(current));
     for (const name of names) {
@@ -89,6 +112,10 @@ export function switches({ offered }, { label, change, refused }) {
     return Object.assign(row, { wvParts: { box, name, count, mark: icon("check", 12) } });
   }
 
+  /**
+   * @param {ReturnType<typeof make>} row
+   * @param {{key: string}} item
+   */
   function update(row, { key }) {
     const { box, name, count, mark } = row.wvParts;
     setText(name, key === "" ? "(no name)" : plain(key));
@@ -130,11 +157,13 @@ export function switches({ offered }, { label, change, refused }) {
     focus: () => search.focus(),
     describe: (text) => set(list.element, { "aria-description": text }),
     update: state.show,
+    /** @param {Record<string, number | string>} known */
     live(known) {
       counts = known;
       names = Object.keys(known);
       show();
     },
+    /** @param {boolean} value */
     follow(value) {
       otherwise = value;
       show();

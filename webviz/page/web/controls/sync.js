@@ -4,28 +4,34 @@
 // over, it sends older values, which must not set the control back under the hand. So what comes from
 // outside waits during an edit, and a moment longer; then the newest is shown.
 
+/** @import {Mixed} from "./mixed.js" */
+/** @import {Outcome} from "../types.js" */
+
 const SETTLE_MS = 500;
 const ANSWER_MS = 8000; // then it was lost with the connection
 const LOST = { level: "error", text: "Not changed: the viewer does not answer. Try again." };
 
 /**
- * `show(value)` makes the control show a value. `send(value)` sends it to the viewer; it may return a promise
- * of `{level, text}`. `refused(text)` says why the viewer did not take it, or "" that all is well.
- * A refused value stays for correction; once the control has lost the focus (`isFocused()`), until
- * somebody else changes the value.
+ * `show(value)` makes the control show a value. `send(value)` sends it to the viewer; it may return a
+ * promise of `{level, text}`. `refused(text)` says why the viewer did not take it, or "" that all is
+ * well. A refused value stays for correction; once the control has lost the focus (`isFocused()`),
+ * until somebody else changes the value.
  *
+ * @template T
  * @param {{
- *   show: (value: any) => void, send: (value: any) => any, refused?: (text: string) => void,
+ *   show(value: T | Mixed): void, send: (value: T) => unknown, refused?: (text: string) => void,
  *   isFocused?: () => boolean,
  * }} control
  */
 export function sync({ show, send, refused = () => {}, isFocused = () => false }) {
+  /** @type {T | Mixed | undefined} */
   let newest;
   let hasNewest = false;
   let isHeld = false;
   let isRefused = false;
   let timer = 0;
   let isUnderWay = false;
+  /** @type {{value: T} | null} */
   let waiting = null;
 
   const isBusy = () => isHeld || isRefused || isUnderWay || timer !== 0;
@@ -34,20 +40,25 @@ export function sync({ show, send, refused = () => {}, isFocused = () => false }
     clearTimeout(timer);
     timer = setTimeout(() => {
       timer = 0;
-      if (!isBusy() && hasNewest) show(newest);
+      if (!isBusy() && hasNewest) show(/** @type {T | Mixed} */ (newest));
     }, SETTLE_MS);
   }
 
+  /** @param {string} text */
   function tell(text) {
     isRefused = text !== "";
     refused(text);
   }
 
-  // One at a time: of a drag, the viewer gets as many values as it can take.
+  /**
+   * One at a time: of a drag, the viewer gets as many values as it can take.
+   *
+   * @param {T} value
+   */
   async function next(value) {
     isUnderWay = true;
     const lost = new Promise((resolve) => setTimeout(resolve, ANSWER_MS, LOST));
-    const answer = await Promise.race([send(value), lost]);
+    const answer = /** @type {Outcome | undefined} */ (await Promise.race([send(value), lost]));
     isUnderWay = false;
     if (waiting) {
       const { value } = waiting;
@@ -60,7 +71,11 @@ export function sync({ show, send, refused = () => {}, isFocused = () => false }
   }
 
   return {
-    /** The value that the viewer has. */
+    /**
+     * The value that the viewer has.
+     *
+     * @param {T | Mixed} value
+     */
     show(value) {
       const isOther = hasNewest && JSON.stringify(value) !== JSON.stringify(newest);
       if (isOther && isRefused && !isHeld && !isFocused()) tell("");
@@ -77,7 +92,11 @@ export function sync({ show, send, refused = () => {}, isFocused = () => false }
       isHeld = false;
       settle();
     },
-    /** They entered a value. */
+    /**
+     * They entered a value.
+     *
+     * @param {T} value
+     */
     edit(value) {
       if (isUnderWay) waiting = { value };
       else next(value);
@@ -88,7 +107,7 @@ export function sync({ show, send, refused = () => {}, isFocused = () => false }
     cancel() {
       isHeld = false;
       if (isRefused) tell("");
-      if (!isBusy() && hasNewest) show(newest);
+      if (!isBusy() && hasNewest) show(/** @type {T | Mixed} */ (newest));
     },
   };
 }

@@ -4,20 +4,32 @@ import { set } from "../dom.js";
 import { watch } from "../stores.js";
 import { combobox } from "./combobox.js";
 
-/** @import {ValuesOf} from "../types.js" */
+/** @import {Choice, Control, ControlOptions, ValuesOf} from "../types.js" */
+/** @import {Mixed} from "./mixed.js" */
+/** @import {DeclaredProperty, LiveTopic, TopicOffer} from "../contents.js" */
 
-/** A field for the name of a topic; see `control.js`. `live(known)` shows the rate it arrives at. */
+/**
+ * A field for the name of a topic; see `control.js`. `live(known)` shows the rate it arrives at.
+ *
+ * @param {DeclaredProperty} property
+ * @param {ControlOptions} options
+ * @returns {Control}
+ */
 export function topic({ type, default: standard }, { label, change, refused }) {
-  let value = standard ?? "";
+  /** @type {string | Mixed} */
+  let value = String(standard ?? "");
+  /** @type {number | null} */
   let rate = null;
   /** @type {ValuesOf<"topics_of">} */
   let topics = new Map();
 
   const options = () => {
+    /** @type {Choice[]} */
     const all = [...topics].map(([name, known]) => ({ value: name, ...describe(known) }));
     all.sort((a, b) => (a.value < b.value ? -1 : 1));
     // While the list is shut the field has the note of its own topic.
-    if (!topics.has(value) && rate !== null) all.push({ value, note: hertz(rate) });
+    const own = typeof value === "string" && !topics.has(value) ? value : null;
+    if (own !== null && rate !== null) all.push({ value: own, note: hertz(rate) });
     return all;
   };
   const field = combobox({
@@ -43,10 +55,12 @@ export function topic({ type, default: standard }, { label, change, refused }) {
     element: field.element,
     focus: () => field.input.focus(),
     describe: (text) => set(field.input, { "aria-description": text }),
+    /** @param {string | Mixed} next */
     update(next) {
       value = next;
       field.update({ value, options: options() });
     },
+    /** @param {LiveTopic} known */
     live(known) {
       rate = known.rate;
       if (!topics.size) field.update({ options: options() });
@@ -54,6 +68,7 @@ export function topic({ type, default: standard }, { label, change, refused }) {
   };
 }
 
+/** @param {TopicOffer} offer */
 function describe({ publishers, rate, shown, problem }) {
   if (problem) return { note: problem, level: "error" };
   const notes = [publishers === 1 ? "1 publisher" : `${publishers} publishers`];
@@ -63,4 +78,5 @@ function describe({ publishers, rate, shown, problem }) {
   return { note: notes.join(" · ") };
 }
 
+/** @param {number} rate */
 const hertz = (rate) => `${rate} Hz`;

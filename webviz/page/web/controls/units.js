@@ -1,6 +1,11 @@
 // Numbers as people write them, with a unit.
 
+/** @import {DeclaredProperty} from "../contents.js" */
+
+/** @typedef {Pick<DeclaredProperty, "kind" | "low" | "above" | "high" | "below" | "unit">} NumberProperty */
+
 // By the unit of the field: what others are worth in it.
+/** @type {Record<string, Record<string, number>>} */
 const UNITS = {
   m: { km: 1000, m: 1, dm: 0.1, cm: 0.01, mm: 0.001, µm: 1e-6, um: 1e-6, in: 0.0254, ft: 0.3048 },
   rad: { rad: 1, deg: Math.PI / 180, "°": Math.PI / 180, mrad: 0.001 },
@@ -11,7 +16,12 @@ const UNITS = {
 const NUMBER = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*)$/i;
 const DECIMALS = 6;
 
-/** A number from what was typed into a field with a unit; throws a sentence if it means nothing. */
+/**
+ * A number from what was typed into a field with a unit; throws a sentence if it means nothing.
+ *
+ * @param {string} text
+ * @param {string} [unit]
+ */
 export function parse(text, unit) {
   const [, digits, suffix] = NUMBER.exec(text.trim().replace("−", "-")) ?? [];
   if (digits === undefined) throw new Error(`Not changed: ${quoted(text)} is not a number.`);
@@ -22,44 +32,78 @@ export function parse(text, unit) {
   return factor === 1 ? value : Number(value.toPrecision(12));
 }
 
+/**
+ * @param {string} suffix
+ * @param {string} [unit]
+ * @returns {number | undefined}
+ */
 function factorOf(suffix, unit) {
   if (suffix === "" || suffix === unit) return 1;
-  const known = UNITS[unit] ?? {};
+  const known = UNITS[unit ?? ""] ?? {};
   const names = Object.keys(known);
-  return known[names.find((name) => name === suffix) ?? names.find((name) => same(name, suffix))];
+  const exact = names.find((name) => name === suffix);
+  return known[exact ?? names.find((name) => same(name, suffix)) ?? ""];
 }
 
+/**
+ * @param {string} a
+ * @param {string} b
+ */
 const same = (a, b) => a.toLowerCase() === b.toLowerCase();
 
+/**
+ * @param {string} suffix
+ * @param {string} [unit]
+ */
 function wrongUnit(suffix, unit) {
   if (!unit) return `this number has no unit, got ${quoted(suffix)}.`;
   const others = Object.keys(UNITS[unit] ?? { [unit]: 1 });
   return `${quoted(suffix)} is no unit here; use ${others.join(", ")}.`;
 }
 
+/** @param {string} text */
 function quoted(text) {
   return `“${text.length > 60 ? `${text.slice(0, 59)}…` : text}”`;
 }
 
-/** A number as a field shows it: as short as it can be, with up to six decimals. */
+/**
+ * A number as a field shows it: as short as it can be, with up to six decimals.
+ *
+ * @param {unknown} value
+ */
 export function format(value) {
-  if (!Number.isFinite(value)) return "";
+  if (typeof value !== "number" || !Number.isFinite(value)) return "";
   const size = Math.abs(value);
   if (size !== 0 && (size < 1e-4 || size >= 1e15)) return String(Number(value.toPrecision(6)));
   return String(Number(value.toFixed(DECIMALS)));
 }
 
-/** The largest power of ten up to a size. */
+/**
+ * The largest power of ten up to a size.
+ *
+ * @param {number} size
+ */
 const powerOfTen = (size) => Number(`1e${Math.floor(Math.log10(size))}`);
 
-/** The step of an arrow key from a value. */
+/**
+ * The step of an arrow key from a value.
+ *
+ * @param {Pick<NumberProperty, "kind" | "low" | "high">} property
+ * @param {number} value
+ */
 export function stepOf({ kind, low, high }, value) {
   if (kind === "int") return 1;
   if (low !== undefined && high !== undefined) return powerOfTen((high - low) / 100);
   return powerOfTen(Math.abs(value) / 10 || 0.1);
 }
 
-/** The nearest value that the bounds of a property allow, rounded to a step. */
+/**
+ * The nearest value that the bounds of a property allow, rounded to a step.
+ *
+ * @param {NumberProperty} property
+ * @param {number} value
+ * @param {number} step
+ */
 export function within({ kind, low, above, high, below }, value, step) {
   const rounded =
     kind === "int" ? Math.round(value) : Number((Math.round(value / step) * step).toPrecision(12));
@@ -70,7 +114,11 @@ export function within({ kind, low, above, high, below }, value, step) {
   return rounded;
 }
 
-/** The bounds in words, "" without any. */
+/**
+ * The bounds in words, "" without any.
+ *
+ * @param {Partial<NumberProperty>} property
+ */
 export function bounds({ low, above, high, below, unit }) {
   const least = low !== undefined ? `≥ ${low}` : above !== undefined ? `> ${above}` : "";
   const most = high !== undefined ? `≤ ${high}` : below !== undefined ? `< ${below}` : "";

@@ -3,20 +3,33 @@
 import { el } from "../dom.js";
 import { number } from "./number.js";
 
+/** @import {Mixed} from "./mixed.js" */
+/** @import {Control, ControlOptions} from "../types.js" */
+/** @import {DeclaredProperty} from "../contents.js" */
+
 const AXES = ["X", "Y", "Z"];
 
-/** A vector; see `control.js`. */
+/**
+ * A vector; see `control.js`.
+ *
+ * @param {DeclaredProperty} property
+ * @param {ControlOptions} options
+ * @returns {Control}
+ */
 export function vector(property, { label, change, refused }) {
-  let current = property.default;
-  let told = new Map();
-  const parts = property.default.map((_, index) =>
+  let current = /** @type {(number | Mixed)[]} */ (property.default);
+  /** @type {Map<number, string>} */
+  const told = new Map();
+  const parts = current.map((_, index) =>
     number(property, {
       label: `${label} ${AXES[index]}`,
       prefix: AXES[index],
+      /** @param {number} value */
       change(value) {
         current = current.with(index, value);
         return change(current);
       },
+      /** @param {string} text */
       refused(text) {
         told.set(index, text);
         refused([...told.values()].find(Boolean) ?? "");
@@ -31,6 +44,7 @@ export function vector(property, { label, change, refused }) {
     ),
     focus: () => parts[0].focus(),
     describe: (text) => parts.forEach((part) => part.describe(text)),
+    /** @param {(number | Mixed)[]} value */
     update(value) {
       current = value;
       parts.forEach((part, index) => part.update(value[index]));

@@ -38,7 +38,7 @@ export function makeZoom(canvas, changed) {
   }
 
   /**
-   * What is at a place stays there.
+   * Zooms by a factor; the point at a place stays there.
    *
    * @param {number} factor
    * @param {Vec2} [at]

@@ -11,18 +11,24 @@ import { watch } from "../stores.js";
 import { maker } from "./displays/properties.js";
 import { savedViews } from "./saved_views.js";
 
+/** @import {DeclaredProperty} from "../contents.js" */
+
+/** @type {DeclaredProperty} */
 const TYPE = {
   path: "type",
   label: "Type",
   kind: "choice",
   default: "Orbit",
+  offered: false,
   help: "How the camera moves; what it looks at stays.",
 };
+/** @type {DeclaredProperty} */
 const TARGET = {
   path: "target_frame",
   label: "Target Frame",
   kind: "frame",
   default: FIXED_FRAME,
+  offered: false,
   help: "The camera moves with this frame.",
 };
 
