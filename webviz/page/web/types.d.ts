@@ -41,6 +41,16 @@ export type Child = Node | string | null | undefined;
 /** Ends what was begun. */
 export type End = () => void;
 
+/** A panel of the side; see `panels.js`. */
+export interface Panel {
+  name: string;
+  title: string;
+  /** Fills its tab; returns what ends that. */
+  open(element: HTMLElement): End | void;
+  /** Its tab is there while it is open only. */
+  isOnDemand?: boolean;
+}
+
 /** What became of a command, and what it made, such as `display`. */
 export type Outcome = { level: string; text: string; [made: string]: string };
 

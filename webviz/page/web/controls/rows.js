@@ -209,6 +209,14 @@ export function touchable(height) {
 }
 
 /**
+ * The key of the item whose row an element is in, "" for none.
+ *
+ * @param {Element} element
+ */
+export const keyOf = (element) =>
+  /** @type {Row | null} */ (element.closest(".wv-row"))?.wvKey ?? "";
+
+/**
  * Indents a row of a tree by its depth: `--wv-indent`.
  *
  * @param {HTMLElement} element

@@ -88,7 +88,7 @@ export function switches({ offered }, { label, change, refused }) {
   const isOn = (name) => (Object.hasOwn(current, name) ? current[name] : otherwise);
 
   /**
-   * What holds anyway needs no switch: names that come and go leave nothing behind.
+   * Switches names; one that holds anyway needs no switch, so names that go leave nothing behind.
    *
    * @param {string[]} names
    * @param {boolean} value

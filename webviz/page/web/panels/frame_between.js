@@ -9,6 +9,8 @@ import { toast } from "../shell/toasts.js";
 import { watch } from "../stores.js";
 import { spanText } from "./units.js";
 
+/** @import {ValuesOf} from "../types.js" */
+
 const ROWS = {
   Translation: "x, y, z",
   Quaternion: "x, y, z, w",
@@ -16,21 +18,37 @@ const ROWS = {
   Distance: "Between the origins",
 };
 
-/** A number with a real minus, and none before a zero. */
+/**
+ * A number with a real minus, and none before a zero.
+ *
+ * @param {number} value
+ * @param {number} digits
+ */
 function number(value, digits) {
   const text = value.toFixed(digits);
   return Number(text) === 0 ? text.replace("-", "") : text.replace("-", "−");
 }
 
+/**
+ * @param {number[]} values
+ * @param {number} digits
+ * @param {string} [unit]
+ */
 const numbers = (values, digits, unit = "") =>
   values.map((value) => number(value, digits) + unit).join("  ");
 
 /** Returns `{element, offer(names), choose(source), close}`. */
 export function between() {
+  /** @type {() => void} */
   let end = () => {};
   const chosen = { target: "", source: "", ...recall("tf-between", {}) };
+  /** @type {string[]} */
   let offered = [];
 
+  /**
+   * @param {"source" | "target"} which
+   * @param {string} label
+   */
   const pick = (which, label) =>
     combobox({
       label,
@@ -95,6 +113,10 @@ export function between() {
     note,
   );
 
+  /**
+   * @param {"source" | "target"} which
+   * @param {string} value
+   */
   function change(which, value) {
     chosen[which] = value;
     follow();
@@ -105,34 +127,39 @@ export function between() {
     offer(offered);
     end();
     end = () => {};
-    show(new Map());
+    show(null);
     if (chosen.target && chosen.source) {
-      end = watch(`between:${JSON.stringify([chosen.target, chosen.source])}`, show);
+      end = watch(`between:${JSON.stringify([chosen.target, chosen.source])}`, (values) =>
+        show(values),
+      );
     }
   }
 
+  /** @param {ValuesOf<"between"> | null} values */
   function show(values) {
-    const isThere = values.has("translation");
-    if (isThere) {
+    const isThere = values?.has("translation") ?? false;
+    if (values && isThere) {
       const texts = [
-        `${numbers(values.get("translation"), 3)} m`,
-        numbers(values.get("rotation"), 4),
-        numbers(values.get("rpy"), 1, "°"),
-        `${number(values.get("distance"), 3)} m`,
+        `${numbers(values.get("translation") ?? [], 3)} m`,
+        numbers(values.get("rotation") ?? [], 4),
+        numbers(values.get("rpy") ?? [], 1, "°"),
+        `${number(values.get("distance") ?? 0, 3)} m`,
       ];
       rows.forEach(({ value }, index) => setText(value, texts[index]));
     }
     set(list, { hidden: !isThere });
     set(copyButton, { disabled: !isThere });
     setText(note, noteOf(values));
-    set(note, { "data-level": values.get("problem") ? "warn" : null });
+    set(note, { "data-level": values?.get("problem") ? "warn" : null });
   }
 
+  /** @param {ValuesOf<"between"> | null} values */
   function noteOf(values) {
     if (!chosen.target || !chosen.source) return "Choose two frames to read out the transform.";
-    if (values.has("problem")) return values.get("problem");
-    if (!values.has("translation")) return "";
-    const age = values.get("age");
+    const problem = values?.get("problem");
+    if (problem !== undefined) return problem;
+    if (!values?.has("translation")) return "";
+    const age = values.get("age") ?? null;
     return age === null
       ? "Static."
       : `At the newest common time, ${spanText(Math.max(0, age))} ago.`;
@@ -146,16 +173,18 @@ export function between() {
     });
   }
 
+  /** @param {string[]} names */
   function offer(names) {
     offered = names;
     const options = names.map((value) => ({ value }));
-    for (const which of ["source", "target"])
+    for (const which of /** @type {const} */ (["source", "target"]))
       boxes[which].update({ value: chosen[which], options });
   }
 
   follow();
   return {
     element,
+    /** @param {string[]} names */
     offer(names) {
       if (names.join("\n") !== offered.join("\n")) offer(names);
     },

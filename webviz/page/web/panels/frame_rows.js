@@ -6,18 +6,41 @@ import { icon } from "../icons.js";
 import { wordsOf } from "../words.js";
 import { rateText, spanText } from "./units.js";
 
+/** @import {Frame} from "../contents.js" */
+/** @import {ValuesOf} from "../types.js" */
+
+/**
+ * @typedef {ValuesOf<"transforms">} Frames
+ * @typedef {{
+ *   key: string, depth: number, name: string, isOpen: boolean | null, frame: Frame | null,
+ *   isLoop: boolean,
+ * }} FrameRow
+ */
+
 /**
  * The rows that are not folded away: `{key, depth, name, isOpen, frame, children}`; `isOpen` is null
  * without children. Of a search, frames with every word of the text, and those on the way to them.
+ *
+ * @param {Frames} values
+ * @param {Set<string>} folded
+ * @param {string} text
  */
 export function frameRows(values, folded, text) {
+  /** @type {Map<string, string[]>} */
   const children = new Map();
   for (const [name, { parent }] of frames(values)) {
     children.set(parent, [...(children.get(parent) ?? []), name]);
   }
   const words = wordsOf(text);
+  /** @type {FrameRow[]} */
   const rows = [];
 
+  /**
+   * @param {string} name
+   * @param {number} depth
+   * @param {Set<string>} path
+   * @returns {boolean}
+   */
   function add(name, depth, path) {
     const frame = values.get(name) ?? null;
     const isLoop = path.has(name);
@@ -38,11 +61,19 @@ export function frameRows(values, folded, text) {
   return rows;
 }
 
-/** Names and values of all child frames. */
+/**
+ * Names and values of all child frames.
+ *
+ * @param {Frames} values
+ */
 export const frames = (values) =>
   [...values].filter(([name]) => name !== "/roots" && name !== "/problems");
 
-/** Names of all frames, sorted. */
+/**
+ * Names of all frames, sorted.
+ *
+ * @param {Frames} values
+ */
 export function frameNames(values) {
   const names = frames(values).flatMap(([name, { parent }]) => [name, parent]);
   return [...new Set([...names, ...(values.get("/roots") ?? [])])].filter(Boolean).sort();
@@ -62,7 +93,12 @@ export function makeFrame() {
   );
 }
 
-/** Fills in a row. */
+/**
+ * Fills in a row.
+ *
+ * @param {HTMLElement} row
+ * @param {FrameRow} frameRow
+ */
 export function updateFrame(row, { name, depth, isOpen, frame, isLoop }) {
   const [fold, label, node, fact, age, dot] = row.children;
   set(fold, { "data-open": isOpen ? "" : null, "data-none": isOpen === null ? "" : null });
@@ -83,7 +119,11 @@ export function updateFrame(row, { name, depth, isOpen, frame, isLoop }) {
   indent(row, depth);
 }
 
-/** The rate of a frame, as text. */
+/**
+ * The rate of a frame, as text.
+ *
+ * @param {Frame | null} frame
+ */
 export function factOf(frame) {
   if (!frame) return "";
   if (frame.is_static) return "static";
@@ -91,7 +131,11 @@ export function factOf(frame) {
   return frame.hz ? rateText(frame.hz) : "one sample";
 }
 
-/** The age of the newest transform of a frame; times of a simulation are no ages for wall time. */
+/**
+ * The age of the newest transform of a frame; times of a simulation are no ages for wall time.
+ *
+ * @param {Frame} frame
+ */
 export function ageText({ age }) {
   if (age === null) return "";
   return age < -0.5 ? `${spanText(-age)} ahead` : spanText(Math.max(0, age));

@@ -1,11 +1,13 @@
 // A message as rows that fold, which arrow keys move through.
 
 import { needs } from "../access.js";
-import { indent, rowList, touchable } from "../controls/rows.js";
+import { indent, keyOf, rowList, touchable } from "../controls/rows.js";
 import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
 import { rowsOf } from "./message_tree.js";
 import { plotField } from "./plot_field.js";
+
+/** @import {Fields, MessageRow} from "./message_tree.js" */
 
 const ROW_PX = 22;
 
@@ -14,9 +16,13 @@ const NUMBER = /^-?(\d[\d.]*(e[+-]?\d+)?|inf)$|^nan$|^(True|False)$/;
 /**
  * Returns `{element, show(tree), close()}`; a tree is that of `webviz.data.messages.to_tree`. Rows of
  * numbers have a button that plots them; `topic()` is the topic of the message.
+ *
+ * @param {{label: string, topic: () => string}} options
  */
 export function messageRows({ label, topic }) {
+  /** @type {Map<string, boolean>} */
   const folds = new Map();
+  /** @type {Fields | null} */
   let shown = null;
   const list = rowList({
     label,
@@ -30,6 +36,7 @@ export function messageRows({ label, topic }) {
   });
 
   function make() {
+    /** @type {HTMLButtonElement} */
     const plot = el(
       "button",
       {
@@ -38,24 +45,30 @@ export function messageRows({ label, topic }) {
         tabindex: -1,
         "aria-label": "Plot",
         "data-tip": "Plot this field",
-        onclick: () => plotField(topic(), pathOf(plot.closest(".wv-row").wvKey)),
+        onclick: () => plotField(topic(), pathOf(keyOf(plot))),
       },
       icon("odometry", 14),
     );
     return makeRow(needs("AddPanel", plot));
   }
 
+  /** @param {Fields | null} tree */
   function show(tree) {
     shown = tree;
     list.show(tree ? rowsOf(tree, folds) : []);
   }
 
+  /** @param {MessageRow} row */
   function toggle(row) {
     if (row.isOpen === null) return;
     folds.set(row.key, !row.isOpen);
     show(shown);
   }
 
+  /**
+   * @param {KeyboardEvent} event
+   * @param {MessageRow} row
+   */
   function onKey({ key }, row) {
     const isFold =
       (key === "ArrowLeft" && row.isOpen) || (key === "ArrowRight" && row.isOpen === false);
@@ -68,9 +81,14 @@ export function messageRows({ label, topic }) {
   return { element: list.element, show, close: list.close };
 }
 
-/** The path of a field by the key of its row: `/position/[0]` is `position[0]`. */
+/**
+ * The path of a field by the key of its row: `/position/[0]` is `position[0]`.
+ *
+ * @param {string} key
+ */
 export const pathOf = (key) => key.slice(1).replaceAll("/[", "[").replaceAll("/", ".");
 
+/** @param {HTMLElement} plot */
 function makeRow(plot) {
   return el(
     "div",
@@ -82,6 +100,10 @@ function makeRow(plot) {
   );
 }
 
+/**
+ * @param {HTMLElement} element
+ * @param {MessageRow} row
+ */
 function updateRow(element, row) {
   const [fold, name, value, plot] = element.children;
   set(plot, { hidden: !NUMBER.test(row.value) });

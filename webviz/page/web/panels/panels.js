@@ -12,10 +12,18 @@ import { topics } from "./topics.js";
 import { transforms } from "./transforms.js";
 import { views } from "./views.js";
 
+/** @import {Panel} from "../types.js" */
+
+/** @type {Panel[]} */
 export const panels = [];
+/** @type {Set<() => void>} */
 const listeners = new Set();
 
-/** Adds a panel, or replaces that of the same name. */
+/**
+ * Adds a panel, or replaces that of the same name.
+ *
+ * @param {Panel} added
+ */
 export function panel(added) {
   const index = panels.findIndex(({ name }) => name === added.name);
   if (index < 0) panels.push(added);
@@ -23,7 +31,11 @@ export function panel(added) {
   for (const listener of listeners) listener();
 }
 
-/** Calls `listener` whenever there is another panel. */
+/**
+ * Calls `listener` whenever there is another panel.
+ *
+ * @param {() => void} listener
+ */
 export const onPanel = (listener) => listeners.add(listener);
 
 for (const own of [displays, selectionPanel, views, topics, transforms, toolsPanel, doctor])

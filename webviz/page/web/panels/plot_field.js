@@ -4,9 +4,16 @@ import { act } from "../act.js";
 import { toast } from "../shell/toasts.js";
 import { watch } from "../stores.js";
 
+/** @import {ValuesOf} from "../types.js" */
+
 const TYPE = "Plot";
 
-/** Plots a field: in the first panel of that kind, or in a new one. */
+/**
+ * Plots a field: in the first panel of that kind, or in a new one.
+ *
+ * @param {string} topic
+ * @param {string} path
+ */
 export async function plotField(topic, path) {
   const curve = `${topic.startsWith("/") ? "" : "/"}${topic}.${path}`;
   const { id, curves } = await firstPlot();
@@ -14,25 +21,36 @@ export async function plotField(topic, path) {
   const { level } = await (id
     ? act(
         "SetPanelProperty",
-        { panel: id, path: "curves", value: [...curves, curve] },
+        { panel: id, path: "curves", value: [...(curves ?? []), curve] },
         { quiet: true },
       )
     : act("AddPanel", { type: TYPE, values: { curves: [curve] } }, { quiet: true }));
   if (level === "ok") toast(`Added ${curve} to the panel Plot.`);
 }
 
+/** @returns {Promise<{id?: string, curves?: string[]}>} */
 async function firstPlot() {
-  const order = (await once("panels")).get("/order") ?? [];
+  const order = await once("panels", (values) => values.get("/order"));
   if (!order.includes(TYPE)) return {};
-  const values = await once(`panel_properties:${TYPE}`);
-  return { id: values.get("id"), curves: values.get("value.curves") };
+  return once(`panel_properties:${TYPE}`, (values) => ({
+    id: values.get("id"),
+    curves: /** @type {string[]} */ (values.get("value.curves")),
+  }));
 }
 
-// The present values of a store.
-function once(store) {
+/**
+ * The present state of a store, read from its values.
+ *
+ * @template {string} N
+ * @template T
+ * @param {N} store
+ * @param {(values: ValuesOf<N>) => T} read
+ * @returns {Promise<T>}
+ */
+function once(store, read) {
   return new Promise((resolve) => {
     const end = watch(store, (values) => {
-      resolve(new Map(values));
+      resolve(read(values));
       queueMicrotask(() => end());
     });
   });

@@ -9,17 +9,24 @@ import { watch } from "../stores.js";
 import { maker } from "./displays/properties.js";
 import { makeWidget } from "./plugin_widgets.js";
 
-/** @import {ValuesOf} from "../types.js" */
+/** @import {Panel, ValuesOf} from "../types.js" */
+/** @import {PanelType} from "../contents.js" */
+/** @import {Widget, WidgetValues} from "./plugin_widgets.js" */
 
-/** Calls `offer(panels)` with the panels of plug-ins whenever they change, `types(types)` likewise. */
+/**
+ * Calls `offer(panels)` with the panels of plug-ins whenever they change, `types(types)` likewise.
+ *
+ * @param {(panels: Panel[]) => void} offer
+ * @param {(types: PanelType[]) => void} types
+ */
 export function followPlugins(offer, types) {
   watch("panels", (values, changed) => {
     if (changed.has("/types")) types(values.get("/types"));
     offer(
       values.get("/order").map((name) => ({
         name: `plugin-${name}`,
-        title: values.get(name),
-        open: (element) => open(element, name),
+        title: values.get(name) ?? name,
+        open: (/** @type {HTMLElement} */ element) => open(element, name),
       })),
     );
   });
@@ -41,6 +48,10 @@ export function followPlugins(offer, types) {
 
 const LOOKED_AT = new Set(["area", "chart"]); // what a chart lets people change has its own locks
 
+/**
+ * @param {HTMLElement} element
+ * @param {string} name
+ */
 function open(element, name) {
   const failure = el("div", {
     class: "wv-plugin-failure",
@@ -51,27 +62,31 @@ function open(element, name) {
   const place = el("div", { class: "wv-plugin-widgets" });
   const [settings, endProperties] = properties(name);
   element.append(el("div", { class: "wv-plugin" }, failure, place), ...settings);
+  /** @type {Map<string, Widget & {kind: string}>} */
   const drawn = new Map();
 
   const end = watch(`panel:${name}`, (values, changed) => {
     const order = values.get("/order") ?? [];
     for (const id of order) {
-      const widget = /** @type {{kind: string}} */ (values.get(id));
+      const widget = /** @type {WidgetValues & {kind: string}} */ (values.get(id));
+      const before = drawn.get(id);
+      if (before?.kind === widget.kind) {
+        const isChanged = changed.has(id) || [...changed].some((key) => key.startsWith(`${id}/`));
+        if (isChanged) before.update(widget, values, id);
+        continue;
+      }
       // A panel that was loaded again may have another widget under the same id.
-      if (drawn.get(id)?.kind !== widget.kind) {
-        drawn.get(id)?.close?.();
-        drawn.set(
-          id,
-          makeWidget(widget, (value) => act("UseWidget", { panel: name, widget: id, value })),
-        );
-        drawn.get(id).update(widget, values, id);
-        if (!LOOKED_AT.has(widget.kind)) needs("UseWidget", drawn.get(id).element);
-      } else if (changed.has(id) || [...changed].some((key) => key.startsWith(`${id}/`)))
-        drawn.get(id).update(widget, values, id);
+      before?.close?.();
+      const made = makeWidget(widget, (value) =>
+        act("UseWidget", { panel: name, widget: id, value }),
+      );
+      drawn.set(id, made);
+      made.update(widget, values, id);
+      if (!LOOKED_AT.has(widget.kind)) needs("UseWidget", made.element);
     }
     setChildren(
       place,
-      order.map((id) => drawn.get(id).element),
+      order.flatMap((id) => drawn.get(id)?.element ?? []),
     );
     const sentence = values.get("/failure") ?? "";
     setText(failure, sentence);
@@ -88,9 +103,14 @@ function open(element, name) {
  * The elements with the properties of a panel, and what ends them.
  *
  * @returns {[HTMLElement[], () => void]}
+ * @param {string} name
  */
 function properties(name) {
   let id = "";
+  /**
+   * @param {string} path
+   * @param {unknown} value
+   */
   const send = (path, value) =>
     act("SetPanelProperty", { panel: id, path, value }, { quiet: true, errors: "caller" });
   const place = el("div");

@@ -6,14 +6,36 @@ import { slider } from "../controls/slider.js";
 import { sync } from "../controls/sync.js";
 import { el, set, setChildren, setText } from "../dom.js";
 
+/** @import {ValuesOf} from "../types.js" */
+
+/**
+ * Values of a widget, which its panel in Python makes; each kind reads those that it has.
+ *
+ * @typedef {{[value: string]: unknown}} WidgetValues
+ * @typedef {{label: string, hint: string}} Labelled
+ * @typedef {{name: string, value: number, low: number, high: number, unit: string}} Slide
+ * @typedef {Labelled & {value: string, options: string[]}} Choices
+ * @typedef {(value: boolean | string | null) => unknown} Send
+ * @typedef {{
+ *   element: HTMLElement, close?(): void,
+ *   update(values: WidgetValues, store: ValuesOf<"panel">, id: string): void,
+ * }} Widget
+ * @typedef {{make(values: WidgetValues, send: Send): Widget}["make"]} MakeWidget
+ */
+
 const TYPING_MS = 600;
 
+/** @type {Map<string, MakeWidget>} */
 const makers = new Map();
+/** @type {Map<string, Set<() => void>>} */
 const awaited = new Map();
 
 /**
  * Adds a kind of widget. `make(values, send)` returns `{element, update(values), close()}`, the
  * latter if need be; `send(value)` reports its use to the panel.
+ *
+ * @param {string} kind
+ * @param {MakeWidget} make
  */
 export function widget(kind, make) {
   makers.set(kind, make);
@@ -23,24 +45,41 @@ export function widget(kind, make) {
 
 for (const make of [area, button, checkbox, chart, field, choice, sliders]) widget(make.name, make);
 
-/** A widget of these values; one of a module that is not there yet is drawn later. */
+/**
+ * A widget of these values; one of a module that is not there yet is drawn later.
+ *
+ * @param {WidgetValues & {kind: string}} values
+ * @param {Send} send
+ * @returns {Widget & {kind: string}}
+ */
 export function makeWidget(values, send) {
   const { kind } = values;
-  return { kind, ...(makers.get(kind) ?? later)(values, send) };
+  const make = makers.get(kind);
+  return { kind, ...(make ? make(values, send) : later(values, send)) };
 }
 
+/**
+ * @param {WidgetValues & {kind: string}} values
+ * @param {Send} send
+ * @returns {Widget}
+ */
 function later(values, send) {
   const element = el("div", { class: "wv-quiet" }, "This widget needs the module of its panel.");
-  let [inner, last] = [null, [values]];
+  /** @type {Widget | null} */
+  let inner = null;
+  /** @type {Parameters<Widget["update"]> | null} */
+  let last = null;
   const draw = () => {
-    inner = makers.get(values.kind)(values, send);
-    inner.update(...last);
+    inner = makers.get(values.kind)?.(values, send) ?? null;
+    if (!inner) return;
+    if (last) inner.update(...last);
     element.className = "";
     element.replaceChildren(inner.element);
   };
   awaited.set(values.kind, (awaited.get(values.kind) ?? new Set()).add(draw));
   return {
     element,
+    /** @param {Parameters<Widget["update"]>} args */
     update(...args) {
       last = args;
       inner?.update(...args);
@@ -52,8 +91,10 @@ function later(values, send) {
   };
 }
 
+/** @returns {Widget} */
 function area() {
   const element = el("div", { class: "wv-plugin-area" });
+  /** @param {{text?: string, lines?: string[], table?: string[][], html?: string}} values */
   function update({ text = "", lines, table, html }) {
     // The one place where markup comes to the page: what a plug-in makes is as trusted as its code.
     if (html !== undefined) element.innerHTML = html;
@@ -65,6 +106,7 @@ function area() {
   return { element, update };
 }
 
+/** @param {string[][]} rows */
 function tableOf(rows) {
   return el(
     "table",
@@ -83,9 +125,15 @@ function tableOf(rows) {
   );
 }
 
+/**
+ * @param {{width: number}} values
+ * @param {Send} send
+ * @returns {Widget}
+ */
 function button({ width }, send) {
   const element = el("button", { type: "button", class: "wv-button", onclick: () => send(null) });
-  element.style.setProperty("--wv-share", width);
+  element.style.setProperty("--wv-share", String(width));
+  /** @param {Labelled} values */
   function update({ label, hint }) {
     setText(element, label);
     set(element, { "data-tip": hint || null });
@@ -93,16 +141,24 @@ function button({ width }, send) {
   return { element, update };
 }
 
+/**
+ * @param {unknown} _
+ * @param {Send} send
+ * @returns {Widget}
+ */
 function checkbox(_, send) {
+  /** @type {HTMLInputElement} */
   const box = el("input", { type: "checkbox", onchange: () => state.edit(box.checked) });
   const text = el("span");
   const element = el("label", { class: "wv-plugin-check" }, box, text);
   const state = sync({
-    show: (value) => {
+    /** @param {boolean} value */
+    show(value) {
       box.checked = value;
     },
     send,
   });
+  /** @param {Labelled & {value: boolean}} values */
   function update({ label, hint, value }) {
     setText(text, label);
     set(element, { "data-tip": hint || null });
@@ -111,6 +167,11 @@ function checkbox(_, send) {
   return { element, update };
 }
 
+/**
+ * @param {unknown} _
+ * @param {Send} send
+ * @returns {Widget}
+ */
 function field(_, send) {
   let timer = 0;
   const name = el("span", { class: "wv-quiet" });
@@ -126,9 +187,11 @@ function field(_, send) {
     onblur: () => state.release(),
   });
   const element = el("label", { class: "wv-plugin-line" }, name, input);
+  /** @type {string | null} */
   let sent = null;
   const state = sync({
-    show: (value) => {
+    /** @param {string} value */
+    show(value) {
       sent = value;
       if (input.value !== value) input.value = value;
     },
@@ -140,6 +203,7 @@ function field(_, send) {
     sent = input.value;
     state.edit(sent);
   }
+  /** @param {Labelled & {value: string}} values */
   function update({ label, hint, value }) {
     setText(name, label);
     set(element, { "data-tip": hint || null });
@@ -148,11 +212,18 @@ function field(_, send) {
   return { element, update };
 }
 
+/**
+ * @param {Choices} values
+ * @param {Send} send
+ * @returns {Widget}
+ */
 function choice({ label, value, options }, send) {
+  /** @param {string[]} values */
   const named = (values) => values.map((each) => ({ value: each, label: each || "(none)" }));
   const box = combobox({ label, value, options: named(options), change: send, free: false });
   const name = el("span", { class: "wv-quiet" });
   const element = el("div", { class: "wv-plugin-line" }, name, box.element);
+  /** @param {Choices} values */
   function update(values) {
     setText(name, values.label);
     set(element, { "data-tip": values.hint || null });
@@ -161,10 +232,18 @@ function choice({ label, value, options }, send) {
   return { element, update };
 }
 
+/**
+ * @param {unknown} _
+ * @param {Send} send
+ * @returns {Widget}
+ */
 function sliders(_, send) {
   const element = el("div", { class: "wv-plugin-sliders" });
+  /** @type {Map<string, ReturnType<typeof make>>} */
   const made = new Map();
+  /** @param {Slide} slide */
   function make({ name, low, high, unit }) {
+    /** @param {number} value */
     const change = (value) => send(`${value} ${name}`);
     const control = slider(
       { kind: "float", low, high, unit },
@@ -173,13 +252,15 @@ function sliders(_, send) {
     const label = el("span", { class: "wv-plugin-slider-name", title: name }, name);
     return { line: el("div", { class: "wv-plugin-line" }, label, control.element), control };
   }
+  /** @param {{slides: Slide[]}} values */
   function update({ slides }) {
     const before = new Map(made);
     made.clear();
     for (const slide of slides) {
       const key = JSON.stringify([slide.name, slide.low, slide.high, slide.unit]);
-      made.set(key, before.get(key) ?? make(slide));
-      made.get(key).control.update(slide.value);
+      const one = before.get(key) ?? make(slide);
+      made.set(key, one);
+      one.control.update(slide.value);
     }
     setChildren(
       element,

@@ -5,10 +5,13 @@ import { act } from "../act.js";
 import { el, set, setChildren, setText } from "../dom.js";
 import { icon } from "../icons.js";
 
+/** @import {SavedView} from "../contents.js" */
+
 const NAME = "View"; // of a view without a name, before its number
 
 /** The list, and below it the field that saves. Returns `{element, update(saved)}`. */
 export function savedViews() {
+  /** @type {Map<string, ReturnType<typeof line>>} */
   const lines = new Map();
   const list = el("ul", { class: "wv-saved" });
   const empty = el("p", { class: "wv-saved-none wv-quiet" }, "No views are saved yet.");
@@ -53,17 +56,19 @@ export function savedViews() {
 
   return {
     element,
+    /** @param {SavedView[]} saved */
     update(saved) {
       const names = saved.map((view) => view.name);
       for (const gone of [...lines.keys()].filter((each) => !names.includes(each)))
         lines.delete(gone);
       for (const view of saved) {
-        if (!lines.has(view.name)) lines.set(view.name, line(view.name));
-        lines.get(view.name).update(view);
+        const known = lines.get(view.name) ?? line(view.name);
+        lines.set(view.name, known);
+        known.update(view);
       }
       setChildren(
         list,
-        names.map((each) => lines.get(each).element),
+        names.flatMap((each) => lines.get(each)?.element ?? []),
       );
       empty.hidden = saved.length > 0;
       const numbers = Array.from(
@@ -75,6 +80,7 @@ export function savedViews() {
   };
 }
 
+/** @param {string} name */
 function line(name) {
   const type = el("span", { class: "wv-quiet" });
   const mark = el(
@@ -145,6 +151,7 @@ function line(name) {
 
   return {
     element,
+    /** @param {SavedView} view */
     update(view) {
       setText(type, view.type);
       mark.hidden = !view.is_start;
@@ -152,6 +159,11 @@ function line(name) {
   };
 }
 
+/**
+ * @param {string} iconName
+ * @param {string} tip
+ * @param {() => unknown} run
+ */
 function tool(iconName, tip, run) {
   return el(
     "button",

@@ -14,20 +14,35 @@ import { rowsOf, textOf } from "./message_tree.js";
 import { statisticsRows, statisticsText } from "./statistics.js";
 import { showFrame } from "./transforms.js";
 
-/** @import {ValuesOf} from "../types.js" */
+/** @import {Panel, ValuesOf} from "../types.js" */
+/** @import {Fields, MessageRow} from "./message_tree.js" */
+
+/**
+ * A row of a thing, of one of its values, or of statistics.
+ *
+ * @typedef {MessageRow & {isThing?: boolean, isStatistics?: boolean, remark?: string}} SelectionRow
+ */
 
 const ROW_PX = 24;
 const FRAMES = new Set(["Frame", "Parent", "Parent frame", "Child frame", "Reference frame"]);
 
+/** @type {Panel} */
 export const selectionPanel = {
   name: "selection",
   title: "Selection",
   open(element) {
+    /** @type {Map<string, boolean>} */
     const folds = new Map();
-    /** @type {import("../types.js").ValuesOf<"selection">} */
+    /** @type {ValuesOf<"selection">} */
     let values = new Map();
+    /** @type {Set<string>} */
     let frames = new Set();
 
+    /**
+     * @param {string} label
+     * @param {string} iconName
+     * @param {() => unknown} onclick
+     */
     const button = (label, iconName, onclick) =>
       el(
         "button",
@@ -82,7 +97,7 @@ export const selectionPanel = {
       const { total = 0, count: held = 0, live = 0, displays = [] } = values.get("/info") ?? {};
       list.show([
         ...statisticsRows(displays, folds),
-        ...ids.flatMap((id) => rowsOfThing(id, values.get(id), ids.length === 1)),
+        ...ids.flatMap((id) => rowsOfThing(id, ids.length === 1)),
       ]);
       setText(count, held ? `${held} selected` : "");
       set(empty, { hidden: held > 0 });
@@ -95,11 +110,18 @@ export const selectionPanel = {
       set(note, { hidden: !notes.some(Boolean) });
     }
 
-    function rowsOfThing(id, { title, name, tree, note: remark }, isAlone) {
+    /**
+     * @param {string} id
+     * @param {boolean} isAlone
+     * @returns {SelectionRow[]}
+     */
+    function rowsOfThing(id, isAlone) {
+      const thing = values.get(id);
+      if (!thing) return [];
+      const { title, name, tree, note: remark } = thing;
       const isOpen = folds.get(id) ?? isAlone;
       const row = {
         key: id,
-        id,
         depth: 0,
         name: title,
         value: name,
@@ -107,15 +129,23 @@ export const selectionPanel = {
         isThing: true,
         remark,
       };
-      return isOpen ? [row, ...rowsOf(tree, folds, 1, id)] : [row];
+      return isOpen ? [row, ...rowsOf(/** @type {Fields} */ (tree), folds, 1, id)] : [row];
     }
 
+    /**
+     * @param {SelectionRow} row
+     * @returns {unknown}
+     */
     function choose(row) {
       if (row.isOpen === null) return copied(row.value);
       folds.set(row.key, !row.isOpen);
       show();
     }
 
+    /**
+     * @param {KeyboardEvent} event
+     * @param {SelectionRow} row
+     */
     function onKey({ key }, row) {
       const isFold =
         (key === "ArrowLeft" && row.isOpen) || (key === "ArrowRight" && row.isOpen === false);
@@ -146,6 +176,10 @@ export const selectionPanel = {
       );
     }
 
+    /**
+     * @param {HTMLElement} row
+     * @param {SelectionRow} shown
+     */
     function updateRow(
       row,
       { name, value, depth, isOpen, isThing = false, isStatistics = false, remark = "" },
@@ -166,9 +200,11 @@ export const selectionPanel = {
       indent(row, depth);
     }
 
+    /** @param {MouseEvent} event */
     function onLink(event) {
-      const frame = event.target.closest(".wv-selection-frame")?.dataset.frame;
-      if (frame === undefined) return;
+      const link = /** @type {Element} */ (event.target).closest(".wv-selection-frame");
+      const frame = link?.getAttribute("data-frame");
+      if (typeof frame !== "string") return;
       event.stopPropagation();
       showFrame(frame);
       openPanel("transforms");
@@ -193,20 +229,27 @@ export const selectionPanel = {
   },
 };
 
-/** Ids of what is selected, in the order in which it was. */
+/**
+ * Ids of what is selected, in the order in which it was.
+ *
+ * @param {ValuesOf<"selection">} values
+ */
 const idsOf = (values) =>
   [...values.keys()].filter((id) => id !== "/info").sort((a, b) => Number(a) - Number(b));
 
+/** @param {ValuesOf<"selection">} values */
 const textOfAll = (values) =>
   statisticsText(values.get("/info")?.displays ?? []) +
   idsOf(values)
     .map((id) => {
-      const { title, name, tree, note } = values.get(id);
-      const head = [`${title} (${name})`, note].filter(Boolean).join(": ");
-      return `${head}\n${textOf(tree, "  ")}\n`;
+      const thing = values.get(id);
+      if (!thing) return "";
+      const head = [`${thing.title} (${thing.name})`, thing.note].filter(Boolean).join(": ");
+      return `${head}\n${textOf(/** @type {Fields} */ (thing.tree), "  ")}\n`;
     })
     .join("");
 
+/** @param {string} text */
 async function copied(text) {
   const isDone = await copy(text);
   toast(isDone ? "Copied." : "This browser does not allow copying.", {

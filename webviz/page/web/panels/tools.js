@@ -16,8 +16,12 @@ import * as preview from "../tools/preview.js";
 import { yaml } from "../tools/yaml.js";
 import { maker } from "./displays/properties.js";
 
+/** @import {Panel} from "../types.js" */
+/** @import {SentGesture} from "../tools/history.js" */
+
 const NONE = "Nothing sent from this page yet. Choose a tool over the scene.";
 
+/** @type {Panel} */
 export const toolsPanel = {
   name: "tools",
   title: "Tools",
@@ -42,7 +46,12 @@ export const toolsPanel = {
   },
 };
 
+/**
+ * @param {HTMLElement} list
+ * @param {HTMLElement} none
+ */
 function showSent(list, none) {
+  /** @type {Map<number, ReturnType<typeof sentRow>>} */
   const rows = new Map();
   const update = () => {
     const entries = history.all();
@@ -64,20 +73,22 @@ function showSent(list, none) {
 }
 
 function sentRow() {
+  /** @type {SentGesture | null} */
   let entry = null;
   const head = el("span", { class: "wv-sent-head" });
   const place = el("span", { class: "wv-sent-place" });
   const result = el("span", { class: "wv-sent-result" });
-  const yamlButton = iconButton("copy", "Copy as YAML", () => copyYaml(entry));
+  const yamlButton = iconButton("copy", "Copy as YAML", () => entry && copyYaml(entry));
   const element = el(
     "li",
     {},
     el("div", { class: "wv-sent-text" }, head, place, result),
-    iconButton("refresh", "Send again", () => sendAgain(entry)),
+    iconButton("refresh", "Send again", () => entry && sendAgain(entry)),
     yamlButton,
   );
   return {
     element,
+    /** @param {SentGesture} next */
     update(next) {
       entry = next;
       const [x, y, z] = next.points[0].map((number) => fixed(number, 2));
@@ -94,6 +105,11 @@ function sentRow() {
   };
 }
 
+/**
+ * @param {string} name
+ * @param {string} label
+ * @param {() => unknown} run
+ */
 const iconButton = (name, label, run) =>
   el(
     "button",
@@ -107,13 +123,17 @@ const iconButton = (name, label, run) =>
     icon(name),
   );
 
-// As with the gesture itself: where the tool asks, its preview comes first.
+/**
+ * As with the gesture itself: where the tool asks, its preview comes first.
+ *
+ * @param {SentGesture} entry
+ */
 async function sendAgain(entry) {
   const tool = registry.all().find(({ id }) => id === entry.tool.id);
-  const reason = !tool ? `the tool ${entry.tool.name} is gone. Choose another one.` : "";
+  if (!tool)
+    return tell("warn", `Not sent: the tool ${entry.tool.name} is gone. Choose another one.`);
   const frame = `this was in ${entry.frame}. Choose it as the fixed frame.`;
-  if (reason || entry.frame !== history.fixedFrame())
-    return tell("warn", `Not sent: ${reason || frame}`);
+  if (entry.frame !== history.fixedFrame()) return tell("warn", `Not sent: ${frame}`);
   if (tool.refusal) return tell("warn", tool.refusal);
   if (!tool.asks) return history.again(entry);
   if (entry.several) {
@@ -122,20 +142,28 @@ async function sendAgain(entry) {
   }
   registry.select(tool);
   const done = () => {
-    if (!registry.active().stays) registry.select(null);
+    if (!registry.active()?.stays) registry.select(null);
     history.again(entry);
   };
   preview.propose(tool, entry, { done, live: tellLive });
 }
 
+/** @param {SentGesture} entry */
 async function copyYaml({ messages }) {
-  const texts = messages.map(({ topic, type, values }) => `# ${topic}: ${type}\n${yaml(values)}`);
+  const texts = messages.map(
+    ({ topic, type, values }) => `# ${topic}: ${type}\n${yaml(/** @type {object} */ (values))}`,
+  );
   if (await copy(texts.join("---\n"))) toast("Copied as YAML.");
   else toast("The browser does not allow copying.", { level: "error" });
 }
 
-// One section per tool of the viewer; those of the page have no properties.
+/**
+ * One section per tool of the viewer; those of the page have no properties.
+ *
+ * @param {HTMLElement} place
+ */
 function showProperties(place) {
+  /** @type {Map<string, ReturnType<typeof toolSection>>} */
   const shown = new Map();
   const update = () => {
     const tools = registry.all().filter(({ gesture }) => gesture);
@@ -163,9 +191,14 @@ function showProperties(place) {
   };
 }
 
+/** @param {string} id */
 function toolSection(id) {
   const title = el("summary");
   const content = el("div");
+  /**
+   * @param {string} path
+   * @param {unknown} value
+   */
   const send = (path, value) =>
     act("SetToolProperty", { tool: id, path, value }, { quiet: true, errors: "caller" });
   const made = maker(content, (declared, values) => {

@@ -8,19 +8,25 @@ import { watch } from "../stores.js";
 import { inspector } from "./topics_inspector.js";
 import { arranged, COLUMNS, makeHead, makeRow, updateRow } from "./topics_table.js";
 
+/** @import {Panel, ValuesOf} from "../types.js" */
+/** @import {Sort} from "./topics_table.js" */
+
 const WIDE_PX = 600;
 const HEIGHTS = { wide: 26, narrow: 44 };
 const NOTHING = "No topic is published. Start the robot, a simulator or a bag.";
 
+/** @type {Panel} */
 export const topics = {
   name: "topics",
   title: "Topics",
   open(element) {
-    /** @type {import("../types.js").ValuesOf<"topics">} */
+    /** @type {ValuesOf<"topics">} */
     let facts = new Map();
-    /** @type {import("../types.js").ValuesOf<"traffic">} */
+    /** @type {ValuesOf<"traffic">} */
     let traffic = new Map();
+    /** @type {Sort} */
     let sort = recall("topics-sort", { column: "name", isUp: true });
+    /** @type {ReturnType<typeof inspector> | null} */
     let inspected = null;
 
     const search = el("input", {
@@ -55,8 +61,9 @@ export const topics = {
     );
     element.append(panel);
 
+    /** @param {string} column */
     function sortBy(column) {
-      const { isNumber = false } = COLUMNS.find(({ id }) => id === column);
+      const isNumber = COLUMNS.find(({ id }) => id === column)?.isNumber ?? false;
       sort = { column, isUp: sort.column === column ? !sort.isUp : !isNumber };
       remember("topics-sort", sort);
       show();
@@ -70,14 +77,16 @@ export const topics = {
       set(table, { "aria-rowcount": found.length + 1 });
       setText(empty, all.length ? "No topic with these words." : NOTHING);
       set(empty, { hidden: found.length > 0 });
-      inspected?.update(all.find(({ key }) => key === inspected.name));
+      const name = inspected?.name;
+      inspected?.update(all.find(({ key }) => key === name));
     }
 
+    /** @param {string} name */
     function inspect(name) {
       if (inspected?.name === name) return;
       inspected?.close();
       inspected = inspector(place, name, () => {
-        inspected.close();
+        inspected?.close();
         inspected = null;
         table.focus();
       });

@@ -13,15 +13,33 @@ import { messageRows } from "./message_rows.js";
 import { textOf } from "./message_tree.js";
 import { bytesText, rateText, sizeText, spanText } from "./units.js";
 
+/** @import {Fields} from "./message_tree.js" */
+/** @import {GraphTopic} from "../contents.js" */
+/** @import {TopicRow} from "./topics_table.js" */
+/** @import {ValuesOf} from "../types.js" */
+
 const OLD_S = 2; // until then, an age says nothing that the rate does not say
 
-/** Fills `place` with the topic of this name until it is closed; returns `{name, update, close}`. */
+/**
+ * Fills `place` with the topic of this name until it is closed; returns `{name, update, close}`.
+ *
+ * @param {HTMLElement} place
+ * @param {string} name
+ * @param {() => void} dismiss
+ */
 export function inspector(place, name, dismiss) {
+  /** @type {Fields | null} */
   let message = null;
+  /** @type {GraphTopic["show"]} */
   let fits = [];
   let receivedAt = 0;
   let size = 0;
 
+  /**
+   * @param {string} label
+   * @param {string} iconName
+   * @param {() => unknown} onclick
+   */
   const button = (label, iconName, onclick) =>
     el(
       "button",
@@ -35,7 +53,7 @@ export function inspector(place, name, dismiss) {
     "Show",
   );
   needs("AddDisplay", show);
-  const copyMessage = button("Copy message", "file", () => copied(textOf(message)));
+  const copyMessage = button("Copy message", "file", () => message && copied(textOf(message)));
   const facts = el("div", { class: "wv-topic-facts wv-quiet" });
   const why = el("div", { class: "wv-topic-why wv-quiet", hidden: true });
   const age = el("div", { class: "wv-topic-age wv-quiet wv-number" });
@@ -62,6 +80,7 @@ export function inspector(place, name, dismiss) {
     ),
   );
 
+  /** @param {string} text */
   async function copied(text) {
     const isDone = await copy(text);
     toast(isDone ? "Copied." : "This browser does not allow copying.", {
@@ -70,6 +89,7 @@ export function inspector(place, name, dismiss) {
   }
 
   async function add() {
+    /** @param {GraphTopic["show"][number]} fit */
     const one = async ([type, values]) => {
       const { level } = await act("AddDisplay", { type, values });
       if (level === "ok") toast(`Added ${type} for ${name}.`);
@@ -81,6 +101,7 @@ export function inspector(place, name, dismiss) {
     );
   }
 
+  /** @param {TopicRow | undefined} topic */
   function update(topic) {
     fits = topic?.show ?? [];
     set(show, {
@@ -102,8 +123,9 @@ export function inspector(place, name, dismiss) {
     setText(facts, texts.filter(Boolean).join(" · "));
   }
 
+  /** @param {ValuesOf<"message">} values */
   function showMessage(values) {
-    message = values.get("message") ?? null;
+    message = /** @type {Fields | null} */ (values.get("message") ?? null);
     receivedAt = values.get("received") ?? 0;
     size = values.get("size") ?? 0;
     const sentence = values.get("problem") ?? "";
@@ -121,7 +143,7 @@ export function inspector(place, name, dismiss) {
   }
 
   const timer = setInterval(showAge, 1000);
-  const end = watch(`message:${name}`, showMessage);
+  const end = watch(`message:${name}`, (values) => showMessage(values));
   return {
     name,
     update,

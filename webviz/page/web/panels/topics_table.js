@@ -4,11 +4,32 @@ import { el, set, setText } from "../dom.js";
 import { wordsOf } from "../words.js";
 import { bytesText, rateText, spanText } from "./units.js";
 
+/** @import {GraphTopic, TopicTraffic} from "../contents.js" */
+
+/**
+ * @typedef {{key: string} & GraphTopic & Partial<TopicTraffic>} TopicRow
+ * @typedef {{column: string, isUp: boolean}} Sort
+ * @typedef {string | number | null | undefined} Cell
+ * @typedef {{
+ *   id: string, title: string, hint?: string, isNumber?: boolean,
+ *   value: (topic: TopicRow) => Cell, text: (topic: TopicRow) => string,
+ * }} Column
+ */
+
+/** @param {string} type */
 const shortType = (type) => type.replace("/msg/", "/");
+/**
+ * @param {number | null} count
+ * @param {string} word
+ */
 const amountOf = (count, word) =>
   count === null ? "" : `${count} ${word}${count === 1 ? "" : "s"}`;
 
-/** The columns: `value` is what they are sorted by, those of numbers from the largest. */
+/**
+ * The columns: `value` is what they are sorted by, those of numbers from the largest.
+ *
+ * @type {Column[]}
+ */
 export const COLUMNS = [
   { id: "name", title: "Name", value: (topic) => topic.key, text: (topic) => topic.key },
   { id: "type", title: "Type", value: (topic) => topic.types[0] ?? "", text: typesText },
@@ -54,11 +75,18 @@ export const COLUMNS = [
   },
 ];
 
+/** @param {TopicRow} topic */
 function typesText(topic) {
   return topic.types.length ? topic.types.map(shortType).join(", ") : "no publisher";
 }
 
-/** The topics with every word of a text in name or type, in the order of a column. */
+/**
+ * The topics with every word of a text in name or type, in the order of a column.
+ *
+ * @param {TopicRow[]} topics
+ * @param {string} text
+ * @param {Sort} sort
+ */
 export function arranged(topics, text, sort) {
   const words = wordsOf(text);
   const found = topics.filter(({ key, types }) => {
@@ -72,9 +100,16 @@ export function arranged(topics, text, sort) {
   );
 }
 
+/**
+ * @param {Cell} a
+ * @param {Cell} b
+ * @param {boolean} [isNumber]
+ * @returns {number}
+ */
 function compare(a, b, isNumber = false) {
-  if (isNumber) return (a ?? -1) - (b ?? -1);
-  return a < b ? -1 : Number(a > b);
+  if (isNumber) return Number(a ?? -1) - Number(b ?? -1);
+  const [first, second] = [String(a), String(b)];
+  return first < second ? -1 : Number(first > second);
 }
 
 /** A row without content. */
@@ -88,7 +123,12 @@ export function makeRow() {
   return el("div", { class: "wv-topic" }, cells);
 }
 
-/** Fills in a row. */
+/**
+ * Fills in a row.
+ *
+ * @param {HTMLElement} row
+ * @param {TopicRow} topic
+ */
 export function updateRow(row, topic) {
   COLUMNS.forEach(({ text }, index) => setText(row.children[index], text(topic)));
   set(row.children[0], { "data-tip": topic.key });
@@ -97,7 +137,11 @@ export function updateRow(row, topic) {
   set(row, { "data-silent": topic.types.length ? null : "" });
 }
 
-/** The heads of the columns; `choose(column)` is called with the id of one. */
+/**
+ * The heads of the columns; `choose(column)` is called with the id of one.
+ *
+ * @param {(column: string) => void} choose
+ */
 export function makeHead(choose) {
   const heads = COLUMNS.map(({ id, title, hint }) =>
     el(
@@ -110,6 +154,7 @@ export function makeHead(choose) {
     el("span", { role: "columnheader", class: `wv-head-${COLUMNS[index].id}` }, head),
   );
   const element = el("div", { class: "wv-topics-head", role: "row" }, cells);
+  /** @param {Sort} sort */
   const update = (sort) =>
     COLUMNS.forEach(({ id }, index) => {
       const order = sort.isUp ? "ascending" : "descending";

@@ -1,7 +1,7 @@
 // The panel "TF": the tree of frames, and the transform between two of them.
 
 import { act } from "../act.js";
-import { rowList, touchable } from "../controls/rows.js";
+import { keyOf, rowList, touchable } from "../controls/rows.js";
 import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
 import { recall, remember } from "../remember.js";
@@ -10,19 +10,30 @@ import { between } from "./frame_between.js";
 import { openFramePicture } from "./frame_picture.js";
 import { ageText, factOf, frameNames, frameRows, makeFrame, updateFrame } from "./frame_rows.js";
 
+/** @import {FrameRow} from "./frame_rows.js" */
+/** @import {Panel, ValuesOf} from "../types.js" */
+
 const ROW_PX = 26;
 const NOTHING = "No transforms yet on /tf or /tf_static.";
 
+/** @type {string | null} */
 let wanted = null;
 
-/** Marks a frame when the panel is shown. */
+/**
+ * Marks a frame when the panel is shown.
+ *
+ * @param {string} name
+ */
 export const showFrame = (name) => (wanted = name);
 
+/** @type {Panel} */
 export const transforms = {
   name: "transforms",
   title: "TF",
   open(element) {
+    /** @type {ValuesOf<"transforms"> | null} */
     let values = null;
+    /** @type {Set<string>} */
     const folded = new Set(recall("tf-folded", []));
 
     const search = el("input", {
@@ -83,10 +94,10 @@ export const transforms = {
       const row = rows.find(({ name }) => name === wanted);
       if (row) list.mark(row.key);
       wanted = null;
-      const hasFrames = values.get("/roots").length > 0;
+      const hasFrames = (values.get("/roots") ?? []).length > 0;
       setText(empty, hasFrames ? "No frame with these words." : NOTHING);
       set(empty, { hidden: rows.length > 0 });
-      const sentences = values.get("/problems").join(" ");
+      const sentences = (values.get("/problems") ?? []).join(" ");
       setText(problems, sentences);
       set(problems, { hidden: !sentences });
       showDetail();
@@ -98,25 +109,36 @@ export const transforms = {
       if (row) setText(detail, detailOf(row));
     }
 
+    /** @param {FrameRow} row */
     function choose(row) {
       showDetail();
       act("FocusFrame", { frame: row.name });
     }
 
+    /** @param {string} name */
     function toggle(name) {
       if (!folded.delete(name)) folded.add(name);
       remember("tf-folded", [...folded]);
       show();
     }
 
-    // A click on the mark folds, and leaves the camera where it is.
+    /**
+     * A click on the mark folds, and leaves the camera where it is.
+     *
+     * @param {MouseEvent} event
+     */
     function onFold(event) {
-      const row = event.target.closest(".wv-fold-mark")?.closest(".wv-row");
-      if (!row?.hasAttribute("aria-expanded")) return;
+      const mark = /** @type {Element} */ (event.target).closest(".wv-fold-mark");
+      if (!mark?.closest(".wv-row")?.hasAttribute("aria-expanded")) return;
       event.stopPropagation();
-      toggle(row.wvKey.slice(row.wvKey.lastIndexOf("\n") + 1));
+      const key = keyOf(mark);
+      toggle(key.slice(key.lastIndexOf("\n") + 1));
     }
 
+    /**
+     * @param {KeyboardEvent} event
+     * @param {FrameRow} row
+     */
     function onKey({ key }, row) {
       const isFold =
         (key === "ArrowLeft" && row.isOpen) || (key === "ArrowRight" && row.isOpen === false);
@@ -139,7 +161,11 @@ export const transforms = {
   },
 };
 
-/** Facts about a frame, in sentences. */
+/**
+ * Facts about a frame, in sentences.
+ *
+ * @param {FrameRow} row
+ */
 function detailOf({ name, frame }) {
   if (!frame) return `${name} is a root: it has no parent.`;
   const age = frame.is_static || !frame.samples ? "" : `${ageText(frame)} old`;

@@ -2,11 +2,19 @@
 
 const BYTES = ["B/s", "kB/s", "MB/s", "GB/s"];
 
-/** A rate in Hz; "" for none. */
+/**
+ * A rate in Hz; "" for none.
+ *
+ * @param {number} [hz]
+ */
 export const rateText = (hz) =>
   hz === undefined ? "" : `${hz < 100 ? hz.toFixed(1) : hz.toFixed(0)} Hz`;
 
-/** Bytes in a second. */
+/**
+ * Bytes in a second.
+ *
+ * @param {number} [bytes]
+ */
 export function bytesText(bytes) {
   if (bytes === undefined) return "";
   let [size, unit] = [bytes, 0];
@@ -14,7 +22,11 @@ export function bytesText(bytes) {
   return `${size.toFixed(unit === 0 || size >= 100 ? 0 : 1)} ${BYTES[unit]}`;
 }
 
-/** Seconds as a time in the unit that suits it: 12 ms, 3.4 s, 5 min; "" for none. */
+/**
+ * Seconds as a time in the unit that suits it: 12 ms, 3.4 s, 5 min; "" for none.
+ *
+ * @param {number | null} [seconds]
+ */
 export function spanText(seconds) {
   if (seconds === null || seconds === undefined) return "";
   const size = Math.abs(seconds);
@@ -28,5 +40,9 @@ export function spanText(seconds) {
     : `${sign}${Math.round(size / 86_400)} d`;
 }
 
-/** Bytes of one message. */
+/**
+ * Bytes of one message.
+ *
+ * @param {number} bytes
+ */
 export const sizeText = (bytes) => bytesText(bytes).replace("/s", "");

@@ -12,6 +12,8 @@ import { maker } from "./displays/properties.js";
 import { savedViews } from "./saved_views.js";
 
 /** @import {DeclaredProperty} from "../contents.js" */
+/** @import {MenuItem} from "../shell/menu.js" */
+/** @import {Panel} from "../types.js" */
 
 /** @type {DeclaredProperty} */
 const TYPE = {
@@ -32,16 +34,24 @@ const TARGET = {
   help: "The camera moves with this frame.",
 };
 
+/** @type {() => void} */
 let watchAgain = () => {};
 // viser gives the page another id when it connects again.
 channel.onOpen(() => watchAgain());
 
+/** @type {Panel} */
 export const views = {
   name: "views",
   title: "Views",
   open(element) {
+    /** @type {() => void} */
     let endView = () => {};
+    /** @type {ReturnType<typeof form> | null} */
     let head = null;
+    /**
+     * @param {string} key
+     * @param {unknown} value
+     */
     const send = (key, value) =>
       act("ChangeView", { key, value }, { quiet: true, errors: "caller" });
     const options = { send, name: "view", marks: false };
@@ -92,6 +102,7 @@ export const views = {
 };
 
 function buttons() {
+  /** @type {HTMLButtonElement} */
   const focus = el(
     "button",
     {
@@ -119,12 +130,17 @@ function buttons() {
   return [focus, zero];
 }
 
-// The displays as they are now.
+/**
+ * The displays as they are now.
+ *
+ * @param {HTMLElement} button
+ */
 function openDisplays(button) {
   const end = watch("displays", (rows) => {
     setTimeout(() => end()); // it may be called before there is an `end`
+    /** @type {MenuItem[]} */
     const items = rows.get("order").map((display) => ({
-      label: rows.get(display).name,
+      label: rows.get(display)?.name ?? display,
       run: () => act("FocusDisplay", { display }),
     }));
     openMenuBelow(button, items.length ? items : [{ label: "No displays", disabled: true }]);

@@ -6,6 +6,11 @@ import { el } from "../../dom.js";
 import { watch } from "../../stores.js";
 import { statuses } from "./statuses.js";
 
+/** @import {DeclaredProperty} from "../../contents.js" */
+/** @import {FormValues} from "../../types.js" */
+
+/** @typedef {ReturnType<typeof form>} Form */
+
 const LEVELS = ["ok", "warn", "error"];
 const SETTINGS = {
   fixed_frame: (frame) => ["SetFixedFrame", { frame }],
@@ -84,10 +89,20 @@ export function globalOptions(element) {
   };
 }
 
-/** Makes the form anew when something else is declared, and keeps it up to date; `end()` ends it. */
+/**
+ * Makes the form anew when something else is declared, and keeps it up to date; `end()` ends it.
+ *
+ * @param {HTMLElement} place
+ * @param {(declared: DeclaredProperty[], values: FormValues) => Form} make
+ */
 export function maker(place, make) {
+  /** @type {Form | null} */
   let shown = null;
   let declared = "";
+  /**
+   * @param {FormValues & {keys(): Iterable<string>}} values
+   * @param {Set<string>} changed
+   */
   function update(values, changed) {
     const now = JSON.stringify(values.get("declared") ?? []);
     const isNew = now !== declared;
