@@ -2,7 +2,7 @@
 
 /**
  * @typedef {{fields: Record<string, Tree>}} Fields
- * @typedef {{items: Tree[], length: number, type: string, fields?: undefined}} Items
+ * @typedef {{items: Tree[], length: number, type: string}} Items
  * @typedef {string | Fields | Items} Tree
  * @typedef {{key: string, depth: number, name: string, value: string, isOpen: boolean | null}} MessageRow
  */
@@ -20,7 +20,9 @@ const isLeaf = (tree) => typeof tree === "string";
  * @returns {[string, Tree][]}
  */
 const entries = (tree) =>
-  tree.fields ? Object.entries(tree.fields) : tree.items.map((item, index) => [`[${index}]`, item]);
+  "fields" in tree
+    ? Object.entries(tree.fields)
+    : tree.items.map((item, index) => [`[${index}]`, item]);
 
 /**
  * The rows of a message that are not folded away: `{key, depth, name, value, isOpen}`; `isOpen` is null
@@ -39,11 +41,11 @@ export function rowsOf(tree, folds, depth = 0, path = "") {
     const row = { key, depth, name, value: brief(inside), isOpen: null };
     if (isLeaf(inside) || !entries(inside).length) return [row];
     // Messages are unfolded at first, and sequences, which may be long, are not.
-    row.isOpen = folds.get(key) ?? (Boolean(inside.fields) && depth < OPEN_DEPTH);
+    row.isOpen = folds.get(key) ?? ("fields" in inside && depth < OPEN_DEPTH);
     if (!row.isOpen) return [row];
-    row.value = inside.fields ? "" : lengthOf(inside);
+    row.value = "fields" in inside ? "" : lengthOf(inside);
     const rows = [row, ...rowsOf(inside, folds, depth + 1, key)];
-    const more = inside.fields ? 0 : inside.length - inside.items.length;
+    const more = "fields" in inside ? 0 : inside.length - inside.items.length;
     if (more > 0) {
       const value = `… ${more} more`;
       rows.push({ key: `${key}/…`, depth: depth + 1, name: "", value, isOpen: null });
@@ -60,7 +62,7 @@ export function rowsOf(tree, folds, depth = 0, path = "") {
  */
 function brief(tree) {
   if (isLeaf(tree)) return tree;
-  if (tree.fields) return cut(inline(tree));
+  if ("fields" in tree) return cut(inline(tree));
   if (!tree.length) return "[]";
   const isPlain = tree.items.every(isLeaf);
   return isPlain ? `${cut(inline(tree))}  ${lengthOf(tree)}` : lengthOf(tree);
@@ -77,7 +79,7 @@ const cut = (text) => (text.length > SHORT ? `${text.slice(0, SHORT)}…` : text
  */
 function inline(tree) {
   if (isLeaf(tree)) return tree;
-  if (tree.fields) {
+  if ("fields" in tree) {
     return Object.entries(tree.fields)
       .map(([name, inside]) => `${name}: ${inline(inside)}`)
       .join(", ");
@@ -106,13 +108,13 @@ export function textOf(tree, indent = "") {
  */
 function field(name, tree, indent) {
   if (isLeaf(tree)) return `${indent}${name}: ${tree}`;
-  if (tree.fields) return `${indent}${name}:\n${textOf(tree, `${indent}  `)}`;
+  if ("fields" in tree) return `${indent}${name}:\n${textOf(tree, `${indent}  `)}`;
   if (tree.items.every(isLeaf)) {
     const note = tree.length > tree.items.length ? `  # ${lengthOf(tree)}` : "";
     return `${indent}${name}: ${inline(tree)}${note}`;
   }
   const items = tree.items.map((item) => {
-    const isFields = !isLeaf(item) && item.fields;
+    const isFields = !isLeaf(item) && "fields" in item;
     return `${indent}- ${isFields ? textOf(item, `${indent}  `).trimStart() : inline(item)}`;
   });
   if (tree.length > items.length) items.push(`${indent}# ${lengthOf(tree)}`);

@@ -32,7 +32,7 @@ export function properties(element, id) {
   const place = el("div");
   element.append(said.element, place);
   const made = maker(place, (declared, values) =>
-    form(declared, { send, name: values.get("type"), command: "SetProperty" }),
+    form(declared, { send, name: String(values.get("type")), command: "SetProperty" }),
   );
   const end = watch(`properties:${id}`, (values, changed) => {
     if (changed.has("worst")) said.worst(values.get("worst"));
