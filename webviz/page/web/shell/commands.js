@@ -4,6 +4,14 @@ import { why } from "../access.js";
 import { keyOf } from "./keys.js";
 import { toast } from "./toasts.js";
 
+/**
+ * @typedef {{
+ *   name: string, run: () => unknown, icon?: string, key?: string | string[], group?: string,
+ *   note?: string, isHidden?: boolean, isThere?: () => boolean, isKeyHere?: () => boolean,
+ *   needs?: string, inFields?: boolean,
+ * }} Command
+ */
+
 const TYPED =
   "input:not([type=checkbox], [type=radio], [type=range], [type=button]), textarea, select, " +
   "[contenteditable]:not([contenteditable=false])";

@@ -9,12 +9,26 @@ import { siblings, topmost } from "./model.js";
 import { moves, step } from "./places.js";
 import * as selection from "./selection.js";
 
+/** @import {Commands} from "../../messages.js" */
+/** @import {Item, Model, Place, Way} from "./types.js" */
+
+/** @type {Map<string, boolean>} */
 const switching = new Map();
 
-/** True if a display is on: as it was just switched here, until the viewer has answered. */
+/**
+ * True if a display is on: as it was just switched here, until the viewer has answered.
+ *
+ * @param {Item} item
+ */
 export const isEnabled = (item) => switching.get(item.id) ?? item.enabled;
 
-/** Switches displays on or off; `refresh` shows what came of it. */
+/**
+ * Switches displays on or off; `refresh` shows what came of it.
+ *
+ * @param {Item[]} items
+ * @param {boolean} value
+ * @param {() => void} refresh
+ */
 export async function setEnabled(items, value, refresh) {
   for (const { id } of items) switching.set(id, value);
   refresh();
@@ -23,31 +37,61 @@ export async function setEnabled(items, value, refresh) {
   refresh();
 }
 
+/** @param {Item} item */
 export const focus = (item) => act("FocusDisplay", { display: item.id });
 
-export const duplicate = (items) => each("DuplicateDisplay", items);
+/** @param {Item[]} items */
+export const duplicate = (items) => each("DuplicateDisplay", items, {});
 
-export const reset = (items) => each("ResetDisplay", items);
+/** @param {Item[]} items */
+export const reset = (items) => each("ResetDisplay", items, {});
 
-// One step for undo.
-function each(command, items, fields = {}) {
+/**
+ * Sends a command for each display; one step for undo.
+ *
+ * @template {"SetProperty" | "DuplicateDisplay" | "ResetDisplay" | "RemoveDisplay"} C
+ * @param {C} command
+ * @param {Item[]} items
+ * @param {Omit<Commands[C], "display">} fields
+ */
+function each(command, items, fields) {
   const step = newStep();
-  return Promise.all(items.map(({ id }) => act(command, { display: id, ...fields }, { step })));
+  return Promise.all(
+    items.map(({ id }) => {
+      const whole = /** @type {Commands[C]} */ ({ display: id, ...fields });
+      return act(command, whole, { step });
+    }),
+  );
 }
 
-/** Removes displays; the row that follows them, or else the one before, is selected then. */
+/**
+ * Removes displays; the row that follows them, or else the one before, is selected then.
+ *
+ * @param {Model} model
+ * @param {Item[]} rows
+ * @param {Item[]} items
+ */
 export function remove(model, rows, items) {
   const ids = new Set(items.map(({ id }) => id));
+  /** @param {Item} row */
   const stays = (row) => model.byId.has(row.id) && !goes(row);
+  /**
+   * @param {Item | null} row
+   * @returns {boolean}
+   */
   const goes = (row) => row !== null && (ids.has(row.id) || goes(row.parent));
   const last = rows.findLastIndex(goes);
   selection.leaveTo(
     (rows.slice(last + 1).find(stays) ?? rows.slice(0, last).findLast(stays))?.id ?? null,
   );
-  each("RemoveDisplay", items);
+  each("RemoveDisplay", items, {});
 }
 
-/** Copies displays as a config file has them. */
+/**
+ * Copies displays as a config file has them.
+ *
+ * @param {Item[]} items
+ */
 export async function copyAsYaml(items) {
   const { level, text } = await act(
     "WriteDisplays",
@@ -60,17 +104,34 @@ export async function copyAsYaml(items) {
   else toast("Not copied: this browser does not allow it.", { level: "error" });
 }
 
-/** Brings displays to a place, and unfolds the group that they go into. */
+/**
+ * Brings displays to a place, and unfolds the group that they go into.
+ *
+ * @param {Model} model
+ * @param {Set<string>} ids
+ * @param {Place | null} place
+ */
 export function move(model, ids, place) {
   if (!place) return;
-  if (place.group) setOpen(model.byId.get(place.group), true);
+  const group = model.byId.get(place.group);
+  if (group) setOpen(group, true);
   const step = newStep();
   for (const fields of moves(model, ids, place)) act("MoveDisplay", fields, { step });
 }
 
+/**
+ * @param {Model} model
+ * @param {Set<string>} ids
+ * @param {Way} way
+ */
 export const moveBy = (model, ids, way) => move(model, ids, step(model, ids, way));
 
-/** Puts displays into a new group, where the first of them is; resolves with the id of it. */
+/**
+ * Puts displays into a new group, where the first of them is; resolves with the id of it.
+ *
+ * @param {Model} model
+ * @param {Item[]} items
+ */
 export async function group(model, items) {
   const [first] = items;
   const parent = first.parent?.id ?? "";
@@ -84,7 +145,13 @@ export async function group(model, items) {
   return display;
 }
 
-/** Opens the menu of the selected displays at a place of the window. */
+/**
+ * Opens the menu of the selected displays at a place of the window.
+ *
+ * @param {number} x
+ * @param {number} y
+ * @param {{model: Model, rows: () => Item[], rename: (id: string | null) => void, refresh: () => void}} tree
+ */
 export function openActions(x, y, { model, rows, rename, refresh }) {
   const items = topmost(model, selection.ids());
   const [first] = items;

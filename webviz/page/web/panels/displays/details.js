@@ -9,17 +9,30 @@ import { GLOBAL } from "./model.js";
 import { globalOptions, properties } from "./properties.js";
 import { severalProperties } from "./several.js";
 
+/** @import {Item} from "./types.js" */
+
 const LEAST = 90; // pixels of the tree and of the properties
 const STEP = 24;
 const HEIGHT_KEY = "displays.height";
 const OPEN_KEY = "displays.details";
 
-/** Builds the border and what is below it; `panel` is what both share with the tree. */
+/**
+ * Builds the border and what is below it; `panel` is what both share with the tree.
+ *
+ * @param {HTMLElement} panel
+ */
 export function buildDetails(panel) {
+  /** @type {Item[]} */
   let shown = [];
+  /** @type {(() => void) | null} */
   let end = null;
   let isOpen = recall(OPEN_KEY, true);
   const title = el("h2", { class: "wv-details-title" });
+  /**
+   * @param {string} name
+   * @param {string} label
+   * @param {() => unknown} run
+   */
   const button = (name, label, run) =>
     el(
       "button",
@@ -33,6 +46,7 @@ export function buildDetails(panel) {
   const close = button("close", "Close properties", () => setOpen(false));
   const head = el("div", { class: "wv-details-head" }, title, ...tools, close);
   const body = el("div", { class: "wv-details-body" });
+  /** @type {HTMLElement} */
   const border = el("div", {
     class: "wv-details-border",
     role: "separator",
@@ -48,13 +62,14 @@ export function buildDetails(panel) {
     },
     onpointerup: () => remember(HEIGHT_KEY, element.offsetHeight),
     onkeydown: (event) => {
-      const change = { ArrowUp: STEP, ArrowDown: -STEP }[event.key];
+      const change = event.key === "ArrowUp" ? STEP : event.key === "ArrowDown" ? -STEP : 0;
       if (!change) return;
       event.preventDefault();
       setHeight(element.offsetHeight + change);
       remember(HEIGHT_KEY, element.offsetHeight);
     },
   });
+  /** @type {HTMLElement} */
   const element = el(
     "section",
     { class: "wv-details", "aria-label": "Properties" },
@@ -64,17 +79,23 @@ export function buildDetails(panel) {
   );
   setHeight(recall(HEIGHT_KEY, 280));
 
-  // As a share of what both have, it fits when the window becomes smaller.
+  /**
+   * As a share of what both have, it fits when the window becomes smaller.
+   *
+   * @param {number} pixels
+   */
   function setHeight(pixels) {
     element.style.height = `clamp(${LEAST}px, ${Math.round(pixels)}px, 100% - ${LEAST + 40}px)`;
   }
 
+  /** @param {boolean} open */
   function setOpen(open) {
     isOpen = open;
     remember(OPEN_KEY, open);
     update(shown);
   }
 
+  /** @param {string[]} ids */
   function fill(ids) {
     end?.();
     end = null;
@@ -85,6 +106,7 @@ export function buildDetails(panel) {
   }
 
   let filledWith = "";
+  /** @param {Item[]} items */
   function update(items) {
     shown = items;
     const ids = isOpen ? items.map(({ id }) => id) : [];

@@ -14,6 +14,10 @@ import { topmost } from "./model.js";
 import * as selection from "./selection.js";
 import { buildTree } from "./tree.js";
 
+/** @import {Command} from "../../shell/commands.js" */
+/** @import {Panel} from "../../types.js" */
+
+/** @type {Panel} */
 export const displays = {
   name: "displays",
   title: "Displays",
@@ -27,6 +31,7 @@ export const displays = {
       autocomplete: "off",
     });
     const hint = el("kbd", { class: "wv-tree-hint", "aria-hidden": "true" }, keyText("Ctrl+f"));
+    /** @type {HTMLButtonElement} */
     const more = el(
       "button",
       {
@@ -67,7 +72,9 @@ export const displays = {
     );
 
     function menu() {
+      /** @param {boolean} isOpen */
       const choose = (isOpen) => () => details.setOpen(isOpen);
+      /** @param {boolean} isOpen */
       const fold = (isOpen) => () => {
         for (const item of tree.model().items) if (item.isGroup) folding.setOpen(item, isOpen);
         tree.refresh();
@@ -99,6 +106,10 @@ export const displays = {
       const side = panel.closest(".wv-side") ?? panel;
       return side.matches(":hover") || side.contains(document.activeElement);
     };
+    /**
+     * @param {string} name
+     * @param {Partial<Command> & {run: () => unknown}} wanted
+     */
     const about = (name, wanted) =>
       command({
         name,
@@ -107,9 +118,13 @@ export const displays = {
         ...wanted,
       });
     const chosen = () => topmost(tree.model(), selection.ids());
-    const one = () => (chosen().length === 1 ? chosen()[0] : null);
+    const isOne = () => chosen().length === 1;
     const ends = [
-      about("Focus on display", { icon: "focus", isThere: one, run: () => actions.focus(one()) }),
+      about("Focus on display", {
+        icon: "focus",
+        isThere: isOne,
+        run: () => actions.focus(chosen()[0]),
+      }),
       about("Duplicate display", {
         icon: "copy",
         needs: "DuplicateDisplay",
@@ -118,9 +133,9 @@ export const displays = {
       about("Rename display", {
         key: "F2",
         needs: "SetProperty",
-        isThere: one,
+        isThere: isOne,
         isKeyHere: isHere,
-        run: () => tree.rename(one().id),
+        run: () => tree.rename(chosen()[0].id),
       }),
       about("Remove display", {
         icon: "trash",

@@ -5,11 +5,16 @@
 import * as channel from "../../channel.js";
 import { recall, remember } from "../../remember.js";
 
+/** @import {Item} from "./types.js" */
+
 const KEY = "displays.folds";
 const MAX_REMEMBERED = 500;
 
+/** @type {Set<string>} */
 const stored = new Set(recall(KEY, []));
+/** @type {Set<string>} */
 const toggled = new Set();
+/** @type {Map<string, string>} */
 const paths = new Map();
 
 // After a lost connection, ids may be those of another viewer.
@@ -18,10 +23,19 @@ channel.onOpen(() => {
   paths.clear();
 });
 
-/** True if the content of a group, or the properties of a display, are shown below it. */
+/**
+ * True if the content of a group, or the properties of a display, are shown below it.
+ *
+ * @param {Item} item
+ */
 export const isOpen = (item) => item.isGroup !== toggled.has(item.id);
 
-/** Folds or unfolds. */
+/**
+ * Folds or unfolds.
+ *
+ * @param {Item} item
+ * @param {boolean} open
+ */
 export function setOpen(item, open) {
   if (isOpen(item) === open) return;
   const isToggled = item.isGroup !== open;
@@ -30,7 +44,11 @@ export function setOpen(item, open) {
   save();
 }
 
-/** Knows new displays by their names, and follows those that are renamed or moved. */
+/**
+ * Knows new displays by their names, and follows those that are renamed or moved.
+ *
+ * @param {Item[]} items
+ */
 export function follow(items) {
   for (const { id, path } of items) {
     const before = paths.get(id);

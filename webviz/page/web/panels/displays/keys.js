@@ -5,14 +5,26 @@ import { isOpen, setOpen } from "./folding.js";
 import { topmost } from "./model.js";
 import * as selection from "./selection.js";
 
+/** @import {Item, Tree, Way} from "./types.js" */
+
+/** @type {Record<string, Way>} */
 const WAYS = { ArrowUp: "up", ArrowDown: "down", ArrowLeft: "out", ArrowRight: "into" };
 
-/** Answers to keys in a tree; see `tree.js` for what is asked of that. */
+/**
+ * Answers to keys in a tree; see `tree.js` for what is asked of that.
+ *
+ * @param {HTMLElement} element
+ * @param {Tree} tree
+ */
 export function listenToKeys(element, tree) {
   const rows = () => tree.rows();
   const here = () => rows().findIndex(({ id }) => id === selection.active());
   const chosen = () => topmost(tree.model(), selection.ids());
 
+  /**
+   * @param {number} index
+   * @param {KeyboardEvent} event
+   */
   function go(index, event) {
     const row = rows()[Math.max(0, Math.min(index, rows().length - 1))];
     if (!row) return;
@@ -22,6 +34,10 @@ export function listenToKeys(element, tree) {
     tree.showActive();
   }
 
+  /**
+   * @param {KeyboardEvent} event
+   * @param {Item} item
+   */
   function fold(event, item) {
     if (event.key === "ArrowRight") {
       if (!isOpen(item)) setOpen(item, true);
@@ -31,6 +47,10 @@ export function listenToKeys(element, tree) {
     tree.refresh();
   }
 
+  /**
+   * @param {KeyboardEvent} event
+   * @param {Item} item
+   */
   function switchOn(event, item) {
     if (event.ctrlKey || event.metaKey) {
       selection.toggle(item.id);
@@ -39,11 +59,12 @@ export function listenToKeys(element, tree) {
     }
     const isOne = !selection.isSelected(item.id);
     const items = (
-      isOne ? [item] : [...selection.ids()].map((id) => tree.model().byId.get(id))
-    ).filter((each) => each?.can_edit);
+      isOne ? [item] : [...selection.ids()].flatMap((id) => tree.model().byId.get(id) ?? [])
+    ).filter((each) => each.can_edit);
     if (items.length) actions.setEnabled(items, !actions.isEnabled(item), tree.refresh);
   }
 
+  /** @param {KeyboardEvent} event */
   function onKey(event) {
     const item = rows()[here()];
     const { key, altKey, shiftKey } = event;
@@ -80,7 +101,11 @@ export function listenToKeys(element, tree) {
   }
 
   element.addEventListener("keydown", (event) => {
-    if (event.target.getAttribute("role") !== "treeitem" || event.isComposing) return;
+    if (
+      /** @type {Element} */ (event.target).getAttribute("role") !== "treeitem" ||
+      event.isComposing
+    )
+      return;
     if (!onKey(event)) return;
     event.preventDefault();
     event.stopPropagation();

@@ -2,28 +2,37 @@
 
 import { wordsOf } from "../../words.js";
 
+/** @import {Item, Model} from "./types.js" */
+/** @import {ValuesOf} from "../../types.js" */
+
 const NAME_IN_PATH = 80;
 
 export const GLOBAL = "global";
 
-/** The row on top, of what holds for everything; its settings come from another store. */
+/**
+ * The row on top, of what holds for everything; its settings come from another store.
+ *
+ * @param {ValuesOf<"settings"> | null} settings
+ * @returns {Item}
+ */
 export function globalItem(settings) {
-  const statuses = settings.get("statuses") ?? [];
-  const level =
-    ["error", "warn"].find((one) => statuses.some((status) => status[1] === one)) ?? "ok";
-  const [, , line, remedy] =
-    level === "ok" ? ["", "", ""] : statuses.find((one) => one[1] === level);
-  const rate = settings.get("frame_rate");
-  const note = rate === undefined ? "" : `${settings.get("fixed_frame")}, ${Math.round(rate)} Hz`;
+  const statuses = settings?.get("statuses") ?? [];
+  const error = statuses.find(([, level]) => level === "error");
+  const worst = error ?? statuses.find(([, level]) => level === "warn");
+  const [, level, line, remedy] = worst ?? ["", /** @type {const} */ ("ok"), "", null];
+  const rate = settings?.get("frame_rate");
+  const note = rate === undefined ? "" : `${settings?.get("fixed_frame")}, ${Math.round(rate)} Hz`;
   return {
     id: GLOBAL,
     path: GLOBAL,
     name: "Global Options",
     type: "Global",
+    icon: "gear",
     depth: 0,
+    can_edit: false,
     level,
     line,
-    remedy,
+    remedy: remedy ?? undefined,
     note,
     topics: [],
     enabled: true,
@@ -39,13 +48,19 @@ export function globalItem(settings) {
  *
  * An item has what the store has of it, its `parent` and `children`, whether nothing switches it off
  * (`isActive`), and a `path` of names that is its own and lasts when the viewer starts anew.
+ *
+ * @param {ValuesOf<"displays">} values
  */
 export function arrange(values) {
+  /** @type {Model} */
   const model = { items: [], byId: new Map(), top: [] };
+  /** @type {Item[]} */
   const above = [];
+  /** @type {Set<string>} */
   const paths = new Set();
   for (const id of values.get("order") ?? []) {
     const row = values.get(id);
+    if (!row) continue;
     above.length = Math.min(row.depth, above.length);
     const parent = above.at(-1) ?? null;
     const stem = `${parent?.path ?? ""}/${row.name.slice(0, NAME_IN_PATH)}`;
@@ -53,6 +68,7 @@ export function arrange(values) {
     for (let count = 2; paths.has(path); count++) path = `${stem}#${count}`;
     paths.add(path);
     const isActive = row.enabled && (parent?.isActive ?? true);
+    /** @type {Item} */
     const item = {
       ...row,
       id,
@@ -70,25 +86,48 @@ export function arrange(values) {
   return model;
 }
 
-/** The siblings of an item: the children of its group, or what is in none. */
+/**
+ * The siblings of an item: the children of its group, or what is in none.
+ *
+ * @param {Model} model
+ * @param {Item} item
+ */
 export const siblings = (model, item) => item.parent?.children ?? model.top;
 
-/** True if an item is one of a set of ids, or in one. */
+/**
+ * True if an item is one of a set of ids, or in one.
+ *
+ * @param {Item} item
+ * @param {Set<string>} ids
+ * @returns {boolean}
+ */
 export function isWithin(item, ids) {
-  for (let one = item; one; one = one.parent) if (ids.has(one.id)) return true;
-  return false;
+  return ids.has(item.id) || (item.parent !== null && isWithin(item.parent, ids));
 }
 
-/** The items of a set of ids from top to bottom, without those that are in others of them. */
+/**
+ * The items of a set of ids from top to bottom, without those that are in others of them.
+ *
+ * @param {Model} model
+ * @param {Set<string>} ids
+ */
 export function topmost(model, ids) {
   return model.items.filter(({ id, parent }) => ids.has(id) && !(parent && isWithin(parent, ids)));
 }
 
-/** The items that are rows: not those in folded groups; during a search, what matches. */
+/**
+ * The items that are rows: not those in folded groups; during a search, what matches.
+ *
+ * @param {Model} model
+ * @param {(item: Item) => boolean} isOpen
+ * @param {string} search
+ */
 export function visible(model, isOpen, search) {
   const words = wordsOf(search);
   if (words.length) return matching(model, words);
+  /** @type {Item[]} */
   const rows = [];
+  /** @param {Item[]} items */
   const add = (items) => {
     for (const item of items) {
       rows.push(item);
@@ -99,24 +138,42 @@ export function visible(model, isOpen, search) {
   return rows;
 }
 
-/** True if all words are somewhere in the name, the type and the topics of an item. */
+/**
+ * True if all words are somewhere in the name, the type and the topics of an item.
+ *
+ * @param {Item} item
+ * @param {string[]} words
+ */
 export function matches(item, words) {
   const text = [item.name, item.type, ...item.topics].join("\n").toLowerCase();
   return words.every((word) => text.includes(word));
 }
 
-// With the groups that what matches is in, and all that is in groups that match.
+/**
+ * With the groups that what matches is in, and all that is in groups that match.
+ *
+ * @param {Model} model
+ * @param {string[]} words
+ */
 function matching(model, words) {
+  /** @type {Set<Item>} */
   const shown = new Set();
   for (const item of model.items) {
-    if (!shown.has(item.parent) && !matches(item, words)) continue;
-    if (matches(item, words) || isInMatch(item, words)) {
-      for (let one = item; one; one = one.parent) shown.add(one);
-    }
+    const isInShown = item.parent !== null && shown.has(item.parent);
+    if (!isInShown && !matches(item, words)) continue;
+    if (!matches(item, words) && !isInMatch(item, words)) continue;
+    /** @type {Item | null} */
+    let one = item;
+    for (; one; one = one.parent) shown.add(one);
   }
   return model.items.filter((item) => shown.has(item));
 }
 
+/**
+ * @param {Item} item
+ * @param {string[]} words
+ * @returns {boolean}
+ */
 function isInMatch({ parent }, words) {
   return parent !== null && (matches(parent, words) || isInMatch(parent, words));
 }

@@ -6,22 +6,32 @@ import { el } from "../../dom.js";
 import { watch } from "../../stores.js";
 import { statuses } from "./statuses.js";
 
-/** @import {DeclaredProperty} from "../../contents.js" */
-/** @import {FormValues} from "../../types.js" */
+/** @import {DeclaredProperty, RemedyButton, StatusLine, WorstStatus} from "../../contents.js" */
+/** @import {FormValues, Outcome, Vec3} from "../../types.js" */
 
 /** @typedef {ReturnType<typeof form>} Form */
 
 const LEVELS = ["ok", "warn", "error"];
+const QUIET = /** @type {const} */ ({ quiet: true, errors: "caller" });
+/** @type {Record<string, (value: unknown) => Promise<Outcome>>} */
 const SETTINGS = {
-  fixed_frame: (frame) => ["SetFixedFrame", { frame }],
-  background: (color) => ["SetBackground", { color }],
-  frame_rate: (hz) => ["SetFrameRate", { hz }],
+  fixed_frame: (frame) => act("SetFixedFrame", { frame: String(frame) }, QUIET),
+  background: (color) => act("SetBackground", { color: /** @type {Vec3 | null} */ (color) }, QUIET),
+  frame_rate: (hz) => act("SetFrameRate", { hz: Number(hz) }, QUIET),
 };
 
-/** Fills an element with the statuses and properties of a display; returns what ends it. */
+/**
+ * Fills an element with the statuses and properties of a display; returns what ends it.
+ *
+ * @param {HTMLElement} element
+ * @param {string} id
+ */
 export function properties(element, id) {
-  const send = (path, value) =>
-    act("SetProperty", { display: id, path, value }, { quiet: true, errors: "caller" });
+  /**
+   * @param {string} path
+   * @param {unknown} value
+   */
+  const send = (path, value) => act("SetProperty", { display: id, path, value }, QUIET);
   const said = statuses({
     display: id,
     open: (show) =>
@@ -46,16 +56,24 @@ export function properties(element, id) {
   };
 }
 
-/** Fills an element with what holds for the whole viewer; returns what ends it. */
+/**
+ * Fills an element with what holds for the whole viewer; returns what ends it.
+ *
+ * @param {HTMLElement} element
+ */
 export function globalOptions(element) {
-  const send = (path, value) => {
-    const [command, fields] = SETTINGS[path](value);
-    return act(command, fields, { quiet: true, errors: "caller" });
-  };
+  /**
+   * @param {string} path
+   * @param {unknown} value
+   */
+  const send = (path, value) => SETTINGS[path](value);
+  /** @type {((lines: StatusLine[], more: number) => void) | null} */
   let show = null;
+  /** @type {[StatusLine[], number]} */
   let lines = [[], 0];
   const said = statuses({
     display: "",
+    /** @param {(lines: StatusLine[], more: number) => void} listener */
     open(listener) {
       show = listener;
       show(...lines);
@@ -117,9 +135,17 @@ export function maker(place, make) {
   return { update, end: () => shown?.end() };
 }
 
+/**
+ * @param {DeclaredProperty} property
+ * @returns {DeclaredProperty & {isFixed?: boolean}}
+ */
 const withFrame = (property) =>
   property.path === "fixed_frame" ? { ...property, kind: "frame", isFixed: true } : property;
 
+/**
+ * @param {StatusLine[]} lines
+ * @returns {WorstStatus | null}
+ */
 function worst(lines) {
   const [line] = [...lines].sort((a, b) => LEVELS.indexOf(b[1]) - LEVELS.indexOf(a[1]));
   return line ? { key: line[0], level: line[1], text: line[2] } : null;

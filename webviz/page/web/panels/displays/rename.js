@@ -4,7 +4,14 @@ import { why } from "../../access.js";
 import { act } from "../../act.js";
 import { el } from "../../dom.js";
 
-/** Turns the name of a row into a text field; Enter or leaving keeps it, Escape does not. */
+/** @import {Item, Row} from "./types.js" */
+
+/**
+ * Turns the name of a row into a text field; Enter or leaving keeps it, Escape does not.
+ *
+ * @param {Row} row
+ * @param {Item} item
+ */
 export function rename(row, item) {
   if (why("SetProperty") || row.element.querySelector(".wv-tree-rename")) return;
   const field = el("input", {
@@ -20,6 +27,7 @@ export function rename(row, item) {
   field.select();
   let isDone = false;
 
+  /** @param {boolean} isKept */
   function finish(isKept) {
     if (isDone) return;
     isDone = true;

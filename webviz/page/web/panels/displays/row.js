@@ -9,12 +9,27 @@ import { onFindings } from "../findings.js";
 import { globalOptions, properties } from "./properties.js";
 import { fillHelp } from "./statuses.js";
 
+/** @import {Explaining} from "../findings.js" */
+/** @import {Item} from "./types.js" */
+/** @import {RemedyButton} from "../../contents.js" */
+
+/**
+ * @typedef {{
+ *   isOpen: boolean, isSelected: boolean, isTabStop: boolean, enabled: boolean, hasRate: boolean,
+ *   position: number, count: number,
+ * }} Look
+ */
+
+/** @type {Record<Item["level"], string>} */
 const LEVELS = { idle: "Not shown", ok: "OK", warn: "Warning", error: "Error" };
 const MAX_TOOLTIP = 1000;
 
 /**
  * The row of an item. `look(item)` says how it looks: `{isOpen, isSelected, isTabStop, enabled,
  * hasRate, position, count}`.
+ *
+ * @param {Item} first
+ * @param {(item: Item) => Look} look
  */
 export function makeRow(first, look) {
   const { id, type } = first;
@@ -50,7 +65,7 @@ export function makeRow(first, look) {
     el(
       "span",
       { class: "wv-tree-type", "data-tip": isGlobal ? null : plain(type) || null },
-      icon(isGlobal ? "gear" : first.icon),
+      icon(first.icon),
     ),
     name,
     note,
@@ -60,23 +75,30 @@ export function makeRow(first, look) {
   const remedy = el("div", { class: "wv-tree-remedy", "data-part": "remedy", hidden: true });
   const row = el("div", { class: "wv-tree-row", role: "treeitem" }, head, line, remedy);
   const element = el("div", { class: "wv-tree-node", "data-id": id, role: "none" }, row);
+  /** @type {{place: HTMLElement, end: () => void} | null} */
   let inside = null;
+  /** @type {(() => void) | null} */
   let unwatch = null;
+  /** @type {{said: string, remedy: RemedyButton | null}} */
   let shown = { said: "", remedy: null };
-  /** @type {import("../findings.js").Explaining} */
+  /** @type {Explaining} */
   let explaining = () => undefined;
 
+  /**
+   * @param {boolean} isShown
+   * @param {Item} item
+   */
   function showInside(isShown, item) {
     if (isShown === Boolean(inside)) return;
-    if (isShown) {
+    if (inside) {
+      inside.end();
+      inside.place.remove();
+      inside = null;
+    } else {
       const label = `Properties of ${plain(item.name)}`;
       const place = el("div", { class: "wv-tree-inside", role: "group", "aria-label": label });
       element.append(place);
       inside = { place, end: isGlobal ? globalOptions(place) : properties(place, id) };
-    } else {
-      inside.end?.();
-      inside.place.remove();
-      inside = null;
     }
   }
 
@@ -86,6 +108,7 @@ export function makeRow(first, look) {
     fillHelp(remedy, shown.said ? shown.remedy : null, finding);
   }
 
+  /** @param {boolean} isShown */
   function showRate(isShown) {
     if (isShown === Boolean(unwatch)) return;
     unwatch?.();
@@ -97,6 +120,7 @@ export function makeRow(first, look) {
     if (!isShown) setText(note, "");
   }
 
+  /** @param {Item} item */
   function update(item) {
     const { isOpen, isSelected, isTabStop, enabled, hasRate, position, count } = look(item);
     const text = plain(item.name) || " ";
@@ -116,7 +140,7 @@ export function makeRow(first, look) {
       "data-off": !item.isActive,
       "data-level": level,
     });
-    row.style.setProperty("--depth", item.depth);
+    row.style.setProperty("--depth", String(item.depth));
     set(fold, { "aria-label": `${isOpen ? "Fold" : "Unfold"} ${text}` });
     set(box, {
       "aria-label": `Show ${text}`,
@@ -130,13 +154,13 @@ export function makeRow(first, look) {
     set(line, { "data-tip": said || null, hidden: !said });
     shown = { said, remedy: item.remedy ?? null };
     showHelp();
-    if (isGlobal) setText(note, plain(item.note));
+    if (isGlobal) setText(note, plain(item.note ?? ""));
     else showRate(hasRate && item.topics.length > 0);
     showInside(isOpen && !item.isGroup, item);
   }
 
   function close() {
-    showInside(false);
+    showInside(false, first);
     showRate(false);
     forget();
   }

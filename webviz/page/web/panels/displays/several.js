@@ -8,14 +8,22 @@ import { watch } from "../../stores.js";
 import { commonOf, filled, valuesOf } from "./common.js";
 import { maker } from "./properties.js";
 
+/** @import {ValuesOf} from "../../types.js" */
+
 const MAX_DISPLAYS = 50;
 const SAME_MS = 1500; // changes of one property that follow each other are undone together
 
-/** Fills an element with the common properties of displays; returns what ends it. */
+/**
+ * Fills an element with the common properties of displays; returns what ends it.
+ *
+ * @param {HTMLElement} element
+ * @param {string[]} ids
+ */
 export function severalProperties(element, ids) {
   const note = el("p", { class: "wv-details-note wv-quiet", hidden: true });
   const place = el("div");
   element.append(note, place);
+  /** @param {string} text */
   const tell = (text) => {
     note.textContent = text;
     note.hidden = text === "";
@@ -25,17 +33,23 @@ export function severalProperties(element, ids) {
     return () => element.replaceChildren();
   }
 
+  /** @type {Map<string, ValuesOf<"properties">>} */
   const stores = new Map();
+  /** @type {Map<string, unknown>} */
   let shown = new Map();
   let last = { path: "", at: 0, step: 0 };
 
+  /**
+   * @param {string} path
+   * @param {unknown} value
+   */
   async function send(path, value) {
     const now = performance.now();
     const goesOn = last.path === path && now - last.at < SAME_MS;
     last = { path, at: now, step: goesOn ? last.step : newStep() };
     const answers = await Promise.all(
       ids.map(async (id) => {
-        const own = stores.get(id).get(`value.${path}`);
+        const own = stores.get(id)?.get(`value.${path}`);
         const fields = { display: id, path, value: filled(value, own) };
         const answer = await act("SetProperty", fields, {
           quiet: true,
@@ -47,7 +61,7 @@ export function severalProperties(element, ids) {
     );
     const failed = answers.find(({ level }) => level === "error");
     return failed
-      ? { ...failed, text: `${plain(stores.get(failed.id).get("name"))}: ${failed.text}` }
+      ? { ...failed, text: `${plain(stores.get(failed.id)?.get("name") ?? "")}: ${failed.text}` }
       : answers[0];
   }
 
@@ -55,10 +69,15 @@ export function severalProperties(element, ids) {
     form(declared, { send, name: "several", command: "SetProperty" }),
   );
   function update() {
-    const all = ids.map((id) => stores.get(id));
-    if (!all.every((values) => values?.has("declared"))) return;
-    const declared = commonOf(all.map((values) => values.get("declared")));
+    const all = ids.flatMap((id) => stores.get(id) ?? []);
+    const lists = all.flatMap((values) => {
+      const declared = values.get("declared");
+      return declared ? [declared] : [];
+    });
+    if (lists.length < ids.length) return;
+    const declared = commonOf(lists);
     tell(declared.length ? "" : "These displays have no property in common.");
+    /** @type {Map<string, unknown>} */
     const values = valuesOf(all, declared).set("declared", declared);
     const changed = new Set([...values.keys()].filter((key) => values.get(key) !== shown.get(key)));
     shown = values;

@@ -6,9 +6,31 @@ import { el, set, setChildren, setText } from "../../dom.js";
 import { icon } from "../../icons.js";
 import { findingLink, keyOf, onFindings } from "../findings.js";
 
+/** @import {Commands} from "../../messages.js" */
+/** @import {Explaining} from "../findings.js" */
+/** @import {RemedyButton, ShownFinding, StatusLine, WorstStatus} from "../../contents.js" */
+
+/** @typedef {(lines: StatusLine[], more: number) => void} ShowLines */
+
 let count = 0;
 
-/** A button that does what helps. */
+/**
+ * Sends a command that a remedy names.
+ *
+ * @param {string} command
+ * @param {RemedyButton["arguments"]} fields
+ */
+const run = (command, fields) =>
+  act(
+    /** @type {keyof Commands} */ (command),
+    /** @type {Commands[keyof Commands]} */ (/** @type {object} */ (fields)),
+  );
+
+/**
+ * A button that does what helps.
+ *
+ * @param {RemedyButton} remedy
+ */
 export const remedyButton = ({ label, command, arguments: fields }) =>
   needs(
     command,
@@ -17,7 +39,7 @@ export const remedyButton = ({ label, command, arguments: fields }) =>
       {
         type: "button",
         class: "wv-button wv-remedy",
-        onclick: () => act(command, fields),
+        onclick: () => run(command, fields),
       },
       label,
     ),
@@ -26,6 +48,10 @@ export const remedyButton = ({ label, command, arguments: fields }) =>
 /**
  * Fills an element with the button of a remedy and the link to the finding that explains a status, if
  * there are any; it is hidden without.
+ *
+ * @param {HTMLElement} element
+ * @param {RemedyButton | null | undefined} remedy
+ * @param {ShownFinding | undefined} finding
  */
 export function fillHelp(element, remedy, finding) {
   const key = JSON.stringify([remedy, finding && [keyOf(finding), finding.cause]]);
@@ -44,6 +70,8 @@ export function fillHelp(element, remedy, finding) {
  * `lines`: `[key, level, text, remedy]`, and how many `more` there are; a remedy is
  * `{label, command, arguments}`, what a click can do about it. `display` is the id of the display, ""
  * for the viewer; statuses that a finding explains have a link to it. Returns `{element, worst(line), end()}`.
+ *
+ * @param {{open: (listener: ShowLines) => () => void, display: string}} options
  */
 export function statuses({ open, display }) {
   count += 1;
@@ -56,7 +84,7 @@ export function statuses({ open, display }) {
       class: "wv-section-fold wv-status-head",
       "aria-controls": list.id,
       onclick: () => {
-        chosen = list.hidden;
+        chosen = list.hidden === true;
         unfold();
       },
     },
@@ -66,8 +94,10 @@ export function statuses({ open, display }) {
     note,
   );
   const element = el("section", { class: "wv-statuses", "aria-label": "Status" }, toggle, list);
+  /** @type {boolean | null} */
   let chosen = null;
   let level = "ok";
+  /** @type {(() => void) | null} */
   let close = null;
 
   function unfold() {
@@ -80,8 +110,9 @@ export function statuses({ open, display }) {
   }
 
   function opened() {
+    /** @type {[StatusLine[], number]} */
     let said = [[], 0];
-    /** @type {import("../findings.js").Explaining} */
+    /** @type {Explaining} */
     let explaining = () => undefined;
     const update = () => show(...said, explaining);
     const ends = [
@@ -97,6 +128,11 @@ export function statuses({ open, display }) {
     return () => ends.forEach((end) => end());
   }
 
+  /**
+   * @param {StatusLine[]} lines
+   * @param {number} more
+   * @param {Explaining} explaining
+   */
   function show(lines, more, explaining) {
     const items = lines.map((line, index) =>
       fill(list.children[index] ?? item(), line, explaining),
@@ -105,13 +141,18 @@ export function statuses({ open, display }) {
     setChildren(list, [...items, ...rest]);
   }
 
+  /**
+   * @param {Element} element
+   * @param {StatusLine} line
+   * @param {Explaining} explaining
+   */
   function fill(element, [key, own, text, remedy], explaining) {
     const [name, said, helps] = element.children;
     const finding = own === "ok" || own === "idle" ? undefined : explaining(display, key);
     set(element, { "data-level": own });
     setText(name, `${key}: `);
     setText(said, text);
-    fillHelp(helps, remedy, finding);
+    fillHelp(/** @type {HTMLElement} */ (helps), remedy, finding);
     return element;
   }
 
@@ -121,12 +162,16 @@ export function statuses({ open, display }) {
   list.hidden = true;
   return {
     element,
-    /** The worst line, null for none; it decides what is folded. */
+    /**
+     * The worst line, null for none; it decides what is folded.
+     *
+     * @param {WorstStatus | null | undefined} line
+     */
     worst(line) {
       element.hidden = !line;
       level = line?.level ?? "ok";
       set(toggle, { "data-level": level });
-      setText(note, level === "ok" ? "OK" : `${line.key}: ${line.text}`);
+      setText(note, line && level !== "ok" ? `${line.key}: ${line.text}` : "OK");
       unfold();
     },
     end: () => close?.(),

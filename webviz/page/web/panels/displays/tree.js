@@ -15,6 +15,8 @@ import * as selection from "./selection.js";
 import { virtualList } from "./virtual.js";
 import { wordsOf } from "../../words.js";
 
+/** @import {Item, Model, Tree} from "./types.js" */
+
 const SCROLL_KEY = "displays.scroll";
 const HOVER_MS = 250;
 const SEEN_MS = 400; // a second click must find the row where the first one did
@@ -26,16 +28,21 @@ const GUESS = { status: 18, inside: 240 };
  * Builds the tree; `after` follows the last row. `changed({items, search})` is called when
  * something else is shown or selected: `items` are those whose properties are shown, and `search` what
  * is searched for, which ends when something else is added.
+ *
+ * @param {{after: HTMLElement, changed: (shown: {items: Item[], search: string}) => void}} options
  */
 export function buildTree({ after, changed }) {
   let model = arrange(new Map());
-  let global = globalItem(new Map());
+  let global = globalItem(null);
   let search = "";
+  /** @type {Item[]} */
   let rows = [];
+  /** @type {string | null} */
   let hovered = null;
   let timer = 0;
   let isThere = false;
   let isKnown = false; // whether the viewer has said which displays there are
+  /** @type {string | null} */
   let toRename = null;
   const canvas = el("div", {
     class: "wv-tree-canvas",
@@ -49,15 +56,17 @@ export function buildTree({ after, changed }) {
     scroller: element,
     canvas,
     guess,
-    make: (item) => makeRow(item, look),
-    isHeld: (id) => id === selection.active(),
+    make: (/** @type {Item} */ item) => makeRow(item, look),
+    isHeld: (/** @type {string} */ id) => id === selection.active(),
   });
 
+  /** @param {Item} item */
   function guess(item) {
     const status = item.line && item.isActive ? GUESS.status : 0;
     return rowHeight() + status + (folding.isOpen(item) && !item.isGroup ? GUESS.inside : 0);
   }
 
+  /** @param {Item} item */
   function look(item) {
     const among = siblings(model, item);
     const above = item.parent ? 0 : 1; // the global options
@@ -102,10 +111,10 @@ export function buildTree({ after, changed }) {
     const before = selection.active();
     folding.follow(items);
     const added = selection.follow(items);
-    if (added) {
-      if (!matches(model.byId.get(added), wordsOf(search))) search = "";
-      for (let one = model.byId.get(added).parent; one; one = one.parent)
-        folding.setOpen(one, true);
+    const item = added && model.byId.get(added);
+    if (item) {
+      if (!matches(item, wordsOf(search))) search = "";
+      for (let { parent } = item; parent; { parent } = parent) folding.setOpen(parent, true);
     }
     refresh();
     if (added) list.reveal(added);
@@ -126,14 +135,17 @@ export function buildTree({ after, changed }) {
     focus();
   }
 
+  /** @param {string | null} id */
   function startRename(id) {
-    toRename = model.byId.has(id) ? null : id; // when it is there
-    const item = model.byId.get(id);
+    const item = id === null ? undefined : model.byId.get(id);
+    toRename = item ? null : id; // when it is there
     if (!item?.can_edit) return;
-    list.reveal(id);
-    if (list.row(id)) rename(list.row(id), item);
+    list.reveal(item.id);
+    const row = list.row(item.id);
+    if (row) rename(row, item);
   }
 
+  /** @type {Tree} */
   const tree = {
     element,
     canvas,
@@ -144,10 +156,10 @@ export function buildTree({ after, changed }) {
     showActive,
     rename: startRename,
     itemAt: (target) => {
-      const id = target.closest?.(".wv-tree-node")?.dataset.id;
-      return id && !target.closest(".wv-tree-inside, .wv-tree-rename")
-        ? rows.find((row) => row.id === id)
-        : null;
+      if (!(target instanceof Element)) return null;
+      const id = target.closest(".wv-tree-node")?.getAttribute("data-id");
+      if (!id || target.closest(".wv-tree-inside, .wv-tree-rename")) return null;
+      return rows.find((row) => row.id === id) ?? null;
     },
     setOpen(item, open) {
       folding.setOpen(item, open);
@@ -164,7 +176,9 @@ export function buildTree({ after, changed }) {
       if (!selection.isSelected(id)) selection.choose(id);
       refresh();
       focus();
-      const { left, bottom } = list.row(id).row.getBoundingClientRect();
+      const row = list.row(id)?.row;
+      if (!row) return; // somebody removed it meanwhile
+      const { left, bottom } = row.getBoundingClientRect();
       const shared = { model, rows: tree.rows, rename: startRename, refresh };
       actions.openActions(x ?? left + 40, y ?? bottom, shared);
     },
@@ -175,9 +189,11 @@ export function buildTree({ after, changed }) {
     },
   };
 
+  /** @param {PointerEvent} event */
   function onClick(event) {
     const item = tree.itemAt(event.target);
-    const part = event.target.closest("[data-part]")?.dataset.part;
+    const target = /** @type {Element} */ (event.target);
+    const part = target.closest("[data-part]")?.getAttribute("data-part");
     if (!item || part === "box" || part === "remedy") return;
     if (part === "fold") {
       selection.activate(item.id);
@@ -194,8 +210,9 @@ export function buildTree({ after, changed }) {
     setTimeout(() => item.id === selection.active() && list.reveal(item.id), SEEN_MS);
   }
 
+  /** @param {PointerEvent} event */
   function onHover(event) {
-    const name = event.target.closest(".wv-tree-name");
+    const name = /** @type {Element} */ (event.target).closest(".wv-tree-name");
     if (name)
       set(name, { "data-tip": name.scrollWidth > name.clientWidth ? name.textContent : null });
     clearTimeout(timer);

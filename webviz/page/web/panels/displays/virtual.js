@@ -12,23 +12,35 @@ const SETTLED_MS = 300; // by then, rows that come into sight have been measured
  *
  * `make(item)` returns `{element, update(item), close()}`; `guess(item)` a height in pixels;
  * `isHeld(id)` whether a row stays although it is not seen.
+ *
+ * @template {{id: string}} T
+ * @template {{element: HTMLElement, update: (item: T) => void, close: () => void}} R
+ * @param {{
+ *   scroller: HTMLElement, canvas: HTMLElement, make: (item: T) => R, guess: (item: T) => number,
+ *   isHeld: (id: string) => boolean,
+ * }} options
  */
 export function virtualList({ scroller, canvas, make, guess, isHeld }) {
+  /** @type {Map<string, R>} */
   const mounted = new Map();
+  /** @type {Map<string, number>} */
   const heights = new Map();
+  /** @type {T[]} */
   let items = [];
   let tops = [0]; // one more than items
   let width = 0;
   let frame = 0;
+  /** @type {{id: string, most: number, until: number} | null} */
   let goal = null; // the row that was to be seen
 
   const measured = new ResizeObserver((entries) => {
     let isNew = false;
     for (const entry of entries) {
       const target = /** @type {HTMLElement} */ (entry.target);
+      const { id } = target.dataset;
       const height = target.offsetHeight;
-      if (!target.isConnected || heights.get(target.dataset.id) === height) continue;
-      heights.set(target.dataset.id, height);
+      if (id === undefined || !target.isConnected || heights.get(id) === height) continue;
+      heights.set(id, height);
       isNew = true;
     }
     if (!isNew) return;
@@ -47,7 +59,9 @@ export function virtualList({ scroller, canvas, make, guess, isHeld }) {
   resized.observe(scroller);
   scroller.addEventListener("scroll", onScroll);
 
+  /** @param {T} item */
   const heightOf = (item) => heights.get(item.id) ?? guess(item);
+  /** @param {string} id */
   const indexOf = (id) => items.findIndex((item) => item.id === id);
 
   // What happens in an observer must not add rows that are observed in the same frame.
@@ -58,7 +72,11 @@ export function virtualList({ scroller, canvas, make, guess, isHeld }) {
     });
   }
 
-  // Keeps in place what is seen while something above it comes, goes, or has another height.
+  /**
+   * Keeps in place what is seen while something above it comes, goes, or has another height.
+   *
+   * @param {T[]} [next]
+   */
   function place(next = items) {
     const anchor = scroller.scrollTop > 0 ? items[at(scroller.scrollTop)] : null;
     const before = anchor ? tops[indexOf(anchor.id)] : 0;
@@ -70,7 +88,7 @@ export function virtualList({ scroller, canvas, make, guess, isHeld }) {
 
   function measure() {
     tops = [0];
-    for (const item of items) tops.push(tops.at(-1) + heightOf(item));
+    for (const item of items) tops.push(tops[tops.length - 1] + heightOf(item));
     canvas.style.height = `${tops.at(-1)}px`;
     items.forEach((item, index) => {
       const row = mounted.get(item.id);
@@ -78,12 +96,17 @@ export function virtualList({ scroller, canvas, make, guess, isHeld }) {
     });
   }
 
-  /** The index of the row at a height in pixels of the canvas. */
+  /**
+   * The index of the row at a height in pixels of the canvas.
+   *
+   * @param {number} y
+   */
   function at(y) {
     const index = tops.findIndex((top) => top > y) - 1;
     return index < -1 ? items.length - 1 : Math.max(index, 0);
   }
 
+  /** @param {{id: string, most: number}} goal */
   function scrollTo({ id, most }) {
     const index = indexOf(id);
     if (index < 0) return;
@@ -95,6 +118,7 @@ export function virtualList({ scroller, canvas, make, guess, isHeld }) {
     }
   }
 
+  /** @param {boolean} [isChanged] */
   function mount(isChanged = false) {
     const top = scroller.scrollTop - canvas.offsetTop;
     const [first, last] = [at(top - BEYOND), at(top + scroller.clientHeight + BEYOND)];
@@ -110,6 +134,7 @@ export function virtualList({ scroller, canvas, make, guess, isHeld }) {
       row.element.remove();
       mounted.delete(id);
     }
+    /** @type {HTMLElement[]} */
     const made = [];
     for (const item of shown) {
       let row = mounted.get(item.id);
@@ -122,28 +147,47 @@ export function virtualList({ scroller, canvas, make, guess, isHeld }) {
     }
     setChildren(
       canvas,
-      shown.map(({ id }) => mounted.get(id).element),
+      shown.flatMap(({ id }) => mounted.get(id)?.element ?? []),
     );
     for (const element of made) measured.observe(element);
   }
 
   return {
-    /** Shows these items; those with an id from before keep their rows. */
+    /**
+     * Shows these items; those with an id from before keep their rows.
+     *
+     * @param {T[]} next
+     */
     show(next) {
       place(next);
       mount(true);
     },
-    /** The row of an id, if it is in the page. */
-    row: (id) => mounted.get(id) ?? null,
+    /**
+     * The row of an id, if it is in the page.
+     *
+     * @param {string | null | undefined} id
+     * @returns {R | null}
+     */
+    row: (id) => (id && mounted.get(id)) || null,
     /** The rows in the page. */
     rows: () => [...mounted.values()],
     at,
-    /** Top and height of a row in pixels of the canvas. */
+    /**
+     * Top and height of a row in pixels of the canvas.
+     *
+     * @param {number} index
+     */
     span(index) {
       return { top: tops[index], height: tops[index + 1] - tops[index] };
     },
-    /** Scrolls no further than it takes to see a row, or the first `most` pixels of it. */
+    /**
+     * Scrolls no further than it takes to see a row, or the first `most` pixels of it.
+     *
+     * @param {string | null} id
+     * @param {number} [most]
+     */
     reveal(id, most = 60) {
+      if (id === null) return;
       goal = { id, most, until: performance.now() + SETTLED_MS };
       scrollTo(goal);
       mount();
