@@ -13,6 +13,7 @@ from tests.page.conftest import Loop, Tab
 from tests.page.trees import Tree, group, height_of
 from webviz.api.declared import Topic
 from webviz.api.status import Level, OtherFixedFrame, Status
+from webviz.data.transforms.reasons import Explanation, Kind
 from webviz.engine.commands import (
     AddDisplay,
     DuplicateDisplay,
@@ -80,7 +81,9 @@ def test_a_problem_is_a_line_under_the_name_and_a_disabled_display_has_none(
 def test_one_cause_stands_on_top_with_a_button_that_solves_it(
     loop: Loop, tree: Tree, make_row: MakeRow
 ) -> None:
-    cause = Status(Level.ERROR, "Fixed frame does not exist.", OtherFixedFrame("odom"))
+    text = "Fixed frame does not exist."
+    reason = Explanation(Kind.UNKNOWN_FIXED_FRAME, text)
+    cause = Status(Level.ERROR, text, OtherFixedFrame("odom"), reason=reason)
     names = ("Map", "Scan", "Robot")
     loop.show(
         *(make_row(name, statuses={"Transform": replace(cause, remedy=None)}) for name in names),
