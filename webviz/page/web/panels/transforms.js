@@ -164,7 +164,7 @@ export const transforms = {
 /**
  * Facts about a frame, in sentences.
  *
- * @param {FrameRow} row
+ * @param {Pick<FrameRow, "name" | "frame">} row
  */
 function detailOf({ name, frame }) {
   if (!frame) return `${name} is a root: it has no parent.`;

@@ -11,10 +11,15 @@ import { fold, openPanel } from "./layout.js";
 import { openPeople } from "./people.js";
 import { setTheme } from "./theme.js";
 
+/** @import {Command} from "./commands.js" */
+/** @import {MenuItem} from "./menu.js" */
+
 /**
  * Keys are RViz's where a browser leaves them to a page. Not those of RViz that open a window,
  * reload or close a tab in a browser (Ctrl+N, R, X), nor W, A, S, D, Q, E and arrows, which move
  * the camera.
+ *
+ * @type {Record<string, Command & {icon: string}>}
  */
 export const actions = {
   save: {
@@ -112,7 +117,9 @@ export function install() {
 /**
  * An action as an item of a menu, with what is different there.
  *
- * @param {{name: string, icon: string, key?: string | string[], run: () => unknown, needs?: string}} action
+ * @param {Command} action
+ * @param {Partial<MenuItem>} [more]
+ * @returns {MenuItem}
  */
 export const item = ({ name, icon, key, run, needs }, more = {}) => ({
   label: name,

@@ -8,12 +8,19 @@ import { openDialog } from "./dialog.js";
 import { optionList, search } from "./option_list.js";
 import { topicEntries } from "./topic_entries.js";
 
+/** @import {AddRow, Choice, Entry, Known} from "./topic_entries.js" */
+
 const MAX_SHOWN = 200;
 const WAYS = { topic: "By topic", type: "By display" };
 
-/** Opens the dialog; what is chosen goes to the end of the list, or of a group with this id. */
+/**
+ * Opens the dialog; what is chosen goes to the end of the list, or of a group with this id.
+ *
+ * @param {{group?: string}} [options]
+ */
 export function openAdd({ group = "" } = {}) {
   if (document.querySelector(".wv-add[open]")) return;
+  /** @type {Known & {way: string}} */
   const state = {
     way: recall("add", "topic"),
     types: null,
@@ -21,6 +28,7 @@ export function openAdd({ group = "" } = {}) {
     traffic: null,
     shown: null,
   };
+  /** @type {Map<string, Choice>} */
   const checked = new Map();
   const input = el("input", {
     class: "wv-field wv-search",
@@ -30,7 +38,7 @@ export function openAdd({ group = "" } = {}) {
   });
   const note = el("p", { class: "wv-quiet wv-nothing", hidden: true });
   let show = () => {};
-  /** @type {() => {type: string, values: object}[] | null} */
+  /** @type {() => Choice[] | null} */
   let taken = () => null; // what Add would add
 
   const tabs = Object.entries(WAYS).map(([way, label]) =>
@@ -76,15 +84,17 @@ export function openAdd({ group = "" } = {}) {
     className: "wv-add",
     content(close) {
       const list = optionList(input, "Displays", (row, event) => {
-        const { pick } = found.find(({ id }) => id === row.id);
+        const { id, pick } = found.find((one) => one.id === row.id) ?? {};
+        if (!id || !pick) return;
         if (state.way === "type") return close([pick]);
         if (event.type === "click" && event.detail < 2) {
-          if (!checked.delete(row.id)) checked.set(row.id, pick);
+          if (!checked.delete(id)) checked.set(id, pick);
           return show();
         }
-        if (event.type === "click" || !checked.size) checked.set(row.id, pick);
+        if (event.type === "click" || !checked.size) checked.set(id, pick);
         return close([...checked.values()]);
       });
+      /** @type {AddRow[]} */
       let found = [];
       show = () => {
         for (const tab of tabs) {
@@ -109,7 +119,7 @@ export function openAdd({ group = "" } = {}) {
       show();
       taken = () => {
         const active = found.find(({ id, disabled }) => !disabled && id === list.active());
-        return checked.size ? [...checked.values()] : active ? [active.pick] : null;
+        return checked.size ? [...checked.values()] : active?.pick ? [active.pick] : null;
       };
       return [
         input,
@@ -131,6 +141,10 @@ export function openAdd({ group = "" } = {}) {
   });
 }
 
+/**
+ * @param {Pick<Known, "types">} known
+ * @returns {Entry[]}
+ */
 function typeEntries({ types }) {
   return (types ?? []).map(([name, { help, topics: takes, icon, picture }]) => ({
     words: [name, `${help} ${takes.join(", ")}`],
@@ -148,8 +162,14 @@ function typeEntries({ types }) {
   }));
 }
 
+/** @param {string} topic */
 const absolute = (topic) => (topic.startsWith("/") ? topic : `/${topic}`);
 
+/**
+ * @param {Known & {way: string}} known
+ * @param {Entry[]} all
+ * @param {number} count
+ */
 function remark({ way, types, topics }, all, count) {
   if ((way === "type" ? types : topics) === null) return "Loading…";
   if (!all.length) {

@@ -9,18 +9,32 @@ import { openDialog } from "./dialog.js";
 import { FIXED, follow } from "./follow.js";
 import { optionList, search } from "./option_list.js";
 
+/** @import {Command} from "./commands.js" */
+/** @import {StoreName, ValuesOf} from "../types.js" */
+
+/**
+ * @typedef {{[K in StoreName]?: ValuesOf<K>}} Values
+ * @typedef {{stores: StoreName[], make(values: Values): Command[]}} Maker
+ */
+
 const MAX_SHOWN = 60;
 const ORDER = ["Edit", "Displays", "Tools", "View", "File", "Time", "Help"];
+/** @type {StoreName[]} */
 const STORES = ["settings", "frames"];
 
+/** @type {Set<Maker>} */
 const makers = new Set();
 
 /**
  * Adds commands that are looked for in the list only, made of the values of stores by their names:
  * `make({displays: Map, ...})`. `stores` are watched while the list is open.
+ *
+ * @template {StoreName} N
+ * @param {N[]} stores
+ * @param {(values: {[K in N]: ValuesOf<K>}) => Command[]} make
  */
 export function provideFrom(stores, make) {
-  makers.add({ stores, make });
+  makers.add({ stores, make: /** @type {Maker["make"]} */ (make) });
 }
 
 export function openCommandList() {
@@ -31,8 +45,10 @@ export function openCommandList() {
     "aria-label": "Command",
     placeholder: "Type a command",
   });
+  /** @type {Values} */
   const values = {};
   const stores = new Set([...STORES, ...[...makers].flatMap((maker) => maker.stores)]);
+  /** @type {(() => void)[]} */
   const ends = [];
   const nothing = el(
     "p",
@@ -45,7 +61,8 @@ export function openCommandList() {
     className: "wv-command-list",
     isLight: true,
     content(close) {
-      const list = optionList(input, "Commands", (row) => close(found[row.id]));
+      const list = optionList(input, "Commands", (row) => close(found[Number(row.id)]));
+      /** @type {Command[]} */
       let found = [];
       const show = () => {
         found = search(commands(values), input.value, ({ name, group }) => [name, group ?? ""]);
@@ -66,7 +83,7 @@ export function openCommandList() {
       for (const name of stores) {
         ends.push(
           watch(name, (store) => {
-            values[name] = store;
+            Object.assign(values, { [name]: store });
             show();
           }),
         );
@@ -81,17 +98,23 @@ export function openCommandList() {
   });
 }
 
+/** @param {Command} command */
 const lockOf = ({ needs }) => {
   const refusal = needs ? why(needs) : "";
   return { disabled: refusal !== "", refusal };
 };
 
+/**
+ * @param {Values} values
+ * @returns {Command[]}
+ */
 function commands(values) {
   const { settings, frames } = values;
   const more = [...makers].flatMap(({ stores, make }) =>
     stores.every((name) => values[name]) ? make(values) : [],
   );
-  const place = ({ group }) => (ORDER.indexOf(group) + ORDER.length) % ORDER.length;
+  /** @param {Command} command */
+  const place = ({ group }) => (ORDER.indexOf(group ?? "") + ORDER.length) % ORDER.length;
   return [
     ...all()
       .filter(({ isHidden }) => !isHidden)

@@ -16,8 +16,11 @@ const TYPED =
   "input:not([type=checkbox], [type=radio], [type=range], [type=button]), textarea, select, " +
   "[contenteditable]:not([contenteditable=false])";
 
+/** @type {Set<Command>} */
 const fixed = new Set();
+/** @type {Set<() => Command[]>} */
 const makers = new Set();
+/** @type {Set<(event: KeyboardEvent) => boolean>} */
 const takers = new Set();
 
 /**
@@ -29,19 +32,29 @@ const takers = new Set();
  * whether it can be done now; `isKeyHere()`, whether its key is about it there; `needs`, the command of the viewer that it sends, which a role may not
  * be allowed. A key with Ctrl that means nothing in a field is marked with
  * `inFields`.
+ *
+ * @param {Command} wanted
  */
 export function command(wanted) {
   fixed.add(wanted);
   return () => fixed.delete(wanted);
 }
 
-/** Adds commands that come and go: `make()` returns those of the moment. Returns what ends it. */
+/**
+ * Adds commands that come and go: `make()` returns those of the moment. Returns what ends it.
+ *
+ * @param {() => Command[]} make
+ */
 export function provide(make) {
   makers.add(make);
   return () => makers.delete(make);
 }
 
-/** Lets `take(event)` have keys before commands: it says whether it took one. Returns what ends it. */
+/**
+ * Lets `take(event)` have keys before commands: it says whether it took one. Returns what ends it.
+ *
+ * @param {(event: KeyboardEvent) => boolean} take
+ */
 export function takeKeys(take) {
   takers.add(take);
   return () => takers.delete(take);
@@ -53,18 +66,30 @@ export function all() {
   return commands.filter(({ isThere }) => !isThere || isThere());
 }
 
-/** Does what a command is for, or says why that is not allowed. */
+/**
+ * Does what a command is for, or says why that is not allowed.
+ *
+ * @param {Pick<Command, "needs" | "run">} command
+ */
 export function run({ needs, run: act }) {
   const reason = needs ? why(needs) : "";
   if (reason) toast(reason, { level: "warn", topic: "access" });
   else act();
 }
 
-/** The keys of a command, in a list. */
+/**
+ * The keys of a command, in a list.
+ *
+ * @param {Command} command
+ */
 export const keysOf = ({ key }) => (key ? [key].flat() : []);
 
-/** True if the target of an event is a text field. */
-export const isTyping = (event) => Boolean(event.target.closest?.(TYPED));
+/**
+ * True if the target of an event is a text field.
+ *
+ * @param {{target: EventTarget | null}} event
+ */
+export const isTyping = ({ target }) => target instanceof Element && target.closest(TYPED) !== null;
 
 export function install() {
   // Within viser's listeners, which are on the document and further out, and around those of
@@ -78,6 +103,7 @@ export function install() {
       event.stopPropagation();
       return;
     }
+    /** @param {Command} one */
     const matches = (one) =>
       keysOf(one).includes(key) && (!isInField || one.inFields) && (one.isKeyHere?.() ?? true);
     // As in RViz, the last one with a key has it.

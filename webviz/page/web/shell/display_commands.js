@@ -8,7 +8,9 @@ import { openPanel } from "./layout.js";
 export function install() {
   provideFrom(["displays"], ({ displays }) =>
     (displays.get("order") ?? []).flatMap((id) => {
-      const { name, type, icon } = displays.get(id);
+      const display = displays.get(id);
+      if (!display) return [];
+      const { name, type, icon } = display;
       const about = { icon, note: type === name ? "" : type, group: "Displays" };
       return [
         { ...about, name: `Select ${name}`, run: () => select(id) },
@@ -18,6 +20,7 @@ export function install() {
   );
 }
 
+/** @param {string} id */
 function select(id) {
   openPanel("displays");
   selection.reveal(id);

@@ -3,6 +3,7 @@
 import { el } from "../dom.js";
 import * as files from "./files.js";
 
+/** @param {HTMLElement} page */
 export function install(page) {
   const cover = el(
     "div",
@@ -10,7 +11,12 @@ export function install(page) {
     el("p", {}, "Drop a config to open it"),
   );
   page.append(cover);
+  /** @param {DragEvent} event */
   const hasFiles = ({ dataTransfer }) => [...(dataTransfer?.types ?? [])].includes("Files");
+  /**
+   * @param {"dragenter" | "dragover" | "dragleave" | "drop"} name
+   * @param {(event: DragEvent) => void} act
+   */
   const on = (name, act) =>
     window.addEventListener(name, (event) => hasFiles(event) && act(event), true);
   on("dragenter", () => (cover.hidden = false));
@@ -23,7 +29,7 @@ export function install(page) {
     event.preventDefault();
     event.stopPropagation();
     cover.hidden = true;
-    const [file] = event.dataTransfer.files;
+    const [file] = event.dataTransfer?.files ?? [];
     if (file && !document.querySelector("dialog[open]")) files.load(file);
   });
 }

@@ -3,11 +3,20 @@
 /** The endings of a config's name. */
 export const SUFFIXES = [".yaml", ".yml", ".rviz"];
 
-/** As of pathlib: a name that begins with its only dot has no suffix. */
+/**
+ * As of pathlib: a name that begins with its only dot has no suffix.
+ *
+ * @param {string} name
+ */
 export const hasSuffix = (name) =>
   SUFFIXES.some((suffix) => name.toLowerCase().endsWith(suffix) && name.length > suffix.length);
 
-/** The file name that was entered, or why it is invalid: `{name, problem}`. */
+/**
+ * The file name that was entered, or why it is invalid: `{name, problem}`.
+ *
+ * @param {string} entered
+ * @returns {{name?: string, problem?: string}}
+ */
 export function checkedName(entered) {
   const name = entered.trim();
   if (!name || name === "." || name === "..")

@@ -10,15 +10,23 @@ import { download } from "./download.js";
 import { checkedName, hasSuffix, SUFFIXES } from "./file_names.js";
 import { toast } from "./toasts.js";
 
+/** @import {Commands} from "../messages.js" */
+
 const MAX_BYTES = 2 << 20;
 const MAX_CHARACTERS = (3 << 20) - 1000; // of a message with the config in it
 const NEW_NAME = "webviz.yaml";
 
-const file = { path: "", is_changed: false, folder: null, others: [] };
+/** @type {{path: string, is_changed: boolean, folder: string | null, others: string[]}} */
+let file = { path: "", is_changed: false, folder: null, others: [] };
+/** @type {Set<() => void>} */
 const listeners = new Set();
 
-/** The last part of a path. */
-const baseName = (path) => path.split("/").pop();
+/**
+ * The last part of a path.
+ *
+ * @param {string} path
+ */
+const baseName = (path) => path.slice(path.lastIndexOf("/") + 1);
 /** The name of the file, "" if there is none. */
 export const fileName = () => baseName(file.path);
 export const path = () => file.path;
@@ -28,13 +36,22 @@ export const isThere = () => file.folder !== null;
 
 export function install() {
   watch("file", (values) => {
-    for (const key of Object.keys(file)) file[key] = values.get(key) ?? file[key];
+    file = {
+      path: values.get("path"),
+      is_changed: values.get("is_changed"),
+      folder: values.get("folder"),
+      others: values.get("others"),
+    };
     for (const listener of [...listeners]) listener();
   });
   channel.on("Download", ({ name, text }) => download(name, text));
 }
 
-/** Calls `listener` now and whenever the file is another one; returns what ends it. */
+/**
+ * Calls `listener` now and whenever the file is another one; returns what ends it.
+ *
+ * @param {() => void} listener
+ */
 export function onFile(listener) {
   listeners.add(listener);
   listener();
@@ -43,7 +60,11 @@ export function onFile(listener) {
 
 export const save = () => (file.path ? act("Save") : saveAs());
 
-/** Sends the config here, as "yaml" or "rviz". */
+/**
+ * Sends the config here, as "yaml" or "rviz".
+ *
+ * @param {"yaml" | "rviz"} suffix
+ */
 export const exportAs = (suffix) =>
   act("Export", { name: `${(fileName() || NEW_NAME).replace(/\.[^.]*$/, "")}.${suffix}` });
 
@@ -58,12 +79,14 @@ export function saveAs() {
   const problem = el("p", { class: "wv-problem", role: "alert" });
   let confirmed = "";
 
+  /** @param {(name: string) => string | null} check */
   function accepted(check) {
-    const { name, problem: text } = checkedName(input.value);
+    const { name = "", problem: text } = checkedName(input.value);
     setText(problem, text ?? check(name) ?? "");
     return problem.textContent === "";
   }
 
+  /** @param {string} name */
   function replaces(name) {
     if (!file.others.includes(name) || name === fileName() || name === confirmed) return null;
     confirmed = name;
@@ -100,11 +123,13 @@ export function open() {
     hidden: true,
     "aria-label": "File of this computer",
   });
+  /** @type {() => void} */
   let end = () => {};
 
   return openDialog({
     title: "Open",
     content(close) {
+      /** @param {string} name */
       const row = (name) =>
         el(
           "button",
@@ -126,7 +151,7 @@ export function open() {
       });
       upload.addEventListener(
         "change",
-        () => upload.files[0] && close({ upload: upload.files[0] }),
+        () => upload.files?.[0] && close({ upload: upload.files[0] }),
       );
       return [
         el("p", { class: "wv-quiet" }, `In ${file.folder} of the machine that runs webviz:`),
@@ -152,8 +177,13 @@ export function open() {
   });
 }
 
-/** Opens a file of this computer. */
+/**
+ * Opens a file of this computer.
+ *
+ * @param {File} upload
+ */
 export async function load(upload) {
+  /** @param {string} text */
   const fail = (text) => toast(text, { level: "error" });
   const name = baseName(upload.name);
   if (!hasSuffix(name))
@@ -170,6 +200,12 @@ export async function load(upload) {
   return replace(name, "Load", { text, name });
 }
 
+/**
+ * @template {keyof Commands} C
+ * @param {string} name
+ * @param {C} command
+ * @param {Commands[C]} fields
+ */
 async function replace(name, command, fields) {
   const question = `Open ${name} and discard unsaved changes? Everyone on this page loses them.`;
   const options = { title: "Unsaved changes", confirm: "Discard", danger: true };

@@ -8,6 +8,7 @@ import { watch } from "../stores.js";
 
 const COMMAND = "webviz-sim";
 
+/** @param {HTMLElement} scene */
 export function install(scene) {
   if (recall("knows-first-run", false)) return;
   const close = () => {

@@ -13,7 +13,12 @@ import { watch } from "../stores.js";
 import { roleMark } from "./people.js";
 import { theme } from "./theme.js";
 
+/** @import {Command} from "./commands.js" */
+/** @import {MenuItem} from "./menu.js" */
+/** @import {Way} from "./history.js" */
+
 export function build() {
+  /** @type {HTMLButtonElement} */
   const name = el(
     "button",
     {
@@ -39,6 +44,7 @@ export function build() {
     const title = [files.fileName(), "webviz"].filter(Boolean).join(" · ");
     document.title = files.isChanged() ? `* ${title}` : title;
   });
+  /** @type {HTMLButtonElement} */
   const more = button("dots", "Menu", null, () => openMenuBelow(more, menu(more)));
   set(more, { "aria-haspopup": "menu" });
   return el(
@@ -86,6 +92,12 @@ function badge() {
   return made;
 }
 
+/**
+ * @param {string} iconName
+ * @param {string} label
+ * @param {string | null} key
+ * @param {() => unknown} run
+ */
 function button(iconName, label, key, run) {
   return el(
     "button",
@@ -101,10 +113,15 @@ function button(iconName, label, key, run) {
   );
 }
 
-// Its tooltip names the step to undo; all steps are in a menu, by a right click or the arrow key.
+/**
+ * Its tooltip names the step to undo; all steps are in a menu, by a right click or the arrow key.
+ *
+ * @param {Way} way
+ * @param {Command & {icon: string}} action
+ */
 function step(way, action) {
-  const made = button(action.icon, action.name, [action.key].flat()[0], action.run);
-  if (why(action.needs)) return needs(action.needs, made);
+  const made = button(action.icon, action.name, [action.key].flat()[0] ?? null, action.run);
+  if (action.needs && why(action.needs)) return needs(action.needs, made);
   history.onSteps(() => {
     const label = history.next(way);
     made.disabled = label === undefined;
@@ -122,6 +139,7 @@ function step(way, action) {
   return made;
 }
 
+/** @returns {(MenuItem | null)[]} */
 const fileMenu = () => [
   item(actions.save),
   item(actions.saveAs),
@@ -131,7 +149,12 @@ const fileMenu = () => [
   item(actions.rviz),
 ];
 
+/**
+ * @param {HTMLElement} owner
+ * @returns {(MenuItem | null)[]}
+ */
 function menu(owner) {
+  /** @param {string} name */
   const isTheme = (name) => ({ checked: theme() === name });
   return [
     ...fileMenu(),

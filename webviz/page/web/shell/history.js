@@ -6,35 +6,56 @@ import { watch } from "../stores.js";
 import { openMenuBelow } from "./menu.js";
 import { toast } from "./toasts.js";
 
+/** @import {HistoryStep} from "../contents.js" */
+/** @import {MenuItem} from "./menu.js" */
+
+/** @typedef {"undo" | "redo"} Way */
+
 const MAX_LISTED = 30;
+/** @type {Record<Way, HistoryStep[]>} */
 const steps = { undo: [], redo: [] };
+/** @type {Set<() => void>} */
 const listeners = new Set();
+/** @type {number | null} */
 let newest = null;
 
 export function install() {
   watch("history", (values) => {
-    for (const way of ["undo", "redo"]) steps[way] = values.get(way) ?? [];
+    for (const way of /** @type {const} */ (["undo", "redo"])) steps[way] = values.get(way) ?? [];
     for (const listener of listeners) listener();
     tell();
   });
 }
 
-/** Calls `listener` now and whenever there are other steps. */
+/**
+ * Calls `listener` now and whenever there are other steps.
+ *
+ * @param {() => void} listener
+ */
 export function onSteps(listener) {
   listeners.add(listener);
   listener();
 }
 
-/** The subject of the next step of a way, "undo" or "redo"; undefined if there is none. */
+/**
+ * The subject of the next step of a way, "undo" or "redo"; undefined if there is none.
+ *
+ * @param {Way} way
+ */
 export const next = (way) => (steps[way].find(isOwn) ?? steps[way][0])?.label;
 
 /** Takes back the newest step of this page; without one, the newest of all. */
 export const undo = () => steps.undo.length && act("Undo", { own: true });
 export const redo = () => steps.redo.length && act("Redo", { own: true });
 
+/** @param {HistoryStep} step */
 const isOwn = ({ browser }) => browser === window.webviz.browser;
 
-/** A menu of steps below a button: the one that is chosen, and all that came after it. */
+/**
+ * A menu of steps below a button: the one that is chosen, and all that came after it.
+ *
+ * @param {HTMLElement} button
+ */
 export function openSteps(button) {
   const redos = steps.redo.slice(0, MAX_LISTED).map(({ label }, index) => ({
     label: `Redo ${label}`,
@@ -52,12 +73,11 @@ export function openSteps(button) {
 
 // Steps have numbers that grow, also when they are taken back.
 function tell() {
-  const all = [...steps.undo, ...steps.redo];
-  const last = all.reduce((a, b) => (b.number > (a?.number ?? -1) ? b : a), null);
+  const [last] = [...steps.undo, ...steps.redo].toSorted((a, b) => b.number - a.number);
   const before = newest;
   newest = Math.max(newest ?? -1, last?.number ?? -1);
   if (before === null) return tellRestored(steps.undo[0]);
-  if (newest === before) return;
+  if (newest === before || !last) return;
   const isUndone = steps.redo.includes(last);
   if (last.browser !== window.webviz.browser) {
     const text = `${isUndone ? "Undone" : "Changed"} ${whereOf(last)}: ${last.label}`;
@@ -68,7 +88,11 @@ function tell() {
   }
 }
 
-// The page is opened, and nothing has been changed since the viewer started.
+/**
+ * The page is opened, and nothing has been changed since the viewer started.
+ *
+ * @param {HistoryStep} [last]
+ */
 function tellRestored(last) {
   if (!last?.label.startsWith("Restore ")) return;
   const text = last.label.replace(/^Restore /, "Restored ");
@@ -76,4 +100,5 @@ function tellRestored(last) {
   toast(`${text} of the last session.`, { level: "warn", topic: "restored", action });
 }
 
+/** @param {HistoryStep} step */
 const whereOf = ({ browser }) => (browser === null ? "by a program" : "in another browser");

@@ -19,7 +19,11 @@ const LOCAL =
 
 const isOfThisMachine = () => /^(localhost|127\..*|\[::1\])$/.test(location.hostname);
 
-/** The form; `copy(link)` is called to copy the link. */
+/**
+ * The form; `copy(link)` is called to copy the link.
+ *
+ * @param {(link: string) => unknown} copy
+ */
 export function invitation(copy) {
   const name = el("input", {
     class: "wv-field",
@@ -74,6 +78,10 @@ export function invitation(copy) {
   return el("div", {}, el("div", { class: "wv-invite" }, name, role, end, make), problem, result);
 }
 
+/**
+ * @param {string} label
+ * @param {string[]} options
+ */
 const select = (label, options) =>
   el(
     "select",

@@ -5,9 +5,12 @@ import { all, keysOf } from "./commands.js";
 import { openDialog } from "./dialog.js";
 import { keyText } from "./keys.js";
 
+/** @typedef {[does: string, keys: string[]]} KeyRow */
+
 const ORDER = ["File", "Edit", "View", "Time", "Tools", "Displays"];
 
 // Keys of the scene itself, see scene/mouse.js; and viser's camera.
+/** @type {KeyRow[]} */
 const SCENE = [
   ["Turn the view", ["Drag"]],
   ["Move the view", ["Shift+Drag", "Middle button"]],
@@ -19,6 +22,7 @@ const SCENE = [
 ];
 
 // Keys of the tree of displays while it has the focus, see panels/displays/keys.js.
+/** @type {KeyRow[]} */
 const TREE = [
   ["Show or hide displays", ["Space"]],
   ["Copy as YAML", ["Ctrl+c"]],
@@ -31,6 +35,7 @@ const TREE = [
 ];
 
 // Keys of an image while it has the focus, see images/zoom.js.
+/** @type {KeyRow[]} */
 const IMAGE = [
   ["Zoom", ["Wheel", "+", "-"]],
   ["Move", ["Drag", "←", "↑", "→", "↓"]],
@@ -38,6 +43,7 @@ const IMAGE = [
 ];
 
 // See tools/teleop_keys.js.
+/** @type {KeyRow[]} */
 const TELEOP = [
   ["Drive", ["W", "A", "S", "D"]],
   ["Drive with one hand", ["↑", "←", "↓", "→"]],
@@ -45,6 +51,7 @@ const TELEOP = [
 
 export function openKeys() {
   if (document.querySelector(".wv-keys[open]")) return;
+  /** @type {Map<string, KeyRow[]>} */
   const groups = new Map(ORDER.map((name) => [name, []]));
   for (const one of all()) {
     if (!keysOf(one).length) continue;
@@ -74,6 +81,10 @@ export function openKeys() {
   });
 }
 
+/**
+ * @param {string} name
+ * @param {KeyRow[]} rows
+ */
 function group(name, rows) {
   return el(
     "section",

@@ -2,17 +2,26 @@
 
 const isMac = /Mac|iPhone|iPad/.test(navigator.platform);
 const ARROWS = { ArrowUp: "↑", ArrowDown: "↓", ArrowLeft: "←", ArrowRight: "→" };
+/** @type {Record<string, string>} */
 const NAMES = { Escape: "Esc", " ": "Space", ...ARROWS };
 
-/** A key as people read it: "Ctrl+Shift+S" of "Ctrl+Shift+s"; Ctrl is the command key of a Mac. */
+/**
+ * A key as people read it: "Ctrl+Shift+S" of "Ctrl+Shift+s"; Ctrl is the command key of a Mac.
+ *
+ * @param {string} key
+ */
 export function keyText(key) {
   const parts = key.length > 1 ? key.split("+") : [key];
-  const last = parts.pop();
+  const last = parts.pop() ?? "";
   const name = NAMES[last] ?? (last.length === 1 ? last.toUpperCase() : last);
   return [...parts.map((part) => (part === "Ctrl" && isMac ? "⌘" : part)), name].join("+");
 }
 
-/** The key that an event is about, as commands name it: "Ctrl+Shift+s", "g", "?", "Delete". */
+/**
+ * The key that an event is about, as commands name it: "Ctrl+Shift+s", "g", "?", "Delete".
+ *
+ * @param {Pick<KeyboardEvent, "key" | "ctrlKey" | "metaKey" | "altKey" | "shiftKey">} event
+ */
 export function keyOf(event) {
   const { key } = event;
   const name = key.length === 1 ? key.toLowerCase() : key;

@@ -23,7 +23,7 @@ export function install() {
 
 // viser's canvas measures its place when that changes, but misses a change while it is being made.
 function fit() {
-  const isLate = viser.canvas().clientWidth !== document.getElementById("root").clientWidth;
+  const isLate = viser.canvas().clientWidth !== document.getElementById("root")?.clientWidth;
   if (isLate) window.dispatchEvent(new Event("resize"));
 }
 
@@ -32,7 +32,7 @@ function scrollbarWidth() {
   const probe = el("div", {
     style: "position: absolute; width: 50px; overflow: auto; scrollbar-gutter: stable",
   });
-  document.getElementById("webviz").append(probe);
+  document.getElementById("webviz")?.append(probe);
   const width = probe.offsetWidth - probe.clientWidth;
   probe.remove();
   return width;
@@ -40,7 +40,11 @@ function scrollbarWidth() {
 
 const isFolded = () => document.body.classList.contains("wv-folded");
 
-/** Folds the side away, or shows it again. On a phone it lies over the scene, and begins folded. */
+/**
+ * Folds the side away, or shows it again. On a phone it lies over the scene, and begins folded.
+ *
+ * @param {boolean} [wanted]
+ */
 export function fold(wanted = !isFolded()) {
   if (wanted !== isFolded()) document.body.classList.toggle("wv-folded", wanted);
   if (!narrow.matches) remember("folded", wanted);
@@ -56,17 +60,24 @@ export function openPanel(name) {
   document.getElementById(`wv-tab-${name}`)?.click();
 }
 
+/** @param {number} pixels */
 function setWidth(pixels) {
   const width = Math.max(MIN_WIDTH, Math.min(pixels, innerWidth * MAX_SHARE));
   document.documentElement.style.setProperty("--wv-width", `${Math.round(width)}px`);
   return width;
 }
 
-/** The border of the side, to be dragged or moved by arrow keys. */
+/**
+ * The border of the side, to be dragged or moved by arrow keys.
+ *
+ * @param {HTMLElement} side
+ */
 export function border(side) {
+  /** @param {PointerEvent} event */
   const drag = (event) => {
     if (bar.hasPointerCapture(event.pointerId)) setWidth(event.clientX);
   };
+  /** @param {KeyboardEvent} event */
   const step = (event) => {
     const change = { ArrowLeft: -STEP, ArrowRight: STEP }[event.key];
     if (!change) return;
@@ -74,6 +85,7 @@ export function border(side) {
     event.stopPropagation(); // viser's camera turns by them
     remember("width", setWidth(side.offsetWidth + change));
   };
+  /** @type {HTMLElement} */
   const bar = el("div", {
     class: "wv-border",
     role: "separator",

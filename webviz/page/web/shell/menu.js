@@ -23,6 +23,12 @@ const GAP = 4;
  * viewer that it sends, which a role may not be allowed, `tip` says more about it, and `items` are
  * those of its submenu. `run` is called when the menu is closed and the focus is back where it was.
  * Returns what closes the menu. `outer` is the menu that a submenu belongs to.
+ *
+ * @param {number} x
+ * @param {number} y
+ * @param {(MenuItem | null)[]} items
+ * @param {HTMLElement | null} [outer]
+ * @returns {() => void}
  */
 export function openMenu(x, y, items, outer = null) {
   const before = /** @type {HTMLElement | null} */ (document.activeElement);
@@ -38,13 +44,19 @@ export function openMenu(x, y, items, outer = null) {
       menu.querySelectorAll(".wv-menu-item:not([aria-disabled])")
     ),
   ];
+  /** @type {{element: HTMLElement, close: () => void} | null} */
   let inner = null; // the entry whose submenu is open, and what closes that
 
+  /**
+   * @param {MenuItem} item
+   * @returns {HTMLElement}
+   */
   function entry(item) {
     const { label, icon: name, key, run, danger, checked, needs, tip, items: below } = item;
     const reason = needs ? why(needs) : "";
     const disabled = item.disabled || reason !== "";
     const isChoice = checked !== undefined;
+    /** @type {HTMLElement} */
     const element = el(
       "div",
       {
@@ -67,6 +79,10 @@ export function openMenu(x, y, items, outer = null) {
     return element;
   }
 
+  /**
+   * @param {HTMLElement} element
+   * @param {MenuItem["items"] | null} [below]
+   */
   function hover(element, below) {
     if (inner?.element === element) return;
     element.focus({ preventScroll: true });
@@ -75,6 +91,10 @@ export function openMenu(x, y, items, outer = null) {
     if (below) openBeside(element, below);
   }
 
+  /**
+   * @param {HTMLElement} element
+   * @param {(MenuItem | null)[]} below
+   */
   function openBeside(element, below) {
     const { right, top } = element.getBoundingClientRect();
     element.focus({ preventScroll: true });
@@ -86,15 +106,17 @@ export function openMenu(x, y, items, outer = null) {
     if (menu.matches(":popover-open")) menu.hidePopover();
   }
 
+  /** @param {MenuItem["run"]} [run] */
   function choose(run) {
     close();
     run?.();
   }
 
+  /** @param {KeyboardEvent} event */
   function onKey(event) {
     const at = entries.findIndex((entry) => entry === document.activeElement);
     const step = { ArrowDown: at + 1, ArrowUp: at < 0 ? -1 : at - 1, Home: 0, End: -1 }[event.key];
-    const isMore = document.activeElement.getAttribute("aria-haspopup") === "menu";
+    const isMore = document.activeElement?.getAttribute("aria-haspopup") === "menu";
     if (event.key === "Escape" || event.key === "Tab") close();
     else if (event.key === "ArrowLeft" && outer) close();
     else if (event.key === "ArrowRight" && isMore) entries[at]?.click();
@@ -105,11 +127,16 @@ export function openMenu(x, y, items, outer = null) {
     event.stopPropagation();
   }
 
+  /**
+   * @param {string} letter
+   * @param {number} at
+   */
   function startingWith(letter, at) {
+    /** @param {HTMLElement} entry */
     const starts = (entry) =>
       entry
         .querySelector(".wv-menu-label")
-        .textContent.toLowerCase()
+        ?.textContent.toLowerCase()
         .startsWith(letter.toLowerCase());
     return letter.length === 1 ? [...entries.slice(at + 1), ...entries].find(starts) : undefined;
   }
@@ -124,7 +151,7 @@ export function openMenu(x, y, items, outer = null) {
     menu.remove();
   });
   // In a dialog, what is outside of it cannot be clicked; a submenu leaves the outer one open.
-  (outer ?? before?.closest?.("dialog") ?? document.getElementById("webviz")).append(menu);
+  (outer ?? before?.closest("dialog") ?? document.getElementById("webviz"))?.append(menu);
   menu.showPopover();
   const { width, height } = menu.getBoundingClientRect();
   menu.style.left = `${Math.max(GAP, Math.min(x, innerWidth - width - GAP))}px`;
@@ -134,7 +161,12 @@ export function openMenu(x, y, items, outer = null) {
   return close;
 }
 
-/** Opens a menu below a button, or closes it if it is open. */
+/**
+ * Opens a menu below a button, or closes it if it is open.
+ *
+ * @param {HTMLElement} button
+ * @param {(MenuItem | null)[]} items
+ */
 export function openMenuBelow(button, items) {
   const { left, bottom } = button.getBoundingClientRect();
   return openMenu(left, bottom + GAP, items);

@@ -5,6 +5,14 @@ import { icon } from "../icons.js";
 import { wordsOf } from "../words.js";
 import { keyText } from "./keys.js";
 
+/**
+ * @typedef {{
+ *   id: string | number, title: string, icon?: string, picture?: string, line?: string, note?: string,
+ *   key?: string, group?: {title?: string, line?: string, note?: string}, isWithin?: boolean,
+ *   label?: string, checked?: boolean, disabled?: boolean, refusal?: string,
+ * }} OptionRow
+ */
+
 let count = 0;
 
 /**
@@ -14,6 +22,10 @@ let count = 0;
  * `key`, `group`, `{title, line, note}` above the first of several, `isWithin` for rows that are set in
  * below it, `label` for what reads the page aloud, `checked` for rows of which several are taken, and
  * `disabled`. Returns `{element, show(rows), active()}`, the last of which is an id.
+ *
+ * @param {HTMLInputElement} input
+ * @param {string} label
+ * @param {(row: OptionRow, event: MouseEvent | KeyboardEvent) => void} choose
  */
 export function optionList(input, label, choose) {
   count += 1;
@@ -24,8 +36,11 @@ export function optionList(input, label, choose) {
     id: prefix,
     "aria-label": label,
   });
+  /** @type {OptionRow[]} */
   let rows = [];
+  /** @type {Map<OptionRow["id"], {text: string, element: HTMLElement}>} */
   let made = new Map();
+  /** @type {OptionRow["id"] | null} */
   let active = null;
 
   set(input, {
@@ -47,22 +62,31 @@ export function optionList(input, label, choose) {
         Math.abs(step) > 1
           ? Math.max(0, Math.min(at + step, usable.length - 1))
           : (at + step + usable.length) % usable.length;
-      mark(usable[next].id);
-      made.get(active).element.scrollIntoView({ block: "nearest" });
+      mark(usable[next].id)?.scrollIntoView({ block: "nearest" });
     } else {
       return;
     }
     event.preventDefault();
   });
 
+  /** @param {OptionRow["id"] | null} id */
   function mark(id) {
-    if (made.has(active)) set(made.get(active).element, { "aria-selected": "false" });
+    const before = elementOf(active);
+    if (before) set(before, { "aria-selected": "false" });
     active = id;
-    const chosen = made.get(active)?.element;
+    const chosen = elementOf(active);
     if (chosen) set(chosen, { "aria-selected": "true" });
     set(input, { "aria-activedescendant": chosen?.id });
+    return chosen;
   }
 
+  /** @param {OptionRow["id"] | null} id */
+  const elementOf = (id) => (id === null ? undefined : made.get(id)?.element);
+
+  /**
+   * @param {OptionRow} row
+   * @param {number} number
+   */
   function rowOf(row, number) {
     const { title, icon: name, picture, line, note, key, label, checked, disabled, refusal } = row;
     return el(
@@ -92,25 +116,28 @@ export function optionList(input, label, choose) {
     );
   }
 
+  /** @param {OptionRow[]} next */
   function show(next) {
     const before = made;
     made = new Map();
     rows = next;
+    /** @type {HTMLElement[]} */
     const children = [];
-    let group = null;
+    /** @type {OptionRow["group"]} */
+    let group;
     for (const row of rows) {
       const text = JSON.stringify(row);
       const known = before.get(row.id);
       count += known ? 0 : 1;
-      const isSame = known?.text === text;
-      made.set(row.id, isSame ? known : { text, element: rowOf(row, count) });
+      const one = known?.text === text ? known : { text, element: rowOf(row, count) };
+      made.set(row.id, one);
       if (row.group?.title !== group?.title && row.group) children.push(headOf(row.group));
       group = row.group;
-      children.push(made.get(row.id).element);
+      children.push(one.element);
     }
     setChildren(element, children);
     const usable = rows.filter((row) => !row.disabled);
-    mark(usable.some(({ id }) => id === active) ? active : usable[0]?.id);
+    mark(usable.some(({ id }) => id === active) ? active : (usable[0]?.id ?? null));
   }
 
   // With other words, the best match is chosen.
@@ -118,6 +145,11 @@ export function optionList(input, label, choose) {
   return { element, show, active: () => active };
 }
 
+/**
+ * @param {string} name
+ * @param {string} [title]
+ * @param {string} [line]
+ */
 const textOf = (name, title, line) =>
   el(
     "span",
@@ -126,6 +158,7 @@ const textOf = (name, title, line) =>
     line ? el("span", { class: "wv-pick-line" }, line) : null,
   );
 
+/** @param {NonNullable<OptionRow["group"]>} group */
 const headOf = ({ title, line, note }) =>
   el(
     "div",
@@ -134,16 +167,28 @@ const headOf = ({ title, line, note }) =>
     note ? el("span", { class: "wv-pick-note" }, note) : null,
   );
 
-// Those without one keep its place.
+/**
+ * Those without one keep its place.
+ *
+ * @param {string} picture
+ */
 function pictureOf(picture) {
   const attributes = { class: "wv-pick-picture", width: 64, height: 48 };
   return picture ? el("img", { ...attributes, src: picture, alt: "" }) : el("span", attributes);
 }
 
-/** Those with every word of a text in what `textOf` says of them, the best match first. */
+/**
+ * Those with every word of a text in what `textOf` says of them, the best match first.
+ *
+ * @template T
+ * @param {T[]} all
+ * @param {string} text
+ * @param {(item: T) => string[]} textOf
+ */
 export function search(all, text, textOf) {
   const words = wordsOf(text);
   if (!words.length) return all;
+  /** @param {T} item */
   const score = (item) => {
     const [title, more] = textOf(item).map((part) => part.toLowerCase());
     if (!words.every((word) => title.includes(word) || more.includes(word))) return 0;
@@ -151,6 +196,7 @@ export function search(all, text, textOf) {
     if (words.every((word) => title.includes(` ${word}`) || title.includes(`/${word}`))) return 3;
     return words.every((word) => title.includes(word)) ? 2 : 1;
   };
-  const scored = all.map((item) => [score(item), item]).filter(([points]) => points > 0);
-  return scored.sort(([a], [b]) => b - a).map(([, item]) => item);
+  const scored = all.map((item) => ({ item, points: score(item) }));
+  const found = scored.filter(({ points }) => points > 0);
+  return found.sort((a, b) => b.points - a.points).map(({ item }) => item);
 }

@@ -1,13 +1,22 @@
 // A bar that is as long as there is space: what does not fit is made smaller or goes into a menu.
 
+/** @import {MenuItem} from "./menu.js" */
+
+/** @typedef {{element: HTMLElement, items: () => (MenuItem | null)[]}} Part */
+
 /**
  * Lets a bar fit. `steps` are taken one after the other while there is not enough space: the name of
  * a class of the bar, or `{element, items()}`, whose element goes into the menu. `more` is the button
  * that is shown then. Returns `{layout, watch(around), hiddenItems}`.
+ *
+ * @param {HTMLElement} bar
+ * @param {HTMLElement} more
+ * @param {(string | Part)[]} steps
  */
 export function fit(bar, more, steps) {
-  const parts = steps.filter(({ element }) => element);
+  const parts = steps.filter((step) => typeof step !== "string");
   const classes = steps.filter((step) => typeof step === "string");
+  /** @type {HTMLElement | null} */
   let around = null;
   const isFull = () => bar.scrollWidth > bar.clientWidth;
 
@@ -39,6 +48,7 @@ export function fit(bar, more, steps) {
   return {
     layout,
     hiddenItems,
+    /** @param {HTMLElement} element */
     watch(element) {
       around = element;
       new ResizeObserver(layout).observe(element);

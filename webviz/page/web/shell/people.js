@@ -9,6 +9,9 @@ import { ask, openDialog } from "./dialog.js";
 import { invitation } from "./invitation.js";
 import { toast } from "./toasts.js";
 
+/** @import {JournalLine, Person, ValidLink} from "../contents.js" */
+/** @import {ValuesOf} from "../types.js" */
+
 /** A word on the role of this page, for those who are not the owner. */
 export function roleMark() {
   const mark = el("span", { class: "wv-role", hidden: true });
@@ -23,7 +26,13 @@ export function roleMark() {
 
 export async function openPeople() {
   const isOwner = self().role === "owner";
-  const known = { people: new Map(), addresses: new Map(), journal: new Map(), links: new Map() };
+  /**
+   * @type {{
+   *   people: ValuesOf<"people">, addresses: ValuesOf<"addresses">, links: ValuesOf<"links">,
+   *   journal: ValuesOf<"journal"> | null,
+   * }}
+   */
+  const known = { people: new Map(), addresses: new Map(), journal: null, links: new Map() };
   const here = el("tbody");
   const links = el("tbody");
   const allLinks = el(
@@ -33,33 +42,35 @@ export async function openPeople() {
     el("div", { class: "wv-people-log" }, table("Links", ["Name", "Role", "Ends", ""], links)),
   );
   const done = el("tbody");
+  /** @type {Map<string, HTMLElement>} */
   const rows = new Map(); // which stay, so that their buttons can be used while texts change
   const show = () => {
-    for (const id of rows.keys()) {
+    for (const [id, row] of rows) {
       if (known.people.has(id)) continue;
-      rows.get(id).remove();
+      row.remove();
       rows.delete(id);
     }
     for (const [id, person] of known.people) {
       const texts = textsOf(id, person, known.addresses, isOwner);
+      const row = rows.get(id) ?? cells(...texts);
       if (!rows.has(id)) {
-        rows.set(id, cells(...texts));
-        if (isOwner)
-          rows.get(id).append(el("td", {}, isYou(id) ? null : endings(Number(id), person)));
-        here.append(rows.get(id));
+        if (isOwner) row.append(el("td", {}, isYou(id) ? null : endings(Number(id), person)));
+        here.append(row);
       }
-      texts.forEach((text, index) => setText(rows.get(id).children[index], text));
+      rows.set(id, row);
+      texts.forEach((text, index) => setText(row.children[index], text));
     }
-    done.replaceChildren(...(known.journal.get("entries") ?? []).map(entryRow));
+    done.replaceChildren(...(known.journal?.get("entries") ?? []).map(entryRow));
   };
   const showLinks = () => {
     links.replaceChildren(...[...known.links].map(linkRow));
     allLinks.hidden = known.links.size === 0; // as of a viewer that asks for none
   };
+  /** @type {(keyof typeof known)[]} */
   const stores = isOwner ? ["people", "addresses", "journal", "links"] : ["people"];
   const ends = stores.map((name) =>
     watch(name, (values) => {
-      known[name] = values;
+      Object.assign(known, { [name]: values });
       (name === "links" ? showLinks : show)();
     }),
   );
@@ -92,6 +103,7 @@ export async function openPeople() {
   ends.forEach((end) => end());
 }
 
+/** @param {string} link */
 async function tell(link) {
   const isDone = await copy(link);
   toast(isDone ? "Copied the link." : "This browser does not allow copying.", {
@@ -99,6 +111,11 @@ async function tell(link) {
   });
 }
 
+/**
+ * @param {string} label
+ * @param {string[]} columns
+ * @param {HTMLElement} body
+ */
 const table = (label, columns, body) =>
   el(
     "table",
@@ -115,6 +132,7 @@ const table = (label, columns, body) =>
     body,
   );
 
+/** @param {...string} texts */
 const cells = (...texts) =>
   el(
     "tr",
@@ -122,8 +140,15 @@ const cells = (...texts) =>
     texts.map((text) => el("td", {}, text)),
   );
 
+/** @param {string} id */
 const isYou = (id) => id === String(window.webviz.browser);
 
+/**
+ * @param {string} id
+ * @param {Person} person
+ * @param {ValuesOf<"addresses">} addresses
+ * @param {boolean} isOwner
+ */
 function textsOf(id, person, addresses, isOwner) {
   const name = [person.name || "no link needed", isYou(id) && "(you)"].filter(Boolean).join(" ");
   return [
@@ -136,9 +161,19 @@ function textsOf(id, person, addresses, isOwner) {
   ];
 }
 
-/** The buttons that end a visit. */
+/**
+ * The buttons that end a visit.
+ *
+ * @param {number} id
+ * @param {Person} person
+ */
 function endings(id, { name }) {
   const who = name || "this browser";
+  /**
+   * @param {string} label
+   * @param {string} tip
+   * @param {() => unknown} onclick
+   */
   const button = (label, tip, onclick) =>
     el("button", { type: "button", class: "wv-button", "data-tip": tip, onclick }, label);
   const end = async () => {
@@ -163,6 +198,7 @@ function endings(id, { name }) {
 
 const CLOSES_ALL = "Close all their pages, for good";
 
+/** @param {string} name */
 const isSure = (name) =>
   ask(`Revoke the link of ${name}? All pages that were opened with it are closed.`, {
     title: "Revoke link",
@@ -170,6 +206,7 @@ const isSure = (name) =>
     danger: true,
   });
 
+/** @param {[string, ValidLink]} link */
 function linkRow([name, { role, expires_s }]) {
   const isOwn = name === self().name;
   const row = cells(
@@ -187,7 +224,9 @@ function linkRow([name, { role, expires_s }]) {
   return row;
 }
 
+/** @param {JournalLine} entry */
 const entryRow = ({ time_s, name, role, address, text }) =>
   cells(timeOf(time_s), [name, role, address].filter(Boolean).join(", "), text);
 
+/** @param {number} seconds */
 const timeOf = (seconds) => new Date(seconds * 1000).toLocaleTimeString();

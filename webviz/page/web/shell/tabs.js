@@ -9,10 +9,14 @@ import { icon } from "../icons.js";
 import { recall, remember } from "../remember.js";
 import { openMenu, openMenuBelow } from "./menu.js";
 
+/** @import {PanelType} from "../contents.js" */
+/** @import {Panel} from "../types.js" */
+
 /** Elements: the list of tabs, and what the open one shows. */
 export function tabs() {
   const content = el("div", { class: "wv-panel", role: "tabpanel", id: "wv-panel" });
   const list = el("div", { class: "wv-tabs", role: "tablist", "aria-label": "Panels" });
+  /** @type {Map<string, HTMLButtonElement>} */
   const buttons = new Map();
   const add = el(
     "button",
@@ -41,12 +45,16 @@ export function tabs() {
     icon("chevron-down"),
   );
   new ResizeObserver(fit).observe(list);
+  /** @type {PanelType[]} */
   let types = [];
   const own = new Set(panels);
   let all = [...panels];
+  /** @type {Panel[]} */
   let additional = [];
+  /** @type {Panel | null} */
   let shown = null;
   let isAdding = false; // by this page, which then opens the panel
+  /** @type {() => void} */
   let close = () => {};
 
   list.addEventListener("keydown", (event) => {
@@ -63,6 +71,7 @@ export function tabs() {
   // A wheel turns up and down only; tabs beyond the edge are at the side.
   list.addEventListener("wheel", ({ deltaY }) => (list.scrollLeft += deltaY), { passive: true });
 
+  /** @param {Panel} panel */
   function button({ name }) {
     const id = `wv-tab-${name}`;
     return el("button", {
@@ -70,10 +79,14 @@ export function tabs() {
       role: "tab",
       id,
       "aria-controls": "wv-panel",
-      onclick: () => show(all.find((panel) => panel.name === name)),
+      onclick: () => {
+        const panel = all.find((one) => one.name === name);
+        if (panel) show(panel);
+      },
     });
   }
 
+  /** @param {Panel} panel */
   function show(panel) {
     close();
     content.replaceChildren();
@@ -85,7 +98,11 @@ export function tabs() {
     close = panel.open(content) ?? (() => {});
   }
 
-  // Not `scrollIntoView`, which moves the whole page while the side is folded away.
+  /**
+   * Not `scrollIntoView`, which moves the whole page while the side is folded away.
+   *
+   * @param {HTMLElement} button
+   */
   function bringIntoSight({ offsetLeft, offsetWidth }) {
     const right = offsetLeft + offsetWidth - list.offsetLeft;
     if (right > list.scrollLeft + list.clientWidth) list.scrollLeft = right - list.clientWidth;
@@ -97,7 +114,8 @@ export function tabs() {
     const isFull = list.scrollWidth > list.clientWidth;
     more.hidden = !isFull;
     set(add, { hidden: isFull || !types.length });
-    if (buttons.has(shown?.name)) bringIntoSight(buttons.get(shown.name));
+    const button = shown && buttons.get(shown.name);
+    if (button) bringIntoSight(button);
   }
 
   function mark() {
@@ -109,20 +127,25 @@ export function tabs() {
     }
   }
 
+  /**
+   * @param {Panel[]} plugins
+   * @returns {void}
+   */
   function offer(plugins) {
     additional = plugins;
     const wanted = recall("tab", "");
     const come = isAdding && plugins.find(({ name }) => !buttons.has(name));
     all = [...panels, ...plugins];
     for (const panel of all) {
-      if (!buttons.has(panel.name)) buttons.set(panel.name, button(panel));
-      setText(buttons.get(panel.name), panel.title);
+      const known = buttons.get(panel.name) ?? button(panel);
+      buttons.set(panel.name, known);
+      setText(known, panel.title);
     }
     for (const name of buttons.keys())
       if (!all.some((panel) => panel.name === name)) buttons.delete(name);
     setChildren(
       list,
-      all.map(({ name }) => buttons.get(name)),
+      all.flatMap(({ name }) => buttons.get(name) ?? []),
     );
     mark();
     fit();
@@ -148,6 +171,7 @@ export function tabs() {
   const ofTypes = () =>
     types.map(({ type, title }) => ({ label: title, run: () => addPanel(type) }));
 
+  /** @param {string} type */
   async function addPanel(type) {
     isAdding = true;
     const { level } = await act("AddPanel", { type, values: {} });

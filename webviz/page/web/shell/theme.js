@@ -12,6 +12,7 @@ export function install() {
 /** "dark", "light", or "system". */
 export const theme = () => recall("theme", "system");
 
+/** @param {string} name */
 export function setTheme(name) {
   remember("theme", name);
   apply();

@@ -11,13 +11,20 @@ import { timeline } from "../timeline/timeline.js";
 import { command, provide } from "./commands.js";
 import { duration, timeOfDay } from "./time_text.js";
 
+/** @import {ValuesOf} from "../types.js" */
+
 const TICK_MS = 100;
 const RESET_HINT = "Reset: forget all transforms and messages (R)";
 
-/** Fills the footer. */
+/**
+ * Fills the footer.
+ *
+ * @param {HTMLElement} place
+ */
 export function build(place) {
   let isPaused = false;
   let inSeconds = recall("time-in-seconds", false);
+  /** @type {ValuesOf<"clock"> | null} */
   let shown = null;
 
   const pause = el("button", {
@@ -69,6 +76,7 @@ export function build(place) {
     if (shown) show(shown);
   }
 
+  /** @param {ValuesOf<"clock">} clock */
   function show(clock) {
     shown = clock;
     showPause(clock.get("is_paused"));
@@ -76,7 +84,9 @@ export function build(place) {
     const isSimulated = clock.get("is_simulated");
     const now = rosNow(clock);
     const isRunning = clock.get("pace")[2] !== 0;
-    const format = inSeconds ? (time) => time.toFixed(isRunning ? 1 : 3) : timeOfDay;
+    const format = inSeconds
+      ? (/** @type {number} */ time) => time.toFixed(isRunning ? 1 : 3)
+      : timeOfDay;
     setText(ros, isKnown ? format(now, !isRunning) : "No time yet");
     set(ros, { "data-tip": hintOf(isKnown, isSimulated, inSeconds) });
     const past = recording.isLive() ? "past" : "bag";
@@ -92,6 +102,7 @@ export function build(place) {
     wallElapsed.show(hasWall ? duration(wallNow() - beganWall) : "");
   }
 
+  /** @param {boolean} paused */
   function showPause(paused) {
     isPaused = paused;
     const [name, tip] = recording.isThere()
@@ -117,9 +128,15 @@ export function build(place) {
   return watchTime(TICK_MS, show);
 }
 
+/** @param {boolean} isPaused */
 const nameOf = (isPaused) => (isPaused ? "Resume" : "Pause");
 
-/** A label and a time, hidden while there is none. */
+/**
+ * A label and a time, hidden while there is none.
+ *
+ * @param {string} label
+ * @param {string} title
+ */
 function part(label, title) {
   const time = el("span", { class: "wv-number" });
   const element = el(
@@ -128,6 +145,7 @@ function part(label, title) {
     el("span", { class: "wv-quiet" }, label),
     time,
   );
+  /** @param {string} text */
   const show = (text) => {
     setText(time, text);
     set(element, { hidden: text === "" });
@@ -135,6 +153,11 @@ function part(label, title) {
   return { element, show };
 }
 
+/**
+ * @param {boolean} isKnown
+ * @param {boolean} isSimulated
+ * @param {boolean} inSeconds
+ */
 function hintOf(isKnown, isSimulated, inSeconds) {
   if (!isKnown) return "Waiting for the first message on /clock";
   const kind = isSimulated
@@ -143,6 +166,10 @@ function hintOf(isKnown, isSimulated, inSeconds) {
   return `${kind}. Click for ${inSeconds ? "date and time of day" : "seconds"}.`;
 }
 
+/**
+ * @param {boolean} isSimulated
+ * @param {number} hz
+ */
 function badgeOf(isSimulated, hz) {
   if (!isSimulated) return "wall time";
   return hz ? `sim time · ${hz} Hz` : "sim time";

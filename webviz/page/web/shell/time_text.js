@@ -2,11 +2,18 @@
 
 const YEAR_S = 31_536_000;
 
+/**
+ * @param {number} number
+ * @param {number} [digits]
+ */
 const pad = (number, digits = 2) => String(number).padStart(digits, "0");
 
 /**
  * Date and time of day here of a time in seconds since 1970, with milliseconds if wanted. Simulations
  * count from zero: a time of the first year is hours, minutes and seconds.
+ *
+ * @param {number} seconds
+ * @param {boolean} [precise]
  */
 export function timeOfDay(seconds, precise = false) {
   const ms = Math.floor(seconds * 1000);
@@ -19,7 +26,12 @@ export function timeOfDay(seconds, precise = false) {
   return `${day} ${time}${rest}`;
 }
 
-/** Hours, minutes and seconds of a time in seconds: 1:02:03.4. */
+/**
+ * Hours, minutes and seconds of a time in seconds: 1:02:03.4.
+ *
+ * @param {number} seconds
+ * @param {number} [digits]
+ */
 export function duration(seconds, digits = 1) {
   const unit = 10 ** digits;
   const total = Math.floor(Math.abs(seconds) * unit + 1e-6);

@@ -3,12 +3,23 @@
 import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
 
+/**
+ * @typedef {{
+ *   count: number, timer: number, run: (() => unknown) | undefined, element: HTMLElement,
+ *   text: HTMLElement, button: HTMLElement, remove: () => void,
+ * }} Toast
+ */
+
+/** @type {Record<string, number>} */
 const SHOWN_MS = { ok: 5000, warn: 10000, error: 10000 };
 const MAX_SHOWN = 3;
 
+/** @type {Map<string, Toast>} */
 const shown = new Map();
+/** @type {HTMLElement | null} */
 let place = null;
 
+/** @param {HTMLElement} scene */
 export function install(scene) {
   place = el("div", { class: "wv-toasts", role: "status", "aria-live": "polite" });
   scene.append(place);
@@ -18,11 +29,16 @@ export function install(scene) {
  * Shows a sentence with a level, "ok", "warn" or "error", and perhaps an action: `{label, run}`.
  * It replaces the one about the same topic; without a topic, repetitions of a sentence are counted.
  * Returns what takes it away.
+ *
+ * @param {string} text
+ * @param {{
+ *   level?: string, action?: {label: string, run: () => unknown} | null, topic?: string,
+ * }} [options]
  */
 export function toast(text, { level = "ok", action = null, topic = "" } = {}) {
   if (!place) return () => {};
   const key = topic || `${level} ${text}`;
-  const one = shown.get(key) ?? make(key);
+  const one = shown.get(key) ?? make(place, key);
   one.count += topic ? 0 : 1;
   set(one.element, { "data-level": level });
   setText(one.text, one.count > 1 ? `${text} (${one.count})` : text);
@@ -31,31 +47,32 @@ export function toast(text, { level = "ok", action = null, topic = "" } = {}) {
   one.run = action?.run;
   clearTimeout(one.timer);
   one.timer = setTimeout(one.remove, SHOWN_MS[level]);
-  while (shown.size > MAX_SHOWN) shown.values().next().value.remove();
+  for (const old of [...shown.values()].slice(0, -MAX_SHOWN)) old.remove();
   return one.remove;
 }
 
-function make(key) {
-  const one = { count: 0, timer: 0, run: null };
-  const act = () => {
-    one.remove();
-    one.run();
-  };
-  one.text = el("span");
-  one.button = el("button", { type: "button", class: "wv-link", onclick: act });
-  one.remove = () => {
+/**
+ * @param {HTMLElement} place
+ * @param {string} key
+ * @returns {Toast}
+ */
+function make(place, key) {
+  const remove = () => {
     clearTimeout(one.timer);
     if (shown.get(key) === one) shown.delete(key);
     one.element.remove();
   };
-  const close = { type: "button", class: "wv-icon", "aria-label": "Dismiss", onclick: one.remove };
-  one.element = el(
-    "div",
-    { class: "wv-toast" },
-    one.text,
-    one.button,
-    el("button", close, icon("close")),
-  );
+  const act = () => {
+    remove();
+    one.run?.();
+  };
+  const text = el("span");
+  const button = el("button", { type: "button", class: "wv-link", onclick: act });
+  const close = { type: "button", class: "wv-icon", "aria-label": "Dismiss", onclick: remove };
+  const parts = [text, button, el("button", close, icon("close"))];
+  const element = el("div", { class: "wv-toast" }, parts);
+  /** @type {Toast} */
+  const one = { count: 0, timer: 0, run: undefined, element, text, button, remove };
   shown.set(key, one);
   place.append(one.element);
   return one;

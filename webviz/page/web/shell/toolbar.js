@@ -16,10 +16,15 @@ import { openMenuBelow } from "./menu.js";
 import { fit } from "./overflow.js";
 import * as tools from "./tools.js";
 
+/** @import {Choice} from "../types.js" */
+/** @import {MenuItem} from "./menu.js" */
+
 const VIEW_TYPES = ["Orbit", "XYOrbit", "ThirdPersonFollower", "FPS", "TopDownOrtho"];
 
+/** @type {{type: string, target: string, frame: string, frames: string[], views: string[]}} */
 const shown = { type: "", target: FIXED, frame: "", frames: [], views: [] };
 
+/** @param {{toolbar: HTMLElement, status: HTMLElement}} places */
 export function install(places) {
   tools.install();
   const open = el(
@@ -68,6 +73,7 @@ export function install(places) {
     ),
   );
   // The frames and the tools that act on the robot stay, however little room the scene has.
+  /** @type {ReturnType<typeof fit>} */
   const bar = fit(element, more, [
     "wv-compact",
     { element: full, items: () => [item(actions.fullscreen)] },
@@ -91,7 +97,8 @@ export function install(places) {
   }).observe(element);
 
   const update = () => {
-    setText(type.querySelector(".wv-bar-name"), shown.type);
+    const name = type.querySelector(".wv-bar-name");
+    if (name) setText(name, shown.type);
     set(type, { "aria-label": `View: ${shown.type}`, "data-tip": `View type: ${shown.type}` });
     line.hidden = !tools.buttons.children.length;
     fixed.update();
@@ -135,8 +142,13 @@ export function install(places) {
   }
 }
 
-// viser gives the page another id when it connects again.
+/**
+ * viser gives the page another id when it connects again.
+ *
+ * @param {() => void} update
+ */
 function watchView(update) {
+  /** @type {() => void} */
   let end = () => {};
   const begin = () => {
     end();
@@ -150,14 +162,24 @@ function watchView(update) {
   if (channel.isOpen()) begin();
 }
 
+/** @param {string} value */
 const setType = (value) => act("ChangeView", { key: "type", value });
+/** @param {string} frame */
 const setFixed = (frame) => act("SetFixedFrame", { frame });
+/** @returns {Choice[]} */
 const fixedOptions = () => shown.frames.map((value) => ({ value }));
+/** @returns {Choice[]} */
 const targetOptions = () => [
   { value: FIXED, label: "No target" },
   ...shown.frames.map((value) => ({ value })),
 ];
 
+/**
+ * @param {string} iconName
+ * @param {string | null} label
+ * @param {string} tip
+ * @param {() => unknown} run
+ */
 function button(iconName, label, tip, run) {
   const made = el(
     "button",
@@ -174,6 +196,13 @@ function button(iconName, label, tip, run) {
   return made;
 }
 
+/**
+ * @param {string} label
+ * @param {string} iconName
+ * @param {() => string} value
+ * @param {() => Choice[]} options
+ * @param {(frame: string) => unknown} change
+ */
 function frameField(label, iconName, value, options, change) {
   const field = combobox({
     label,
@@ -188,8 +217,10 @@ function frameField(label, iconName, value, options, change) {
   };
 }
 
-const focusField = (field) => field.querySelector("input").focus();
+/** @param {HTMLElement} field */
+const focusField = (field) => field.querySelector("input")?.focus();
 
+/** @returns {(MenuItem | null)[]} */
 const viewMenu = () => [
   ...VIEW_TYPES.map((name) => ({
     label: name,
@@ -200,6 +231,7 @@ const viewMenu = () => [
   { label: "Zero", icon: "reset", key: "z", run: () => act("ResetView") },
 ];
 
+/** @returns {(MenuItem | null)[]} */
 const savedMenu = () => [
   ...shown.views.map((name) => ({
     label: name,
@@ -224,7 +256,7 @@ async function saveView() {
     "aria-label": "Name",
     autofocus: true,
   });
-  input.value = numbers.find((name) => !shown.views.includes(name));
+  input.value = numbers.find((name) => !shown.views.includes(name)) ?? "";
   input.select();
   const accept = async () => {
     const name = input.value.trim();
@@ -242,14 +274,19 @@ async function saveView() {
   }
 }
 
-// Arrow keys go from button to button; a field keeps them.
+/**
+ * Arrow keys go from button to button; a field keeps them.
+ *
+ * @param {KeyboardEvent} event
+ */
 function walk(event) {
-  const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
-  if (!step || event.target.matches("input")) return;
+  const step = event.key === "ArrowRight" ? 1 : event.key === "ArrowLeft" ? -1 : 0;
+  const [bar, from] = /** @type {HTMLElement[]} */ ([event.currentTarget, event.target]);
+  if (!step || from.matches("input")) return;
   event.preventDefault();
   event.stopPropagation();
-  const all = [...event.currentTarget.querySelectorAll("button, input")].filter(
-    (one) => one.offsetParent,
-  );
-  all.at((all.indexOf(event.target) + step) % all.length).focus();
+  /** @type {NodeListOf<HTMLElement>} */
+  const parts = bar.querySelectorAll("button, input");
+  const all = [...parts].filter((one) => one.offsetParent);
+  all.at((all.indexOf(from) + step) % all.length)?.focus();
 }

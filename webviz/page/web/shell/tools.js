@@ -18,6 +18,8 @@ import { canvas } from "../viser_page.js";
 import { command, provide } from "./commands.js";
 import { keyText } from "./keys.js";
 
+/** @import {SceneEvent, Tool} from "../types.js" */
+
 /** The buttons of the tools; those that are icons may go into a menu. */
 export const buttons = el("div", { class: "wv-tools", role: "group", "aria-label": "Tools" });
 export const icons = el("div", { class: "wv-tools", role: "group", "aria-label": "Camera" });
@@ -25,11 +27,25 @@ export const icons = el("div", { class: "wv-tools", role: "group", "aria-label":
 export const cards = el("div", { class: "wv-cards" });
 export { hint };
 
+const EVENTS = /** @type {const} */ ([
+  "pointerdown",
+  "pointermove",
+  "pointerup",
+  "pointercancel",
+  "wheel",
+]);
+/** @type {Set<() => void>} */
 const listeners = new Set();
+/** @type {Map<string, HTMLButtonElement>} */
 const made = new Map();
+/** @type {Tool | null} */
 let active = null;
 
-/** Calls `listener` whenever there are other tools. */
+/**
+ * Calls `listener` whenever there are other tools.
+ *
+ * @param {() => void} listener
+ */
 export const onTools = (listener) => listeners.add(listener);
 
 export function install() {
@@ -65,9 +81,9 @@ export function install() {
     group: "Tools",
     isHidden: true,
     run: preview.send,
-    isThere: () => preview.isWaiting() && !document.activeElement.closest("button"),
+    isThere: () => preview.isWaiting() && !document.activeElement?.closest("button"),
   });
-  for (const name of ["pointerdown", "pointermove", "pointerup", "pointercancel", "wheel"]) {
+  for (const name of EVENTS) {
     window.addEventListener(name, onPointer, { capture: true, passive: false });
   }
 }
@@ -75,7 +91,7 @@ export function install() {
 function update() {
   if (active !== registry.active()) {
     active = registry.active();
-    tell("hint", active.hint);
+    tell("hint", active?.hint ?? "");
   }
   const count = () => icons.children.length + buttons.children.length;
   const before = count();
@@ -100,6 +116,7 @@ export const iconItems = () =>
       run: () => registry.toggle(tool),
     }));
 
+/** @param {Tool} tool */
 function buttonOf(tool) {
   const button = made.get(tool.id) ?? el("button", { type: "button", class: "wv-tool" });
   made.set(tool.id, button);
@@ -120,11 +137,12 @@ function buttonOf(tool) {
     );
   }
   button.onclick = () => registry.toggle(tool);
-  set(button, { "aria-pressed": String(tool.id === registry.active().id) });
+  set(button, { "aria-pressed": String(tool.id === registry.active()?.id) });
   return button;
 }
 
+/** @param {SceneEvent} event */
 function onPointer(event) {
   if (event.type === "pointerdown" && event.target !== canvas()) return;
-  if (registry.active().pointer?.(event)) event.stopImmediatePropagation();
+  if (registry.active()?.pointer?.(event)) event.stopImmediatePropagation();
 }

@@ -7,15 +7,24 @@ const WAIT_MS = 500;
 const GAP = 6;
 const TIPPED = "[data-why], [data-tip], [title]";
 
+/** @type {HTMLElement | null} */
 let shown = null;
-let tip = null;
+const tip = el("div", { class: "wv-tip", role: "tooltip", id: "wv-tip", popover: "manual" });
 let timer = 0;
 
+/**
+ * The element around a target that has a tooltip.
+ *
+ * @param {EventTarget | null} target
+ * @returns {HTMLElement | null}
+ */
+const ownerOf = (target) => (target instanceof Element ? target.closest(TIPPED) : null);
+
+/** @param {HTMLElement} page */
 export function install(page) {
-  tip = el("div", { class: "wv-tip", role: "tooltip", id: "wv-tip", popover: "manual" });
   page.append(tip);
   page.addEventListener("pointerover", ({ target, pointerType }) => {
-    const owner = target.closest?.(TIPPED);
+    const owner = ownerOf(target);
     if (owner) adopt(owner);
     if (owner === shown) return;
     hide();
@@ -23,8 +32,9 @@ export function install(page) {
   });
   page.addEventListener("pointerleave", hide);
   page.addEventListener("focusin", ({ target }) => {
-    const owner = target.closest(TIPPED);
-    if (!owner || !target.matches(":focus-visible") || target.matches("input, textarea")) return;
+    const owner = ownerOf(target);
+    const focused = /** @type {Element} */ (target);
+    if (!owner || !focused.matches(":focus-visible") || focused.matches("input, textarea")) return;
     adopt(owner);
     timer = setTimeout(() => show(owner)); // not while a dialog or a menu is just being opened
   });
@@ -33,7 +43,11 @@ export function install(page) {
     window.addEventListener(name, hide, true);
 }
 
-// A `title` would show the browser's own tooltip beside this one.
+/**
+ * A `title` would show the browser's own tooltip beside this one.
+ *
+ * @param {HTMLElement} owner
+ */
 function adopt(owner) {
   const text = owner.getAttribute("title");
   if (!text) return;
@@ -42,18 +56,19 @@ function adopt(owner) {
   if (!owner.textContent.trim() && !owner.getAttribute("aria-label")) owner.ariaLabel = text;
 }
 
+/** @param {HTMLElement} owner */
 function show(owner) {
   if (!owner.isConnected || !(owner.dataset.why || owner.dataset.tip)) return;
   hide();
   shown = owner;
   // Why something is not allowed comes before what it would do.
   const { why, tip: about, key } = owner.dataset;
-  const text = why || about;
+  const text = why || about || "";
   tip.replaceChildren(text, ...(key ? [el("kbd", {}, keyText(key))] : []));
   if (owner.ariaLabel !== text) owner.setAttribute("aria-describedby", "wv-tip");
   // In a dialog, only what is within it is read out.
   const home = owner.closest("dialog") ?? document.getElementById("webviz");
-  if (tip.parentElement !== home) home.append(tip);
+  if (tip.parentElement !== home) home?.append(tip);
   tip.showPopover();
   const box = owner.getBoundingClientRect();
   const { width, height } = tip.getBoundingClientRect();

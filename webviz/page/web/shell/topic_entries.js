@@ -1,5 +1,20 @@
 // Topics that can be added: each with the displays that show it, an image once for all transports.
 
+/** @import {DisplayType, GraphTopic, TopicTraffic} from "../contents.js" */
+/** @import {OptionRow} from "./option_list.js" */
+/** @import {ValuesOf} from "../types.js" */
+
+/**
+ * @typedef {{type: string, values: Record<string, unknown>}} Choice
+ * @typedef {OptionRow & {id: string, pick?: Choice}} AddRow
+ * @typedef {{words: [title: string, more: string], rows: AddRow[]}} Entry
+ * @typedef {{
+ *   types: [string, DisplayType][] | null, topics: [string, GraphTopic][] | null,
+ *   traffic: ValuesOf<"traffic"> | null, shown: Set<string> | null,
+ * }} Known
+ * @typedef {{topic: string, offer: GraphTopic, transport: string}[]} Family
+ */
+
 const ANY = "any type";
 const TRANSPORT = /^(.+)\/(compressed|compressedDepth|ffmpeg|theora|zstd|draco)$/; // of ROS's transports
 
@@ -8,9 +23,15 @@ const TRANSPORT = /^(.+)\/(compressed|compressedDepth|ffmpeg|theora|zstd|draco)$
  *
  * `types`, `topics` and `traffic` are the stores; `shown` has the topics of all displays, `checked`
  * the ids of rows.
+ *
+ * @param {Known} stores
+ * @param {Map<string, Choice>} checked
+ * @returns {Entry[]}
  */
 export function topicEntries({ types, topics, traffic, shown }, checked) {
+  /** @type {Map<string, string>} */
   const icons = new Map((types ?? []).map(([name, { icon }]) => [name, icon]));
+  /** @type {Set<string>} */
   const plain = new Set(
     (types ?? []).filter(([, { topics }]) => topics.includes(ANY)).map(([name]) => name),
   );
@@ -18,15 +39,21 @@ export function topicEntries({ types, topics, traffic, shown }, checked) {
     const show = family.flatMap(({ offer }) => offer.show);
     const isShown = family.some(({ topic }) => shown?.has(topic));
     const isPlain = show.every(([display]) => plain.has(display));
-    const rank = show.length ? Number(isShown) + 2 * isPlain : 4;
+    const rank = show.length ? Number(isShown) + 2 * Number(isPlain) : 4;
     return { rank, ...entryOf(family, { traffic, icons, isShown, isPlain, checked }) };
   });
   return entries.toSorted((a, b) => a.rank - b.rank);
 }
 
-// Topics in lists: an image with its transports that a display shows, every other one alone.
+/**
+ * Topics in lists: an image with its transports that a display shows, every other one alone.
+ *
+ * @param {[string, GraphTopic][]} topics
+ * @returns {Family[]}
+ */
 function families(topics) {
   const known = new Map(topics);
+  /** @type {Map<string, Family>} */
   const made = new Map();
   for (const [topic, offer] of topics) {
     const [, base, transport] = TRANSPORT.exec(topic) ?? [];
@@ -40,6 +67,14 @@ function families(topics) {
   return [...made.values()];
 }
 
+/**
+ * @param {Family} family
+ * @param {{
+ *   traffic: Known["traffic"], icons: Map<string, string>, isShown: boolean, isPlain: boolean,
+ *   checked: Map<string, Choice>,
+ * }} about
+ * @returns {Entry}
+ */
 function entryOf(family, { traffic, icons, isShown, isPlain, checked }) {
   const [{ topic, offer }] = family;
   const note = noteOf(offer, traffic?.get(topic), isShown);
@@ -64,6 +99,7 @@ function entryOf(family, { traffic, icons, isShown, isPlain, checked }) {
       pick: { type: display, values },
     })),
   );
+  /** @type {Entry["words"]} */
   const words = [topic, rows.map(({ title, note }) => `${title} ${note}`).join(" ") + types];
   if (rows.length > 1)
     return {
@@ -75,6 +111,11 @@ function entryOf(family, { traffic, icons, isShown, isPlain, checked }) {
   return { words, rows: [{ ...rows[0], title: topic, line, note, group, isWithin: false }] };
 }
 
+/**
+ * @param {GraphTopic} offer
+ * @param {TopicTraffic | undefined} traffic
+ * @param {boolean} isShown
+ */
 function noteOf({ nodes }, traffic, isShown) {
   const rate = traffic?.hz ? `${Number(traffic.hz.toPrecision(2))} Hz` : "";
   const publishers = `${nodes.length} publisher${nodes.length === 1 ? "" : "s"}`;

@@ -201,7 +201,10 @@ export function track(seek, redrawn = () => {}) {
   function press(event) {
     if (event.button !== 0 || !recording) return;
     const reason = why(event.shiftKey ? "SelectSpan" : "Seek");
-    if (reason) return toast(reason, { level: "warn", topic: "access" });
+    if (reason) {
+      toast(reason, { level: "warn", topic: "access" });
+      return;
+    }
     canvas.setPointerCapture(event.pointerId);
     const from = markAt(event)?.time ?? timeAt(event);
     drag = { pointer: event.pointerId, x: event.clientX, from, isSpan: event.shiftKey, span: null };
