@@ -320,6 +320,20 @@ def test_a_thinned_cloud_is_not_sent_whole_once_there_is_a_newer_one() -> None:
     assert [len(values["points"]) // 3 for _, values in completed(sent)][:2] == [12_500, 11_250]
 
 
+def test_a_cloud_that_waits_to_be_sent_whole_is_thinned_if_a_newer_one_comes() -> None:
+    queue = Queue(SLOW)
+    queue.push(wire.SceneNodeUpdateMessage("/lidar", cloud(100_000)))
+    sent: list[Any] = []
+    while not sent:
+        sent += taken(queue, 0.01)
+    queue.push(AcknowledgementRequest("1"))
+    assert queue.outbox.small(queue.live, queue._count - 1, None) == []  # after the whole cloud
+    queue.push(wire.SceneNodeUpdateMessage("/lidar", cloud(90_000)))
+    sent += taken(queue, 0.5)
+    clouds = [each for each in sent if not isinstance(each, AcknowledgementRequest)]
+    assert [len(values["points"]) // 3 for _, values in completed(clouds)][:2] == [12_500, 11_250]
+
+
 def test_neither_pieces_nor_scans_wait_for_the_others_to_end() -> None:
     queue = Queue(SLOW)
     queue.push(image("/map", 400_000))
