@@ -7,9 +7,11 @@ from __future__ import annotations
 
 import io
 import math
+import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import building
@@ -27,12 +29,13 @@ from webviz.api.views import Orbit
 from webviz.engine.state import ClockRate, ConfigFile, PanelTimes, Row, State, ToolButton, Traffic
 from webviz.files.config import Settings
 from webviz.scene import ViserScene, open_server
+from webviz.scene.adapter import greeting
 from webviz.scene.server import Server
 from webviz.shell.pictures.browser import Pixels
 from webviz.shell.testing import share_of_difference
 from webviz.shell.testing.pictures import ReferenceImages
 from webviz.sources import Offer, Publisher
-from webviz.sources.past_state import PlaybackState
+from webviz.sources.past_state import Event, MemoryState, PlaybackState, RecordingState
 from webviz_displays.grid import Grid
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Map
@@ -96,6 +99,37 @@ BAG: dict[str, Any] = {
     "settings": Settings(bookmarks={"lost": START_NS / 1e9 + 55.0}),
 }
 """A bag that is played."""
+
+LIVE: dict[str, Any] = {
+    "playback": PlaybackState(
+        names=(),
+        start_ns=START_NS - 90 * 10**9,
+        end_ns=START_NS,
+        position_s=90.0,
+        rate=1.0,
+        is_playing=False,
+        is_seeking=False,
+        loop=False,
+        selected=None,
+        first_s=30.0,
+        is_live=True,
+        counted=(30.0, 89.0),
+    ),
+    "recorded": {"/odom": [20] * 59, "/scan": [10] * 20 + [0] * 10 + [40] * 29},
+    "logged": (Event(START_NS - 25 * 10**9, Level.ERROR, "amcl", "lost track"),),
+    "memory": MemoryState(60.0, 212_000_000),
+    "recording": RecordingState(
+        path=Path("run"), seconds=42.0, messages=4000, size=12_300_000, dropped=0
+    ),
+}
+"""Live topics that are recorded."""
+PAST: dict[str, Any] = {
+    **LIVE,
+    "playback": replace(LIVE["playback"], is_live=False, position_s=77.6),
+    "recording": None,
+    "clock": PanelTimes(START_NS - 12_400_000_000, wall_s=START_NS / 1e9, is_paused=True),
+}
+"""12.4 s ago."""
 
 
 def rows(scan: dict[str, Status] | None = None) -> tuple[Row, ...]:
@@ -186,6 +220,13 @@ def open_still(open_tab: Callable[..., Tab]) -> Callable[..., Tab]:
     return open_still
 
 
+@pytest.fixture
+def still_server(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let the server's clock stand still, too, by which pages say how long something is ago."""
+    clock = SimpleNamespace(time=lambda: START_NS / 1e9, monotonic=time.monotonic)
+    monkeypatch.setattr(greeting, "time", clock)
+
+
 def still(tab: Tab) -> Tab:
     """A tab in which no time passes any more."""
     if not tab.page.evaluate(HAS_FONT):
@@ -255,6 +296,25 @@ def test_the_page_is_as_in_its_pictures_and_a_missing_row_or_another_color_shows
     tab.wait_for(lambda: tab.page.get_by_role("option", name="/scan").count() == 1)
     tab.page.mouse.move(5, 5)
     album.check("timeline", capture(tab), tolerance=TOLERANCE)
+
+
+def test_live_topics_that_are_recorded_and_rewound(
+    open_still: Callable[..., Tab], album: ReferenceImages, still_server: None
+) -> None:
+    tab = open_still(DESK, color_scheme="dark")
+    tab.page.evaluate(HEARD)
+    tab.loop.state = replace(tab.loop.state, **LIVE)
+    tab.wait_for(lambda: tab.page.get_by_role("button", name="Stop recording").count() == 1)
+    album.check("recording", capture(tab), tolerance=TOLERANCE)
+    tab.loop.state = replace(tab.loop.state, **PAST)
+    tab.wait_for(tab.page.locator(".wv-rewound-banner").is_visible)
+    album.check("rewound", capture(tab), tolerance=TOLERANCE)
+
+    phone = open_still(PHONE, has_touch=True, is_mobile=True, color_scheme="dark")
+    phone.page.evaluate(HEARD)
+    phone.loop.state = replace(phone.loop.state, **PAST)
+    phone.wait_for(phone.page.locator(".wv-rewound-banner").is_visible)
+    album.check("phone_rewound", capture(phone), tolerance=TOLERANCE)
 
 
 def test_on_a_phone_the_scene_is_free_until_the_side_lies_over_it(
