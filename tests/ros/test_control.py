@@ -15,6 +15,8 @@ import pytest
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
 
 import rclpy
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from diagnostic_msgs.srv import SelfTest
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -353,6 +355,11 @@ class SlowViewer:
     def do(self, command: Command) -> str:
         return "Done."
 
+    def doctor(self) -> list[webviz.Finding]:
+        return []
+
+    last_findings = doctor
+
     def save_screenshot(self) -> Path:
         assert self.ready.wait(60.0)
         return Path("/picture.png")
@@ -493,3 +500,22 @@ def test_without_control_the_node_only_reports(
     services = [name for name, _ in client.node.get_service_names_and_types()]
     assert "/webviz/get_parameters" in services
     assert not [name for name in services if name.startswith(("/webviz/save", "/webviz/load"))]
+
+
+def test_findings_are_returned_by_a_service_and_published_on_request(
+    open_viewer: Callable[..., webviz.Viewer], client: Client, config: Path
+) -> None:
+    open_viewer(config)  # its fixed frame is not there
+    found = client.call("/webviz/doctor", SelfTest)
+    assert (found.id, found.passed) == ("/webviz", b"\0")
+    assert found.status[0].name == "webviz: doctor"
+    assert "webviz: TF001" in {status.name for status in found.status[1:]}
+
+    received: list[DiagnosticArray] = []
+    client.node.create_subscription(DiagnosticArray, "/diagnostics", received.append, 1)
+    assert client.set("publish_diagnostics", True) == ""
+    client.until(lambda: received, "findings are published")
+    (whole, *_) = received[-1].status
+    assert whole.level == DiagnosticStatus.ERROR
+    assert client.set("publish_diagnostics", False) == ""
+    client.until(lambda: not client.node.count_publishers("/diagnostics"), "it is over")

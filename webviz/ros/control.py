@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+import functools
 import logging
 import os
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
-from typing import Any, Protocol
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, Protocol
 
 from rcl_interfaces.msg import ParameterDescriptor, ParameterType, SetParametersResult
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from webviz.api.errors import Error
+from webviz.api.finding import Finding
 from webviz.engine.commands import (
     Command,
     Open,
@@ -29,8 +32,12 @@ from webviz.engine.commands import (
 from webviz.engine.state import State
 from webviz.files.config.files import SUFFIXES
 
+if TYPE_CHECKING:
+    from webviz.ros.diagnostics import DiagnosticsPublisher
+
 log = logging.getLogger("webviz")
 
+DIAGNOSTICS = "publish_diagnostics"
 CONFIG_FILE, FIXED_FRAME, VIEW = "config_file", "fixed_frame", "view"
 PARAMETERS = {
     CONFIG_FILE: "Path of the config file. Set it to open another one from the same folder.",
@@ -40,6 +47,10 @@ PARAMETERS = {
 NO_SERVICES = (
     "The viewer's services, such as ~/load_config and ~/screenshot, are unavailable because "
     "std_srvs is missing. Install ros-jazzy-std-srvs."
+)
+NO_DIAGNOSTICS = (
+    "The service ~/doctor and the parameter publish_diagnostics are unavailable because "
+    "diagnostic_msgs is missing. Install ros-jazzy-diagnostic-msgs."
 )
 NO_CONTROL = "This viewer was started with --no-control. Restart it without this option."
 MAX_REQUESTS = 4
@@ -56,6 +67,14 @@ class Controlled(Protocol):
 
     def do(self, command: Command) -> str:
         """Run a command, wait for it, and return its message."""
+        ...
+
+    def doctor(self) -> Sequence[Finding]:
+        """Examine the viewer, which takes seconds, and return the findings."""
+        ...
+
+    def last_findings(self) -> Sequence[Finding]:
+        """The findings of the last round, and let rounds go on for some seconds."""
         ...
 
     def save_screenshot(self) -> Path:
@@ -88,6 +107,13 @@ class ControlNode:
             for name, text in PARAMETERS.items()
         }
         """Values of the parameters at startup, "" if unset."""
+        about = "Publish the findings of the doctor on /diagnostics, once a second."
+        node.declare_parameter(
+            DIAGNOSTICS,
+            False,
+            ParameterDescriptor(type=ParameterType.PARAMETER_BOOL, description=about),
+        )
+        self._diagnostics: DiagnosticsPublisher | None = None
         about_time = "Take the time from /clock. The viewer then waits for its first message."
         node.set_descriptor(
             "use_sim_time",
@@ -118,6 +144,7 @@ class ControlNode:
             self._services = self._create_services(self._viewer) if self._may_change else []
         for service in self._services:
             service.turn()
+        self._follow_diagnostics(self._viewer)
         if (values := _values(self._viewer.state)) != self._mirrored:
             self._mirror(values)
             self._mirrored = values
@@ -125,6 +152,17 @@ class ControlNode:
     def close(self) -> None:
         """Cancel service requests that have not started."""
         self._pool.shutdown(cancel_futures=True)
+
+    def _follow_diagnostics(self, viewer: Controlled) -> None:
+        """Publish diagnostics while the parameter asks for them."""
+        is_wanted = self._node.get_parameter(DIAGNOSTICS).value
+        if is_wanted and self._diagnostics is None and (module := _diagnostics()):
+            self._diagnostics = module.DiagnosticsPublisher(self._node, viewer.last_findings)
+        elif not is_wanted and self._diagnostics is not None:
+            self._diagnostics.close()
+            self._diagnostics = None
+        if self._diagnostics is not None:
+            self._diagnostics.turn()
 
     # Parameters
 
@@ -155,7 +193,8 @@ class ControlNode:
                 if parameter.name in PARAMETERS
                 for command in self._commands(parameter.name, str(parameter.value))
             ]
-            if commands and not self._may_change:
+            is_change = commands or any(each.name == DIAGNOSTICS for each in parameters)
+            if is_change and not self._may_change:
                 raise Error(NO_CONTROL)
             for command in commands:
                 self._require_viewer().do(command)
@@ -235,7 +274,7 @@ class ControlNode:
             return viewer.do(StopRecording())
 
         return [
-            _Service(self._node, type, name, work, self._pool, self._wake)
+            _Service(self._node, type, name, work, self._pool, self._wake, _say)
             for name, type, work in (
                 ("~/load_config", Trigger, load),
                 ("~/save_config", Trigger, save),
@@ -246,7 +285,22 @@ class ControlNode:
                 ("~/start_recording", Trigger, start_recording),
                 ("~/stop_recording", Trigger, stop_recording),
             )
-        ]
+        ] + self._doctor_service(viewer)
+
+    def _doctor_service(self, viewer: Controlled) -> list[_Service]:
+        """The service that returns findings, none if diagnostic_msgs is missing."""
+        module = _diagnostics()
+        if module is None:
+            return []
+
+        def fill(response: Any, done: Future[Any]) -> None:
+            response.id = self._node.get_fully_qualified_name()
+            if done.exception() is None:
+                response.status = module.statuses_of(done.result())
+                response.passed = bytes([response.status[0].level == b"\0"])
+
+        type, work = module.SelfTest, viewer.doctor
+        return [_Service(self._node, type, "~/doctor", work, self._pool, self._wake, fill)]
 
 
 class _Service:
@@ -257,9 +311,10 @@ class _Service:
 
     Args:
         node, type, name: of the service.
-        work: called in `pool` for each request; returns the message of the response.
+        work: called in `pool` for each request.
         pool: one thread for all services.
         wake: called from any thread when a response is ready.
+        fill: fills the response with the result of `work`, or its error.
     """
 
     def __init__(
@@ -267,17 +322,19 @@ class _Service:
         node: Node,
         type: Any,
         name: str,
-        work: Callable[[], str],
+        work: Callable[[], Any],
         pool: ThreadPoolExecutor,
         wake: Callable[[], None],
+        fill: Callable[[Any, Future[Any]], None],
     ) -> None:
         self._service = node.create_service(type, name, lambda _, response: response)
         self._send = self._service.send_response
         self._service.send_response = self._begin
         self._work = work
+        self._fill = fill
         self._pool = pool
         self._wake = wake
-        self._pending: list[tuple[Future[str], Any, Any]] = []
+        self._pending: list[tuple[Future[Any], Any, Any]] = []
 
     def turn(self) -> None:
         """Send the responses that are ready."""
@@ -291,18 +348,35 @@ class _Service:
             self._pending.append((done, response, header))
             done.add_done_callback(lambda _: self._wake())
             return
-        refused: Future[str] = Future()
+        refused: Future[Any] = Future()
         refused.set_exception(Error("Too many requests at once. Try again later."))
         self._respond(refused, response, header)
 
-    def _respond(self, done: Future[str], response: Any, header: Any) -> None:
+    def _respond(self, done: Future[Any], response: Any, header: Any) -> None:
         error = done.exception()
         if error is not None and not isinstance(error, Error):
             log.error("A service failed", exc_info=error)
-        if hasattr(response, "success"):
-            response.success = error is None
-            response.message = str(error) if error is not None else done.result()
+        self._fill(response, done)
         self._send(response, header)
+
+
+@functools.cache
+def _diagnostics() -> ModuleType | None:
+    """The module of diagnostic messages, None if diagnostic_msgs is missing."""
+    try:
+        from webviz.ros import diagnostics
+    except ImportError:
+        log.warning(NO_DIAGNOSTICS)
+        return None
+    return diagnostics
+
+
+def _say(response: Any, done: Future[Any]) -> None:
+    """Fill the response of a Trigger; that of Empty has no fields."""
+    if hasattr(response, "success"):
+        error = done.exception()
+        response.success = error is None
+        response.message = str(error) if error is not None else done.result()
 
 
 def _values(state: State) -> dict[str, str]:

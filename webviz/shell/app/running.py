@@ -18,6 +18,7 @@ import msgspec
 import PIL.Image
 
 from webviz.api.errors import Error
+from webviz.api.finding import Finding
 from webviz.api.views import View, with_type
 from webviz.engine.commands import Command, Refresh, ShowView, StartWithView
 from webviz.engine.state import State
@@ -41,6 +42,9 @@ if TYPE_CHECKING:
 
 log = logging.getLogger("webviz")
 
+ROUNDS = 3
+"""Of checks: two in a row make a finding, and one may be under way."""
+REST_S = 0.1
 PATIENCE_S = 30.0
 """For a command in the frame loop; opening a config of hundreds of displays takes seconds."""
 
@@ -244,6 +248,25 @@ class Running:
         except TimeoutError:
             return False
         return self._scene.has_watchers()
+
+    def doctor(self) -> list[Finding]:
+        """Examine the viewer, and return the findings, the one to repair first at the beginning.
+
+        Takes about three seconds, since a finding counts once it has lasted. Displays draw nothing
+        without a browser, so that their data is not examined then.
+        """
+        doctor = self._loop.doctor
+        until = doctor.rounds + ROUNDS
+        doctor.ask()
+        while doctor.rounds < until:
+            self.do(Refresh())
+            time.sleep(REST_S)
+        return list(self.state.findings)
+
+    def last_findings(self) -> list[Finding]:
+        """The findings of the last round; rounds go on for some seconds after a call."""
+        self._loop.doctor.ask()
+        return list(self.state.findings)
 
     def screenshot(
         self,

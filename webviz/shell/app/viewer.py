@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import time
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -12,7 +11,6 @@ import msgspec
 
 from webviz.api.declared import Color
 from webviz.api.errors import Error
-from webviz.api.finding import Finding
 from webviz.api.status import Status
 from webviz.api.views import View
 from webviz.engine.commands import (
@@ -20,7 +18,6 @@ from webviz.engine.commands import (
     Export,
     Load,
     Open,
-    Refresh,
     RemoveView,
     Reset,
     Save,
@@ -38,10 +35,6 @@ from webviz.shell.app.handles import DisplayHandle, NoSuchDisplay
 from webviz.shell.app.running import Running, checked_view
 from webviz.shell.app.time_controls import TimeControls
 from webviz.shell.app.tool_handle import ToolHandle
-
-ROUNDS = 3
-"""Of checks: two in a row make a finding, and one may be under way."""
-REST_S = 0.1
 
 
 class Viewer(Running, TimeControls):
@@ -164,20 +157,6 @@ class Viewer(Running, TimeControls):
     def statuses(self) -> dict[str, Status]:
         """The statuses of the viewer as a whole, such as "Fixed Frame"."""
         return dict(self.state.statuses)
-
-    def doctor(self) -> list[Finding]:
-        """Examine the viewer, and return the findings, the one to repair first at the beginning.
-
-        Takes about three seconds, since a finding counts once it has lasted. Displays draw nothing
-        without a browser, so that their data is not examined then.
-        """
-        doctor = self._loop.doctor
-        until = doctor.rounds + ROUNDS
-        doctor.ask()
-        while doctor.rounds < until:
-            self.do(Refresh())
-            time.sleep(REST_S)
-        return list(self.state.findings)
 
     # Changes
 
