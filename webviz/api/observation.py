@@ -15,6 +15,7 @@ from webviz.api.finding import Finding, Symptom
 from webviz.api.offer import Offer
 from webviz.api.rule import Verdict
 from webviz.api.status import Level, Status
+from webviz.api.two_ends import TwoEnds
 from webviz.data.transforms import Diagnosis, TransformBuffer, diagnose
 from webviz.data.transforms.conflicts import Conflict, ConflictKind, found_conflicts
 from webviz.data.transforms.reasons import Explanation, Kind
@@ -106,6 +107,7 @@ class Observation:
         environment: of this machine, None with a bag or until it is known.
         findings: of the round before, without violated rules.
         verdicts: of the rules of the config.
+        ends: this machine and its peer, None unless they are compared.
     """
 
     now_ns: int
@@ -122,6 +124,7 @@ class Observation:
     environment: Environment | None = None
     findings: Sequence[Finding] = ()
     verdicts: Sequence[Verdict] = ()
+    ends: TwoEnds | None = None
 
     def inputs(self) -> Iterator[tuple[DisplaySeen, InputSeen]]:
         """All inputs that have a topic, each with its display."""

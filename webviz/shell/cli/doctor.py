@@ -21,6 +21,7 @@ Examples:
   webviz doctor                      examine the ROS graph for some seconds
   webviz doctor --bag run.mcap       examine a bag
   webviz doctor -d nav2.rviz --json  examine the displays of a config, for a program
+  webviz doctor --peer user@robot    compare this machine with another, over ssh
   webviz doctor --explain TF003      explain a finding
 
 Exit status: 0 without findings above "note", 3 with some, 1 after an error, 2 for invalid
@@ -45,6 +46,10 @@ class DoctorOptions:
         float, Parameter(validator=validators.Number(gt=0, lte=3600), metavar="SECONDS")
     ] = 5.0
     """Time for the examination of live topics, after their discovery."""
+    peer: Annotated[str, Parameter(metavar="HOST", show_default=False)] = ""
+    """Compare this machine with another, such as user@robot, instead of examining topics."""
+    ssh: Annotated[str, Parameter(metavar="COMMAND")] = "ssh -o ConnectTimeout=10"
+    """Command that runs a command line on the peer; it needs Python 3.8, and no ROS."""
     plugin: Plugins = ()
     json: Flag = False
     """Write the report as JSON."""
@@ -81,6 +86,11 @@ def _examine(options: DoctorOptions, ros: Sequence[str]) -> "DoctorReport":
     from webviz.shell.doctor.examination import examine_bag, examine_live, examine_machine
     from webviz.shell.ros_source import ros_source
 
+    if options.peer:
+        from webviz.shell.doctor.peer import compare
+
+        ends = compare(options.peer, options.ssh, progress)
+        return examine_machine(look_around(), ends)
     path = options.display_config
     if options.bag is not None:
         with contextlib.closing(bag_source(options.bag, ros_args=ros)) as bag:

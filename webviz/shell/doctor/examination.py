@@ -13,6 +13,7 @@ from webviz.api.check_registry import known_checks
 from webviz.api.environment import Environment
 from webviz.api.finding import CauseLevel, Finding
 from webviz.api.observation import Observation
+from webviz.api.two_ends import TwoEnds
 from webviz.data.transforms import TransformBuffer
 from webviz.engine.commands import Play, SetFixedFrame, SetRate
 from webviz.engine.doctor.ordering import ordered
@@ -184,18 +185,21 @@ def examine_bag(
         examination.close()
 
 
-def examine_machine(environment: Environment) -> DoctorReport:
-    """Examine this machine alone, such as when ROS does not start."""
+def examine_machine(environment: Environment, ends: TwoEnds | None = None) -> DoctorReport:
+    """Examine this machine alone, such as when ROS does not start, or with its peer."""
     seen = Observation(
         now_ns=0,
         fixed_frame="",
         buffer=TransformBuffer(),
         displays=(),
         environment=environment,
+        ends=ends,
     )
-    checks = [check for check in known_checks() if CauseLevel.of(check.id) in OF_MACHINE]
+    levels = OF_MACHINE | {CauseLevel.TIME} if ends else OF_MACHINE
+    checks = [check for check in known_checks() if CauseLevel.of(check.id) in levels]
     found = [finding for check in checks for finding in check().find(seen)]
-    return report_of("live", None, ordered(found), len(checks))
+    source = f"live, with {ends.there.host}" if ends else "live"
+    return report_of(source, None, ordered(found), len(checks))
 
 
 def live_config(offers: Mapping[str, Offer]) -> Config:

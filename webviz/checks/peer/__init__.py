@@ -1,0 +1,1 @@
+"""Causes between two machines, which `webviz doctor --peer` compares."""

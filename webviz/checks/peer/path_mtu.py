@@ -1,0 +1,50 @@
+"""Packets that the path drops."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from webviz.api.check import Check
+from webviz.api.finding import Finding
+from webviz.api.observation import Observation
+
+
+class PathMtu(Check):
+    """Path drops large packets.
+
+    Packets as large as the interfaces allow do not arrive at the other machine.
+
+    Why:
+        A VPN, a tunnel or a bridge on the way takes smaller packets, and drops larger ones without
+        telling the sender. Small messages arrive, while clouds and images do not.
+
+    Repair:
+        Lower the MTU of the interface on both machines to the size that arrives:
+
+            sudo ip link set eth0 mtu 1400
+    """
+
+    id = "NET022"
+
+    def find(self, seen: Observation) -> Iterator[Finding]:
+        """Yield a finding for each direction."""
+        if seen.ends is None:
+            return
+        for link, sender, receiver in seen.ends.links():
+            allowed = min(sender.mtu, link.tried_packet)
+            if not link.addresses or link.packet >= allowed:
+                continue
+            used = [
+                each
+                for each in sender.interfaces
+                if not each.is_loopback and each.mtu > link.packet
+            ]
+            name = used[0].name if used else "eth0"
+            yield self.found(
+                f"Packets of more than {link.packet} bytes from {sender.host} do not arrive at "
+                f"{receiver.host}, though its interface allows {allowed}.",
+                f"Set the MTU of {sender.host} to {link.packet}.",
+                subject=f"{sender.host} to {receiver.host}",
+                evidence={"arrives": link.packet, "allowed": allowed, "address": link.addresses[0]},
+                command=f"sudo ip link set {name} mtu {link.packet}",
+            )

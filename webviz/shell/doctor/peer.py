@@ -1,0 +1,325 @@
+"""The other machine of `webviz doctor --peer`, and the measurements between both."""
+
+from __future__ import annotations
+
+import contextlib
+import ipaddress
+import json
+import secrets
+import shlex
+import subprocess
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, Protocol
+
+import msgspec
+
+from webviz.api.environment import NetworkInterface
+from webviz.api.errors import Error
+from webviz.api.two_ends import End, NodeProcess, PacketLink, TwoEnds
+from webviz.shell.doctor import peer_program
+from webviz.shell.doctor.peer_program import MARK, Agent
+
+BOOT = "import sys; i = sys.stdin; exec(i.read(int(i.readline()))); serve()"
+"""Of the other Python: runs the program that follows on its standard input."""
+PYTHON = f"exec python3 -u -c {shlex.quote(BOOT)}"
+GROUP = "239.255.0.1"
+"""Multicast group of DDS."""
+FIRST_PORT, PER_DOMAIN, LAST = 7400, 250, 249
+"""Ports of DDS: those of a domain, of which participants take the first ones."""
+ROUND_TRIPS = 21
+SIZES = (9000, 1500, 1480, 1450, 1420, 1400, 1372, 1300, 1280, 1000, 576)
+"""Bytes of packets to try."""
+HEADERS = 28
+"""Bytes of the headers of IPv4 and UDP."""
+ARRIVAL_S = 1.0
+"""Time for packets to arrive."""
+MAX_ADDRESSES = 8
+MAX_LINE = 4 << 20
+
+Progress = Callable[[str, float], object]
+
+
+class _Answer(msgspec.Struct):
+    value: Any = None
+    error: str = ""
+
+
+class _Node(msgspec.Struct):
+    pid: int
+    command: str
+    variables: dict[str, str]
+
+
+class _Interface(msgspec.Struct):
+    name: str
+    addresses: list[tuple[str, str]]
+    has_multicast: bool
+    is_loopback: bool
+    mtu: int
+
+
+class _Looked(msgspec.Struct):
+    """The result of `Agent.look`."""
+
+    host: str
+    python: str
+    distributions: list[str]
+    variables: dict[str, str]
+    nodes: list[_Node]
+    interfaces: list[_Interface]
+    receive_buffer: int
+
+
+class PeerError(Error):
+    """The other machine cannot be examined."""
+
+
+class _Machine(Protocol):
+    def ask(self, do: str, *args: Any) -> Any:
+        """Call a method of the agent there."""
+        ...
+
+
+class _Here:
+    """The agent of this machine."""
+
+    def __init__(self) -> None:
+        self.agent = Agent()
+
+    def ask(self, do: str, *args: Any) -> Any:
+        return getattr(self.agent, do)(*args)
+
+
+class _There:
+    """The agent of the other machine, behind a pipe."""
+
+    def __init__(self, process: subprocess.Popen[str], host: str) -> None:
+        self._process = process
+        self._host = host
+
+    def start(self) -> None:
+        """Send the program."""
+        program = Path(peer_program.__file__).read_text(encoding="ascii")
+        self._write(f"{len(program)}\n{program}")
+
+    def ask(self, do: str, *args: Any) -> Any:
+        self._write(json.dumps({"do": do, "with": args}) + "\n")
+        while line := self._read():
+            if line.startswith(MARK):
+                try:
+                    answer = msgspec.json.decode(line.removeprefix(MARK), type=_Answer)
+                except msgspec.DecodeError:
+                    raise PeerError(f"{self._host} sent an invalid answer.") from None
+                if answer.error:
+                    raise PeerError(f"{self._host}: {_printable(answer.error)}.")
+                return _printable(answer.value)
+        raise self._ended()
+
+    def _write(self, text: str) -> None:
+        assert self._process.stdin is not None
+        try:
+            self._process.stdin.write(text)
+            self._process.stdin.flush()
+        except OSError:
+            raise self._ended() from None
+
+    def _read(self) -> str:
+        assert self._process.stdout is not None
+        return self._process.stdout.readline(MAX_LINE)
+
+    def _ended(self) -> PeerError:
+        assert self._process.stderr is not None
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            self._process.wait(5.0)
+        said = self._process.stderr.read(4096).strip().splitlines()
+        reason = f": {said[-1].rstrip('.')}" if said else ""
+        return PeerError(
+            f"{self._host} cannot be examined{reason}. Check that `ssh {self._host} python3` works."
+        )
+
+
+@contextlib.contextmanager
+def connected(host: str, ssh: str) -> Iterator[_There]:
+    """The agent of another machine, which ends with the block.
+
+    Args:
+        host: as ssh takes it, such as user@robot.
+        ssh: command that runs a command line on the other machine, with its options; it is called
+            without a shell, with `--`, the host and the command line after them.
+
+    Raises:
+        PeerError: it cannot be reached, or has no Python.
+    """
+    try:
+        command = [*shlex.split(ssh), "--", host, PYTHON]
+    except ValueError as error:
+        raise PeerError(f"--ssh is not a valid command: {error}.") from None
+    try:
+        process = subprocess.Popen(
+            command,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            errors="replace",
+        )
+    except OSError as error:
+        raise PeerError(f"{command[0]} does not start: {error.strerror}.") from None
+    try:
+        there = _There(process, host)
+        there.start()
+        yield there
+    finally:
+        # The program ends with its input; what does not is ended.
+        for pipe in (process.stdin, process.stdout, process.stderr):
+            with contextlib.suppress(OSError):
+                pipe.close() if pipe else None
+        try:
+            process.wait(5.0)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+
+
+def compare(host: str, ssh: str, progress: Progress) -> TwoEnds:
+    """Examine both ends.
+
+    Args:
+        host, ssh: as of `connected`.
+        progress: called now and then.
+
+    Raises:
+        PeerError: the other machine cannot be examined.
+    """
+    progress(f"connecting to {host}", 0.0)
+    with connected(host, ssh) as there:
+        here = _Here()
+        ours, theirs = _end(here.ask("look"), host), _end(there.ask("look"), host)
+        # webviz will run where this does, whatever other nodes run with.
+        ours = replace(ours, nodes=())
+        progress("comparing clocks", 0.2)
+        offset_s, uncertainty_s = _clocks(there)
+        domain = next(iter(theirs.settings("ROS_DOMAIN_ID", "0")))
+        number = int(domain) if domain.isdecimal() and int(domain) <= 232 else 0
+        port = FIRST_PORT + PER_DOMAIN * number + LAST
+        progress("sending packets", 0.5)
+        try:
+            out = _link(here, there, theirs, port)
+            progress("receiving packets", 0.8)
+            back = _link(there, here, ours, port)
+        except OSError as error:
+            raise PeerError(f"UDP port {port} cannot be used: {error.strerror}.") from None
+        finally:
+            here.agent.close()
+    return TwoEnds(
+        here=ours,
+        there=theirs,
+        out=out,
+        back=back,
+        offset_s=offset_s,
+        uncertainty_s=uncertainty_s,
+    )
+
+
+def _end(looked: Any, host: str) -> End:
+    """Read what an agent has seen.
+
+    Raises:
+        PeerError: that is something else.
+    """
+    try:
+        found = msgspec.convert(looked, _Looked)
+        networks = [
+            str(ipaddress.ip_network(f"{address}/{mask}", strict=False))
+            for each in found.interfaces
+            for address, mask in each.addresses
+            if not each.is_loopback
+        ]
+    except (msgspec.ValidationError, ValueError) as error:
+        raise PeerError(f"{host} sent an invalid answer: {error}.") from None
+    return End(
+        host=found.host,
+        python=found.python,
+        distributions=found.distributions,
+        variables=found.variables,
+        nodes=[NodeProcess(each.pid, each.command, each.variables) for each in found.nodes],
+        interfaces=[
+            NetworkInterface(
+                each.name,
+                tuple(address for address, _ in each.addresses),
+                each.has_multicast,
+                each.is_loopback,
+                each.mtu,
+            )
+            for each in found.interfaces
+        ],
+        networks=tuple(dict.fromkeys(networks)),
+        receive_buffer=found.receive_buffer,
+    )
+
+
+def _printable(value: Any) -> Any:
+    """A value of another machine without what a terminal would take for commands."""
+    match value:
+        case str():
+            return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in value)
+        case list():
+            return [_printable(each) for each in value]
+        case dict():
+            return {_printable(key): _printable(each) for key, each in value.items()}
+    return value
+
+
+def _clocks(there: _Machine) -> tuple[float, float]:
+    """The offset of the other clock and its uncertainty in seconds, by the shortest round trip.
+
+    As NTP (RFC 5905): the answer was made at some time between request and reception.
+    """
+    best = (float("inf"), 0.0)
+    for _ in range(ROUND_TRIPS):
+        asked, began = time.time(), time.perf_counter()
+        theirs = float(there.ask("time"))
+        took = time.perf_counter() - began
+        best = min(best, (took, theirs - (asked + took / 2)))
+    return best[1], best[0] / 2
+
+
+def _link(sender: _Machine, receiver: _Machine, to: End, port: int) -> PacketLink:
+    """Packets from one machine to the other."""
+    receiver.ask("listen", port, GROUP)
+    addresses = [a for each in to.interfaces if not each.is_loopback for a in each.addresses]
+    tried = addresses[:MAX_ADDRESSES]
+    tokens = {address: secrets.token_hex(8) for address in [GROUP, *tried]}
+    for address, token in tokens.items():
+        sender.ask("send", token, address, port, [64])
+    arrived = _arrived(receiver, tokens.values())
+    reached = [address for address in tried if tokens[address] in arrived]
+    packet = tried_packet = 0
+    if reached:
+        token = secrets.token_hex(8)
+        sizes = sorted({size for size in (*SIZES, to.mtu) if size <= to.mtu})
+        sender.ask("send", token, reached[0], port, [size - HEADERS for size in sizes])
+        sizes_arrived = _arrived(receiver, [token], sizes[-1] - HEADERS).get(token, {"sizes": [0]})
+        packet, tried_packet = max(sizes_arrived["sizes"]) + HEADERS, sizes[-1]
+    receiver.ask("close")
+    return PacketLink(
+        addresses=tuple(reached),
+        tried=tuple(tried),
+        has_multicast=tokens[GROUP] in arrived,
+        packet=packet,
+        tried_packet=tried_packet,
+    )
+
+
+def _arrived(receiver: _Machine, tokens: Sequence[str] | Any, size: int = 0) -> dict[str, Any]:
+    """Return the packets that arrived, as soon as all did, or after a while."""
+    deadline = time.monotonic() + ARRIVAL_S
+    while True:
+        heard = receiver.ask("heard")
+        is_whole = all(token in heard and max(heard[token]["sizes"]) >= size for token in tokens)
+        if is_whole or time.monotonic() > deadline:
+            return heard
+        time.sleep(0.05)
