@@ -65,7 +65,7 @@ FAILURE_S = 15.0
 
 
 class FrameLoop:
-    """Keeps a scene true to a source, as a config says.
+    """Draws the configured displays of a source in a scene.
 
     Args:
         config: what to show first.
@@ -118,43 +118,74 @@ class FrameLoop:
         self._offers: object = None
         self._shown = State()
         self._named_robots: tuple[object, tuple[NamespacedRobot, ...]] = None, ()
-        rights = Rights(
-            may_publish,
-            config.settings.publish,
-            own_names(config, self._guard),
-            tuple(allow_publish),
+        self._owed: list[Callable[[], None]] = []
+        own = own_names(config, self._guard)
+        rights = Rights(may_publish, config.settings.publish, own, tuple(allow_publish))
+        gate = self._gate(rights, control)
+        core = self._core = Core(source, gate, scene, self._guard, clock)
+        services = self._services(strict)
+        self._tracer = services.tracer
+        transforms = TransformsPart(core, self._robots)
+        self._time = TimePart(core, lambda: self._parts.reset(), control)
+        self._displays = DisplaysPart(core, services)
+        self._settings = SettingsPart(core)
+        self.controllers = VelocityControllers(gate, live_ns)
+        """Of the vehicles that tools drive; they do not wait for the loop."""
+        self._playback = PlaybackPart(
+            core, self._settings, control, self._time.start_over, self.controllers.halt, autoplay
         )
-        gate = Gate(
-            source,
+        self._black_box = BlackBoxPart(core, self._settings, memory)
+        views = ViewsPart(core, self._settings, self._displays)
+        first = [transforms, self._time, self._playback, self._displays, self._settings, views]
+        others, history, kept = self._other_parts(config, path, views, memory, autosave, session)
+        last = [make(core) for make in parts]
+        self._parts = Parts([*first, *others, *last], self._guard)
+        self._do = history.noting(self._parts.do)
+        self.doctor = Doctor(core, self._displays)
+        """Finds the causes behind the statuses."""
+        self._arrivals = Arrivals(core, self._time, transforms)
+        self._showing = Showing(scene, views, self._guard)
+        self._move_on()
+        self.restored: Future[str] | None = None
+        """The answer to what restores the last session, None if there is none."""
+        if kept and (command := kept.restored(restore)):
+            self.restored = self._requests.put(command, PROGRAM)
+
+    def _gate(self, rights: Rights, control: PlaybackControl) -> Gate:
+        """Make the gate for what leaves: nothing does while the past is shown."""
+        return Gate(
+            self._source,
             rights,
             lambda: self._settings.settings.publish,
             lambda: "" if control.is_live else REWOUND,
         )
-        core = self._core = Core(source, gate, scene, self._guard, clock)
-        services = Services(
-            scene,
+
+    def _services(self, strict: bool) -> Services:
+        """Make what all displays share."""
+        core = self._core
+        return Services(
+            core.scene,
             self._workers,
-            source.resolve,
+            self._source.resolve,
             strict,
-            clock,
-            gate=gate,
+            core.clock,
+            gate=core.gate,
             wake=self._wake,
             robots=self._robots,
             points=PointBudget(self._points_held),
         )
-        self._tracer = services.tracer
-        transforms = TransformsPart(core, self._robots)
-        self._time = TimePart(core, lambda: self._parts.reset(), control)
-        self._owed: list[Callable[[], None]] = []
-        displays = self._displays = DisplaysPart(core, services)
-        settings = self._settings = SettingsPart(core)
-        self.controllers = VelocityControllers(gate, live_ns)
-        """Of the vehicles that tools drive; they do not wait for the loop."""
-        self._playback = PlaybackPart(
-            core, settings, control, self._time.start_over, self.controllers.halt, autoplay
-        )
-        self._black_box = BlackBoxPart(core, settings, memory)
-        views = ViewsPart(core, settings, displays)
+
+    def _other_parts(
+        self,
+        config: Config,
+        path: Path | None,
+        views: ViewsPart,
+        memory: Rewindable | None,
+        autosave: Path | None,
+        session: Path | None,
+    ) -> tuple[list[Part], HistoryPart, SessionPart | None]:
+        """Make the parts that the loop itself does not ask, in the order of their turns."""
+        core, displays, settings = self._core, self._displays, self._settings
         goals = GoalsPart(core)
         panels = PanelsPart(core)
         tools = ToolsPart(
@@ -168,13 +199,7 @@ class FrameLoop:
         )
         history = HistoryPart(core, files)
         kept = SessionPart(core, files, session) if session else None
-        all_parts = [
-            transforms,
-            self._time,
-            self._playback,
-            displays,
-            settings,
-            views,
+        found: list[Part] = [
             tools,
             panels,
             goals,
@@ -189,19 +214,8 @@ class FrameLoop:
             PluginsPart(core, displays, [tools.list, panels.list], settings),
             *([AutosavePart(core, files, autosave)] if autosave else ()),
             *([kept] if kept else ()),
-            *(make(core) for make in parts),
         ]
-        self._parts = Parts(all_parts, self._guard)
-        self._do = history.noting(self._parts.do)
-        self.doctor = Doctor(core, displays)
-        """Finds the causes behind the statuses."""
-        self._arrivals = Arrivals(core, self._time, transforms)
-        self._showing = Showing(scene, views, self._guard)
-        self._move_on()
-        self.restored: Future[str] | None = None
-        """The answer to what restores the last session, None if there is none."""
-        if kept and (command := kept.restored(restore)):
-            self.restored = self._requests.put(command, PROGRAM)
+        return found, history, kept
 
     @property
     def buffer(self) -> TransformBuffer:

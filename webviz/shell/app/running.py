@@ -36,6 +36,8 @@ from webviz.shell.pictures import files as picture_files
 from webviz.shell.ros_source import ros_source
 
 if TYPE_CHECKING:
+    import ssl
+
     from webviz.server.http.viser_server import Server
     from webviz.shell.pictures.browser import Pixels
     from webviz.sources import Source
@@ -90,26 +92,9 @@ class Running:
             # Report errors in files before importing viser, which is slow.
             shown = None if path is None else read(path, None)
             tls = starting.tls_context(certfile, keyfile)
-            from webviz.engine.loop import FrameLoop
-            from webviz.scene import ViserScene, open_server
-            from webviz.server.access.starting import access_to, make_missing
-
-            # A proxy on this machine brings others.
-            self.access = access_to(host, token or bool(trust_proxies))
-            """Who may connect."""
-            server = open_server(
-                host,
-                port,
-                allow_hosts,
-                tls=tls,
-                trusted_proxies=trust_proxies,
-                access=self.access,
-                link_rate=link_rate,
+            server = self._open_server(
+                host, port, allow_hosts, tls, trust_proxies, token, link_rate
             )
-            closing.add("The server of the page", server.stop)
-            make_missing(self.access)  # until then, nobody can connect
-            self._host, self.port = host, server.get_port()
-            self._scheme = "http" if tls is None else "https"
             node_control = None
             if source is None:
                 source = ros_source(ros_args)
@@ -126,7 +111,8 @@ class Running:
             session = sessions.claim(path) if sessions else None
             if session is not None:
                 closing.add("The session", session.close)
-            self._scene = ViserScene(server)
+            from webviz.engine.loop import FrameLoop
+
             self._loop = FrameLoop(
                 shown,
                 source,
@@ -152,6 +138,39 @@ class Running:
                 node_control.open(self, folders, may_change=control)
             self._stack = stack.pop_all()
         atexit.register(self.close)
+
+    def _open_server(
+        self,
+        host: str,
+        port: int,
+        allow_hosts: Sequence[str],
+        tls: ssl.SSLContext | None,
+        trust_proxies: Sequence[str],
+        token: bool,
+        link_rate: float | None,
+    ) -> Server:
+        """Serve the page, with a scene that is still empty."""
+        from webviz.scene import ViserScene, open_server
+        from webviz.server.access.starting import access_to, make_missing
+
+        # A proxy on this machine brings others.
+        self.access = access_to(host, token or bool(trust_proxies))
+        """Who may connect."""
+        server = open_server(
+            host,
+            port,
+            allow_hosts,
+            tls=tls,
+            trusted_proxies=trust_proxies,
+            access=self.access,
+            link_rate=link_rate,
+        )
+        self._closing.add("The server of the page", server.stop)
+        make_missing(self.access)  # until then, nobody can connect
+        self._host, self.port = host, server.get_port()
+        self._scheme = "http" if tls is None else "https"
+        self._scene = ViserScene(server)
+        return server
 
     def _open_pages(
         self, server: Server, allow_hosts: Sequence[str], keep: Callable[[str], object] | None
