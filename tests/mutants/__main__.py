@@ -29,7 +29,10 @@ TESTS = {
         "tests/pipeline/test_velocity_controller.py tests/pipeline/test_driving.py"
     ),
     "webviz/engine/pipeline": "tests/pipeline tests/plugins/test_reload.py",
-    "webviz/sources": "tests/sources tests/playback tests/pipeline/test_rights.py",
+    "webviz/sources": (
+        "tests/sources tests/pipeline/test_recording.py tests/pipeline/test_rights.py "
+        "tests/playback"
+    ),
     "webviz/sources/gate.py": (
         "tests/pipeline/test_rights.py tests/pipeline/test_driving.py "
         "tests/pipeline/test_kept_sessions.py"

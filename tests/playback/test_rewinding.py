@@ -231,7 +231,9 @@ def places(bench: Bench) -> set[float]:
 
 
 def test_new_messages_are_remembered_while_the_past_is_shown(bench: Bench) -> None:
+    oldest_s = playback(bench.do(Refresh())).first_s
     assert rewind(bench, 3.5).is_live is False
+    assert playback(bench.do(Refresh())).first_s == oldest_s
     assert places(bench) == {4.0}
     publish(bench, 0.5)
     assert places(bench) == {4.0}

@@ -28,7 +28,8 @@ SENSOR = ("best_effort", "volatile")
         ("- 7", []),
         ("- {depth: many}", []),
         ("[{", []),
-        ("[]" + " " * MAX_TEXT, []),
+        ("- {depth: 1}".ljust(MAX_TEXT), [(*RELIABLE, 1)]),
+        ("- {depth: 1}".ljust(MAX_TEXT + 1), []),
     ],
 )
 def test_profiles_are_read_as_recorders_write_them(text: str, profiles: list[Any]) -> None:
