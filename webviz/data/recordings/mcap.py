@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import heapq
+import itertools
 from array import array
 from collections import deque
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -30,6 +31,7 @@ from webviz.data.recordings.recording import (
     RecordedMessage,
     TimeParts,
 )
+from webviz.data.recordings.set_back import LEAST_NS, SetBack, set_back_in
 from webviz.data.recordings.unpacking import MAX_BYTES
 
 MAX_INDEX = 64 << 20
@@ -37,6 +39,8 @@ MAX_INDEX = 64 << 20
 chunks so often that most lie within one part of the span."""
 MAX_REMEMBERED = 32 << 20
 """Bytes of messages that are kept of the last chunks."""
+MAX_JUMPS = 10
+"""Chunks that begin before the one before them ends, of which the messages are looked at."""
 MAX_OPEN = 2 * MAX_BYTES
 """Bytes of unpacked chunks at a time. Of more chunks that overlap, the messages come late."""
 
@@ -63,13 +67,16 @@ class McapRecording:
             raise
         self._numbers = index.channels()
         self.channels = tuple(dict.fromkeys(self._numbers.values()))
-        self._chunks = sorted(index.chunks, key=lambda chunk: chunk.start_ns)
+        in_order = index.chunks
+        self._chunks = sorted(in_order, key=lambda chunk: chunk.start_ns)
         self._times = ChunkTimes(self._chunks)
         self._contents: dict[int, ChunkContent] = {}
         """Of the last chunks by their offset, the newest at the end; see `_content`."""
         self._remembered = 0
         """Bytes of them."""
         self.span_ns = None
+        if set_back := self._set_back(in_order):
+            self.losses.notes.append(set_back.note(path.name, self._chunks[0].start_ns))
         if self._chunks:
             self.span_ns = (
                 self._chunks[0].start_ns,
@@ -165,6 +172,26 @@ class McapRecording:
             else:
                 heapq.heappop(opened)
                 size -= own_size
+
+    def _set_back(self, in_order: Sequence[McapChunk]) -> SetBack | None:
+        """A jump of the clock between chunks in the order of the file, or within one of them.
+
+        Files that have their topics one after the other have none: only the times of one channel
+        count.
+        """
+        pairs = (
+            (before, after)
+            for before, after in itertools.pairwise(in_order)
+            if before.end_ns - after.start_ns > LEAST_NS
+        )
+        for before, after in itertools.islice(pairs, MAX_JUMPS):
+            contents = [self._unpacked(chunk) for chunk in (before, after)]
+            numbers = np.concatenate([content.numbers for content in contents])
+            stamps = np.concatenate([content.stamps for content in contents])
+            for number in np.unique(numbers).tolist():
+                if found := set_back_in(stamps[numbers == number]):
+                    return found
+        return None
 
     def _entries(
         self,

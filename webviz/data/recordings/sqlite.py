@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import math
 import sqlite3
-import struct
 import time
 from collections import Counter, deque
 from collections.abc import Collection, Iterator, Mapping, Sequence
@@ -26,6 +25,7 @@ from webviz.data.recordings.recording import (
     TextAllowance,
     TimeParts,
 )
+from webviz.data.recordings.sqlite_files import is_cut, journals, unread
 from webviz.data.recordings.sqlite_times import TopicTimes, connected, damaged
 
 MAX_TOPICS = 65_536
@@ -40,8 +40,6 @@ MAX_MISSES = 10_000
 IN_ONE_PAGE = 400
 """Larger messages may have parts beyond the end of a file that is cut off; SQLite reads zeros."""
 MAX_ROW = 2**63 - 1
-_HEADER = struct.Struct(">16xH10xI")
-"""The page size and the number of pages at the beginning of a file."""
 _TABLES = """\
 SELECT count(*) FROM sqlite_master
 WHERE type = 'table' AND rootpage > 0 AND name IN ('messages', 'topics')"""
@@ -119,7 +117,7 @@ class SqliteRecording:
         self._path = path
         self._db = connected(path)
         try:
-            self._is_cut = _is_cut(path)
+            self._is_cut = is_cut(path)
             self._numbers = self._topics(path)
             self.span_ns = self._span()
         except sqlite3.Error as error:
@@ -129,7 +127,7 @@ class SqliteRecording:
             self._db.close()
             raise
         self.channels = tuple(dict.fromkeys(self._numbers.values()))
-        self.losses.notes += [_unread(path, journal) for journal in _journals(path)]
+        self.losses.notes += [unread(path, journal) for journal in journals(path)]
         self.used = self._used()
         self._times = TopicTimes(path, self.span_ns or (0, 0), self._totals(path))
 
@@ -184,6 +182,9 @@ class SqliteRecording:
             for number, counts in self._times.count(parts).items():
                 if number in self._numbers:
                     found[self._numbers[number]] += counts
+            if set_back := self._times.set_back:
+                note = set_back.note(self._path.name, parts.start_ns)
+                self.losses.notes = list(dict.fromkeys([*self.losses.notes, note]))
         return found
 
     def close(self) -> None:
@@ -374,27 +375,3 @@ class SqliteRecording:
             self.losses.skipped[number, stamp_ns] = "it may be cut off"
             return None
         return RecordedMessage(wanted[number], stamp_ns, data)
-
-
-def _journals(path: Path) -> list[str]:
-    """Names of the files with changes that are not in the database yet."""
-    names = [f"{path.name}{ending}" for ending in ("-wal", "-journal")]
-    files = [path.with_name(name) for name in names]
-    return [file.name for file in files if file.is_file() and file.stat().st_size]
-
-
-def _unread(path: Path, journal: str) -> str:
-    return (
-        f"{path.name} has no end: it is still being recorded, or its recorder was interrupted. "
-        f"What only {journal} contains is not shown; open it again when recording has ended."
-    )
-
-
-def _is_cut(path: Path) -> bool:
-    """Return whether the file is smaller than its header says."""
-    with path.open("rb") as file:
-        header = file.read(_HEADER.size)
-    if len(header) < _HEADER.size:
-        return True
-    page_size, pages = _HEADER.unpack(header)
-    return path.stat().st_size < (page_size if page_size > 1 else 1 << 16) * pages

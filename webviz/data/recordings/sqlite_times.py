@@ -15,6 +15,7 @@ import numpy as np
 
 from webviz.data.disk import in_thread
 from webviz.data.recordings.recording import Counts, RecordingError, TimeParts
+from webviz.data.recordings.set_back import LEAST_NS, SetBack
 from webviz.data.recordings.unpacking import MAX_BYTES
 
 PARTS = 500
@@ -46,6 +47,8 @@ class TopicTimes:
         self._spans: dict[int, list[_Span]] = {}
         self._found = Counter[int]()
         self._is_read = self._is_damaged = self._is_closed = False
+        self.set_back: SetBack | None = None
+        """A jump of the clock, once the table is read: not one that is shorter than a slice."""
 
     def count(self, parts: TimeParts) -> dict[int, Counts]:
         """Count the messages of each topic by reading the whole table, from any thread.
@@ -101,6 +104,7 @@ class TopicTimes:
 
     def _read(self, parts: TimeParts) -> dict[int, Counts]:
         counts: dict[int, Counts] = {}
+        newest: dict[int, int] = {}
         with contextlib.closing(connected(self._path)) as db:
             for after, until in _slices(db):
                 if self._is_closed:
@@ -118,6 +122,7 @@ class TopicTimes:
                         *(after, until),
                     ),
                 ).fetchall()
+                self._compare(rows, newest)
                 with self._progress:
                     for topic, part, _, count, first_ns, last_ns in rows:
                         if topic not in counts:
@@ -126,6 +131,17 @@ class TopicTimes:
                         self._note(topic, count, first_ns, last_ns)
                     self._progress.notify_all()
         return counts
+
+    def _compare(self, rows: Sequence[Sequence[int]], newest: dict[int, int]) -> None:
+        """Look for a jump back of time from the slices before, whose newest times are given."""
+        for topic, *_, first_ns, _ in rows:
+            before_ns = newest.get(topic, first_ns)
+            if before_ns - first_ns > LEAST_NS:
+                jump = SetBack(first_ns, before_ns)
+                if self.set_back is None or jump.after_ns < self.set_back.after_ns:
+                    self.set_back = jump
+        for topic, *_, last_ns in rows:
+            newest[topic] = max(newest.get(topic, last_ns), last_ns)
 
     def _note(self, topic: int, count: int, first_ns: int, last_ns: int) -> None:
         """Add messages, unless the table was read before."""
