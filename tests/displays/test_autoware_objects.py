@@ -26,8 +26,10 @@ from autoware_scenes import (
 )
 from built_in_checks import BuiltInChecks
 from display_messages import MESSAGES
+from inspecting import one_of
 from plain_scenes import in_moving_frame
 
+from webviz.shell.testing import check_details
 from webviz_displays.autoware import DetectedObjects, PredictedObjects, TrackedObjects, objects
 from webviz_displays.autoware.objects_look import (
     ClassColors,
@@ -209,3 +211,11 @@ class TestTrackedObjects(BuiltInChecks):
 
     def publish(self, bench: Any) -> None:
         in_moving_frame(TRACKED, ALL_FOLLOWED)(bench)
+
+
+def test_selecting_pedestrian_of_autoware(bench: Callable[..., Any]) -> None:
+    check_details(
+        one_of(bench, TrackedObjects(), TRACKED, FOLLOWED, "shapes", 30),
+        "PEDESTRIAN 1111",
+        {"Probability": "75 %", "Size": "0.5 x 0.5 x 1 m", "Speed": "2.00 m/s", "Id": "11" * 16},
+    )

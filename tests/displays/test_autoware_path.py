@@ -9,10 +9,13 @@ from typing import Any
 import numpy as np
 import pytest
 from autoware_scenes import BOUNDED, PASSED, PATH, POSE, TIMED, TRAJECTORY, WAY, planned
+from autoware_scenes import POSE as POSE_STAMPED
 from built_in_checks import BuiltInChecks
 from display_messages import MESSAGES
+from inspecting import one_of
 from plain_scenes import in_moving_frame
 
+from webviz.shell.testing import check_details
 from webviz_displays.autoware import AutowarePath, AutowareTrajectory, PoseHistory, path
 from webviz_displays.autoware.look import FootprintView, LaneView, PointView, TextView
 
@@ -160,3 +163,26 @@ class TestPoseHistory(BuiltInChecks):
 
     def publish(self, bench: Any) -> None:
         in_moving_frame(POSE, *PASSED * 110)(bench)
+
+
+def test_selecting_point_of_a_trajectory(bench: Callable[..., Any]) -> None:
+    check_details(
+        one_of(bench, AutowareTrajectory(), TRAJECTORY, TIMED, "velocity line", 2),
+        "Point 2 of 4",
+        {
+            "Velocity": "2 m/s",
+            "Lateral velocity": "0.25 m/s",
+            "Heading rate": "0.125 rad/s",
+            "Time": "0.5 s",
+            "Acceleration": "0.5 m/s²",
+            "Front wheels": "0 rad",
+        },
+    )
+
+
+def test_selecting_pose_of_a_history(bench: Callable[..., Any]) -> None:
+    at = bench(PoseHistory())
+    for values in PASSED:
+        at.send(POSE_STAMPED, values, frame="map")
+        at.turn(0.1)
+    check_details(at.pick("line", 1), "Pose 1", {})

@@ -13,6 +13,7 @@ from display_messages import MESSAGES
 from plain_scenes import torques
 
 from webviz import Pose
+from webviz.shell.testing import check_details
 from webviz_displays.vectors import Effort
 from webviz_displays.vectors.rings import Rings
 from webviz_urdf import RobotDescriptionError, turning_joints
@@ -211,3 +212,23 @@ class TestEffort(BuiltInChecks):
 
     def publish(self, bench: Any) -> None:
         torques(bench)
+
+
+def test_selecting_effort_of_a_joint(bench: Callable[..., Any]) -> None:
+    at = bench(Effort())
+    urdf = (
+        "<robot name='r'><link name='map'/><link name='odom'/><joint name='elbow' type='revolute'>"
+        "<parent link='map'/><child link='odom'/><limit effort='8' velocity='1'/></joint></robot>"
+    )
+    at.send("std_msgs/msg/String", {"data": urdf}, topic="/robot_description")
+    at.turn()
+    at.settle()
+    at.transform("map", "odom")
+    values = {"name": ["elbow"], "effort": [2.0]}
+    at.send("sensor_msgs/msg/JointState", values, frame="", topic="/joint_states")
+    at.turn()
+    check_details(
+        at.pick("rings", 3),
+        "Joint elbow",
+        {"Effort": "2 Nm", "Largest effort": "8 Nm", "Link": "odom"},
+    )

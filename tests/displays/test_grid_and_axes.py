@@ -7,6 +7,7 @@ from built_in_checks import BuiltInChecks
 from display_scenes import robot_frame
 
 from webviz.scene.schemes import SCHEMES
+from webviz.shell.testing import check_details
 from webviz_displays.axes import Axes
 from webviz_displays.grid import Grid
 
@@ -156,3 +157,18 @@ class TestGrid(BuiltInChecks):
 
     def publish(self, bench: Any) -> None:
         robot_frame(bench)
+
+
+def test_selecting_grid(bench: Callable[..., Any]) -> None:
+    at = bench(Grid(plane_cell_count=4, cell_size=0.5))
+    at.turn()
+    check_details(
+        at.pick("grid", 3), "Grid", {"Cell size": "0.5 m", "Cells": "4 x 4", "Plane": "XY"}
+    )
+
+
+def test_selecting_axes(bench: Callable[..., Any]) -> None:
+    at = bench(Axes(reference_frame="odom"))
+    at.transform("map", "odom", (1.0, 0.0, 0.0))
+    at.turn()
+    check_details(at.pick("axes", 0), "Axes of odom", {"Length": "1 m"})

@@ -12,6 +12,7 @@ from built_in_checks import BuiltInChecks
 from display_messages import MESSAGES
 from display_scenes import image_planes
 
+from webviz.shell.testing import check_details
 from webviz_displays.image_plane import ImagePlane
 from webviz_displays.shared.geometry import transformed
 
@@ -117,3 +118,13 @@ class TestImagePlane(BuiltInChecks):
 
     def publish(self, bench: Any) -> None:
         image_planes(bench)
+
+
+def test_selecting_pixel_of_a_depth_image(bench: Callable[..., Any]) -> None:
+    """The third column and the second row from the top, of 4 x 3 pixels that are 0.5 m large."""
+    at = bench(ImagePlane(plane="XY", width=2.0))
+    depths = np.arange(12, dtype=np.float32).reshape(3, 4) / 4
+    at.send(photos.RAW, photos.raw(depths, "32FC1"), frame="map")
+    at.turn()
+    at.settle()
+    check_details(at.pick("image", None, (1.2, 0.6, 0.0)), "Pixel 2, 1", {"Value": "1.5"})

@@ -10,11 +10,15 @@ import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
 from display_messages import MESSAGES
+from inspecting import one_of
+from mapping_scenes import FIELD as INSPECTED_FIELD
 from mapping_scenes import FIELD as SCENE_FIELD
+from mapping_scenes import IMU as INSPECTED_IMU
 from mapping_scenes import IMU as SCENE_IMU
 from plain_scenes import in_moving_frame
 
 from webviz.data.rotations import multiply
+from webviz.shell.testing import check_details
 from webviz_displays.imu import Imu, Mag
 from webviz_displays.imu.imu import AccelerationSettings, AxesSettings, BoxSettings
 
@@ -149,3 +153,22 @@ class TestMag(BuiltInChecks):
 
     def publish(self, bench: Any) -> None:
         in_moving_frame("sensor_msgs/msg/MagneticField", SCENE_FIELD)(bench)
+
+
+def test_selecting_inertial_sensor(bench: Callable[..., Any]) -> None:
+    check_details(
+        one_of(bench, Imu(), "sensor_msgs/msg/Imu", INSPECTED_IMU, "axes", 0),
+        "Inertial sensor",
+        {
+            "Orientation": "x 0.0000, y 0.0000, z 0.6000, w 0.8000",
+            "Acceleration in odom": "1, 0, 9 m/s²",
+        },
+    )
+
+
+def test_selecting_magnetic_field(bench: Callable[..., Any]) -> None:
+    check_details(
+        one_of(bench, Mag(), "sensor_msgs/msg/MagneticField", INSPECTED_FIELD, "heads", 0),
+        "Magnetic field",
+        {"Field in odom": "2e-05, 1e-05, -4e-05 T"},
+    )

@@ -1,3 +1,4 @@
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -8,6 +9,7 @@ from display_messages import MESSAGES
 from display_scenes import scans
 
 from webviz.api.nodes import Instances, Lines, Points
+from webviz.shell.testing import check_details
 from webviz_displays.laser_scan import LaserScan
 
 SCAN = "sensor_msgs/msg/LaserScan"
@@ -357,3 +359,22 @@ class TestLaserScan(BuiltInChecks):
 
     def publish(self, bench: Any) -> None:
         scans(bench)
+
+
+def test_selecting_beam_of_a_scan(bench: Callable[..., Any]) -> None:
+    at = bench(LaserScan())
+    at.transform("map", "laser")
+    scan = {"angle_min": -0.5, "angle_increment": 0.25, "range_min": 0.1, "range_max": 10.0}
+    ranges = {"ranges": [math.nan, 2.3, math.inf, 0.7, 20.0], "intensities": [1, 2, 3, 4.2, 5]}
+    at.send("sensor_msgs/msg/LaserScan", scan | ranges, frame="laser")
+    at.turn()
+    check_details(
+        at.pick("points", 1),
+        "Beam 3",
+        {
+            "Range": "0.7 m",
+            "Intensity": "4.2",
+            "Angle": "0.250000 rad, 14.32°",
+            "Beams in the scan": "5",
+        },
+    )

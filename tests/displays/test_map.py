@@ -1,6 +1,7 @@
 """The Map display: grids and updates to tiles."""
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -8,9 +9,11 @@ import pytest
 from built_in_checks import BuiltInChecks
 from display_messages import MESSAGES
 from display_scenes import maps
-from mapping_scenes import costmaps
+from inspecting import QUARTER
+from mapping_scenes import COSTMAP, costmaps
 
 from webviz import Image, Topic
+from webviz.shell.testing import check_details
 from webviz.shell.testing.messages import header
 from webviz_displays.map import Costmap, Map
 from webviz_displays.map.palettes import lookup_table
@@ -391,3 +394,36 @@ class TestMap(BuiltInChecks):
 
     def publish(self, bench: Any) -> None:
         maps(bench)
+
+
+def test_selecting_cell_of_a_map(bench: Callable[..., Any]) -> None:
+    """In the second tile of a turned map."""
+    cells = np.zeros((3, 600), np.int8)
+    cells[1, 520] = 100
+    info = {
+        "resolution": 0.5,
+        "width": 600,
+        "height": 3,
+        "origin": {"position": {"x": 10.0}, "orientation": {"z": QUARTER[2], "w": QUARTER[3]}},
+    }
+    at = bench(Map())
+    at.send("nav_msgs/msg/OccupancyGrid", {"info": info, "data": cells.ravel()}, frame="map")
+    at.turn()
+    check_details(
+        at.pick("tile 0 512", None, (0.5 * (520 - 512) + 0.1, 0.6, 0.0)),
+        "Cell 520, 1",
+        {
+            "Value": "100, occupied",
+            "Column (x)": "520",
+            "Row (y)": "1",
+            "Index": "1120",
+            "Center in map": "9.2500, 260.2500, 0.0000 m",
+        },
+    )
+
+
+def test_selecting_cell_of_a_costmap(bench: Callable[..., Any]) -> None:
+    at = bench(Costmap())
+    at.send("nav2_msgs/msg/Costmap", COSTMAP, frame="map", topic="/local_costmap/costmap_raw")
+    at.turn()
+    check_details(at.pick("tile 0 0", None, (0.6, 0.6, 0.0)), "Cell 1, 1", {"Value": "254, lethal"})

@@ -24,6 +24,7 @@ from rtabmap_scenes import (
     scanned,
 )
 
+from webviz.shell.testing import check_details
 from webviz_displays.map_cloud import MapCloud, known
 from webviz_displays.map_cloud.compression import RVL
 
@@ -256,3 +257,17 @@ class TestMapCloud(BuiltInChecks):
 
     def publish(self, bench: Any) -> None:
         in_moving_frame(MAP_DATA, MAPPED)(bench)
+
+
+def test_selecting_point_of_a_map(bench: Callable[..., Any]) -> None:
+    """The second of the second node; the first has left the graph."""
+    at = bench(MapCloud(cloud_from_scan=True))
+    data = {id: scanned(*SCAN) for id in (3, 5)}
+    for places in ({3: (0.0, 0.0), 5: (1.0, 0.0)}, {5: (1.0, 0.0)}):
+        at.send(MAP_DATA, map_data(places, data), frame="map", topic="/rtabmap/mapData")
+        at.turn()
+    check_details(
+        at.pick("points", 1),
+        "Point of node 5",
+        {"Seen": "500.000 s", "Points of the node": "3", "Intensity": "90.0"},
+    )

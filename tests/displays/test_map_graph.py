@@ -9,9 +9,11 @@ import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
 from display_messages import MESSAGES
+from inspecting import one_of
 from mapping_scenes import GRAPH
 from plain_scenes import in_moving_frame
 
+from webviz.shell.testing import check_details
 from webviz_displays.map_graph import MapGraph
 
 TYPE = "rtabmap_msgs/msg/MapGraph"
@@ -80,3 +82,11 @@ class TestMapGraph(BuiltInChecks):
 
     def publish(self, bench: Any) -> None:
         in_moving_frame("rtabmap_msgs/msg/MapGraph", GRAPH)(bench)
+
+
+def test_selecting_link_of_a_graph(bench: Callable[..., Any]) -> None:
+    check_details(
+        one_of(bench, MapGraph(), "rtabmap_msgs/msg/MapGraph", GRAPH, "links", 3),
+        "Link 1 to 3",
+        {"Type": "2, local loop closure"},
+    )

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import io
 import math
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+import PIL.Image
 import pytest
 from built_in_checks import BuiltInChecks
 from display_scenes import markers as markers_of_both_kinds
 
+from webviz import Details
+from webviz.shell.testing import check_details
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.source import SECOND
 from webviz.sources import Raw
@@ -493,3 +497,88 @@ class TestMarkerArray(BuiltInChecks):
 
     def publish(self, bench: Any) -> None:
         markers_of_both_kinds(bench)
+
+
+def marker(
+    bench: Callable[..., Any], key: str, number: int | None, point: Any = None, **fields: Any
+) -> Details:
+    """An item of the second of two markers, 10 m behind the first."""
+    each = {"scale": {"x": 1.0, "y": 1.0, "z": 1.0}, "color": {"g": 1.0, "a": 1.0}, **fields}
+    header = {"frame_id": "odom"}
+    near, far = ({"pose": {"position": {"x": x}}} for x in (0.0, 10.0))
+    markers = [{**each, **pose, "header": header, "ns": "a", "id": i}
+               for i, pose in enumerate((near, far))]  # fmt: skip
+    at = bench(MarkerArray())
+    at.transform("map", "odom")
+    at.send("visualization_msgs/msg/MarkerArray", {"markers": markers})
+    at.turn()
+    at.settle()
+    (found,) = (name for name in at.nodes() if name.startswith(key))
+    return at.pick(found, number, point)
+
+
+def test_selecting_shape_of_a_marker(bench: Callable[..., Any]) -> None:
+    check_details(
+        marker(bench, "box", 1, type=1),
+        "Marker a/1",
+        {"Namespace": "a", "Id": "1", "Type": "CUBE", "Frame": "odom"},
+    )
+
+
+def test_selecting_point_of_a_marker(bench: Callable[..., Any]) -> None:
+    check_details(
+        marker(bench, "points", 4, type=8, points=np.arange(9.0).reshape(3, 3)),
+        "Marker a/1",
+        {"Type": "POINTS", "Points": "3"},
+    )
+
+
+def test_selecting_line_of_a_marker(bench: Callable[..., Any]) -> None:
+    check_details(
+        marker(bench, "lines", 3, type=4, points=np.arange(9.0).reshape(3, 3)),
+        "Marker a/1",
+        {"Type": "LINE_STRIP", "Age": "0.0 s"},
+    )
+
+
+TRIANGLES = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (0, 0, 1), (0, 0, 2)], np.float64)
+
+
+def test_selecting_triangle_of_a_marker(bench: Callable[..., Any]) -> None:
+    """One of two that are one mesh; they have a triangle without an area too."""
+    check_details(
+        marker(bench, "triangles", None, (10.2, 0.3, 0.0), type=11, points=TRIANGLES),
+        "Marker a/1",
+        {"Type": "TRIANGLE_LIST", "Points": "6"},
+    )
+
+
+def test_selecting_triangle_of_a_colorful_marker(bench: Callable[..., Any]) -> None:
+    colors = np.array([(1, 0, 0, 1)] * 6, np.float32)
+    more = {"type": 11, "points": TRIANGLES, "colors": colors}
+    check_details(
+        marker(bench, "colorful", None, (10.2, 0.3, 0.0), **more),
+        "Marker a/1",
+        {"Type": "TRIANGLE_LIST"},
+    )
+
+
+def test_selecting_texture_of_a_marker(bench: Callable[..., Any]) -> None:
+    png = io.BytesIO()
+    PIL.Image.new("RGB", (2, 2)).save(png, "png")
+    texture = {"format": "png", "data": png.getvalue()}
+    uvs = np.zeros((6, 2), np.float32)
+    more = {"texture_resource": "embedded://a.png", "texture": texture, "uv_coordinates": uvs}
+    check_details(
+        marker(bench, "triangles 2", None, (10.2, 0.3, 0.0), type=11, points=TRIANGLES, **more),
+        "Marker a/1",
+        {"Type": "TRIANGLE_LIST"},
+    )
+
+
+def test_selecting_text_of_a_marker(bench: Callable[..., Any]) -> None:
+    check_details(
+        marker(bench, "texts", 1, type=9, text="Dock"),
+        "Marker a/1",
+        {"Type": "TEXT_VIEW_FACING", "Text": "Dock"},
+    )

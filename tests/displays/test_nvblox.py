@@ -9,9 +9,11 @@ import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
 from display_messages import MESSAGES
+from inspecting import one_of
 from mapping_scenes import MESH, VOXELS
 from plain_scenes import in_moving_frame
 
+from webviz.shell.testing import check_details
 from webviz_displays.nvblox import NvbloxMesh, NvbloxVoxelBlockLayer, layer
 
 Benches = Callable[..., Any]
@@ -147,3 +149,19 @@ class TestNvbloxVoxelBlockLayer(BuiltInChecks):
 
     def publish(self, bench: Any) -> None:
         in_moving_frame("nvblox_msgs/msg/VoxelBlockLayer", VOXELS)(bench)
+
+
+def test_selecting_voxel_of_nvblox(bench: Callable[..., Any]) -> None:
+    type_name = "nvblox_msgs/msg/VoxelBlockLayer"
+    check_details(
+        one_of(bench, NvbloxVoxelBlockLayer(), type_name, VOXELS, "region 0 0 0", 1),
+        "Voxel",
+        {"Edge": "0.1 m"},
+    )
+
+
+def test_selecting_surface_of_nvblox(bench: Callable[..., Any]) -> None:
+    at = bench(NvbloxMesh())
+    at.send("nvblox_msgs/msg/Mesh", MESH, frame="map", topic="/nvblox_node/mesh")
+    at.turn()
+    check_details(at.pick("region 0 0 0", None, (0.1, 0.1, 0.1)), "Mesh", {})

@@ -19,6 +19,7 @@ from octrees import OCTOMAP, Key, Node, binary, full, octree, signed
 from plain_scenes import in_moving_frame
 
 from webviz.data.memory import DECODING
+from webviz.shell.testing import check_details
 from webviz_displays.octomap import (
     ColorOccupancyGrid,
     OccupancyGrid,
@@ -387,3 +388,22 @@ class TestOccupancyMapStamped(BuiltInChecks):
 
     def publish(self, bench: Any) -> None:
         seen_from_above(bench)
+
+
+def test_selecting_voxel_of_an_octree(bench: Callable[..., Any]) -> None:
+    """The one on top, which is the last along the curve through the tree."""
+    at = bench(ColorOccupancyGrid())
+    at.transform("map", "odom")
+    at.send(OCTOMAP, hill("ColorOcTree"), frame="odom")
+    at.turn()
+    check_details(
+        at.pick("voxels", 4),
+        "Occupied voxel",
+        {
+            "Occupancy": "62.2%",
+            "Log-odds": "0.5",
+            "Size": "0.5 m",
+            "Depth": "16",
+            "Color": "r 0, g 255, b 0",
+        },
+    )

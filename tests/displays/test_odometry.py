@@ -9,6 +9,7 @@ from display_scenes import odometries
 from numpy.typing import NDArray
 
 from webviz.data.rotations import matrices
+from webviz.shell.testing import check_details
 from webviz_displays.odometry import Odometry
 from webviz_displays.odometry.covariance_marks import MAX_COVARIANCES
 from webviz_displays.shared.pose_properties import (
@@ -318,3 +319,28 @@ class TestOdometry(BuiltInChecks):
 
     def publish(self, bench: Any) -> None:
         odometries(bench)
+
+
+def test_selecting_odometry_with_covariance(bench: Callable[..., Any]) -> None:
+    at = bench(Odometry())
+    at.transform("map", "odom")
+    for x in (0.0, 1.0, 2.0):
+        pose = {
+            "pose": {"position": {"x": x}},
+            "covariance": np.diag([0.04, 0, 0, 0, 0, 1]).ravel(),
+        }
+        twist = {"twist": {"linear": {"x": 0.5}, "angular": {"z": -0.25}}}
+        message = {"child_frame_id": "base", "pose": pose, "twist": twist}
+        at.send("nav_msgs/msg/Odometry", message, frame="odom")
+        at.turn()
+    assert at.pick("ellipses", 1) == at.pick("poses", 1)
+    check_details(
+        at.pick("poses", 1),
+        "Odometry 1",
+        {
+            "Speed": "0.5, 0, 0 m/s",
+            "Turn rate": "0, 0, -0.25 rad/s",
+            "Child frame": "base",
+            "Standard deviations": "x 0.2, y 0, z 0, roll 0, pitch 0, yaw 1",
+        },
+    )

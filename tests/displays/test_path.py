@@ -7,6 +7,7 @@ from built_in_checks import BuiltInChecks
 from display_messages import MESSAGES
 from display_scenes import paths
 
+from webviz.shell.testing import check_details
 from webviz_displays.path import Path
 
 PATH = "nav_msgs/msg/Path"
@@ -176,3 +177,19 @@ class TestPath(BuiltInChecks):
 
     def publish(self, bench: Any) -> None:
         paths(bench)
+
+
+def test_selecting_pose_of_a_path(bench: Callable[..., Any]) -> None:
+    at = bench(Path(pose_style="Arrows"))
+    at.transform("map", "odom", (10.0, 0.0, 0.0))
+    places = [{"x": float(i), "y": 1.0} for i in range(3)]
+    poses = [
+        {"header": {"stamp": {"sec": 7 + i}}, "pose": {"position": place}}
+        for i, place in enumerate(places)
+    ]
+    at.send("nav_msgs/msg/Path", {"poses": poses}, frame="odom")
+    at.turn()
+    assert at.pick("line", 1) == at.pick("poses", 1)
+    check_details(
+        at.pick("poses", 2), "Pose 2", {"Poses in the path": "3", "Stamp of the pose": "9.000000 s"}
+    )

@@ -18,6 +18,7 @@ from robot_arm import ARM, describe, is_loaded, wait
 from webviz import Topic
 from webviz.api.nodes import Instances, Mesh
 from webviz.data.messages import encode
+from webviz.shell.testing import check_details
 from webviz_displays.moveit import PlanningScene
 from webviz_displays.moveit.properties import SceneGeometry
 
@@ -351,3 +352,10 @@ class TestPlanningScene(BuiltInChecks):
 
     def publish(self, bench: Any) -> None:
         moveit(bench)
+
+
+def test_selecting_object_of_a_planning_scene(bench: Callable[..., Any]) -> None:
+    """The coloured one, drawn by itself, as its opacity differs."""
+    at = bench(PlanningScene())
+    moveit(at)
+    check_details(at.pick("object box 0.502", 0), "Object 'door'", {"Shapes": "1 box"})

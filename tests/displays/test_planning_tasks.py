@@ -11,6 +11,7 @@ from display_messages import MESSAGES as SCENE_MESSAGES
 from display_scenes import OTHER_LINKS
 from moveit_scenes import NUMBERS, SOLUTION, TASK, plan_task
 
+from webviz.shell.testing import check_details
 from webviz_displays.moveit import MotionPlanningTasks
 from webviz_displays.moveit.planning_tasks import SolutionMarkers
 
@@ -139,3 +140,19 @@ class TestMotionPlanningTasks(BuiltInChecks):
 
     def publish(self, bench: Any) -> None:
         plan_task(bench)
+
+
+def test_selecting_link_of_a_solution(bench: Callable[..., Any]) -> None:
+    at = bench(MotionPlanningTasks(paused=True))
+    plan_task(at)
+    check_details(
+        at.pick("path rider visual visual_0", None, (0.0, 0.0, 0.0)),
+        "Link rider",
+        {"Point": "Point 8 of 8 points, at 6000.00 s", "Robot": "rail"},
+    )
+
+
+def test_selecting_marker_of_a_solution(bench: Callable[..., Any]) -> None:
+    at = bench(MotionPlanningTasks(paused=True))
+    plan_task(at)
+    check_details(at.pick("box in 0", 0), "Marker far/0", {"Type": "CUBE"})

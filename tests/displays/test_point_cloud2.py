@@ -1,19 +1,22 @@
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any, ClassVar
 
 import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
-from clouds import CLOUD, FLOAT32, XYZ, cloud, xyz_cloud
+from clouds import CLOUD, FLOAT32, UINT32, XYZ, cloud, xyz_cloud
 from display_messages import MESSAGES
 from display_scenes import clouds
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from inspecting import QUARTER
 
 from webviz.api.nodes import Instances, Lines, Points
 from webviz.data.messages import encode
+from webviz.shell.testing import check_details
 from webviz.shell.testing.messages import header
 from webviz_displays.point_cloud2 import PointCloud2
 from webviz_displays.point_cloud2.decimation import evenly, one_per_voxel
@@ -470,3 +473,60 @@ class TestPointCloud2(BuiltInChecks):
 
     def publish(self, bench: Any) -> None:
         clouds(bench)
+
+
+def test_selecting_point_of_a_cloud(bench: Callable[..., Any]) -> None:
+    """The third that is drawn, of a cloud in rows, whose first two and fifth cannot be."""
+    names = [*XYZ, ("intensity", 12, FLOAT32, 1), ("rgb", 16, UINT32, 1), ("ring", 20, 4, 2)]
+    places = [(math.nan, 0, 0), (0, math.nan, 0), (1, 2, 3), (4, 5, 6), (2e9, 0, 0), (7, 8, 0.1)]
+    points = [
+        {
+            **{axis: [value] for axis, value in zip("xyz", place, strict=True)},
+            "intensity": [0.1 * i],
+            "rgb": [0x00010203 + i],
+            "ring": [i, 2 * i],
+        }
+        for i, place in enumerate(places)
+    ]
+    at = bench(PointCloud2())
+    at.transform("map", "lidar", (0.0, 0.0, 2.0), QUARTER)
+    at.send(CLOUD, cloud(names, points, height=2, row_padding=5), frame="lidar")
+    at.turn()
+    check_details(
+        at.pick("points", 2),
+        "Point 5",
+        {
+            "intensity": "0.5",
+            "rgb": "r 1, g 2, b 8",
+            "ring": "5, 10",
+            "Row": "1",
+            "Column": "2",
+            "Position in lidar": {"fields": {"x": "7.0", "y": "8.0", "z": "0.1"}},
+        },
+    )
+
+
+def test_selecting_point_of_a_thinned_cloud(bench: Callable[..., Any]) -> None:
+    points = [{"x": [float(i)], "y": [0.0], "z": [0.0], "i": [i]} for i in range(100)]
+    at = bench(PointCloud2(max_points=10, style="Boxes", color_transformer="FlatColor"))
+    at.transform("map", "lidar")
+    at.send(CLOUD, cloud([*XYZ, ("i", 12, UINT32, 1)], points), frame="lidar")
+    at.turn()
+    details = at.pick("solids", 4)
+    number = details.values["i"]
+    assert number in range(40, 50)
+    check_details(details, f"Point {number}", {"Points in the cloud": "100"})
+
+
+def test_selecting_invisible_points_do_not_count(bench: Callable[..., Any]) -> None:
+    """An rgba with alpha 0 hides the first."""
+    names = [*XYZ, ("rgba", 12, UINT32, 1)]
+    points = [
+        {"x": [1.0], "y": [0.0], "z": [0.0], "rgba": [0x00FF0000]},
+        {"x": [2.0], "y": [0.0], "z": [0.0], "rgba": [0xFF00FF00]},
+    ]
+    at = bench(PointCloud2())
+    at.transform("map", "lidar")
+    at.send(CLOUD, cloud(names, points), frame="lidar")
+    at.turn()
+    check_details(at.pick("points", 0), "Point 1", {"rgba": "r 0, g 255, b 0, a 255"})

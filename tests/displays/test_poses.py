@@ -10,9 +10,12 @@ import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
 from display_messages import MESSAGES
+from inspecting import POSE as INSPECTED_POSE
+from inspecting import POSE_TOLD, one_of
 from plain_scenes import COVARIANCE, at, in_moving_frame, turned
 
 from webviz.data.rotations import matrices
+from webviz.shell.testing import check_details
 from webviz_displays.poses import (
     ParticleCloud,
     PointStamped,
@@ -277,3 +280,58 @@ class TestPoseWithCovariance(BuiltInChecks):
             "geometry_msgs/msg/PoseWithCovarianceStamped",
             *({"pose": {"pose": turned(x), "covariance": COVARIANCE}} for x in (1.0, 2.0)),
         )(bench)
+
+
+def test_selecting_pose(bench: Callable[..., Any]) -> None:
+    check_details(
+        one_of(
+            bench, Pose(), "geometry_msgs/msg/PoseStamped", {"pose": INSPECTED_POSE}, "poses", 0
+        ),
+        "Pose 0",
+        {"Pose in odom": POSE_TOLD},
+    )
+
+
+def test_selecting_pose_with_covariance(bench: Callable[..., Any]) -> None:
+    values = {
+        "pose": {"pose": INSPECTED_POSE, "covariance": np.diag([0.04, 0, 0, 0, 0, 1]).ravel()}
+    }
+    type_name = "geometry_msgs/msg/PoseWithCovarianceStamped"
+    check_details(
+        one_of(bench, PoseWithCovariance(), type_name, values, "ellipses", 0),
+        "Pose 0",
+        {
+            "Pose in odom": POSE_TOLD,
+            "Standard deviations": "x 0.2, y 0, z 0, roll 0, pitch 0, yaw 1",
+        },
+    )
+
+
+def test_selecting_pose_of_an_array(bench: Callable[..., Any]) -> None:
+    """The last line of the second arrow."""
+    values = {"poses": [{"position": {"x": math.nan}}, INSPECTED_POSE]}
+    check_details(
+        one_of(bench, PoseArray(), "geometry_msgs/msg/PoseArray", values, "poses", 2),
+        "Pose 1",
+        {"Pose in odom": POSE_TOLD, "Poses in the message": "2"},
+    )
+
+
+def test_selecting_particle(bench: Callable[..., Any]) -> None:
+    """The y axis of the second."""
+    values = {"particles": [{"pose": INSPECTED_POSE, "weight": w} for w in (0.25, 0.75)]}
+    cloud = ParticleCloud(shape="Axes")
+    check_details(
+        one_of(bench, cloud, "nav2_msgs/msg/ParticleCloud", values, "poses", 4),
+        "Particle 1",
+        {"Weight": "0.75", "Particles in the message": "2"},
+    )
+
+
+def test_selecting_point(bench: Callable[..., Any]) -> None:
+    values = {"point": {"x": 1.0, "y": 2.5}}
+    check_details(
+        one_of(bench, PointStamped(), "geometry_msgs/msg/PointStamped", values, "points", 0),
+        "Point 0",
+        {"Point in odom": {"fields": {"x": "1", "y": "2.5", "z": "0"}}},
+    )

@@ -1,5 +1,6 @@
 """Links and joints of the RobotModel display: where they are, and what is said of them."""
 
+from collections.abc import Callable
 from typing import Any, ClassVar
 
 import pytest
@@ -10,6 +11,7 @@ from moveit_scenes import moveit
 from robot_arm import ARM, describe, place_arm
 
 from webviz import Mesh
+from webviz.shell.testing import check_details
 from webviz_displays.moveit import RobotState
 from webviz_displays.robot_model import RobotModel
 from webviz_displays.robot_model.parts import GREY, JointSettings, LinkSettings
@@ -164,3 +166,11 @@ class TestRobotState(BuiltInChecks):
 
     def publish(self, bench: Any) -> None:
         moveit(bench)
+
+
+def test_selecting_what_a_robot_holds(bench: Callable[..., Any]) -> None:
+    at = bench(RobotState())
+    moveit(at)
+    check_details(
+        at.pick("attached box", 0), "Object 'cup'", {"Attached to": "rider", "Shapes": "1 box"}
+    )

@@ -5,7 +5,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import FrameType, SimpleNamespace
 from typing import Any, ClassVar
@@ -25,6 +25,7 @@ import webviz
 import webviz_urdf
 from webviz.data.disk import MAX_THREADS, within
 from webviz.engine.pipeline.background import Workers
+from webviz.shell.testing import check_details
 from webviz.shell.testing.changes import Change
 from webviz_displays.robot_model import RobotModel
 from webviz_displays.robot_model import loading as disk_of_robots
@@ -351,3 +352,19 @@ class TestRobotModel(BuiltInChecks):
         (package / "package.xml").write_text("<package><name>somewhere</name></package>")
         trimesh.creation.box().export(package / "part.stl")
         return [[str(folder)]]
+
+
+def test_selecting_link_of_a_robot(bench: Callable[..., Any]) -> None:
+    at = bench(RobotModel())
+    place_arm(at)
+    describe(at, ARM)
+    check_details(
+        at.pick("base visual visual_0", None, (0.5, 0.0, 0.0)),
+        "Link base",
+        {
+            "Mass": "6 kg",
+            "Visual": "a box, sphere or cylinder",
+            "Robot": "arm",
+            "Parent frame": "map",
+        },
+    )

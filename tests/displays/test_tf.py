@@ -1,15 +1,18 @@
 """The TF display: frames to batched nodes, and how they age."""
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
 from display_scenes import frames
+from inspecting import QUARTER
 
 from webviz import Axes as AxesNode
 from webviz import Instances, Labels
 from webviz.data.rotations import matrices
+from webviz.shell.testing import check_details
 from webviz_displays.tf import TF
 
 SECOND = 1_000_000_000
@@ -260,3 +263,12 @@ class TestTF(BuiltInChecks):
 
     def publish(self, bench: Any) -> None:
         frames(bench)
+
+
+def test_selecting_frame_of_a_tree(bench: Callable[..., Any]) -> None:
+    at = bench(TF(show_arrows=False))
+    at.transform("map", "odom", (1.0, 0.0, 0.0))
+    at.transform("odom", "base", (0.0, 2.0, 0.0), QUARTER, stamp_ns=at.now_ns - 500_000_000)
+    at.turn()
+    (number,) = np.flatnonzero(at.nodes()["axes"].ids == "base")
+    check_details(at.pick("axes", int(number)), "Frame base", {"Parent": "odom", "Age": "0.50 s"})

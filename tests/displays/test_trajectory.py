@@ -14,6 +14,7 @@ from moveit_scenes import moveit
 from robot_arm import describe, is_loaded, wait
 
 from webviz import Instances, Mesh, Topic
+from webviz.shell.testing import check_details
 from webviz_displays.moveit import MotionPlanning, RobotState, Trajectory
 from webviz_displays.moveit.properties import PlannedPath, PlanningRequest
 from webviz_urdf import MeshPart, Surface, glb_parts, write_glb
@@ -316,3 +317,19 @@ class TestTrajectory(BuiltInChecks):
 
     def publish(self, bench: Any) -> None:
         moveit(bench)
+
+
+def test_selecting_link_on_a_path(bench: Callable[..., Any]) -> None:
+    at = bench(Trajectory(paused=True))
+    moveit(at)
+    check_details(
+        at.pick("path rider visual visual_0", None, (0.0, 0.0, 0.0)),
+        "Link rider",
+        {"Point": "Point 4 of 4 points, at 3000.00 s", "Robot": "rail"},
+    )
+
+
+def test_selecting_link_of_a_trail(bench: Callable[..., Any]) -> None:
+    at = bench(Trajectory(paused=True, show_trail=True))
+    moveit(at)
+    check_details(at.pick("trail rider visual visual_0 0", 2), "Link rider", {"Point": "3"})

@@ -10,9 +10,11 @@ import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
 from display_messages import MESSAGES
+from inspecting import one_of
 from plain_scenes import MOTION, in_moving_frame, velocity
 from plain_scenes import NAN as SCENE_NAN
 
+from webviz.shell.testing import check_details
 from webviz_displays.vectors import AccelStamped, Twist, TwistStamped, Wrench
 
 NAN = float("nan")
@@ -208,3 +210,13 @@ class TestWrench(BuiltInChecks):
                 for _ in range(2)
             ),
         )(bench)
+
+
+def test_selecting_torque(bench: Callable[..., Any]) -> None:
+    values = {"wrench": {"force": {"x": 1.5}, "torque": {"z": -2.0}}}
+    type_name = "geometry_msgs/msg/WrenchStamped"
+    check_details(
+        one_of(bench, Wrench(), type_name, values, "torque circles", 5),
+        "Wrench 0",
+        {"Force in odom": "1.5, 0, 0 N", "Torque in odom": "0, 0, -2 Nm"},
+    )

@@ -11,9 +11,11 @@ import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
 from display_messages import MESSAGES
+from inspecting import one_of
 from mapping_scenes import VOXEL_GRID
 from plain_scenes import in_moving_frame
 
+from webviz.shell.testing import check_details
 from webviz_displays import voxel_grid as voxel_grid_module
 from webviz_displays.map import Costmap
 from webviz_displays.map.palettes import lookup_table
@@ -150,3 +152,11 @@ class TestVoxelGrid(BuiltInChecks):
 
     def publish(self, bench: Any) -> None:
         in_moving_frame("nav2_msgs/msg/VoxelGrid", VOXEL_GRID)(bench)
+
+
+def test_selecting_voxel_of_a_costmap(bench: Callable[..., Any]) -> None:
+    check_details(
+        one_of(bench, VoxelGrid(), "nav2_msgs/msg/VoxelGrid", VOXEL_GRID, "marked", 1),
+        "Voxel 0, 0, 1",
+        {"State": "marked"},
+    )

@@ -9,9 +9,11 @@ import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
 from display_messages import MESSAGES
+from inspecting import one_of
 from perception_scenes import NAN, ZED_CAR, ZED_OBJECTS, ZED_PERSON, ZED_SCENE
 from plain_scenes import in_moving_frame
 
+from webviz.shell.testing import check_details
 from webviz_displays.zed import ZedOdDisplay, display
 from webviz_displays.zed.bodies import BODIES
 
@@ -126,3 +128,17 @@ class TestZedOdDisplay(BuiltInChecks):
 
     def publish(self, bench: Any) -> None:
         in_moving_frame(ZED_OBJECTS, ZED_SCENE)(bench)
+
+
+def test_selecting_car_of_a_zed_camera(bench: Callable[..., Any]) -> None:
+    check_details(
+        one_of(bench, ZedOdDisplay(), ZED_OBJECTS, ZED_SCENE, "boxes", 3),
+        "3-Vehicle [Car]",
+        {
+            "Kind": "Vehicle > Car",
+            "Confidence": "87.5 %",
+            "Velocity": "1.5, 0, 0 m/s",
+            "Size": "0.8 x 0.4 x 0.5 m",
+            "Tracking": "tracked",
+        },
+    )
