@@ -12,6 +12,7 @@ import { isSevere } from "../panels/findings.js";
 import { watch } from "../stores.js";
 import { roleMark } from "./people.js";
 import { theme } from "./theme.js";
+import { setTitle } from "./title.js";
 
 /** @import {Command} from "./commands.js" */
 /** @import {MenuItem} from "./menu.js" */
@@ -42,7 +43,7 @@ export function build() {
     set(name, { "data-tip": files.path() || "Not yet saved in a file" });
     mark.hidden = !files.isChanged();
     const title = [files.fileName(), "webviz"].filter(Boolean).join(" · ");
-    document.title = files.isChanged() ? `* ${title}` : title;
+    setTitle(files.isChanged() ? `* ${title}` : title);
   });
   /** @type {HTMLButtonElement} */
   const more = button("dots", "Menu", null, () => openMenuBelow(more, menu(more)));

@@ -5,6 +5,7 @@ import { act } from "../act.js";
 import { wallNow } from "../clock.js";
 import { el, set, setText } from "../dom.js";
 import { command } from "../shell/commands.js";
+import { setTitlePrefix } from "../shell/title.js";
 import { watch } from "../stores.js";
 import { agoText, atMoment, isRewound } from "./moment.js";
 
@@ -20,7 +21,6 @@ export function banner() {
   /** @type {ValuesOf<"playback"> | null} */
   let values = null;
   let timer = 0;
-  const title = document.title;
   const ago = el("span", { class: "wv-number" });
   const how = el("span");
   const element = el(
@@ -40,8 +40,7 @@ export function banner() {
     if (!values) return;
     const shown = atMoment(values, wallNow());
     setText(ago, `${agoText(shown.get("ago"))} · not live`);
-    const text = `${shown.get("ago").toFixed(0)} s ago · ${title}`;
-    if (document.title !== text) document.title = text;
+    setTitlePrefix(`${shown.get("ago").toFixed(0)} s ago · `);
   }
 
   watch("playback", (next) => {
@@ -51,7 +50,7 @@ export function banner() {
     document.body.classList.toggle("wv-rewound", isPast);
     set(element, { hidden: !isPast });
     if (!isPast) {
-      document.title = title;
+      setTitlePrefix("");
       return;
     }
     setText(how, why("ReturnToLive") ? "" : ` · ${COARSE.matches ? "tap" : "press L"} to return`);
