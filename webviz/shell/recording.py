@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Self
 
 from webviz.api.declared import Topic
+from webviz.api.display import Display
 from webviz.data.recordings import RecordingError
 from webviz.data.recordings.folder_writing import RecordingFolder
 from webviz.data.words import counted
+from webviz.engine.commands.guard import Guard
+from webviz.engine.pipeline.inputs import Inputs
+from webviz.files.config import Branch, Config, Item
 from webviz.sources import Offer, Source, Subscription
 from webviz.sources.recording import Channels, Recorder
 
@@ -109,6 +113,31 @@ class TopicRecorder:
         if self._patterns:
             return any(each.fullmatch(topic) for each in self._patterns)
         return "/_" not in topic  # hidden, such as those of actions
+
+
+def topics_of(config: Config, resolve: Callable[[str], str]) -> Sequence[str]:
+    """The topics that the displays of a config read, transforms and the log of all nodes.
+
+    Args:
+        config: of which displays that are switched off are left out.
+        resolve: the full name of a topic; raises ValueError.
+    """
+    guard = Guard("", strict=True)
+    names = [
+        name
+        for display in _shown(config.displays)
+        for name in Inputs(display, guard, resolve).topics()
+        if name
+    ]
+    return list(dict.fromkeys([*names, "/tf", "/tf_static", "/rosout"]))
+
+
+def _shown(items: Sequence[Item]) -> Iterator[Display]:
+    for item in items:
+        if isinstance(item, Branch):
+            yield from _shown(item.displays) if item.group.enabled else ()
+        elif isinstance(item, Display) and item.enabled:
+            yield item
 
 
 def _pattern(source: Source, text: str) -> re.Pattern[str]:

@@ -20,6 +20,7 @@ EXAMPLES = """\
 Examples:
   webviz record                                  record all topics until Ctrl-C
   webviz record -o run --topics /tf* /scan       record some; * matches any characters
+  webviz record --shown lab.yaml                 record what this config shows
   webviz record --split 1GB --keep 10GB          keep the newest 10 GB, in files of 1 GB
 
 """
@@ -49,6 +50,10 @@ class RecordOptions:
         tuple[str, ...], Parameter(consume_multiple=True, metavar="TOPIC", show_default=False)
     ] = ()
     """Topics to record; * matches any characters (default: all)."""
+    shown: Annotated[Path | None, Parameter(metavar="FILE", show_default=False)] = None
+    """Topics of the displays in this config (YAML or .rviz), transforms and the log."""
+    all: Annotated[bool, Parameter(negative="", show_default=False)] = False
+    """All topics, with hidden ones, whose names contain /_ (default: all others)."""
     split: Size = 0
     """Begin a new file at this size, such as 1GB."""
     split_time: Annotated[
@@ -61,6 +66,8 @@ class RecordOptions:
 
 def _check(*, options: RecordOptions = RecordOptions(), **_: object) -> None:
     """Raise ValueError for an invalid combination of arguments."""
+    if sum(map(bool, (options.topics, options.shown, options.all))) > 1:
+        raise ValueError("Give only one of --topics, --shown and --all.")
     if options.keep and options.split > options.keep:
         raise ValueError("--keep must be at least --split.")
 
@@ -73,17 +80,22 @@ def record(*, options: RecordOptions = RecordOptions(), ros: RosArgs) -> int:
         from webviz.api.errors import Error
         from webviz.data.recordings import RecordingError
         from webviz.data.recordings.folder_writing import RecordingFolder, RecordingLimits
-        from webviz.shell.recording import TopicRecorder
+        from webviz.files.opening import load
+        from webviz.shell.recording import TopicRecorder, topics_of
         from webviz.shell.ros_source import ros_source
         from webviz.sources.recording import library, new_name
 
         limits = RecordingLimits(
             options.split or options.keep // 10, options.split_time, options.keep
         )
+        config = load(options.shown) if options.shown else None
         try:
             with contextlib.closing(ros_source(ros)) as source:
+                patterns = ("*",) if options.all else options.topics
+                if config is not None:
+                    patterns = topics_of(config, source.resolve)
                 folder = RecordingFolder(options.output or Path(new_name()), library(), limits)
-                with TopicRecorder(source, folder, options.topics) as recorder:
+                with TopicRecorder(source, folder, patterns) as recorder:
                     _follow(recorder, stop)
         except RecordingError as error:
             raise Error(str(error)) from error
