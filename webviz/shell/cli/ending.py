@@ -12,7 +12,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable
-from concurrent.futures import Future, wait
+from concurrent.futures import Future
 from types import FrameType
 from typing import NoReturn
 
@@ -20,7 +20,6 @@ INTERRUPTED = 130
 PATIENCE_S = 3.0
 """Time from a signal until the program exits by force."""
 CHILD_PATIENCE_S = 1.0
-WAKE_S = 0.2
 
 
 def on_signal(action: Callable[[], object]) -> None:
@@ -158,6 +157,11 @@ def until_signal(work: Callable[[Stop], int]) -> int:
     """Do `work` in a thread, so that signals are handled at any time; its exit status."""
     stop, ended = Stop(), Future[int]()
     on_signal(stop.ask)
+    # The kernel may deliver a signal to another thread, which does not wake this one; Python then
+    # writes to this pipe.
+    reader, writer = os.pipe()
+    os.set_blocking(writer, False)
+    signal.set_wakeup_fd(writer, warn_on_full_buffer=False)
 
     def run() -> None:
         try:
@@ -165,8 +169,8 @@ def until_signal(work: Callable[[Stop], int]) -> int:
         except BaseException as error:
             ended.set_exception(error)
 
+    ended.add_done_callback(lambda _: os.write(writer, b"\0"))
     threading.Thread(target=run, name="webviz-command", daemon=True).start()
-    # The kernel may deliver a signal to another thread, which does not wake this one.
     while not ended.done():
-        wait([ended], WAKE_S)
+        os.read(reader, 64)
     return ended.result()
