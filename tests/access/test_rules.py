@@ -28,6 +28,7 @@ NOT_OF_PAGES = {
     "Command": "base class",
     "FileCommand": "base class",
     "ViewCommand": "base class",
+    "InspectLatency": "follows from the stores that pages watch",
     "InspectSelections": "follows from the stores that pages watch",
     "InspectTopic": "of programs",
     "InspectTopics": "follows from the stores that pages watch",

@@ -11,8 +11,9 @@ from playwright.sync_api import expect
 from tests.page.conftest import Tab
 from webviz import Finding, OtherFixedFrame, Severity, Symptom
 from webviz.api.status import Level, Status
-from webviz.engine.commands import SetFixedFrame
+from webviz.engine.commands import InspectLatency, SetFixedFrame
 from webviz.engine.state import Row, State
+from webviz.engine.state.latency import Latency, Stage
 from webviz.page.content.doctor import findings
 from webviz_displays.grid import Grid
 
@@ -113,3 +114,25 @@ def test_statuses_lead_to_the_finding_that_explains_them_and_back(panel: Tab) ->
 def test_a_finding_without_a_check_has_no_documentation() -> None:
     (told,) = findings(State(findings=(replace(NOTE, id="DATA999"),)), "").all
     assert (told.why, told.level, told.button) == ((), "ok", None)
+
+
+def test_latencies_are_a_waterfall_that_is_measured_while_it_is_open(panel: Tab) -> None:
+    stages = (Stage("received", 0.0, 0.002, 0.004), Stage("ready", 0.002, 0.031, 0.06))
+    found = Latency("3", 40, stages, 0.033, 0.064, f"Waits 31 ms for {HOSTILE}.", 0.0123)
+    scan = Row("3", "Grid", Grid(name=HOSTILE), HOSTILE, {})
+    section = panel.page.locator(".wv-latency")
+    section.get_by_text("Stamp to screen").click()
+    panel.wait_for_command(InspectLatency())
+    panel.wait_for(lambda: "No display has drawn a message" in section.inner_text())
+    panel.loop.show(scan, latencies=(found,))
+    panel.wait_for(lambda: "33 ms, p99 64 ms" in section.inner_text())
+    said = section.inner_text()
+    assert f"Waits 31 ms for {HOSTILE}. Takes 1.2 % of a core." in said
+    assert section.locator("img").count() == 0
+    widths = section.locator(".wv-waterfall-bar").evaluate_all(
+        "bars => bars.map((bar) => Math.round(parseFloat(bar.style.width)))"
+    )
+    assert widths == [6, 94]
+    section.get_by_text("Stamp to screen").click()
+    panel.wait_for_command(InspectLatency(is_wanted=False))
+    panel.loop.show(latencies=())

@@ -106,6 +106,7 @@ PARTS = [
     "History",
 ]
 PARTS += [
+    "Latency",
     "Panels",
     "Playback",
     "Plugins",

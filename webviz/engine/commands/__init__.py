@@ -49,7 +49,12 @@ from webviz.engine.commands.tools import (
     SetToolProperty,
     UseTool,
 )
-from webviz.engine.commands.topics import InspectTopic, InspectTopics, InspectTransforms
+from webviz.engine.commands.topics import (
+    InspectLatency,
+    InspectTopic,
+    InspectTopics,
+    InspectTransforms,
+)
 from webviz.engine.commands.viewer import (
     Pause,
     Redo,
@@ -91,6 +96,7 @@ __all__ = [
     "FocusDisplay",
     "FocusFrame",
     "Identify",
+    "InspectLatency",
     "InspectSelections",
     "InspectTopic",
     "InspectTopics",

@@ -25,6 +25,13 @@ class InspectTopics(Command):
 
 
 @dataclass(frozen=True)
+class InspectLatency(Command):
+    """Trace samples of all displays while a page shows their latencies."""
+
+    is_wanted: bool = True
+
+
+@dataclass(frozen=True)
 class InspectTransforms(Command):
     """Report on the transforms while they are shown.
 

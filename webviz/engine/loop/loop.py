@@ -28,6 +28,7 @@ from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.goals import GoalsPart
 from webviz.engine.parts.handles import HandlesPart
 from webviz.engine.parts.history import HistoryPart
+from webviz.engine.parts.latency import LatencyPart
 from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.playback import REWOUND, PlaybackPart
 from webviz.engine.parts.plugins import PluginsPart
@@ -207,6 +208,7 @@ class FrameLoop:
             files,
             history,
             TopicsPart(core),
+            LatencyPart(core, self._tracer, displays.list.active),
             RecordingPart(core, settings, memory),
             self._black_box,
             SelectionPart(core, displays),

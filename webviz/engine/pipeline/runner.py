@@ -137,13 +137,15 @@ class Runner:
     ) -> None:
         """Take the messages of this turn; cheap, also called without browsers."""
         if self.display.enabled:
-            self._guard("take", self._sample_buffer.take, batches, self._own(frames), offers)
+            with self._services.tracer.timed(self.id):
+                self._guard("take", self._sample_buffer.take, batches, self._own(frames), offers)
             self._dragging.take(batches, offers)
 
     def draw(self, frames: Frames) -> None:
         """Update the scene."""
         if self.display.enabled:
-            self._guard("scene", self._draw, self._own(frames))
+            with self._services.tracer.timed(self.id):
+                self._guard("scene", self._draw, self._own(frames))
 
     def is_waiting(self) -> bool:
         """Return whether the newest message of an input waits for its transform."""

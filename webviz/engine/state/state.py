@@ -16,6 +16,7 @@ from webviz.api.tool import Tool
 from webviz.api.views import View
 from webviz.data.messages.tree import Tree
 from webviz.data.transforms import Diagnosis
+from webviz.engine.state.latency import Latency
 from webviz.files.config import Settings
 from webviz.sources import Offer
 from webviz.sources.past_state import (
@@ -304,6 +305,7 @@ class State:
         inspected: the inspected topics, by name.
         transforms: the tree of transforms, None while no page shows it.
         between: requested transforms, by target and source frame.
+        latencies: of the displays, while a page shows them.
         views: what each browser shows, by its id.
         tools: in the order of the toolbar.
         panels: of plug-ins, in the order of their tabs.
@@ -340,6 +342,7 @@ class State:
     inspected: Mapping[str, Inspected] = field(default_factory=dict)
     transforms: Diagnosis | None = None
     between: Mapping[tuple[str, str], Between] = field(default_factory=dict)
+    latencies: tuple[Latency, ...] = ()
     views: Mapping[int, View] = field(default_factory=dict)
     tools: tuple[ToolButton, ...] = ()
     panels: tuple[PanelTab, ...] = ()

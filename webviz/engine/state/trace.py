@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import contextlib
+import time
+from collections import defaultdict
+from collections.abc import Callable, Iterator
 from concurrent.futures import Future
 from dataclasses import dataclass
 
@@ -86,6 +89,22 @@ class Tracer:
         self.clock = clock
         self._asked: dict[str, list[Future[Trace]]] = {}
         self._begun: dict[str, _Begun] = {}
+        self.is_timing = False
+        """True to count the time that displays take."""
+        self.busy_s: defaultdict[str, float] = defaultdict(float)
+        """Seconds of a processor that reading and drawing took in the frame loop, by display."""
+
+    @contextlib.contextmanager
+    def timed(self, display: str) -> Iterator[None]:
+        """Count the time of the block for a display."""
+        if not self.is_timing:
+            yield
+            return
+        began = time.thread_time()
+        try:
+            yield
+        finally:
+            self.busy_s[display] += time.thread_time() - began
 
     def ask(self, display: str, answer: Future[Trace]) -> None:
         """Trace the next sample of a display. Cancel the answer to stop waiting.

@@ -16,6 +16,7 @@ from webviz.page.content.doctor import findings
 from webviz.page.content.goals import goals, routes
 from webviz.page.content.handles import handles
 from webviz.page.content.history import history
+from webviz.page.content.latency import latency
 from webviz.page.content.panes import panes
 from webviz.page.content.playback import bookmarks, density, events, playback, recorded
 from webviz.page.content.properties import properties, statuses, topics_of
@@ -47,6 +48,7 @@ MAKERS: Mapping[str, Callable[[State, str], PageStore | None]] = {
     "graph": graph,
     "handles": handles,
     "history": history,
+    "latency": latency,
     "legend": legend,
     "message": message,
     "panes": panes,

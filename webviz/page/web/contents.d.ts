@@ -207,6 +207,24 @@ export interface ShownGoal {
   values: Array<[string, string]>;
 }
 
+export interface ShownLatency {
+  id: string;
+  name: string;
+  samples: number;
+  stages: Array<ShownStage>;
+  p50: number;
+  p99: number;
+  waits_for: string;
+  core: number;
+}
+
+export interface ShownStage {
+  name: string;
+  begin: number;
+  p50: number;
+  p99: number;
+}
+
 export type StatusLine = [key: string, level: "error" | "idle" | "ok" | "warn", text: string, remedy: RemedyButton | null];
 
 export interface Thing {
@@ -269,6 +287,7 @@ export interface Stores {
   handles: { own: {  }; items: SceneHandle };
   history: { own: { undo: Array<HistoryStep>; redo: Array<HistoryStep> }; items: never };
   journal: { own: { entries: Array<JournalLine> }; items: never };
+  latency: { own: { all: Array<ShownLatency> }; items: never };
   legend: { own: {  }; items: Scale };
   links: { own: {  }; items: ValidLink };
   message: { own: { message?: string | Record<string, unknown> | null; problem?: string; size?: number; received?: number }; items: never };

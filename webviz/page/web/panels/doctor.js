@@ -9,6 +9,7 @@ import { watch } from "../stores.js";
 import { GLOBAL } from "./displays/model.js";
 import * as selection from "./displays/selection.js";
 import { remedyButton } from "./displays/statuses.js";
+import { stampToScreen } from "./latency.js";
 import { isSevere, keyOf, takeWanted } from "./findings.js";
 
 const WELL = "All is well: no check has found a cause of a warning.";
@@ -23,12 +24,15 @@ export const doctor = {
   open(element) {
     const list = el("ol", { class: "wv-findings", "aria-label": "Findings" });
     const empty = el("p", { class: "wv-empty", role: "status" }, WELL);
-    element.append(el("section", { class: "wv-doctor", "aria-label": "Doctor" }, empty, list));
+    const latency = stampToScreen();
+    element.append(
+      el("section", { class: "wv-doctor", "aria-label": "Doctor" }, empty, list, latency.element),
+    );
     /** @type {Set<string>} */
     const unfolded = new Set();
     let shown = "";
 
-    return watch("findings", (values) => {
+    const end = watch("findings", (values) => {
       const all = values.get("all") ?? [];
       set(empty, { hidden: all.length > 0 });
       if (JSON.stringify(all) === shown) return;
@@ -39,6 +43,10 @@ export const doctor = {
       const led = [...list.children].find((each) => each.getAttribute("data-finding") === key);
       if (led instanceof HTMLElement) led.focus();
     });
+    return () => {
+      end();
+      latency.close();
+    };
   },
 };
 

@@ -1,0 +1,189 @@
+"""The latencies of displays, measured while a page shows them."""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Future
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz.api.errors import Error
+from webviz.data.transforms import TransformBuffer
+from webviz.data.transforms.tree import ancestors
+from webviz.engine.commands import Command, InspectLatency, Sender
+from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.pipeline.runner import Runner
+from webviz.engine.state.latency import Latency, Stage
+from webviz.engine.state.trace import Trace, Tracer
+
+SAMPLES = 200
+"""Last samples of a display."""
+MAX_DISPLAYS = 50
+LONG_S = 0.002
+"""Waiting for a transform that is reported."""
+EVERY_S = 1.0
+STAMPED_S = 3600.0
+"""A stamp further from its arrival is of another clock."""
+
+
+STEPS = ("received", "ready", "decoded", "drawn", "sent")
+Times = tuple[int, int, int, int, int, int]
+"""Of a sample in ns: its stamp, and the end of each step."""
+
+
+class LatencyPart(Part):
+    """Traces one sample of each display at a time, and nothing while no page shows it.
+
+    Args:
+        core: shared by all parts.
+        tracer: of the displays.
+        runners: of the enabled displays.
+    """
+
+    name = "Latency"
+
+    def __init__(self, core: Core, tracer: Tracer, runners: Callable[[], Sequence[Runner]]) -> None:
+        super().__init__(core)
+        self._tracer = tracer
+        self._runners = runners
+        self._is_wanted = False
+        self._asked: dict[str, Future[Trace]] = {}
+        self._traces: dict[str, deque[Times]] = {}
+        self._cores: dict[str, float] = {}
+        self._busy: Mapping[str, float] = {}
+        self._shown: tuple[Latency, ...] = ()
+        self._shown_at = 0.0
+
+    @property
+    def handles(self) -> Mapping[type[Command], Handler]:
+        """Return the handler of its command."""
+        return {InspectLatency: self._inspect}
+
+    def state(self) -> Mapping[str, Any]:
+        """The latencies, none while no page shows them."""
+        if not self._is_wanted:
+            return {"latencies": ()}
+        runners = list(self._runners())[:MAX_DISPLAYS]
+        self._collect([runner.id for runner in runners])
+        now = time.monotonic()
+        if now - self._shown_at >= EVERY_S:
+            self._measure(runners, now - self._shown_at)
+            self._shown_at = now
+            self._shown = tuple(self._latency(each) for each in runners if each.id in self._traces)
+        return {"latencies": self._shown}
+
+    def reset(self) -> None:
+        """Forget all traces: time has jumped."""
+        self._traces.clear()
+        self._shown = ()
+
+    def _inspect(self, command: InspectLatency, sender: Sender) -> None:
+        self._is_wanted = command.is_wanted
+        self._tracer.is_timing = command.is_wanted
+        self._shown_at = time.monotonic()
+        self._busy = dict(self._tracer.busy_s)
+        if not command.is_wanted:
+            for answer in self._asked.values():
+                answer.cancel()
+            self._asked.clear()
+            self._cores.clear()
+            self._tracer.busy_s.clear()
+            self.reset()
+
+    def _collect(self, displays: Sequence[str]) -> None:
+        """Keep the traces that are complete, and ask for the next ones."""
+        for display in [display for display in self._asked if display not in displays]:
+            self._asked.pop(display).cancel()
+            self._traces.pop(display, None)
+        for display in displays:
+            asked = self._asked.get(display)
+            if asked is not None and asked.done():
+                kept = self._traces.setdefault(display, deque(maxlen=SAMPLES))
+                kept.append(_times(asked.result()))
+                asked = None
+            if asked is None:
+                answer = self._asked[display] = Future[Trace]()
+                try:
+                    self._tracer.ask(display, answer)
+                except Error:  # too many; perhaps next time
+                    del self._asked[display]
+
+    def _measure(self, runners: Sequence[Runner], passed_s: float) -> None:
+        """The share of a processor that each display took since the last time."""
+        busy = dict(self._tracer.busy_s)
+        for runner in runners:
+            used = busy.get(runner.id, 0.0) - self._busy.get(runner.id, 0.0)
+            self._cores[runner.id] = max(0.0, used) / passed_s
+        self._busy = busy
+
+    def _latency(self, runner: Runner) -> Latency:
+        times = np.array(self._traces[runner.id], dtype=np.int64)
+        ages_s = (times[:, 1] - times[:, 0]) / 1e9
+        # A stamp of another clock, or none, says nothing about the way.
+        is_stamped = bool(np.all((times[:, 0] > 0) & (np.abs(ages_s) < STAMPED_S)))
+        times = times if is_stamped else times[:, 1:]
+        spans = np.diff(times, axis=1) / 1e9
+        p50, p99 = percentiles(spans)
+        begins = np.cumsum(p50) - p50
+        names = STEPS[-spans.shape[1] :]
+        stages = [Stage(*values) for values in zip(names, begins.tolist(), p50, p99, strict=True)]
+        (whole_p50,), (whole_p99,) = percentiles(np.sum(spans, axis=1, keepdims=True))
+        waited = next((stage.p50 for stage in stages if stage.name == "ready"), 0.0)
+        frames = [each.frame for each in runner.observed() if each.frame]
+        waits_for = ""
+        if waited >= LONG_S and frames:
+            found = slowest_link(self.core.buffer, self.core.frames.fixed_frame, frames[0])
+            waits_for = f"Waits {1000 * waited:.0f} ms for {found}." if found else ""
+        return Latency(
+            runner.id,
+            len(times),
+            tuple(stages),
+            whole_p50,
+            whole_p99,
+            waits_for,
+            self._cores.get(runner.id, 0.0),
+        )
+
+
+def percentiles(spans: NDArray[np.float64]) -> tuple[list[float], list[float]]:
+    """The medians and the 99th percentiles of columns, float64 (N, M): values that occurred."""
+    p50, p99 = np.percentile(spans, (50, 99), axis=0, method="inverted_cdf").tolist()
+    return p50, p99
+
+
+def _times(trace: Trace) -> Times:
+    return (
+        trace.published_ns,
+        trace.received_ns,
+        trace.ready_ns,
+        trace.decoded_ns,
+        trace.drawn_ns,
+        trace.sent_ns,
+    )
+
+
+def slowest_link(buffer: TransformBuffer, target: str, source: str) -> str:
+    """The link whose newest transform is oldest between two frames, in words; "" without any.
+
+    It decides on the newest time at which the source has a pose in the target.
+    """
+    tree = buffer.tree
+    above, below = (ancestors(tree, each.removeprefix("/")) for each in (target, source))
+    common = {*above} & {*below}
+    chain = [frame for frame in (*above, *below) if frame not in common]
+    moving = [
+        (cache.newest_stamp, child, cache)
+        for child in chain
+        if (cache := tree.caches.get(child)) and cache.newest and cache.newest_stamp
+    ]
+    if not moving:
+        return ""
+    newest, child, cache = min(moving, key=lambda each: each[0])
+    assert cache.newest is not None
+    spanned_s = (newest - cache.oldest_stamp) / 1e9
+    rate = f" at {(len(cache) - 1) / spanned_s:.0f} Hz" if spanned_s > 0 else ""
+    return f"{cache.newest[1]} to {child}{rate}"

@@ -1,0 +1,43 @@
+"""Latencies of displays: where the time from a stamp to the browsers goes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Stage:
+    """One step of samples on their way, in seconds.
+
+    Args:
+        name: such as "decoded", a time of `Trace`.
+        begin: median of the time from the stamp, or the arrival, to its begin.
+        p50, p99: median and 99th percentile of its duration.
+    """
+
+    name: str
+    begin: float
+    p50: float
+    p99: float
+
+
+@dataclass(frozen=True)
+class Latency:
+    """The last samples of a display.
+
+    Args:
+        display: its id.
+        samples: number of traced samples.
+        stages: in order; those of messages without a stamp begin with their arrival.
+        p50, p99: median and 99th percentile of the time from the stamp to sending, in seconds.
+        waits_for: the transform that samples wait for, a sentence; "" if they do not.
+        core: share of a processor that it takes to read and draw.
+    """
+
+    display: str
+    samples: int
+    stages: tuple[Stage, ...]
+    p50: float
+    p99: float
+    waits_for: str
+    core: float
