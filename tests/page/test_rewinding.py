@@ -9,9 +9,10 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.page.conftest import Loop, Tab
+from webviz.api.status import Level
 from webviz.engine.commands import ReturnToLive, Seek
 from webviz.engine.state import PanelTimes
-from webviz.sources.past_state import MemoryState, PlaybackState
+from webviz.sources.past_state import Event, MemoryState, PlaybackState
 
 SHORT = MemoryState(60.0, 0)
 BEGAN_S = 100
@@ -94,3 +95,17 @@ def test_the_memory_says_what_it_holds(loop: Loop, live: Tab) -> None:
         "Remembers the last 60 s of the displayed topics, up to 256 MB. Older messages are dropped "
         "already: raise memory.megabytes. Older latched messages are kept of /map.",
     )
+
+
+def test_the_last_error_is_reached_from_now(loop: Loop, live: Tab) -> None:
+    show(loop, None)
+    recording = loop.state.playback
+    assert recording is not None
+    at_ns = recording.start_ns + 92 * 10**9
+    loop.show(logged=(Event(at_ns, Level.ERROR, "amcl", "lost track"),))
+    live.page.keyboard.press("Control+k")
+    live.page.get_by_role("combobox", name="Command").fill("Previous warning")
+    live.wait_for(lambda: live.page.get_by_role("option", name="Previous warning").count() == 1)
+    live.page.keyboard.press("Enter")
+    live.wait_for(lambda: Seek(92.0) in loop.commands)
+    show(loop, None)

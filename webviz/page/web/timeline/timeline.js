@@ -147,6 +147,7 @@ export function timeline(places) {
     needs: "Seek",
     run: () => jump(-JUMP_S),
   };
+  const previous = eventCommand(false, among);
   /**
    * @template T
    * @param {T} one
@@ -189,7 +190,7 @@ export function timeline(places) {
       run: () => seek.to(recording.get("duration")),
     },
     eventCommand(true, among),
-    eventCommand(false, among),
+    previous,
     { name: "Add bookmark…", icon: "flag", key: "b", needs: "SaveBookmark", run: bookmarks.add },
   ].map(about);
   const ofBags = [{ name: "Copy link to this moment", icon: "copy", run: copyLink }].map(about);
@@ -197,7 +198,7 @@ export function timeline(places) {
   provide(() => {
     if (!values) return [];
     if (isBag()) return [...commands, ...ofBags, ofAll];
-    return isRewound(values) ? [...commands, ofAll] : [about(back), ofAll];
+    return isRewound(values) ? [...commands, ofAll] : [about(back), about(previous), ofAll];
   });
 
   return {
