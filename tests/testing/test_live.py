@@ -33,6 +33,7 @@ def send(viewer: LiveViewer, *ranges: float) -> None:
 
 def test_what_was_published_is_drawn_when_waiting_ends(webviz_viewer: Viewers) -> None:
     viewer = webviz_viewer(LaserScan())
+    assert viewer.viewer.turns > 0, "nothing tells when a turn is over"
     viewer.transform("map", "laser", (0.0, 0.0, 1.0))
     for count in range(1, 6):
         send(viewer, *[1.0 + count] * count)

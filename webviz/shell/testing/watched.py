@@ -31,13 +31,16 @@ class WatchedViewer(FrameLoop):
         self.turns = 0
         self._lock = scene.lock
 
-    def turn(self) -> None:
-        """One turn of the frame loop."""
+    def _advance(self) -> None:
         with self._lock:
-            super().turn()
+            super()._advance()
         with self.turned:
             self.turns += 1
             self.turned.notify_all()
+
+    def _keep_up(self, commanded: bool = False) -> None:
+        with self._lock:
+            super()._keep_up(commanded)
 
     def snapshot(self) -> State:
         """The state after the last turn."""
