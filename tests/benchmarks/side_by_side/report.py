@@ -1,0 +1,127 @@
+"""Writes figures into the READMEs.
+
+    python -m side_by_side.report FILE.json   # of `make bench ARGS="--json FILE.json"`
+
+The table in `tests/benchmarks/README.md` is made from the file, the one in `README.md` from that
+table, which a test holds.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).parents[3]
+BENCHMARKS, README = ROOT / "tests/benchmarks/README.md", ROOT / "README.md"
+BEGIN, END = "<!-- begin figures -->", "<!-- end figures -->"
+CHOSEN = {
+    "D": "a scan of 1080 beams at 40 Hz",
+    "TF": "200 frames at 50 Hz",
+    "E100k": "100 000 points at 10 Hz",
+    "F": "updates of a map of 4000 x 4000 at 5 Hz",
+}
+"""Scenes in `README.md`, in its words."""
+ALL = 0.98
+"""Share of publications that counts as all: some are on their way at the end."""
+SHOWN = ("webviz", "plain viser", "foxglove-sdk")
+CELL = re.compile(
+    r"(?P<cpu>\S+ %)(, (?P<ms>\S+) / \S+ ms)?(, (?P<shown>\S+) of (?P<all>\S+) shown)?"
+)
+
+
+def table(report: Mapping[str, Any], titles: Mapping[str, str]) -> str:
+    """The table of a report of `side_by_side`: a row for each scene, a column for each system.
+
+    Args:
+        report: as written with `--json`.
+        titles: of the systems by name.
+    """
+    rows = {(row["scene"], row["system"]): row for row in report["rows"]}
+    scenes = dict.fromkeys(scene for scene, _ in rows)
+    systems = [name for name in titles if any(name == system for _, system in rows)]
+    lines = [_line("scene", *(titles[name] for name in systems)), "| --- |" * (len(systems) + 1)]
+    lines[1] = lines[1].replace("||", "|")
+    for scene in scenes:
+        lines.append(_line(scene, *(_cell(rows.get((scene, name))) for name in systems)))
+    return "\n".join(lines)
+
+
+def summary(benchmarks: str) -> str:
+    """The table of `README.md`, from the text of `tests/benchmarks/README.md`."""
+    head, _, *lines = [_cells(line) for line in _between(benchmarks).strip().splitlines()]
+    rows = {line[0]: dict(zip(head, line, strict=True)) for line in lines}
+    chosen = [
+        _line(title, *(_in_words(rows[scene][system]) for system in SHOWN))
+        for scene, title in CHOSEN.items()
+    ]
+    titles = ("", "webviz", "plain viser viewer", "foxglove-sdk bridge, draws nothing")
+    return "\n".join([_line(*titles), "| --- | --- | --- | --- |", *chosen])
+
+
+def replaced(text: str, figures: str) -> str:
+    """A text with other figures between its marks."""
+    before, _, rest = text.partition(BEGIN)
+    return f"{before}{BEGIN}\n{figures}\n{END}{rest.partition(END)[2]}"
+
+
+def _between(text: str) -> str:
+    return text.partition(BEGIN)[2].partition(END)[0]
+
+
+def _cells(line: str) -> list[str]:
+    return [cell.strip() for cell in line.strip("|").split("|")]
+
+
+def _line(*cells: str) -> str:
+    return f"| {' | '.join(cells)} |".replace("|  |", "| |")
+
+
+def _cell(row: Mapping[str, Any] | None) -> str:
+    """Processor time, latencies and memory, and what was shown if it is not all."""
+    if row is None:
+        return ""
+    cpu, memory = (_short(_median(row, name)) for name in ("cpu_percent", "resident_mb"))
+    p50, p99 = (_short(_median(row, name)) for name in ("p50_ms", "p99_ms"))
+    published, shown = _median(row, "published_per_s"), _median(row, "shown_per_s")
+    parts = [f"{cpu} %", *([f"{p50} / {p99} ms"] if p50 else ())]
+    if published and shown is not None and shown < ALL * published:
+        parts.append(f"{_short(shown)} of {_short(published)} shown")
+    return ", ".join([*parts, f"{memory} MB"])
+
+
+def _in_words(cell: str) -> str:
+    found = CELL.match(cell)
+    assert found, cell
+    words = f"{found['cpu']}, {found['ms']} ms"
+    if found["shown"] is None:
+        return words
+    return f"{words}, {100 * (1 - float(found['shown']) / float(found['all'])):.0f} % dropped"
+
+
+def _median(row: Mapping[str, Any], name: str) -> float | None:
+    figure = row["figures"][name]
+    return figure and figure["median"]
+
+
+def _short(value: float | None) -> str:
+    return "" if value is None else f"{value:.2g}" if abs(value) < 100 else f"{value:.0f}"
+
+
+def main() -> None:
+    """Write both tables."""
+    from side_by_side.systems.registry import SYSTEMS
+
+    parser = argparse.ArgumentParser(prog="side_by_side.report", description=__doc__)
+    parser.add_argument("file", type=Path)
+    report = json.loads(parser.parse_args().file.read_text())
+    titles = {name: system.title for name, system in SYSTEMS.items()}
+    BENCHMARKS.write_text(replaced(BENCHMARKS.read_text(), table(report, titles)))
+    README.write_text(replaced(README.read_text(), summary(BENCHMARKS.read_text())))
+
+
+if __name__ == "__main__":
+    main()
