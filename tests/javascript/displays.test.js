@@ -154,6 +154,10 @@ test("what is at its place already is not moved", () => {
 
 const number = { path: "size", kind: "float", label: "Size", unit: "m", low: 0, default: 1 };
 
+test("nothing moves into a group that somebody has removed", () => {
+  assert.deepEqual(moves(MODEL, new Set("a"), { group: "gone", before: "" }), []);
+});
+
 test("properties are common if they are declared alike; other defaults and help do not matter", () => {
   assert.deepEqual(commonOf([[number], [{ ...number, help: "of points" }]]), [number]);
   const { default: standard, ...rest } = number;

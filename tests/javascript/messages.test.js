@@ -87,6 +87,12 @@ test("a message is copied as it is echoed, and what was left out is marked", () 
   assert.equal(textOf(more), "poses:\n- x: nan\n# 3 × geometry_msgs/Pose");
 });
 
+test("sequences within sequences are copied in a line each", () => {
+  const row = { items: ["1", "0"], length: 2, type: "" };
+  const matrix = { fields: { pose: { items: [row, row], length: 2, type: "" } } };
+  assert.equal(textOf(matrix), "pose:\n- [1, 0]\n- [1, 0]");
+});
+
 test("statistics have the digits that tell their values apart", () => {
   const range = { name: "x", unit: "m", low: 500_000.1234, high: 500_000.5678, mean: 500_000.3 };
   const [head, row] = statisticsRows([{ name: "Scan", count: 3, ranges: [range] }], new Map());

@@ -1,4 +1,4 @@
-// Types that modules share; those of the server are in messages.d.ts and stores.d.ts.
+// Types that modules share; those of the server are in messages.d.ts and contents.d.ts.
 
 import type { LiveTopic, Stores } from "./contents.js";
 import type { Tools } from "./messages.js";
