@@ -59,10 +59,9 @@ class End:
             found.setdefault(node.variables.get(name, "") or default, who)
         return found or {self.variables.get(name, "") or default: "the environment"}
 
-    @property
-    def mtu(self) -> int:
-        """The largest packet of its interfaces besides loopback in bytes, 0 without any."""
-        return max((each.mtu for each in self.interfaces if not each.is_loopback), default=0)
+    def interface(self, address: str) -> NetworkInterface | None:
+        """The interface that has an address, None if none has."""
+        return next((each for each in self.interfaces if address in each.addresses), None)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,14 +73,16 @@ class PacketLink:
         tried: addresses that packets were sent to.
         has_multicast: whether packets to the group of DDS arrived.
         packet: bytes of the largest packet that arrived and may not be fragmented; 0 if none did.
-        tried_packet: bytes of the largest that was sent.
+        interface: of the sender by which they left, "" if unknown.
+        mtu: bytes of the largest packet that the interfaces of both ends allow; 0 if unknown.
     """
 
     addresses: Sequence[str]
     tried: Sequence[str]
     has_multicast: bool
     packet: int
-    tried_packet: int
+    interface: str
+    mtu: int
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -31,20 +31,18 @@ class PathMtu(Check):
         if seen.ends is None:
             return
         for link, sender, receiver in seen.ends.links():
-            allowed = min(sender.mtu, link.tried_packet)
-            if not link.addresses or link.packet >= allowed:
+            if not link.addresses or link.packet >= link.mtu:
                 continue
-            used = [
-                each
-                for each in sender.interfaces
-                if not each.is_loopback and each.mtu > link.packet
-            ]
-            name = used[0].name if used else "eth0"
+            name = link.interface or "eth0"
             yield self.found(
                 f"Packets of more than {link.packet} bytes from {sender.host} do not arrive at "
-                f"{receiver.host}, though its interface allows {allowed}.",
+                f"{receiver.host}, though the interfaces allow {link.mtu}.",
                 f"Set the MTU of {sender.host} to {link.packet}.",
                 subject=f"{sender.host} to {receiver.host}",
-                evidence={"arrives": link.packet, "allowed": allowed, "address": link.addresses[0]},
+                evidence={
+                    "arrives": link.packet,
+                    "allowed": link.mtu,
+                    "address": link.addresses[0],
+                },
                 command=f"sudo ip link set {name} mtu {link.packet}",
             )

@@ -8,11 +8,12 @@ import json
 import secrets
 import shlex
 import subprocess
+import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeVar
 
 import msgspec
 
@@ -39,6 +40,10 @@ ARRIVAL_S = 1.0
 MAX_ADDRESSES = 8
 MAX_LINE = 4 << 20
 
+LONGEST_S = 60.0
+"""For the whole examination, after which a peer that does not answer is given up."""
+
+T = TypeVar("T")
 Progress = Callable[[str, float], object]
 
 
@@ -71,6 +76,13 @@ class _Looked(msgspec.Struct):
     nodes: list[_Node]
     interfaces: list[_Interface]
     receive_buffer: int
+
+
+class _Heard(msgspec.Struct):
+    """One item of `Agent.heard`."""
+
+    senders: list[str]
+    sizes: list[int]
 
 
 class PeerError(Error):
@@ -168,11 +180,15 @@ def connected(host: str, ssh: str) -> Iterator[_There]:
         )
     except OSError as error:
         raise PeerError(f"{command[0]} does not start: {error.strerror}.") from None
+    giving_up = threading.Timer(LONGEST_S, process.kill)
+    giving_up.daemon = True
     try:
         there = _There(process, host)
+        giving_up.start()
         there.start()
         yield there
     finally:
+        giving_up.cancel()
         # The program ends with its input; what does not is ended.
         for pipe in (process.stdin, process.stdout, process.stderr):
             with contextlib.suppress(OSError):
@@ -207,9 +223,9 @@ def compare(host: str, ssh: str, progress: Progress) -> TwoEnds:
         port = FIRST_PORT + PER_DOMAIN * number + LAST
         progress("sending packets", 0.5)
         try:
-            out = _link(here, there, theirs, port)
+            out = _link(here, there, ours, theirs, port)
             progress("receiving packets", 0.8)
-            back = _link(there, here, ours, port)
+            back = _link(there, here, theirs, ours, port)
         except OSError as error:
             raise PeerError(f"UDP port {port} cannot be used: {error.strerror}.") from None
         finally:
@@ -230,15 +246,15 @@ def _end(looked: Any, host: str) -> End:
     Raises:
         PeerError: that is something else.
     """
+    found = _read_as(_Looked, looked)
     try:
-        found = msgspec.convert(looked, _Looked)
         networks = [
             str(ipaddress.ip_network(f"{address}/{mask}", strict=False))
             for each in found.interfaces
             for address, mask in each.addresses
             if not each.is_loopback
         ]
-    except (msgspec.ValidationError, ValueError) as error:
+    except ValueError as error:
         raise PeerError(f"{host} sent an invalid answer: {error}.") from None
     return End(
         host=found.host,
@@ -261,6 +277,18 @@ def _end(looked: Any, host: str) -> End:
     )
 
 
+def _read_as(kind: type[T], value: Any) -> T:
+    """An answer of a kind.
+
+    Raises:
+        PeerError: it is something else.
+    """
+    try:
+        return msgspec.convert(value, kind)
+    except msgspec.ValidationError as error:
+        raise PeerError(f"The other machine sent an invalid answer: {error}.") from None
+
+
 def _printable(value: Any) -> Any:
     """A value of another machine without what a terminal would take for commands."""
     match value:
@@ -281,14 +309,14 @@ def _clocks(there: _Machine) -> tuple[float, float]:
     best = (float("inf"), 0.0)
     for _ in range(ROUND_TRIPS):
         asked, began = time.time(), time.perf_counter()
-        theirs = float(there.ask("time"))
+        theirs = _read_as(float, there.ask("time"))
         took = time.perf_counter() - began
         best = min(best, (took, theirs - (asked + took / 2)))
     return best[1], best[0] / 2
 
 
-def _link(sender: _Machine, receiver: _Machine, to: End, port: int) -> PacketLink:
-    """Packets from one machine to the other."""
+def _link(sender: _Machine, receiver: _Machine, origin: End, to: End, port: int) -> PacketLink:
+    """Packets from one machine to the other, whose ends are `origin` and `to`."""
     receiver.ask("listen", port, GROUP)
     addresses = [a for each in to.interfaces if not each.is_loopback for a in each.addresses]
     tried = addresses[:MAX_ADDRESSES]
@@ -297,29 +325,37 @@ def _link(sender: _Machine, receiver: _Machine, to: End, port: int) -> PacketLin
         sender.ask("send", token, address, port, [64])
     arrived = _arrived(receiver, tokens.values())
     reached = [address for address in tried if tokens[address] in arrived]
-    packet = tried_packet = 0
+    packet, via, mtu = 0, "", 0
     if reached:
+        # NAT may hide by which interface the sender sent.
+        sources = arrived[tokens[reached[0]]].senders
+        used = [each for source in sources if (each := origin.interface(source))]
+        receiving = to.interface(reached[0])
+        via = used[0].name if used else ""
+        mtu = min(each.mtu for each in (*used[:1], receiving)) if receiving else 0
         token = secrets.token_hex(8)
-        sizes = sorted({size for size in (*SIZES, to.mtu) if size <= to.mtu})
+        sizes = sorted({size for size in (*SIZES, mtu) if HEADERS + 64 <= size <= mtu})
         sender.ask("send", token, reached[0], port, [size - HEADERS for size in sizes])
-        sizes_arrived = _arrived(receiver, [token], sizes[-1] - HEADERS).get(token, {"sizes": [0]})
-        packet, tried_packet = max(sizes_arrived["sizes"]) + HEADERS, sizes[-1]
+        heard = _arrived(receiver, [token], mtu - HEADERS).get(token, _Heard([], [64]))
+        packet = max(heard.sizes) + HEADERS
     receiver.ask("close")
     return PacketLink(
         addresses=tuple(reached),
         tried=tuple(tried),
         has_multicast=tokens[GROUP] in arrived,
         packet=packet,
-        tried_packet=tried_packet,
+        interface=via,
+        mtu=mtu,
     )
 
 
-def _arrived(receiver: _Machine, tokens: Sequence[str] | Any, size: int = 0) -> dict[str, Any]:
+def _arrived(receiver: _Machine, tokens: Iterable[str], size: int = 0) -> dict[str, _Heard]:
     """Return the packets that arrived, as soon as all did, or after a while."""
+    tokens = list(tokens)
     deadline = time.monotonic() + ARRIVAL_S
     while True:
-        heard = receiver.ask("heard")
-        is_whole = all(token in heard and max(heard[token]["sizes"]) >= size for token in tokens)
+        heard = _read_as(dict[str, _Heard], receiver.ask("heard"))
+        is_whole = all(t in heard and max(heard[t].sizes, default=0) >= size for t in tokens)
         if is_whole or time.monotonic() > deadline:
             return heard
         time.sleep(0.05)

@@ -119,7 +119,7 @@ class Agent:
         """The senders and the sizes of the packets that arrived, by their token."""
         with self._lock:
             return {
-                token: {"from": sorted(each["from"]), "sizes": sorted(each["sizes"])}
+                token: {"senders": sorted(each["senders"]), "sizes": sorted(each["sizes"])}
                 for token, each in self._heard.items()
             }
 
@@ -141,8 +141,8 @@ class Agent:
             token = data.rstrip(b".").decode("ascii", "replace")[:64]
             with self._lock:
                 if token in self._heard or len(self._heard) < MAX_HEARD:
-                    known = self._heard.setdefault(token, {"from": set(), "sizes": set()})
-                    known["from"].add(address)
+                    known = self._heard.setdefault(token, {"senders": set(), "sizes": set()})
+                    known["senders"].add(address)
                     known["sizes"].add(len(data))
 
 
