@@ -256,6 +256,30 @@ def test_inputs_can_fold_into_one(bench: Callable[..., Any]) -> None:
     assert at(b) == [13.0]
 
 
+class Choosy(Total):
+    """The sum of the numbers that are positive; fails on negative ones."""
+
+    def fold(self, name: str, sample: Sample, state: Any) -> Any:
+        x = sample.message.pose.position.x
+        if x < 0.0:
+            raise ValueError("negative")
+        return super().fold(name, sample, state) if x else None
+
+
+def test_messages_that_fold_into_nothing_or_fail_leave_what_was(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Choosy(name="Choosy"), strict=False)
+    b.transform("map", "base", T, static=True)
+    for x in (1.0, 0.0, -1.0):
+        b.pose("/pose", "base", T, x)
+        b.turn()
+        assert at(b) == [1.0]
+    b.pose("/pose", "base", T, 2.0)
+    b.turn()
+    assert at(b) == [3.0]
+
+
 def test_what_follows_a_frame_is_hidden_without_a_transform_and_the_status_says_why(
     bench: Callable[..., Any],
 ) -> None:
