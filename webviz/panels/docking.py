@@ -12,6 +12,9 @@ from webviz.api.goal import GoalRequest, goal_request
 from webviz.api.panel import Panel, Send, Ui
 from webviz.api.status import Level, Status
 from webviz.engine.commands import CallService, SendGoal
+from webviz.panels.fields import finite, keep
+
+NO_NUMBER = "Enter the pose of the dock, or use an id."
 
 DOCK, UNDOCK = "dock_robot", "undock_robot"
 ASK_S = 5.0
@@ -68,15 +71,15 @@ class Docking(Panel):
         self.staging = ui.checkbox(
             "Drive to the staging pose",
             True,
-            _keep,
+            keep,
             "Before docking; else the robot is there.",
         )
         self.by_id = ui.checkbox(
-            "By id", True, _keep, "Dock at the dock with this id; otherwise at the pose."
+            "By id", True, keep, "Dock at the dock with this id; otherwise at the pose."
         )
-        self.id = ui.field("Dock id", "", _keep, "Of the docking server's database.")
+        self.id = ui.field("Dock id", "", keep, "Of the docking server's database.")
         self.pose = [
-            ui.field(label, "", _keep, "Of the dock, if it is not given by its id.")
+            ui.field(label, "", keep, "Of the dock, if it is not given by its id.")
             for label in ("x (m)", "y (m)", "yaw (rad)")
         ]
         self.choice = ui.choice("Dock type", DEFAULT, self._choose, "Plug-ins of docking_server.")
@@ -127,7 +130,7 @@ class Docking(Panel):
             if not label:
                 raise Error("No dock id. Enter one, or switch off By id.")
         else:
-            x, y, yaw = (_number(field.value) for field in self.pose)
+            x, y, yaw = (finite(field.value, NO_NUMBER) for field in self.pose)
             turn = {"z": math.sin(yaw / 2), "w": math.cos(yaw / 2)}
             pose = {"position": {"x": x, "y": y}, "orientation": turn}
             goal["dock_pose"] = {"header": {"frame_id": self.frame_id}, "pose": pose}
@@ -185,17 +188,3 @@ def fault(result: Any) -> str:
         return ""
     reason = result.error_msg or ERRORS.get(result.error_code, "no reason given")
     return f"Failed ({result.error_code}): {reason}"
-
-
-def _number(text: str) -> float:
-    try:
-        number = float(text)
-    except ValueError:
-        number = math.nan
-    if not math.isfinite(number):
-        raise Error(f"`{text[:20]}` is not a number. Enter the pose of the dock, or use an id.")
-    return number
-
-
-def _keep(value: Any, browser: int | None) -> None:
-    """The widget keeps its value."""

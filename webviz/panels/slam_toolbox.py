@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import math
 import time
 from collections.abc import Callable, Mapping
 from typing import Annotated, Any
@@ -13,6 +12,9 @@ from webviz.api.errors import Error
 from webviz.api.panel import Panel, Send, Ui
 from webviz.data.rotations import normalized, to_rpy
 from webviz.engine.commands import CallService
+from webviz.panels.fields import finite, keep
+
+NO_NUMBER = "Enter the pose, or use 2D Pose Estimate."
 
 ASK_S = 2.0
 """Interval between requests for the state."""
@@ -74,10 +76,10 @@ class SlamToolbox(Panel):
         hint = "Optimize the graph with the moved nodes."
         add("Save changes", "manual_loop_closure", "LoopClosure", hint, 0.5)
         of_map = "File of the occupancy grid, without extension, on the machine of slam_toolbox."
-        self.map = ui.field("Map", "", _keep, of_map)
+        self.map = ui.field("Map", "", keep, of_map)
         ui.button("Save map", self._save_map, "Write the map as an image and a YAML file.")
         self.graph = ui.field(
-            "Pose graph", "", _keep, "File without extension, on the machine of slam_toolbox."
+            "Pose graph", "", keep, "File without extension, on the machine of slam_toolbox."
         )
         ui.button("Serialize", self._serialize, "Write the pose graph to the file.", width=0.5)
         ui.button("Deserialize", self._load, "Go on with the pose graph of the file.", width=0.5)
@@ -85,10 +87,10 @@ class SlamToolbox(Panel):
         choice.offer(list(STARTS), self.start)
         self.choice = choice
         hint = "Of the robot in the map; 2D Pose Estimate fills it in."
-        self.pose = [ui.field(label, "", _keep, hint) for label in ("x (m)", "y (m)", "yaw (rad)")]
+        self.pose = [ui.field(label, "", keep, hint) for label in ("x (m)", "y (m)", "yaw (rad)")]
         hint = "Discard scans that wait to be added to the map."
         add("Clear queue", "clear_queue", "ClearQueue", hint, 1.0)
-        self.submap = ui.field("Submap", "", _keep, "File of a pose graph to merge.")
+        self.submap = ui.field("Submap", "", keep, "File of a pose graph to merge.")
         ui.button("Add submap", self._add_submap, "Load it, to be placed by hand.", width=0.5)
         add("Generate map", "merge_submaps", "MergeMaps", "Merge the submaps where they are.", 0.5)
         self.result = ui.area()
@@ -170,7 +172,7 @@ class SlamToolbox(Panel):
             "match_type": STARTS[self.start],
         }
         if self.start != FIRST:
-            x, y, yaw = (_number(field.value) for field in self.pose)
+            x, y, yaw = (finite(field.value, NO_NUMBER) for field in self.pose)
             request["initial_pose"] = {"x": x, "y": y, "theta": yaw}
         self._call("Pose graph", "deserialize_map", "DeserializePoseGraph", request, browser)
 
@@ -219,17 +221,3 @@ def _file(text: str, what: str) -> str:
     if not text.strip():
         raise Error(f"No file for {what}. Enter its name, without extension.")
     return text.strip()
-
-
-def _number(text: str) -> float:
-    try:
-        number = float(text)
-    except ValueError:
-        number = math.nan
-    if not math.isfinite(number):
-        raise Error(f"`{text[:20]}` is not a number. Enter the pose, or use 2D Pose Estimate.")
-    return number
-
-
-def _keep(value: Any, browser: int | None) -> None:
-    """The widget keeps its value."""

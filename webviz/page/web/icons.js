@@ -1,6 +1,6 @@
 // Icons by name: paths on a field of 24 x 24.
 
-import { svg } from "./dom.js";
+import { el, svg } from "./dom.js";
 
 /** @type {Record<string, string>} */
 const PATHS = {
@@ -78,3 +78,17 @@ const PATHS = {
 export function icon(name, size = 16) {
   return svg(PATHS[name] ?? (/^M[\s\d]/.test(name) ? name : "M9 9h6v6H9z"), size);
 }
+
+/**
+ * A button with an icon, whose label is its tooltip, too.
+ *
+ * @param {string} name
+ * @param {string} label
+ * @param {() => unknown} onclick
+ */
+export const iconButton = (name, label, onclick) =>
+  el(
+    "button",
+    { type: "button", class: "wv-icon", "aria-label": label, "data-tip": label, onclick },
+    icon(name),
+  );

@@ -4,7 +4,7 @@
 
 import { needs } from "../access.js";
 import { el, set, setChildren, setText } from "../dom.js";
-import { icon } from "../icons.js";
+import { icon, iconButton } from "../icons.js";
 import { download } from "../shell/download.js";
 import { timeOfDay } from "../shell/time_text.js";
 import { csv, curvesOf, extent, valueAt } from "./curves.js";
@@ -64,20 +64,9 @@ export function chart(_, send) {
     onkeydown: key,
   });
   const box = el("div", { class: "wv-chart-box", hidden: true });
-  /**
-   * @param {string} label
-   * @param {string} name
-   * @param {() => void} onclick
-   */
-  const button = (label, name, onclick) =>
-    el(
-      "button",
-      { type: "button", class: "wv-icon", "aria-label": label, "data-tip": label, onclick },
-      icon(name),
-    );
-  const pause = button("Pause", "pause", togglePause);
-  const back = button("Reset zoom (double click)", "reset", reset);
-  const save = button("Download as CSV", "download", () => download("plot.csv", csv(shown())));
+  const pause = iconButton("pause", "Pause", togglePause);
+  const back = iconButton("reset", "Reset zoom (double click)", reset);
+  const save = iconButton("download", "Download as CSV", () => download("plot.csv", csv(shown())));
   const when = el("span", { class: "wv-quiet wv-number" });
   const legend = el("ul", { class: "wv-chart-legend" });
   /** @type {Map<number, {element: HTMLElement, value: HTMLElement, problem: HTMLElement}>} */

@@ -1,6 +1,6 @@
 // Draws curves, grid and cursor of a chart on a canvas.
 
-import { contextOf } from "../dom.js";
+import { fitted } from "./canvas.js";
 import { timeOfDay } from "../shell/time_text.js";
 import { visit } from "./curves.js";
 import { numberText, share, ticks } from "./scale.js";
@@ -34,13 +34,7 @@ export const inside = (width, height) => ({
  * @param {{curves: Curve[], colors: (key: number) => string, times: Range, values: Range, cursor: number | null}} shown
  */
 export function draw(canvas, { curves, colors, times, values, cursor }) {
-  const ratio = devicePixelRatio || 1;
-  const { clientWidth: width, clientHeight: height } = canvas;
-  const [w, h] = [Math.round(width * ratio), Math.round(height * ratio)];
-  if (canvas.width !== w || canvas.height !== h) Object.assign(canvas, { width: w, height: h });
-  const context = contextOf(canvas);
-  context.setTransform(ratio, 0, 0, ratio, 0, 0);
-  context.clearRect(0, 0, width, height);
+  const { context, ratio, width, height } = fitted(canvas);
   const area = inside(width, height);
   /** @param {number} time */
   const x = (time) => area.left + share(time, times) * area.width;

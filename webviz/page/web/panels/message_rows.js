@@ -4,6 +4,7 @@ import { needs } from "../access.js";
 import { indent, keyOf, rowList, touchable } from "../controls/rows.js";
 import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
+import { foldByKey } from "./folds.js";
 import { rowsOf } from "./message_tree.js";
 import { plotField } from "./plot_field.js";
 
@@ -68,14 +69,10 @@ export function messageRows({ label, topic }) {
   /**
    * @param {KeyboardEvent} event
    * @param {MessageRow} row
+   * @returns {boolean}
    */
   function onKey({ key }, row) {
-    const isFold =
-      (key === "ArrowLeft" && row.isOpen) || (key === "ArrowRight" && row.isOpen === false);
-    if (isFold) toggle(row);
-    else if (key === "ArrowLeft" && row.depth)
-      list.mark(row.key.slice(0, row.key.lastIndexOf("/")));
-    return isFold || key === "ArrowLeft";
+    return foldByKey(key, row, toggle, list);
   }
 
   return { element: list.element, show, close: list.close };

@@ -10,6 +10,7 @@ import { watch } from "../stores.js";
 import { select } from "../tools/registry.js";
 import * as tool from "../tools/select.js";
 import * as selection from "../tools/selection.js";
+import { foldByKey } from "./folds.js";
 import { rowsOf, textOf } from "./message_tree.js";
 import { statisticsRows, statisticsText } from "./statistics.js";
 import { showFrame } from "./transforms.js";
@@ -145,14 +146,10 @@ export const selectionPanel = {
     /**
      * @param {KeyboardEvent} event
      * @param {SelectionRow} row
+     * @returns {boolean}
      */
     function onKey({ key }, row) {
-      const isFold =
-        (key === "ArrowLeft" && row.isOpen) || (key === "ArrowRight" && row.isOpen === false);
-      if (isFold) choose(row);
-      else if (key === "ArrowLeft" && row.depth)
-        list.mark(row.key.slice(0, row.key.lastIndexOf("/")));
-      return isFold || key === "ArrowLeft";
+      return foldByKey(key, row, choose, list);
     }
 
     function makeRow() {

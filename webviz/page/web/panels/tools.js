@@ -4,7 +4,7 @@ import { act } from "../act.js";
 import { copy } from "../clipboard.js";
 import { form } from "../controls/form.js";
 import { el, set, setChildren, setText } from "../dom.js";
-import { icon } from "../icons.js";
+import { iconButton } from "../icons.js";
 import { ask } from "../shell/dialog.js";
 import { toast } from "../shell/toasts.js";
 import { watch } from "../stores.js";
@@ -104,24 +104,6 @@ function sentRow() {
     },
   };
 }
-
-/**
- * @param {string} name
- * @param {string} label
- * @param {() => unknown} run
- */
-const iconButton = (name, label, run) =>
-  el(
-    "button",
-    {
-      type: "button",
-      class: "wv-icon",
-      "aria-label": label,
-      "data-tip": label,
-      onclick: run,
-    },
-    icon(name),
-  );
 
 /**
  * As with the gesture itself: where the tool asks, its preview comes first.

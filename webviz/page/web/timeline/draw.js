@@ -1,7 +1,7 @@
 // Draws the timeline on a canvas: when there are messages, the span that is played, and the head.
 
 import { share, ticks } from "../charts/scale.js";
-import { contextOf } from "../dom.js";
+import { fitted } from "../charts/canvas.js";
 import { duration } from "../shell/time_text.js";
 import { beforeText } from "./moment.js";
 
@@ -12,28 +12,6 @@ const TOP = 4;
 const BAR = 12;
 const PER_TICK = 90;
 const PEAK = 3; // half the width of what marks an event
-
-/**
- * A canvas that fits its place, with a context in pixels of the page: `{context, width, height, color}`.
- *
- * @param {HTMLCanvasElement} canvas
- */
-export function fitted(canvas) {
-  const ratio = devicePixelRatio || 1;
-  const { clientWidth: width, clientHeight: height } = canvas;
-  const [w, h] = [Math.round(width * ratio), Math.round(height * ratio)];
-  if (canvas.width !== w || canvas.height !== h) Object.assign(canvas, { width: w, height: h });
-  const context = contextOf(canvas);
-  context.setTransform(ratio, 0, 0, ratio, 0, 0);
-  context.clearRect(0, 0, width, height);
-  const style = getComputedStyle(canvas);
-  return {
-    context,
-    width,
-    height,
-    color: (/** @type {string} */ name) => style.getPropertyValue(`--wv-${name}`),
-  };
-}
 
 /**
  * Draws `{range, counted, counts, selected, bookmarks, events, past, position, hover}`: times in seconds, `selected`

@@ -4,7 +4,8 @@ import { rowList } from "../controls/rows.js";
 import { el, set, setText } from "../dom.js";
 import { share } from "../charts/scale.js";
 import { watch } from "../stores.js";
-import { bars, fitted, MARGIN } from "./draw.js";
+import { fitted } from "../charts/canvas.js";
+import { bars, MARGIN } from "./draw.js";
 
 /** @import {Range} from "../types.js" */
 /** @typedef {{key: string, counts: number[]}} Strip */

@@ -1,7 +1,7 @@
 // Collects poses of a tool that takes several, and sends them together.
 
 import { el, set, setChildren, setText } from "../dom.js";
-import { icon } from "../icons.js";
+import { icon, iconButton } from "../icons.js";
 import { watch } from "../stores.js";
 import { tell } from "./hint.js";
 import * as history from "./history.js";
@@ -121,24 +121,6 @@ const sendButton = (label) =>
     "button",
     { type: "button", class: "wv-button wv-primary", onclick: () => send(label) },
     label,
-  );
-
-/**
- * @param {string} name
- * @param {string} label
- * @param {() => void} run
- */
-const iconButton = (name, label, run) =>
-  el(
-    "button",
-    {
-      type: "button",
-      class: "wv-icon",
-      "aria-label": label,
-      "data-tip": label,
-      onclick: run,
-    },
-    icon(name),
   );
 
 function toggle() {

@@ -1,7 +1,7 @@
 // Below the tree: statuses and properties of the display that is selected, with a border to drag.
 
 import { el, set, setText } from "../../dom.js";
-import { icon } from "../../icons.js";
+import { iconButton } from "../../icons.js";
 import { plain } from "../../plain.js";
 import { recall, remember } from "../../remember.js";
 import { duplicate, focus } from "./actions.js";
@@ -28,22 +28,11 @@ export function buildDetails(panel) {
   let end = null;
   let isOpen = recall(OPEN_KEY, true);
   const title = el("h2", { class: "wv-details-title" });
-  /**
-   * @param {string} name
-   * @param {string} label
-   * @param {() => unknown} run
-   */
-  const button = (name, label, run) =>
-    el(
-      "button",
-      { type: "button", class: "wv-icon", "aria-label": label, "data-tip": label, onclick: run },
-      icon(name),
-    );
   const tools = [
-    button("focus", "Focus", () => focus(shown[0])),
-    button("copy", "Duplicate", () => duplicate(shown)),
+    iconButton("focus", "Focus", () => focus(shown[0])),
+    iconButton("copy", "Duplicate", () => duplicate(shown)),
   ];
-  const close = button("close", "Close properties", () => setOpen(false));
+  const close = iconButton("close", "Close properties", () => setOpen(false));
   const head = el("div", { class: "wv-details-head" }, title, ...tools, close);
   const body = el("div", { class: "wv-details-body" });
   /** @type {HTMLElement} */
