@@ -144,3 +144,16 @@ def test_mistakes_are_one_sentence(tmp_path: Path, capsys: pytest.CaptureFixture
     assert "Use .svg or .png." in capsys.readouterr().err
     assert main(["frames", "--at", "3"]) == 1
     assert "Add --bag." in capsys.readouterr().err
+
+
+def test_damage_of_a_bag_is_reported(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    bag = Bag()
+    for number in range(100):
+        bag.transform(number / 10, "odom", "base")
+    (file,) = bag.write(tmp_path / "run").glob("*.mcap")
+    whole = file.read_bytes()
+    file.write_bytes(whole[: len(whole) // 2])
+    main(["frames", "--bag", str(file)])
+    said = capsys.readouterr()
+    assert said.out.startswith("odom\n└─ base")
+    assert str(file) in said.err

@@ -84,7 +84,10 @@ def _read(options: FramesOptions, ros: Sequence[str]) -> "tuple[TreeRead, str]":
     with contextlib.closing(bag_source(options.bag, ros_args=ros)) as bag:
         at_ns = position_ns(options.at, bag, str(options.bag))
         title = f"Frames of {options.bag.name} at {seconds_from_start(at_ns, bag):.1f} s"
-        return read_bag(bag, at_ns, progress), title
+        tree = read_bag(bag, at_ns, progress)
+        for remark in bag.remarks:
+            print(f"webviz: {options.bag}: {remark}", file=sys.stderr)
+        return tree, title
 
 
 def _draw(tree: "TreeRead", title: str, output: Path) -> None:
