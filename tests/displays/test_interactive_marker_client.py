@@ -699,3 +699,11 @@ def test_feedback_has_the_newest_stamp_of_the_frame_of_a_marker(server: Server) 
         assert each["header"] == {"stamp": {"sec": 5, "nanosec": 2}, "frame_id": "cart"}
     assert (move["mouse_point_valid"], down["mouse_point_valid"]) == (False, True)
     assert down["mouse_point"] == {"x": 1.0, "y": 2.0, "z": 3.0}
+
+
+def test_feedback_in_the_fixed_frame_has_no_stamp(server: Server) -> None:
+    shown = Shown(server, header={"frame_id": "map"}, controls=[{"interaction_mode": MOVE_AXIS}])
+    shown.display.drag(Drag("m1", 0, "press"), server, shown.context())
+    for each in iter(shown.known.outgoing.next, None):
+        assert each["header"] == {"stamp": {"sec": 0, "nanosec": 0}, "frame_id": "map"}
+    assert shown.known.outgoing.next() is None

@@ -75,6 +75,7 @@ def test_controls_without_markers_get_handles_in_the_size_and_colour_of_ros() ->
     title = part(interaction_mode=MENU, description="Options")
     assert (title.control.facing, title.shapes.contents[0].text) == ("view_facing", "Options")
     np.testing.assert_allclose(title.shapes.positions[0], (-0.05, 0.0, 2.35))
+    np.testing.assert_allclose(title.shapes.scales[0], 0.5)
     np.testing.assert_allclose(title.shapes.colors[0], (1.0, 1.0, 1.0, 1.0))
     for mode in (0, 2, 7, 8, 9):
         assert len(part(interaction_mode=mode).shapes) == 0

@@ -15,6 +15,7 @@ from webviz.files.config import Settings
 from webviz.files.config.model import MemorySettings
 from webviz.sources import Offer, Publisher, Raw
 from webviz.sources.recording import RecentMessages, recent
+from webviz.sources.recording.channels import Channels
 from webviz_displays.path import Path as PathDisplay
 from webviz_displays.robot_model import RobotModel
 
@@ -203,3 +204,16 @@ def test_static_transforms_of_all_publishers_are_kept() -> None:
         ("base", 2.0),
         ("camera", 3.0),
     ]
+
+
+def test_a_topic_whose_publishers_disagree_on_the_type_has_no_channel() -> None:
+    types = "nav_msgs/msg/Path", STRING
+    one, two = (
+        Offer(tuple(Publisher("/a", type_, "reliable", "volatile") for type_ in types[:count]))
+        for count in (1, 2)
+    )
+    channels = Channels(lambda: {"/one": one, "/two": two})
+    found = channels.find("/one")
+    assert found is not None
+    assert found.type == "nav_msgs/msg/Path"
+    assert channels.find("/two") is None
