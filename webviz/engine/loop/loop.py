@@ -18,6 +18,7 @@ from webviz.engine.commands.requests import Requests
 from webviz.engine.doctor import Doctor
 from webviz.engine.driving import VelocityControllers
 from webviz.engine.loop.arrivals import Arrivals
+from webviz.engine.loop.pacing import Pace
 from webviz.engine.loop.showing import Showing
 from webviz.engine.parts import Core, Part, Parts
 from webviz.engine.parts.autosave import AutosavePart
@@ -247,24 +248,18 @@ class FrameLoop:
         self._wake()
 
     def run(self) -> None:
-        """Run until `stop`: a turn whenever something arrives, at most `frame_rate` per second.
-
-        A turn may come early once, and the next one late: after a rest, two may follow at once.
-        """
-        arrived = self._source.inbox.arrived
-        due = 0.0
+        """Run until `stop`: a turn whenever something arrives, at most `frame_rate` per second."""
+        arrived, pace = self._source.inbox.arrived, Pace()
         try:
             while not self._stop.is_set():
-                began, period = time.monotonic(), 1.0 / self.settings.frame_rate
-                due = max(due, began - period) + period
+                pace.begin(time.monotonic(), 1.0 / self.settings.frame_rate)
                 arrived.clear()
                 self._guard("Frame loop", self._advance)
                 late = time.monotonic() - self._next_panel
                 if late >= 0.0 and (late > PANEL_S or not arrived.wait(PAUSE_S)):
                     self._guard("Frame loop", self._keep_up)
                 arrived.wait(IDLE_S)
-                rest = due - time.monotonic()
-                if rest > 0:
+                if rest := pace.rest(time.monotonic()):
                     self._stop.wait(rest)
         finally:
             self.close()
