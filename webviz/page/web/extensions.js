@@ -14,6 +14,16 @@ import { tellLive } from "./tools/hint.js";
 import { makeLayer } from "./tools/layer.js";
 import { beforeRender, camera, canvas, requestRender } from "./viser_page.js";
 
+/** @import {MakeWidget} from "./panels/plugin_widgets.js" */
+
+/**
+ * Makes a widget of a plug-in, whose values are its own.
+ *
+ * @typedef {(values: unknown, send: (value: unknown) => void) => {
+ *   element: HTMLElement, update(values: unknown): void, close?(): void,
+ * }} MakeOwn
+ */
+
 const page = Object.freeze({
   act,
   beforeRender,
@@ -36,20 +46,20 @@ const page = Object.freeze({
   tellLive,
   toast,
   watch,
-  widget: (/** @type {string} */ kind, /** @type {Function} */ make) =>
+  widget: (/** @type {string} */ kind, /** @type {MakeOwn} */ make) =>
     widget(`own ${kind}`, ownWidget(make)),
 });
 
 /**
  * The values of a widget are one value of JSON in either direction.
  *
- * @param {Function} make
+ * @param {MakeOwn} make
+ * @returns {MakeWidget}
  */
-const ownWidget =
-  (make) => (/** @type {any} */ values, /** @type {(text: string) => void} */ send) => {
-    const made = make(values.values, (/** @type {unknown} */ value) => send(JSON.stringify(value)));
-    return { ...made, update: (/** @type {any} */ now) => made.update(now.values) };
-  };
+const ownWidget = (make) => (values, send) => {
+  const made = make(values.values, (value) => send(JSON.stringify(value)));
+  return { ...made, update: (now) => made.update(now.values) };
+};
 
 export function install() {
   watch("modules", (modules, changed) => {

@@ -27,14 +27,14 @@ let camera = null;
 let canvas = null;
 /** @type {Three} */
 let cross = null;
-/** @type {any} */
+/** @type {PlaceCamera | StartView | null} */
 let view = null;
 /** @type {Three} */
 let rig = null;
 let height = 0;
 /** @type {Three} */
 let focal = null;
-/** @type {any} */
+/** @type {Three} */
 let aimed = null;
 
 /** The type of the view, "" before there is one. */
@@ -94,8 +94,8 @@ const isFlat = () => view !== null && view.view === "TopDownOrtho";
 
 // Where the target frame is: its position, and its yaw for a view that turns with it.
 function follow() {
-  const node = view !== null && view.frame && viser.node(view.frame);
-  if (!node) return;
+  const node = view?.frame && viser.node(view.frame);
+  if (view === null || !node) return;
   const up = toThree();
   const m = up.clone().invert().multiply(node.matrixWorld).elements;
   const yaw = view.turns ? Math.atan2(m[1], m[0]) : 0;
@@ -181,6 +181,7 @@ function settle() {
 }
 
 function report() {
+  if (view === null) return;
   channel.send({
     type: "ViewReport",
     number: view.number,
@@ -198,10 +199,10 @@ function show(wanted) {
   height = canvas.clientHeight;
   const controls = viser.controls();
   const up = toThree();
-  const target = vector(view.look_at);
-  const offset = vector(view.position).sub(target);
+  const target = vector(/** @type {Vec3} */ (wanted.look_at));
+  const offset = vector(/** @type {Vec3} */ (wanted.position)).sub(target);
   const fov = isFlat() ? FLAT_FIELD_OF_VIEW : FIELD_OF_VIEW;
-  if (isFlat()) offset.setLength(height / view.scale / 2 / Math.tan(fov / 2));
+  if (isFlat()) offset.setLength(height / Number(wanted.scale) / 2 / Math.tan(fov / 2));
   const position = target.clone().add(offset).applyMatrix4(up);
   target.applyMatrix4(up);
   controls.minDistance = view.view === "FPS" ? EYE : 0.01;

@@ -10,6 +10,13 @@ import { isTile, things } from "./things.js";
 
 /** @import {Box, Picked, SceneThing, Three, Vec2, Vec3} from "../../types.js" */
 
+/**
+ * The hit of a thing; `off` is how far beside it, in pixels, `layer` that of a picture.
+ *
+ * @typedef {{number: number | null, off: number, depth: number, point?: Three, layer?: number}} Under
+ * @typedef {SceneThing & Under & {rank: number}} Found
+ */
+
 const NEAR_PX = 4; // what the pointer means although it is not quite on it
 const PLANE_PX = 1; // what is as close together in depth lies in one plane
 
@@ -29,7 +36,7 @@ const PLANE_PX = 1; // what is as close together in depth lies in one plane
 export function pickAt(xy, isWanted = () => true, reach = NEAR_PX) {
   const at = onCanvasAt(xy);
   const caster = casterAt(xy);
-  /** @type {any[]} the nearest of each kind */
+  /** @type {(Found | null)[]} the nearest of each kind */
   let [on, near, flat] = [null, null, null];
   for (const thing of things()) {
     const hit = isWanted(thing) ? hitOf(thing, at, caster, reach) : null;
@@ -69,7 +76,7 @@ export function pickIn({ left, top, right, bottom }, most, isWanted = () => true
 }
 
 /**
- * @param {any} thing
+ * @param {SceneThing} thing
  * @param {Vec2} at
  * @param {Three} caster
  * @param {number} reach
@@ -96,8 +103,8 @@ function hitOf({ object, name }, at, caster, reach) {
 
 // Of what lies in one plane, a point is meant rather than a line, and that rather than a surface.
 /**
- * @param {any} a
- * @param {any} b
+ * @param {Found} a
+ * @param {Found | null} b
  * @returns {boolean}
  */
 function isNearer(a, b) {
@@ -106,8 +113,8 @@ function isNearer(a, b) {
 }
 
 /**
- * @param {any} a
- * @param {any} b
+ * @param {Found} a
+ * @param {Found} b
  */
 const isLevel = (a, b) => Math.abs(a.depth - b.depth) < PLANE_PX * pixelAt(b.depth);
 
@@ -120,12 +127,12 @@ const rankOf = ({ isText, isPoints, isLineSegments2 }) =>
 
 // Pictures of one plane lie over each other by their layer.
 /**
- * @param {any} a
- * @param {any} b
+ * @param {Found} a
+ * @param {Found | null} b
  * @returns {boolean}
  */
 function isOver(a, b) {
-  if (b && isLevel(a, b)) return a.layer >= b.layer;
+  if (b && isLevel(a, b)) return (a.layer ?? 0) >= (b.layer ?? 0);
   return isNearer(a, b);
 }
 
