@@ -76,17 +76,18 @@ def pages() -> dict[str, str]:
 
 
 def groups(types: Mapping[str, type[Display]]) -> dict[str, list[str]]:
-    """The names of the displays by what they are for.
+    """The names of the displays by what they are for; those in no group come last.
 
     Raises:
-        ValueError: a display is in no group or in two.
+        ValueError: a group names a display that does not exist, or that another one has.
     """
     text = (PAGES / "groups.yaml").read_text(encoding="utf-8")
     found = msgspec.convert(YAML(typ="safe", pure=True).load(text), dict[str, list[str]])
     listed = [name for names in found.values() for name in names]
-    if wrong := {*types} ^ {*listed} or {name for name in listed if listed.count(name) > 1}:
-        raise ValueError(f"groups.yaml needs each display once: {', '.join(sorted(wrong))}")
-    return found
+    if wrong := {name for name in listed if listed.count(name) > 1 or name not in types}:
+        raise ValueError(f"groups.yaml is wrong about {', '.join(sorted(wrong))}.")
+    others = [name for name in types if name not in listed]
+    return found | ({"Others": others} if others else {})
 
 
 def built_in(base: type[P]) -> dict[str, type[P]]:
