@@ -115,7 +115,7 @@ def compared(
     report = msgspec.json.decode(in_network(tmp_path, f"{commands}\n{examine}"), type=DoctorReport)
     found: dict[str, list[ReportedFinding]] = {}
     for each in report.findings:
-        if each.id[-3:] >= "020":
+        if each.id[-3:] >= "020" or each.level == "time":
             found.setdefault(each.id, []).append(each)
     return found
 

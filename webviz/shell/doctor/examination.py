@@ -188,7 +188,7 @@ def examine_bag(
 def examine_machine(environment: Environment, ends: TwoEnds | None = None) -> DoctorReport:
     """Examine this machine alone, such as when ROS does not start, or with its peer."""
     seen = Observation(
-        now_ns=0,
+        now_ns=time.time_ns(),
         fixed_frame="",
         buffer=TransformBuffer(),
         displays=(),
