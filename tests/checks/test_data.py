@@ -17,6 +17,7 @@ from webviz import Finding, Symptom, Topic
 from webviz.api.finding import CauseLevel
 from webviz.shell.testing.harness import Harness
 from webviz.shell.testing.messages import header
+from webviz.shell.testing.source import SECOND
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Map
 from webviz_displays.odometry import Odometry
@@ -140,3 +141,38 @@ def test_displays_that_hide_what_they_show(webviz_harness: Make) -> None:
     assert isinstance(change, webviz.ChangeDisplay)
     stage.set(change.remedy.path, change.remedy.value, "Glass")
     assert [*examined(stage, CauseLevel.VIEW)] == ["VIEW002 None"]
+
+
+@pytest.mark.parametrize(
+    ("speed", "turn", "ids"),
+    [
+        (0.5, 0.4, []),
+        (-0.5, 0.4, ["DATA013 /odom"]),
+        (0.5, -0.4, ["DATA013 /odom"]),
+        (0.0, 0.0, []),
+    ],
+)
+def test_odometry_against_its_own_twist(
+    webviz_harness: Make, speed: float, turn: float, ids: list[str]
+) -> None:
+    stage = webviz_harness(Odometry(), fixed_frame="odom")
+    began = stage.source.now
+
+    def publish() -> None:
+        at_s = (stage.source.now - began) / SECOND
+        yaw = 0.4 * at_s
+        place = {
+            "position": {"x": math.sin(yaw) * 1.25, "y": (1.0 - math.cos(yaw)) * 1.25},
+            "orientation": {"z": math.sin(yaw / 2), "w": math.cos(yaw / 2)},
+        }
+        twist = {"linear": {"x": speed}, "angular": {"z": turn}}
+        values = {
+            "header": header("odom", stage.source.now),
+            "pose": {"pose": place, "covariance": [0.1] * 36},
+            "twist": {"twist": twist},
+        }
+        stage.publish("/odom", "nav_msgs/msg/Odometry", values)
+
+    for _ in range(3):
+        examining.examined(stage, CauseLevel.DATA, 0.5, publish)
+    assert [*examining.examined(stage, CauseLevel.DATA, 0.5, publish)] == ids

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import socket
 import subprocess
 import sys
 from collections.abc import Mapping
@@ -21,7 +22,7 @@ from webviz.shell.doctor.examination import examine_machine
 from webviz.shell.doctor.report import to_json
 print(to_json(examine_machine(look_around())))
 """
-OWN = ("ROS", "RMW", "FASTRTPS", "FASTDDS", "CYCLONEDDS", "AMENT")
+OWN = ("ROS", "RMW", "FASTRTPS", "FASTDDS", "CYCLONEDDS", "AMENT", "ZENOH")
 
 
 def in_namespaces(commands: str) -> Mapping[str, str]:
@@ -67,12 +68,6 @@ RANGE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
         ("ENV007", "warning", {"CYCLONEDDS_URI": "<CycloneDDS>"}, {"CYCLONEDDS_URI": "<A/>"}),
         ("ENV007", "warning", {"FASTRTPS_DEFAULT_PROFILES_FILE": "/missing.xml"}, {}),
         (
-            "ENV008",
-            "warning",
-            {"ROS_DISCOVERY_SERVER": "10.0.0.1:11811"},
-            {"ROS_DISCOVERY_SERVER": "10.0.0.1:11811", "ROS_SUPER_CLIENT": "TRUE"},
-        ),
-        (
             "ENV009",
             "warning",
             {"AMENT_PREFIX_PATH": "/opt/ros/humble:/opt/ros/jazzy"},
@@ -98,6 +93,33 @@ def test_variables(
     for name, value in cured.items():
         monkeypatch.setenv(name, value)
     assert {*examined()} <= well
+
+
+def test_discovery_servers(monkeypatch: pytest.MonkeyPatch, well: set[str]) -> None:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as server:
+        server.bind(("127.0.0.1", 0))
+        port = server.getsockname()[1]
+        monkeypatch.setenv("ROS_DISCOVERY_SERVER", f"127.0.0.1:{port}")
+        found = examined()
+        assert {*found} - well == {"ENV008"}
+        assert found["ENV008"] == "warning"
+        monkeypatch.setenv("ROS_SUPER_CLIENT", "TRUE")
+        assert {*examined()} <= well
+    assert examined().get("ENV012") == "error"
+    monkeypatch.setenv("ROS_DISCOVERY_SERVER", "127.0.0.1:robot")
+    assert examined().get("ENV012") == "error"
+
+
+def test_zenoh_routers(monkeypatch: pytest.MonkeyPatch, well: set[str]) -> None:
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "rmw_zenoh_cpp")
+    with socket.create_server(("127.0.0.1", 0)) as router:
+        port = router.getsockname()[1]
+        override = f'connect/endpoints=["tcp/127.0.0.1:{port}"];mode="client"'
+        monkeypatch.setenv("ZENOH_CONFIG_OVERRIDE", override)
+        assert "ENV011" not in examined()
+    assert examined().get("ENV011") == "error"
+    monkeypatch.delenv("RMW_IMPLEMENTATION")
+    assert "ENV011" not in examined()
 
 
 def test_ros_that_does_not_start_is_a_finding() -> None:

@@ -53,6 +53,8 @@ class Environment:
         multicast_returns: whether a multicast packet to this machine arrives; None if untried.
         shared_memory: None if there is none.
         receive_buffer: largest buffer of a socket in bytes (net.core.rmem_max); 0 if unknown.
+        zenoh_routers: problem of each router that this machine connects to, "" for none.
+        discovery_servers: problem of each server that ROS_DISCOVERY_SERVER names, "" for none.
         lost_datagrams: dropped since the last look because a receive buffer was full.
     """
 
@@ -66,3 +68,5 @@ class Environment:
     shared_memory: SharedMemory | None = None
     receive_buffer: int = 0
     lost_datagrams: int = 0
+    zenoh_routers: Mapping[str, str] = field(default_factory=dict)
+    discovery_servers: Mapping[str, str] = field(default_factory=dict)

@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from webviz.api.check import Check
 from webviz.api.finding import Finding, Severity
 from webviz.api.observation import Observation
+from webviz.checks.graph.inactive_node import lifecycle_nodes
+from webviz.checks.graph.silence import is_silent
 
 STREAMS = {
     *(
@@ -42,13 +44,13 @@ class SilentPublisher(Check):
     markers and others that are sent on an event it is a note.
 
     Why:
-        The node runs and waits for something itself: a sensor that is off, an input topic, or its
-        activation, if it is a lifecycle node.
+        The node runs and waits for something itself, such as a sensor that is off or an input
+        topic.
 
     Repair:
-        Look at the log of the node. Of a lifecycle node, print the state, which must be `active`:
+        Look at the log of the node, and at the topics that it subscribes to:
 
-            ros2 lifecycle get /slam_toolbox
+            ros2 node info /slam_toolbox
     """
 
     id = "GRAPH008"
@@ -56,16 +58,13 @@ class SilentPublisher(Check):
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each topic that is published, matches, and is silent."""
         for display, each, offer in seen.starved():
+            if not is_silent(seen, display, each, offer) or lifecycle_nodes(seen, offer.publishers):
+                continue
             publishers = [p for p in offer.publishers if p.type in each.types]
-            if each.received or offer.problem or not publishers or seen.is_recorded:
-                continue
-            is_refused = offer.requested is None or display.problem(each.status) is None
-            if is_refused or (display.statuses[each.status].remedy is not None):
-                continue
             node = publishers[0].label
             yield self.found(
                 f"{node} publishes {each.topic}, but has sent nothing yet.",
-                "Check what the node waits for: its sensor, its inputs, or its activation.",
+                "Check what the node waits for, such as its sensor or its inputs.",
                 subject=each.topic,
                 severity=Severity.WARNING if {*each.types} & STREAMS else Severity.NOTE,
                 evidence={"topic": each.topic, "nodes": tuple(p.label for p in publishers)},

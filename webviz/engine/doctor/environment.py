@@ -13,6 +13,7 @@ from xml.etree import ElementTree
 import psutil
 
 from webviz.api.environment import Environment, NetworkInterface, SharedMemory
+from webviz.engine.doctor.servers import discovery_servers, zenoh_routers
 
 PREFIXES = ("ROS", "RMW", "FASTRTPS", "FASTDDS", "CYCLONEDDS", "ZENOH", "AMENT", "PYTHONPATH")
 PROFILES = ("FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE", "CYCLONEDDS_URI")
@@ -48,6 +49,8 @@ def look_around(ros_error: str = "", lost_before: int = 0) -> Environment:
         multicast_returns=_multicast_returns() if interfaces else None,
         shared_memory=_shared_memory(),
         receive_buffer=_receive_buffer(),
+        zenoh_routers=zenoh_routers(variables),
+        discovery_servers=discovery_servers(variables),
         lost_datagrams=max(0, lost_datagrams() - lost_before),
     )
 

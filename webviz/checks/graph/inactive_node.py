@@ -1,0 +1,61 @@
+"""Lifecycle nodes that send nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from webviz.api.check import Check
+from webviz.api.finding import Finding
+from webviz.api.observation import NO_OFFER, Observation
+from webviz.api.offer import Publisher
+from webviz.checks.graph.silence import is_silent
+
+EVENT = "lifecycle_msgs/msg/TransitionEvent"
+
+
+class InactiveNode(Check):
+    """Lifecycle node that sends nothing.
+
+    A topic is published by a lifecycle node, and no message has arrived.
+
+    Why:
+        A lifecycle node publishes only while it is `active`. Something has to configure and
+        activate it, such as a launch file or the lifecycle manager of Nav2, which stops at the
+        first node that fails.
+
+    Repair:
+        Print the state of the node, and activate it if it is inactive:
+
+            ros2 lifecycle get /slam_toolbox
+            ros2 lifecycle set /slam_toolbox activate
+    """
+
+    id = "GRAPH012"
+
+    def find(self, seen: Observation) -> Iterator[Finding]:
+        """Yield a finding for each silent topic of lifecycle nodes."""
+        for display, each, offer in seen.starved():
+            nodes = lifecycle_nodes(seen, offer.publishers)
+            if nodes and is_silent(seen, display, each, offer):
+                yield self.found(
+                    f"{nodes[0]} is a lifecycle node and has sent nothing on {each.topic}: it is "
+                    "probably not active.",
+                    "Configure and activate the node.",
+                    subject=each.topic,
+                    evidence={"topic": each.topic, "nodes": tuple(nodes)},
+                    command=f"ros2 lifecycle get {nodes[0]}",
+                    explains=display.symptom(each.status),
+                )
+
+
+def lifecycle_nodes(seen: Observation, publishers: Sequence[Publisher]) -> Sequence[str]:
+    """The lifecycle nodes among the nodes of publishers: they have a topic of transitions."""
+    return [
+        publisher.node
+        for publisher in publishers
+        if publisher.node
+        and any(
+            other.type == EVENT
+            for other in seen.offers.get(f"{publisher.node}/transition_event", NO_OFFER).publishers
+        )
+    ]

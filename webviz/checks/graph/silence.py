@@ -1,0 +1,15 @@
+"""Topics that have a matching publisher and no message."""
+
+from __future__ import annotations
+
+from webviz.api.observation import DisplaySeen, InputSeen, Observation
+from webviz.api.offer import Offer
+
+
+def is_silent(seen: Observation, display: DisplaySeen, each: InputSeen, offer: Offer) -> bool:
+    """Return whether a topic is published and matches, but has sent nothing yet."""
+    publishers = [p for p in offer.publishers if p.type in each.types]
+    if each.received or offer.problem or not publishers or seen.is_recorded:
+        return False
+    status = display.problem(each.status)
+    return offer.requested is not None and status is not None and status.remedy is None
