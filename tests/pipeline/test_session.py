@@ -542,6 +542,9 @@ def test_names_of_displays_and_of_files_from_elsewhere_are_made_readable(
     loaded = b.viewer.enqueue(Load("version: 1\n", f"a\n{BIDI}b.yaml"))
     b.until_done(loaded)
     assert loaded.result() == "Opened a  b.yaml (not yet saved on this machine)."
+    long = b.viewer.enqueue(Load("version: 1\n", f"{'n' * 40_000}.yaml"))
+    b.until_done(long)
+    assert long.result() == f"Opened {'n' * 195}.yaml (not yet saved on this machine)."
 
 
 @pytest.mark.parametrize(

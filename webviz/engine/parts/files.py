@@ -15,7 +15,7 @@ from webviz.api.panel import Panel
 from webviz.api.status import Status
 from webviz.api.tool import Tool
 from webviz.data.disk import in_thread
-from webviz.data.names import MAX_FILE_BYTES, file_problem_of, readable
+from webviz.data.names import MAX_FILE_BYTES, MAX_NAME, file_problem_of, readable
 from webviz.data.words import counted, joined
 from webviz.engine.commands import (
     Command,
@@ -202,7 +202,7 @@ class FilesPart(Part):
         return f"Restored {counted(len(command.config.displays), 'display')} of the last session."
 
     def _load(self, command: Load, sender: Sender) -> Job[Config]:
-        text, name = command.text, readable(command.name)
+        text, name = command.text, readable(command.name[-MAX_NAME:])  # with its ending
         refuse_too_large(len(text), name)
 
         def then(config: Config) -> str:
