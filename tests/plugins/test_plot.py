@@ -90,7 +90,7 @@ def test_times_may_be_those_of_the_headers() -> None:
     ("curve", "message", "reason"),
     [
         ("/nobody.data", None, "No publisher on /nobody."),
-        ("joints.position[0]", None, "`joints.position[0]` has no topic: begin with /."),
+        ("joints.position[0]", None, "`joints.position[0]` has no topic. Begin with /."),
         ("/joints", None, "`` is not the path of a field"),
         ("/joints.position[0]", None, "No message yet."),
         ("/joints.position[7]", JointState(), "No element 7 for `position[7]`; there are 0."),

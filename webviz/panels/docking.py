@@ -58,7 +58,7 @@ class Docking(Panel):
     rviz = "nav2_rviz_plugins/Docking"
     on_request = True
 
-    namespace: Annotated[str, Prop(help="Of Nav2's nodes; empty for none.")] = ""
+    namespace: Annotated[str, Prop(help="Namespace of Nav2's nodes; empty for none.")] = ""
     frame_id: Annotated[str, Prop(widget="frame", help="Frame of the dock's pose.")] = "map"
 
     def build(self, ui: Ui, send: Send) -> None:
@@ -72,14 +72,16 @@ class Docking(Panel):
             "Drive to the staging pose",
             True,
             keep,
-            "Before docking; else the robot is there.",
+            "Drive there before docking; otherwise the robot must be there already.",
         )
         self.by_id = ui.checkbox(
             "By id", True, keep, "Dock at the dock with this id; otherwise at the pose."
         )
-        self.id = ui.field("Dock id", "", keep, "Of the docking server's database.")
+        self.id = ui.field(
+            "Dock id", "", keep, "Id of the dock in the database of the docking server."
+        )
         self.pose = [
-            ui.field(label, "", keep, "Of the dock, if it is not given by its id.")
+            ui.field(label, "", keep, "Used without an id of the dock.")
             for label in ("x (m)", "y (m)", "yaw (rad)")
         ]
         self.choice = ui.choice("Dock type", DEFAULT, self._choose, "Plug-ins of docking_server.")

@@ -55,8 +55,13 @@ class Joints(Panel):
             self._switch,
             "Publish the positions while this tab is open; moving a slider does so, too.",
         )
-        ui.button("Center", self._center, "All joints to 0, or to their middle.", width=0.5)
-        ui.button("Randomize", self._randomize, "All joints anywhere.", width=0.5)
+        ui.button(
+            "Center",
+            self._center,
+            "Set all joints to 0, or to the middle of their range.",
+            width=0.5,
+        )
+        ui.button("Randomize", self._randomize, "Set all joints to random positions.", width=0.5)
         self.sliders = ui.sliders(self._move)
         self.result = ui.area()
 
@@ -126,7 +131,9 @@ class Joints(Panel):
         leaders = len(self._leaders())
         following = len(joints) - leaders
         more = f", {following} more follow them" if following else ""
-        text = f"{counted(leaders, 'joint')}{more}." if joints else "No joint of the robot moves."
+        text = (
+            f"{counted(leaders, 'joint')}{more}." if joints else "The robot has no movable joints."
+        )
         self.about.text(text)
 
     def _leaders(self) -> list[str]:

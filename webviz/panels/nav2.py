@@ -53,7 +53,7 @@ class Nav2(Panel):
     rviz = "nav2_rviz_plugins/Navigation 2"
     on_request = True
 
-    namespace: Annotated[str, Prop(help="Of Nav2's nodes; empty for none.")] = ""
+    namespace: Annotated[str, Prop(help="Namespace of Nav2's nodes; empty for none.")] = ""
     navigation_manager: Annotated[str, Prop(help="Lifecycle manager of the navigation.")] = (
         "lifecycle_manager_navigation"
     )
@@ -71,7 +71,7 @@ class Nav2(Panel):
         self.managers = ui.area()
         for label, command, hint in BUTTONS:
             ui.button(label, functools.partial(self._manage, command), hint, width=1 / 3)
-        ui.button("Cancel all goals", self._cancel, "Of all clients.", width=1 / 3)
+        ui.button("Cancel all goals", self._cancel, "Cancel the goals of all clients.", width=1 / 3)
         self.answer = ui.area()
         self.progress = ui.area()
 

@@ -50,7 +50,7 @@ class Selector(Panel):
     rviz = "nav2_rviz_plugins/Selector"
     on_request = True
 
-    namespace: Annotated[str, Prop(help="Of Nav2's nodes; empty for none.")] = ""
+    namespace: Annotated[str, Prop(help="Namespace of Nav2's nodes; empty for none.")] = ""
 
     def build(self, ui: Ui, send: Send) -> None:
         """One list for each kind of plug-in."""

@@ -61,7 +61,7 @@ class SlamToolbox(Panel):
         self.pause = ui.button(
             "Pause new scans",
             lambda browser: call("Scans", "pause_new_measurements", "Pause", {}, browser),
-            "Pause the use of new scans, or go on with it.",
+            "Pause or resume the use of new scans.",
             width=0.5,
         )
         self.interact = ui.button(
@@ -69,7 +69,7 @@ class SlamToolbox(Panel):
             lambda browser: call(
                 "Editing", "toggle_interactive_mode", "ToggleInteractive", {}, browser
             ),
-            "Let nodes of the graph be moved by their interactive markers, or stop it.",
+            "Allow moving nodes of the graph by their interactive markers, or stop it.",
             width=0.5,
         )
         add("Clear changes", "clear_changes", "Clear", "Put moved nodes back.", 0.5)
@@ -82,7 +82,7 @@ class SlamToolbox(Panel):
             "Pose graph", "", keep, "File without extension, on the machine of slam_toolbox."
         )
         ui.button("Serialize", self._serialize, "Write the pose graph to the file.", width=0.5)
-        ui.button("Deserialize", self._load, "Go on with the pose graph of the file.", width=0.5)
+        ui.button("Deserialize", self._load, "Continue with the pose graph of the file.", width=0.5)
         choice = ui.choice("Start", self.start, self._choose, "Where the robot is in that graph.")
         choice.offer(list(STARTS), self.start)
         self.choice = choice

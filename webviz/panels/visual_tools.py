@@ -14,8 +14,8 @@ from webviz.engine.commands import Publish
 BUTTONS = (
     ("Next", 1, "Let the program that waits take its next step."),
     ("Continue", 2, "Take all further steps without waiting."),
-    ("Break", 3, "Pressed as in RViz; rviz_visual_tools does nothing of itself then."),
-    ("Stop", 4, "Pressed as in RViz; rviz_visual_tools does nothing of itself then."),
+    ("Break", 3, "Sent as in RViz; rviz_visual_tools itself ignores it."),
+    ("Stop", 4, "Sent as in RViz; rviz_visual_tools itself ignores it."),
 )
 """Name, index among the buttons of the message, and what it does."""
 COUNT = 9

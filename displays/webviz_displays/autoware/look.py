@@ -25,16 +25,16 @@ class LaneView(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
         Prop(ge=0, le=LONGEST, unit="m", when=("constant_width", True), help="Width of the lane."),
     ] = 2.0
     alpha: Annotated[Alpha, Prop(when=SHOWN, help="Opacity of the lane.")] = 1.0
-    min_velocity_color: Annotated[Color, Prop(when=SHOWN, help="Colour of standing.")] = (
+    min_velocity_color: Annotated[Color, Prop(when=SHOWN, help="Colour at standstill.")] = (
         63,
         46,
         227,
     )
     mid_velocity_color: Annotated[
-        Color, Prop(when=SHOWN, help="Colour of half of Color Border Vel Max.")
+        Color, Prop(when=SHOWN, help="Colour at half of Color Border Vel Max.")
     ] = (32, 138, 174)
     max_velocity_color: Annotated[
-        Color, Prop(when=SHOWN, help="Colour of Color Border Vel Max and beyond.")
+        Color, Prop(when=SHOWN, help="Colour at Color Border Vel Max and above.")
     ] = (0, 230, 120)
     fade_out_distance: Annotated[
         float, Prop(ge=0, unit="m", when=SHOWN, help="Fade out this much of the end.")

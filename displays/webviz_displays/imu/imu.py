@@ -151,7 +151,7 @@ class Imu(Display):
             ctx.warn(
                 "Orientation",
                 "The sensor measures no orientation: the first covariance is -1. Everything is "
-                "drawn unturned. Run a filter such as imu_filter_madgwick.",
+                "drawn without rotation. Run a filter such as imu_filter_madgwick.",
             )
             xyzw[:] = 0.0, 0.0, 0.0, 1.0
         else:

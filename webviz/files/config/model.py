@@ -33,7 +33,9 @@ class MemorySettings(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """The raw messages of live topics that are kept in memory, whichever bound is met first."""
 
     seconds: Annotated[float, Prop(ge=0, le=3600, unit="s", help="0 keeps nothing.")] = 60.0
-    megabytes: Annotated[float, Prop(ge=0, le=65536, unit="MB", help="Of all messages.")] = 256.0
+    megabytes: Annotated[
+        float, Prop(ge=0, le=65536, unit="MB", help="Total size of the messages.")
+    ] = 256.0
 
 
 class Settings(msgspec.Struct, forbid_unknown_fields=True):

@@ -113,5 +113,5 @@ class WatchLimits(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     per_day: Annotated[int, Prop(ge=0, le=1000, help="Recordings per day.")] = 20
     gigabytes: Annotated[
-        float, Prop(ge=0, le=100_000, unit="GB", help="Of all recordings in the folder.")
+        float, Prop(ge=0, le=100_000, unit="GB", help="Total size of the recordings in the folder.")
     ] = 5.0

@@ -55,8 +55,12 @@ class Plot(Panel):
         """The chart, and two lists that add a curve."""
         self.send = send
         self.chart = ui.chart(self._remove)
-        self.topics = ui.choice("Topic", NOTHING, self._choose, "To add a curve of.")
-        self.fields = ui.choice("Add field", NOTHING, self._add, "Numbers of the newest message.")
+        self.topics = ui.choice(
+            "Topic", NOTHING, self._choose, "Topic with the values of a new curve."
+        )
+        self.fields = ui.choice(
+            "Add field", NOTHING, self._add, "Numeric fields of the newest message."
+        )
         self.note = ui.area()
 
     def subscriptions(self) -> Mapping[str, str]:

@@ -37,7 +37,7 @@ class Series:
         except PathError as error:
             self._invalid = str(error)
         if not self.topic.startswith("/"):
-            self._invalid = f"`{text[:80]}` has no topic: begin with /."
+            self._invalid = f"`{text[:80]}` has no topic. Begin with /."
         if before is not None and before.how[1] == how[1]:
             for point in before.history.points():
                 self.history.add(*point)
