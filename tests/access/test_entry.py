@@ -46,7 +46,7 @@ def test_without_a_cookie_there_is_nothing_but_a_sentence(
         response = house.ask(path, method, Cookie=cookie)
         assert response.status == 403
         assert b"viser" not in house.body
-        assert (b"asks for a link" in house.body) == (method == "GET")
+        assert (b"requires a link" in house.body) == (method == "GET")
 
 
 @pytest.mark.parametrize("role", list(Role))
@@ -255,7 +255,9 @@ def test_an_owner_ends_a_visit(house: House) -> None:
     assert "has ended your visit" in watcher.receive("Dismissed")["text"]
     with pytest.raises(websockets.exceptions.ConnectionClosed):
         watcher.receive("You")
-    assert owner.do("Dismiss", visitor=browsers[1], revokes=True) == "They are gone already."
+    assert (
+        owner.do("Dismiss", visitor=browsers[1], revokes=True) == "This visitor has already left."
+    )
     # The link is still valid.
     house.enter(Role.WATCHER).receive("You")
 

@@ -103,7 +103,7 @@ def test_statuses_lead_to_the_finding_that_explains_them_and_back(panel: Tab) ->
     lines.first.get_by_role("button").click()
     led = page.locator(".wv-finding").nth(1)
     expect(led).to_be_focused()
-    expect(page.locator(".wv-finding").first).to_contain_text("Repair this first:NET005")
+    expect(page.locator(".wv-finding").first).to_contain_text("Fix this first:NET005")
     led.get_by_role("button", name="Scan: Transform").click()
     expect(scan).to_have_attribute("aria-selected", "true")
     show(panel)

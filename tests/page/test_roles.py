@@ -244,7 +244,7 @@ def test_the_owner_ends_visits_and_revokes_links(house: House) -> None:
     owner.wait_for(lambda: row.count() == 1)
     end("Revoke link", "Revoke")
     expect(toasts(owner)).to_contain_text("Revoked the link of the watcher.")
-    expect(watcher.page.locator("body")).to_contain_text("This viewer asks for a link.")
+    expect(watcher.page.locator("body")).to_contain_text("This viewer requires a link.")
     names = {token.name for token in token_file.read(house.path)}
     assert "the watcher" not in names
     assert "the owner" in names

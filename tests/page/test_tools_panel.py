@@ -114,5 +114,5 @@ def test_a_flood_of_gestures_is_refused_and_hidden_commands_are_unknown(tab: Tab
         "async () => { const { act } = await import('/webviz/act.js');"
         "act('ReloadPlugin', { path: 'a.py' }); }"
     )
-    tab.wait_for(lambda: "this page does not fit the viewer" in tab.text())
+    tab.wait_for(lambda: "this page is out of date" in tab.text())
     assert len(tab.loop.commands) < 200

@@ -102,7 +102,7 @@ def test_topics_are_found_by_name_and_type(loop: Loop, panel: Tab) -> None:
     search.fill("OCCUPANCY")
     panel.wait_for(lambda: names(panel) == ["/map"])
     search.fill("nothing like it")
-    panel.wait_for(lambda: "No topic with these words." in panel.text())
+    panel.wait_for(lambda: "No matching topics." in panel.text())
     search.fill("")
     loop.show(offers={})
     panel.wait_for(lambda: "No topic is published." in panel.text())
@@ -186,8 +186,8 @@ def test_a_message_that_changes_changes_only_its_values(loop: Loop, panel: Tab) 
 def test_why_there_is_no_message_is_said(loop: Loop, panel: Tab) -> None:
     show(loop, text=(SCAN,))
     choose(panel, "/text")
-    loop.show(inspected={"/text": Inspected(problem=f"No message has come yet. {HOSTILE}")})
-    panel.wait_for(lambda: f"No message has come yet. {HOSTILE}" in panel.text())
+    loop.show(inspected={"/text": Inspected(problem=f"No message has arrived yet. {HOSTILE}")})
+    panel.wait_for(lambda: f"No message has arrived yet. {HOSTILE}" in panel.text())
 
 
 def test_two_browsers_look_into_different_topics(

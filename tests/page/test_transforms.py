@@ -96,7 +96,7 @@ def test_frames_are_found_with_the_way_to_them(loop: Loop, panel: Tab) -> None:
     panel.page.get_by_role("searchbox").fill("BASE")
     panel.wait_for(lambda: [row.split()[0] for row in rows(panel)] == ["map", "odom", "base"])
     panel.page.get_by_role("searchbox").fill("nothing")
-    panel.wait_for(lambda: "No frame with these words." in panel.text())
+    panel.wait_for(lambda: "No matching frames." in panel.text())
 
 
 def test_a_frame_is_folded_by_its_mark_and_by_keys(loop: Loop, panel: Tab) -> None:
@@ -176,7 +176,7 @@ def test_the_tree_is_a_picture_in_which_frames_are_found(loop: Loop, picture: Ta
     box = canvas.bounding_box()
     assert box is not None
     canvas.click(position={"x": box["width"] / 2, "y": 2})
-    picture.wait_for(lambda: "Click a frame for its facts." in dialog.inner_text())
+    picture.wait_for(lambda: "Click a frame for details." in dialog.inner_text())
     canvas.click(position={"x": box["width"] / 2, "y": box["height"] / 2})
     picture.wait_for(
         lambda: "odom: in map, 20.0 Hz, 120 ms old, from /slam." in dialog.inner_text()

@@ -70,7 +70,7 @@ def test_a_robot_misplaced_by_a_static_transform(webviz_harness: Stages) -> None
     )
     told = seen.statuses("LaserScan")["Map"]
     assert told.level is Level.WARN
-    assert "shifted by (-2.0, 2.0) m" in told.text
+    assert "a shift by (-2.0, 2.0) m" in told.text
     seen.transform("map", "odom", (START.x, START.y, 0.0))
     look_around(seen)
     seen.check_picture("stories/in_place")
@@ -86,7 +86,7 @@ def test_a_laser_turned_on_the_robot(webviz_harness: Stages) -> None:
     assert "yaw (0.0, 0.0, 15.0) degrees" in text
     told = seen.statuses("LaserScan")["Map"]
     assert told.level is Level.WARN
-    assert "turned by -15° about 'base_scan'" in told.text
+    assert "rotating 'base_scan' by -15°" in told.text
     # None is missing: one is wrong.
     assert seen.statuses("LaserScan")["Transform"] == Status(Level.OK, "Transform OK")
 

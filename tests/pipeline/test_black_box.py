@@ -204,4 +204,4 @@ def test_a_rule_about_a_display_that_is_not_there_says_so(make: Callable[..., Be
     bench = make(WatchRule(display="Plam", status="error"))
     bench.do(Refresh())
     text = bench.do(Refresh()).statuses["Black box"].text
-    assert text.startswith("A rule watches the display `Plam`, which is not there.")
+    assert text.startswith("A rule watches the display `Plam`, which does not exist.")

@@ -131,7 +131,7 @@ def test_a_topic_that_no_display_shows_can_be_looked_into(bench: Callable[..., A
     assert do(b, InspectTopic("/text")).inspected["/text"].problem == "No publisher on this topic."
     publisher = Publisher("/talker", STRING, "reliable", "volatile")
     b.source.known["/text"] = Offer((publisher,))
-    assert do(b).inspected["/text"].problem == "No message has come yet."
+    assert do(b).inspected["/text"].problem == "No message has arrived yet."
     assert b.source.wanted["/text"].type == STRING
     b.publish("/text", STRING, {"data": "hello"})
     inspected = do(b).inspected["/text"]

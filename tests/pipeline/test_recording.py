@@ -150,9 +150,9 @@ def test_settings_bound_the_memory(bench: Bench) -> None:
 @pytest.mark.parametrize(
     ("command", "reason"),
     [
-        (SaveMemory(), "Nothing is remembered."),
-        (SaveMemory(-1.0), "The last -1 s are nothing."),
-        (SaveMemory(float("nan")), "The last nan s are nothing."),
+        (SaveMemory(), "No messages are kept in memory."),
+        (SaveMemory(-1.0), "-1 s is not a valid time span."),
+        (SaveMemory(float("nan")), "nan s is not a valid time span."),
         (StartRecording("."), "is not empty. Give the name of a new folder."),
     ],
 )

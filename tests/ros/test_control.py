@@ -321,7 +321,7 @@ def test_services_record_and_save_the_last_seconds(
     assert (answer.success, answer.message) == (False, "Nothing is being recorded.")
     answer = client.call("/webviz/save_last")
     assert not answer.success
-    assert answer.message.startswith("Nothing is remembered.")
+    assert answer.message.startswith("No messages are kept in memory.")
 
 
 @pytest.mark.parametrize(("name", "type"), [("reset", Trigger), ("reset_time", Empty)])

@@ -92,6 +92,11 @@ class Demo:
         level, text = self.bench.statuses(DISPLAYS.index(display)).get(key, ("", ""))
         return f"{level} {text}".strip()
 
+    def measured(self, display: type, key: str) -> dict[str, float]:
+        """The values of a status."""
+        status = self.bench.states[-1].rows[DISPLAYS.index(display)].statuses[key]
+        return {each.name: each.value for each in status.values}
+
     def close(self) -> None:
         self._executor.shutdown()
         self._node.destroy_node()
@@ -121,21 +126,20 @@ def test_without_a_fault_the_scan_lies_on_the_map(demo: Callable[..., Demo]) -> 
 
 def test_a_turned_laser_is_named_with_its_angle(demo: Callable[..., Demo]) -> None:
     seen = demo(laser_yaw=0.5)
-    seen.run(lambda: "turned by" in seen.status(LaserScan, "Map"))
+    seen.run(lambda: "rotating 'base_scan'" in seen.status(LaserScan, "Map"))
     text = seen.status(LaserScan, "Map")
     assert text.startswith("WARN Only")
     assert "Check the yaw of 'base_scan'" in text
-    angle = float(text.partition("turned by ")[2].partition("°")[0])
-    assert angle == pytest.approx(-28.6, abs=4.0)
+    rotation = seen.measured(LaserScan, "Map")["rotation"]
+    assert rotation == pytest.approx(-0.5, abs=0.07)
 
 
 def test_a_misplaced_robot_is_named_with_its_shift(demo: Callable[..., Demo]) -> None:
     seen = demo(misplaced=2.0)
-    seen.run(lambda: "shifted by" in seen.status(LaserScan, "Map"))
-    text = seen.status(LaserScan, "Map")
-    x, y = map(float, text.partition("shifted by (")[2].partition(")")[0].split(","))
-    assert (x, y) == pytest.approx((0.0, -2.0), abs=0.25)
-    assert "2D Pose Estimate" in text
+    seen.run(lambda: "a shift by" in seen.status(LaserScan, "Map"))
+    found = seen.measured(LaserScan, "Map")
+    assert (found["shift x"], found["shift y"]) == pytest.approx((0.0, -2.0), abs=0.25)
+    assert "2D Pose Estimate" in seen.status(LaserScan, "Map")
 
 
 def test_a_path_that_is_not_planned_again_is_named_with_its_age(

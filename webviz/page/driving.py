@@ -63,7 +63,7 @@ class DrivingMessages:
             self._drivers.pop(drive.tool, None)
         elif answer.driver == browser and self._drivers.get(drive.tool) != browser:
             self._drivers[drive.tool] = browser
-            self._note(browser, "Began to drive.")
+            self._note(browser, "Started driving.")
         if not self._beats or now - self._beats[-1][0] >= BEAT_S:
             self._beats.append((now, 1 + secrets.randbits(52)))
         beat = self._beats[-1][1]

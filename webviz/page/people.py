@@ -26,7 +26,7 @@ from webviz.server.channel.channel import Channel
 from webviz.server.channel.messages import Dismissed
 
 NOT_ASKED = (
-    "Not made: this viewer asks for no tokens. Start webviz with --token, or with --host for "
+    "Not made: this viewer requires no tokens. Start webviz with --token, or with --host for "
     "other machines."
 )
 OWN_LINK = "Not done: this is your own link. Make another with `webviz token rotate`."
@@ -176,7 +176,7 @@ class People:
         visitor = self._channel.visitors().get(dismiss.visitor)
         grant = self._channel.grant_of(dismiss.visitor)
         if visitor is None or grant is None:
-            asked.refuse("They are gone already.")
+            asked.refuse("This visitor has already left.")
         elif dismiss.visitor == asked.browser:
             asked.refuse("Not done: this is your own page. Close it.")
         elif dismiss.revokes:
@@ -220,7 +220,7 @@ class People:
     def _remove(self, name: str) -> None:
         """Remove a token from the file; its pages are closed soon."""
         if not self._access.asks or self._access.path is None:
-            raise TokenError("Not revoked: this viewer asks for no tokens.")
+            raise TokenError("Not revoked: this viewer requires no tokens.")
 
         def remove(tokens: tuple[Token, ...]) -> tuple[Token, ...]:
             kept = tuple(token for token in tokens if token.name != name)

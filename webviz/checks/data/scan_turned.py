@@ -31,7 +31,7 @@ class ScanTurned(Check):
             if found.fit.turn is None:
                 continue
             yield self.found(
-                f"The scan of '{found.frame}' is turned by {-math.degrees(found.fit.turn):.0f}°.",
+                f"The scan of '{found.frame}' is rotated by {-math.degrees(found.fit.turn):.0f}°.",
                 f"Correct the yaw of '{found.frame}' in the robot description.",
                 subject=display.display.name,
                 evidence={"share": found.fit.share, "cured": found.fit.cured},

@@ -38,9 +38,9 @@ class JointStatesMissing(Check):
         if not lost or JOINT_STATES in types:
             return
         yield self.found(
-            "The bag has no joint states, so the movable links have no place."
+            "The bag has no joint states, so the poses of movable links are unknown."
             if seen.is_recorded
-            else "No node publishes joint states, so the movable links have no place.",
+            else "No node publishes joint states, so the poses of movable links are unknown.",
             "Record /joint_states as well."
             if seen.is_recorded
             else "Start the driver of the joints, or joint_state_publisher.",

@@ -35,8 +35,8 @@ class LostDatagrams(Check):
         environment = seen.environment
         if environment and environment.lost_datagrams and environment.receive_buffer < ENOUGH:
             yield self.found(
-                f"{counted(environment.lost_datagrams, 'datagram')} got lost, as a receive buffer "
-                "was full.",
+                f"{counted(environment.lost_datagrams, 'datagram')} were lost because a receive "
+                "buffer was full.",
                 "Allow receive buffers of 8 MB.",
                 severity=Severity.NOTE,
                 evidence={

@@ -30,7 +30,8 @@ class ClockEnded(Check):
         explains = seen.symptom("Time")
         if is_over and explains and not seen.is_recorded:
             yield self.found(
-                f"Simulated time stands at {seen.now_ns / 1e9:.1f} s, since /clock has ended.",
+                f"Simulated time has stopped at {seen.now_ns / 1e9:.1f} s: no node publishes "
+                "/clock.",
                 "Start the simulator or the playback of the bag again.",
                 evidence={"time_s": seen.now_ns / 1e9},
                 command="ros2 topic info /clock --verbose",

@@ -29,7 +29,8 @@ class TwoTimes(Check):
         """Yield a finding for each such link."""
         for symptom, reason in seen.lost(Kind.CLOCKS):
             yield self.found(
-                f'Data in "{reason.frame}" and the transform of "{reason.link}" are of two clocks.',
+                f'Data in "{reason.frame}" and the transform of "{reason.link}" are stamped by '
+                "different clocks.",
                 "Set use_sim_time alike for all nodes, or synchronise the clocks of the machines.",
                 subject=reason.link,
                 severity=Severity.ERROR,

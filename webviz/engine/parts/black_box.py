@@ -133,7 +133,7 @@ class BlackBoxPart(Part):
             watched = rule.condition.subject if rule.condition else rule.display
             is_display = watched != DOCTOR and not watched.startswith("/")
             if watched and is_display and names and watched not in names:
-                text = f"A rule watches the display `{watched}`, which is not there."
+                text = f"A rule watches the display `{watched}`, which does not exist."
                 remedy = nearest_name(watched, names)
                 return {"Black box": Status(Level.WARN, f"{text} {remedy}")}
         if self._watcher.rules and not self._live.memory.is_on:
@@ -234,7 +234,9 @@ class BlackBoxPart(Part):
 
     def _end(self, problem: str) -> None:
         self._saving = None
-        self._problem = problem and joined(problem, "A moment that a rule found was not saved.")
+        self._problem = problem and joined(
+            problem, "A rule fired, but its messages were not saved."
+        )
         self._list()
 
     def _list(self) -> None:

@@ -136,14 +136,16 @@ def _status(best: Fit, cells: OccupiedCells, scan: ScanPoints, is_placed: bool) 
         return Status(Level.OK, f"{measured}.", values=values)
     measured, level = f"Only {measured}", Level.WARN
     if best.turn is not None:
+        values += (Measurement("rotation", best.turn, "rad"),)
         text = (
-            f"{measured}; turned by {math.degrees(best.turn):.0f}° about '{scan.frame}' "
-            f"{best.cured:.0%} would. Check the yaw of '{scan.frame}' on the robot, then the "
+            f"{measured}; rotating '{scan.frame}' by {math.degrees(best.turn):.0f}° would match "
+            f"{best.cured:.0%}. Check the yaw of '{scan.frame}' on the robot, then the "
             "localisation."
         )
     elif best.shift is not None:
         x, y = best.shift
-        measured = f"{measured}; shifted by ({x:.1f}, {y:.1f}) m in the map {best.cured:.0%} would."
+        values += (Measurement("shift x", x, "m"), Measurement("shift y", y, "m"))
+        measured = f"{measured}; a shift by ({x:.1f}, {y:.1f}) m would match {best.cured:.0%}."
         text = (
             f"{measured} Another scan fits, so the robot is in place: check the transform of "
             f"'{scan.frame}'."
@@ -153,7 +155,7 @@ def _status(best: Fit, cells: OccupiedCells, scan: ScanPoints, is_placed: bool) 
         )
     elif best.is_mirrored:
         text = (
-            f"{measured}; mirrored {best.cured:.0%} would. The laser is upside down: give "
+            f"{measured}; mirroring would match {best.cured:.0%}. The laser is upside down: give "
             f"'{scan.frame}' a roll of 180° on the robot."
         )
     elif is_placed:  # such as a scan that is computed, or of what the map leaves out

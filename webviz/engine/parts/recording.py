@@ -138,11 +138,12 @@ class RecordingPart(Part):
         live, path = self._known(), self._new_path(command.path, sender)
         seconds = math.inf if command.seconds is None else command.seconds
         if not seconds > 0:
-            raise Error(f"The last {seconds:g} s are nothing. Give a positive number.")
+            raise Error(f"{seconds:g} s is not a valid time span. Give a positive number.")
         past = live.memory.last(seconds)
         if not past.messages:
             raise Error(
-                "Nothing is remembered. Show a topic, or raise memory.seconds in the config."
+                "No messages are kept in memory. Show a topic, or raise memory.seconds in the "
+                "config."
             )
 
         def work() -> Recorder:

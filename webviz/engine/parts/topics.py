@@ -150,7 +150,7 @@ class TopicsPart(Part):
         if offer.problem:
             return Inspected(type_, problem=f"This topic cannot be read: {offer.problem}.")
         if topic not in self._last:
-            return Inspected(type_, problem="No message has come yet.")
+            return Inspected(type_, problem="No message has arrived yet.")
         raw, received_s = self._last[topic]
         now = self.core.clock()
         read = self._read.get(topic)

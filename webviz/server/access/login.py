@@ -20,7 +20,7 @@ MAX_AGE_S = 30 * 24 * 3600
 """For a browser to remember a token that does not expire earlier."""
 
 NO_LINK = (
-    "This viewer asks for a link. Ask its owner for one, or run `webviz token make` on the machine "
+    "This viewer requires a link. Ask its owner for one, or run `webviz token make` on the machine "
     "that runs webviz."
 )
 INVALID_LINK = (

@@ -107,7 +107,7 @@ SCENE: Mapping[str, Role] = {
 """Of the messages that viser's page sends of its own accord. Deliberately missing are those of
 viser's widgets, of which pages show none, and ShareUrlRequest, which opens a public tunnel."""
 
-UNKNOWN = "Not done: this page does not fit the viewer. Reload the page."
+UNKNOWN = "Not done: this page is out of date. Reload the page."
 REMEDY = "Ask the owner of this viewer for another link."
 
 _COMMANDS = {class_.__name__: role for class_, role in COMMANDS.items()}

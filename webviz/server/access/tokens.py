@@ -77,8 +77,8 @@ def make(name: str, role: Role, now: datetime, days: float | None = None) -> Tok
     """
     if not re.match(NAME, name) or name.startswith("-"):  # for commands, an option
         raise TokenError(
-            f"A name has 1 to {MAX_NAME} letters, digits, spaces and . @ + - _, and begins with "
-            f"none of - and space, unlike {name!r}."
+            f"{name!r} is not a valid name. Use 1 to {MAX_NAME} letters, digits, spaces and "
+            ". @ + - _, beginning with neither - nor a space."
         )
     try:
         expires = None if days is None else now + timedelta(days=days)

@@ -12,7 +12,7 @@ from webviz.server.access.starting import link
 from webviz.server.access.tokens import Token
 
 ELSEWHERE = (
-    "webviz: this viewer asks for a link with a token. Run `webviz token list --links` in a "
+    "webviz: this viewer requires a link with a token. Run `webviz token list --links` in a "
     "terminal to see them."
 )
 

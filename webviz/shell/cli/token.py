@@ -134,7 +134,7 @@ def _addresses(url: str) -> list[str]:
         return found
     guess = f"http://{socket.gethostname()}:8080"
     print(
-        f"No viewer runs that asks for tokens. Links work once one serves {guess}; for another "
+        f"No running viewer requires tokens. Links work once one serves {guess}; for another "
         "address give --url.",
         file=sys.stderr,
     )

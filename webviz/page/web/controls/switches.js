@@ -135,7 +135,7 @@ export function switches({ offered }, { label, change, refused }) {
     list.show(shown.map((key) => ({ key })));
     set(search, { placeholder: `Filter ${all.length} ${noun}`, disabled: !all.length });
     for (const each of buttons) set(each, { disabled: !shown.length });
-    setText(empty, all.length ? `Nothing in ${noun} has this in its name.` : `No ${noun} yet.`);
+    setText(empty, all.length ? `No match in ${noun}.` : `No ${noun} yet.`);
     set(empty, { hidden: shown.length > 0 });
   }
 

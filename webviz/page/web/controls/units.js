@@ -56,9 +56,9 @@ const same = (a, b) => a.toLowerCase() === b.toLowerCase();
  * @param {string} [unit]
  */
 function wrongUnit(suffix, unit) {
-  if (!unit) return `this number has no unit, got ${quoted(suffix)}.`;
+  if (!unit) return `expected a number without a unit, got ${quoted(suffix)}.`;
   const others = Object.keys(UNITS[unit] ?? { [unit]: 1 });
-  return `${quoted(suffix)} is no unit here; use ${others.join(", ")}.`;
+  return `${quoted(suffix)} is not a valid unit here; use ${others.join(", ")}.`;
 }
 
 /** @param {string} text */

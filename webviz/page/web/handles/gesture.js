@@ -130,7 +130,7 @@ function press(part, event) {
   const refusal =
     why("DragHandle") ||
     handle.refusal ||
-    (handle.holder !== null && `Browser ${handle.holder} holds it.`);
+    (handle.holder !== null && `In use by browser ${handle.holder}.`);
   if (refusal) {
     tell("warn", refusal);
     return true;
@@ -355,7 +355,7 @@ function wordsOf(part) {
   if (reason) return `${handle.name}: ${reason}`;
   const { mode, help } = control;
   const does = DOES[mode] ?? (TURNS.test(mode) ? "Rotate" : "Move");
-  const holder = handle.holder === null ? "" : `Browser ${handle.holder} holds it.`;
+  const holder = handle.holder === null ? "" : `In use by browser ${handle.holder}.`;
   const more = mode !== "menu" && handle.menu.length ? "Right-click: Show context menu." : "";
   return [help || handle.name, `Left-click: ${does}.`, more, holder].filter(Boolean).join(" ");
 }

@@ -12,7 +12,7 @@ import { remedyButton } from "./displays/statuses.js";
 import { stampToScreen } from "./latency.js";
 import { isSevere, keyOf, takeWanted } from "./findings.js";
 
-const WELL = "All is well: no check has found a cause of a warning.";
+const WELL = "All is well: no check found a problem.";
 
 /** @import {ShownFinding, ExplainedStatus} from "../contents.js" */
 
@@ -68,7 +68,7 @@ function item(finding, unfolded, isFirst) {
   return el(
     "li",
     { class: "wv-finding", "data-level": level, "data-finding": key, tabindex: -1 },
-    isFirst ? el("p", { class: "wv-quiet" }, "Repair this first:") : "",
+    isFirst ? el("p", { class: "wv-quiet" }, "Fix this first:") : "",
     el(
       "div",
       { class: "wv-finding-head" },

@@ -18,7 +18,7 @@ const MOVE_PX = 60;
 const CLICK_PX = 4;
 /** @type {Record<string, [number, number]>} */
 const MOVES = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
-const HINT = "Drag to move, wheel to zoom, 0 for everything. Click a frame for its facts.";
+const HINT = "Drag to pan, scroll to zoom, 0 to fit. Click a frame for details.";
 
 /**
  * Opens the dialog; `detailOf(name, frame)` is what it says of a frame.

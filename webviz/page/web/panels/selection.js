@@ -105,7 +105,7 @@ export const selectionPanel = {
       for (const one of [look, copyAll, clear]) set(one, { disabled: held === 0 });
       const notes = [
         held < total ? `The first ${held} of ${total}.` : "",
-        held > live ? "With so many, values are those of the moment of selection." : "",
+        held > live ? "Too many items to update live: these are the values at selection." : "",
       ];
       setText(note, notes.filter(Boolean).join(" "));
       set(note, { hidden: !notes.some(Boolean) });

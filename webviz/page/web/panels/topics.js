@@ -75,7 +75,7 @@ export const topics = {
       const found = arranged(all, search.value, sort);
       list.show(found);
       set(table, { "aria-rowcount": found.length + 1 });
-      setText(empty, all.length ? "No topic with these words." : NOTHING);
+      setText(empty, all.length ? "No matching topics." : NOTHING);
       set(empty, { hidden: found.length > 0 });
       const name = inspected?.name;
       inspected?.update(all.find(({ key }) => key === name));

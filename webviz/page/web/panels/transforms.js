@@ -95,7 +95,7 @@ export const transforms = {
       if (row) list.mark(row.key);
       wanted = null;
       const hasFrames = (values.get("/roots") ?? []).length > 0;
-      setText(empty, hasFrames ? "No frame with these words." : NOTHING);
+      setText(empty, hasFrames ? "No matching frames." : NOTHING);
       set(empty, { hidden: rows.length > 0 });
       const sentences = (values.get("/problems") ?? []).join(" ");
       setText(problems, sentences);

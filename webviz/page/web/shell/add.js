@@ -175,6 +175,6 @@ function remark({ way, types, topics }, all, count) {
   if (!all.length) {
     return "No topic is published. Start the robot, a simulator or a bag; topics appear by themselves.";
   }
-  if (!count) return "Nothing with these words.";
+  if (!count) return "No matches.";
   return count > MAX_SHOWN ? `… and ${count - MAX_SHOWN} more: type a part of the name.` : "";
 }

@@ -50,11 +50,7 @@ export function openCommandList() {
   const stores = new Set([...STORES, ...[...makers].flatMap((maker) => maker.stores)]);
   /** @type {(() => void)[]} */
   const ends = [];
-  const nothing = el(
-    "p",
-    { class: "wv-quiet wv-nothing", hidden: true },
-    "No command with these words.",
-  );
+  const nothing = el("p", { class: "wv-quiet wv-nothing", hidden: true }, "No matching commands.");
 
   openDialog({
     title: "Commands",

@@ -188,7 +188,7 @@ export async function load(upload) {
   const name = baseName(upload.name);
   if (!hasSuffix(name))
     return fail(`Not opened: ${name} is not a config. Choose a .yaml or .rviz file.`);
-  const large = `Not opened: ${name} is larger than 2 MB, which no config is.`;
+  const large = `Not opened: ${name} is too large for a config; the limit is 2 MB.`;
   if (upload.size > MAX_BYTES) return fail(large);
   let text;
   try {

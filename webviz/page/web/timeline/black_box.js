@@ -41,7 +41,7 @@ export function blackBox() {
       run: () => choose(command),
     }));
     if (items.length) openMenu(left, top, items);
-    else toast("No rule of the config has saved anything yet.");
+    else toast("No rule has saved anything yet.");
   }
 
   onRole(() => {

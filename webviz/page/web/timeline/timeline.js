@@ -103,8 +103,7 @@ export function timeline(places) {
     address.searchParams.delete("t");
     history.replaceState(history.state, "", address);
     const time = parseTime(text, recording.get("start"));
-    if (time === null)
-      toast(`The link has no time that can be read: t=${text}.`, { level: "warn" });
+    if (time === null) toast(`The link has an invalid time: t=${text}.`, { level: "warn" });
     else seek.to(time);
   }
 

@@ -21,7 +21,7 @@ const SCROLL_KEY = "displays.scroll";
 const HOVER_MS = 250;
 const SEEN_MS = 400; // a second click must find the row where the first one did
 const EMPTY = "No displays yet. Add one for a topic, the robot or a grid.";
-const NOT_FOUND = "No display has this in its name, type or topic.";
+const NOT_FOUND = "No matching displays.";
 const GUESS = { status: 18, inside: 240 };
 
 /**
