@@ -1,0 +1,12 @@
+"""The socket of the server."""
+
+import socket
+
+from webviz.server.http.listener import listen
+
+
+def test_what_is_written_to_a_browser_does_not_wait_for_acknowledgements() -> None:
+    with listen("127.0.0.1", 0) as listener, socket.create_connection(listener.getsockname()):
+        accepted, _ = listener.accept()
+        with accepted:
+            assert accepted.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
