@@ -11,7 +11,7 @@ from bags import START_NS, Bag, ns, strings
 from rosbags.rosbag2 import StoragePlugin
 from shown_stores import shown_by
 
-from webviz.api.status import Level, Status
+from webviz.api.status import LOADING, Level, Status
 from webviz.data.messages import encode
 from webviz.engine.commands import RemoveDisplay, Seek
 from webviz.engine.playback import DisplayEvents
@@ -103,8 +103,19 @@ def test_a_display_that_begins_to_warn_is_noted_and_forgotten_with_it(theater: C
     assert not state.warned
 
 
-def row(level: Level, text: str = "Bad.", id: str = "1", type: str = "Scan") -> Row:
-    return Row(id, type, None, "Scan", {"Topic": Status(level, text)})
+def row(
+    level: Level, text: str = "Bad.", id: str = "1", type: str = "Scan", key: str = "Topic"
+) -> Row:
+    return Row(id, type, None, "Scan", {key: Status(level, text)})
+
+
+def test_loading_is_no_event() -> None:
+    found = DisplayEvents()
+    found.note(0, [row(Level.OK)])
+    found.note(ns(1), [row(Level.WARN, "Loading.", key=LOADING)])
+    assert not found.events
+    found.note(ns(2), [row(Level.ERROR, "There is no file.")])
+    assert [event.text for event in found.events] == ["There is no file."]
 
 
 def test_a_rising_level_is_noted_once_per_sentence_and_second() -> None:

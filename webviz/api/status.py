@@ -11,6 +11,9 @@ import msgspec
 
 from webviz.data.transforms.reasons import Explanation
 
+LOADING = "Loading"
+"""Key of the status of a display that will draw more by itself: files or threads are at work."""
+
 
 class Level(enum.IntEnum):
     """The severity of a status; a parent has that of its worst child.

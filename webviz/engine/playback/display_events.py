@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from webviz.api.status import Level
+from webviz.api.status import LOADING, Level, Status
 from webviz.engine.state import Row
 from webviz.sources.past_state import Event
 
@@ -15,8 +15,8 @@ SECOND_NS = 1_000_000_000
 class DisplayEvents:
     """Notes when the worst level of a display rises, as far as the recording was shown.
 
-    A display is noted once per sentence and second of the recording, and forgotten when it is
-    removed. The oldest notes give way to new ones.
+    Loading is not noted, as it ends by itself. A display is noted once per sentence and second of
+    the recording, and forgotten when it is removed. The oldest notes give way to new ones.
     """
 
     def __init__(self) -> None:
@@ -33,16 +33,21 @@ class DisplayEvents:
             rows: all displays; groups are ignored, since they repeat what is in them.
         """
         rows = [row for row in rows if row.type != "Group"]
-        before, self._levels = self._levels, {row.id: row.level for row in rows}
+        worst = {row.id: _worst(row) for row in rows}
+        before, self._levels = self._levels, {id: status.level for id, status in worst.items()}
         noted = {key: event for key, event in self._noted.items() if key[0] in self._levels}
         for row in rows:
-            level = row.level
+            status = worst[row.id]
             # A problem from the beginning is of the config, not of a moment of the recording.
-            if level < Level.WARN or level <= before.get(row.id, level):
+            if status.level < Level.WARN or status.level <= before.get(row.id, status.level):
                 continue
-            text = next(status.text for status in row.statuses.values() if status.level == level)
-            event = Event(at_ns, level, row.name, text)
-            noted.setdefault((row.id, text, at_ns // SECOND_NS), event)
+            event = Event(at_ns, status.level, row.name, status.text)
+            noted.setdefault((row.id, status.text, at_ns // SECOND_NS), event)
         if noted.keys() != self._noted.keys():
             self._noted = dict(list(noted.items())[-MAX_EVENTS:])
             self.events = tuple(sorted(self._noted.values(), key=lambda event: event.at_ns))
+
+
+def _worst(row: Row) -> Status:
+    statuses = [status for key, status in row.statuses.items() if key != LOADING]
+    return max(statuses, key=lambda status: status.level, default=Status(Level.OK, ""))

@@ -11,7 +11,7 @@ import msgspec
 from webviz.api.errors import Error
 from webviz.api.frames import Frames
 from webviz.api.group import DisplayGroup
-from webviz.api.status import Level, Status
+from webviz.api.status import LOADING, Level, Status
 from webviz.api.views import FIXED_FRAME, FPS, TopDownOrtho, View
 from webviz.engine.commands import Seek
 from webviz.engine.loop import FrameLoop
@@ -24,8 +24,6 @@ from webviz.sources import Source
 from webviz.sources.bag.source import BagSource
 
 LOOK_S = 0.05
-LOADING = "Loading"
-"""Status of a display that is loading."""
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING
 
 from webviz.api.errors import Error
+from webviz.api.status import LOADING
 from webviz.api.views import View
 from webviz.engine.state import State
 from webviz.page.content.visibility import hidden_in
@@ -15,7 +16,6 @@ from webviz.scene import ViserScene
 from webviz.shell.pictures.browser import Page, Pixels, check_size, launched
 from webviz.shell.pictures.browser_scripts import CANVAS
 from webviz.shell.pictures.dock import with_panes
-from webviz.shell.pictures.offline_viewer import LOADING
 
 if TYPE_CHECKING:
     import playwright.sync_api as playwright
