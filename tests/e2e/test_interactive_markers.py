@@ -340,7 +340,7 @@ def test_one_browser_drags_and_others_see_who(
     other.tab.mouse.down()
     hint = other.tab.locator(".wv-hint")
     other.wait_for(
-        lambda: f"Browser {number} holds it." in (hint.text_content() or ""), "who drags"
+        lambda: f"In use by browser {number}." in (hint.text_content() or ""), "who drags"
     )
     other.tab.mouse.up()
     wait_for(page, server, KEEP_ALIVE)

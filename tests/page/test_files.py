@@ -133,8 +133,8 @@ def test_a_file_of_the_browser_is_uploaded(tab: Tab, tmp_path: Path, size: int) 
     ("name", "content", "reason"),
     [
         ("photo.yaml", b"\xff\xd8\xff\xe0", "photo.yaml is not UTF-8 text."),
-        ("large.yaml", b"#" * (2 << 20) + b"#", "large.yaml is larger than 2 MB"),
-        ("lines.yaml", b"\n" * (2 << 20), "lines.yaml is larger than 2 MB"),
+        ("large.yaml", b"#" * (2 << 20) + b"#", "large.yaml is too large for a config"),
+        ("lines.yaml", b"\n" * (2 << 20), "lines.yaml is too large for a config"),
         ("photo.png", b"", "photo.png is not a config"),
     ],
 )

@@ -366,7 +366,7 @@ def test_the_search_finds_by_name_type_and_topic(loop: Loop, tree: Tree, make_ro
     ):
         field.fill(text)
         tree.wait_for_names(*found)
-    assert "No display has this" in tree.tab.text()
+    assert "No matching displays." in tree.tab.text()
     field.press("Escape")
     tree.wait_for_names("Sensors", "Map")
     tree.fold("Sensors")

@@ -239,7 +239,7 @@ def test_feedback_is_that_of_rviz_and_poses_of_the_server_wait_for_the_release(
     back.position.x = 7.0
     server.set_pose("moved", back)
     server.apply()
-    with pytest.raises(Exception, match="browser 1 holds it"):
+    with pytest.raises(Exception, match="in use by browser 1"):
         drag("m1", "press", browser=2).result(30)
     drag("m1", "move", pose=At((2.0, 0.0, 0.0))).result(30)
     viewer.wait_for(lambda: position(viewer, "m1")[0] == 12.0, "the drag")
