@@ -23,6 +23,13 @@ test("ticks are round numbers within their range", () => {
   assert.deepEqual(ticks(1e-300, 3e-300, 2), [1e-300, 2e-300, 3e-300]);
 });
 
+test("a round number at an end has a tick, however the end was rounded", () => {
+  const now = 1_764_000_000.123 - 1_763_999_910.123;
+  for (const by of [-1e-7, 0, 1e-7])
+    assert.deepEqual(ticks(now - 60 - now + by, 0, 3), [-60, -40, -20, 0], String(by));
+  assert.deepEqual(ticks(-59.99, 0, 3), [-40, -20, 0]);
+});
+
 test("ticks of extreme ranges are few, and an empty range has none", () => {
   const widest = ticks(-MOST, MOST, 5);
   assert.ok(widest.length > 2 && widest.every(Number.isFinite), String(widest));

@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
+import { offsetAfter } from "../../webviz/page/web/clock_offset.js";
 import { following, limited, zoomed } from "../../webviz/page/web/timeline/range.js";
 import { agoText, atMoment, beforeText, isNow } from "../../webviz/page/web/timeline/moment.js";
 import { savedText } from "../../webviz/page/web/timeline/saved_text.js";
@@ -79,4 +80,18 @@ test("recordings of rules are named by time and cause", () => {
     "2026-11-23 05:12:47 · Scan error · 12.3 MB",
   );
   assert.equal(savedText("mine", 1), "mine · 1 MB");
+});
+
+test("the server's clock stands still if all messages are equally fast", () => {
+  let offset = null;
+  for (let beat = 0; beat < 5; beat += 1) {
+    offset = offsetAfter(offset, 0.25);
+    assert.equal(offset, 0.25);
+  }
+});
+
+test("the fastest message sets the server's clock, and a clock that was set counts at once", () => {
+  assert.equal(offsetAfter(0.2, 0.25), 0.25);
+  assert.ok(Math.abs(offsetAfter(0.25, 0.2) - 0.249) < 1e-9, "follows drift slowly");
+  assert.equal(offsetAfter(0.25, -5), -5);
 });

@@ -1,19 +1,16 @@
 // The viewer's time, counted here: the server says how it runs only when that changes.
 
 import * as channel from "./channel.js";
+import { offsetAfter } from "./clock_offset.js";
 import { watch } from "./stores.js";
 
 /** @import {ValuesOf} from "./types.js" */
 
-const DRIFT_S = 0.001;
-
 /** @type {number | null} */
 let ahead = null; // of the server's clock over that of this browser, in seconds
 
-// A message that took longer makes the server's clock seem slower; the fastest one is right.
 channel.on("Beat", ({ wall }) => {
-  const seen = wall - Date.now() / 1000;
-  ahead = ahead === null || seen > ahead || ahead - seen > 1 ? seen : ahead - DRIFT_S;
+  ahead = offsetAfter(ahead, wall - Date.now() / 1000);
 });
 
 /** Wall time of the server in seconds. */

@@ -4,6 +4,8 @@ import { fixed } from "../tools/numbers.js";
 
 /** @import {Range} from "../types.js" */
 
+const EDGE = 1e-6; // of a step, by which rounding may put a round number at an end outside
+
 /**
  * Round numbers within a range, about `count` of them.
  *
@@ -18,8 +20,8 @@ export function ticks(low, high, count) {
   const step = power * ([1, 2, 5].find((each) => each * power >= span * 0.999) ?? 10);
   /** @type {number[]} */
   const found = [];
-  for (let i = Math.ceil(low / step); i * step <= high && found.length < 50; i++)
-    found.push(i * step);
+  const first = Math.ceil(low / step - EDGE) || 0; // never -0
+  for (let i = first; i <= high / step + EDGE && found.length < 50; i++) found.push(i * step);
   return found;
 }
 
