@@ -91,10 +91,10 @@ def test_times_may_be_those_of_the_headers() -> None:
     [
         ("/nobody.data", None, "No publisher on /nobody."),
         ("joints.position[0]", None, "`joints.position[0]` has no topic. Begin with /."),
-        ("/joints", None, "`` is not the path of a field"),
+        ("/joints", None, "`/joints` has no field."),
         ("/joints.position[0]", None, "No message yet."),
         ("/joints.position[7]", JointState(), "No element 7 for `position[7]`; there are 0."),
-        ("/joints.data", String("text"), "`data` is not a number."),
+        ("/joints.data", String("text"), "`/joints.data` is not a number."),
     ],
 )
 def test_a_curve_without_values_says_why(curve: str, message: Any, reason: str) -> None:
@@ -103,6 +103,14 @@ def test_a_curve_without_values_says_why(curve: str, message: Any, reason: str) 
         bench.panel.receive("/joints", message, SECOND)
     assert bench.curve()["problem"].startswith(reason)
     assert bench.points() == []
+
+
+def test_a_curve_may_have_functions_over_time_and_elements_that_come_and_go() -> None:
+    bench = Bench("/joints{header.stamp>=10}.position[0].@derivative")
+    for i in range(4):
+        bench.send(0.5 * i * i, 90.0 + i, stamp_s=9.0 + i)
+    assert bench.points() == [(92.0, 1.5), (93.0, 2.5)]
+    assert bench.curve()["problem"] == ""
 
 
 def test_bytes_that_do_not_decode_are_named() -> None:

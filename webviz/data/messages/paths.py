@@ -1,9 +1,16 @@
-"""Paths to the fields of messages: `twist.linear.x`, `position[0]`, `position[left_wheel]`."""
+"""Paths to the fields of messages: `twist.linear.x`, `position[0]`, `status[:]{level>=1}.name`.
+
+The syntax is that of the message paths of Foxglove and Lichtblick, with elements by their names
+added; `displays/docs/page/message_paths.md` describes it.
+"""
 
 from __future__ import annotations
 
+import math
+import operator
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import islice
 from typing import Any
 
@@ -13,29 +20,84 @@ from webviz.data.messages.classes import attribute
 from webviz.data.messages.errors import MessageError
 from webviz.data.messages.geometry import Duration, Time
 from webviz.data.messages.tree import field_names
+from webviz.data.words import counted
 
 MAX_LENGTH = 400
 """Characters of a path."""
 MAX_SEARCHED = 10_000
-"""Elements of a sequence among which one is found by name."""
+"""Elements of a sequence among which one is found by name or by a filter."""
+MAX_FOUND = 1000
+"""Values that slices and filters find."""
 MAX_LISTED = 20
 """Elements of a sequence that `numeric_paths` lists."""
 MAX_DEPTH = 16
 NAMES = ("name", "key", "id", "child_frame_id", "child", "frame_id")
 """Fields that name an element of a sequence, the most telling first."""
+FILTERS: Mapping[str, Callable[[Any, Any], bool]] = {
+    "==": operator.eq,
+    "!=": operator.ne,
+    "<=": operator.le,
+    ">=": operator.ge,
+    "<": operator.lt,
+    ">": operator.gt,
+}
+"""Comparisons of filters."""
 _COMPONENTS = ("xyzw", "rgba")
-_STEP = re.compile(r"(?:^|\.)([A-Za-z]\w*)|\[([^\[\]]*)\]")
+_FIELD = re.compile(r"(?:\A|\.)([A-Za-z]\w*)")
+_KEY = re.compile(r"\[([^\[\]]*)\]")
+_SLICE = re.compile(r"(-?[0-9]{1,9})?:(-?[0-9]{1,9})?")
+_FILTER = re.compile(
+    r"""\{\s*([A-Za-z][\w.\[\]-]*)\s*([=!<>]=|<|>)\s*("[^"]*"|'[^']*'|[\w.+-]+)\s*\}"""
+)
 
 
 class PathError(MessageError):
     """A path is invalid, or a message has no such field; one sentence."""
 
 
+class NothingMatches(PathError):
+    """No element of a message matches a filter or slice, which may be different in the next."""
+
+
+@dataclass(frozen=True)
+class _Slice:
+    """Elements from the first to the last, both included."""
+
+    first: int
+    last: int
+
+
+@dataclass(frozen=True)
+class _Filter:
+    """A condition of elements."""
+
+    path: FieldPath
+    compare: Callable[[Any, Any], bool]
+    limit: bool | float | str
+
+    def matches(self, value: Any) -> bool:
+        """Return whether a value meets it; one without the field does not."""
+        try:
+            found = self.path(value)
+        except PathError:
+            return False
+        if isinstance(self.limit, str):
+            return isinstance(found, str) and bool(self.compare(found, self.limit))
+        number = as_number(found)
+        return number is not None and bool(self.compare(number, self.limit))
+
+
+_Step = str | int | tuple[str] | _Slice | _Filter
+_Found = tuple[Any, Any]
+"""A value, behind the value that has it."""
+
+
 class FieldPath:
-    """Finds a value in messages.
+    """Finds values in messages.
 
     `[3]` is an element, `[-1]` the last one. `[text]` is the element with that name: of numbers, by
     the list `name` beside them as in sensor_msgs/JointState; of messages, by one of `NAMES`.
+    `[1:3]` are the elements 1 to 3, `[:]` all; `{level>=1}` keeps those whose field compares so.
 
     Args:
         text: fields with dots between them.
@@ -46,44 +108,72 @@ class FieldPath:
 
     def __init__(self, text: str) -> None:
         self.text = text
-        self._steps: list[str | int | tuple[str]] = []
-        end = 0
-        for match in _STEP.finditer(text) if len(text) <= MAX_LENGTH else ():
-            if match.start() != end:
-                break
-            end = match.end()
-            name, key = match.groups()
-            self._steps.append(name or (int(key) if _is_index(key) else (key,)))
-        if not self._steps or end != len(text) or not isinstance(self._steps[0], str):
+        self._steps = tuple(_steps(text)) if len(text) <= MAX_LENGTH else ()
+        if not self._steps:
             raise PathError(
                 f"`{text[:80]}` is not the path of a field, such as `pose.position.x`, "
                 "`position[0]` or `position[left_wheel]`."
             )
+        self.finds_many = any(isinstance(step, _Slice | _Filter) for step in self._steps)
+        """True if messages may have several values, or none: slices and filters choose them."""
 
     def __call__(self, message: Any) -> Any:
-        """The value in a message.
+        """The value in a message; the list of them if the path has a slice or a filter.
 
         Raises:
             PathError: it has no such field or element.
         """
-        parent, value = None, message
-        for step in self._steps:
-            if isinstance(step, str):
-                parent, value = value, self._field(value, step)
-            else:
-                value = self._element(parent, value, step)
-        return value
+        values = self.values(message)
+        return values if self.finds_many else values[0]
 
-    def number(self, message: Any) -> float:
-        """The value as a number: that of times and durations in seconds, 1 for true.
+    def values(self, message: Any) -> list[Any]:
+        """The values in a message, at most `MAX_FOUND`.
 
         Raises:
-            PathError: it has no such field or element, or that is not a number.
+            PathError: it has no such field or element.
         """
-        value = self(message)
-        if (number := as_number(value)) is None:
+        found: list[_Found] = [(None, message)]
+        for step in self._steps:
+            found = list(islice(self._taken(found, step), MAX_FOUND))
+        return [value for _, value in found]
+
+    def one(self, message: Any) -> Any:
+        """The only value in a message.
+
+        Raises:
+            NothingMatches: a filter or slice finds none.
+            PathError: it has no such field or element, or several match.
+        """
+        values = self.values(message)
+        if not values:
+            raise NothingMatches(f"Nothing in the newest message matches `{self.text}`.")
+        if len(values) > 1:
+            found = counted(len(values), "value")
+            raise PathError(f"{found} match `{self.text}`. Choose one by [0] or a filter.")
+        return values[0]
+
+    def number(self, message: Any) -> float:
+        """The only value as a number: that of times and durations in seconds, 1 for true.
+
+        Raises:
+            PathError: as `one`, or it is not a number.
+        """
+        if (number := as_number(self.one(message))) is None:
             raise PathError(f"`{self.text}` is not a number. Choose one of its parts.")
         return number
+
+    def _taken(self, found: Iterable[_Found], step: _Step) -> Iterator[_Found]:
+        """The values a step leads to from those found so far."""
+        for parent, value in found:
+            if isinstance(step, str):
+                yield value, self._field(value, step)
+            elif isinstance(step, _Slice):
+                yield from ((None, each) for each in self._elements(value, step))
+            elif isinstance(step, _Filter):
+                elements = islice(value, MAX_SEARCHED) if _is_sequence(value) else (value,)
+                yield from ((None, each) for each in elements if step.matches(each))
+            else:
+                yield None, self._element(parent, value, step)
 
     def _field(self, value: Any, name: str) -> Any:
         names = field_names(value)
@@ -97,13 +187,66 @@ class FieldPath:
         raise PathError(f"No field `{name}` for `{self.text}`. Choose {known}.")
 
     def _element(self, parent: Any, value: Any, key: int | tuple[str]) -> Any:
-        if isinstance(value, str) or not hasattr(value, "__len__"):
-            raise PathError(f"`{self.text}` asks for an element of what is not an array.")
+        self._check_array(value)
         index = key if isinstance(key, int) else _index_of(key[0], parent, value)
         if index is None or not -len(value) <= index < len(value):
             what = key if isinstance(key, int) else f"named {key[0]}"
             raise PathError(f"No element {what} for `{self.text}`; there are {len(value)}.")
         return value[index]
+
+    def _elements(self, value: Any, wanted: _Slice) -> Iterator[Any]:
+        self._check_array(value)
+        first, last = (
+            each + len(value) if each < 0 else each for each in (wanted.first, wanted.last)
+        )
+        return (value[index] for index in range(max(0, first), min(last + 1, len(value))))
+
+    def _check_array(self, value: Any) -> None:
+        if not _is_sequence(value):
+            raise PathError(f"`{self.text}` asks for an element of what is not an array.")
+
+
+def _steps(text: str) -> Iterator[_Step]:
+    """The steps of a path; the last is followed by nothing, else none at all is returned."""
+    steps: list[_Step] = []
+    at = 0
+    while at < len(text):
+        step: _Step
+        if match := _FIELD.match(text, at):
+            step = match[1]
+        elif (match := _KEY.match(text, at)) and steps:
+            step = _key(match[1])
+        elif match := _FILTER.match(text, at):
+            path, compare, limit = match.groups()
+            if (literal := _literal(limit)) is None or (at == 0 and match.end() == len(text)):
+                return
+            step = _Filter(FieldPath(path), FILTERS[compare], literal)
+        else:
+            return
+        steps.append(step)
+        at = match.end()
+    yield from steps
+
+
+def _key(text: str) -> int | tuple[str] | _Slice:
+    if _is_index(text):
+        return int(text)
+    if match := _SLICE.fullmatch(text):
+        return _Slice(int(match[1] or 0), int(match[2] or -1))
+    return (text,)
+
+
+def _literal(text: str) -> bool | float | str | None:
+    """The value that a filter compares with; None if it is none."""
+    if text[0] in "\"'":
+        return text[1:-1]
+    if text in ("true", "false"):
+        return text == "true"
+    try:
+        number = float(text)
+    except ValueError:
+        return None
+    return number if math.isfinite(number) else None
 
 
 def as_number(value: Any) -> float | None:
@@ -158,9 +301,17 @@ def _names_beside(parent: Any, value: Any) -> Sequence[str]:
     return names if is_list else ()
 
 
+def _is_sequence(value: Any) -> bool:
+    return hasattr(value, "__len__") and not isinstance(value, str) and not field_names(value)
+
+
 def _is_key(name: Any) -> bool:
     """Return whether an element can be called by a name."""
-    return isinstance(name, str) and bool(re.fullmatch(r"[^\[\]]+", name)) and not _is_index(name)
+    return (
+        isinstance(name, str)
+        and bool(re.fullmatch(r"[^\[\]]+", name))
+        and isinstance(_key(name), tuple)
+    )
 
 
 def _is_index(key: str) -> bool:

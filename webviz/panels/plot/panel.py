@@ -32,8 +32,8 @@ class Plot(Panel):
     curves: Annotated[
         list[str],
         Prop(
-            help="Topics with the path of a number, such as /odom.twist.twist.linear.x, "
-            "/joint_states.position[0] or /joint_states.position[left_wheel]."
+            help="Message paths of numbers, such as /odom.twist.twist.linear.x, "
+            "/joint_states.position[left_wheel] or /odom.pose.pose.orientation.@yaw."
         ),
     ] = msgspec.field(default_factory=list)
     window: Annotated[float, Prop(gt=0, le=3600, unit="s", help="Time that is shown.")] = 30.0

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from webviz.data.messages.geometry import Header
-from webviz.data.messages.paths import FieldPath, PathError
+from webviz.data.messages.message_paths import MessagePath, OverTime
+from webviz.data.messages.paths import NothingMatches, PathError
 from webviz.panels.plot.history import CurveHistory
 
 How = tuple[float, str]
@@ -17,7 +18,7 @@ class Series:
     """The values of one curve.
 
     Args:
-        text: topic, a dot, and the path of a number.
+        text: the message path of a number.
         how: see `How`.
         before: the same curve with another window, whose values it takes over if their times are
             of the same kind.
@@ -25,19 +26,23 @@ class Series:
 
     def __init__(self, text: str, how: How, before: Series | None = None) -> None:
         self.how = how
-        self.topic, _, path = text.partition(".")
+        self.topic = ""
         self.problem = ""
         """Why the newest message has no value."""
         self.has_stamp = True
-        self._path: FieldPath | None = None
+        self._path: MessagePath | None = None
+        self._over_time: OverTime | None = None
         self._invalid = ""
         self.history = CurveHistory(how[0])
         try:
-            self._path = FieldPath(path)
+            self._path = path = MessagePath(text)
         except PathError as error:
             self._invalid = str(error)
-        if not self.topic.startswith("/"):
-            self._invalid = f"`{text[:80]}` has no topic. Begin with /."
+        else:
+            self.topic = path.topic
+            self._over_time = path.over_time()
+            if not path.has_field:
+                self._invalid = f"`{text[:80]}` has no field. Add one, such as {text[:80]}.data."
         if before is not None and before.how[1] == how[1]:
             for point in before.history.points():
                 self.history.add(*point)
@@ -48,6 +53,9 @@ class Series:
             return
         try:
             value = self._path.number(message)
+        except NothingMatches as error:  # the element may be in the next message
+            self.problem = "" if self.history.newest else str(error)
+            return
         except PathError as error:
             self.problem = str(error)
             self.history.gap()
@@ -58,12 +66,14 @@ class Series:
         time_ns = received_ns
         if by_stamp and isinstance(header, Header):
             time_ns = header.stamp_ns
-        self.history.add(time_ns / 1e9, value)
+        time_s = time_ns / 1e9
+        self.history.add(time_s, self._over_time(time_s, value) if self._over_time else value)
 
     def clear(self) -> None:
         """Forget all values."""
         self.history = CurveHistory(self.how[0])
         self.problem = ""
+        self._over_time = self._path.over_time() if self._path else None
 
     def explanation(self, types: Mapping[str, str]) -> str:
         """Why the curve has no new values, or what to know of them; a sentence or ""."""
