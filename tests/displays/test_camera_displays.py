@@ -177,6 +177,20 @@ def test_an_image_that_comes_while_the_first_is_computed_follows_it(bench: Bench
     assert at.statuses()["Points"] == ("OK", "192 points of 192 pixels.")
 
 
+def test_a_camera_info_that_changes_nothing_draws_nothing_anew(bench: Benches) -> None:
+    at = cloud(bench)
+    send_info(at, INFO)
+    send_depth(at, np.full((12, 16), 2.0, np.float32))
+    at.turn()
+    at.settle()
+    (drawn,) = at.nodes().values()
+    send_info(at, INFO)
+    at.turn()
+    assert at.nodes()["points"] is drawn
+    at.set("color_transformer", "FlatColor")
+    assert at.nodes()["points"].colors == (255, 255, 255)
+
+
 def test_depths_of_a_right_camera_are_seen_from_its_own_frame(bench: Benches) -> None:
     at = cloud(bench)
     p = photos.info(16, 12)["p"]

@@ -2,15 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Annotated, Literal
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Context, Group, Input, Pose, Prop, Rgb, Sample, Sync, Topic
+from webviz import (
+    ColorScale,
+    Context,
+    Group,
+    Input,
+    Pose,
+    Prop,
+    Rgb,
+    Sample,
+    Status,
+    Sync,
+    Topic,
+)
 from webviz.data.images import CameraModel, ImageError, calibration_problem, optical_problem
 from webviz.data.words import counted
 from webviz_displays.depth_cloud.cloud import DepthPoints, depth_points
@@ -23,6 +36,25 @@ from webviz_displays.shared.points_display import BY_INTENSITY, PointsDisplay
 U8 = NDArray[np.uint8]
 
 
+@dataclass(frozen=True)
+class _Drawn:
+    """The points of an image as they were drawn.
+
+    Args:
+        points: of the image.
+        look: all else that the nodes depend on.
+        groups: the nodes.
+        statuses: what was reported with them.
+        scale: of their colours.
+    """
+
+    points: DepthPoints
+    look: object
+    groups: Mapping[str, Group]
+    statuses: Mapping[str, Status]
+    scale: ColorScale | None
+
+
 @dataclass
 class _State:
     """Kept between messages.
@@ -32,12 +64,14 @@ class _State:
         hidden: what the points of earlier images hide; only used by the work for `newest`.
         clouds: points by the number of their image.
         poses: of these images in the fixed frame, as far as they were known last.
+        drawn: the clouds as they were drawn, until something that they depend on changes.
     """
 
     newest: Newest[tuple[int, DepthPoints]] = field(default_factory=Newest[tuple[int, DepthPoints]])
     hidden: Hidden = field(default_factory=Hidden)
     clouds: dict[int, DepthPoints] = field(default_factory=dict)
     poses: dict[int, Pose] = field(default_factory=dict)
+    drawn: dict[int, _Drawn] = field(default_factory=dict)
 
 
 class DepthCloud(PointsDisplay):
@@ -159,11 +193,15 @@ class DepthCloud(PointsDisplay):
             ctx.warn("Points", "Computing the points of the first image.")
             return
         self._hold(*newest, images, ctx.state)
-        for number, points in ctx.state.clouds.items():
-            pose = ctx.state.poses[number]
-            # Without a decay time a new cloud replaces the one before in place.
-            key = str(number) if self.decay_time else "newest"
-            self._draw_points(points, pose, ctx.follow(None, offset=pose, key=key), ctx)
+        state: _State = ctx.state
+        state.drawn = {
+            number: self._drawn(number, points, state.poses[number], ctx)
+            for number, points in state.clouds.items()
+        }
+        for drawn in state.drawn.values():
+            ctx.groups.update(drawn.groups)
+            ctx.statuses.update(drawn.statuses)
+            ctx.color_scale = drawn.scale
         doubt = calibration_problem(infos[-1].message) or optical_problem(images[-1].frame)
         self._report(newest[1], doubt, ctx)
 
@@ -202,6 +240,18 @@ class DepthCloud(PointsDisplay):
         newest = images[-1].number
         kept = {number, newest} | held
         state.poses = {n: pose for n, pose in state.poses.items() if n in kept or n > number}
+
+    def _drawn(self, number: int, points: DepthPoints, pose: Pose, ctx: Context) -> _Drawn:
+        """Draw the points of an image, unless they are drawn already."""
+        look = pose, msgspec.structs.astuple(self)
+        known: _Drawn | None = ctx.state.drawn.get(number)
+        if known and known.points is points and known.look == look:
+            return known
+        own = Context(ctx.frames, ctx.background, None)
+        # Without a decay time a new cloud replaces the one before in place.
+        key = str(number) if self.decay_time else "newest"
+        self._draw_points(points, pose, own.follow(None, offset=pose, key=key), own)
+        return _Drawn(points, look, own.groups, own.statuses, own.color_scale)
 
     def _draw_points(self, points: DepthPoints, pose: Pose, group: Group, ctx: Context) -> None:
         """Draw points where their image was taken."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -17,14 +17,20 @@ REACH = 10
 LEAST_M, MAX_M = 1e-6, 1e6
 
 
-def by_size(sizes: NDArray[np.floating]) -> Iterator[tuple[str, NDArray[np.intp], float]]:
-    """Points of nearly the same size: a name that stays the same, the indices, and the size.
+def by_size(
+    sizes: NDArray[np.floating],
+) -> tuple[NDArray[np.intp], Sequence[tuple[str, slice, float]]]:
+    """An order of points (N,) in which those of nearly the same size are neighbours.
 
     Args:
         sizes: (N,), metres.
+
+    Returns:
+        The order, and of each group a name that stays the same, where it is in the order, and the
+        size.
     """
     if not len(sizes):
-        return
+        return np.zeros(0, np.intp), ()
     steps = np.log(np.clip(sizes, LEAST_M, MAX_M)) / math.log(RATIO)
     numbers = np.ceil(steps - 1e-4).astype(np.int16)
     least = int(numbers.min())
@@ -37,6 +43,8 @@ def by_size(sizes: NDArray[np.floating]) -> Iterator[tuple[str, NDArray[np.intp]
     order = np.argsort(
         (np.clip(numbers, lowest, middle + REACH) - lowest).astype(np.uint8), kind="stable"
     )
-    for number, (start, end) in enumerate(pairwise((0, *ends)), lowest):
-        if end > start:
-            yield str(number), order[start:end], RATIO**number
+    return order, [
+        (str(number), slice(start, end), RATIO**number)
+        for number, (start, end) in enumerate(pairwise((0, *ends)), lowest)
+        if end > start
+    ]

@@ -137,12 +137,15 @@ class PointStyle(Display):
             key = "blocks" if thins else "points"  # nodes do not begin or cease to be thinned
             group.points(key, xyz, colors, size, outline, ids, thins, self.alpha)
             return
-        for name, rows, one in by_size(size):
-            # `take` is four times as fast as an index for each row.
-            chosen = colors if isinstance(colors, tuple) else colors.take(rows, axis=0)
-            own = rows if ids is None else ids[rows]
-            places = xyz.take(rows, axis=0)
-            group.points(f"points {name}", places, chosen, one, outline, own, False, self.alpha)
+        order, groups = by_size(size)
+        # `take` is four times as fast as an index for each row.
+        xyz, ids = xyz.take(order, axis=0), order if ids is None else ids.take(order)
+        if not isinstance(colors, tuple):
+            colors = colors.take(order, axis=0)
+        for name, rows, one in groups:
+            chosen = colors if isinstance(colors, tuple) else colors[rows]
+            key = f"points {name}"
+            group.points(key, xyz[rows], chosen, one, outline, ids[rows], False, self.alpha)
 
 
 InvertRainbow = Annotated[
