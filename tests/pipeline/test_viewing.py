@@ -81,7 +81,10 @@ class Looking:
 
     def do(self, command: Command, sender: Sender = PROGRAM) -> State:
         """Run a command and return the state that panels show."""
-        return self.bench.do(command, sender)
+        done = self.bench.viewer.enqueue(command, sender)
+        self.bench.until_done(done)
+        assert done.exception(0) is None
+        return self.bench.states[-1]
 
     def refused(self, command: Command) -> str:
         """Why a command is refused."""

@@ -5,14 +5,14 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Callable
-from typing import Any, Generic, TypeVar
+from typing import Any
 
 import pytest
 
 from webviz.api.errors import Error
 from webviz.api.panel import Panel
 from webviz.data.messages import decode, encode, interfaces
-from webviz.engine.commands import AddPanel, OpenPanels, Refresh, Sender
+from webviz.engine.commands import Refresh
 from webviz.engine.commands.displays import SetProperty
 from webviz.engine.commands.guard import Guard
 from webviz.engine.pipeline.own_names import own_names
@@ -24,40 +24,20 @@ from webviz.panels.planning_tasks import MotionPlanningTasks
 from webviz.panels.selector import Selector
 from webviz.panels.slam_toolbox import INITIAL_POSE, SlamToolbox
 from webviz.panels.visual_tools import RvizVisualToolsGui
+from webviz.shell.testing.opened_panel import OpenedPanel
 from webviz.shell.testing.remembering_graph import RememberingGraph
 from webviz_displays import moveit as displays
 
 PARAMETERS = "rcl_interfaces/srv/GetParameters"
-P = TypeVar("P", bound=Panel)
 
 
-class Bench(Generic[P]):
-    """A panel in a viewer, without a page."""
+class Bench(OpenedPanel):
+    """A panel in a viewer on a graph that remembers."""
 
-    def __init__(self, bench: Callable[..., Any], cls: type[P], **values: Any) -> None:
+    def __init__(self, bench: Callable[..., Any], cls: type[Panel], **values: Any) -> None:
         self.graph = RememberingGraph()
         self.viewer = bench(graph=self.graph)
-        self.viewer.do(AddPanel(cls.__name__, values))
-        self.viewer.do(OpenPanels(frozenset({cls.__name__})))
-        panel = self.viewer.viewer.state().panels[0].panel
-        assert isinstance(panel, cls)
-        self.panel, self.ui = panel, RecordedUi()
-        panel.build(self.ui, self.send)
-        self.show()
-
-    def send(self, command: Any, browser: int | None = None) -> None:
-        self.viewer.until_done(self.viewer.viewer.enqueue(command, Sender(browser)))
-
-    def show(self) -> None:
-        self.panel.show(self.viewer.viewer.state())
-
-    def widget(self, label: str) -> Any:
-        return next(w for w in self.ui.widgets.values() if w.values.get("label") == label)
-
-    def said(self) -> str:
-        self.show()
-        areas = (w.values for w in self.ui.widgets.values() if w.values["kind"] == "area")
-        return " ".join(map(str, areas))
+        super().__init__(cls, self.viewer.do, self.viewer.viewer.state, **values)
 
     def offers(self, service: str, *lists: list[str]) -> None:
         values = [{"type": 9, "string_array_value": each} for each in lists]
@@ -65,11 +45,11 @@ class Bench(Generic[P]):
 
 
 @pytest.fixture
-def tools(bench: Callable[..., Any]) -> Bench[RvizVisualToolsGui]:
+def tools(bench: Callable[..., Any]) -> Bench:
     return Bench(bench, RvizVisualToolsGui)
 
 
-def test_each_button_presses_its_own(tools: Bench[RvizVisualToolsGui]) -> None:
+def test_each_button_presses_its_own(tools: Bench) -> None:
     assert {each.topic for each in tools.graph.advertised} >= {"/rviz_visual_tools_gui"}
     for label in ("Next", "Continue", "Break", "Stop"):
         tools.widget(label).use(None, 1)
@@ -79,10 +59,10 @@ def test_each_button_presses_its_own(tools: Bench[RvizVisualToolsGui]) -> None:
     assert keys["Visual Tools: Next"] == "x"
 
 
-def test_a_press_that_nobody_hears_is_said(tools: Bench[RvizVisualToolsGui]) -> None:
+def test_a_press_that_nobody_hears_is_said(tools: Bench) -> None:
     tools.graph.subscriptions = 0
     tools.widget("Next").use(None, 1)
-    assert "No subscription to /rviz_visual_tools_gui" in tools.said()
+    assert "No subscription to /rviz_visual_tools_gui" in tools.text()
 
 
 def test_plug_ins_are_those_of_the_servers_and_the_choice_is_latched(
@@ -90,7 +70,7 @@ def test_plug_ins_are_those_of_the_servers_and_the_choice_is_latched(
 ) -> None:
     monkeypatch.setattr("webviz.panels.selector.ASK_S", 0.0)
     b = Bench(bench, Selector, namespace="/robot1/")
-    assert "No names of controller_server, planner_server, smoother_server." in b.said()
+    assert "No names of controller_server, planner_server, smoother_server." in b.text()
     b.offers("/robot1/controller_server/get_parameters", ["MPPI", "RPP"], ["goal"], ["progress"])
     b.offers("/robot1/planner_server/get_parameters", ["GridBased"])
     b.offers("/robot1/smoother_server/get_parameters", [])
@@ -167,12 +147,12 @@ def test_a_robot_docks_by_id_and_at_a_pose_and_undocks(
 
 
 @pytest.fixture
-def slam(bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch) -> Bench[SlamToolbox]:
+def slam(bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch) -> Bench:
     monkeypatch.setattr("webviz.panels.slam_toolbox.ASK_S", 0.0)
     return Bench(bench, SlamToolbox)
 
 
-def asked(b: Bench[SlamToolbox]) -> Any:
+def asked(b: Bench) -> Any:
     """Name and decoded request of the newest call that is not for the state."""
     service, type_, request = next(
         each for each in reversed(b.graph.requests) if each[1] != PARAMETERS
@@ -184,19 +164,19 @@ def response(name: str, values: dict[str, Any]) -> bytes:
     return encode(interfaces.service(f"slam_toolbox/srv/{name}").response, values)
 
 
-def test_the_state_of_slam_toolbox_names_what_its_buttons_do(slam: Bench[SlamToolbox]) -> None:
-    assert "No node offers /slam_toolbox/get_parameters" in slam.said()
+def test_the_state_of_slam_toolbox_names_what_its_buttons_do(slam: Bench) -> None:
+    assert "No node offers /slam_toolbox/get_parameters" in slam.text()
     values = {"values": [{"type": 1, "bool_value": True}, {"type": 1}]}
     answer = encode(f"{PARAMETERS}_Response", values)
     slam.graph.responses["/slam_toolbox/get_parameters"] = answer
     slam.show()
-    assert "'paused'" in slam.said()
+    assert "'paused'" in slam.text()
     assert slam.widget("Start editing")
     slam.graph.responses["/slam_toolbox/pause_new_measurements"] = response(
         "Pause", {"status": True}
     )
     slam.widget("Use new scans").use(None, 1)
-    assert "Done." in slam.said()
+    assert "Done." in slam.text()
     assert asked(slam)[0] == "/slam_toolbox/pause_new_measurements"
 
 
@@ -210,15 +190,13 @@ def test_the_state_of_slam_toolbox_names_what_its_buttons_do(slam: Bench[SlamToo
         ("Generate map", "merge_submaps"),
     ],
 )
-def test_a_button_of_slam_toolbox_calls_its_service(
-    button: str, service: str, slam: Bench[SlamToolbox]
-) -> None:
+def test_a_button_of_slam_toolbox_calls_its_service(button: str, service: str, slam: Bench) -> None:
     slam.widget(button).use(None, 1)
     assert asked(slam)[0] == f"/slam_toolbox/{service}"
-    assert f"No node offers /slam_toolbox/{service}" in slam.said()
+    assert f"No node offers /slam_toolbox/{service}" in slam.text()
 
 
-def test_maps_and_pose_graphs_are_saved_and_loaded(slam: Bench[SlamToolbox]) -> None:
+def test_maps_and_pose_graphs_are_saved_and_loaded(slam: Bench) -> None:
     for button in ("Save map", "Serialize", "Deserialize", "Add submap"):
         with pytest.raises(Error, match="No file for"):
             slam.widget(button).use(None, 1)
@@ -227,7 +205,7 @@ def test_maps_and_pose_graphs_are_saved_and_loaded(slam: Bench[SlamToolbox]) -> 
     slam.graph.responses["/slam_toolbox/save_map"] = result
     slam.widget("Save map").use(None, 1)
     assert asked(slam)[1].name.data == "office"
-    assert "Failed: slam_toolbox has no map yet." in slam.said()
+    assert "Failed: slam_toolbox has no map yet." in slam.text()
 
     slam.widget("Pose graph").use("/maps/office", 1)
     slam.widget("Serialize").use(None, 1)

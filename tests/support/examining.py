@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -14,14 +13,11 @@ from webviz.data.rotations import from_rpy
 from webviz.shell.testing.harness import Harness
 from webviz.shell.testing.live import LiveViewer
 from webviz.shell.testing.messages import header
-from webviz.shell.testing.source import SECOND
 from webviz_sim.pose import Pose2D
 
 HERE = Pose2D(-2.0, 0.0)
 """Where the robot is in the simulator's building."""
 SCAN = "sensor_msgs/msg/LaserScan"
-ROUNDS = 4
-"""Two in a row make a finding; one may be under way, and messages have to wait for a while."""
 
 
 def by_key(findings: Sequence[Finding], level: CauseLevel) -> dict[str, Finding]:
@@ -49,16 +45,7 @@ def examined(
         seconds: that pass between two turns.
         publish: called before each turn.
     """
-    doctor = stage.viewer.doctor
-    doctor.slice_s = math.inf
-    until, state = doctor.rounds + ROUNDS, stage.viewer.snapshot()
-    while doctor.rounds < until:
-        stage.clock += seconds
-        stage.source.now += round(seconds * SECOND)
-        publish()
-        stage.turn()
-        state = stage.viewer.snapshot()
-    return by_key(state.findings, level)
+    return by_key(stage.findings(seconds, publish), level)
 
 
 def display(viewer: Harness | LiveViewer, name: str) -> str:

@@ -2,19 +2,31 @@
 
 from __future__ import annotations
 
+import math
 import time
+from collections.abc import Callable, Sequence
+from typing import Any
 
+from webviz.api.finding import Finding
+from webviz.api.panel import Panel
+from webviz.api.status import Status
+from webviz.api.tool import Position
+from webviz.engine.commands import PROGRAM, Command, Sender, UseTool
 from webviz.files.config import Config
+from webviz.shell.testing.opened_panel import OpenedPanel
 from webviz.shell.testing.pictures import SnapshotFixture
 from webviz.shell.testing.recording import RecordingScene
+from webviz.shell.testing.remembering_graph import RememberingGraph
 from webviz.shell.testing.shown import Shown
-from webviz.shell.testing.source import HandFedSource
+from webviz.shell.testing.source import SECOND, HandFedSource
 from webviz.shell.testing.watched import WatchedViewer
 
 __tracebackhide__ = True  # failures are shown where the test calls
 
 LOADING_S = 60.0
 """For the meshes of large robots."""
+ROUNDS = 4
+"""Of the doctor: two in a row make a finding, one may be under way, and messages may wait."""
 
 
 class Harness(Shown):
@@ -27,7 +39,9 @@ class Harness(Shown):
     """
 
     def __init__(self, config: Config, scene: RecordingScene, snapshot: SnapshotFixture) -> None:
-        self.source = HandFedSource()
+        self.graph = RememberingGraph()
+        """All that the viewer sent."""
+        self.source = HandFedSource(graph=self.graph)
         self.clock = 1000.0
         """Monotonic time in seconds, for the ages of messages."""
         viewer = WatchedViewer(config, self.source, scene, clock=lambda: self.clock)
@@ -68,6 +82,67 @@ class Harness(Shown):
         self.settle()
         if not self.is_drawn(display):
             raise AssertionError(f"{display} draws nothing. {self.status(display).text}")
+
+    # Tools, panels and checks
+
+    @property
+    def published(self) -> list[tuple[str, Any]]:
+        """Topic and message of all that tools and panels published."""
+        return [(advertisement.topic, message) for advertisement, message in self.graph.published]
+
+    def use_tool(self, tool: str, *points: Position, yaw: float = 0.0) -> list[Status]:
+        """Make a gesture with a tool.
+
+        Args:
+            tool: its name.
+            points: of the gesture, in metres in the fixed frame.
+            yaw: of a pose, in radians.
+
+        Returns:
+            What the tool reports.
+        """
+        reported: list[Status] = []
+        self.do(UseTool(tool, points, yaw, report=reported.append))
+        return reported
+
+    def open_panel(self, panel: type[Panel], **values: Any) -> OpenedPanel:
+        """Open a panel; the values of its properties if it is added on request."""
+        return OpenedPanel(panel, self.do, self.state, **values)
+
+    def do(self, command: Command, sender: Sender = PROGRAM) -> str:
+        """Carry out a command, and return its answer.
+
+        Raises:
+            webviz.engine.commands.requests.Refused: it was refused.
+        """
+        answer = self.viewer.enqueue(command, sender)
+        deadline = time.monotonic() + LOADING_S
+        self.turn()
+        while not answer.done():
+            assert time.monotonic() < deadline, f"{command} is not answered."
+            time.sleep(0.005)  # files are read in another thread
+            self.turn()
+        return answer.result(0)
+
+    def findings(
+        self, seconds: float = 1.1, publish: Callable[[], object] = lambda: None
+    ) -> Sequence[Finding]:
+        """The findings of the doctor after some rounds.
+
+        Args:
+            seconds: that pass between two turns, also in ROS time.
+            publish: called before each turn.
+        """
+        doctor = self.viewer.doctor
+        doctor.slice_s = math.inf
+        until, state = doctor.rounds + ROUNDS, self.state()
+        while doctor.rounds < until:
+            self.clock += seconds
+            self.source.now += round(seconds * SECOND)
+            publish()
+            self.turn()
+            state = self.state()
+        return state.findings
 
     def _catch_up(self) -> None:
         self.turn()

@@ -1,0 +1,79 @@
+"""Writes the package of a new plug-in."""
+
+from __future__ import annotations
+
+import keyword
+import re
+from pathlib import Path
+from string import Template
+from typing import Literal, get_args
+
+from webviz.api.errors import Error
+from webviz.files.config import write_text
+
+Kind = Literal["display", "tool", "panel", "check"]
+KINDS: tuple[Kind, ...] = get_args(Kind)
+TEMPLATES = Path(__file__).with_name("templates")
+NAME = re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)*")
+"""Of a ROS package: REP 144."""
+LONGEST = 60
+
+
+def write_package(kind: Kind, name: str, folder: Path) -> list[Path]:
+    """Write a ROS package with one plug-in, its test and a config that shows it.
+
+    Args:
+        kind: of the plug-in.
+        name: of the package; the class has it in CamelCase.
+        folder: in which the folder of the package is made.
+
+    Returns:
+        The files.
+
+    Raises:
+        Error: the name is not one of a ROS package, the folder exists, or cannot be written.
+    """
+    if not NAME.fullmatch(name) or len(name) > LONGEST or keyword.iskeyword(name):
+        raise Error(
+            f"`{name[:LONGEST]}` is not the name of a ROS package. Use lower-case letters, digits "
+            "and single underscores, such as `docking_station`."
+        )
+    root = folder / name
+    if root.exists():
+        raise Error(f"{root} exists. Choose another name, or remove it.")
+    words = name.split("_")
+    values = {
+        "name": name,
+        "cls": "".join(word.capitalize() for word in words),
+        "title": " ".join(words).capitalize(),
+        "kind": kind,
+        "group": f"webviz.{kind}s",
+        "entry": f"{name} = {name}.{kind}" if kind == "check" else "$cls = $name.$kind:$cls",
+    }
+    values["entry"] = Template(values["entry"]).substitute(values)
+    written = []
+    for template, target in _files(kind, name).items():
+        text = (TEMPLATES / f"{template}.txt").read_text(encoding="utf-8") if template else ""
+        path = root / target
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise Error(f"Cannot make {path.parent}: {error.strerror}.") from error
+        write_text(Template(text).substitute(values), path)
+        written.append(path)
+    return written
+
+
+def _files(kind: Kind, name: str) -> dict[str, str]:
+    """Path in the package by name of the template."""
+    return {
+        "README.md": "README.md",
+        "package.xml": "package.xml",
+        "setup.py": "setup.py",
+        "setup.cfg": "setup.cfg",
+        "resource": f"resource/{name}",
+        "__init__.py": f"{name}/__init__.py",
+        f"{kind}.py": f"{name}/{kind}.py",
+        f"{kind}.yaml": "demo.yaml",
+        f"test_{kind}.py": f"test/test_{name}.py",
+    }
