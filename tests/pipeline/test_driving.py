@@ -240,7 +240,7 @@ def test_a_viewer_that_is_told_to_stop_brakes_nothing_gently(
 
 
 def test_a_command_that_could_not_be_published_in_time_is_not_published_late(
-    b: Any, hold: Callable[..., Hand]
+    b: Any, hold: Callable[..., Hand], caplog: pytest.LogCaptureFixture
 ) -> None:
     sent: list[Future[int]] = []
 
@@ -256,6 +256,8 @@ def test_a_command_that_could_not_be_published_in_time_is_not_published_late(
     until(lambda: all(each.cancelled() for each in sent[:-1]))
     assert not sent[-1].cancelled()
     sent[-1].set_result(1)
+    assert caplog.records == []
+    assert steer(b, teleop(b), 1, STILL).problem == ""
 
 
 def test_whoever_closes_a_viewer_waits_until_its_last_commands_are_published(

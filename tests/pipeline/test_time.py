@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Annotated, Any
 
+import pytest
+
 from webviz import Context, Display, Input, Keep, Sample, Topic
 from webviz.engine.commands import DuplicateDisplay, Pause, Reset
 from webviz.sources import Offer, Publisher
@@ -216,6 +218,17 @@ def test_a_bag_that_loops_without_a_clock_is_noticed_and_its_new_loop_is_shown(
     loop(b, 13, 24, "base")
     assert shown(b)[-1] == 23.5
     assert statuses(b)["Time"][1].startswith("The transforms started over in the past")
+    assert "Transforms" not in statuses(b)
+
+
+def test_too_many_frames_are_a_status_while_they_arrive(
+    bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("webviz.data.transforms.buffer.MAX_FRAMES", 3)
+    b = bench(Dot(name="Dot"))
+    loop(b, 10, 13, "base", "arm", "tool")
+    assert statuses(b)["Transforms"][1].startswith('6 transforms, the last of "tool", were ignored')
+    loop(b, 13, 60, "base", "arm")
     assert "Transforms" not in statuses(b)
 
 

@@ -11,6 +11,7 @@ from webviz.data.transforms import (
     NoDataForExtrapolationException,
     TransformBuffer,
 )
+from webviz.data.transforms.records import Surplus
 
 S = 1_000_000_000
 UNIT = (0.0, 0.0, 0.0, 1.0)
@@ -43,7 +44,7 @@ def test_an_invalid_transform_is_refused_with_tf2s_reason(
 ) -> None:
     version = buffer.version
     assert not buffer.set_transform(parent, child, S, translation, rotation)
-    assert buffer.rejections[child.removeprefix("/")].reason == reason
+    assert buffer.refusals.rejections[child.removeprefix("/")].reason == reason
     assert buffer.frames() == []
     assert buffer.version == version
 
@@ -55,7 +56,7 @@ def test_a_valid_transform_is_stored_and_changes_the_version(
     assert put("parent", "child", 1.0, 3.0)
     assert buffer.version != version
     assert buffer.lookup("parent", "child", S).translation == (3.0, 0.0, 0.0)
-    assert not buffer.rejections
+    assert not buffer.refusals.rejections
 
 
 @pytest.mark.parametrize("length", [1e-9, 0.3, 2.0, 1e6])
@@ -111,7 +112,7 @@ def test_data_older_than_the_cache_is_refused_and_counted(
     assert put("map", "odom", 90.0)
     assert not put("map", "odom", 89.999)
     assert not put("map", "odom", 1.0)
-    rejection = buffer.rejections["odom"]
+    rejection = buffer.refusals.rejections["odom"]
     assert (rejection.reason, rejection.count, rejection.stamp_ns) == ("TF_OLD_DATA", 2, S)
 
 
@@ -221,3 +222,34 @@ def test_a_loop_of_static_transforms_has_some_rigid_root(buffer: TransformBuffer
 def test_nothing_is_known_of_a_frame_never_mentioned(buffer: TransformBuffer) -> None:
     with pytest.raises(LookupException):
         buffer.latest_common_time("a", "b")
+
+
+def test_of_too_many_frames_expired_ones_make_room_and_others_are_refused_and_counted(
+    buffer: TransformBuffer, put: Put, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("webviz.data.transforms.buffer.MAX_FRAMES", 4)
+    put("map", "odom", 1.0)
+    put("base", "laser", 1.0, is_static=True)
+    assert not put("map", "person_1", 1.5)
+    assert not put("person_2", "odom", 1.5), "a new parent is a new frame, too"
+    assert buffer.refusals.surplus == Surplus("odom", 2, 0)
+    assert put("map", "odom", 2.0), "frames that are known still move"
+    assert put("map", "person_3", 13.0)
+    assert buffer.frames() == ["laser", "base", "person_3", "map"]
+    assert "odom" not in buffer.publishers
+    assert not put("map", "odom", 13.0)
+    buffer.forget()
+    assert buffer.refusals.surplus is None
+    assert put("map", "odom", 1.0)
+
+
+def test_refusals_are_kept_of_the_frames_refused_last(
+    buffer: TransformBuffer, put: Put, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("webviz.data.transforms.refusals.MAX_REJECTIONS", 2)
+    for frame in ("a", "b", "a", "c"):
+        put(frame, frame)
+    assert {frame: each.count for frame, each in buffer.refusals.rejections.items()} == {
+        "a": 2,
+        "c": 1,
+    }

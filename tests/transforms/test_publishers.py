@@ -5,11 +5,14 @@ from collections.abc import Callable
 import pytest
 
 from webviz.data.transforms import TransformBuffer
-from webviz.data.transforms.conflicts import conflicts
 from webviz.data.transforms.publishers import Contest
 
 S = 1_000_000_000
 Put = Callable[..., bool]
+
+
+def conflicts(buffer: TransformBuffer, frame: str) -> list[str]:
+    return [str(conflict.problem) for conflict in buffer.conflicts.of(frame)]
 
 
 def contest(buffer: TransformBuffer, frame: str) -> Contest | None:
@@ -26,7 +29,7 @@ def test_two_authorities_that_take_turns_are_told_from_a_restart(
     put("map", "odom", 1.3, authority="amcl")
     assert contest(buffer, "odom") == Contest(("amcl again", "amcl"), 1_300_000_000)
     assert set(buffer.publishers["odom"].names()) == {"amcl", "amcl again"}
-    assert list(conflicts(buffer, "odom")) == [
+    assert conflicts(buffer, "odom") == [
         '"odom" has two publishers, amcl again and amcl. Stop one of the publishers.'
     ]
 
@@ -37,9 +40,9 @@ def test_a_contest_of_authorities_is_over_when_one_is_silent_for_the_cache_time(
     for i in range(4):
         put("map", "odom", 1.0 + i / 10, authority=("amcl", "slam")[i % 2])
     put("map", "odom", 11.2, authority="slam")
-    assert len(list(conflicts(buffer, "odom"))) == 1
+    assert len(conflicts(buffer, "odom")) == 1
     put("map", "odom", 11.4, authority="slam")
-    assert list(conflicts(buffer, "odom")) == []
+    assert conflicts(buffer, "odom") == []
 
 
 def test_a_static_publisher_that_restarts_with_another_pose_is_not_contested(
@@ -101,7 +104,7 @@ def test_quarrels_are_forgotten_when_publishers_came_or_went(
     for parent in ("a", "b", "a"):
         put(parent, "laser", is_static=True)
     buffer.forget_publishers()
-    assert list(conflicts(buffer, "laser")) == []
+    assert conflicts(buffer, "laser") == []
     put("b", "laser", is_static=True)
     assert contest(buffer, "laser") is None
     put("a", "laser", is_static=True)
@@ -126,4 +129,17 @@ def test_neither_a_drive_nor_a_leap_nor_standing_still_is_a_quarrel(
         put("map", "leap", 1.0 + i / 10, x=0.1 * i + (5.0 if i > 20 else 0.0))
         put("map", "stand", 1.0 + i / 10, x=1.0)
         put("map", "tick", 1.0 + i / 10, x=0.001 * (i % 2))
-    assert [list(conflicts(buffer, f)) for f in ("drive", "leap", "stand", "tick")] == [[]] * 4
+    assert [conflicts(buffer, f) for f in ("drive", "leap", "stand", "tick")] == [[]] * 4
+
+
+def test_conflicts_are_sought_again_only_where_a_transform_has_arrived(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    for i in range(4):
+        put("map", "odom", 1.0 + i / 10, authority=("amcl", "slam")[i % 2])
+    put("base", "laser", is_static=True)
+    before = {frame: buffer.conflicts.of(frame) for frame in ("odom", "laser")}
+    put("base", "camera", is_static=True)
+    assert all(buffer.conflicts.of(frame) is found for frame, found in before.items())
+    put("map", "odom", 1.4, authority="slam")
+    assert buffer.conflicts.of("odom") is not before["odom"]

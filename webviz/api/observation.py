@@ -17,7 +17,7 @@ from webviz.api.rule import Verdict
 from webviz.api.status import Level, Status
 from webviz.api.two_ends import TwoEnds
 from webviz.data.transforms import Diagnosis, TransformBuffer, diagnose
-from webviz.data.transforms.conflicts import Conflict, ConflictKind, found_conflicts
+from webviz.data.transforms.conflicts import Conflict, ConflictKind
 from webviz.data.transforms.reasons import Explanation, Kind
 
 NO_OFFER = Offer(())
@@ -189,14 +189,9 @@ class Observation:
 
     def conflicts(self, kind: ConflictKind) -> Iterator[tuple[str, Conflict]]:
         """The frames with this sign of two publishers."""
-        for frame, conflict in self._conflicts:
+        for frame, conflict in self.buffer.conflicts.all():
             if conflict.kind is kind:
                 yield frame, conflict
-
-    @functools.cached_property
-    def _conflicts(self) -> Sequence[tuple[str, Conflict]]:
-        buffer = self.buffer
-        return [(f, each) for f in buffer.publishers for each in found_conflicts(buffer, f)]
 
     def nodes_of(self, topic: str) -> str:
         """The nodes that publish a topic, for sentences; "" if none does."""

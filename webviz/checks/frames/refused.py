@@ -32,7 +32,7 @@ class RefusedTransforms(Check):
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each frame of which transforms were refused lately."""
-        for frame, refused in seen.buffer.rejections.items():
+        for frame, refused in seen.buffer.refusals.rejections.items():
             if seen.now_ns - refused.received_ns > RECENT_NS or refused.reason == OLD:
                 continue
             yield self.found(

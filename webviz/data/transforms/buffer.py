@@ -10,21 +10,29 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz.data.transforms import many_frames
-from webviz.data.transforms.cache import Cache, StaticCache, TimeCache
+from webviz.data.transforms.cache import NEVER_NS, Cache, StaticCache, TimeCache
+from webviz.data.transforms.conflicts import Conflicts
 from webviz.data.transforms.errors import NS_PER_S, TransformException
 from webviz.data.transforms.geometry import IDENTITY, PoseTuple, canonical, compose_as_matrices
 from webviz.data.transforms.listing import frames_as_yaml
 from webviz.data.transforms.many_frames import FramesIn
 from webviz.data.transforms.many_inserts import ManyInserts
 from webviz.data.transforms.many_stamps import lookup_many
-from webviz.data.transforms.publishers import Publishers
-from webviz.data.transforms.records import NewestTransform, Rejection, Transform, fault_of, too_old
+from webviz.data.transforms.publishers import Claim, Publishers
+from webviz.data.transforms.records import (
+    NewestTransform,
+    Transform,
+    fault_of,
+    too_old,
+)
+from webviz.data.transforms.refusals import Refusals
 from webviz.data.transforms.topology import Topology
 from webviz.data.transforms.tree import FrameTree, roots
 
 QUATERNION_TOLERANCE = 10e-3
 """Tolerance of the squared length of a normalised quaternion around 1 (tf2's constant)."""
-
+MAX_FRAMES = 20_000
+"""Frames that are kept; tf2 has no limit."""
 
 _SILENT = np.errstate(over="ignore", invalid="ignore")
 """Huge transforms compose to infinity and NaN silently, as floats do."""
@@ -47,6 +55,8 @@ class TransformBuffer:
         recorded: when the first transforms of a bag come, such as "the bag's first is at 0.8 s"; ""
             for live ones.
         none_recorded: whether the source is a bag without transforms, so that none will come.
+        conflicts: the signs of two publishers of a frame.
+        refusals: the transforms that were not stored.
         version: changes whenever something is stored or cleared.
         structure_version: changes when a frame, a parent, a static pose or the kind of a frame
             changes: results that depend only on the tree's shape can be cached until then.
@@ -61,7 +71,9 @@ class TransformBuffer:
         self.structure_version = 0
         self._tree = FrameTree()
         self._publishers: dict[str, Publishers] = {}
-        self._rejections: dict[str, Rejection] = {}
+        self.refusals = Refusals()
+        self.conflicts = Conflicts(self._tree.caches, self._publishers, cache_time_ns)
+        self._room_made_ns = NEVER_NS
         self._many = ManyInserts(self._tree, self._publishers)
         self._topology: tuple[tuple[int, str, list[str]], Topology] | None = None
         """The cached shape of the last query for many frames, by structure version and query."""
@@ -71,11 +83,6 @@ class TransformBuffer:
     def tree(self) -> FrameTree:
         """The frames and their samples; for reading."""
         return self._tree
-
-    @property
-    def rejections(self) -> Mapping[str, Rejection]:
-        """The last refusal per child frame; frames without one are missing."""
-        return self._rejections
 
     @property
     def publishers(self) -> Mapping[str, Publishers]:
@@ -109,7 +116,7 @@ class TransformBuffer:
             received_ns: time of reception, for the diagnosis; 0 if unknown.
 
         Returns:
-            Whether it was stored (a repeated sample counts as stored); if not, `rejections` has the
+            Whether it was stored (a repeated sample counts as stored); if not, `refusals` has the
             reason.
         """
         if parent[:1] == "/":
@@ -128,30 +135,28 @@ class TransformBuffer:
             or not abs(qw * qw + qx * qx + qy * qy + qz * qz - 1.0) < QUATERNION_TOLERANCE
         ):
             fault = fault_of(parent, child, translation)
-            return self._reject(child, stamp_ns, received_ns, fault)
+            self.refusals.reject(child, stamp_ns, received_ns, fault)
+            return False
 
         tree = self._tree
         cache = tree.caches.get(child)
+        is_named = cache is not None and parent in tree.names
+        if not is_named and not self._has_room(child, stamp_ns, received_ns):
+            return False
         if cache is None or cache.is_static != is_static:
             cache = self._new_cache(parent, child, is_static)
-        elif parent not in tree.names:
+        elif not is_named:
             tree.names[parent] = None
             self.structure_version += 1
         before = cache.newest if is_static else cache.parent
         sample = ((x, y, z, qx, qy, qz, qw), parent)
         if not cache.insert(stamp_ns, sample):
             fault = too_old(stamp_ns, cache.newest_stamp)
-            return self._reject(child, stamp_ns, received_ns, fault)
+            self.refusals.reject(child, stamp_ns, received_ns, fault)
+            return False
         if before != (cache.newest if is_static else cache.parent):
             self.structure_version += 1
-        claim = sample if is_static else authority
-        publishers = self._publishers.get(child)
-        if publishers is None:
-            publishers = self._publishers[child] = Publishers(authority, claim)
-        elif publishers.claim != claim:
-            horizon_ns = cache.newest_stamp - self.cache_time_ns
-            publishers.take_over(authority, claim, stamp_ns, horizon_ns)
-        publishers.current = authority
+        publishers = self._claim(child, sample if is_static else authority, authority, stamp_ns)
         if received_ns:
             publishers.delay_ns = received_ns - stamp_ns
         self.version += 1
@@ -278,7 +283,8 @@ class TransformBuffer:
         """Forget the samples of moving frames; as in tf2 frames and static transforms stay."""
         for cache in self._tree.caches.values():
             cache.clear()
-        self._rejections.clear()
+        self.refusals.clear()
+        self._room_made_ns = NEVER_NS
         self.forget_publishers()
         self.version += 1
         self.structure_version += 1
@@ -288,10 +294,9 @@ class TransformBuffer:
         self._tree.caches.clear()
         self._tree.names.clear()
         self._publishers.clear()
-        self._rejections.clear()
+        self.conflicts.forget()
         self._topology = self._largest = None
-        self.version += 1
-        self.structure_version += 1
+        self.clear()
 
     def forget_publishers(self) -> None:
         """Forget conflicts over frames, such as after publishers came or went."""
@@ -363,10 +368,29 @@ class TransformBuffer:
         tree.names.setdefault(parent)
         return cache
 
-    def _reject(self, child: str, stamp_ns: int, received_ns: int, fault: tuple[str, str]) -> bool:
-        last = self._rejections.get(child)
-        count = last.count + 1 if last else 1
-        self._rejections[child] = Rejection(*fault, count, stamp_ns, received_ns)
+    def _claim(self, child: str, claim: Claim, authority: str, stamp_ns: int) -> Publishers:
+        """Note the publisher of a stored transform, and return all of its frame."""
+        publishers = self._publishers.get(child)
+        if publishers is None:
+            publishers = self._publishers[child] = Publishers(authority, claim)
+        elif publishers.claim != claim:
+            horizon_ns = self._tree.caches[child].newest_stamp - self.cache_time_ns
+            publishers.take_over(authority, claim, stamp_ns, horizon_ns)
+        publishers.current = authority
+        return publishers
+
+    def _has_room(self, child: str, stamp_ns: int, received_ns: int) -> bool:
+        """Return whether one more frame can be kept, if need be instead of expired ones."""
+        tree = self._tree
+        if len(tree.names) >= MAX_FRAMES and stamp_ns - self._room_made_ns > NS_PER_S:
+            self._room_made_ns = stamp_ns
+            for frame in tree.forget_expired(stamp_ns - self.cache_time_ns):
+                del self._publishers[frame]
+            self.conflicts.forget()
+            self.structure_version += 1
+        if len(tree.names) < MAX_FRAMES:
+            return True
+        self.refusals.exceed(child, received_ns)
         return False
 
 

@@ -7,16 +7,15 @@ alternating parents, poses at one stamp, stamps, or poses.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from itertools import islice, pairwise
 from math import dist
 
-from webviz.data.transforms.buffer import TransformBuffer
-from webviz.data.transforms.cache import TimeCache
+from webviz.data.transforms.cache import Cache, TimeCache
 from webviz.data.transforms.geometry import PACKED
-from webviz.data.transforms.publishers import Contest
+from webviz.data.transforms.publishers import Contest, Publishers
 from webviz.data.words import Problem
 
 RECENT = 100
@@ -53,15 +52,49 @@ class Conflict:
     parents: tuple[str, ...] = ()
 
 
-def conflicts(buffer: TransformBuffer, frame: str) -> Iterator[str]:
-    """Sentences, one for each sign of two publishers of a child frame."""
-    return (str(conflict.problem) for conflict in found_conflicts(buffer, frame))
+class Conflicts:
+    """The conflicts of all frames of a buffer, sought again only where a transform has arrived.
+
+    Args:
+        caches: the samples by child frame.
+        publishers: by child frame.
+        cache_time_ns: history kept of moving frames.
+    """
+
+    def __init__(
+        self,
+        caches: Mapping[str, Cache],
+        publishers: Mapping[str, Publishers],
+        cache_time_ns: int,
+    ) -> None:
+        self._caches = caches
+        self._publishers = publishers
+        self._cache_time_ns = cache_time_ns
+        self._known: dict[str, tuple[object, Sequence[Conflict]]] = {}
+        """By frame: the state they were found in, and the conflicts."""
+
+    def of(self, frame: str) -> Sequence[Conflict]:
+        """The signs of two publishers of a child frame."""
+        cache = self._caches[frame]
+        contest = self._publishers[frame].contested(cache.newest_stamp, self._cache_time_ns)
+        state = id(cache), cache.newest_stamp, len(cache), contest
+        known = self._known.get(frame)
+        if known is None or known[0] != state:
+            known = self._known[frame] = state, tuple(_found(frame, cache, contest))
+        return known[1]
+
+    def all(self) -> Iterator[tuple[str, Conflict]]:
+        """All conflicts with their frames."""
+        for frame in self._publishers:
+            for conflict in self.of(frame):
+                yield frame, conflict
+
+    def forget(self) -> None:
+        """Forget what was found."""
+        self._known.clear()
 
 
-def found_conflicts(buffer: TransformBuffer, frame: str) -> Iterator[Conflict]:
-    """The signs of two publishers of a child frame."""
-    cache = buffer.tree.caches[frame]
-    contest = buffer.publishers[frame].contested(cache.newest_stamp, buffer.cache_time_ns)
+def _found(frame: str, cache: Cache, contest: Contest | None) -> Iterator[Conflict]:
     if contest:
         yield _contested(frame, contest)
     if not isinstance(cache, TimeCache) or not cache.stamps:

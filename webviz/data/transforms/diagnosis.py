@@ -7,7 +7,6 @@ from itertools import islice, pairwise
 
 from webviz.data.transforms.buffer import TransformBuffer
 from webviz.data.transforms.cache import Cache, TimeCache
-from webviz.data.transforms.conflicts import found_conflicts
 from webviz.data.transforms.errors import NS_PER_S
 from webviz.data.transforms.reasons import MAX_LISTED, YEAR_NS, in_words, listed
 from webviz.data.transforms.tree import ancestors, roots
@@ -185,7 +184,7 @@ def report(buffer: TransformBuffer, frame: str, now_ns: int) -> FrameReport:
     history_ns = cache.newest_stamp - cache.oldest_stamp
     rate_hz = (len(cache) - 1) * NS_PER_S / history_ns if history_ns else 0.0
     age_ns = now_ns - cache.newest_stamp if isinstance(cache, TimeCache) and cache.stamps else None
-    found = [*found_conflicts(buffer, frame)]
+    found = buffer.conflicts.of(frame)
     problems = [str(conflict.problem) for conflict in found]
     parents = dict.fromkeys(parent for conflict in found for parent in conflict.parents)
     if newest is None:
@@ -195,7 +194,7 @@ def report(buffer: TransformBuffer, frame: str, now_ns: int) -> FrameReport:
             f'"{frame}" has stopped: its last transform is {in_words(age_ns)} old, previously '
             f"{rate_hz:.1f} Hz. Restart its publisher."
         )
-    rejection = buffer.rejections.get(frame)
+    rejection = buffer.refusals.rejections.get(frame)
     if rejection:
         problems.append(
             f'{rejection.count} transforms of "{frame}" were refused, the last because '

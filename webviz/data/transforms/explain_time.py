@@ -133,7 +133,7 @@ def _behind(
     if clocks:
         return clocks
     link = _link(buffer, child)
-    rejection = buffer.rejections.get(child)
+    rejection = buffer.refusals.rejections.get(child)
     is_recent = rejection and abs(rejection.stamp_ns - stamp_ns) < buffer.cache_time_ns
     if rejection and rejection.reason == "TF_OLD_DATA" and is_recent:
         return Explanation(

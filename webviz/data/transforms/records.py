@@ -57,6 +57,21 @@ class Rejection:
     received_ns: int = 0
 
 
+@dataclass(frozen=True, slots=True)
+class Surplus:
+    """Transforms that were refused because the buffer keeps no more frames.
+
+    Attributes:
+        child: of the last one refused.
+        count: how many were refused since the buffer was made or cleared.
+        received_ns: when the last one was received; 0 if unknown.
+    """
+
+    child: str
+    count: int
+    received_ns: int
+
+
 def fault_of(parent: str, child: str, translation: tuple[float, float, float]) -> tuple[str, str]:
     """Why a transform is refused at any time: tf2's name, and a description."""
     if child == parent:

@@ -161,6 +161,20 @@ class FrameTree:
             return str(error)
         return None
 
+    def forget_expired(self, horizon_ns: int) -> list[str]:
+        """Forget the moving frames without a transform since a stamp, and return them."""
+        expired = [
+            child
+            for child, cache in self.caches.items()
+            if not cache.is_static and cache.newest_stamp < horizon_ns
+        ]
+        for child in expired:
+            del self.caches[child]
+        used = self.caches.keys() | {cache.parent for cache in self.caches.values()}
+        for name in [name for name in self.names if name not in used]:
+            del self.names[name]
+        return expired
+
     def rigid_root(self, frame: str) -> str:
         """`TransformBuffer.rigid_root`."""
         for _ in range(MAX_DEPTH):

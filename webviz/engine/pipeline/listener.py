@@ -11,8 +11,8 @@ from webviz.api.robots import NamespacedRobot
 from webviz.api.status import Level, Status
 from webviz.data.messages import MessageError, TFMessage, decode
 from webviz.data.transforms import TransformBuffer
+from webviz.data.transforms.buffer import MAX_FRAMES
 from webviz.data.transforms.clocks import clock_problem
-from webviz.data.transforms.conflicts import conflicts
 from webviz.data.words import joined
 from webviz.engine.pipeline.transform_layout import Layouts, TransformBatch
 from webviz.sources import Offer, Raw, Subscriber, Subscription
@@ -197,9 +197,7 @@ class TransformListener:
 
     def _review(self, offers: Mapping[str, Offer], now_ns: int) -> dict[str, Status]:
         buffer = self._buffer
-        problems = [
-            sentence for frame in buffer.publishers for sentence in conflicts(buffer, frame)
-        ]
+        problems = [str(conflict.problem) for _, conflict in buffer.conflicts.all()]
         if problems:
             who = [
                 f"{topic}: {', '.join(_nodes(offers, topic)) or 'no publisher'}"
@@ -214,9 +212,16 @@ class TransformListener:
                 if rejection.reason == "TF_OLD_DATA"
                 else ". Fix the publisher."
             )
-            for child, rejection in buffer.rejections.items()
+            for child, rejection in buffer.refusals.rejections.items()
             if now_ns - rejection.received_ns < REFUSED_NS
         ]
+        surplus = buffer.refusals.surplus
+        if surplus is not None and now_ns - surplus.received_ns < REFUSED_NS:
+            problems.append(
+                f'{surplus.count} transforms, the last of "{surplus.child}", were ignored, because '
+                f"there are more than {MAX_FRAMES} frames. Stop the publisher that keeps naming "
+                "new frames."
+            )
         is_recorded = any(offer.is_recorded for offer in offers.values())
         found = {
             "Transforms": joined(*problems, *_few(refused)),
