@@ -200,7 +200,8 @@ class Peer:
             self._socket.recv(None if deadline is None else max(0.0, deadline - time.monotonic()))
 
     def close(self) -> None:
-        self._socket.close()
+        """Ends the connection without a farewell, to which a server that waits never responds."""
+        self._socket.close_socket()
 
 
 @pytest.fixture

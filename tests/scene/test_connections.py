@@ -248,9 +248,17 @@ def test_a_message_that_is_too_large_is_dropped_and_one_without_bounds_ends_the_
 
 
 def test_a_server_that_stops_waits_for_no_browser(
-    call: Callable[..., Any], server: viser.ViserServer, ask: Callable[..., Any]
+    call: Callable[..., Any],
+    server: viser.ViserServer,
+    ask: Callable[..., Any],
+    wait_until: Callable[[Callable[[], bool]], None],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    call()  # does not read, so that it never answers a farewell
+    monkeypatch.setattr(connections, "Allowance", lambda *_: Allowance(rate=1e-9, burst=1.5))
+    eager = call()  # must wait for ages, and does not read, so that it never answers a farewell
+    eager.look(1.0)
+    eager.look(2.0)
+    wait_until(lambda: seen(server) == [1.0])
     with socket.create_connection(("127.0.0.1", server.get_port())) as client:
         client.sendall(b"GET / HT")
         assert ask(PAGE)[0] == 200

@@ -64,6 +64,6 @@ class Guest:
         self._socket.socket.shutdown(socket.SHUT_WR)
 
     def close(self) -> None:
-        """End the connections."""
-        self._socket.close()
+        """End the connections, as `Peer.close`."""
+        self._socket.close_socket()
         self.viser.close()

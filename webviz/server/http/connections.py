@@ -338,10 +338,12 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
             data = await super().recv(decode)
             cost = 1.0 + len(data) / self._bytes_per_message
             wait = 0.0 if self.is_expelled else self._allowance.spend(cost, self.loop.time())
-            # Also with a delay of 0: otherwise received messages would keep other tasks waiting.
-            await asyncio.sleep(wait)
             if wait > 0.0:
+                # A server that stops does not wait for this, either.
+                await asyncio.wait([self.connection_lost_waiter], timeout=wait)
                 await self._end_flood()
+            else:
+                await asyncio.sleep(0.0)  # received messages must not keep other tasks waiting
             if self.is_expelled:
                 continue
             objection = self.objection(data, self.grant.role)
