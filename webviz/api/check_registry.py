@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import importlib
 import importlib.metadata
+import itertools
 import logging
 import pkgutil
 from collections.abc import Iterator, Sequence
@@ -23,10 +24,7 @@ _registered: dict[str, Sequence[type[Check]]] = {}
 
 def known_checks() -> Sequence[type[Check]]:
     """All checks in the order of causes: by level, then by number."""
-    found = [*_installed()]
-    for checks in list(_registered.values()):  # another thread may register
-        found += checks
-    return sorted(found, key=lambda check: (CauseLevel.of(check.id).place, check.id))
+    return _in_order(tuple(_registered.values()))
 
 
 def register_checks(owner: str, checks: Sequence[type[Check]]) -> None:
@@ -67,6 +65,13 @@ def checks_of(module: ModuleType) -> Iterator[type[Check]]:
         is_check = isinstance(value, type) and issubclass(value, Check)
         if is_check and value.__module__ == module.__name__ and not value.__name__.startswith("_"):
             yield value
+
+
+@functools.lru_cache(maxsize=1)
+def _in_order(registered: tuple[Sequence[type[Check]], ...]) -> Sequence[type[Check]]:
+    """The checks of packages and those of files, in the order of causes."""
+    found = itertools.chain(_installed(), *registered)
+    return tuple(sorted(found, key=lambda check: (CauseLevel.of(check.id).place, check.id)))
 
 
 @functools.cache

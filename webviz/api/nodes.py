@@ -7,6 +7,7 @@ Arrays must not be changed once they are part of a node.
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass, field, fields
 from typing import Any, Literal
 
@@ -42,12 +43,16 @@ class _Node:
         if type(self) is not type(other):
             return NotImplemented
         return all(
-            same(getattr(self, f.name), getattr(other, f.name))
-            for f in fields(self)  # pyright: ignore[reportArgumentType]
-            if f.compare
+            same(getattr(self, name), getattr(other, name)) for name in _compared(type(self))
         )
 
     __hash__ = None  # pyright: ignore[reportAssignmentType]
+
+
+@functools.cache
+def _compared(kind: type[Any]) -> tuple[str, ...]:
+    """Names of the fields of a class of nodes that count when nodes are compared."""
+    return tuple(each.name for each in fields(kind) if each.compare)
 
 
 def same(a: object, b: object) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from dataclasses import dataclass
 
@@ -81,14 +82,28 @@ def project(scan: messages.LaserScan) -> BeamPoints:
     over = max(len(beams) - MAX_BEAMS, 0)
     if over:
         beams = beams[evenly(len(beams), MAX_BEAMS)]
-    angles = scan.angle_min + beams * scan.angle_increment
-    measured = ranges[beams]
-    xyz = np.zeros((len(measured), 3))
-    xyz[:, 0], xyz[:, 1] = measured * np.cos(angles), measured * np.sin(angles)
-    dropped = {} if is_hit.all() else _reasons(scan, ranges[~is_hit], farthest)
+    if len(ranges) <= MAX_BEAMS:  # so that few bytes are kept
+        xyz = _directions(scan.angle_min, scan.angle_increment, len(ranges)).take(beams, axis=0)
+    else:
+        xyz = _unit_vectors(scan.angle_min + beams * scan.angle_increment)
+    xyz *= ranges.take(beams)[:, None]
+    dropped = {} if len(beams) == len(ranges) else _reasons(scan, ranges[~is_hit], farthest)
     if over:
         dropped[f"over the limit of {MAX_BEAMS}"] = over
     return BeamPoints(beams, xyz, len(ranges), dropped)
+
+
+@functools.lru_cache(maxsize=8)
+def _directions(angle_min: float, angle_increment: float, count: int) -> F64:
+    """Unit vectors (count, 3) of all beams, which most lasers measure along in every scan."""
+    return _unit_vectors(angle_min + np.arange(count) * angle_increment)
+
+
+def _unit_vectors(angles: NDArray[np.floating]) -> F64:
+    """Unit vectors (N, 3) in the x-y plane at angles (N,) from x towards y, in rad."""
+    found = np.zeros((len(angles), 3))
+    found[:, 0], found[:, 1] = np.cos(angles), np.sin(angles)
+    return found
 
 
 def _reasons(scan: messages.LaserScan, ranges: F64, farthest: float) -> dict[str, int]:

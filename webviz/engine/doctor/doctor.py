@@ -158,7 +158,7 @@ class Doctor:
     def _current(self) -> Sequence[Check]:
         """The checks, those of files as they are now."""
         classes = known_checks()
-        if [type(check) for check in self._checks] != classes:
+        if tuple(map(type, self._checks)) != classes:
             self._checks = [check() for check in classes]
         return self._checks
 

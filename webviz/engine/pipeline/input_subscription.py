@@ -94,6 +94,7 @@ class InputSubscription:
         self._waiting_since: float | None = None
         self._newest = self._newest_placed = -1
         self._drops = Drops()
+        self._followed: Offer | None = None
         self._frame = ""
         self._stamps: deque[tuple[int, int]] = deque(maxlen=STAMPS)
 
@@ -144,7 +145,9 @@ class InputSubscription:
         arrivals: list[Arrival] = []
         topic_statistics = self._topic_statistics
         first_new = topic_statistics.count
-        self._follow(offer)
+        if offer is not self._followed:
+            self._followed = offer
+            self._follow(offer)
         if offer and offer.type not in ("", self.type):
             raws = ()  # another display reads the topic as another type
         is_latched = bool(

@@ -14,6 +14,7 @@ from webviz.api.sample import Sample
 from webviz.sources import Raw
 
 MAX_ASKED = 100
+_UNTIMED = contextlib.nullcontext()
 
 
 @dataclass(frozen=True)
@@ -94,12 +95,12 @@ class Tracer:
         self.busy_s: defaultdict[str, float] = defaultdict(float)
         """Seconds of a processor that reading and drawing took in the frame loop, by display."""
 
-    @contextlib.contextmanager
-    def timed(self, display: str) -> Iterator[None]:
+    def timed(self, display: str) -> contextlib.AbstractContextManager[None]:
         """Count the time of the block for a display."""
-        if not self.is_timing:
-            yield
-            return
+        return self._timed(display) if self.is_timing else _UNTIMED
+
+    @contextlib.contextmanager
+    def _timed(self, display: str) -> Iterator[None]:
         began = time.thread_time()
         try:
             yield
