@@ -78,6 +78,17 @@ SERVER: tuple[Reach, ...] = (
         "a public queue of messages, snapshots of cameras, and removals that end",
     ),
     Reach(
+        f"{ADAPTER}/tape.py",
+        (
+            "viser._messages",
+            "viser.infra._infra.ClientId",
+            "viser.infra._messages.Message",
+            "_websock_server",
+        ),
+        "runs as one file: what a browser that joins would be sent, and what has changed since",
+        "a serializer that also has poses that were queued apart",
+    ),
+    Reach(
         f"{ADAPTER}/packing.py",
         ("viser.infra._messages.Message",),
         "frames that are packed once for all browsers",

@@ -90,7 +90,7 @@ class ViserCameras:
             if browser in (None, id_):
                 if known := self._browsers.get(id_):
                     known.view, known.number = view, number
-                self._link.channel.send(_message(PlaceCamera, view, number), id_)
+                self._link.channel.send(placed(PlaceCamera, view, number), id_)
 
     def views(self) -> Mapping[int, View]:
         """The current view of every browser, by its id."""
@@ -145,7 +145,7 @@ class ViserCameras:
     # Called on viser's event loop
 
     async def _join(self, client: viser.ClientHandle) -> None:
-        self._link.channel.send(_message(StartView, self._start, 0), client.client_id)
+        self._link.channel.send(placed(StartView, self._start, 0), client.client_id)
 
     async def _leave(self, client: viser.ClientHandle) -> None:
         with self._lock:
@@ -156,7 +156,14 @@ class ViserCameras:
             self._heard[browser] = report
 
 
-def _message(kind: type[M], view: View, number: int) -> M:
+def placed(kind: type[M], view: View, number: int) -> M:
+    """The message that puts the camera of a page where a view says.
+
+    Args:
+        kind: of the message.
+        view: to show.
+        number: of the request.
+    """
     camera = camera_of(view, ASSUMED_PX)
     frame = view.target_frame
     return kind(

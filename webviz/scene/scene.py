@@ -174,10 +174,18 @@ class ViserScene:
         Raises:
             TimeoutError: it takes longer than `timeout` seconds.
         """
+        self.complete(timeout)
+        self.link.acknowledge(timeout)
+
+    def complete(self, timeout: float) -> None:
+        """Queue everything for browsers that was flushed and is still being made.
+
+        Raises:
+            TimeoutError: it takes longer than `timeout` seconds.
+        """
         self.link.late.finish(timeout)
         while self.link.label_budget.is_unfinished:
             self.flush()
-        self.link.acknowledge(timeout)
 
     def _touch(self, name: str) -> _Group:
         group = self._groups.get(name)

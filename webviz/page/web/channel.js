@@ -4,6 +4,16 @@
 
 const MAX_UNSENT = 100;
 
+/**
+ * The part of a WebSocket that is used here.
+ *
+ * @typedef {{
+ *   readyState: number, binaryType: string, send(text: string): void, close(): void,
+ *   onopen: ((event: any) => void) | null, onclose: ((event: any) => void) | null,
+ *   onmessage: ((event: any) => void) | null,
+ * }} Socket
+ */
+
 /** @type {Map<string, ((message: any) => void)[]>} */
 const listeners = new Map();
 /** @type {(() => void)[]} */
@@ -12,7 +22,7 @@ const openers = [];
 let takeBytes = () => {};
 /** @type {(() => void)[]} */
 const closers = [];
-/** @type {WebSocket | null} */
+/** @type {Socket | null} */
 let socket = null;
 /** @type {FromPage[]} */
 let unsent = [];
@@ -70,12 +80,12 @@ export function send(message) {
 /**
  * Opens the channel; to be called when everybody listens who will.
  *
- * @param {string} url
+ * @param {Socket} connected that is about to open
  * @param {string} key
  */
-export function open(url, key) {
+export function open(connected, key) {
   socket?.close();
-  const mine = (socket = new WebSocket(url));
+  const mine = (socket = connected);
   mine.onopen = () => {
     mine.send(JSON.stringify({ type: "Hello", key }));
     for (const act of openers) act();

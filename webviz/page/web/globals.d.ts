@@ -10,6 +10,8 @@ interface Window {
     pick(xy: [number, number]): unknown;
   };
   webvizStarted(): void;
+  /** True in a page that was exported with a recorded run. */
+  webvizRun?: boolean;
   /** viser has no types of it; viser_page.js alone reads it, and says what has to be there. */
   __viserMutable: any;
 }

@@ -1,8 +1,11 @@
 // Starts the modules as viser's page comes about, and opens the channel when the server calls.
 
+import { allowOnly } from "./access.js";
 import * as batches from "./scene/batches.js";
 import * as blocks from "./scene/blocks.js";
 import * as channel from "./channel.js";
+import { about } from "./recorded/chunks.js";
+import { COMMANDS, connection, REASON } from "./recorded/connection.js";
 import * as colors from "./scene/colors.js";
 import constants from "./constants.js";
 import * as contact from "./contact.js";
@@ -30,6 +33,8 @@ import * as view from "./scene/view.js";
 import * as viser from "./viser_page.js";
 import * as whole from "./scene/whole.js";
 
+/** @import {About} from "./recorded/types.js" */
+
 // Before viser's page handles the first messages: it draws with what it has then.
 async function install() {
   await viser.until(viser.hasScene);
@@ -47,20 +52,35 @@ async function install() {
     whole,
     pieces,
   ];
-  for (const part of [shell, page, inStep, ...ofScene, contact]) part.install();
+  for (const part of [shell, page, inStep, ...ofScene]) part.install();
+  if (!run) contact.install();
   await viser.until(() => viser.hasCamera() && viser.node(constants.ROOT));
   for (const part of [view, mouse, handles, saveImage, overlay, holding, blocks]) part.install();
   toolbar.install(shell.places);
   extensions.install();
 }
 
+/** @param {About} run */
+async function play(run) {
+  allowOnly(COMMANDS, REASON);
+  const feed = await viser.connectToNothing();
+  const { socket, open } = connection(run, feed);
+  await installed;
+  window.webviz.browser = 0;
+  channel.open(socket, "");
+  open();
+}
+
 /** @param {string} token */
 const answer = (token) => channel.send({ type: "Answer", token });
 channel.on("Ask", ({ token }) => answer(token));
 
+/** @type {About | null} */
+const run = window.webvizRun ? about() : null; // of a page that was exported
 theme.install();
-viser.connectToFolder();
 const installed = install();
+if (run) play(run);
+else viser.connectToFolder();
 const address = new URL("webviz/channel", location.href).href.replace(/^http/, "ws");
 
 // Functions that the server and the pictures of webviz call.
@@ -73,7 +93,7 @@ window.webviz = {
     if (version !== constants.VERSION) return location.reload();
     await installed;
     window.webviz.browser = browser;
-    channel.open(address, key);
+    channel.open(new WebSocket(address), key);
   },
   hasView: () => view.type() !== "",
   pick: mouse.pick,

@@ -4,6 +4,8 @@
 // another version of viser fails there, and says which access it lacks and what needs it.
 
 export const VISER = "1.1.1";
+/** Messages to viser's worker that concern a server. */
+const IGNORED = ["retry", "send"];
 
 const page = () => window.__viserMutable;
 
@@ -77,6 +79,33 @@ export function connectToFolder() {
   const { replaceState } = history;
   history.replaceState = function (state, title, ...rest) {
     if (title !== "Viser") replaceState.call(this, state, title, ...rest);
+  };
+}
+
+/**
+ * Keeps viser from connecting to a server. To be called before viser's own script. Resolves with what
+ * passes messages to it as if they came from there: the function resolves once they are applied.
+ *
+ * @returns {Promise<(messages: ViserMessage[]) => Promise<void>>}
+ */
+export async function connectToNothing() {
+  const { postMessage } = Worker.prototype;
+  /** @type {Worker | null} */
+  let worker = null;
+  /** @type {(this: Worker, message: any, ...rest: any[]) => void} */
+  Worker.prototype.postMessage = function (message, ...rest) {
+    if (message?.type === "set_server") worker = this;
+    else if (!IGNORED.includes(message?.type)) {
+      Reflect.apply(postMessage, this, [message, ...rest]);
+    }
+  };
+  /** @param {object} data */
+  const come = (data) => worker?.onmessage?.(new MessageEvent("message", { data }));
+  await until(() => worker?.onmessage && hasScene());
+  come({ type: "connected" });
+  return (messages) => {
+    come({ type: "message_batch", messages });
+    return until(() => !hasMessages());
   };
 }
 

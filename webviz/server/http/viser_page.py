@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from importlib import resources
+
 _OWN = b"(async()=>{  const d=document.currentScript.dataset;"
 """Beginning of viser's script, which unpacks the rest of it."""
 
@@ -17,3 +19,8 @@ def with_head(page: bytes, head: bytes) -> bytes:
     if not (tag and own):
         raise ValueError("The page of viser has no <head>, or another script than expected.")
     return start + tag + head + before + own + b"await window.webvizModules;" + after
+
+
+def client_page() -> bytes:
+    """viser's page as it is installed."""
+    return (resources.files("viser") / "client" / "build" / "index.html").read_bytes()

@@ -40,6 +40,7 @@ app.default(viewing.view, validator=viewing.check)
 app.command(viewing.demo, help_epilogue=ROS_ARGS_HELP)
 for name, summary in {
     "screenshot": "Save pictures of a config without a screen, live or from a bag.",
+    "export": "Write a part of a bag as one HTML file that opens without a server.",
     "record": "Record topics to MCAP files that ROS 2 plays.",
     "doctor": "Find the causes of what is not shown, live or in a bag, without a browser.",
     "frames": "Print or draw the tree of transforms, live or of a bag.",

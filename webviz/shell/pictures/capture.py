@@ -218,7 +218,7 @@ def pictures(order: Order, renderer: HeadlessRenderer | None = None) -> Generato
             stack.callback(renderer.close)
         else:
             renderer.resize(*order.size)
-        viewer = OfflineViewer(order.config, order.source, renderer)
+        viewer = OfflineViewer(order.config, order.source, renderer.scene)
         stack.callback(viewer.close)
         awaited = viewer.names() if order.wait_for is None else order.wait_for
         if not viewer.names():

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 
 import msgspec
@@ -13,12 +13,12 @@ from webviz.api.frames import Frames
 from webviz.api.group import DisplayGroup
 from webviz.api.status import LOADING, Level, Status
 from webviz.api.views import FIXED_FRAME, FPS, TopDownOrtho, View
-from webviz.engine.commands import Seek
+from webviz.engine.commands import Command, Seek
 from webviz.engine.loop import FrameLoop
 from webviz.engine.state import State
 from webviz.files.config import Config, nearest
 from webviz.page.content.visibility import enabled, hidden_in
-from webviz.shell.pictures.headless_renderer import HeadlessRenderer
+from webviz.scene import ViserScene
 from webviz.shell.pictures.times import seconds_from_start
 from webviz.sources import Source
 from webviz.sources.bag.source import BagSource
@@ -53,18 +53,44 @@ class Readiness:
 
 
 class OfflineViewer:
-    """A viewer that draws in a headless renderer, without a thread of its own."""
+    """A viewer without a thread of its own.
 
-    def __init__(self, config: Config, source: Source, renderer: HeadlessRenderer) -> None:
+    Args:
+        config: what to show.
+        source: of the messages.
+        scene: where to draw.
+        show: called with the state whenever panels should be updated.
+    """
+
+    def __init__(
+        self,
+        config: Config,
+        source: Source,
+        scene: ViserScene,
+        show: Callable[[State], None] = lambda state: None,
+    ) -> None:
         self._source = source
-        self._renderer = renderer
-        self._viewer = FrameLoop(config, source, renderer.scene)
+        self._scene = scene
+        self._viewer = FrameLoop(config, source, scene, show)
         self._viewer.turn()
 
     def close(self) -> None:
-        """Stop the displays and clear the renderer."""
+        """Stop the displays and clear the scene."""
         self._viewer.close()
-        self._renderer.clear()
+        self._scene.clear()
+        self._scene.flush()
+
+    @property
+    def loop(self) -> FrameLoop:
+        """The frame loop, which is turned by hand."""
+        return self._viewer
+
+    def do(self, command: Command) -> None:
+        """Carry out a command, draw its effect and show the state."""
+        answer = self._viewer.enqueue(command)
+        while not answer.done():
+            self._viewer.turn()
+        answer.result()
 
     def seek(self, source: BagSource, at_ns: int, deadline: float) -> None:
         """Show a bag at a time of recording.

@@ -1,0 +1,218 @@
+// Stands in for the server of a page that was exported: answers from the recorded run what a viewer
+// would, and refuses the rest.
+
+import { clock } from "./clock.js";
+import { player } from "./player.js";
+import { frameAt } from "./moments.js";
+
+/** @import {Do, FromPage, ToPage} from "../messages.js" */
+/** @import {Socket} from "../channel.js" */
+/** @import {ViserMessage} from "../types.js" */
+/** @import {About} from "./types.js" */
+
+const MAX_IN_FLIGHT = 2;
+const NEVER = "There is no other message in this recording. Step in the other direction.";
+
+/** Why a command is refused. */
+export const REASON =
+  "This page is a recording, which can only be played and looked at. Open the bag in webviz to change it.";
+
+/**
+ * The commands that are carried out here.
+ *
+ * @type {ReadonlySet<string>}
+ */
+export const COMMANDS = new Set([
+  "Pause",
+  "Play",
+  "Seek",
+  "SelectSpan",
+  "SetLoop",
+  "SetRate",
+  "ShowView",
+  "StepMessage",
+]);
+
+/**
+ * Returns a socket that a run answers, and what opens it. `feed(messages)` passes messages to viser's page, and resolves once it
+ * has applied them.
+ *
+ * @param {About} about
+ * @param {(messages: ViserMessage[]) => Promise<void>} feed
+ */
+export function connection(about, feed) {
+  /** @type {Set<string>} */
+  const own = new Set(); // names of watched stores that are made here
+  /** @type {Map<string, {waiting: number[], next: (() => ArrayBuffer)[] | null}>} */
+  const panes = new Map(); // that are shown
+  /** @type {Promise<void>} */
+  let applied = Promise.resolve();
+
+  /** @type {Socket} */
+  const socket = {
+    readyState: WebSocket.OPEN,
+    binaryType: "arraybuffer",
+    onopen: null,
+    onclose: null,
+    onmessage: null,
+    close() {},
+    send: (text) => hear(JSON.parse(text)),
+  };
+
+  /** @param {ToPage} message */
+  const tell = (message) => socket.onmessage?.({ data: JSON.stringify(message) });
+
+  const run = player(about, {
+    scene: (messages) => (applied = feed(messages)),
+    store: (store, all, set, gone) => tell({ type: "Values", store, all, set, gone }),
+    pictures(display, makers) {
+      const pane = panes.get(display);
+      if (!pane) return;
+      pane.next = makers;
+      sendPictures(display);
+    },
+  });
+  const time = clock(about.duration, show, tellTime);
+
+  /** @param {number} at */
+  async function show(at) {
+    await run.show(at);
+    await applied;
+  }
+
+  /** @param {string} display */
+  function sendPictures(display) {
+    const pane = panes.get(display);
+    if (!pane?.next || pane.waiting.length >= MAX_IN_FLIGHT) return;
+    const makers = pane.next;
+    pane.next = null;
+    for (const make of makers) {
+      pane.waiting.push(0);
+      socket.onmessage?.({ data: make() });
+    }
+  }
+
+  /** Stores that are made here. */
+  const MAKERS = {
+    clock() {
+      const { isPlaying, rate } = time.state();
+      const wall = Date.now() / 1000;
+      return {
+        pace: [run.ros(), wall, isPlaying ? rate : 0],
+        began: [0, wall],
+        is_known: run.ros() !== 0,
+        is_paused: !isPlaying,
+        is_simulated: true,
+        hz: 0,
+      };
+    },
+    playback() {
+      const { position, isPlaying, rate, loop, selected } = time.state();
+      const { names, start, duration } = about;
+      const recording = { names, start, duration, rate, loop, selected, is_live: null };
+      return { ...recording, is_playing: isPlaying, position: Math.round(position * 1e3) / 1e3 };
+    },
+  };
+
+  /** @param {string} name */
+  function tellOwn(name) {
+    const make = MAKERS[/** @type {keyof typeof MAKERS} */ (name)];
+    const set = make ? make() : about.stores[name];
+    tell({ type: "Values", store: name, all: true, set: set ?? {}, gone: [] });
+  }
+
+  function tellTime() {
+    for (const name of Object.keys(MAKERS)) if (own.has(name)) tellOwn(name);
+  }
+
+  /** @param {string} name */
+  function watch(name) {
+    if (name in MAKERS || name in about.stores) {
+      own.add(name);
+      tellOwn(name);
+    } else run.watch(name);
+  }
+
+  /** @type {Record<string, (fields: any) => unknown>} */
+  const ACTS = {
+    Pause: ({ paused = true }) => time.pause(paused),
+    Play: () => time.pause(false),
+    Seek: ({ at_s }) => time.seek(at_s),
+    SetRate: ({ rate }) => time.set({ rate }),
+    SetLoop: ({ loop = true }) => time.set({ loop }),
+    SelectSpan({ first_s, last_s }) {
+      const selected = [first_s ?? 0, Math.min(last_s ?? about.duration, about.duration)];
+      const isAll = first_s === null && last_s === null;
+      time.set({ selected: isAll ? null : /** @type {[number, number]} */ (selected) });
+    },
+    StepMessage({ is_forward = true }) {
+      time.pause(true);
+      const at = neighbour(is_forward);
+      if (at === undefined) throw new Error(NEVER);
+      return time.seek(at);
+    },
+    ShowView({ view }) {
+      tell({ ...about.views[view], type: "PlaceCamera" });
+    },
+  };
+
+  /** @param {boolean} isForward */
+  function neighbour(isForward) {
+    const { index } = about;
+    const [chunk, frame] = frameAt(index, time.state().position);
+    const { times } = index[chunk];
+    if (isForward) return times[frame + 1] ?? index[chunk + 1]?.times[0];
+    return times[frame - 1] ?? index[chunk - 1]?.times.at(-1);
+  }
+
+  /** @param {Do} request */
+  async function carryOut({ number, command, arguments: fields }) {
+    let [level, text] = ["ok", ""];
+    try {
+      const act = ACTS[command];
+      if (!act) throw new Error(REASON);
+      await act(fields);
+    } catch (error) {
+      [level, text] = ["error", error instanceof Error ? error.message : String(error)];
+    }
+    tell({ type: "Done", number, command, level, text, result: {} });
+  }
+
+  /** @param {Record<string, number>} widths */
+  function showPictures(widths) {
+    for (const display of panes.keys()) if (!(display in widths)) panes.delete(display);
+    for (const display of Object.keys(widths)) {
+      if (panes.has(display)) continue;
+      panes.set(display, { waiting: [], next: null });
+      run.repeat(display);
+    }
+  }
+
+  /** @param {FromPage} message */
+  function hear(message) {
+    if (message.type === "Watch") watch(message.store);
+    else if (message.type === "Unwatch") {
+      own.delete(message.store);
+      run.unwatch(message.store);
+    } else if (message.type === "Do") carryOut(message);
+    else if (message.type === "ShowPictures") showPictures(message.widths);
+    else if (message.type === "FramesShown") {
+      for (const display of Object.keys(message.numbers)) {
+        panes.get(display)?.waiting.splice(0);
+        sendPictures(display);
+      }
+    } else if (message.type === "Ping") tell({ type: "Pong" });
+  }
+
+  const begun = time.seek(0);
+  return {
+    socket,
+    /** To be called once the page listens to the socket. */
+    async open() {
+      socket.onopen?.(null);
+      tell({ type: "You", role: "recording", name: "" });
+      await begun;
+      for (const message of about.greeting) tell(message);
+    },
+  };
+}

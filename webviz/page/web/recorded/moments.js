@@ -1,0 +1,68 @@
+// Contents of a recorded run at each of its frames, by numbers of messages, values and pictures.
+
+/** @import {Chunk, ChunkIndex, Shown} from "./types.js" */
+
+/**
+ * The last item of a sorted list that is not above a value; at least the first.
+ *
+ * @template T
+ * @param {T[]} list
+ * @param {(item: T) => number} of
+ * @param {number} value
+ */
+export function lastUpTo(list, of, value) {
+  let [low, high] = [0, list.length - 1];
+  while (low < high) {
+    const middle = Math.ceil((low + high) / 2);
+    if (of(list[middle]) <= value) low = middle;
+    else high = middle - 1;
+  }
+  return low;
+}
+
+/**
+ * The chunk and the frame within it that are shown at a time.
+ *
+ * @param {ChunkIndex[]} index
+ * @param {number} at
+ * @returns {[chunk: number, frame: number]}
+ */
+export function frameAt(index, at) {
+  const chunk = lastUpTo(index, ({ times }) => times[0], at + 1e-6);
+  return [chunk, lastUpTo(index[chunk].times, (time) => time, at + 1e-6)];
+}
+
+/**
+ * Finds the contents of a frame of a chunk.
+ *
+ * @param {Chunk} chunk
+ * @param {number} frame
+ * @returns {Shown}
+ */
+export function shownAt(chunk, frame) {
+  const { scene, stores, panes } = chunk.start;
+  /** @type {Shown} */
+  const shown = {
+    ros: chunk.frames[frame][1],
+    scene: new Set(scene),
+    stores: new Map(
+      Object.entries(stores).map(([name, values]) => [name, new Map(Object.entries(values))]),
+    ),
+    panes: new Map(Object.entries(panes)),
+  };
+  for (const [, , added, gone, values, pictures] of chunk.frames.slice(1, frame + 1)) {
+    for (const number of gone) shown.scene.delete(number);
+    for (const number of added) shown.scene.add(number);
+    for (const [store, key, number] of values) {
+      const content = shown.stores.get(store) ?? new Map();
+      shown.stores.set(store, content);
+      if (number < 0) content.delete(key);
+      else content.set(key, number);
+    }
+    for (const [display, numbers] of pictures) {
+      if (numbers.length) shown.panes.set(display, numbers);
+      else shown.panes.delete(display);
+    }
+  }
+  return shown;
+}

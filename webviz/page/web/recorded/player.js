@@ -1,0 +1,193 @@
+// Shows a recorded run at a time, to viser's page and to whoever watches stores and pictures.
+
+import { bufferOf, chunks, revived } from "./chunks.js";
+import { frameAt, lastUpTo, shownAt } from "./moments.js";
+import { changesBetween } from "./scene_changes.js";
+
+/** @import {ViserMessage} from "../types.js" */
+/** @import {About, Chunk, ChunkIndex, Known, Shown} from "./types.js" */
+
+/**
+ * @typedef {{
+ *   scene(messages: ViserMessage[]): void,
+ *   store(name: string, all: boolean, set: Record<string, unknown>, gone: string[]): void,
+ *   pictures(display: string, make: (() => ArrayBuffer)[]): void,
+ * }} Outlets
+ */
+
+/** @type {Shown} */
+const NOTHING = { ros: 0, scene: new Set(), stores: new Map(), panes: new Map() };
+
+/**
+ * Returns `{show(at), ready(at), watch(store), unwatch(store), repeat(display), ros(), value(store, key)}`.
+ *
+ * @param {About} about
+ * @param {Outlets} outlets
+ */
+export function player(about, outlets) {
+  const { index } = about;
+  const { load, at: unpacked } = chunks();
+  let shown = NOTHING;
+  let place = ""; // the chunk and the frame that are shown
+  /** @type {Map<number, Known>} */
+  let known = new Map(); // of the scene
+  /** @type {Map<string, Map<string, unknown>>} */
+  const values = new Map(); // of the stores that are shown, by key
+  /** @type {Set<string>} */
+  const watched = new Set();
+
+  /**
+   * The number of the chunk that has a message, value or picture.
+   *
+   * @param {"message" | "value" | "picture"} kind
+   * @param {number} number
+   */
+  const home = (kind, number) =>
+    lastUpTo(index, (/** @type {ChunkIndex} */ each) => each[kind], number);
+
+  /**
+   * The chunks that have all of some messages, values or pictures.
+   *
+   * @param {"message" | "value" | "picture"} kind
+   * @param {Iterable<number>} numbers
+   * @returns {Promise<(number: number) => Chunk>}
+   */
+  async function homes(kind, numbers) {
+    /** @type {Map<number, Chunk>} */
+    const found = new Map();
+    for (const number of numbers) {
+      const chunk = home(kind, number);
+      if (!found.has(chunk)) found.set(chunk, unpacked(chunk) ?? (await load(chunk)));
+    }
+    return (number) => /** @type {Chunk} */ (found.get(home(kind, number)));
+  }
+
+  /** @param {Shown} next */
+  async function sceneMessages(next) {
+    const fresh = [...next.scene].filter((number) => !known.has(number));
+    const of = await homes("message", fresh);
+    /** @type {Map<number, Known>} */
+    const all = new Map();
+    for (const number of [...next.scene].sort((a, b) => a - b)) {
+      let message = known.get(number);
+      if (!message) {
+        const { first, items } = of(number).messages;
+        const [key, node, phase] = items[number - first];
+        message = { number, key, node, phase };
+      }
+      all.set(number, message);
+    }
+    const { gone, wanted } = changesBetween(known.values(), all.values());
+    const from = await homes("message", wanted);
+    const removals = gone.map((name) => ({ type: "RemoveSceneNodeMessage", name, owner: "" }));
+    const messages = wanted.map((number) => {
+      const chunk = from(number);
+      return revived(chunk, chunk.messages.items[number - chunk.messages.first][3]);
+    });
+    return { all, messages: [...removals, ...messages] };
+  }
+
+  /**
+   * The values of the watched stores.
+   *
+   * @param {Shown} next
+   * @param {Iterable<string>} names
+   */
+  async function storeValues(next, names) {
+    const wanted = [...names].map((name) => [name, next.stores.get(name) ?? new Map()]);
+    const numbers = wanted.flatMap(([, content]) => [
+      .../** @type {Map<string, number>} */ (content).values(),
+    ]);
+    const of = await homes("value", new Set(numbers));
+    /** @param {number} number */
+    const value = (number) => {
+      const { first, items } = of(number).values;
+      return items[number - first];
+    };
+    return new Map(
+      wanted.map(([name, content]) => [
+        /** @type {string} */ (name),
+        new Map(
+          [.../** @type {Map<string, number>} */ (content)].map(([key, number]) => [
+            key,
+            value(number),
+          ]),
+        ),
+      ]),
+    );
+  }
+
+  /**
+   * Shows the stores of these names as they are now.
+   *
+   * @param {Map<string, Map<string, unknown>>} next
+   */
+  function showStores(next) {
+    for (const [name, content] of next) {
+      const before = values.get(name);
+      values.set(name, content);
+      if (!before) {
+        outlets.store(name, true, Object.fromEntries(content), []);
+        continue;
+      }
+      const set = [...content].filter(([key, value]) => before.get(key) !== value);
+      const gone = [...before.keys()].filter((key) => !content.has(key));
+      if (set.length || gone.length) outlets.store(name, false, Object.fromEntries(set), gone);
+    }
+  }
+
+  /**
+   * @param {Shown} next
+   * @param {string} display
+   */
+  async function showPicture(next, display) {
+    const numbers = next.panes.get(display) ?? [];
+    const of = await homes("picture", numbers);
+    const makers = numbers.map((number) => () => {
+      const chunk = of(number);
+      return bufferOf(chunk, chunk.pictures.items[number - chunk.pictures.first]);
+    });
+    outlets.pictures(display, makers);
+  }
+
+  /**
+   * Shows a time in seconds; the next one can be asked for when this is done.
+   *
+   * @param {number} at
+   */
+  async function show(at) {
+    const [number, frame] = frameAt(index, at);
+    if (place === `${number}.${frame}`) return;
+    const next = shownAt(unpacked(number) ?? (await load(number)), frame);
+    const { all, messages } = await sceneMessages(next);
+    const stores = await storeValues(next, watched);
+    const before = shown;
+    [shown, place, known] = [next, `${number}.${frame}`, all];
+    outlets.scene(messages);
+    showStores(stores);
+    for (const display of new Set([...before.panes.keys(), ...next.panes.keys()])) {
+      const isSame = before.panes.get(display)?.join() === next.panes.get(display)?.join();
+      if (!isSame) await showPicture(next, display);
+    }
+    if (number + 1 < index.length) load(number + 1);
+  }
+
+  return {
+    show,
+    /** The ROS time of the frame that is shown. */
+    ros: () => shown.ros,
+    /** @param {string} name */
+    async watch(name) {
+      watched.add(name);
+      values.delete(name);
+      if (place) showStores(await storeValues(shown, [name]));
+    },
+    /** @param {string} name */
+    unwatch(name) {
+      watched.delete(name);
+      values.delete(name);
+    },
+    /** @param {string} display */
+    repeat: (display) => showPicture(shown, display),
+  };
+}

@@ -1,0 +1,69 @@
+// Types of a recorded run, see webviz/shell/export/.
+
+import type { PlaceCamera, ToPage } from "../messages.js";
+
+/** Its key, node, phase, and the message itself. */
+export type SceneItem = [key: string, node: string, phase: "create" | "remove" | "", message: any];
+/** Seconds, ROS time, numbers of messages that came and went, of values, and of pictures. */
+export type RecordedFrame = [
+  at: number,
+  ros: number,
+  added: number[],
+  gone: number[],
+  values: [store: string, key: string, number: number][],
+  pictures: [display: string, numbers: number[]][],
+];
+/** Some seconds of the run, with the numbers of the first message, value and picture in it. */
+export interface RawChunk {
+  messages: { first: number; items: SceneItem[] };
+  values: { first: number; items: unknown[] };
+  pictures: { first: number; items: number[] };
+  start: {
+    scene: number[];
+    stores: Record<string, Record<string, number>>;
+    panes: Record<string, number[]>;
+  };
+  frames: RecordedFrame[];
+  /** Start, size, and size of the numbers whose bytes are shuffled. */
+  buffers: [start: number, size: number, width: number][];
+}
+/** An unpacked one. */
+export interface Chunk extends RawChunk {
+  number: number;
+  bytes: Uint8Array<ArrayBuffer>;
+}
+/** Where each chunk begins. */
+export interface ChunkIndex {
+  times: number[];
+  message: number;
+  value: number;
+  picture: number;
+}
+/** What the file says of its run. */
+export interface About {
+  names: string[];
+  start: number;
+  duration: number;
+  index: ChunkIndex[];
+  greeting: ToPage[];
+  views: Record<string, PlaceCamera>;
+  stores: Record<string, Record<string, unknown>>;
+  notes: string[];
+}
+/** What is shown at a moment, by the numbers in the chunks. */
+export interface Shown {
+  ros: number;
+  scene: Set<number>;
+  stores: Map<string, Map<string, number>>;
+  panes: Map<string, number[]>;
+}
+/** A message of the scene without its content. */
+export type Known = { number: number; key: string; node: string; phase: string };
+/** The playback of a run. */
+export interface Playing {
+  position: number;
+  isPlaying: boolean;
+  rate: number;
+  loop: boolean;
+  selected: [number, number] | null;
+}

@@ -1,0 +1,94 @@
+"""`webviz export`: writes a part of a bag as one HTML file."""
+
+# Without `from __future__ import annotations`, see `webviz.shell.cli.options`.
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import App, Parameter
+
+from webviz.shell.cli.ending import INTERRUPTED, end_in_time, on_signal, say_end
+from webviz.shell.cli.options import ConfigOptions, File
+from webviz.shell.cli.progress import progress
+from webviz.shell.cli.screenshot_options import Seconds, Time
+
+EXAMPLES = """\
+Examples:
+  webviz export run.mcap -d lab.yaml -o run.html
+  webviz export run.mcap -d lab.yaml --from 10 --to 40 -o run.html
+
+"""
+
+app = App("export", help_epilogue=EXAMPLES)
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class ExportOptions(ConfigOptions):
+    """Options for the file to make."""
+
+    output: Annotated[File, Parameter(alias="-o")]
+    """HTML file to write; it needs neither a server nor a network."""
+    first: Annotated[Time, Parameter(name="--from")] = "start"
+    """Where to begin: seconds from the start, a Unix time, `start` or `end`."""
+    last: Annotated[Time, Parameter(name="--to")] = "end"
+    """Where to end."""
+    rate: Annotated[Seconds, Parameter(metavar="HZ")] = 10.0
+    """Frames per second of the bag."""
+
+
+@app.default
+def export(
+    bag: Annotated[Path, Parameter(metavar="BAG", help="MCAP or db3 file, or rosbag2 folder.")],
+    *,
+    options: ExportOptions,
+) -> int:
+    """Write the file; the exit status."""
+    on_signal(_interrupt)
+    try:
+        return _make(bag, options)
+    except KeyboardInterrupt:
+        say_end("webviz: interrupted; nothing was written.")
+        return INTERRUPTED
+
+
+def _make(bag: Path, options: ExportOptions) -> int:
+    import contextlib
+    import sys
+
+    from webviz.engine.pipeline import plugins
+    from webviz.shell.bag_source import bag_source
+    from webviz.shell.export.export import ExportOrder
+    from webviz.shell.export.export import export as write
+
+    options.allow_meshes()
+    for path in options.plugin:
+        plugins.load(path)
+    with contextlib.closing(bag_source(bag)) as source:
+        config = options.read(options.display_config, source)
+        if options.fixed_frame:
+            config.set_fixed_frame(options.fixed_frame)
+        shown = options.display_config
+        order = ExportOrder(
+            config,
+            source,
+            str(bag),
+            shown.name if shown else "",
+            options.first,
+            options.last,
+            options.rate,
+        )
+        made = write(order, options.output, lambda share: progress("webviz: exporting", share))
+        for remark in source.remarks:
+            print(f"webviz: {bag}: {remark}", file=sys.stderr)
+    size, page = (f"{count / 1e6:.1f} MB" for count in (made.bytes, made.client_bytes))
+    print(
+        f"webviz: wrote {options.output}: {made.seconds:g} s, {made.frames} frames, {size} "
+        f"({page} of it the page)."
+    )
+    return 0
+
+
+def _interrupt() -> None:
+    end_in_time()
+    raise KeyboardInterrupt

@@ -1,0 +1,155 @@
+"""Plays a span of a bag by hand, and records what a page would be sent."""
+
+from __future__ import annotations
+
+import contextlib
+import itertools
+import math
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+from webviz.api.frames import Frames
+from webviz.api.views import FIXED_FRAME
+from webviz.engine.commands import Refresh
+from webviz.engine.state import State
+from webviz.files.config import Config
+from webviz.page.pages import Pages
+from webviz.scene import ViserScene, open_server
+from webviz.scene.adapter.tape import SceneTape
+from webviz.scene.cameras import ViserCameras
+from webviz.server.http.viser_server import Server
+from webviz.shell.export.panes import PaneTape
+from webviz.shell.export.stores import RecordingChannel
+from webviz.shell.export.tape import TapeFrame
+from webviz.shell.pictures.offline_viewer import OfflineViewer
+from webviz.sources.bag.source import BagSource
+
+SLOW_S = 1.0
+"""Between two records of the stores that change all the time."""
+PATIENCE_S = 60.0
+"""For one frame: the first may have to load the meshes of a robot."""
+
+
+MAX_FOLLOWED = 64
+"""Frames that views can follow."""
+
+
+class RecordedCameras(ViserCameras):
+    """Cameras that may follow any frame."""
+
+    followed: frozenset[str] = frozenset()
+    """Frames whose poses are recorded."""
+
+    def target_frames(self) -> set[str]:
+        """The frames that somebody may choose, and that of the view to start with."""
+        return super().target_frames() | self.followed
+
+
+class RecordedScene(ViserScene):
+    """A scene that is drawn although no browser is connected."""
+
+    def __init__(self, server: Server) -> None:
+        super().__init__(server)
+        self.cameras: RecordedCameras = RecordedCameras(self.link)
+
+    def has_watchers(self) -> bool:
+        """True."""
+        return True
+
+    def is_unseen(self, display: str) -> bool:
+        """False: whoever opens the file may look at each pane."""
+        return False
+
+
+@dataclass(frozen=True)
+class ExportSpan:
+    """Part of a bag to record.
+
+    Args:
+        first_ns, last_ns: times of recording.
+        rate_hz: frames per second.
+    """
+
+    first_ns: int
+    last_ns: int
+    rate_hz: float
+
+    def times_ns(self) -> Sequence[int]:
+        """The times of the frames; the last one is that of the end."""
+        count = math.ceil((self.last_ns - self.first_ns) / 1e9 * self.rate_hz - 1e-6)
+        steps = [self.first_ns + round(number * 1e9 / self.rate_hz) for number in range(count)]
+        return [*steps, self.last_ns]
+
+
+class RunRecorder:
+    """A viewer whose scene, panels and panes are recorded.
+
+    Args:
+        config: what to show.
+        source: the bag.
+    """
+
+    def __init__(self, config: Config, source: BagSource) -> None:
+        self._source = source
+        with contextlib.ExitStack() as stack:
+            server = open_server(port=0)
+            stack.callback(server.stop)
+            self._scene = RecordedScene(server)
+            self._tape = SceneTape(server)
+            stack.callback(self._tape.close)
+            self.channel = RecordingChannel()
+            self._panes = PaneTape()
+            self._pages: Pages | None = None
+            self.state = State()
+            """As of the last frame."""
+            self.viewer = OfflineViewer(config, source, self._scene, self._show)
+            stack.callback(self.viewer.close)
+            loop = self.viewer.loop
+            self._pages = Pages(self.channel, loop.enqueue, loop.controllers.steer)
+            self._stack = stack.pop_all()
+
+    def close(self) -> None:
+        """Stop the viewer."""
+        self._stack.close()
+
+    def frames(
+        self, span: ExportSpan, tell: Callable[[float], object] = lambda share: None
+    ) -> Iterator[TapeFrame]:
+        """Play a span.
+
+        Args:
+            span: what to record.
+            tell: called with the share that is done.
+        """
+        times = span.times_ns()
+        slow_s = -math.inf
+        for number, at_ns in enumerate(times):
+            deadline = time.monotonic() + PATIENCE_S
+            at_s = (at_ns - span.first_ns) / 1e9
+            self.viewer.seek(self._source, at_ns, deadline)
+            self.viewer.wait((), deadline)
+            self._follow_frames()
+            self.channel.is_slow_due = at_s - slow_s >= SLOW_S - 1e-6
+            slow_s = at_s if self.channel.is_slow_due else slow_s
+            self.channel.follow(self.viewer.loop.state())
+            self.viewer.do(Refresh())
+            self._scene.complete(PATIENCE_S)
+            pictures = self._panes.take(self._scene.link.pictures.panes())
+            ros_s = self._source.now_ns() / 1e9
+            yield TapeFrame(at_s, ros_s, self._tape.take(), self.channel.take(), pictures)
+            tell((number + 1) / len(times))
+
+    def _follow_frames(self) -> None:
+        """Record the poses of all frames that have one, as far as there are not too many."""
+        loop = self.viewer.loop
+        frames = Frames(loop.buffer, loop.settings.fixed_frame, self._source.now_ns())
+        wanted = [view.target_frame for view in loop.settings.views.values()]
+        known = dict.fromkeys([*wanted, *loop.state().frames])
+        found = (frame for frame in known if frame != FIXED_FRAME and frames.latest(frame))
+        self._scene.cameras.followed = frozenset(itertools.islice(found, MAX_FOLLOWED))
+
+    def _show(self, state: State) -> None:
+        self.state = state
+        if self._pages is not None:
+            self._pages.update(state)

@@ -1,0 +1,78 @@
+"""The channel to a page that will open a file: keeps what it would be sent."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import msgspec
+
+from webviz.engine.state import State
+from webviz.server.channel.channel import Channel
+from webviz.server.channel.messages import ToPage
+from webviz.server.channel.stores import Stores
+
+SHARED = (
+    *("bookmarks", "commands", "density", "displays", "events", "findings", "frames", "goals"),
+    *("graph", "legend", "modules", "panels", "panes", "picking", "recorded", "routes", "settings"),
+    *("views", "watchers"),
+)
+"""Stores that pages watch all the time."""
+SLOW = ("frame_tree", "topics", "traffic", "transforms")
+"""Those whose values change all the time, although nobody reads them so quickly."""
+OF_EACH_DISPLAY = ("properties", "rate", "statuses")
+OF_EACH_PANEL = ("panel", "panel_properties")
+OF_EACH_TOOL = ("tool",)
+ABOUT_ALL = ("bookmarks", "density", "events", "recorded")
+"""Stores about the whole recording, of which the last values are kept."""
+
+Changes = Mapping[tuple[str, str], msgspec.Raw | None]
+"""New values by store and key, None for those that are gone."""
+
+
+class RecordingChannel(Channel):
+    """A channel whose page watches everything that a file contains."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.is_slow_due = True
+        """True if stores that change all the time are wanted, too."""
+        self.kept: dict[type[ToPage], ToPage] = {}
+        """The newest message of each kind."""
+        self._names: set[str] = set(SHARED)
+        self._made = Stores()
+        self._changes: dict[tuple[str, str], msgspec.Raw | None] = {}
+
+    def follow(self, state: State) -> None:
+        """Watch the stores of all displays, tools and panels of a viewer."""
+        displays = {f"{name}:{row.id}" for name in OF_EACH_DISPLAY for row in state.rows}
+        panels = {f"{name}:{tab.tab}" for name in OF_EACH_PANEL for tab in state.panels}
+        tools = {f"{name}:{tool.id}" for name in OF_EACH_TOOL for tool in state.tools}
+        for gone in self._names - (names := {*SHARED, *displays, *panels, *tools}) - {*SLOW}:
+            self.show(gone, {})
+        self._names = names
+
+    def watched(self) -> set[str]:
+        """The names of the stores to make."""
+        return {*self._names, *(SLOW if self.is_slow_due else ())}
+
+    def send(self, message: ToPage, browser: int | None = None) -> None:
+        """Keep a message to all pages."""
+        if browser is None:
+            self.kept[type(message)] = message
+
+    def show(self, store: str, values: Mapping[str, Any]) -> None:
+        """Note which values of a store have changed."""
+        for key in self._made.replace(store, values):
+            content = self._made.get(store) or {}
+            self._changes[store, key] = content.get(key)
+
+    def content(self, store: str) -> Mapping[str, Any]:
+        """The values of a store now."""
+        content = self._made.get(store) or {}
+        return {key: msgspec.json.decode(value) for key, value in content.items()}
+
+    def take(self) -> Changes:
+        """The changes since the last call."""
+        changes, self._changes = self._changes, {}
+        return changes

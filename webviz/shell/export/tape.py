@@ -1,0 +1,159 @@
+"""The tape: frames of a run, in chunks that can each be shown by themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import msgspec
+
+from webviz.scene.adapter.tape import SceneChange
+from webviz.shell.export.chunks import TapeChunk
+from webviz.shell.export.stores import Changes
+
+KEYFRAME_S = 5.0
+"""Seconds of the run in one chunk: what a seek has to unpack."""
+CHUNK_BYTES = 8 << 20
+"""Size of a chunk before compression, from which on the next one begins."""
+MAX_KNOWN = 100_000
+"""Values that are recognised when they come again."""
+
+
+@dataclass(frozen=True)
+class TapeFrame:
+    """A moment of a run.
+
+    Args:
+        at_s: seconds from the start of the file.
+        ros_s: ROS time in seconds.
+        scene: changes of the scene since the frame before.
+        stores: changes of the stores.
+        pictures: new pictures of panes by display as pages receive them, None if one is gone; and
+            whether it can be shown without those before.
+    """
+
+    at_s: float
+    ros_s: float
+    scene: SceneChange
+    stores: Changes
+    pictures: Mapping[str, tuple[bytes, bool] | None]
+
+
+@dataclass(frozen=True)
+class ChunkIndex:
+    """Facts about a chunk for the page before it unpacks it.
+
+    Args:
+        times: of its frames in seconds.
+        message, value, picture: numbers of the first of each.
+    """
+
+    times: Sequence[float]
+    message: int
+    value: int
+    picture: int
+
+
+class Tape:
+    """Collects frames, and hands each chunk on as soon as it is complete.
+
+    Args:
+        write: takes a packed chunk.
+    """
+
+    def __init__(self, write: Callable[[bytes], object]) -> None:
+        self._write = write
+        self.index: list[ChunkIndex] = []
+        self._messages = self._values = self._pictures = 0
+        self._numbers: dict[int, int] = {}
+        """Of the messages that the scene consists of, by the numbers that the server gave them."""
+        self._stores: dict[tuple[str, str], int] = {}
+        self._known: dict[bytes, int] = {}
+        self._panes: dict[str, list[int]] = {}
+        self._chunk: TapeChunk | None = None
+        self._times: list[float] = []
+
+    def add(self, frame: TapeFrame) -> None:
+        """Add the next frame."""
+        chunk = self._chunk
+        if chunk is not None:
+            is_long = frame.at_s - self._times[0] >= KEYFRAME_S - 1e-6
+            if is_long or chunk.size > CHUNK_BYTES:
+                self.finish()
+        is_key = self._chunk is None
+        chunk = self._chunk = self._chunk or TapeChunk(self._messages, self._values, self._pictures)
+        added, gone = self._add_scene(chunk, frame.scene)
+        values = self._add_values(chunk, frame.stores)
+        pictures = self._add_pictures(chunk, frame.pictures)
+        self._times.append(frame.at_s)
+        if is_key:
+            chunk.start = self._start()
+            added, gone, values, pictures = [], [], [], []
+        chunk.frames.append([frame.at_s, frame.ros_s, added, gone, values, pictures])
+
+    def finish(self) -> None:
+        """Hand on the last chunk."""
+        chunk = self._chunk
+        if chunk is None:
+            return
+        first = chunk.first_message, chunk.first_value, chunk.first_picture
+        self.index.append(ChunkIndex(self._times, *first))
+        self._chunk, self._times = None, []
+        self._write(chunk.packed())
+
+    def _add_scene(self, chunk: TapeChunk, change: SceneChange) -> tuple[list[int], list[int]]:
+        gone = [self._numbers.pop(number) for number in change.gone if number in self._numbers]
+        added: list[int] = []
+        for message in change.added:
+            chunk.add_message(message)
+            self._numbers[message.number] = self._messages
+            added.append(self._messages)
+            self._messages += 1
+        return added, gone
+
+    def _add_values(self, chunk: TapeChunk, changes: Changes) -> list[Any]:
+        told: list[Any] = []
+        for (store, key), value in changes.items():
+            if value is None:
+                self._stores.pop((store, key), None)
+                told.append([store, key, -1])
+                continue
+            number = self._number(chunk, value)
+            self._stores[store, key] = number
+            told.append([store, key, number])
+        return told
+
+    def _number(self, chunk: TapeChunk, value: msgspec.Raw) -> int:
+        encoded = bytes(value)
+        if (known := self._known.get(encoded)) is not None:
+            return known
+        if len(self._known) >= MAX_KNOWN:
+            self._known.clear()
+        number = self._known[encoded] = self._values
+        self._values += 1
+        chunk.add_value(value)
+        return number
+
+    def _add_pictures(
+        self, chunk: TapeChunk, pictures: Mapping[str, tuple[bytes, bool] | None]
+    ) -> list[Any]:
+        told: list[Any] = []
+        for display, picture in pictures.items():
+            if picture is None:
+                self._panes.pop(display, None)
+                told.append([display, []])
+                continue
+            data, is_whole = picture
+            chunk.add_picture(data)
+            before = [] if is_whole else self._panes.get(display, [])
+            self._panes[display] = [*before, self._pictures]
+            told.append([display, self._panes[display]])
+            self._pictures += 1
+        return told
+
+    def _start(self) -> Mapping[str, Any]:
+        stores: dict[str, dict[str, int]] = {}
+        for (store, key), number in self._stores.items():
+            stores.setdefault(store, {})[key] = number
+        return {"scene": sorted(self._numbers.values()), "stores": stores, "panes": self._panes}
