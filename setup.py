@@ -128,6 +128,7 @@ setup(
         "webviz.panels": [
             "Docking = webviz.panels.docking:Docking",
             "Joints = webviz.panels.joints:Joints",
+            "Log = webviz.panels.log:Log",
             "MotionPlanningTasks = webviz.panels.planning_tasks:MotionPlanningTasks",
             "Nav2 = webviz.panels.nav2:Nav2",
             "Plot = webviz.panels.plot:Plot",

@@ -124,8 +124,15 @@ class Sliders(Protocol):
 class Custom(Protocol):
     """A widget that the module of the panel draws."""
 
-    def show(self, values: Mapping[str, Any]) -> None:
+    def show(
+        self, values: Mapping[str, Any], parts: Mapping[str, Mapping[str, Any]] | None = None
+    ) -> None:
         """Show these values: texts, numbers, switches, and lists and mappings of them.
+
+        Args:
+            values: sent as a whole when one of them changes.
+            parts: by key; each is sent once, and again only if another object has its key. With
+                them long lists grow without being sent again.
 
         Raises:
             ValueError: they are not, or are too large.
@@ -208,6 +215,11 @@ class Panel(Declared, kw_only=True, dict=True):
     """The class of a tool that does the same in RViz; files with that tool open the panel."""
     on_request: ClassVar[bool] = False
     """True if it is shown only if the config or somebody adds it."""
+    always_reads: ClassVar[bool] = False
+    """True if it also reads its topics while its tab is closed, as a log does.
+
+    `take` is then called before `build`.
+    """
 
     def build(self, ui: Ui, send: Send) -> None:
         """Build the tab. Called once, before the first `show`."""

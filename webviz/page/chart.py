@@ -22,8 +22,6 @@ class ChartWidget(Widget):
 
     def __init__(self, remove: Remove) -> None:
         super().__init__(kind="chart", curves=[], window=1.0, now=0.0)
-        self.parts: Mapping[str, Any] = {}
-        """The pieces of the curves by their keys: the same objects until they change."""
         self._remove = remove
         self._keys: dict[str, int] = {}
         self._count = itertools.count()

@@ -18,7 +18,6 @@ from webviz.engine.commands import Command, Sender
 from webviz.engine.commands.guard import Guard
 from webviz.engine.state import State
 from webviz.page.asked import Asked
-from webviz.page.chart import ChartWidget
 from webviz.page.content.forms import Form, form, values_of
 from webviz.page.content.modules import ModulesStore, modules
 from webviz.page.content.store import PageStore
@@ -61,7 +60,7 @@ class PanelStore(PageStore, frozen=True):
     """The widgets of a panel.
 
     Args:
-        widgets: by id, see `webviz.page.widgets`; the pieces of a chart have its id with a slash
+        widgets: by id, see `webviz.page.widgets`; the parts of a widget have its id with a slash
             and theirs.
         order: the ids.
         failure: a sentence or "".
@@ -154,7 +153,6 @@ class PluginPanels:
         parts = {
             f"{id_}/{name}": part
             for id_, widget in widgets.items()
-            if isinstance(widget, ChartWidget)
             for name, part in widget.parts.items()
         }
         return PanelStore(values | parts, list(widgets), tab.failure)

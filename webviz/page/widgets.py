@@ -18,6 +18,8 @@ MAX_LINES = 1000
 MAX_CELL = 1000
 MAX_SLIDES = 300
 MAX_HTML = 500_000
+MAX_PARTS = 4000
+"""Parts of a custom widget."""
 SETTLE_S = 0.5
 """Time a field keeps what a browser entered before it shows the panel's value."""
 
@@ -34,6 +36,8 @@ class Widget:
 
     def __init__(self, **values: Any) -> None:
         self.values: Mapping[str, Any] = values
+        self.parts: Mapping[str, Any] = {}
+        """Values that are sent one by one, by key: the same objects until they change."""
 
     def set(self, **values: Any) -> None:
         """Change some of the values."""
@@ -188,21 +192,27 @@ class CustomWidget(Widget):
     ) -> None:
         super().__init__(kind=f"own {clean(kind, MAX_CELL)}")
         self._use = use
+        self._made: dict[str, tuple[Mapping[str, Any], Any]] = {}
         self.show(values)
 
-    def show(self, values: Mapping[str, Any]) -> None:
-        """Show these values.
+    def show(
+        self, values: Mapping[str, Any], parts: Mapping[str, Mapping[str, Any]] | None = None
+    ) -> None:
+        """Show these values and parts.
 
         Raises:
-            ValueError: they are no JSON, or too large.
+            ValueError: they are not JSON, or too large.
         """
-        try:
-            encoded = json.dumps(dict(values), allow_nan=False, ensure_ascii=False)
-        except (TypeError, ValueError, RecursionError) as error:
-            raise ValueError(f"These values are not JSON: {error}.") from None
-        if len(encoded) > MAX_HTML:
-            raise ValueError(f"Expected values of at most {MAX_HTML} characters of JSON.")
-        self.set(values=json.loads(_UNSENDABLE.sub("\N{REPLACEMENT CHARACTER}", encoded)))
+        parts = parts or {}
+        if len(parts) > MAX_PARTS:
+            raise ValueError(f"Expected at most {MAX_PARTS} parts.")
+        made: dict[str, tuple[Mapping[str, Any], Any]] = {}
+        for key, part in parts.items():
+            known = self._made.get(key)
+            made[key] = known if known and known[0] is part else (part, _as_json(part))
+        self.set(values=_as_json(values))
+        self._made = made
+        self.parts = {key: part for key, (_, part) in made.items()}
 
     def use(self, value: Any, browser: int | None) -> None:
         """Pass on what the module sent, as JSON."""
@@ -225,6 +235,21 @@ class Shortcut(Widget):
     def use(self, value: Any, browser: int | None) -> None:
         """Do it."""
         self._act(browser)
+
+
+def _as_json(values: Mapping[str, Any]) -> Any:
+    """Plain values that can be sent.
+
+    Raises:
+        ValueError: they are not JSON, or too large.
+    """
+    try:
+        encoded = json.dumps(dict(values), allow_nan=False, ensure_ascii=False)
+    except (TypeError, ValueError, RecursionError) as error:
+        raise ValueError(f"These values are not JSON: {error}.") from None
+    if len(encoded) > MAX_HTML:
+        raise ValueError(f"Expected values of at most {MAX_HTML} characters of JSON.")
+    return json.loads(_UNSENDABLE.sub("\N{REPLACEMENT CHARACTER}", encoded))
 
 
 def clean(text: str, length: int = MAX_TEXT) -> str:

@@ -113,9 +113,10 @@ class PanelsPart(Part):
         return lookback if isinstance(lookback, Lookback) else Lookback(count=1)
 
     def _attended(self) -> list[PanelTab]:
-        if not self._open:
-            return []
-        return [tab for tab in self._tabs() if tab.tab in self._open]
+        """The panels that are open in a browser, and those that always read."""
+        return [
+            tab for tab in self._tabs() if tab.tab in self._open or type(tab.panel).always_reads
+        ]
 
     def _panels(self) -> list[Panel]:
         return [tab.panel for tab in self._attended()]

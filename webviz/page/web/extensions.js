@@ -1,12 +1,21 @@
 // Modules that plug-ins bring. Each has a default export that is called with `page`, below: it adds
 // gestures, widgets, overlays and tabs by the functions by which the page adds its own.
 
+import { needs } from "./access.js";
 import { act } from "./act.js";
+import { fitted } from "./charts/canvas.js";
+import { copy } from "./clipboard.js";
+import { indent, keyOf, rowList, touchable } from "./controls/rows.js";
 import { el, set, setChildren, setText, svgElement } from "./dom.js";
+import { icon, iconButton } from "./icons.js";
 import { overlay } from "./overlay/overlay.js";
+import { foldByKey } from "./panels/folds.js";
+import { messageRows } from "./panels/message_rows.js";
 import { panel } from "./panels/panels.js";
 import { widget } from "./panels/plugin_widgets.js";
 import { groundAt, onCanvas, planeAt, surfaceAt } from "./scene/ground.js";
+import { download } from "./shell/download.js";
+import { timeOfDay } from "./shell/time_text.js";
 import { toast } from "./shell/toasts.js";
 import { watch } from "./stores.js";
 import { gesture } from "./tools/gestures.js";
@@ -19,32 +28,48 @@ import { beforeRender, camera, canvas, requestRender } from "./viser_page.js";
 /**
  * Makes a widget of a plug-in, whose values are its own.
  *
- * @typedef {(values: unknown, send: (value: unknown) => void) => {
- *   element: HTMLElement, update(values: unknown): void, close?(): void,
+ * @typedef {(values: any, send: (value: unknown) => unknown) => {
+ *   element: HTMLElement, update(values: any, part: (key: string) => any): void, close?(): void,
  * }} MakeOwn
  */
+
+/** The argument of the default export of a module. @typedef {typeof page} Page */
 
 const page = Object.freeze({
   act,
   beforeRender,
   camera,
   canvas,
+  copy,
+  download,
   el,
+  fitted,
+  foldByKey,
   gesture,
   groundAt,
+  icon,
+  iconButton,
+  indent,
+  keyOf,
   makeLayer,
+  messageRows,
+  needs,
   onCanvas,
   overlay,
   panel,
   planeAt,
   requestRender,
+  rowList,
   set,
   setChildren,
   setText,
+  style,
   surfaceAt,
   svgElement,
   tellLive,
+  timeOfDay,
   toast,
+  touchable,
   watch,
   widget: (/** @type {string} */ kind, /** @type {MakeOwn} */ make) =>
     widget(`own ${kind}`, ownWidget(make)),
@@ -58,8 +83,27 @@ const page = Object.freeze({
  */
 const ownWidget = (make) => (values, send) => {
   const made = make(values.values, (value) => send(JSON.stringify(value)));
-  return { ...made, update: (now) => made.update(now.values) };
+  return {
+    ...made,
+    update: (now, store, id) => made.update(now.values, (key) => store.get(`${id}/${key}`)),
+  };
 };
+
+/** @type {Map<string, CSSStyleSheet>} */
+const sheets = new Map();
+
+/**
+ * Adds style rules, or replaces those that were added under the same name.
+ *
+ * @param {string} name
+ * @param {string} rules
+ */
+function style(name, rules) {
+  const sheet = sheets.get(name) ?? new CSSStyleSheet();
+  sheet.replaceSync(rules);
+  if (!sheets.has(name)) document.adoptedStyleSheets.push(sheet);
+  sheets.set(name, sheet);
+}
 
 export function install() {
   watch("modules", (modules, changed) => {

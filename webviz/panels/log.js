@@ -1,0 +1,247 @@
+// The widget "log": the lines of a log, filtered in this page.
+
+/** @import {Page} from "../page/web/extensions.js" */
+
+/**
+ * @typedef {{
+ *   stamps: number[], levels: number[], names: string[], texts: string[], places: string[],
+ * }} Chunk
+ * @typedef {{key: string, stamp: number, level: number, name: string, text: string, place: string}} Line
+ * @typedef {{chunks: [number, number], problem: string, level: string, nodes: string, text: string}} Values
+ */
+
+const LEVELS = ["Debug", "Info", "Warn", "Error", "Fatal"];
+const ROW_PX = 20;
+const RULES = `
+.wv-log-row { display: flex; gap: 8px; height: 20px; align-items: center; padding-left: var(--wv-edge);
+  font: 12px/20px ui-monospace, "DejaVu Sans Mono", monospace; white-space: pre }
+.wv-log-row > :nth-child(1) { flex: none; width: 44px; color: var(--wv-level) }
+.wv-log-row > :nth-child(2) { flex: none; width: 86px; color: var(--wv-quiet) }
+.wv-log-row > :nth-child(3) { flex: 0 0 auto; max-width: 30%; color: var(--wv-quiet) }
+.wv-log-row > :nth-child(4) { flex: 1 }
+.wv-log-detail { max-height: 35%; overflow: auto }
+.wv-log-detail pre { margin: 4px 0; white-space: pre-wrap; overflow-wrap: anywhere;
+  font: 12px/1.45 ui-monospace, "DejaVu Sans Mono", monospace }
+`;
+
+/** @param {number} level */
+const nameOf = (level) => LEVELS[Math.min(4, Math.max(0, Math.floor(level / 10) - 1))];
+/** @param {number} level */
+const stateOf = (level) => (level >= 40 ? "error" : level >= 30 ? "warn" : "idle");
+
+/**
+ * A line as nodes print it.
+ *
+ * @param {Line} line
+ */
+const textOf = ({ stamp, level, name, text }) =>
+  `[${nameOf(level).toUpperCase()}] [${stamp.toFixed(6)}] [${name}]: ${text}`;
+
+/** @param {Page} page */
+export default function install({
+  copy,
+  el,
+  iconButton,
+  rowList,
+  set,
+  setText,
+  style,
+  timeOfDay,
+  toast,
+  touchable,
+  widget,
+}) {
+  style("log", RULES);
+  widget("log", (_, send) => {
+    /** @type {{level: string, nodes: string, text: string}} */
+    let initial = { level: "", nodes: "", text: "" };
+    /** @type {WeakMap<Chunk, Line[]>} */
+    let filtered = new WeakMap();
+    /** @type {Line[]} */
+    let shown = [];
+    /** @type {(() => Line[])} */
+    let collect = () => [];
+    let isFollowing = true;
+    let problem = "";
+
+    const level = el(
+      "select",
+      { class: "wv-field", "aria-label": "Lowest level", onchange: filter },
+      LEVELS.map((each) => el("option", { value: each }, each)),
+    );
+    /** @param {string} label */
+    const search = (label) =>
+      el("input", {
+        class: "wv-field",
+        type: "search",
+        placeholder: label,
+        "aria-label": label,
+        oninput: filter,
+      });
+    const nodes = search("Node");
+    const text = search("Text");
+    const follow = iconButton("follow", "Follow the newest line", () => setFollowing(!isFollowing));
+    const all = iconButton("copy", "Copy the lines that are shown", () =>
+      copied(shown.map(textOf).join("\n")),
+    );
+    const count = el("span", { class: "wv-quiet wv-number" });
+    const empty = el("div", { class: "wv-empty", role: "status" });
+    const detail = el("div", { class: "wv-plugin-detail wv-log-detail", hidden: true });
+    const list = rowList({
+      label: "Log",
+      height: touchable(ROW_PX),
+      make: () =>
+        el(
+          "div",
+          { class: "wv-log-row" },
+          el("span"),
+          el("span", { class: "wv-number" }),
+          el("span", { class: "wv-ellipsis" }),
+          el("span", { class: "wv-ellipsis" }),
+        ),
+      update(row, line) {
+        const [one, time, name, said] = row.children;
+        setText(one, nameOf(line.level));
+        set(row, { "data-level": stateOf(line.level) });
+        setText(time, timeOfDay(line.stamp, true).split(" ").pop() ?? "");
+        setText(name, line.name);
+        setText(said, line.text.split("\n", 1)[0]);
+      },
+      choose: open,
+    });
+    let top = 0;
+    list.element.addEventListener("scroll", () => {
+      const { scrollTop, scrollHeight, clientHeight } = list.element;
+      if (scrollTop < top) mark(false);
+      else if (scrollHeight - scrollTop - clientHeight < ROW_PX) mark(true);
+      top = scrollTop;
+    });
+
+    function toEnd() {
+      if (isFollowing) list.element.scrollTop = top = list.element.scrollHeight;
+    }
+
+    /** @param {string} what */
+    async function copied(what) {
+      const isDone = await copy(what);
+      const level = isDone ? "ok" : "error";
+      toast(isDone ? "Copied." : "This browser does not allow copying.", { level });
+    }
+
+    /** @param {Line} line */
+    function open(line) {
+      const [chunk, place] = line.key.split("/").map(Number);
+      detail.replaceChildren(
+        el(
+          "div",
+          { class: "wv-plugin-bar" },
+          el("b", { class: "wv-ellipsis" }, `${nameOf(line.level)} of ${line.name}`),
+          iconButton("clock", "Go to this time", () => send([chunk, place])),
+          iconButton("copy", "Copy this line", () =>
+            copied(`${textOf(line)}${line.place ? ` (${line.place})` : ""}`),
+          ),
+          iconButton("close", "Close", () => set(detail, { hidden: true })),
+        ),
+        el("div", { class: "wv-quiet" }, timeOfDay(line.stamp, true)),
+        el("pre", {}, line.text),
+        el("div", { class: "wv-quiet" }, line.place || "Without file and line."),
+      );
+      set(detail, { hidden: false });
+      mark(false);
+    }
+
+    /** @param {boolean} now */
+    function mark(now) {
+      isFollowing = now;
+      set(follow, { "aria-pressed": String(now) });
+    }
+
+    /** @param {boolean} now */
+    function setFollowing(now) {
+      mark(now);
+      toEnd();
+    }
+
+    function filter() {
+      filtered = new WeakMap();
+      draw();
+    }
+
+    function draw() {
+      shown = collect();
+      list.show(shown);
+      const number = shown.length.toLocaleString("en").replaceAll(",", " ");
+      setText(count, `${number} line${shown.length === 1 ? "" : "s"}`);
+      const sentence = problem || (shown.length ? "" : "No line matches these filters.");
+      setText(empty, sentence);
+      set(empty, { hidden: !sentence });
+      requestAnimationFrame(toEnd); // the list may have no height yet
+    }
+
+    /**
+     * The lines of a chunk that the filters leave.
+     *
+     * @param {Chunk} chunk
+     * @param {number} number
+     */
+    function linesOf(chunk, number) {
+      const known = filtered.get(chunk);
+      if (known) return known;
+      const least = (LEVELS.indexOf(level.value) + 1) * 10;
+      const [node, part] = [nodes.value.toLowerCase(), text.value.toLowerCase()];
+      /** @type {Line[]} */
+      const found = [];
+      chunk.levels.forEach((each, i) => {
+        if (each < least) return;
+        if (node && !chunk.names[i].toLowerCase().includes(node)) return;
+        if (part && !chunk.texts[i].toLowerCase().includes(part)) return;
+        found.push({
+          key: `${number}/${i}`,
+          stamp: chunk.stamps[i],
+          level: each,
+          name: chunk.names[i],
+          text: chunk.texts[i],
+          place: chunk.places[i],
+        });
+      });
+      filtered.set(chunk, found);
+      return found;
+    }
+
+    /**
+     * @param {Values} values
+     * @param {(key: string) => Chunk | undefined} part
+     */
+    function update(values, part) {
+      const own = { level: values.level, nodes: values.nodes, text: values.text };
+      if (own.level && JSON.stringify(own) !== JSON.stringify(initial)) {
+        initial = own;
+        [level.value, nodes.value, text.value] = [own.level, own.nodes, own.text];
+        filtered = new WeakMap();
+      }
+      const [first, end] = values.chunks ?? [0, 0];
+      collect = () => {
+        const found = [];
+        for (let number = first; number < end; number++) {
+          const chunk = part(String(number));
+          if (chunk) found.push(linesOf(chunk, number));
+        }
+        return found.flat();
+      };
+      problem = values.problem ?? "";
+      draw();
+    }
+
+    mark(true);
+    const element = el(
+      "div",
+      { class: "wv-plugin-fill" },
+      el("div", { class: "wv-plugin-bar" }, level, nodes, text),
+      el("div", { class: "wv-plugin-bar" }, count, follow, all),
+      empty,
+      list.element,
+      detail,
+    );
+    return { element, update, close: list.close };
+  });
+}

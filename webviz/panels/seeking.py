@@ -1,0 +1,32 @@
+"""Seeks from panels: to the time of what was clicked."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from webviz.api.errors import Error
+from webviz.engine.commands import Seek
+
+NS_PER_S = 1e9
+
+
+def seek_to(state: Any, received_ns: int) -> Seek:
+    """Return the command that shows a time.
+
+    Args:
+        state: of the viewer.
+        received_ns: ROS time at which a message was received.
+
+    Raises:
+        Error: there is no recording or memory, or the time is not in it.
+    """
+    playback = state.playback
+    if playback is None:
+        raise Error("There is no recording to go to. Open a bag, or turn on the memory.")
+    if playback.is_live is not None and state.clock.is_simulated:
+        raise Error("Simulated time cannot be found in the memory. Drag the timeline instead.")
+    at_s = (received_ns - playback.start_ns) / NS_PER_S
+    end_s = (playback.end_ns - playback.start_ns) / NS_PER_S
+    if not playback.first_s <= at_s <= end_s:
+        raise Error("This time is not in the recording any more. Choose a later one.")
+    return Seek(at_s)
