@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import replace
 
@@ -51,10 +51,17 @@ class Doctor:
     Args:
         core: shared by all parts.
         displays: have messages and statuses.
+        waiting: monotonic time in seconds, which goes on while a recording is paused.
     """
 
-    def __init__(self, core: Core, displays: DisplaysPart) -> None:
+    def __init__(
+        self,
+        core: Core,
+        displays: DisplaysPart,
+        waiting: Callable[[], float] = time.monotonic,
+    ) -> None:
         self._core = core
+        self._waiting = waiting
         self._displays = displays
         self._checks: Sequence[Check] = ()
         self._began = -EVERY_S, -EVERY_S
@@ -114,7 +121,7 @@ class Doctor:
 
     def _is_due(self) -> bool:
         """Return whether a second has passed, of a recording or, while it is paused, of waiting."""
-        now = self._core.clock(), time.monotonic()
+        now = self._core.clock(), self._waiting()
         if all(0.0 <= at - before < EVERY_S for at, before in zip(now, self._began, strict=True)):
             return False
         self._began = now

@@ -110,7 +110,7 @@ class FrameLoop:
         memory = recorded if isinstance(recorded, Rewindable) else None
         self._source = source = recorded
         control = PlaybackControl(recorded)
-        clock = clock or control.clock
+        waiting, clock = clock or time.monotonic, clock or control.clock
         self._show = show
         self._stop = threading.Event()
         self._guard = Guard("", strict, shown_s=FAILURE_S, clock=clock)
@@ -143,7 +143,7 @@ class FrameLoop:
         last = [make(core) for make in parts]
         self._parts = Parts([*first, *others, *last], self._guard)
         self._do = history.noting(self._parts.do)
-        self.doctor = Doctor(core, self._displays)
+        self.doctor = Doctor(core, self._displays, waiting)
         """Finds the causes behind the statuses."""
         self._arrivals = Arrivals(core, self._time, transforms)
         self._showing = Showing(scene, views, self._guard)
