@@ -52,7 +52,15 @@ WATCHING = {
     "ShowView",
     "WriteDisplays",
 }
-OWNING = {"Load", "Open", "Save", "SaveMemory", "StartRecording", "StopRecording"}
+OWNING = {
+    "Load",
+    "Open",
+    "OpenRecording",
+    "Save",
+    "SaveMemory",
+    "StartRecording",
+    "StopRecording",
+}
 OWNING |= {"Dismiss", "Invite", "Revoke"}
 OF_THE_SERVER = (Dismiss, Invite, Revoke, UseWidget)
 """Done by itself, without the frame loop."""

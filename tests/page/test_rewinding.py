@@ -4,15 +4,24 @@ from __future__ import annotations
 
 import re
 import time
+from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from playwright.sync_api import expect
 
 from tests.page.conftest import Loop, Tab
 from webviz.api.status import Level
-from webviz.engine.commands import ReturnToLive, Seek
+from webviz.engine.commands import OpenRecording, ReturnToLive, Seek
 from webviz.engine.state import PanelTimes
-from webviz.sources.past_state import Event, MemoryState, PlaybackState
+from webviz.sources.past_state import (
+    BlackBoxState,
+    Event,
+    MemoryState,
+    PlaybackState,
+    RecordingState,
+    SavedMoment,
+)
 
 SHORT = MemoryState(60.0, 0)
 BEGAN_S = 100
@@ -109,3 +118,62 @@ def test_the_last_error_is_reached_from_now(loop: Loop, live: Tab) -> None:
     live.page.keyboard.press("Enter")
     live.wait_for(lambda: Seek(92.0) in loop.commands)
     show(loop, None)
+
+
+def test_a_recording_of_a_rule_is_opened_and_left(loop: Loop, live: Tab) -> None:
+    path = Path("/home/robot/webviz_black_box/2026-11-23_05-12-47_Scan_error")
+    loop.show(black_box=BlackBoxState((SavedMoment(path, 12_300_000),)))
+    name = "2026-11-23 05:12:47 · Scan error"
+    live.button("Black box").click()
+    live.page.get_by_role("menuitem", name=f"{name} · 12.3 MB").click()
+    live.wait_for_command(OpenRecording(str(path)))
+    assert loop.state.playback is not None
+    opened = replace(loop.state.playback, names=(path.name,), is_live=None, is_opened=True)
+    loop.show(playback=opened)
+    banner = live.page.locator(".wv-rewound-banner")
+    expect(banner).to_have_text(f"Recording {name} · not live · press L to return")
+    assert live.page.title().startswith("Recording · ")
+    expect(live.button("Loop")).to_be_visible()
+    banner.click()
+    live.wait_for_command(ReturnToLive())
+    show(loop, None)
+    expect(banner).to_be_hidden()
+    expect(live.page.get_by_label("Go to time")).to_have_value("now")
+
+
+OUTSIDE = """() => {
+  const [bar] = document.getElementsByClassName("wv-time");
+  const { right, bottom } = bar.getBoundingClientRect();
+  return [...bar.querySelectorAll("button, input, .wv-number, .wv-badge")]
+    .filter((each) => each.checkVisibility())
+    .filter((each) => {
+      const box = each.getBoundingClientRect();
+      return box.right > right + 1 || box.bottom > bottom + 1;
+    })
+    .map((each) => each.ariaLabel || each.textContent);
+}"""
+"""Names of what is beyond the bar of the time."""
+
+
+@pytest.mark.parametrize("width", [1280, 1241, 1121, 1061, 961, 861, 741, 641])
+def test_all_buttons_of_the_time_are_within_the_window(loop: Loop, live: Tab, width: int) -> None:
+    live.page.set_viewport_size({"width": width, "height": 600})
+    path = Path("2026-11-23_05-12-47_Scan_error")
+    recording = RecordingState(
+        path=Path("run"), seconds=4000, messages=4, size=12_300_000, dropped=0
+    )
+    loop.show(black_box=BlackBoxState((SavedMoment(path, 1),)), recording=recording)
+    long = MemoryState(60.0, 512_000_000)
+    for ago_s in (None, 12.4):
+        show(loop, ago_s, long)
+        live.wait_for(
+            live.button("Live (L)").is_visible
+            if ago_s
+            else live.button("Stop recording").is_visible
+        )
+        assert live.page.evaluate(OUTSIDE) == [], ago_s
+    assert loop.state.playback is not None
+    opened = replace(loop.state.playback, names=(path.name,), is_live=None, is_opened=True)
+    loop.show(playback=opened)
+    live.wait_for(live.button("Loop").is_visible)
+    assert live.page.evaluate(OUTSIDE) == []

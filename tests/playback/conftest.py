@@ -1,23 +1,33 @@
-"""A viewer that plays a bag, turn by turn."""
+"""Viewers that play a bag or remember live topics, turn by turn."""
 
 from __future__ import annotations
 
+import contextlib
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
-from bags import Bag
+from bags import START_NS, Bag, ns
+from drives import CONFIG
 
-from webviz.engine.commands import Command, Refresh
+from webviz.engine.commands import Command, Refresh, Seek
 from webviz.engine.loop import FrameLoop
 from webviz.engine.state import State
 from webviz.files.opening import parse
 from webviz.shell.testing.recording import RecordingScene
+from webviz.shell.testing.source import HandFedSource
+from webviz.sources import Offer, Raw
+from webviz.sources.bag.files import BagFiles
 from webviz.sources.bag.source import BagSource
+from webviz.sources.memory_past import WallClock
 from webviz.sources.past_state import PlaybackState
 
 TURNS = 10_000
+LOOK_S = 0.005
+AGO_S = 9.0
+"""When a drive began."""
 
 
 class Theater:
@@ -76,3 +86,77 @@ def theater(tmp_path: Path) -> Iterator[Callable[..., Theater]]:
     yield make
     for each in made:
         each.close()
+
+
+class SteadySource(HandFedSource):
+    """A source whose time is that of the machine, as far as a drive is concerned."""
+
+    began_s = 0.0
+    """When the drive began, in monotonic seconds."""
+
+    def now_ns(self) -> int:
+        return START_NS + ns(time.monotonic() - self.began_s)
+
+
+class Drive:
+    """A viewer of live topics that have just carried a recorded drive."""
+
+    def __init__(self, path: Path, config: str) -> None:
+        self.source = SteadySource()
+        self.source.began_s = self.began_s = time.monotonic() - AGO_S
+        self.scene = RecordingScene()
+        self.files = BagFiles([path])
+        for channel in self.files.channels:
+            self.source.known[channel.topic] = Offer(channel.publishers, type=channel.type)
+        self.loop = FrameLoop(parse(config, "the config"), self.source, self.scene, strict=True)
+        self.loop.turn()
+        for sent in self.files.messages(self.files.channels, self.files.start_ns):
+            at_s = (sent.stamp_ns - START_NS) / 1e9
+            raw = Raw(sent.cdr, sent.stamp_ns, self.began_s + at_s)
+            self.source.inbox.put(sent.topic, raw)
+            self.loop.turn()
+
+    def do(self, command: Command) -> str:
+        answer = self.loop.enqueue(command)
+        for _ in range(TURNS):
+            self.loop.turn()
+            if answer.done() and not self.loop.is_busy():
+                return answer.result()
+            self.source.inbox.arrived.wait(LOOK_S)  # for the disk
+            self.source.inbox.arrived.clear()
+        raise AssertionError("not done")
+
+    def seek(self, at_s: float) -> None:
+        """Show a time of the drive."""
+        began_ns = WallClock().stamp_ns(self.began_s)
+        self.do(Seek((began_ns - self.playback.start_ns) / 1e9 + at_s))
+
+    @property
+    def playback(self) -> PlaybackState:
+        state = self.loop.state().playback
+        assert state is not None
+        return state
+
+    def shown(self) -> dict[str, Any]:
+        found = {}
+        for row in self.loop.state().rows:
+            nodes = [(pose, node) for _, pose, node in self.scene.visible(f"{row.id}/")]
+            found[f"{row.id} {row.name}"] = sorted(nodes, key=repr)
+        return found
+
+    def close(self) -> None:
+        self.loop.close()
+        self.files.close()
+
+
+@pytest.fixture
+def drive(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., Drive]]:
+    monkeypatch.chdir(tmp_path)
+    with contextlib.ExitStack() as stack:
+
+        def make(bag: Bag, config: str = CONFIG) -> Drive:
+            made = Drive(bag.write(tmp_path / "run"), config)
+            stack.callback(made.close)
+            return made
+
+        yield make

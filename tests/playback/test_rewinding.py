@@ -10,17 +10,17 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from bags import START_NS, Bag, ns
+from bags import START_NS, ns
 from bench import Bench, benches
 from drives import CONFIG, recorded
 
+from tests.playback.conftest import Drive
 from webviz.api.declared import Topic
 from webviz.api.lookback import Lookback
 from webviz.api.nodes import Lines
 from webviz.api.vehicle import Velocity
 from webviz.data.messages import encode
 from webviz.engine.commands import (
-    Command,
     Pause,
     Play,
     Refresh,
@@ -34,17 +34,13 @@ from webviz.engine.commands import (
     StopRecording,
 )
 from webviz.engine.driving import DrivingAnswer
-from webviz.engine.loop import FrameLoop
 from webviz.engine.parts.playback import LIVE, REWOUND, STOPPED
 from webviz.engine.state import State
 from webviz.files.config.model import MemorySettings
-from webviz.files.opening import parse
 from webviz.shell.testing import BagViewer
-from webviz.shell.testing.recording import RecordingScene
 from webviz.shell.testing.remembering_graph import RememberingGraph
 from webviz.shell.testing.source import HandFedSource
 from webviz.sources import Advertisement, Offer, Publisher, Raw, Subscription
-from webviz.sources.bag.files import BagFiles
 from webviz.sources.bag.log import LOG, ROSOUT
 from webviz.sources.memory_past import WallClock
 from webviz.sources.past_state import PlaybackState
@@ -63,80 +59,6 @@ displays:
 """Displays that do not depend on how long something is ago."""
 PUBLISHER = Publisher("/planner", PATH, "reliable", "volatile")
 TURNS = 10_000
-AGO_S = 9.0
-"""When a drive began."""
-
-
-class SteadySource(HandFedSource):
-    """A source whose time is that of the machine, as far as a drive is concerned."""
-
-    began_s = 0.0
-    """When the drive began, in monotonic seconds."""
-
-    def now_ns(self) -> int:
-        return START_NS + ns(time.monotonic() - self.began_s)
-
-
-class Drive:
-    """A viewer of live topics that have just carried a recorded drive."""
-
-    def __init__(self, path: Path, config: str) -> None:
-        self.source = SteadySource()
-        self.source.began_s = self.began_s = time.monotonic() - AGO_S
-        self.scene = RecordingScene()
-        self.files = BagFiles([path])
-        for channel in self.files.channels:
-            self.source.known[channel.topic] = Offer(channel.publishers, type=channel.type)
-        self.loop = FrameLoop(parse(config, "the config"), self.source, self.scene, strict=True)
-        self.loop.turn()
-        for sent in self.files.messages(self.files.channels, self.files.start_ns):
-            at_s = (sent.stamp_ns - START_NS) / 1e9
-            raw = Raw(sent.cdr, sent.stamp_ns, self.began_s + at_s)
-            self.source.inbox.put(sent.topic, raw)
-            self.loop.turn()
-
-    def do(self, command: Command) -> str:
-        answer = self.loop.enqueue(command)
-        for _ in range(TURNS):
-            self.loop.turn()
-            if answer.done() and not self.loop.is_busy():
-                return answer.result()
-        raise AssertionError("not done")
-
-    def seek(self, at_s: float) -> None:
-        """Show a time of the drive."""
-        began_ns = WallClock().stamp_ns(self.began_s)
-        self.do(Seek((began_ns - self.playback.start_ns) / 1e9 + at_s))
-
-    @property
-    def playback(self) -> PlaybackState:
-        state = self.loop.state().playback
-        assert state is not None
-        return state
-
-    def shown(self) -> dict[str, Any]:
-        found = {}
-        for row in self.loop.state().rows:
-            nodes = [(pose, node) for _, pose, node in self.scene.visible(f"{row.id}/")]
-            found[f"{row.id} {row.name}"] = sorted(nodes, key=repr)
-        return found
-
-    def close(self) -> None:
-        self.loop.close()
-        self.files.close()
-
-
-@pytest.fixture
-def drive(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., Drive]]:
-    monkeypatch.chdir(tmp_path)
-    with contextlib.ExitStack() as stack:
-
-        def make(bag: Bag, config: str = CONFIG) -> Drive:
-            made = Drive(bag.write(tmp_path / "run"), config)
-            stack.callback(made.close)
-            return made
-
-        yield make
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
@@ -192,8 +114,9 @@ def make() -> Iterator[Callable[..., Bench]]:
 
         def make(**options: Any) -> Bench:
             bench = make_bench(PathDisplay(), **options)
+            now_s = time.monotonic()
             for ago in (5, 4, 3, 2, 1):
-                publish(bench, ago)
+                publish(bench, ago, now_s=now_s)
             return bench
 
         yield make
@@ -204,10 +127,10 @@ def bench(make: Callable[..., Bench]) -> Bench:
     return make()
 
 
-def publish(bench: Bench, ago_s: float, topic: str = "/path") -> None:
+def publish(bench: Bench, ago_s: float, topic: str = "/path", now_s: float | None = None) -> None:
     pose = {"header": {"frame_id": "map"}, "pose": {"position": {"x": float(ago_s)}}}
     cdr = encode(PATH, {"header": {"frame_id": "map"}, "poses": [pose, pose]})
-    now_s = time.monotonic()
+    now_s = now_s or time.monotonic()
     bench.source.known.setdefault(topic, Offer((PUBLISHER,), type=PATH))
     bench.source.inbox.put(topic, Raw(cdr, bench.source.now - ns(ago_s), now_s - ago_s))
     bench.turn()

@@ -25,6 +25,7 @@ class PlaybackState:
         first_s: of the first message that there is, in seconds from the start.
         is_live: whether topics are live, and shown as they arrive; None for a bag.
         gap: the first and the last second of what was forgotten while the past was shown.
+        is_opened: whether it is shown in the place of live topics, to which one can return.
         counted: the first and the last second in which messages are counted, None for all.
     """
 
@@ -39,6 +40,7 @@ class PlaybackState:
     selected: tuple[float, float] | None
     first_s: float = 0.0
     is_live: bool | None = None
+    is_opened: bool = False
     gap: tuple[float, float] | None = None
     counted: tuple[float, float] | None = None
 

@@ -76,7 +76,10 @@ def _shared(first: Subscription, other: Subscription) -> Subscription:
 class Source(Protocol):
     """A live ROS graph or a bag."""
 
-    inbox: Inbox
+    @property
+    def inbox(self) -> Inbox:
+        """The messages that arrived."""
+        ...
 
     @property
     def graph(self) -> Graph:

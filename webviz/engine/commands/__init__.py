@@ -38,7 +38,12 @@ from webviz.engine.commands.playback import (
     SetRate,
     StepMessage,
 )
-from webviz.engine.commands.recording import SaveMemory, StartRecording, StopRecording
+from webviz.engine.commands.recording import (
+    OpenRecording,
+    SaveMemory,
+    StartRecording,
+    StopRecording,
+)
 from webviz.engine.commands.selection import Identify, InspectSelections, Pick, Picks, Select
 from webviz.engine.commands.tools import (
     CallService,
@@ -105,6 +110,7 @@ __all__ = [
     "MoveDisplay",
     "Open",
     "OpenPanels",
+    "OpenRecording",
     "Pause",
     "Pick",
     "Picks",

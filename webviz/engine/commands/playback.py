@@ -25,7 +25,7 @@ class Seek(Command):
 
 @dataclass(frozen=True)
 class ReturnToLive(Command):
-    """Show what arrives again, instead of the past of live topics."""
+    """Show what arrives again, instead of the past of live topics or a recording."""
 
 
 @dataclass(frozen=True)

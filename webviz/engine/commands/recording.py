@@ -8,6 +8,17 @@ from webviz.engine.commands.files import FileCommand
 
 
 @dataclass(frozen=True)
+class OpenRecording(FileCommand):
+    """Play a recording in the place of live topics, until `ReturnToLive`.
+
+    Args:
+        path: a file or folder. Browsers can choose only those of the black box.
+    """
+
+    path: str
+
+
+@dataclass(frozen=True)
 class StartRecording(FileCommand):
     """Record all topics that are subscribed to, until `StopRecording`.
 

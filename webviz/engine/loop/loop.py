@@ -53,6 +53,7 @@ from webviz.engine.state.statuses import failures
 from webviz.files.config import Config, Settings
 from webviz.sources import Gate, Rights, Source
 from webviz.sources.rewindable import Rewindable
+from webviz.sources.switchable import Switchable
 
 IDLE_S = 0.5
 """Interval of turns while nothing arrives: ages in statuses, frames that fade."""
@@ -106,8 +107,9 @@ class FrameLoop:
         clock: Callable[[], float] | None = None,
     ) -> None:
         live_ns = source.now_ns
-        recorded = source if isinstance(source, Playable) else Rewindable(source)
-        memory = recorded if isinstance(recorded, Rewindable) else None
+        recorded = source if isinstance(source, Playable) else Switchable(Rewindable(source))
+        switchable = recorded if isinstance(recorded, Switchable) else None
+        memory = switchable and switchable.live
         self._source = source = recorded
         control = PlaybackControl(recorded)
         waiting, clock = clock or time.monotonic, clock or control.clock
@@ -134,9 +136,15 @@ class FrameLoop:
         self.controllers = VelocityControllers(gate, live_ns)
         """Of the vehicles that tools drive; they do not wait for the loop."""
         self._playback = PlaybackPart(
-            core, self._settings, control, self._time.start_over, self.controllers.halt, autoplay
+            core,
+            self._settings,
+            control,
+            self._time.start_over,
+            self.controllers.halt,
+            autoplay,
+            switchable,
         )
-        self._black_box = BlackBoxPart(core, self._settings, memory)
+        self._black_box = BlackBoxPart(core, self._settings, memory, lambda: control.is_live)
         views = ViewsPart(core, self._settings, self._displays)
         first = [transforms, self._time, self._playback, self._displays, self._settings, views]
         others, history, kept = self._other_parts(config, path, views, memory, autosave, session)

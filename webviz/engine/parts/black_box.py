@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass
 from datetime import datetime
@@ -58,14 +58,22 @@ class BlackBoxPart(Part):
         core: shared by all parts.
         settings: have the rules.
         live: has the memory; None for a bag, on which no rule fires.
+        is_live: whether what arrives is shown.
     """
 
     name = "Black box"
 
-    def __init__(self, core: Core, settings: SettingsPart, live: Rewindable | None) -> None:
+    def __init__(
+        self,
+        core: Core,
+        settings: SettingsPart,
+        live: Rewindable | None,
+        is_live: Callable[[], bool],
+    ) -> None:
         super().__init__(core)
         self._settings = settings
         self._live = live
+        self._is_live = is_live
         self._observer = TopicObserver()
         self._watcher = RuleWatcher(())
         self._subscriber = Subscriber()
@@ -76,7 +84,7 @@ class BlackBoxPart(Part):
         self._saved: tuple[SavedMoment, ...] = ()
         self._problem = ""
         if live is not None:
-            core.source.inbox.read_along(lambda: self._observer.put)
+            live.inbox.read_along(lambda: self._observer.put)
 
     def subscriptions(self) -> Mapping[str, Subscription]:
         """The topics of the rules, as the first type of each that can be read."""
@@ -108,7 +116,7 @@ class BlackBoxPart(Part):
             return
         wanted = self._subscriber_types()
         self._observer.observe([*wanted], {t: w for t, w in wanted.items() if w in LEVEL_TYPES})
-        for rule in self._watcher.fired(self._observation(live.is_live)):
+        for rule in self._watcher.fired(self._observation(self._is_live())):
             self._save(rule, live)
         self._go_on(live)
 
@@ -213,7 +221,7 @@ class BlackBoxPart(Part):
         except (Error, OSError) as error:
             self._end(str(error))
             return
-        inbox = self.core.source.inbox
+        inbox = live.inbox
         if saving.recorder is None:
             inbox.read_along(lambda: self._recorder(saving, folder, live).put)
         elif saving.closed is None and (

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from webviz.api.errors import Error
@@ -12,6 +13,7 @@ from webviz.data.names import problem_of
 from webviz.data.words import joined
 from webviz.engine.commands import (
     Command,
+    OpenRecording,
     Play,
     RemoveBookmark,
     ReturnToLive,
@@ -23,12 +25,16 @@ from webviz.engine.commands import (
     SetRate,
     StepMessage,
 )
+from webviz.engine.commands.requests import Job
+from webviz.engine.parts.black_box import FOLDER
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.playback import DisplayEvents, PlaybackControl
 from webviz.engine.state import Row
 from webviz.files.config import nearest
+from webviz.sources.bag.source import BagSource
 from webviz.sources.past_state import Event, PlaybackState
+from webviz.sources.switchable import Switchable
 
 MIN_RATE, MAX_RATE = 0.01, 1000.0
 MAX_S = 1e9
@@ -37,6 +43,7 @@ BUCKETS = 500
 """Parts of the span whose messages are counted: about one for each three pixels of a wide page."""
 LIVE = "Topics are live, so there is nothing to play. Seek to a past moment first."
 REWOUND = "Nothing is sent to the robot while the page shows the past. Return to live first (L)."
+NO_LIVE = "A bag is played already. Start webviz with --bag to play another one."
 STOPPED = "The vehicle was stopped, since the page shows the past."
 
 
@@ -50,6 +57,7 @@ class PlaybackPart(Part):
         start_over: discards the received data of all parts.
         stop: stops all vehicles that are driven; whether any was.
         autoplay: play as soon as a browser is connected, so that nobody misses the beginning.
+        switchable: shows recordings in the place of live topics; None for a bag.
     """
 
     name = "Playback"
@@ -62,6 +70,7 @@ class PlaybackPart(Part):
         start_over: Callable[[], None],
         stop: Callable[[], bool],
         autoplay: bool = False,
+        switchable: Switchable | None = None,
     ) -> None:
         super().__init__(core)
         control.is_ready = autoplay and not control.is_live
@@ -69,12 +78,14 @@ class PlaybackPart(Part):
         self._control = control
         self._start_over = start_over
         self._stop = stop
-        self._display_events = DisplayEvents()
+        self._switchable = switchable
+        self._first_events = self._display_events = DisplayEvents()
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
         """The handler of each command."""
         return {
+            OpenRecording: self._open,
             Play: self._play,
             ReturnToLive: self._return_to_live,
             Seek: self._seek,
@@ -109,7 +120,7 @@ class PlaybackPart(Part):
             return {"playback": None, "recorded": {}, "logged": ()}
         recorded = playback.histogram(BUCKETS)
         return {
-            "playback": _state_of(self._control),
+            "playback": _state_of(self._control, self._is_opened),
             "recorded": recorded,
             "logged": playback.logged(),
         }
@@ -141,7 +152,33 @@ class PlaybackPart(Part):
         return self._stopped(control)
 
     def _return_to_live(self, command: ReturnToLive, sender: Sender) -> None:
-        self._known().return_to_live()
+        control = self._known()
+        if self._switchable is not None and self._is_opened:
+            control.switch(self._switchable.leave)
+            self._display_events = self._first_events
+            self._start_over()
+        control.return_to_live()
+
+    @property
+    def _is_opened(self) -> bool:
+        """Return whether a recording is shown in the place of live topics."""
+        return self._switchable is not None and self._switchable.bag is not None
+
+    def _open(self, command: OpenRecording, sender: Sender) -> Job[BagSource]:
+        switchable, path = self._switchable, Path(command.path)
+        if switchable is None:
+            raise Error(NO_LIVE)
+        if sender.browser is not None and path.absolute().parent != Path(FOLDER).absolute():
+            raise Error(f"A page can open only recordings in {FOLDER}.")
+
+        def then(bag: BagSource) -> str:
+            self._control.switch(lambda: switchable.show(bag))
+            self._display_events = DisplayEvents()
+            self._start_over()
+            self._control.play()
+            return self._stopped(self._control)
+
+        return Job(lambda: BagSource(path), then)
 
     def _set_rate(self, command: SetRate, sender: Sender) -> None:
         control, rate = self._known(), command.rate
@@ -217,7 +254,7 @@ class PlaybackPart(Part):
         return playback.origin_ns + round(min(max(seconds, first_s), MAX_S) * 1e9)
 
 
-def _state_of(control: PlaybackControl) -> PlaybackState:
+def _state_of(control: PlaybackControl, is_opened: bool) -> PlaybackState:
     playback = control.playback
     start_ns, is_bag = playback.origin_ns, bool(playback.names)
     return PlaybackState(
@@ -226,6 +263,7 @@ def _state_of(control: PlaybackControl) -> PlaybackState:
         end_ns=playback.end_ns,
         first_s=(playback.start_ns - start_ns) / 1e9,
         is_live=None if is_bag else control.is_live,
+        is_opened=is_opened,
         position_s=(control.position_ns - start_ns) / 1e9,
         rate=control.rate,
         is_playing=control.is_playing,

@@ -43,7 +43,7 @@ class RecordingPart(Part):
         self._recorder: Recorder | None = None
         self._problem = ""
         if live is not None:
-            core.source.inbox.read_along(lambda: live.memory.put)
+            live.inbox.read_along(lambda: live.memory.put)
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
@@ -94,14 +94,16 @@ class RecordingPart(Part):
 
     def close(self) -> None:
         """Complete the recording."""
-        self.core.source.inbox.readers = ()
+        if self._live is not None:
+            self._live.inbox.readers = ()
         if self._recorder is not None:
             self._recorder.close()
 
     def _end(self, recorder: Recorder) -> None:
         """Let a recorder read no more."""
         self._recorder = None
-        self.core.source.inbox.forget(recorder.put)
+        if self._live is not None:
+            self._live.inbox.forget(recorder.put)
 
     # Commands
 
@@ -116,7 +118,7 @@ class RecordingPart(Part):
             past = [(topic, replace(raw, received_ns=now_ns)) for topic, raw in latched]
             self._recorder = recorder = Recorder(folder, live.channels, past)
             self._problem = ""
-            self.core.source.inbox.read_along(lambda: recorder.put)
+            live.inbox.read_along(lambda: recorder.put)
             return f"Recording to {path.name}."
 
         return Job(lambda: new_folder(path), then)

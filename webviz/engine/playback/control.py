@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import time
+from collections.abc import Callable
 
 from webviz.sources.playable import Playable
 
@@ -99,6 +100,18 @@ class PlaybackControl:
         """Show what arrives again, after all that was missed of it; nothing happens for a bag."""
         if not self.is_live:
             self.seek(END_NS)
+
+    def switch(self, change: Callable[[], None]) -> None:
+        """Put another recording in the place of what is played; the clock goes on steadily.
+
+        Args:
+            change: makes `playback` that of the other recording.
+        """
+        before_ns = self.playback.position_ns
+        change()
+        self._offset_ns += before_ns - self.playback.position_ns
+        self._end_replay()
+        self._is_returning = self._has_to_jump = False
 
     def advance(self, is_busy: bool = False) -> bool:
         """Play what is due since the last call.

@@ -30,6 +30,7 @@ class PlaybackStore(PageStore, frozen=True):
         loop: whether the span starts over at its end.
         selected: first and last second to play, None for all.
         is_live: whether live topics are shown, None for a recording.
+        is_opened: whether a recording is shown in the place of live topics.
         limit: seconds that the memory keeps at most.
         ahead: wall time over that of recording.
         held: seconds in memory, of live topics.
@@ -46,6 +47,7 @@ class PlaybackStore(PageStore, frozen=True):
     loop: bool
     selected: tuple[float, float] | None
     is_live: bool | None
+    is_opened: bool
     limit: float | msgspec.UnsetType = msgspec.UNSET
     ahead: float | msgspec.UnsetType = msgspec.UNSET
     held: float | msgspec.UnsetType = msgspec.UNSET
@@ -108,6 +110,7 @@ def playback(state: State, _: str) -> PlaybackStore | None:
         loop=recording.loop,
         selected=recording.selected,
         is_live=recording.is_live,
+        is_opened=recording.is_opened,
     )
     position_s = round(recording.position_s, 3)
     if recording.is_live is None:

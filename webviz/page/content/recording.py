@@ -78,11 +78,11 @@ class BlackBoxStore(PageStore, frozen=True):
 
     Args:
         saving: cause of the one that goes on, "" for none.
-        saved: the newest first: name, megabytes and the command to open it.
+        saved: the newest first: name, megabytes, path, and the command to open it elsewhere.
     """
 
     saving: str
-    saved: Sequence[tuple[str, float, str]]
+    saved: Sequence[tuple[str, float, str, str]]
 
 
 def black_box(state: State, _: str) -> BlackBoxStore | None:
@@ -96,6 +96,7 @@ def black_box(state: State, _: str) -> BlackBoxStore | None:
             (
                 str(sendable(each.path.name)),
                 round(each.size / 1e6, 1),
+                str(sendable(str(each.path))),
                 str(sendable(f"webviz --bag {shlex.quote(str(each.path))}")),
             )
             for each in box.saved[:MAX_SAVED]

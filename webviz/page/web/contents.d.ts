@@ -270,7 +270,7 @@ export interface WorstStatus {
 export interface Stores {
   addresses: { own: {  }; items: string };
   between: { own: { problem?: string; translation?: [number, number, number]; rotation?: [number, number, number, number]; rpy?: [number, number, number]; distance?: number; age?: number | null }; items: never };
-  black_box: { own: { saving?: string; saved?: Array<[string, number, string]> }; items: never };
+  black_box: { own: { saving?: string; saved?: Array<[string, number, string, string]> }; items: never };
   bookmarks: { own: { all?: Array<[string, number]> }; items: never };
   clock: { own: { pace: [number, number, number]; began: [number, number]; is_known: boolean; is_paused: boolean; is_simulated: boolean; hz: number }; items: never };
   commands: { own: {  }; items: PanelCommand };
@@ -298,7 +298,7 @@ export interface Stores {
   panes: { own: { order: Array<string> }; items: PaneCaption };
   people: { own: {  }; items: Person };
   picking: { own: {  }; items: boolean };
-  playback: { own: { names?: Array<string>; start?: number; rate?: number; is_playing?: boolean; loop?: boolean; selected?: [number, number] | null; is_live?: boolean | null; limit?: number; ahead?: number; held?: number; first?: number; duration?: number; position?: number; gap?: [number, number] | null }; items: never };
+  playback: { own: { names?: Array<string>; start?: number; rate?: number; is_playing?: boolean; loop?: boolean; selected?: [number, number] | null; is_live?: boolean | null; is_opened?: boolean; limit?: number; ahead?: number; held?: number; first?: number; duration?: number; position?: number; gap?: [number, number] | null }; items: never };
   properties: { own: { name?: string; type?: string; worst?: WorstStatus | null; declared?: Array<DeclaredProperty>; [key: `value.${string}`]: unknown; [key: `offered.${string}`]: Record<string, number | string>; [key: `topic.${string}`]: LiveTopic }; items: never };
   rate: { own: { hz?: number }; items: never };
   recorded: { own: {  }; items: Array<number> };

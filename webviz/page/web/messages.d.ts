@@ -198,6 +198,7 @@ export interface Commands {
   Load: { text: string; name: string };
   MoveDisplay: { display: string; group?: string; before?: string };
   Open: { path: string };
+  OpenRecording: { path: string };
   Pause: { paused?: boolean };
   Play: Record<string, never>;
   Redo: { steps?: number; own?: boolean };

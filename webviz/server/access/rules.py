@@ -60,6 +60,7 @@ COMMANDS: Mapping[type[Any], Role] = {
     # Files of the machine that runs the viewer, and the config as a whole.
     commands.Load: Role.OWNER,
     commands.Open: Role.OWNER,
+    commands.OpenRecording: Role.OWNER,
     commands.Save: Role.OWNER,
     commands.SaveMemory: Role.OWNER,
     commands.StartRecording: Role.OWNER,

@@ -11,6 +11,7 @@ from pathlib import Path
 from webviz.api.errors import Error
 from webviz.engine.commands import (
     Command,
+    OpenRecording,
     Pause,
     Play,
     ReturnToLive,
@@ -102,9 +103,22 @@ class TimeControls(ABC):
             Error: nothing is remembered, or a bag is played.
         """
         shown = self._playback
+        if shown.is_opened:
+            raise Error("A recording is shown. Return to live first.")
         if shown.is_live is None:
             raise Error("A bag has no present. Use `seek`.")
         self.do(Seek((time.time_ns() - shown.start_ns) / 1e9 - seconds))
+
+    def open_recording(self, path: str | os.PathLike[str]) -> None:
+        """Play a recording in the place of live topics, until `return_to_live`.
+
+        Args:
+            path: a file or folder, as of `bag`.
+
+        Raises:
+            Error: it cannot be read, or the viewer was started with a bag.
+        """
+        self.do(OpenRecording(str(Path(path).absolute())))
 
     def return_to_live(self) -> None:
         """Show live topics as they are."""

@@ -1,6 +1,7 @@
 // Recordings that the rules of the config made: a button with a menu, for the owner.
 
 import { onRole, self } from "../access.js";
+import { act } from "../act.js";
 import { copy } from "../clipboard.js";
 import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
@@ -11,7 +12,7 @@ import { savedText } from "./saved_text.js";
 
 /** The button; hidden while there are neither rules nor recordings. */
 export function blackBox() {
-  /** @type {[name: string, megabytes: number, command: string][]} */
+  /** @type {[name: string, megabytes: number, path: string, command: string][]} */
   let saved = [];
   const label = el("span");
   const button = el(
@@ -28,20 +29,36 @@ export function blackBox() {
   );
 
   /** @param {string} command */
-  async function choose(command) {
+  async function copyCommand(command) {
     const isCopied = await copy(command);
     toast(isCopied ? `Copied: ${command}` : command);
   }
 
   function open() {
     const { left, top } = button.getBoundingClientRect();
-    const items = saved.map(([name, megabytes, command]) => ({
-      label: savedText(name, megabytes),
-      icon: "copy",
-      run: () => choose(command),
-    }));
-    if (items.length) openMenu(left, top, items);
-    else toast("No rule has saved anything yet.");
+    if (!saved.length) {
+      toast("No rule has saved anything yet.");
+      return;
+    }
+    /** @param {string} name @param {number} megabytes */
+    const label = (name, megabytes) => `${savedText(name)} · ${megabytes} MB`;
+    openMenu(left, top, [
+      ...saved.map(([name, megabytes, path]) => ({
+        label: label(name, megabytes),
+        icon: "play",
+        needs: "OpenRecording",
+        run: () => act("OpenRecording", { path }),
+      })),
+      null,
+      {
+        label: "Copy the command that opens",
+        icon: "copy",
+        items: saved.map(([name, megabytes, , command]) => ({
+          label: label(name, megabytes),
+          run: () => copyCommand(command),
+        })),
+      },
+    ]);
   }
 
   onRole(() => {
@@ -53,7 +70,7 @@ export function blackBox() {
       set(button, {
         "data-tip": values.get("saving")
           ? `Saves ${values.get("saving")}, until 10 s after it`
-          : "What rules of the config have saved: choose one to copy the command that opens it",
+          : "What rules of the config have saved: choose one to play it here",
       });
     });
   });

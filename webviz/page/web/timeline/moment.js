@@ -35,6 +35,13 @@ export function atMoment(values, wall) {
 export const isRewound = (recording) => recording?.get("is_live") === false;
 
 /**
+ * True if a recording is shown in the place of live topics.
+ *
+ * @param {{get(key: "is_opened"): boolean | undefined} | null} recording
+ */
+export const isOpened = (recording) => recording?.get("is_opened") === true;
+
+/**
  * True if a time is as good as now, for live topics on a track of this length.
  *
  * @param {Moment} recording

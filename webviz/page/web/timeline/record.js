@@ -71,6 +71,7 @@ export function record() {
     save.hidden = !isRemembering;
     setText(span, `Save last ${seconds} s`);
     set(save, {
+      "aria-label": `Save last ${seconds} s`,
       "data-tip": `Save what is remembered of the displayed topics: ${seconds} s, ${megabytes} MB`,
     });
   });

@@ -1,13 +1,16 @@
-// A banner over the scene while the page shows the past of live topics, and what returns to live.
+// A banner over the scene while the page shows the past of live topics, or a recording instead of them, and
+// what returns to live.
 
 import { why } from "../access.js";
 import { act } from "../act.js";
 import { wallNow } from "../clock.js";
 import { el, set, setText } from "../dom.js";
+import { plain } from "../plain.js";
 import { command } from "../shell/commands.js";
 import { setTitlePrefix } from "../shell/title.js";
 import { watch } from "../stores.js";
-import { agoText, atMoment, isRewound } from "./moment.js";
+import { agoText, atMoment, isOpened, isRewound } from "./moment.js";
+import { savedText } from "./saved_text.js";
 
 /** @import {ValuesOf} from "../types.js" */
 
@@ -38,6 +41,14 @@ export function banner() {
 
   function tick() {
     if (!values) return;
+    if (isOpened(values)) {
+      setText(
+        ago,
+        `Recording ${plain((values.get("names") ?? []).map(savedText).join(", "))} · not live`,
+      );
+      setTitlePrefix("Recording · ");
+      return;
+    }
     const shown = atMoment(values, wallNow());
     setText(ago, `${agoText(shown.get("ago"))} · not live`);
     setTitlePrefix(`${shown.get("ago").toFixed(0)} s ago · `);
@@ -45,7 +56,7 @@ export function banner() {
 
   watch("playback", (next) => {
     values = next;
-    const isPast = isRewound(next);
+    const isPast = isRewound(next) || isOpened(next);
     clearInterval(timer);
     document.body.classList.toggle("wv-rewound", isPast);
     set(element, { hidden: !isPast });
@@ -63,7 +74,7 @@ export function banner() {
     key: "l",
     group: "Time",
     needs: "ReturnToLive",
-    isThere: () => isRewound(values),
+    isThere: () => isRewound(values) || isOpened(values),
     run: returnToLive,
   });
   return element;

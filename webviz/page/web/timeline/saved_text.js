@@ -4,11 +4,10 @@
  * Time and cause by the name of the folder, which begins with the time.
  *
  * @param {string} name
- * @param {number} megabytes
  */
-export function savedText(name, megabytes) {
+export function savedText(name) {
   const found = /^(\d{4}-\d\d-\d\d)_(\d\d)-(\d\d)-(\d\d)_(.*)$/.exec(name);
-  if (!found) return `${name} · ${megabytes} MB`;
+  if (!found) return name;
   const [, date, hours, minutes, seconds, cause] = found;
-  return `${date} ${hours}:${minutes}:${seconds} · ${cause.replaceAll("_", " ")} · ${megabytes} MB`;
+  return `${date} ${hours}:${minutes}:${seconds} · ${cause.replaceAll("_", " ")}`;
 }

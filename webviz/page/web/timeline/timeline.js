@@ -117,10 +117,12 @@ export function timeline(places) {
   }
 
   const isBag = () => values?.get("is_live") === null;
+  /** @param {ValuesOf<"playback"> | null} recording */
+  const nameOf = (recording) => (recording?.get("names") ?? []).join();
 
   watch("playback", (next) => {
     const isThere = next.has("start");
-    const isNew = isThere !== (values !== null);
+    const isNew = isThere !== (values !== null) || nameOf(next) !== nameOf(values);
     values = isThere ? next : null;
     recording = isThere ? atMoment(next, wallNow()) : new Map();
     if (isNew) appear(isThere);

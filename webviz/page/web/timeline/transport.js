@@ -7,7 +7,7 @@ import { icon } from "../icons.js";
 import { openMenu } from "../shell/menu.js";
 import { duration } from "../shell/time_text.js";
 import { toast } from "../shell/toasts.js";
-import { beforeText, isRewound } from "./moment.js";
+import { beforeText, isOpened, isRewound } from "./moment.js";
 import { returnToLive } from "./rewound.js";
 import { isDate, parseTime } from "./typed_time.js";
 
@@ -150,7 +150,7 @@ export function transport(seek, step, topics, bookmarks) {
     set(field, { "data-tip": isBag() ? HELP : AGO_HELP });
     set(loop, { hidden: !isBag() });
     set(bookmarks.element, { hidden: !isBag() && !isRewound(recording) });
-    set(live, { hidden: !isRewound(recording) });
+    set(live, { hidden: !isRewound(recording) && !isOpened(recording) });
     setText(rate, rateText(recording.get("rate")));
     set(loop, { "aria-pressed": String(recording.get("loop")) });
     set(list, { "aria-pressed": String(topics.isOpen()) });

@@ -1,0 +1,151 @@
+"""Recordings that are shown in the place of live topics for a while."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from bags import START_NS
+from bench import benches
+from drives import CONFIG, recorded
+
+from tests.playback.conftest import Drive, Theater
+from webviz.api.errors import Error
+from webviz.data.messages import encode
+from webviz.engine.commands import (
+    Command,
+    OpenRecording,
+    Pause,
+    Refresh,
+    ReturnToLive,
+    SaveMemory,
+    Seek,
+    Sender,
+)
+from webviz.engine.parts.black_box import FOLDER
+from webviz.engine.parts.playback import NO_LIVE, REWOUND
+from webviz.files.config.model import MemorySettings
+from webviz.shell.testing import BagViewer
+from webviz.shell.testing.remembering_graph import RememberingGraph
+from webviz.sources import Advertisement, Raw
+
+STEADY = """\
+fixed_frame: map
+displays:
+- {type: Odometry, keep: 7}
+- {type: Map}
+- {type: LaserScan, decay_time: 0.3}
+- {type: Path, buffer_length: 3}
+"""
+
+
+def refusal(drive: Drive, command: Command, sender: Sender) -> str:
+    answer = drive.loop.enqueue(command, sender)
+    for _ in range(1000):
+        drive.loop.turn()
+        if answer.done():
+            return str(answer.exception())
+        drive.source.inbox.arrived.wait(0.005)
+    raise AssertionError("not done")
+
+
+def test_an_opened_recording_is_played_like_a_bag_and_live_topics_come_back(
+    drive: Callable[..., Drive],
+) -> None:
+    live = drive(recorded(4), STEADY)
+    live.do(Refresh())
+    before = live.shown()
+    live.do(SaveMemory(path="saved"))
+    with contextlib.closing(BagViewer(Path("saved"), STEADY)) as played:
+        start_s = (played.source.start_ns - START_NS) / 1e9
+        truth = {}
+        for at_s in (0.58, 2.08, 3.78):
+            played.play_to(at_s - start_s)
+            played.settle()
+            truth[at_s] = played.shown()
+
+    live.do(OpenRecording("saved"))
+    live.do(Pause(True))
+    assert live.playback.is_live is None
+    assert live.playback.is_opened
+    assert live.playback.names == ("saved",)
+    for at_s in (3.78, 0.58, 2.08):
+        live.do(Seek(at_s - start_s))
+        assert live.shown() == truth[at_s], at_s
+
+    live.do(ReturnToLive())
+    assert live.playback.is_live
+    assert not live.playback.is_opened
+    assert live.playback.names == ()
+    assert live.shown() == before
+
+
+def test_topics_stay_subscribed_to_and_remembered_while_a_recording_is_shown(
+    drive: Callable[..., Drive],
+) -> None:
+    live = drive(recorded(4), STEADY)
+    live.do(SaveMemory(path="saved"))
+    wanted = live.source.wanted
+    live.do(OpenRecording("saved"))
+    live.do(Seek(1.0))
+    live.do(Seek(0.5))
+    assert live.source.wanted == wanted, "nothing is asked for again, so that nothing is missed"
+
+    def remembered() -> int:
+        memory = live.loop.state().memory
+        assert memory is not None
+        return memory.size
+
+    before = remembered()
+    *_, last = live.files.messages([c for c in live.files.channels if c.topic == "/odom"], 0)
+    live.source.inbox.put("/odom", Raw(last.cdr, live.source.now_ns()))
+    assert not live.source.inbox.drain(), "it is not queued, since the bag is shown"
+    assert remembered() > before
+    live.do(SaveMemory(path="other"))
+    live.do(OpenRecording("other"))
+    assert live.playback.names == ("other",)
+    live.do(ReturnToLive())
+    assert live.playback.is_live
+
+
+def test_nothing_is_sent_while_a_recording_is_shown(tmp_path: Path) -> None:
+    path = recorded(4).write(tmp_path / "run")
+    graph = RememberingGraph()
+    with benches() as make:
+        bench = make(graph=graph, memory=MemorySettings(seconds=0))
+        gate, goal = bench.viewer._core.gate, Advertisement("/goal", "std_msgs/msg/Bool")
+        cdr = encode("std_msgs/msg/Bool", {"data": True})
+        bench.do(OpenRecording(str(path)))
+        assert str(gate.publish(goal, cdr).exception()) == REWOUND
+        bench.do(ReturnToLive())
+        gate.publish(goal, cdr).result()
+        assert bench.viewer._core.source.inbox is bench.source.inbox, "live without any memory"
+
+
+def test_a_page_opens_recordings_of_the_black_box_alone(drive: Callable[..., Drive]) -> None:
+    live = drive(recorded(4))
+    live.do(SaveMemory(path="saved"))
+    Path(FOLDER).mkdir()
+    live.do(SaveMemory(path=f"{FOLDER}/one"))
+    page = Sender(1)
+    for path in ("saved", f"{FOLDER}/../saved", FOLDER, "/"):
+        assert refusal(live, OpenRecording(path), page) == (
+            "A page can open only recordings in webviz_black_box."
+        )
+    assert refusal(live, OpenRecording(str(Path(FOLDER).absolute() / "one")), page) == "None"
+    assert live.playback.names == ("one",)
+
+
+def test_what_cannot_be_opened_leaves_what_is_shown(drive: Callable[..., Drive]) -> None:
+    live = drive(recorded(4))
+    with pytest.raises(Error, match=r"does not exist|not found|No such"):
+        live.do(OpenRecording("missing"))
+    assert live.playback.is_live
+
+
+def test_a_bag_is_not_replaced(theater: Callable[..., Theater]) -> None:
+    with pytest.raises(Error) as caught:
+        theater(recorded(4), CONFIG).do(OpenRecording("other"))
+    assert str(caught.value) == NO_LIVE
