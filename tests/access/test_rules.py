@@ -46,6 +46,7 @@ WATCHING = {
     "FocusDisplay",
     "FocusFrame",
     "Identify",
+    "LookUpTransform",
     "ResetView",
     "SaveImage",
     "Select",

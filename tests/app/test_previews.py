@@ -17,7 +17,7 @@ from tests.page.test_whole_page import FONT, HAS_FONT
 from webviz.engine.commands import SetToolProperty, ShowView
 from webviz.files.config import Config
 from webviz.files.opening import parse
-from webviz.shell.app.running import checked_view
+from webviz.shell.app.picture_controls import checked_view
 from webviz.shell.pictures.browser import Page
 from webviz.shell.testing.pictures import ReferenceImages
 from webviz.shell.testing.remembering_graph import RememberingGraph

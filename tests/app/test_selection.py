@@ -22,7 +22,7 @@ from webviz.data.messages import decode, encode
 from webviz.engine.commands import RemoveDisplay, SetFixedFrame, SetProperty, ShowView
 from webviz.files.config import Config
 from webviz.files.opening import parse
-from webviz.shell.app.running import checked_view
+from webviz.shell.app.picture_controls import checked_view
 from webviz.shell.pictures.browser import Page
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.source import HandFedSource

@@ -14,7 +14,7 @@ import webviz
 from webviz.engine.commands import SetToolProperty, ShowView
 from webviz.files.config import Config
 from webviz.files.opening import parse
-from webviz.shell.app.running import checked_view
+from webviz.shell.app.picture_controls import checked_view
 from webviz.shell.pictures.browser import Page
 from webviz.shell.testing.remembering_graph import RememberingGraph
 from webviz.shell.testing.source import HandFedSource

@@ -15,7 +15,7 @@ import webviz
 from webviz.engine.commands import ShowView
 from webviz.files.config import Config
 from webviz.files.opening import parse
-from webviz.shell.app.running import checked_view
+from webviz.shell.app.picture_controls import checked_view
 from webviz.shell.pictures.browser import Page
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")

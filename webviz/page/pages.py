@@ -54,7 +54,8 @@ class Pages:
     ) -> None:
         self._channel = channel
         self._guard = Guard("The page", strict=False)
-        journal = Journal(keep)
+        self.journal = journal = Journal(keep)
+        """Who did what."""
 
         def note(browser: int, text: str) -> None:
             journal.note(channel.visitors().get(browser), text)

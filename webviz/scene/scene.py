@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -75,10 +76,12 @@ class ViserScene:
         keep_shaders(server.scene, ROOT)
         self.cameras = ViserCameras(self.link)
         self._holding = Holding(self.link)
+        self.attended_until_s = 0.0
+        """Monotonic time until which a program looks, without a browser."""
 
     def has_watchers(self) -> bool:
-        """Return whether any browser is connected."""
-        return self.link.watchers > 0
+        """Return whether any browser is connected, or a program attends."""
+        return self.link.watchers > 0 or time.monotonic() < self.attended_until_s
 
     def is_unseen(self, display: str) -> bool:
         """Return whether pages have a pane for a display id, but none has shown it for a while."""

@@ -59,6 +59,7 @@ from webviz.engine.commands.topics import (
     InspectTopic,
     InspectTopics,
     InspectTransforms,
+    LookUpTransform,
 )
 from webviz.engine.commands.viewer import (
     Pause,
@@ -107,6 +108,7 @@ __all__ = [
     "InspectTopics",
     "InspectTransforms",
     "Load",
+    "LookUpTransform",
     "MoveDisplay",
     "Open",
     "OpenPanels",

@@ -42,3 +42,11 @@ class InspectTransforms(Command):
 
     tree: bool = True
     between: frozenset[tuple[str, str]] = frozenset()
+
+
+@dataclass(frozen=True)
+class LookUpTransform(Command):
+    """Answer with the newest transform between two frames, in words."""
+
+    target: str
+    source: str

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+from webviz.api.errors import Error
 from webviz.api.robots import NamespacedRobot
 from webviz.api.status import Status
 from webviz.data.transforms import Diagnosis, TransformException, diagnose, explain
-from webviz.engine.commands import Command, InspectTransforms, Sender
+from webviz.engine.commands import Command, InspectTransforms, LookUpTransform, Sender
 from webviz.engine.parts.part import Batches, Core, Handler, Part
 from webviz.engine.pipeline.listener import TransformListener
 from webviz.engine.state import Between
@@ -36,8 +37,8 @@ class TransformsPart(Part):
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
-        """Return the handler of each of its commands."""
-        return {InspectTransforms: self._inspect}
+        """The handler of each of its commands."""
+        return {InspectTransforms: self._inspect, LookUpTransform: self._look_up}
 
     def subscriptions(self) -> Mapping[str, Subscription]:
         """The topics of tf2."""
@@ -80,6 +81,18 @@ class TransformsPart(Part):
     def _inspect(self, command: InspectTransforms, sender: Sender) -> None:
         self._wanted = command
         self._tree = None
+
+    def _look_up(self, command: LookUpTransform, sender: Sender) -> str:
+        found = self._between(command.target, command.source)
+        if found.translation is None:
+            raise Error(found.problem)
+        x, y, z = found.translation
+        turn = ", ".join(f"{each:.5f}" for each in found.rotation)
+        age = "static" if found.age_s is None else f"{found.age_s:.2f} s old"
+        return (
+            f"{command.source} is at ({x:.4f}, {y:.4f}, {z:.4f}) m in {command.target}, rotation "
+            f"(x, y, z, w) = ({turn}), {age}."
+        )
 
     def _diagnosis(self) -> Diagnosis:
         """The tree as it was less than a second ago; at once if frames came or moved."""

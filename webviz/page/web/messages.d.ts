@@ -196,6 +196,7 @@ export interface Commands {
   Identify: { picks: { group: string; key: string; items: Array<[number, number | null, [number, number, number], [number, number, number] | null]> } };
   Invite: { name: string; role: "operator" | "owner" | "watcher"; days: number | null; url: string };
   Load: { text: string; name: string };
+  LookUpTransform: { target: string; source: string };
   MoveDisplay: { display: string; group?: string; before?: string };
   Open: { path: string };
   OpenRecording: { path: string };

@@ -16,6 +16,7 @@ COMMANDS: Mapping[type[Any], Role] = {
     commands.FocusDisplay: Role.WATCHER,
     commands.FocusFrame: Role.WATCHER,
     commands.Identify: Role.WATCHER,
+    commands.LookUpTransform: Role.WATCHER,
     commands.ResetView: Role.WATCHER,
     commands.SaveImage: Role.WATCHER,
     commands.Select: Role.WATCHER,

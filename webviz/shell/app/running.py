@@ -4,42 +4,37 @@ from __future__ import annotations
 
 import atexit
 import contextlib
-import itertools
 import logging
 import os
 import threading
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import msgspec
-import PIL.Image
-
 from webviz.api.errors import Error
 from webviz.api.finding import Finding
-from webviz.api.views import View, with_type
-from webviz.engine.commands import Command, Refresh, ShowView, StartWithView
+from webviz.api.views import View
+from webviz.engine.commands import PROGRAM, Command, Refresh, Sender, ShowView, StartWithView
 from webviz.engine.state import State
-from webviz.files import config as config_file
 from webviz.files.config import Config
 from webviz.files.sessions import Sessions
 from webviz.server.access.login import cookie_name
+from webviz.server.access.visitors import Visitor
 from webviz.shell.app import starting
 from webviz.shell.app.allow_list import check_names, report_everything
 from webviz.shell.app.closing import Closing
 from webviz.shell.app.link_rate import bytes_per_second
+from webviz.shell.app.picture_controls import PictureControls
 from webviz.shell.app.reading import read_config
 from webviz.shell.app.starting import BagPaths
-from webviz.shell.pictures import files as picture_files
 from webviz.shell.ros_source import ros_source
 
 if TYPE_CHECKING:
     import ssl
 
     from webviz.server.http.viser_server import Server
-    from webviz.shell.pictures.browser import Pixels
     from webviz.sources import Source
 
 log = logging.getLogger("webviz")
@@ -51,7 +46,7 @@ PATIENCE_S = 30.0
 """For a command in the frame loop; opening a config of hundreds of displays takes seconds."""
 
 
-class Running:
+class Running(PictureControls):
     """Source, frame loop, server and panel of one viewer; see `webviz.Viewer`."""
 
     def __init__(
@@ -234,8 +229,12 @@ class Running:
         """A read-only snapshot of all that the panel shows, at most half a second old."""
         return self._state
 
-    def do(self, command: Command) -> str:
+    def do(self, command: Command, sender: Sender = PROGRAM) -> str:
         """Run a command of `webviz.engine.commands` and wait for it.
+
+        Args:
+            command: what to do.
+            sender: in whose name, which decides on files.
 
         Returns:
             A message, or "".
@@ -244,7 +243,7 @@ class Running:
             Error: the command failed, or the viewer is closed.
         """
         if not self._ended.done():
-            answer = self._loop.enqueue(command)
+            answer = self._loop.enqueue(command, sender)
             either: list[Future[Any]] = [answer, self._ended]
             wait(either, PATIENCE_S, FIRST_COMPLETED)
             if answer.done():
@@ -266,13 +265,23 @@ class Running:
             self._scene.link.acknowledge(timeout)
         except TimeoutError:
             return False
-        return self._scene.has_watchers()
+        return self._scene.link.watchers > 0
+
+    def attend(self, seconds: float) -> None:
+        """Draw and examine for some seconds as if a browser were connected; thread-safe."""
+        until_s = time.monotonic() + seconds
+        self._scene.attended_until_s = max(until_s, self._scene.attended_until_s)
+
+    def note(self, visitor: Visitor, text: str) -> None:
+        """Add what a program did for somebody to the journal."""
+        self._pages.journal.note(visitor, text)
 
     def doctor(self) -> list[Finding]:
         """Examine the viewer, and return the findings, the one to repair first at the beginning.
 
         Takes about three seconds, since a finding counts once it has lasted. Displays draw nothing
-        without a browser, so that their data is not examined then.
+        without a browser, so that their data is not examined then, unless the viewer is asked to
+        `attend`.
         """
         doctor = self._loop.doctor
         until = doctor.rounds + ROUNDS
@@ -286,53 +295,6 @@ class Running:
         """The findings of the last round; rounds go on for some seconds after a call."""
         self._loop.doctor.ask()
         return list(self.state.findings)
-
-    def screenshot(
-        self,
-        path: str | os.PathLike[str] | None = None,
-        *,
-        size: tuple[int, int] = (1280, 720),
-        view: View | str | Mapping[str, Any] | None = None,
-    ) -> Pixels:
-        """Make a picture of the scene as a new browser would show it, with images beside it.
-
-        Takes seconds, and requires playwright and a browser on this machine.
-
-        Args:
-            path: file to write (.png, .jpg, .webp), if any.
-            size: width and height in pixels.
-            view: a view or the name of a saved one; None for the default view.
-
-        Returns:
-            uint8 (height, width, 3).
-
-        Raises:
-            Error: there is no browser, or the file cannot be written.
-        """
-        if path is not None:
-            picture_files.check(Path(path), is_animation=False, transparent=False)
-        if isinstance(view, str):
-            if view not in (saved := self.state.settings.views):
-                hint = config_file.nearest(view, saved)
-                raise Error(f"Unknown saved view `{view}`: {hint}")
-            view = saved[view]
-        looked = None if view is None else checked_view(view)
-        pixels = self._snapshots.take(self.url, size, looked)
-        if path is not None:
-            picture_files.save(PIL.Image.fromarray(pixels), Path(path))
-        return pixels
-
-    def save_screenshot(self) -> Path:
-        """Save a picture of the scene next to the config, named by the time."""
-        stem = time.strftime("webviz_screenshot_%Y_%m_%d-%H_%M_%S")
-        folder = Path(self.state.file.folder)
-        path = folder / f"{stem}.png"
-        for number in itertools.count(2):
-            if not path.exists():
-                break
-            path = folder / f"{stem}_{number}.png"
-        self.screenshot(path)
-        return path
 
     def _cookie(self) -> tuple[str, str] | None:
         """The cookie of the browser that takes pictures, None if none is asked for."""
@@ -357,17 +319,3 @@ class Running:
     def _show(self, state: State) -> None:
         self._state = state
         self._pages.update(state)
-
-
-def checked_view(view: View | Mapping[str, Any]) -> View:
-    """A validated view.
-
-    Raises:
-        Error: a value is invalid.
-    """
-    values = with_type(msgspec.to_builtins(view))
-    try:
-        return msgspec.convert(values, View)
-    except msgspec.ValidationError as error:
-        found = config_file.explain(error, View, values)
-        raise Error(f"Invalid view: {config_file.sentences([found])}") from error

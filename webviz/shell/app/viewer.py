@@ -32,7 +32,8 @@ from webviz.files import config as config_file
 from webviz.files import opening
 from webviz.shell.app.adding import by_topic, check_properties
 from webviz.shell.app.handles import DisplayHandle, NoSuchDisplay
-from webviz.shell.app.running import Running, checked_view
+from webviz.shell.app.picture_controls import checked_view
+from webviz.shell.app.running import Running
 from webviz.shell.app.time_controls import TimeControls
 from webviz.shell.app.tool_handle import ToolHandle
 

@@ -7,7 +7,7 @@ import logging
 import sys
 import threading
 import webbrowser
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from webviz.api.registry import display_types
@@ -32,6 +32,7 @@ def serve(
     standard: Path | None = None,
     note: str = "",
     bag: BagOptions = BagOptions(),
+    work: Callable[[Viewer], object] | None = None,
 ) -> int:
     """Serve the page until the program is asked to stop.
 
@@ -42,6 +43,7 @@ def serve(
         standard: config to use if none is given.
         note: printed below the address of the page.
         bag: to play instead of live topics.
+        work: called once the page is served, instead of printing its address.
 
     Returns:
         The exit status.
@@ -89,8 +91,11 @@ def serve(
                 viewer.show_viser_panel()
             is_shown = not stop.is_asked
             if is_shown:
-                with contextlib.suppress(OSError):  # the terminal was closed meanwhile
-                    _announce(options, viewer, note)
+                if work is not None:
+                    work(viewer)
+                else:
+                    with contextlib.suppress(OSError):  # the terminal was closed meanwhile
+                        _announce(options, viewer, note)
                 viewer.wait()
     say_end("\nwebviz: stopped." if is_shown else "webviz: interrupted.")
     return 0 if is_shown else INTERRUPTED

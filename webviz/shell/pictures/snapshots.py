@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from webviz.api.errors import Error
 from webviz.api.status import LOADING
@@ -22,6 +22,10 @@ if TYPE_CHECKING:
 
 WHOLE = ".wv-on #root { inset: 0 !important }"
 """Gives the scene the whole page, also what panels and time bar lie over."""
+BEHIND = "body > :not(#root) { pointer-events: none !important; opacity: 0 !important }"
+"""Lets clicks through to the scene."""
+SELECTING_S = 3.0
+"""Time for an answer; a click that hits nothing has none."""
 PATIENCE_S = 60.0
 """A browser without a GPU needs seconds for the meshes of some robots."""
 
@@ -66,11 +70,53 @@ class Snapshots:
         """
         return self._pool.submit(self._take, url, size, view).result()
 
+    def select(
+        self, url: str, size: tuple[int, int], view: View | None, at: tuple[int, int]
+    ) -> Mapping[str, Any]:
+        """Select what is at a pixel, as a click with the tool Select does.
+
+        Args:
+            url: of the page.
+            size: width and height of the picture in pixels.
+            view: overrides the default view.
+            at: the pixel, from the top left.
+
+        Returns:
+            What is known of it, see `webviz.page.content.selection`; empty if nothing is there.
+
+        Raises:
+            Error: there is no browser, or it does not finish.
+        """
+        return self._pool.submit(self._select, url, size, view, at).result()
+
     def close(self) -> None:
         """Cancel pictures that have not started, and wait for the current one."""
         self._pool.shutdown(cancel_futures=True)
 
     def _take(self, url: str, size: tuple[int, int], view: View | None) -> Pixels:
+        with self._shown(url, size, view) as (page, _):
+            rows = self._draw().rows
+            panes = self._scene.link.pictures.panes()
+            return with_panes(page, page.pixels(), panes, hidden_in(rows, rows))
+
+    def _select(
+        self, url: str, size: tuple[int, int], view: View | None, at: tuple[int, int]
+    ) -> Mapping[str, Any]:
+        with self._shown(url, size, view) as (page, client):
+            page.tab.add_style_tag(content=BEHIND)
+            page.tab.keyboard.press("s")
+            page.tab.mouse.click(*at)
+            with contextlib.suppress(TimeoutError):
+                page.wait_for(
+                    lambda: self._draw().selections.get(client), "a selection", SELECTING_S
+                )
+            return self._draw().selections.get(client, {})
+
+    @contextlib.contextmanager
+    def _shown(
+        self, url: str, size: tuple[int, int], view: View | None
+    ) -> Iterator[tuple[Page, int]]:
+        """A new page that shows all, and the id of its browser."""
         check_size(size)
         try:
             with launched() as browser, self._open(browser, url, size) as page:
@@ -83,9 +129,7 @@ class Snapshots:
                 page.wait_for(self._is_loaded, "all is loaded", PATIENCE_S)
                 self._scene.link.acknowledge(PATIENCE_S, client)
                 page.settle(PATIENCE_S)
-                rows = self._draw().rows
-                panes = self._scene.link.pictures.panes()
-                return with_panes(page, page.pixels(), panes, hidden_in(rows, rows))
+                yield page, client
         except TimeoutError as error:
             raise Error(str(error)) from error
 

@@ -1,0 +1,1 @@
+"""A viewer for programs that speak the Model Context Protocol."""

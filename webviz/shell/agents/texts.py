@@ -1,0 +1,113 @@
+"""The state of a viewer as short texts, which cost an agent little to read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any
+
+from webviz.api.finding import Finding
+from webviz.api.status import Level
+from webviz.data.messages.tree import Tree
+from webviz.data.words import joined
+from webviz.engine.state import Inspected, Row, State
+
+MAX_LINES = 200
+MAX_LINE = 400
+"""Characters, of which a name on a topic may have more."""
+MAX_NODES = 4
+"""Publishers of a topic that are named."""
+
+
+def bounded(lines: Iterable[str]) -> str:
+    """Lines as one text, without what would be too long."""
+    kept: list[str] = []
+    for number, line in enumerate(lines):
+        if number == MAX_LINES:
+            kept.append("… and more.")
+            break
+        kept.append(line if len(line) <= MAX_LINE else f"{line[:MAX_LINE]}…")
+    return "\n".join(kept)
+
+
+def explanation(state: State, display: str = "") -> Iterator[str]:
+    """Findings, the one to repair first at the beginning, and the statuses of displays.
+
+    Args:
+        state: of the viewer.
+        display: name or id of the only one to tell about, "" for all.
+    """
+    rows = [row for row in state.rows if display in ("", row.name, row.id)]
+    names = {row.id: row.name for row in state.rows}
+    findings = state.findings
+    if display:
+        ids = {row.id for row in rows}
+        findings = [f for f in findings if not f.explains or ids & {s.display for s in f.explains}]
+    yield from _findings(findings, names)
+    yield f"Fixed frame: {state.settings.fixed_frame}."
+    if state.playback is not None and state.playback.is_live is not True:
+        yield f"A recording is shown, at {state.playback.position_s:.2f} s."
+    for key, status in state.statuses.items():
+        if status.level is not Level.OK:
+            yield f"{status.level.name} {key}: {status.text}"
+    for row in rows:
+        yield from _row(row)
+
+
+def _findings(findings: Sequence[Finding], names: dict[str, str]) -> Iterator[str]:
+    yield "The doctor finds nothing." if not findings else "Findings, the first to repair first:"
+    for each in findings:
+        told = f"{each.severity.name} {each.id}: {joined(each.cause, each.remedy)}"
+        command = f" Command: `{each.command}`." if each.command else ""
+        explained = [f"{names.get(s.display, 'viewer')}/{s.status}" for s in each.explains]
+        yield told + command + (f" Explains {', '.join(explained)}." if explained else "")
+
+
+def _row(row: Row) -> Iterator[str]:
+    shown = "" if row.enabled else ", switched off"
+    yield f"{row.level.name} {row.name} ({row.type}, id {row.id}{shown})"
+    for key, status in row.statuses.items():
+        yield f"  {status.level.name} {key}: {status.text}"
+
+
+def topics(state: State) -> Iterator[str]:
+    """All topics with their types and publishers, and rates of those that are subscribed."""
+    for name, offer in sorted(state.offers.items()):
+        types = ", ".join(sorted({each.type for each in offer.publishers})) or "no publisher"
+        nodes = ", ".join(sorted({each.node for each in offer.publishers})[:MAX_NODES])
+        traffic = state.traffic.get(name)
+        rate = f", {traffic.rate_hz:.1f} Hz" if traffic else ""
+        yield f"{name}: {types}{f' from {nodes}' if nodes else ''}{rate}"
+
+
+def message(topic: str, inspected: Inspected) -> Iterator[str]:
+    """The newest message of a topic, a field a line."""
+    if inspected.message is None:
+        yield inspected.problem or f"No message on {topic} has arrived yet."
+        return
+    yield f"{topic}: {inspected.type}, {inspected.size} bytes"
+    yield from _fields(inspected.message, "")
+
+
+def selection(things: Mapping[str, Any]) -> Iterator[str]:
+    """A selection, see `webviz.shell.app.running.Running.select`."""
+    for number, each in things.items():
+        if number != "/info":
+            yield f"{each['title']} of {each['name']}. {each['note']}".rstrip()
+            yield from _fields(each["tree"], "")
+
+
+def _fields(tree: Tree, path: str) -> Iterator[str]:
+    """The values of a message with their paths; see `webviz.data.messages.to_tree`."""
+    match tree:
+        case {"fields": fields}:
+            for name, value in fields.items():
+                yield from _fields(value, f"{path}.{name}" if path else name)
+        case {"length": length, "items": items} if all(isinstance(each, str) for each in items):
+            rest = ", …" if length > len(items) else ""
+            yield f"{path}: {length} values [{', '.join(items)}{rest}]"
+        case {"length": length, "items": items}:
+            yield f"{path}: {length} items"
+            for number, each in enumerate(items):
+                yield from _fields(each, f"{path}[{number}]")
+        case _:
+            yield f"{path}: {tree}"

@@ -1,0 +1,127 @@
+"""The part of `webviz.Viewer` that takes pictures, and looks at them."""
+
+from __future__ import annotations
+
+import itertools
+import os
+import time
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import msgspec
+import PIL.Image
+
+from webviz.api.errors import Error
+from webviz.api.views import View, with_type
+from webviz.engine.state import State
+from webviz.files import config as config_file
+from webviz.shell.pictures import files as picture_files
+
+if TYPE_CHECKING:
+    from webviz.shell.pictures.browser import Pixels
+    from webviz.shell.pictures.snapshots import Snapshots
+
+Wanted = View | str | Mapping[str, Any] | None
+"""A view, its values, the name of a saved one, or the default view."""
+
+
+class PictureControls(ABC):
+    """Takes pictures with a headless browser of this machine."""
+
+    _snapshots: Snapshots
+
+    @property
+    @abstractmethod
+    def state(self) -> State:
+        """A snapshot of everything that a panel could show."""
+
+    @property
+    @abstractmethod
+    def url(self) -> str:
+        """Address of the page for browsers on this machine."""
+
+    def screenshot(
+        self,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        size: tuple[int, int] = (1280, 720),
+        view: Wanted = None,
+    ) -> Pixels:
+        """Make a picture of the scene as a new browser would show it, with images beside it.
+
+        Takes seconds, and requires playwright and a browser on this machine.
+
+        Args:
+            path: file to write (.png, .jpg, .webp), if any.
+            size: width and height in pixels.
+            view: a view or the name of a saved one; None for the default view.
+
+        Returns:
+            uint8 (height, width, 3).
+
+        Raises:
+            Error: there is no browser, or the file cannot be written.
+        """
+        if path is not None:
+            picture_files.check(Path(path), is_animation=False, transparent=False)
+        pixels = self._snapshots.take(self.url, size, self._view(view))
+        if path is not None:
+            picture_files.save(PIL.Image.fromarray(pixels), Path(path))
+        return pixels
+
+    def select(
+        self,
+        x: int,
+        y: int,
+        *,
+        size: tuple[int, int] = (1280, 720),
+        view: Wanted = None,
+    ) -> Mapping[str, Any]:
+        """Select what a picture of this size and view has at a pixel, as a click does.
+
+        Takes seconds, as `screenshot` does.
+
+        Returns:
+            What is known of each thing by number: `title`, `name` of its display, `tree` of its
+            values and `note`; and "/info" on all. Empty if nothing is there.
+
+        Raises:
+            Error: there is no browser, or the view is unknown.
+        """
+        return self._snapshots.select(self.url, size, self._view(view), (x, y))
+
+    def _view(self, view: Wanted) -> View | None:
+        if isinstance(view, str):
+            if view not in (saved := self.state.settings.views):
+                hint = config_file.nearest(view, saved)
+                raise Error(f"Unknown saved view `{view}`: {hint}")
+            view = saved[view]
+        return None if view is None else checked_view(view)
+
+    def save_screenshot(self) -> Path:
+        """Save a picture of the scene next to the config, named by the time."""
+        stem = time.strftime("webviz_screenshot_%Y_%m_%d-%H_%M_%S")
+        folder = Path(self.state.file.folder)
+        path = folder / f"{stem}.png"
+        for number in itertools.count(2):
+            if not path.exists():
+                break
+            path = folder / f"{stem}_{number}.png"
+        self.screenshot(path)
+        return path
+
+
+def checked_view(view: View | Mapping[str, Any]) -> View:
+    """A validated view.
+
+    Raises:
+        Error: a value is invalid.
+    """
+    values = with_type(msgspec.to_builtins(view))
+    try:
+        return msgspec.convert(values, View)
+    except msgspec.ValidationError as error:
+        found = config_file.explain(error, View, values)
+        raise Error(f"Invalid view: {config_file.sentences([found])}") from error
