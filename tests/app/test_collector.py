@@ -23,3 +23,19 @@ def test_messages_of_many_values_cause_no_pause() -> None:
         [sys.executable, "-c", SCRIPT], capture_output=True, text=True, timeout=120, check=True
     )
     assert run.stdout == "0\n"
+
+
+STARTED = """
+import gc, sys
+from webviz.shell.cli import program
+gc.callbacks.append(lambda phase, info: print("collected", file=sys.stderr))
+sys.argv = ["webviz", "--help"]
+program()
+"""
+
+
+def test_a_command_starts_without_collecting() -> None:
+    run = subprocess.run(
+        [sys.executable, "-c", STARTED], capture_output=True, text=True, timeout=120, check=True
+    )
+    assert run.stderr == ""

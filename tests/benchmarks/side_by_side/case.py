@@ -263,8 +263,11 @@ def environment() -> dict[str, str]:
     """Of the processes of a case, on the ROS domain of this one."""
     here = Path(__file__).parents[1]
     path = [str(here), str(here.parent / "support"), os.environ.get("PYTHONPATH", "")]
+    inherited = dict(os.environ)
+    # An installed program does not compile its modules at each start.
+    inherited.pop("PYTHONDONTWRITEBYTECODE", None)
     return {
-        **os.environ,
+        **inherited,
         "PYTHONPATH": os.pathsep.join(filter(None, path)),
         "PYTHONUNBUFFERED": "1",
     }
