@@ -4,9 +4,15 @@ from __future__ import annotations
 
 import base64
 import io
+import itertools
+import random
+import re
 from collections.abc import Iterator
+from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
+import msgspec
 import numpy as np
 import PIL.Image
 import playwright.sync_api as playwright
@@ -15,12 +21,35 @@ from drives import CONFIG, recorded
 from playwright.sync_api import expect
 
 import webviz
+from webviz.api.views import VIEW_TYPES, Rig, View, mimic, type_of
 from webviz.shell.cli import main as cli
-from webviz.shell.pictures.browser_scripts import CANVAS, COUNT_UNPACKING, OPAQUE, SETTLE
+from webviz.shell.pictures.browser_scripts import (
+    CANVAS,
+    COUNT_UNPACKING,
+    OPAQUE,
+    PIXEL,
+    SETTLE,
+)
 from webviz.shell.pictures.headless_renderer import HeadlessRenderer
 
 TIMES = (1.0, 4.5, 0.5, 5.0, 2.0, 0.0)
 SIZE: playwright.ViewportSize = {"width": 800, "height": 500}
+
+MIMIC = """async (cases) => {
+  const { mimic } = await import(new URL("webviz/recorded/view_math.js", location.href));
+  return cases.map(([view, rig, type, newRig]) =>
+    mimic(view, rig, type, "base", newRig, 480));
+}"""
+
+BOX = """async () => {
+  const viser = await import(new URL("webviz/viser_page.js", location.href));
+  const { left, top, width, height } = viser.canvas().getBoundingClientRect();
+  return [left, top, width, height];
+}"""
+FOLLOW = """async (value) => {
+  const { act } = await import(new URL("webviz/act.js", location.href));
+  return act("ChangeView", { key: "target_frame", value });
+}"""
 
 
 class OpenFile:
@@ -89,3 +118,68 @@ def test_the_file_shows_what_the_viewer_shows_at_any_time_in_any_order(
 def test_the_file_asks_no_server_for_anything(file: OpenFile) -> None:
     others = [url for url in file.requests if not url.startswith(("blob:", "data:"))]
     assert len(others) == 1
+
+
+def test_displays_are_switched_off_and_on_also_in_other_frames(file: OpenFile) -> None:
+    file.seek(3.0)
+    before = file.pixels()
+    switch = file.page.get_by_role("checkbox", name="Show Map")
+    switch.uncheck()
+    assert file.page.evaluate(SETTLE, 60_000.0)
+    assert not np.array_equal(file.pixels(), before)
+    file.seek(1.0)
+    without = file.pixels()
+    switch.check()
+    assert file.page.evaluate(SETTLE, 60_000.0)
+    assert not np.array_equal(file.pixels(), without)
+    file.seek(3.0)
+    np.testing.assert_array_equal(file.pixels(), before)
+
+
+def test_what_a_file_cannot_do_is_disabled_with_the_reason(file: OpenFile) -> None:
+    add = file.page.get_by_role("button", name="Add display")
+    expect(add).to_have_attribute("aria-disabled", "true")
+    expect(add).to_have_attribute("data-why", re.compile("Open the bag in webviz to change it"))
+
+
+def test_views_change_as_in_a_viewer(file: OpenFile) -> None:
+    chance = random.Random(3)
+    cases: list[list[Any]] = []
+    for name, cls in itertools.product(VIEW_TYPES, VIEW_TYPES.values()):
+        view = msgspec.convert({"type": name, "target_frame": "base"}, View)
+        rigs = [Rig((chance.uniform(-9, 9), 2.0, 0.5), chance.uniform(-3, 3)) for _ in range(2)]
+        wanted = mimic(view, rigs[0], cls, "base", rigs[1], 480.0)
+        told = [msgspec.to_builtins(view), asdict(rigs[0]), type_of(wanted), asdict(rigs[1])]
+        cases.append([told, msgspec.to_builtins(wanted)])
+    made = file.page.evaluate(MIMIC, [told for told, _ in cases])
+    for view, (_, wanted) in zip(made, cases, strict=True):
+        assert view.keys() == wanted.keys()
+        for key, value in wanted.items():
+            assert view[key] == (
+                value if isinstance(value, str) else pytest.approx(value, abs=2e-6)
+            )
+
+
+def test_a_view_follows_a_frame_through_the_run(file: OpenFile) -> None:
+    found = []
+    file.page.evaluate(FOLLOW, "base")
+    for at_s in (1.0, 4.0):
+        file.seek(at_s)
+        found.append(file.page.evaluate(PIXEL, [at_s, 0.0, 0.0]))
+    file.page.evaluate(FOLLOW, "<Fixed Frame>")
+    assert found[0] == pytest.approx(found[1], abs=3.0)
+    assert file.page.evaluate(PIXEL, [1.0, 0.0, 0.0]) != pytest.approx(found[1], abs=30.0)
+
+
+def test_what_is_in_a_box_is_selected_with_its_place_and_display(file: OpenFile) -> None:
+    file.seek(2.0)
+    page = file.page
+    left, top, width, height = page.evaluate(BOX)
+    page.keyboard.press("s")
+    page.mouse.move(left + 40, top + height * 0.4)
+    page.mouse.down()
+    page.mouse.move(left + width - 2, top + height - 2, steps=3)
+    page.mouse.up()
+    shown = page.locator(".wv-selection")
+    expect(shown.get_by_text("Odometry").first).to_be_attached()
+    page.keyboard.press("Escape")

@@ -15,8 +15,8 @@ const FIELDS = "input, select, textarea, button";
 const waiting = []; // what was built before the server has said who this is
 /** @type {{role: string, name: string} | null} */
 let you = null;
-/** @type {{commands: ReadonlySet<string>, reason: string} | null} */
-let only = null;
+/** @type {((what: string, fields: object) => string) | null} */
+let decide = null;
 
 channel.on("You", ({ role, name }) => {
   // Another link was opened in another tab: what was built for the old role is wrong.
@@ -39,22 +39,22 @@ export function onRole(act) {
 export const self = () => you ?? { role: "owner", name: "" };
 
 /**
- * Allows these commands only, whatever the role of this page.
+ * Lets `refusal(what, fields)` decide what is allowed, whatever the role of this page.
  *
- * @param {ReadonlySet<string>} commands
- * @param {string} reason
+ * @param {(what: string, fields: object) => string} refusal a sentence, "" if it is
  */
-export function allowOnly(commands, reason) {
-  only = { commands, reason };
+export function decideBy(refusal) {
+  decide = refusal;
 }
 
 /**
  * Why a command or message is not allowed here: a sentence, "" if it is.
  *
  * @param {string} what
+ * @param {object} [fields] of the command
  */
-export function why(what) {
-  if (only) return only.commands.has(what) ? "" : only.reason;
+export function why(what, fields = {}) {
+  if (decide) return decide(what, fields);
   const needed = ROLES.indexOf(constants.ROLES[what]);
   const own = ROLES.indexOf(self().role);
   if (own >= needed) return "";

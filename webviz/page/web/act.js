@@ -34,7 +34,7 @@ channel.onOpen(() => waiting.clear());
  * @returns {Promise<{level: string, text: string, [made: string]: string}>}
  */
 export function act(command, fields, { quiet = false, errors = "toast", step = 0 } = {}) {
-  const refusal = why(command);
+  const refusal = why(command, fields);
   const answer = refusal
     ? Promise.resolve({ level: "error", text: refusal })
     : new Promise((resolve) => waiting.set(send(command, fields, step), resolve));

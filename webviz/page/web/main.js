@@ -1,11 +1,11 @@
 // Starts the modules as viser's page comes about, and opens the channel when the server calls.
 
-import { allowOnly } from "./access.js";
+import { decideBy } from "./access.js";
 import * as batches from "./scene/batches.js";
 import * as blocks from "./scene/blocks.js";
 import * as channel from "./channel.js";
 import { about } from "./recorded/chunks.js";
-import { COMMANDS, connection, REASON } from "./recorded/connection.js";
+import { connection, refusal } from "./recorded/connection.js";
 import * as colors from "./scene/colors.js";
 import constants from "./constants.js";
 import * as contact from "./contact.js";
@@ -62,7 +62,7 @@ async function install() {
 
 /** @param {About} run */
 async function play(run) {
-  allowOnly(COMMANDS, REASON);
+  decideBy(refusal);
   const feed = await viser.connectToNothing();
   const { socket, open } = connection(run, feed);
   await installed;

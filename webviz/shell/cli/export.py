@@ -58,8 +58,8 @@ def _make(bag: Path, options: ExportOptions) -> int:
 
     from webviz.engine.pipeline import plugins
     from webviz.shell.bag_source import bag_source
-    from webviz.shell.export.export import ExportOrder
     from webviz.shell.export.export import export as write
+    from webviz.shell.export.order import ExportOrder
 
     options.allow_meshes()
     for path in options.plugin:

@@ -8,36 +8,35 @@ from typing import Any
 
 import msgspec
 
-from webviz.api.views import View
-from webviz.files.config import Settings
+from webviz.api.views import VIEW_TYPES, target_group
+from webviz.page.content.forms import form
 from webviz.scene.cameras import placed
-from webviz.server.channel.messages import PlaceCamera, Shell, StartView, Tools
-from webviz.shell.export.recorder import ExportSpan
+from webviz.scene.names import node_path
+from webviz.server.channel.messages import Shell, StartView, Tools
+from webviz.shell.export.order import ExportOrder
+from webviz.shell.export.recorder import ExportSpan, RunRecorder
 from webviz.shell.export.stores import RecordingChannel
 from webviz.shell.export.tape import ChunkIndex
-from webviz.sources.bag.source import BagSource
 
 
 def about(
-    name: str,
-    source: BagSource,
+    order: ExportOrder,
     span: ExportSpan,
-    settings: Settings,
-    channel: RecordingChannel,
+    recorder: RunRecorder,
     index: Sequence[ChunkIndex],
     notes: Sequence[str],
 ) -> Mapping[str, Any]:
     """Return the facts that a file has about its run.
 
     Args:
-        name: of the config, "" for none.
-        source: the bag.
+        order: of the file.
         span: of the bag that is recorded.
-        settings: of the config.
-        channel: with the stores after the last frame.
+        recorder: after the last frame.
         index: of the chunks.
         notes: sentences on what was left out.
     """
+    source, channel = order.source, recorder.channel
+    settings, frames = recorder.viewer.loop.settings, recorder.followed
     first_s = (span.first_ns - source.start_ns) / 1e9
     last_s = (span.last_ns - source.start_ns) / 1e9
     greeting = [channel.kept.get(kind) for kind in (Shell, Tools)]
@@ -47,9 +46,11 @@ def about(
         "duration": last_s - first_s,
         "index": [msgspec.to_builtins(each) for each in index],
         "greeting": [*filter(None, greeting), placed(StartView, settings.view, 0)],
-        "views": {view: _place(each) for view, each in settings.views.items()},
+        "views": {name: msgspec.to_builtins(view) for name, view in settings.views.items()},
+        "view_forms": {name: form(view) for name, view in VIEW_TYPES.items()},
+        "frame_nodes": {frame: node_path(target_group(frame)) for frame in frames},
         "stores": {
-            "file": {"path": name, "is_changed": False, "folder": "", "others": []},
+            "file": {"path": order.name, "is_changed": False, "folder": "", "others": []},
             "density": _density(channel.content("density"), first_s, last_s),
             "recorded": _recorded(channel, first_s, last_s),
             "bookmarks": _bookmarks(channel.content("bookmarks"), first_s, last_s),
@@ -57,10 +58,6 @@ def about(
         },
         "notes": notes,
     }
-
-
-def _place(view: View) -> PlaceCamera:
-    return placed(PlaceCamera, view, 0)
 
 
 def _density(density: Mapping[str, Any], first_s: float, last_s: float) -> Mapping[str, Any]:

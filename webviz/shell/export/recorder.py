@@ -6,7 +6,7 @@ import contextlib
 import itertools
 import math
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 
 from webviz.api.frames import Frames
@@ -27,6 +27,8 @@ from webviz.sources.bag.source import BagSource
 
 SLOW_S = 1.0
 """Between two records of the stores that change all the time."""
+REFRESHES = 3
+"""Until stores are there that parts make only once they are watched."""
 PATIENCE_S = 60.0
 """For one frame: the first may have to load the meshes of a robot."""
 
@@ -38,12 +40,12 @@ MAX_FOLLOWED = 64
 class RecordedCameras(ViserCameras):
     """Cameras that may follow any frame."""
 
-    followed: frozenset[str] = frozenset()
+    followed: Collection[str] = frozenset[str]()
     """Frames whose poses are recorded."""
 
     def target_frames(self) -> set[str]:
         """The frames that somebody may choose, and that of the view to start with."""
-        return super().target_frames() | self.followed
+        return super().target_frames().union(self.followed)
 
 
 class RecordedScene(ViserScene):
@@ -109,6 +111,11 @@ class RunRecorder:
             self._pages = Pages(self.channel, loop.enqueue, loop.controllers.steer)
             self._stack = stack.pop_all()
 
+    @property
+    def followed(self) -> Collection[str]:
+        """The frames whose poses are recorded."""
+        return self._scene.cameras.followed
+
     def close(self) -> None:
         """Stop the viewer."""
         self._stack.close()
@@ -130,14 +137,16 @@ class RunRecorder:
             self.viewer.seek(self._source, at_ns, deadline)
             self.viewer.wait((), deadline)
             self._follow_frames()
-            self.channel.is_slow_due = at_s - slow_s >= SLOW_S - 1e-6
-            slow_s = at_s if self.channel.is_slow_due else slow_s
+            is_slow_due = at_s - slow_s >= SLOW_S - 1e-6
+            slow_s = at_s if is_slow_due else slow_s
             self.channel.follow(self.viewer.loop.state())
-            self.viewer.do(Refresh())
+            for _ in range(REFRESHES if number == 0 else 1):
+                self.viewer.do(Refresh())
             self._scene.complete(PATIENCE_S)
             pictures = self._panes.take(self._scene.link.pictures.panes())
             ros_s = self._source.now_ns() / 1e9
-            yield TapeFrame(at_s, ros_s, self._tape.take(), self.channel.take(), pictures)
+            stores = self.channel.take(is_slow_due)
+            yield TapeFrame(at_s, ros_s, self._tape.take(), stores, pictures)
             tell((number + 1) / len(times))
 
     def _follow_frames(self) -> None:
@@ -147,7 +156,9 @@ class RunRecorder:
         wanted = [view.target_frame for view in loop.settings.views.values()]
         known = dict.fromkeys([*wanted, *loop.state().frames])
         found = (frame for frame in known if frame != FIXED_FRAME and frames.latest(frame))
-        self._scene.cameras.followed = frozenset(itertools.islice(found, MAX_FOLLOWED))
+        room = MAX_FOLLOWED - len(self.followed)
+        new = itertools.islice((frame for frame in found if frame not in self.followed), room)
+        self._scene.cameras.followed = frozenset((*self.followed, *new))
 
     def _show(self, state: State) -> None:
         self.state = state

@@ -35,13 +35,13 @@ class RecordingChannel(Channel):
 
     def __init__(self) -> None:
         super().__init__()
-        self.is_slow_due = True
-        """True if stores that change all the time are wanted, too."""
         self.kept: dict[type[ToPage], ToPage] = {}
         """The newest message of each kind."""
         self._names: set[str] = set(SHARED)
         self._made = Stores()
         self._changes: dict[tuple[str, str], msgspec.Raw | None] = {}
+        self._waiting: dict[str, Mapping[str, Any]] = {}
+        """Newest values of those that change all the time."""
 
     def follow(self, state: State) -> None:
         """Watch the stores of all displays, tools and panels of a viewer."""
@@ -54,7 +54,7 @@ class RecordingChannel(Channel):
 
     def watched(self) -> set[str]:
         """The names of the stores to make."""
-        return {*self._names, *(SLOW if self.is_slow_due else ())}
+        return {*self._names, *SLOW}
 
     def send(self, message: ToPage, browser: int | None = None) -> None:
         """Keep a message to all pages."""
@@ -63,6 +63,12 @@ class RecordingChannel(Channel):
 
     def show(self, store: str, values: Mapping[str, Any]) -> None:
         """Note which values of a store have changed."""
+        if store in SLOW:
+            self._waiting[store] = values
+        else:
+            self._note(store, values)
+
+    def _note(self, store: str, values: Mapping[str, Any]) -> None:
         for key in self._made.replace(store, values):
             content = self._made.get(store) or {}
             self._changes[store, key] = content.get(key)
@@ -72,7 +78,15 @@ class RecordingChannel(Channel):
         content = self._made.get(store) or {}
         return {key: msgspec.json.decode(value) for key, value in content.items()}
 
-    def take(self) -> Changes:
-        """The changes since the last call."""
+    def take(self, is_slow_due: bool) -> Changes:
+        """The changes since the last call.
+
+        Args:
+            is_slow_due: whether stores that change all the time are wanted, too.
+        """
+        if is_slow_due:
+            waiting, self._waiting = self._waiting, {}
+            for store, values in waiting.items():
+                self._note(store, values)
         changes, self._changes = self._changes, {}
         return changes

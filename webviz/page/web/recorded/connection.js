@@ -3,7 +3,10 @@
 
 import { clock } from "./clock.js";
 import { player } from "./player.js";
+import { boxOf } from "./bounds.js";
 import { frameAt } from "./moments.js";
+import { selection } from "./selection.js";
+import { views } from "./views.js";
 
 /** @import {Do, FromPage, ToPage} from "../messages.js" */
 /** @import {Socket} from "../channel.js" */
@@ -11,27 +14,31 @@ import { frameAt } from "./moments.js";
 /** @import {About} from "./types.js" */
 
 const MAX_IN_FLIGHT = 2;
+/** Stores of what a page asks for: they are too many to record. */
+const NOT_RECORDED = /^(between|message):/;
+const NO_VALUES = "This is not in the file. Open the bag in webviz to see it.";
 const NEVER = "There is no other message in this recording. Step in the other direction.";
 
-/** Why a command is refused. */
-export const REASON =
+const REASON =
   "This page is a recording, which can only be played and looked at. Open the bag in webviz to change it.";
 
-/**
- * The commands that are carried out here.
- *
- * @type {ReadonlySet<string>}
- */
-export const COMMANDS = new Set([
-  "Pause",
-  "Play",
-  "Seek",
-  "SelectSpan",
-  "SetLoop",
-  "SetRate",
-  "ShowView",
-  "StepMessage",
+/** The commands that are carried out here. */
+const COMMANDS = new Set([
+  ...["Pause", "Play", "Seek", "SelectSpan", "SetLoop", "SetRate", "StepMessage"],
+  ...["ChangeView", "FocusDisplay", "FocusFrame", "ResetView", "SaveImage", "ShowView"],
+  ...["Identify", "Select"],
 ]);
+
+/**
+ * Why a command is not allowed: a sentence, "" if it is. Displays can be switched, but not changed.
+ *
+ * @param {string} what
+ * @param {{path?: string}} fields
+ */
+export function refusal(what, { path }) {
+  const isSwitch = what === "SetProperty" && path === "enabled";
+  return isSwitch || COMMANDS.has(what) ? "" : REASON;
+}
 
 /**
  * Returns a socket that a run answers, and what opens it. `feed(messages)` passes messages to viser's page, and resolves once it
@@ -73,6 +80,11 @@ export function connection(about, feed) {
     },
   });
   const time = clock(about.duration, show, tellTime);
+  const view = views(about, tell, tellView);
+  const picked = selection(
+    (display) => run.value("displays", display),
+    () => `${run.ros().toFixed(3)} s`,
+  );
 
   /** @param {number} at */
   async function show(at) {
@@ -92,7 +104,7 @@ export function connection(about, feed) {
     }
   }
 
-  /** Stores that are made here. */
+  /** @type {Record<string, () => Record<string, unknown>>} */
   const MAKERS = {
     clock() {
       const { isPlaying, rate } = time.state();
@@ -114,22 +126,42 @@ export function connection(about, feed) {
     },
   };
 
+  // Of this page alone, whose number is 0.
+  /** @type {Record<string, () => Record<string, unknown>>} */
+  const PERSONAL = {
+    "selected:0": picked.selected,
+    "selection:0": picked.selection,
+    "view:0": view.view,
+    "view_type:0": view.type,
+  };
+
+  function tellView() {
+    tellAll(["view:0", "view_type:0"]);
+  }
+
+  /** @param {string[]} names */
+  function tellAll(names) {
+    for (const name of names) if (own.has(name)) tellOwn(name);
+  }
+
   /** @param {string} name */
   function tellOwn(name) {
-    const make = MAKERS[/** @type {keyof typeof MAKERS} */ (name)];
+    const make = MAKERS[name] ?? PERSONAL[name];
     const set = make ? make() : about.stores[name];
     tell({ type: "Values", store: name, all: true, set: set ?? {}, gone: [] });
   }
 
   function tellTime() {
-    for (const name of Object.keys(MAKERS)) if (own.has(name)) tellOwn(name);
+    tellAll(Object.keys(MAKERS));
   }
 
   /** @param {string} name */
   function watch(name) {
-    if (name in MAKERS || name in about.stores) {
+    if (name in MAKERS || name in PERSONAL || name in about.stores) {
       own.add(name);
       tellOwn(name);
+    } else if (NOT_RECORDED.test(name)) {
+      tell({ type: "Values", store: name, all: true, set: { problem: NO_VALUES }, gone: [] });
     } else run.watch(name);
   }
 
@@ -151,8 +183,18 @@ export function connection(about, feed) {
       if (at === undefined) throw new Error(NEVER);
       return time.seek(at);
     },
-    ShowView({ view }) {
-      tell({ ...about.views[view], type: "PlaceCamera" });
+    ...view.acts,
+    FocusDisplay({ display }) {
+      const box = boxOf(run.within(display));
+      if (!box) throw new Error("This display draws nothing to focus on. Check its statuses.");
+      view.lookAt(box);
+    },
+    SaveImage: ({ name = "" }) => tell({ type: "SaveCanvas", name }),
+    SetProperty: ({ display, value }) => run.enable(display, value),
+    Identify: () => {},
+    Select(fields) {
+      picked.select(fields);
+      tellAll(["selected:0", "selection:0"]);
     },
   };
 

@@ -3,6 +3,7 @@
 import { bufferOf, chunks, revived } from "./chunks.js";
 import { frameAt, lastUpTo, shownAt } from "./moments.js";
 import { changesBetween } from "./scene_changes.js";
+import { switches } from "./switches.js";
 
 /** @import {ViserMessage} from "../types.js" */
 /** @import {About, Chunk, ChunkIndex, Known, Shown} from "./types.js" */
@@ -15,11 +16,23 @@ import { changesBetween } from "./scene_changes.js";
  * }} Outlets
  */
 
+const ROWS = "displays";
+
 /** @type {Shown} */
 const NOTHING = { ros: 0, scene: new Set(), stores: new Map(), panes: new Map() };
 
 /**
- * Returns `{show(at), ready(at), watch(store), unwatch(store), repeat(display), ros(), value(store, key)}`.
+ * A message as viser's page expects it.
+ *
+ * @param {Chunk} chunk
+ * @param {number} number
+ * @returns {ViserMessage}
+ */
+const made = (chunk, number) =>
+  revived(chunk, chunk.messages.items[number - chunk.messages.first][3]);
+
+/**
+ * Returns `{show(at), ros(), watch(store), unwatch(store), enable(display, enabled), repeat(display)}`.
  *
  * @param {About} about
  * @param {Outlets} outlets
@@ -35,6 +48,7 @@ export function player(about, outlets) {
   const values = new Map(); // of the stores that are shown, by key
   /** @type {Set<string>} */
   const watched = new Set();
+  const switched = switches();
 
   /**
    * The number of the chunk that has a message, value or picture.
@@ -80,10 +94,7 @@ export function player(about, outlets) {
     const { gone, wanted } = changesBetween(known.values(), all.values());
     const from = await homes("message", wanted);
     const removals = gone.map((name) => ({ type: "RemoveSceneNodeMessage", name, owner: "" }));
-    const messages = wanted.map((number) => {
-      const chunk = from(number);
-      return revived(chunk, chunk.messages.items[number - chunk.messages.first][3]);
-    });
+    const messages = wanted.map((number) => made(from(number), number));
     return { all, messages: [...removals, ...messages] };
   }
 
@@ -123,7 +134,11 @@ export function player(about, outlets) {
    * @param {Map<string, Map<string, unknown>>} next
    */
   function showStores(next) {
-    for (const [name, content] of next) {
+    // The rows of displays come first: by them is known what is hidden.
+    const rows = next.get(ROWS);
+    const all = rows ? [[ROWS, rows], ...[...next].filter(([name]) => name !== ROWS)] : [...next];
+    for (const [name, recorded] of /** @type {[string, Map<string, unknown>][]} */ (all)) {
+      const content = switched.content(name, recorded);
       const before = values.get(name);
       values.set(name, content);
       if (!before) {
@@ -163,7 +178,7 @@ export function player(about, outlets) {
     const stores = await storeValues(next, watched);
     const before = shown;
     [shown, place, known] = [next, `${number}.${frame}`, all];
-    outlets.scene(messages);
+    outlets.scene(switched.messages(messages));
     showStores(stores);
     for (const display of new Set([...before.panes.keys(), ...next.panes.keys()])) {
       const isSame = before.panes.get(display)?.join() === next.panes.get(display)?.join();
@@ -176,6 +191,27 @@ export function player(about, outlets) {
     show,
     /** The ROS time of the frame that is shown. */
     ros: () => shown.ros,
+    /**
+     * A value of a store that the page watches.
+     *
+     * @param {string} store
+     * @param {string} key
+     */
+    value: (store, key) => /** @type {any} */ (values.get(store)?.get(key)),
+    /**
+     * The ids of a display and of those in it, if it is a group.
+     *
+     * @param {string} display
+     */
+    within(display) {
+      const rows = values.get(ROWS) ?? new Map();
+      /** @type {string[]} */
+      const order = rows.get("order") ?? [];
+      const first = order.indexOf(display);
+      const depth = rows.get(display)?.depth ?? 0;
+      const end = order.findIndex((id, at) => at > first && rows.get(id).depth <= depth);
+      return order.slice(first, end < 0 ? undefined : end);
+    },
     /** @param {string} name */
     async watch(name) {
       watched.add(name);
@@ -186,6 +222,21 @@ export function player(about, outlets) {
     unwatch(name) {
       watched.delete(name);
       values.delete(name);
+    },
+    /**
+     * Switches a display on or off.
+     *
+     * @param {string} display
+     * @param {boolean} enabled
+     */
+    async enable(display, enabled) {
+      const problem = switched.set(display, enabled);
+      if (problem) throw new Error(problem);
+      const { messages, numbers } = switched.difference(known.values());
+      const of = await homes("message", numbers);
+      const recorded = numbers.map((number) => made(of(number), number));
+      outlets.scene([...messages, ...recorded]);
+      showStores(await storeValues(shown, watched));
     },
     /** @param {string} display */
     repeat: (display) => showPicture(shown, display),

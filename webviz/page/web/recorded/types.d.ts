@@ -1,6 +1,8 @@
 // Types of a recorded run, see webviz/shell/export/.
 
-import type { PlaceCamera, ToPage } from "../messages.js";
+import type { DeclaredProperty } from "../contents.js";
+import type { ToPage } from "../messages.js";
+import type { Vec3 } from "../types.js";
 
 /** Its key, node, phase, and the message itself. */
 export type SceneItem = [key: string, node: string, phase: "create" | "remove" | "", message: any];
@@ -46,7 +48,11 @@ export interface About {
   duration: number;
   index: ChunkIndex[];
   greeting: ToPage[];
-  views: Record<string, PlaceCamera>;
+  /** The saved views, and the properties of each type. */
+  views: Record<string, View>;
+  view_forms: Record<string, DeclaredProperty[]>;
+  /** The node that each frame can be followed by. */
+  frame_nodes: Record<string, string>;
   stores: Record<string, Record<string, unknown>>;
   notes: string[];
 }
@@ -67,3 +73,21 @@ export interface Playing {
   loop: boolean;
   selected: [number, number] | null;
 }
+/** A view, as config files have it. */
+export interface View {
+  type: string;
+  target_frame: string;
+  distance?: number;
+  yaw?: number;
+  pitch?: number;
+  focal_point?: Vec3;
+  position?: Vec3;
+  scale?: number;
+  angle?: number;
+  x?: number;
+  y?: number;
+}
+/** Where a camera is and what it looks at. */
+export type ViewCamera = [position: Vec3, lookAt: Vec3];
+/** Where the coordinates of a view are in the fixed frame. */
+export type ViewRig = { origin: Vec3; yaw: number };

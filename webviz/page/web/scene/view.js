@@ -39,6 +39,8 @@ let aimed = null;
 
 /** The type of the view, "" before there is one. */
 export const type = () => (view === null ? "" : view.view);
+/** The target frame of the view. */
+export const targetFrame = () => view?.target_frame ?? "";
 /** The transform before the camera's own pose. */
 export const followed = () => (rig === null ? matrix() : rig);
 /** The offset of the point that the camera looks at from the focal point of the view. */

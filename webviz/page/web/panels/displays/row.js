@@ -144,7 +144,7 @@ export function makeRow(first, look) {
     set(fold, { "aria-label": `${isOpen ? "Fold" : "Unfold"} ${text}` });
     set(box, {
       "aria-label": `Show ${text}`,
-      disabled: (!isGlobal && !item.can_edit) || why("SetProperty") !== "",
+      disabled: (!isGlobal && !item.can_edit) || why("SetProperty", { path: "enabled" }) !== "",
     });
     if (box.checked !== enabled) box.checked = enabled;
     setText(name, text);

@@ -156,7 +156,7 @@ function described(found, caster) {
     return { ...thing, ...more, at: local, local, point: inThree(local) };
   }
   const point =
-    found.point ?? (depth !== undefined && caster && onRay(depth, caster)) ?? inThree(local);
+    found.point ?? (depth !== undefined && caster ? onRay(depth, caster) : inThree(local));
   if (number !== null) return { ...thing, item: number, at: local, local, point };
   // In the coordinates of the node, which has several objects.
   const whole = viser.node(path) ?? object;

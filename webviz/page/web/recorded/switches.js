@@ -1,0 +1,144 @@
+// Displays that are switched off on this page: their nodes are hidden, and their rows say so.
+
+import constants from "../constants.js";
+
+/** @import {DisplayRow} from "../contents.js" */
+/** @import {ViserMessage} from "../types.js" */
+/** @import {Known} from "./types.js" */
+
+const VISIBILITY = "SetSceneNodeVisibilityMessage";
+
+/** @typedef {Map<string, any>} Content */
+
+/**
+ * The id of the display that a group of nodes belongs to, "" for other nodes.
+ *
+ * @param {string} name of a node
+ */
+function displayOf(name) {
+  const [root, group, ...rest] = name.slice(1).split("/");
+  if (`/${root}` !== constants.ROOT || group === undefined || rest.length) return "";
+  // Ids of displays need no encoding, whatever follows them.
+  return group.split("%", 1)[0];
+}
+
+/** @param {Known} message */
+const isVisibility = ({ key }) => key.endsWith(VISIBILITY);
+
+/** @param {string} name @param {boolean} visible */
+const visibility = (name, visible) => ({ type: VISIBILITY, name, visible, owner: "" });
+
+/**
+ * Returns `{set(id, enabled), content(name, content), messages(all, messages), difference(all)}`.
+ */
+export function switches() {
+  /** @type {Map<string, boolean>} */
+  const wanted = new Map(); // by id of the display
+  /** @type {Set<string>} */
+  let hidden = new Set(); // displays, by themselves or with their group
+  /** @type {Content} */
+  let recorded = new Map(); // the store "displays"
+
+  function follow() {
+    hidden = new Set();
+    /** @type {number | null} */
+    let off = null;
+    for (const id of recorded.get("order") ?? []) {
+      /** @type {DisplayRow} */
+      const row = recorded.get(id);
+      if (off !== null && row.depth <= off) off = null;
+      if (off === null && wanted.get(id) === false) off = row.depth;
+      if (off !== null) hidden.add(id);
+    }
+  }
+
+  /** @param {Content} content */
+  function rows(content) {
+    recorded = content;
+    follow();
+    const all = [...content].map(([id, row]) =>
+      wanted.has(id) ? [id, { ...row, enabled: row.enabled && wanted.get(id) }] : [id, row],
+    );
+    return new Map(/** @type {[string, any][]} */ (all));
+  }
+
+  /** @param {Content} content */
+  function without(content) {
+    const shown = new Map([...content].filter(([id]) => !hidden.has(id)));
+    const order = content.get("order");
+    if (order)
+      shown.set(
+        "order",
+        order.filter((/** @type {string} */ id) => !hidden.has(id)),
+      );
+    return shown;
+  }
+
+  return {
+    /**
+     * Switches a display; a sentence if that is not possible.
+     *
+     * @param {string} id
+     * @param {boolean} enabled
+     */
+    set(id, enabled) {
+      /** @type {DisplayRow | undefined} */
+      const row = recorded.get(id);
+      if (enabled && row && !row.enabled)
+        return `${row.name} was off when this file was made, so there is nothing of it to show.`;
+      if (enabled) wanted.delete(id);
+      else wanted.set(id, false);
+      follow();
+      return "";
+    },
+    /**
+     * The values of a store as this page shows them.
+     *
+     * @param {string} name
+     * @param {Content} content
+     */
+    content(name, content) {
+      if (name === "displays") return rows(content);
+      return hidden.size && (name === "panes" || name === "legend") ? without(content) : content;
+    },
+    /**
+     * Messages of the scene, of which some would show what is hidden.
+     *
+     * @param {ViserMessage[]} messages
+     */
+    messages(messages) {
+      if (!hidden.size) return messages;
+      return messages.flatMap((message) => {
+        const { type, name, props } = message;
+        if (typeof name !== "string" || !hidden.has(displayOf(name))) return [message];
+        if (type === VISIBILITY) return [];
+        return props ? [message, visibility(name, false)] : [message];
+      });
+    },
+    /**
+     * Hides or shows the nodes of displays after a switch: messages, and numbers of recorded ones.
+     *
+     * @param {Iterable<Known>} all messages of the scene
+     */
+    difference(all) {
+      /** @type {Map<string, number | null>} */
+      const groups = new Map();
+      for (const message of all) {
+        const { node, phase, number } = message;
+        if (displayOf(node) === "") continue;
+        if (phase === "create" && !groups.has(node)) groups.set(node, null);
+        if (isVisibility(message)) groups.set(node, number);
+      }
+      /** @type {ViserMessage[]} */
+      const messages = [];
+      /** @type {number[]} */
+      const numbers = [];
+      for (const [name, number] of groups) {
+        if (hidden.has(displayOf(name))) messages.push(visibility(name, false));
+        else if (number === null) messages.push(visibility(name, true));
+        else numbers.push(number);
+      }
+      return { messages, numbers };
+    },
+  };
+}

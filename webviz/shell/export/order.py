@@ -1,0 +1,49 @@
+"""A file to make of a bag."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from webviz.api.errors import Error
+from webviz.files.config import Config
+from webviz.shell.export.recorder import ExportSpan
+from webviz.shell.pictures.times import At, position_ns, seconds_from_start
+from webviz.sources.bag.source import BagSource
+
+RATE_HZ = 10.0
+
+
+@dataclass(frozen=True)
+class ExportOrder:
+    """A file to make.
+
+    Args:
+        config: what to show.
+        source: the bag.
+        bag: its name, for errors.
+        name: of the config, "" for none.
+        first, last: of the span to record.
+        rate_hz: frames per second of the bag.
+    """
+
+    config: Config
+    source: BagSource
+    bag: str
+    name: str = ""
+    first: At = "start"
+    last: At = "end"
+    rate_hz: float = RATE_HZ
+
+    def span(self) -> ExportSpan:
+        """The part of the bag to record.
+
+        Raises:
+            Error: it is outside of the bag, or empty.
+        """
+        first_ns, last_ns = (
+            position_ns(at, self.source, self.bag) for at in (self.first, self.last)
+        )
+        if first_ns > last_ns:
+            first_s, last_s = (seconds_from_start(at, self.source) for at in (first_ns, last_ns))
+            raise Error(f"--from {first_s:g} s is later than --to {last_s:g} s. Swap them.")
+        return ExportSpan(first_ns, last_ns, self.rate_hz)
