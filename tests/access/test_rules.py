@@ -35,6 +35,7 @@ NOT_OF_PAGES = {
     "InspectTransforms": "follows from the stores that pages watch",
     "Refresh": "of programs; watching a store sends it",
     "Restore": "of the start of a viewer",
+    "RestoreSelection": "of the start of a viewer",
     "ReloadPlugin": "runs code of a file",
     "TraceDisplay": "of programs",
 }
@@ -62,7 +63,7 @@ OWNING = {
     "StartRecording",
     "StopRecording",
 }
-OWNING |= {"Dismiss", "Invite", "Revoke"}
+OWNING |= {"Dismiss", "Invite", "ListReport", "Revoke", "SaveReport"}
 OF_THE_SERVER = (Dismiss, Invite, Revoke, UseWidget)
 """Done by itself, without the frame loop."""
 

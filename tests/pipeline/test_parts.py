@@ -111,6 +111,7 @@ PARTS += [
     "Playback",
     "Plugins",
     "Recording",
+    "Report",
     "Selection",
     "Settings",
     "Time",

@@ -31,6 +31,9 @@ MAX_GESTURES, MAX_DRAGS = 20, 50
 """Gestures of tools, and drags of handles other than moves, of a browser within a second; people
 make one or two."""
 
+LARGE = frozenset({"text", "picture"})
+"""Fields that have checks of their own; a message is bounded as a whole."""
+
 Handler = Callable[[Asked, Any], object]
 """Carries out a command that a page has asked for, on the event loop."""
 
@@ -134,7 +137,7 @@ def command_of(name: str, arguments: dict[str, Any], **own: Any) -> object:
         values = msgspec.structs.asdict(msgspec.convert(arguments, form))
     except (msgspec.ValidationError, RecursionError) as error:
         raise ValueError(f"Not done: {error}.") from error
-    _refuse_endless({key: value for key, value in arguments.items() if key != "text"})
+    _refuse_endless({key: value for key, value in arguments.items() if key not in LARGE})
     names = {field.name for field in dataclasses.fields(class_)}
     return class_(**values, **{key: value for key, value in own.items() if key in names})
 

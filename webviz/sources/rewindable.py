@@ -18,6 +18,7 @@ from webviz.sources.memory_past import MemoryChannel, MemoryMessage, MemoryPast,
 from webviz.sources.past_state import Event
 from webviz.sources.recording import Channels, RecentMessages
 from webviz.sources.replay import Replay
+from webviz.sources.slices import MemorySlice
 from webviz.sources.source import Offer, Source, Subscription
 
 NEARLY_NS = 150_000_000
@@ -180,6 +181,17 @@ class Rewindable:
     def logged(self) -> Sequence[Event]:
         """`Playable.logged`, of what was received."""
         return self._log.events(self.start_ns)
+
+    def slice(self) -> MemorySlice | None:
+        """All that is remembered, with the moment that is shown; None if there is nothing."""
+        entries = self._held or self.memory.last(math.inf).whole
+        if not entries:
+            return None
+        if self._replay is None:
+            return MemorySlice(self.channels, entries)
+        newest = self.memory.after(self._held[-1][1].arrived_s)
+        shown_s = self._clock.arrived_s(self._replay.position_ns)
+        return MemorySlice(self.channels, [*self._held, *newest], shown_s)
 
     # The interface of webviz.sources.Source
 

@@ -44,6 +44,7 @@ from webviz.engine.commands.recording import (
     StartRecording,
     StopRecording,
 )
+from webviz.engine.commands.reports import ListReport, RestoreSelection, SaveReport
 from webviz.engine.commands.selection import Identify, InspectSelections, Pick, Picks, Select
 from webviz.engine.commands.tools import (
     CallService,
@@ -107,6 +108,7 @@ __all__ = [
     "InspectTopic",
     "InspectTopics",
     "InspectTransforms",
+    "ListReport",
     "Load",
     "LookUpTransform",
     "MoveDisplay",
@@ -130,11 +132,13 @@ __all__ = [
     "ResetDisplay",
     "ResetView",
     "Restore",
+    "RestoreSelection",
     "ReturnToLive",
     "Save",
     "SaveBookmark",
     "SaveImage",
     "SaveMemory",
+    "SaveReport",
     "SaveView",
     "Seek",
     "Select",

@@ -34,6 +34,7 @@ from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.playback import REWOUND, PlaybackPart
 from webviz.engine.parts.plugins import PluginsPart
 from webviz.engine.parts.recording import RecordingPart
+from webviz.engine.parts.reports import ReportsPart
 from webviz.engine.parts.selection import SelectionPart
 from webviz.engine.parts.session import SessionPart
 from webviz.engine.parts.settings import SettingsPart
@@ -148,7 +149,8 @@ class FrameLoop:
         views = ViewsPart(core, self._settings, self._displays)
         first = [transforms, self._time, self._playback, self._displays, self._settings, views]
         others, history, kept = self._other_parts(config, path, views, memory, autosave, session)
-        last = [make(core) for make in parts]
+        reports = ReportsPart(core, self._files, control, self._examined, lambda: self._shown)
+        last = [reports, *(make(core) for make in parts)]
         self._parts = Parts([*first, *others, *last], self._guard)
         self._do = history.noting(self._parts.do)
         self.doctor = Doctor(core, self._displays, waiting)
@@ -364,6 +366,11 @@ class FrameLoop:
 
     def _points_held(self) -> int:
         return self._guard.attempt("Scene", POINTS_HELD, self._core.scene.points_held)
+
+    def _examined(self) -> int:
+        """Ask the doctor to examine; the number of rounds so far."""
+        self.doctor.ask()
+        return self.doctor.rounds
 
     def _robots(self) -> tuple[NamespacedRobot, ...]:
         entries = self.settings.robots

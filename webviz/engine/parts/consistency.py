@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 
 from webviz.api.consistency import Fit, MapFit, OccupiedCells, RobotPath, ScanPoints
 from webviz.api.frames import compose, is_placeable, to_pose
@@ -39,17 +40,18 @@ class ConsistencyCheck:
     def __init__(self, core: Core, displays: DisplayList) -> None:
         self._core = core
         self._displays = displays
-        self._next = 0.0
+        self._next = 0.0, 0.0
         self.fits: dict[str, MapFit] = {}
         """Of laser scans to the map, by id of their display."""
         self.blocked: dict[str, int] = {}
         """Points of scans on paths, by id of the display of the path."""
 
     def update(self) -> None:
-        """Compare again when it is time."""
-        if self._core.clock() < self._next:
+        """Compare again when it is time, of a recording or, while it is paused, of waiting."""
+        now = self._core.clock(), time.monotonic()
+        if now[0] < self._next[0] and now[1] < self._next[1]:
             return
-        self._next = self._core.clock() + EVERY_S
+        self._next = now[0] + EVERY_S, now[1] + EVERY_S
         for runner in self._displays.runners():
             for key in (ON_MAP, ON_WAY):
                 runner.external_statuses.pop(key, None)

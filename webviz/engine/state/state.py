@@ -18,6 +18,7 @@ from webviz.data.messages.tree import Tree
 from webviz.data.transforms import Diagnosis
 from webviz.engine.state.latency import Latency
 from webviz.files.config import Settings
+from webviz.files.report import ReportedPick
 from webviz.sources import Offer
 from webviz.sources.past_state import (
     BlackBoxState,
@@ -326,6 +327,7 @@ class State:
         selected: ids of what each browser has selected, each with that of its display, and
             whether it moves.
         selections: what is known of it, for the browsers that show it.
+        reported: the selection of the bug report that is shown.
         more: fields of additional parts, by name.
     """
 
@@ -361,4 +363,5 @@ class State:
     black_box: BlackBoxState | None = None
     selected: Mapping[int, Mapping[int, tuple[str, bool]]] = field(default_factory=dict)
     selections: Mapping[int, Mapping[str, Any]] = field(default_factory=dict)
+    reported: tuple[ReportedPick, ...] = ()
     more: Mapping[str, Any] = field(default_factory=dict)

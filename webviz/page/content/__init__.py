@@ -22,7 +22,7 @@ from webviz.page.content.playback import bookmarks, density, events, playback, r
 from webviz.page.content.properties import properties, statuses, topics_of
 from webviz.page.content.recording import black_box, recording
 from webviz.page.content.scene import legend, watchers
-from webviz.page.content.selection import picking, selected, selection
+from webviz.page.content.selection import picking, reported, selected, selection
 from webviz.page.content.store import PageStore
 from webviz.page.content.tools import driving, tool
 from webviz.page.content.topics import message, topics, traffic
@@ -58,6 +58,7 @@ MAKERS: Mapping[str, Callable[[State, str], PageStore | None]] = {
     "rate": rate,
     "recorded": recorded,
     "recording": recording,
+    "reported": reported,
     "routes": routes,
     "selected": selected,
     "selection": selection,

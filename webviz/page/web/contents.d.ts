@@ -141,6 +141,13 @@ export interface RemedyButton {
   arguments: Record<string, unknown>;
 }
 
+export interface ReportedThing {
+  display: string;
+  key: string;
+  number: number | null;
+  at: [number, number, number];
+}
+
 export interface Route {
   frame: string;
   poses: Array<[number, number, number, number]>;
@@ -303,6 +310,7 @@ export interface Stores {
   rate: { own: { hz?: number }; items: never };
   recorded: { own: {  }; items: Array<number> };
   recording: { own: { remembered?: [number, number]; is_remembering?: boolean; about?: string; recording?: RunningRecording | null }; items: never };
+  reported: { own: { things?: Array<ReportedThing> }; items: never };
   routes: { own: {  }; items: Route };
   selected: { own: {  }; items: [string, boolean] };
   selection: { own: { "/info"?: SelectionInfo }; items: Thing };

@@ -195,6 +195,7 @@ export interface Commands {
   FocusFrame: { frame: string };
   Identify: { picks: { group: string; key: string; items: Array<[number, number | null, [number, number, number], [number, number, number] | null]> } };
   Invite: { name: string; role: "operator" | "owner" | "watcher"; days: number | null; url: string };
+  ListReport: { with_names?: boolean };
   Load: { text: string; name: string };
   LookUpTransform: { target: string; source: string };
   MoveDisplay: { display: string; group?: string; before?: string };
@@ -217,6 +218,7 @@ export interface Commands {
   SaveBookmark: { name: string; at_s?: number | null };
   SaveImage: { name?: string };
   SaveMemory: { seconds?: number | null; path?: string };
+  SaveReport: { picture?: string; selection?: Array<{ group: string; key: string; items: Array<[number, number | null, [number, number, number], [number, number, number] | null]> }>; with_names?: boolean; path?: string };
   SaveView: { name: string; view?: { type: "Orbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "XYOrbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "ThirdPersonFollower"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "FPS"; target_frame?: string; yaw?: number; pitch?: number; position?: [number, number, number] } | { type: "TopDownOrtho"; target_frame?: string; scale?: number; angle?: number; x?: number; y?: number } | null };
   Seek: { at_s: number };
   Select: { picks?: Array<{ group: string; key: string; items: Array<[number, number | null, [number, number, number], [number, number, number] | null]> }>; keep?: Array<number>; total?: number };

@@ -59,11 +59,13 @@ COMMANDS: Mapping[type[Any], Role] = {
     commands.UseTool: Role.OPERATOR,
     requests.UseWidget: Role.OPERATOR,
     # Files of the machine that runs the viewer, and the config as a whole.
+    commands.ListReport: Role.OWNER,
     commands.Load: Role.OWNER,
     commands.Open: Role.OWNER,
     commands.OpenRecording: Role.OWNER,
     commands.Save: Role.OWNER,
     commands.SaveMemory: Role.OWNER,
+    commands.SaveReport: Role.OWNER,
     commands.StartRecording: Role.OWNER,
     commands.StopRecording: Role.OWNER,
     # Who may come.

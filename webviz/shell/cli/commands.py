@@ -42,6 +42,8 @@ for name, summary in {
     "screenshot": "Save pictures of a config without a screen, live or from a bag.",
     "export": "Write a part of a bag as one HTML file that opens without a server.",
     "record": "Record topics to MCAP files that ROS 2 plays.",
+    "report": "Write a bug report of a bag or of live topics, which webviz opens again.",
+    "open": "Open a bug report; `webviz FILE.zip` does the same.",
     "doctor": "Find the causes of what is not shown, live or in a bag, without a browser.",
     "frames": "Print or draw the tree of transforms, live or of a bag.",
     "test": "Check that rules hold, over a bag or live topics, for CI.",
@@ -66,7 +68,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
     logging.basicConfig(format="%(name)s: %(message)s", level=logging.WARNING)
     try:
         command, given, unparsed = app.parse_args(
-            own, exit_on_error=False, print_error=False, verbose=False
+            with_command(own), exit_on_error=False, print_error=False, verbose=False
         )
         if "ros" in unparsed:
             given.arguments["ros"] = ros
@@ -98,6 +100,15 @@ def split_ros_arguments(arguments: Sequence[str]) -> tuple[list[str], list[str]]
         if argument == "--" and target is ros:
             target = own
     return own, ros
+
+
+def with_command(arguments: list[str]) -> list[str]:
+    """Return the arguments, with the command `open` if they begin with the file of a bug report."""
+    return ["open", *arguments] if arguments and _is_report(arguments[0]) else arguments
+
+
+def _is_report(word: str) -> bool:
+    return word.lower().endswith(".zip") and not word.startswith("-")
 
 
 def _mistake(error: CycloptsError) -> str:

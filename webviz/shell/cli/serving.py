@@ -33,6 +33,7 @@ def serve(
     note: str = "",
     bag: BagOptions = BagOptions(),
     work: Callable[[Viewer], object] | None = None,
+    then: Callable[[Viewer], object] = lambda viewer: None,
 ) -> int:
     """Serve the page until the program is asked to stop.
 
@@ -44,6 +45,7 @@ def serve(
         note: printed below the address of the page.
         bag: to play instead of live topics.
         work: called once the page is served, instead of printing its address.
+        then: called with the viewer before its address is printed.
 
     Returns:
         The exit status.
@@ -87,6 +89,7 @@ def serve(
             control=not options.no_control,
         ) as viewer:
             stop.then(viewer.stop)
+            then(viewer)
             if options.debug:
                 viewer.show_viser_panel()
             is_shown = not stop.is_asked

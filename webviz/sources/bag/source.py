@@ -24,6 +24,7 @@ from webviz.sources.graph import ReadOnly
 from webviz.sources.inbox import MAX_BYTES, Inbox, Raw
 from webviz.sources.past_state import Event
 from webviz.sources.replay import Replay
+from webviz.sources.slices import BagSlice
 from webviz.sources.source import Subscription
 
 NODE = "webviz"
@@ -62,6 +63,7 @@ class BagSource:
         self.inbox = Inbox()
         self.graph = ReadOnly("A bag is read-only. Connect to a live ROS graph to publish.")
         paths = [paths] if isinstance(paths, Path) else paths
+        self._paths = tuple(paths)
         self._file = BagFiles(paths)
         self._log = LogReader(paths, self.inbox.arrived.set)
         self._extras = tuple(extras)
@@ -173,6 +175,12 @@ class BagSource:
         """`Playable.logged`; none until a worker has read them."""
         self._log.start(self._file)
         return self._log.read.events
+
+    def slice(self, first_ns: int, last_ns: int, shown_ns: int) -> BagSlice:
+        """The subscribed topics in a span of time, and what displays need of the time before."""
+        renamed = {ours: theirs for theirs, ours in self._remappings.items()}
+        span_ns = max(first_ns, self.start_ns), min(last_ns, self.end_ns)
+        return BagSlice(self._paths, dict(self._wanted), renamed, span_ns, shown_ns)
 
     def links(self) -> Sequence[tuple[str, str]]:
         """Parents and children of the static transforms and of the first ones that move."""

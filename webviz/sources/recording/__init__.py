@@ -2,6 +2,15 @@
 
 from webviz.sources.recording.channels import Channels, library, new_name
 from webviz.sources.recording.recent import Entry, RecentMessages, Remembered
-from webviz.sources.recording.recorder import Recorder
+from webviz.sources.recording.recorder import ForwardClock, Recorder
 
-__all__ = ["Channels", "Entry", "RecentMessages", "Recorder", "Remembered", "library", "new_name"]
+__all__ = [
+    "Channels",
+    "Entry",
+    "ForwardClock",
+    "RecentMessages",
+    "Recorder",
+    "Remembered",
+    "library",
+    "new_name",
+]

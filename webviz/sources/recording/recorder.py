@@ -39,7 +39,7 @@ class Recorder:
         self._lock = threading.Condition()
         self._waiting: deque[Entry] = deque(past)
         self._bytes = sum(len(raw.cdr) for _, raw in self._waiting)
-        self._clock = _ForwardClock()
+        self._clock = ForwardClock()
         self._is_ending = False
         self._began_s = time.monotonic()
         self.dropped = 0
@@ -130,7 +130,7 @@ class Recorder:
         self._folder.add(channel, self._clock.at(raw), raw.cdr, self._channels.latched(topic))
 
 
-class _ForwardClock:
+class ForwardClock:
     """Times of recording, which never go back: readers sort by them.
 
     If ROS time goes back, as with a simulator that starts over or a clock that is corrected, they

@@ -9,6 +9,7 @@ import * as history from "./history.js";
 import { openKeys } from "./key_help.js";
 import { fold, openPanel } from "./layout.js";
 import { openPeople } from "./people.js";
+import { openReport } from "./report.js";
 import { setTheme } from "./theme.js";
 
 /** @import {Command} from "./commands.js" */
@@ -49,6 +50,13 @@ export const actions = {
   yaml: { name: "Download as YAML", icon: "download", run: () => files.exportAs("yaml") },
   rviz: { name: "Download as .rviz", icon: "download", run: () => files.exportAs("rviz") },
   image: { name: "Save image", icon: "camera", group: "View", run: () => act("SaveImage") },
+  report: {
+    name: "Report a bug…",
+    icon: "file",
+    group: "Time",
+    needs: "SaveReport",
+    run: () => openReport(),
+  },
   undo: {
     name: "Undo",
     icon: "arrow-back",

@@ -164,6 +164,7 @@ function menu(owner) {
     item(actions.fullscreen, { checked: document.fullscreenElement ? true : undefined }),
     item(actions.people),
     item(actions.doctor),
+    item(actions.report),
     { label: "Undo and redo steps…", icon: "clock", run: () => history.openSteps(owner) },
     null,
     item(actions.dark, isTheme("dark")),

@@ -137,11 +137,13 @@ function isOver(a, b) {
 }
 
 /**
+ * A part of an object as a pick; `number` is that of the object.
+ *
  * @param {SceneThing & {number: number | null, depth?: number, point?: Three}} found
  * @param {Three} [caster]
  * @returns {Picked}
  */
-function described(found, caster) {
+export function described(found, caster) {
   const { object, name, ordinal, number, depth } = found;
   const { group, key, path, first } = found.node;
   const thing = { group, key, path, name, ordinal, object, number, color: null };

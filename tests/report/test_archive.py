@@ -1,0 +1,129 @@
+"""Zip files of bug reports, which may come from strangers."""
+
+from __future__ import annotations
+
+import contextlib
+import zipfile
+from collections.abc import Mapping
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from webviz.files.report import BugReport, PrivateNames, ReportError, read_report, write_report
+
+REPORT = BugReport(source="live", made=1.0, at_ns=2, first_ns=1, last_ns=3)
+WHOLE: Mapping[str, bytes] = {
+    "report.json": msgspec.json.encode(REPORT),
+    "config.yaml": b"version: 1\n",
+    "slice.mcap": b"slice",
+}
+
+
+def zipped(path: Path, members: Mapping[str, bytes]) -> Path:
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in members.items():
+            archive.writestr(name, content)
+    return path
+
+
+def test_what_is_written_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "bug.zip"
+    (tmp_path / "a.mcap").write_bytes(b"slice")
+    size = write_report(path, {**WHOLE, "slice.mcap": tmp_path / "a.mcap"})
+    assert size == path.stat().st_size
+    assert path.stat().st_mode & 0o077 == 0
+    (tmp_path / "out").mkdir()
+    found = read_report(path, tmp_path / "out")
+    assert (found.report, found.bag.read_bytes(), found.picture) == (REPORT, b"slice", None)
+    assert sorted(each.name for each in tmp_path.iterdir()) == ["a.mcap", "bug.zip", "out"]
+
+
+def test_members_of_other_names_are_never_unpacked(tmp_path: Path) -> None:
+    others = {"../evil": b"x", "/tmp/evil": b"x", "config.yaml/../../evil": b"x", "big": b"x" * 9}
+    path = zipped(tmp_path / "bug.zip", {**others, **WHOLE})
+    (out := tmp_path / "out").mkdir()
+    read_report(path, out)
+    assert sorted(each.name for each in out.iterdir()) == ["bug.mcap", "config.yaml"]
+    assert not (tmp_path / "evil").exists()
+
+
+@pytest.mark.parametrize(
+    ("members", "reason"),
+    [
+        ({"report.json": b"{}"}, "config.yaml is missing"),
+        ({**WHOLE, "report.json": b"{}"}, "report.json is invalid"),
+        ({**WHOLE, "report.json": b"[" * 100_000}, "report.json is invalid"),
+        ({**WHOLE, "config.yaml": bytes(5 << 20)}, "config.yaml is larger than 4 MB"),
+        ({**WHOLE, "picture.png": bytes(33 << 20)}, "picture.png is larger than 32 MB"),
+        ({**WHOLE, **{f"{number}": b"" for number in range(2000)}}, "too many files"),
+    ],
+)
+def test_bombs_and_foreign_zip_files(
+    tmp_path: Path, members: Mapping[str, bytes], reason: str
+) -> None:
+    path = zipped(tmp_path / "bug.zip", members)
+    (tmp_path / "out").mkdir()
+    with pytest.raises(ReportError, match=reason):
+        read_report(path, tmp_path / "out")
+
+
+def test_a_member_that_is_there_twice(tmp_path: Path) -> None:
+    path = zipped(tmp_path / "bug.zip", WHOLE)
+    with zipfile.ZipFile(path, "a") as archive, pytest.warns(UserWarning, match="Duplicate"):
+        archive.writestr("slice.mcap", b"other")
+    (tmp_path / "out").mkdir()
+    with pytest.raises(ReportError, match=r"slice\.mcap twice"):
+        read_report(path, tmp_path / "out")
+
+
+def test_any_cut_or_changed_file_gives_a_sentence(tmp_path: Path) -> None:
+    whole = zipped(tmp_path / "whole.zip", WHOLE).read_bytes()
+    damaged = [whole[:cut] for cut in range(0, len(whole), 7)]
+    damaged += [
+        whole[:at] + bytes([whole[at] ^ 0x55]) + whole[at + 1 :] for at in range(len(whole))
+    ]
+    path = tmp_path / "bug.zip"
+    for number, data in enumerate(damaged):
+        path.write_bytes(data)
+        (out := tmp_path / f"out{number}").mkdir()
+        with contextlib.suppress(ReportError):  # any other exception fails
+            read_report(path, out)
+
+
+def test_a_full_disk_leaves_the_old_report(tmp_path: Path) -> None:
+    path = tmp_path / "bug.zip"
+    path.write_bytes(b"old")
+    with pytest.raises(ReportError, match=r"Cannot write .*bug\.zip"):
+        write_report(path, {**WHOLE, "slice.mcap": tmp_path / "missing"})
+    assert path.read_bytes() == b"old"
+    assert [each.name for each in tmp_path.iterdir()] == ["bug.zip"]
+
+
+def test_names_are_replaced_by_as_many_characters() -> None:
+    names = PrivateNames(["/scan"], ["labhost", "alice", "root"], "/home/alice")
+    text = "alice@labhost in /home/alice/ws, /home/bob and alices root of 'base_link'"
+    assert names.text(text) == (
+        "xxxxx@xxxxxxx in /home/xxxxx/ws, /home/xxx and alices root of 'base_link'"
+    )
+    data = b"\x00\x01labhost\x00\xff/Users/carol\x00"
+    assert names.message(data) == b"\x00\x01xxxxxxx\x00\xff/Users/xxxxx\x00"
+
+
+def test_names_of_topics_and_frames_stay() -> None:
+    names = PrivateNames(["/turtle7/scan", "/home/scan/points"], ["turtle7"], "/root")
+    assert names.kept == ("turtle7",)
+    assert names.text("/turtle7/scan /home/scan /root/a") == "/turtle7/scan /home/scan /xxxx/a"
+
+
+def test_a_report_is_no_directory_of_zip_bombs(tmp_path: Path) -> None:
+    """The sizes that a member declares hold, whatever its data would unpack to."""
+    path = zipped(tmp_path / "bug.zip", {**WHOLE, "config.yaml": bytes(1 << 20)})
+    data = bytearray(path.read_bytes())
+    place = data.rfind(b"config.yaml") - 46 + 24  # of the size in the table of contents
+    data[place : place + 4] = (10).to_bytes(4, "little")
+    path.write_bytes(data)
+    (out := tmp_path / "out").mkdir()
+    with pytest.raises(ReportError):
+        read_report(path, out)
+    assert (out / "config.yaml").stat().st_size <= 10

@@ -1,0 +1,122 @@
+"""Bug reports of bags: what they contain, and that they show the same again."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+import stories
+
+from webviz.api.errors import Error
+from webviz.engine.commands import Seek
+from webviz.files.opening import load, parse
+from webviz.files.report import UnpackedReport, read_report
+from webviz.shell.cli import main as cli
+from webviz.shell.report.making import make_report
+from webviz.shell.report.scenes import Pictured
+from webviz.shell.testing import BagViewer
+from webviz.shell.testing.seeking import plain
+from webviz.sources.bag.source import BagSource
+
+HOME = "/home/alice"
+AT_S = 5.0
+
+
+@pytest.fixture(scope="module")
+def bag(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("bags")
+    return stories.write(folder / "turned", "turned", {3.0: f"cannot open {HOME}/laser.yaml"})
+
+
+@pytest.fixture(scope="module")
+def made(bag: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("reports") / "bug.zip"
+    with opened(bag) as source:
+        config = parse(stories.CONFIG, "the config")
+        span = (2.0, "end")
+        make_report(config, source, Pictured(None), path, span=span, at=AT_S, name="turned")
+    return path
+
+
+@pytest.fixture
+def report(made: Path, tmp_path: Path) -> UnpackedReport:
+    return read_report(made, tmp_path)
+
+
+@contextlib.contextmanager
+def opened(bag: Path) -> Iterator[BagSource]:
+    with contextlib.closing(BagSource(bag)) as source:
+        yield source
+
+
+def test_a_report_shows_what_the_bag_shows(bag: Path, report: UnpackedReport) -> None:
+    with (
+        contextlib.closing(BagViewer(bag, stories.CONFIG)) as before,
+        contextlib.closing(BagViewer(report.bag, load(report.config))) as after,
+    ):
+        before.do(Seek(AT_S))
+        after.do(Seek(report.report.at_s))
+        first, second = (list(map(plain, each.shown().values())) for each in (before, after))
+        assert first == second
+        assert after.source.end_ns - after.source.start_ns == pytest.approx(4e9, abs=1e8)
+
+
+def test_statuses_and_findings_of_the_moment(report: UnpackedReport) -> None:
+    (status,) = [
+        each for each in report.report.statuses if each.status == "Map" and each.display == "Scan"
+    ]
+    assert status.level == "warn"
+    assert "rotating 'base_scan' by -18°" in status.text
+    assert [each.id for each in report.report.findings] == ["DATA001"]
+    assert {each.name for each in report.report.moments} >= {"DATA001", "driver"}
+
+
+def test_names_are_left_out_of_messages_and_log(made: Path, report: UnpackedReport) -> None:
+    assert HOME.encode() not in report.bag.read_bytes()
+    moments = [each.text for each in report.report.moments if each.name == "driver"]
+    assert moments == ["cannot open /home/xxxxx/laser.yaml"]
+
+
+def test_a_report_that_is_too_large_says_so(
+    bag: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("webviz.engine.parts.reports.MAX_BYTES", 1000)
+    path = tmp_path / "bug.zip"
+    with opened(bag) as source, pytest.raises(Error, match="larger than 0 MB"):
+        make_report(parse(stories.CONFIG, "it"), source, Pictured(None), path)
+    assert not list(tmp_path.iterdir())
+
+
+def test_the_list_writes_nothing(
+    bag: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert cli(["report", "--bag", str(bag), "--list"]) == 0
+    lines = capfd.readouterr().out.splitlines()
+    assert lines[0].startswith("slice.mcap: 6.0 s of ")
+    assert lines[-1].startswith("Names of hosts, users and home folders are left out")
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["-o", "bug.txt"], "bug.txt must end with .zip."),
+        ([], "Give either -o FILE or --list."),
+        (["--list", "--from", "3"], "--from needs --bag."),
+    ],
+)
+def test_invalid_arguments(
+    arguments: list[str], sentence: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    assert cli(["report", *arguments]) == 2
+    assert capfd.readouterr().err == f"webviz: {sentence}\n"
+
+
+def test_a_zip_file_that_is_no_report(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "other.zip"
+    path.write_bytes(b"PK")
+    assert cli([str(path), "--port", "0"]) == 1
+    assert "is not a bug report that can be opened" in capfd.readouterr().err

@@ -1,0 +1,380 @@
+"""Bug reports of the moment that is shown."""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import importlib.metadata
+import io
+import itertools
+import os
+import platform
+import tempfile
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import PIL.Image
+
+from webviz.api.errors import Error
+from webviz.api.offer import Offer
+from webviz.data.transforms import diagnose, tree_text
+from webviz.data.words import counted
+from webviz.engine.commands import (
+    Command,
+    ListReport,
+    Picks,
+    RestoreSelection,
+    SaveReport,
+    Sender,
+)
+from webviz.engine.commands.requests import Job
+from webviz.engine.parts.files import FilesPart
+from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.playback import PlaybackControl
+from webviz.engine.state import State
+from webviz.files import config as config_file
+from webviz.files.config import Config
+from webviz.files.report import (
+    BugReport,
+    FindingEntry,
+    PrivateNames,
+    ReportedMoment,
+    ReportedPick,
+    StatusEntry,
+    write_report,
+)
+from webviz.files.report.archive import CONFIG, PICTURES, REPORT, SLICE
+from webviz.sources.bag.source import BagSource
+from webviz.sources.past_state import Event
+from webviz.sources.rewindable import Rewindable
+from webviz.sources.slices import Slice, WrittenSlice, write_slice
+
+BEFORE_NS, AFTER_NS = 30_000_000_000, 5_000_000_000
+"""Of a bag around the moment that is shown, unless a span is selected."""
+MAX_BYTES = 500_000_000
+"""Of the slice."""
+MAX_MOMENTS = 500
+MAX_PICTURE = 16 << 20
+MAX_PIXELS = 50_000_000
+ROUNDS, ROUNDS_S = 3, 6.0
+"""Of the doctor, that a report waits for, and for how long."""
+REST_S = 0.05
+FRAMES, GRAPH, LOG = "frames.txt", "graph.json", "log.txt"
+PACKAGES = ("webviz", "viser", "numpy", "mcap", "msgspec", "rosbags")
+VARIABLES = ("ROS_DISTRO", "RMW_IMPLEMENTATION")
+
+
+@dataclass(frozen=True)
+class _Moment:
+    """All that a report is made of, as it was when it was asked for."""
+
+    part: Slice
+    source: str
+    state: State
+    config: Config
+    frames: str
+    selection: tuple[ReportedPick, ...]
+    names: PrivateNames
+    with_names: bool
+
+
+class ReportsPart(Part):
+    """Writes bug reports.
+
+    Args:
+        core: shared by all parts.
+        files: have the config.
+        control: of what is played.
+        examined: lets the doctor examine, and returns how many rounds it has completed.
+        state: the last state, from any thread.
+    """
+
+    name = "Report"
+
+    def __init__(
+        self,
+        core: Core,
+        files: FilesPart,
+        control: PlaybackControl,
+        examined: Callable[[], int],
+        state: Callable[[], State],
+    ) -> None:
+        super().__init__(core)
+        self._files = files
+        self._control = control
+        self._examined = examined
+        self._state = state
+        self._reported: tuple[ReportedPick, ...] = ()
+
+    @property
+    def handles(self) -> Mapping[type[Command], Handler]:
+        """The handler of each command."""
+        return {
+            ListReport: self._list,
+            SaveReport: self._save,
+            RestoreSelection: self._restore,
+        }
+
+    def state(self) -> Mapping[str, Any]:
+        """The selection of the report that is shown."""
+        return {"reported": self._reported}
+
+    def _restore(self, command: RestoreSelection, sender: Sender) -> None:
+        self._reported = command.picks
+
+    def _list(self, command: ListReport, sender: Sender) -> Job[str]:
+        moment = self._moment(sender, (), command.with_names)
+        self._examined()  # so that there are findings once it is written
+        return Job(lambda: "\n".join(_listing(moment)), lambda text: text)
+
+    def _save(self, command: SaveReport, sender: Sender) -> Job[str]:
+        if command.path and sender.browser is not None:
+            raise Error("A page cannot choose the file of a report.")
+        picture = _picture(command.picture)
+        moment = self._moment(sender, command.selection, command.with_names)
+
+        def work() -> str:
+            until_s = time.monotonic() + ROUNDS_S
+            while self._examined() < ROUNDS and time.monotonic() < until_s:
+                time.sleep(REST_S)
+            path = Path(command.path) if command.path else _new_path()
+            size = _write(path, moment, self._state(), picture)
+            return f"Saved {path.name}, {max(1, round(size / 1e3)) / 1e3:.3g} MB."
+
+        return Job(work, lambda answer: answer)
+
+    def _moment(self, sender: Sender, picks: Sequence[Picks], with_names: bool) -> _Moment:
+        state, core = self._state(), self.core
+        config = self._files.config()
+        view = state.views.get(sender.browser) if sender.browser is not None else None
+        if view is not None:
+            config = replace(config, settings=msgspec.structs.replace(config.settings, view=view))
+        part, source = self._slice()
+        tree = tree_text(core.buffer, core.now_ns)
+        problems = diagnose(core.buffer, core.now_ns).problems
+        public = {*state.offers, *state.frames, *_namespaces(state.offers)}
+        return _Moment(
+            part,
+            source,
+            state,
+            config,
+            "\n".join([tree or "There are no transforms.", *problems, ""]),
+            _picked(picks, state),
+            PrivateNames(public, () if with_names else None),
+            with_names,
+        )
+
+    def _slice(self) -> tuple[Slice, str]:
+        """The slice around the moment that is shown, and the name of its source."""
+        source, control = self.core.source, self._control
+        if isinstance(source, BagSource):
+            at_ns = min(max(control.position_ns, source.start_ns), source.end_ns)
+            first_ns, last_ns = control.selected or (at_ns - BEFORE_NS, at_ns + AFTER_NS)
+            part = source.slice(min(first_ns, at_ns), max(last_ns, at_ns), at_ns)
+            return part, ", ".join(source.names)
+        if not isinstance(source, Rewindable) or (found := source.slice()) is None:
+            raise Error(
+                "No messages are kept in memory. Show a topic, or raise memory.seconds in the "
+                "config."
+            )
+        return found, "live"
+
+
+def _listing(moment: _Moment) -> list[str]:
+    """The content of a report, a line per member."""
+    state, part, names = moment.state, moment.part, moment.names
+    topics = counted(part.topics, "topic")
+    whose = "the bag" if moment.source != "live" else "memory"
+    statuses = sum(len(row.statuses) for row in state.rows) + len(state.statuses)
+    lines = [
+        f"{SLICE}: {part.seconds:.1f} s of {topics} from {whose}, latched messages first",
+        f"{CONFIG}: {counted(len(moment.config.displays), 'display')} and settings as they are now",
+        "picture: the scene as it is shown",
+        f"{REPORT}: {statuses} statuses, findings of the "
+        "doctor with their times, selection, versions of programs",
+        f"{FRAMES}: the tree of {counted(len(state.frames), 'frame')}",
+        f"{GRAPH}: nodes, {counted(len(state.offers), 'topic')}, types and QoS",
+        f"{LOG}: the last lines of /rosout",
+    ]
+    if moment.with_names:
+        return [*lines, "Names of hosts, users and home folders are in it."]
+    kept = f" except {', '.join(names.kept)}, of topics or frames" if names.kept else ""
+    return [*lines, f"Names of hosts, users and home folders are left out{kept}."]
+
+
+def _write(path: Path, moment: _Moment, later: State, picture: tuple[str, bytes] | None) -> int:
+    """Write a report; its size in bytes.
+
+    Raises:
+        Error: it cannot be written.
+    """
+    names = moment.names
+    keep = moment.with_names
+    try:
+        with tempfile.TemporaryDirectory(prefix=".webviz_report_", dir=path.parent) as folder:
+            file = Path(folder) / SLICE
+            change = (lambda data: data) if keep else names.message
+            written = write_slice(moment.part, file, MAX_BYTES, change)
+            report = _report(moment, written, later)
+            members: dict[str, bytes | Path] = {
+                REPORT: _encoded(report),
+                CONFIG: config_file.dump(moment.config).encode(),
+                FRAMES: moment.frames.encode(),
+                GRAPH: _encoded(_graph(moment.state)),
+                LOG: "".join(f"{line}\n" for line in written.log).encode(),
+            }
+            if not keep:
+                texts = {name: data for name, data in members.items() if isinstance(data, bytes)}
+                members |= {name: _private(names, data) for name, data in texts.items()}
+            if picture is not None:
+                members[picture[0]] = picture[1]
+            members[SLICE] = file
+            return write_report(path, members)
+    except OSError as error:
+        reason = os.strerror(error.errno) if error.errno else str(error)
+        raise Error(f"Cannot write {path}: {reason}. Choose another place.") from error
+
+
+def _private(names: PrivateNames, data: bytes) -> bytes:
+    return names.text(data.decode("utf-8", "surrogateescape")).encode("utf-8", "surrogateescape")
+
+
+def _report(moment: _Moment, written: WrittenSlice, later: State) -> BugReport:
+    state = moment.state
+    began = {(event.name, event.text): event.at_ns / 1e9 for event in reversed(state.warned)}
+    rows = [row for row in state.rows if row.type != "Group"]
+    places = [("", state.statuses), *((row.name, row.statuses) for row in rows)]
+    events = [*state.logged, *state.warned, *later.found]
+    return BugReport(
+        source=moment.source,
+        made=time.time(),
+        at_ns=written.at_ns,
+        first_ns=written.first_ns,
+        last_ns=written.last_ns,
+        has_names=moment.with_names,
+        statuses=tuple(
+            StatusEntry(
+                name,
+                key,
+                status.level.name.lower(),
+                status.text,
+                began.get((name, status.text), 0.0),
+            )
+            for name, statuses in places
+            for key, status in statuses.items()
+        ),
+        findings=tuple(
+            FindingEntry(
+                each.id,
+                each.severity.name.lower(),
+                each.subject,
+                each.cause,
+                each.remedy,
+                each.first_ns / 1e9,
+                each.last_ns / 1e9,
+            )
+            for each in later.findings
+        ),
+        moments=tuple(_told(each) for each in sorted(events, key=_time)[-MAX_MOMENTS:]),
+        selection=moment.selection,
+        versions=_versions(),
+    )
+
+
+def _told(event: Event) -> ReportedMoment:
+    return ReportedMoment(event.at_ns / 1e9, event.level.name.lower(), event.name, event.text)
+
+
+def _time(event: Event) -> int:
+    return event.at_ns
+
+
+def _picked(picks: Sequence[Picks], state: State) -> tuple[ReportedPick, ...]:
+    """A selection, with the numbers of displays instead of their ids, which differ later."""
+    places = {row.id: number for number, row in enumerate(state.rows)}
+    found: list[ReportedPick] = []
+    for each in picks:
+        id, _, rest = each.group.partition("/")
+        if (display := places.get(id)) is None:
+            continue
+        for _, number, at, color in each.items:
+            found.append(ReportedPick(display, rest, each.key, number, at, color))
+    return tuple(found)
+
+
+def _graph(state: State) -> dict[str, Any]:
+    offers = state.offers
+    nodes = sorted({p.node for offer in offers.values() for p in offer.publishers if p.node})
+    topics = [
+        {
+            "topic": topic,
+            "types": sorted({p.type for p in offer.publishers}),
+            "publishers": [
+                {
+                    "node": p.node,
+                    "type": p.type,
+                    "reliability": p.reliability,
+                    "durability": p.durability,
+                }
+                for p in offer.publishers
+            ],
+            "subscribers": offer.subscribers,
+            "requested": offer.requested,
+            "problem": offer.problem,
+        }
+        for topic, offer in sorted(offers.items())
+    ]
+    return {"nodes": nodes, "topics": topics}
+
+
+def _versions() -> dict[str, str]:
+    found = {"python": platform.python_version(), "system": platform.platform()}
+    for name in PACKAGES:
+        try:
+            found[name] = importlib.metadata.version(name)
+        except importlib.metadata.PackageNotFoundError:
+            continue
+    return found | {name: os.environ[name] for name in VARIABLES if name in os.environ}
+
+
+def _namespaces(offers: Mapping[str, Offer]) -> set[str]:
+    """Full names of nodes, of which namespaces may be a part of topics."""
+    return {p.node.rpartition("/")[0] for offer in offers.values() for p in offer.publishers}
+
+
+def _encoded(value: Any) -> bytes:
+    return msgspec.json.format(msgspec.json.encode(value), indent=1)
+
+
+def _picture(text: str) -> tuple[str, bytes] | None:
+    """The name and content of the member with a picture that was sent, None without one.
+
+    Raises:
+        Error: it is not a picture.
+    """
+    if not text:
+        return None
+    try:
+        data = base64.b64decode(text, validate=True)
+        with PIL.Image.open(io.BytesIO(data), formats=("PNG", "JPEG")) as image:
+            if len(data) > MAX_PICTURE or image.width * image.height > MAX_PIXELS:
+                raise Error("The picture is too large for a report. Make the window smaller.")
+            kind = image.format
+    except (binascii.Error, OSError, ValueError, SyntaxError) as error:
+        raise Error("The picture of the report is not a PNG or JPEG image.") from error
+    return PICTURES[0 if kind == "PNG" else 1], data
+
+
+def _new_path() -> Path:
+    """A new file in the working folder, named by the time."""
+    stem = f"webviz_report_{datetime.now():%Y_%m_%d-%H_%M_%S}"
+    for number in itertools.count(1):
+        path = Path(f"{stem}.zip" if number == 1 else f"{stem}_{number}.zip").absolute()
+        if not path.exists():
+            return path
+    raise AssertionError("unreachable")

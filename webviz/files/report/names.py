@@ -1,0 +1,94 @@
+"""Names of people and machines, which bug reports leave out unless they are asked for."""
+
+from __future__ import annotations
+
+import getpass
+import re
+import socket
+from collections.abc import Iterable
+from pathlib import Path
+
+FILLER = "x"
+"""Takes the place of each character, so that serialised texts keep their length."""
+COMMON = frozenset({"admin", "localhost", "pi", "robot", "root", "ros", "ubuntu", "user"})
+"""Names that say nothing about anyone, and are ordinary words elsewhere."""
+MIN_BYTES = 5
+"""Shortest name that is replaced in messages, since a shorter one may be a number by chance."""
+HOMES = re.compile(rb"/(?:home|Users)/[A-Za-z0-9._-]+")
+"""Home folders of anyone."""
+
+
+class PrivateNames:
+    """Replaces names of hosts, users and home folders.
+
+    Those that are part of the name of a topic or a frame stay, since the report would not show
+    the same without them; `kept` lists them.
+
+    Args:
+        public: names of topics and frames.
+        words: names of hosts and users; None for those of this machine.
+        home: the home folder; None for that of this user.
+    """
+
+    def __init__(
+        self,
+        public: Iterable[str],
+        words: Iterable[str] | None = None,
+        home: str | None = None,
+    ) -> None:
+        self._public = tuple(public)
+        found = dict.fromkeys(_own_words() if words is None else words)
+        wanted = [word for word in found if len(word) > 1 and word.lower() not in COMMON]
+        self.kept = tuple(word for word in wanted if any(word in name for name in self._public))
+        """Names that stay."""
+        hidden = [word for word in wanted if word not in self.kept]
+        home = str(Path.home()) if home is None else home
+        is_special = len(home) > 1 and not HOMES.fullmatch(home.encode())
+        self._home = _pattern([home]) if is_special else None
+        self._in_texts = _pattern(hidden)
+        self._in_messages = _pattern([word for word in hidden if len(word) >= MIN_BYTES])
+
+    def text(self, text: str) -> str:
+        """A text without the names."""
+        data = text.encode("utf-8", "surrogateescape")
+        return self._without(data, self._in_texts).decode("utf-8", "surrogateescape")
+
+    def message(self, data: bytes) -> bytes:
+        """A serialised message without the names, of the same length."""
+        return self._without(data, self._in_messages)
+
+    def _without(self, data: bytes, words: re.Pattern[bytes] | None) -> bytes:
+        if b"/home/" in data or b"/Users/" in data:
+            data = HOMES.sub(self._filled_home, data)
+        for pattern in (self._home, words):
+            data = pattern.sub(_filled, data) if pattern is not None else data
+        return data
+
+    def _filled_home(self, match: re.Match[bytes]) -> bytes:
+        path = match[0].decode("ascii")
+        if any(name == path or name.startswith(f"{path}/") for name in self._public):
+            return match[0]  # a topic
+        folder, _, name = path.rpartition("/")
+        return f"{folder}/{FILLER * len(name)}".encode()
+
+
+def _own_words() -> list[str]:
+    """Names of this host and this user."""
+    host = socket.gethostname()
+    try:
+        user = getpass.getuser()
+    except (OSError, KeyError):  # a container without an entry for the user
+        user = ""
+    return [host, host.partition(".")[0], user]
+
+
+def _pattern(words: Iterable[str]) -> re.Pattern[bytes] | None:
+    """The words where they stand alone, the longest first; None without any."""
+    parts = [re.escape(word.encode()) for word in sorted(words, key=len, reverse=True)]
+    if not parts:
+        return None
+    return re.compile(rb"(?<![A-Za-z0-9])(?:" + b"|".join(parts) + rb")(?![A-Za-z0-9])")
+
+
+def _filled(match: re.Match[bytes]) -> bytes:
+    return re.sub(rb"[^/]", FILLER.encode(), match[0])

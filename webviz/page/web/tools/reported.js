@@ -1,0 +1,57 @@
+// Selects what was selected when the bug report that is shown was made.
+
+import { described } from "../scene/picking/pick.js";
+import { things } from "../scene/picking/things.js";
+import { watch } from "../stores.js";
+import * as viser from "../viser_page.js";
+import * as selection from "./selection.js";
+
+/** @import {Picked} from "../types.js" */
+/** @import {ReportedThing} from "../contents.js" */
+
+const TRY_MS = 500;
+const TRIES = 60; // the displays are drawn within half a minute
+const NEAR = 1e-4; // in metres, as single precision has it
+
+export function install() {
+  let isDone = false;
+  watch("reported", (values) => {
+    const wanted = values.get("things") ?? [];
+    if (isDone || !wanted.length) return;
+    isDone = true;
+    attempt(wanted, TRIES);
+  });
+}
+
+/**
+ * @param {readonly ReportedThing[]} wanted
+ * @param {number} left
+ */
+function attempt(wanted, left) {
+  if (selection.all().size) return; // somebody was faster
+  const found = things();
+  const picks = wanted.map((each) => pickOf(each, found)).filter((each) => each !== null);
+  if (picks.length === wanted.length || (left === 0 && picks.length))
+    selection.change("replace", picks);
+  else if (left > 0) setTimeout(() => attempt(wanted, left - 1), TRY_MS);
+}
+
+/**
+ * @param {ReportedThing} wanted
+ * @param {ReturnType<typeof things>} found
+ * @returns {Picked | null}
+ */
+function pickOf({ display, key, number, at }, found) {
+  for (const thing of found) {
+    const { group, key: own, path, first } = thing.node;
+    if (group.split("/", 1)[0] !== display || own !== key) continue;
+    if (number === null) {
+      const matrix = (viser.node(path) ?? thing.object).matrixWorld;
+      const point = viser.camera().position.clone().fromArray(at).applyMatrix4(matrix);
+      return described({ ...thing, number, point });
+    }
+    const pick = described({ ...thing, number: number - first });
+    if (pick.at.every((value, axis) => Math.abs(value - at[axis]) < NEAR)) return pick;
+  }
+  return null;
+}

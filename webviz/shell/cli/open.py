@@ -1,0 +1,65 @@
+"""`webviz open`: opens a bug report as it was."""
+
+from typing import Annotated
+
+from cyclopts import App, Parameter
+
+from webviz.shell.cli.ending import Stop, until_signal
+from webviz.shell.cli.options import ROS_ARGS_HELP, File, RosArgs
+from webviz.shell.cli.viewing_options import ViewingOptions
+
+EXAMPLES = """\
+Examples:
+  webviz bug.zip                     open a report: the same time, view, displays and selection
+  webviz bug.zip -d other.yaml       look at its recording with another config
+
+A report is read-only: nothing is published, and the zip file stays as it is.
+
+"""
+
+app = App("open", help_epilogue=EXAMPLES + ROS_ARGS_HELP)
+
+
+@app.default
+def open_report(
+    report: Annotated[File, Parameter(name="REPORT")],
+    /,
+    *,
+    options: ViewingOptions = ViewingOptions(),
+    ros: RosArgs,
+) -> int:
+    """Serve the page with a bug report until Ctrl-C or SIGTERM.
+
+    Args:
+        report: Zip file of a bug report.
+        options: Of the viewer.
+        ros: Arguments for ROS.
+    """
+
+    def work(stop: Stop) -> int:
+        import tempfile
+        from dataclasses import replace
+        from pathlib import Path
+
+        from webviz.data.words import counted
+        from webviz.files.report import read_report
+        from webviz.shell.cli.serving import serve
+        from webviz.shell.cli.viewing_options import BagOptions
+        from webviz.shell.report.opening import show
+
+        with tempfile.TemporaryDirectory(prefix="webviz_report_") as folder:
+            unpacked = read_report(report, Path(folder))
+            quiet = replace(
+                options, template=unpacked.config, no_publish=True, autosave=False, no_restore=True
+            )
+            bag = BagOptions(bag=(unpacked.bag,), paused=True)
+            return serve(
+                quiet,
+                ros,
+                stop,
+                note=f"{counted(len(unpacked.report.findings), 'finding')} in {report.name}.",
+                bag=bag,
+                then=lambda viewer: show(viewer, unpacked.report),
+            )
+
+    return until_signal(work)

@@ -1,0 +1,118 @@
+"""`webviz report`: writes a bug report of a bag or of live topics."""
+
+import contextlib
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import App, Parameter, validators
+
+from webviz.shell.cli.ending import Stop, until_signal
+from webviz.shell.cli.options import ROS_ARGS_HELP, ConfigOptions, File, Flag, RosArgs
+from webviz.shell.cli.progress import progress
+from webviz.shell.cli.screenshot_options import Time
+
+if TYPE_CHECKING:
+    from webviz.sources import Source
+
+EXAMPLES = """\
+Examples:
+  webviz report -o bug.zip                              listen to live topics for some seconds
+  webviz report --bag run.mcap --from 10 --to 20 -o bug.zip
+  webviz report --bag run.mcap --list                   print what a report would contain
+  webviz bug.zip                                        open a report
+
+Names of hosts, users and home folders are left out; nothing is sent anywhere.
+
+"""
+
+app = App("report", help_epilogue=EXAMPLES + ROS_ARGS_HELP)
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class ReportOptions(ConfigOptions):
+    """Subject of the report, and the file."""
+
+    output: Annotated[File | None, Parameter(alias="-o")] = None
+    """Zip file to write."""
+    bag: Annotated[File | None, Parameter(alias="-b")] = None
+    """Report on a bag instead of live topics."""
+    first: Annotated[Time, Parameter(name="--from", show_default=False)] = "start"
+    """First time of the bag in the report: seconds, a Unix time or `start` (default: start)."""
+    last: Annotated[Time, Parameter(name="--to", show_default=False)] = "end"
+    """Last time of the bag in the report (default: end)."""
+    at: Annotated[Time | None, Parameter(show_default=False)] = None
+    """The moment to show (default: that of --to)."""
+    seconds: Annotated[
+        float, Parameter(validator=validators.Number(gt=0, lte=3600), metavar="SECONDS")
+    ] = 10.0
+    """Time to listen to live topics."""
+    list: Flag = False
+    """Print what the report would contain, and write nothing."""
+    with_names: Flag = False
+    """Keep names of hosts, users and home folders."""
+    no_picture: Flag = False
+    """Make no picture, which takes a browser on this machine."""
+
+
+def _check(*, options: ReportOptions = ReportOptions(), **_: object) -> None:
+    """Raise ValueError for an invalid combination of arguments."""
+    if options.bag is None:
+        given = {"from": options.first != "start", "to": options.last != "end", "at": options.at}
+        for flag, value in given.items():
+            if value not in (None, False):
+                raise ValueError(f"--{flag} needs --bag.")
+    if (options.output is None) is not options.list:
+        raise ValueError("Give either -o FILE or --list.")
+    if options.output is not None and options.output.suffix.lower() != ".zip":
+        raise ValueError(f"{options.output} must end with .zip.")
+
+
+@app.default(validator=_check)
+def report(*, options: ReportOptions = ReportOptions(), ros: RosArgs) -> int:
+    """Write a bug report, which `webviz FILE.zip` opens as it was."""
+
+    def work(stop: Stop) -> int:
+        from webviz.engine.pipeline import plugins
+        from webviz.shell.report.making import make_report
+        from webviz.shell.report.scenes import reported_scene
+
+        for path in options.plugin:
+            plugins.load(path)
+        options.allow_meshes()
+        with contextlib.closing(_source(options, ros)) as source:
+            config = options.read(options.display_config, source)
+            if options.fixed_frame:
+                config.set_fixed_frame(options.fixed_frame)
+            wants_picture = not (options.list or options.no_picture)
+            with reported_scene(config, wants_picture) as (scene, problem):
+                if problem:
+                    print(f"webviz: the report has no picture: {problem}", file=sys.stderr)
+                answer = make_report(
+                    config,
+                    source,
+                    scene,
+                    options.output,
+                    span=(options.first, options.last),
+                    at=options.at,
+                    name=str(options.bag),
+                    seconds=options.seconds,
+                    with_names=options.with_names,
+                    progress=progress,
+                )
+        print(answer if options.list else f"webviz: {answer}", flush=True)
+        return 0
+
+    return until_signal(work)
+
+
+def _source(options: ReportOptions, ros: Sequence[str]) -> "Source":
+    from webviz.shell.bag_source import bag_source
+    from webviz.shell.ros_source import ros_source
+
+    if options.bag is not None:
+        return bag_source(options.bag, ros_args=ros)
+    progress("starting ROS", 0.0)
+    return ros_source(ros)

@@ -1,0 +1,1 @@
+"""Bug reports: making them in a terminal, opening them, and tests of them."""

@@ -1,0 +1,155 @@
+"""Bug reports of bags and of live topics, without a page."""
+
+from __future__ import annotations
+
+import base64
+import contextlib
+import math
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from webviz.api.status import LOADING
+from webviz.engine.commands import (
+    Command,
+    ListReport,
+    Play,
+    Refresh,
+    SaveReport,
+    Seek,
+    SelectSpan,
+    SetRate,
+)
+from webviz.engine.loop import FrameLoop
+from webviz.files.config import Config
+from webviz.shell.pictures.times import At, TimeError, position_ns, seconds_from_start
+from webviz.shell.report.scenes import Pictured
+from webviz.sources import Source
+from webviz.sources.bag.source import BagSource
+
+REST_S = 0.05
+COMPARED_S = 1.5
+"""In which displays are compared with each other, also while time stands still."""
+SETTLED_S = 30.0
+"""For displays that load, such as the meshes of a robot."""
+
+Progress = Callable[[str, float], object]
+"""Called with what is done and the share of it that is."""
+
+
+def make_report(
+    config: Config,
+    source: Source,
+    pictured: Pictured,
+    path: Path | None,
+    *,
+    span: tuple[At, At] = ("start", "end"),
+    at: At | None = None,
+    name: str = "",
+    seconds: float = 10.0,
+    with_names: bool = False,
+    progress: Progress = lambda what, share: None,
+) -> str:
+    """Write a report, or list what it would contain.
+
+    Args:
+        config: the displays to show.
+        source: a bag, or live topics.
+        pictured: the scene.
+        path: of the zip file; None to list its content.
+        span: first and last time of a bag.
+        at: the moment of the bag to show, None for the last.
+        name: of the bag, for errors.
+        seconds: to listen to live topics.
+        with_names: keep names of hosts, users and home folders.
+        progress: called now and then.
+
+    Returns:
+        The answer, or one line per member.
+
+    Raises:
+        Error: a time is outside of the bag, or the report cannot be written.
+    """
+    times = _times(source, span, at, name) if isinstance(source, BagSource) else None
+    maker = _Maker(FrameLoop(config, source, pictured.scene), source, progress)
+    with contextlib.closing(maker):
+        if times is not None:
+            maker.play(*times)
+        else:
+            maker.listen(seconds)
+        if path is None:
+            return maker.do(ListReport(with_names))
+        picture = base64.b64encode(pictured.png()).decode()
+        return maker.do(SaveReport(picture, (), with_names, str(path.absolute())))
+
+
+def _times(
+    bag: BagSource, span: tuple[At, At], at: At | None, name: str
+) -> tuple[float, float, float]:
+    """First, last and shown time of a bag, in seconds from its start."""
+    first_ns, last_ns = (position_ns(each, bag, name) for each in span)
+    at_ns = last_ns if at is None else position_ns(at, bag, name)
+    first, last, shown = (seconds_from_start(each, bag) for each in (first_ns, last_ns, at_ns))
+    if not first < last:
+        raise TimeError(f"--from {first:g} s must be before --to {last:g} s.")
+    if not first <= shown <= last:
+        raise TimeError(f"--at {shown:g} s must be between --from {first:g} s and --to {last:g} s.")
+    return first, last, shown
+
+
+class _Maker:
+    def __init__(self, loop: FrameLoop, source: Source, progress: Progress) -> None:
+        self._loop = loop
+        self._source = source
+        self._progress = progress
+
+    def close(self) -> None:
+        """End all threads."""
+        self._loop.close()
+
+    def do(self, command: Command) -> str:
+        """Carry out a command; its answer."""
+        answer = self._loop.enqueue(command)
+        while not answer.done():
+            self._turn()
+        return answer.result()
+
+    def play(self, first_s: float, last_s: float, shown_s: float) -> None:
+        """Play a span of a bag to its end, so that the doctor sees it, and show a moment of it."""
+        self.do(SelectSpan(first_s, last_s))
+        self.do(Seek(first_s))
+        self._loop.doctor.slice_s = math.inf
+        self.do(SetRate(0.0))
+        self.do(Play())
+        while (played := self._loop.state().playback) is not None and played.is_playing:
+            self._progress("playing", (played.position_s - first_s) / (last_s - first_s))
+            self._loop.turn()
+        self.do(Seek(shown_s))
+        self._settle()
+
+    def listen(self, seconds: float) -> None:
+        """Receive live topics for some seconds."""
+        began_s = time.monotonic()
+        while (passed := time.monotonic() - began_s) < seconds:
+            self._progress("listening", passed / seconds)
+            self._loop.doctor.ask()
+            self._turn()
+        self._settle()
+
+    def _settle(self) -> None:
+        """Turn until everything is loaded and compared, and panels would show it."""
+        began_s = time.monotonic()
+        while (passed := time.monotonic() - began_s) < SETTLED_S:
+            if not self._is_loading() and passed > COMPARED_S:
+                break
+        self.do(Refresh())
+
+    def _is_loading(self) -> bool:
+        self._turn()
+        rows = self._loop.state().rows
+        return self._loop.is_busy() or any(LOADING in row.statuses for row in rows)
+
+    def _turn(self) -> None:
+        self._source.inbox.arrived.wait(REST_S)
+        self._source.inbox.arrived.clear()
+        self._loop.turn()

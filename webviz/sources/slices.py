@@ -1,0 +1,248 @@
+"""Slices of recordings and of memory, as files of their own."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Protocol
+
+from webviz.api.declared import Topic
+from webviz.api.errors import Error
+from webviz.api.lookback import Lookback
+from webviz.data.messages import MessageError, decode
+from webviz.data.recordings import RecordedChannel
+from webviz.data.recordings.mcap_writing import McapFile
+from webviz.sources.bag.file import BagChannel, Recorded
+from webviz.sources.bag.files import BagFiles
+from webviz.sources.bag.log import LOG, ROSOUT
+from webviz.sources.bag.past import BagPast
+from webviz.sources.recording import Channels, Entry, ForwardClock, library
+from webviz.sources.source import Subscription
+
+LOG_LINES = 200
+"""The last lines of /rosout that a slice has as text."""
+CLOCK_TOPIC = "/clock"
+
+SliceMessage = tuple[RecordedChannel, int, bytes]
+"""Channel, time of recording, and serialised message."""
+
+
+class Slice(Protocol):
+    """A part of a recording that can be written."""
+
+    @property
+    def topics(self) -> int:
+        """Number of topics."""
+        ...
+
+    @property
+    def seconds(self) -> float:
+        """Duration."""
+        ...
+
+    def messages(self) -> Iterator[SliceMessage]:
+        """The messages in order, latched ones first; may be read in any thread."""
+        ...
+
+    def at_ns(self) -> int:
+        """The moment that was shown, as a time of recording of `messages`; known after them."""
+        ...
+
+
+class MemorySlice:
+    """All that is remembered of live topics.
+
+    Args:
+        channels: of the topics.
+        entries: latched ones first, in the order of arrival.
+        shown_s: the moment that is shown, as a monotonic time in seconds; None for the last.
+    """
+
+    def __init__(
+        self, channels: Channels, entries: Sequence[Entry], shown_s: float | None = None
+    ) -> None:
+        self._channels = channels
+        self._entries = entries
+        self._shown_s = shown_s
+        self._at_ns = 0
+
+    @property
+    def topics(self) -> int:
+        """`Slice.topics`."""
+        return len({topic for topic, _ in self._entries})
+
+    @property
+    def seconds(self) -> float:
+        """`Slice.seconds`."""
+        (_, first), (_, last) = self._entries[0], self._entries[-1]
+        return last.arrived_s - first.arrived_s
+
+    def messages(self) -> Iterator[SliceMessage]:
+        """`Slice.messages`."""
+        clock = ForwardClock()
+        for topic, raw in self._entries:
+            channel = self._channels.find(topic)
+            if channel is None:
+                continue
+            stamp_ns = clock.at(raw)
+            if not self._at_ns or self._shown_s is None or raw.arrived_s <= self._shown_s:
+                self._at_ns = stamp_ns
+            yield channel, stamp_ns, raw.cdr
+
+    def at_ns(self) -> int:
+        """`Slice.at_ns`."""
+        return self._at_ns
+
+
+@dataclass(frozen=True)
+class BagSlice:
+    """A span of bags: the subscribed topics, and what displays need of the time before.
+
+    Args:
+        paths: of the bags, which are opened anew.
+        wanted: subscriptions by topic.
+        renamed: names of topics that the slice has other names for.
+        span_ns: the first and the last time of recording.
+        shown_ns: the moment that is shown.
+    """
+
+    paths: Sequence[Path]
+    wanted: Mapping[str, Subscription]
+    renamed: Mapping[str, str]
+    span_ns: tuple[int, int]
+    shown_ns: int
+
+    @property
+    def topics(self) -> int:
+        """`Slice.topics`."""
+        return len(self.wanted)
+
+    @property
+    def seconds(self) -> float:
+        """`Slice.seconds`."""
+        return (self.span_ns[1] - self.span_ns[0]) / 1e9
+
+    def messages(self) -> Iterator[SliceMessage]:
+        """`Slice.messages`; raises BagError."""
+        first_ns, last_ns = self.span_ns
+        files = BagFiles(self.paths)
+        try:
+            chosen = [channel for channel in files.channels if self._is_chosen(channel)]
+            by_place = {(channel.topic, channel.type): channel for channel in chosen}
+            wanted = {c.topic: self._wish(c, chosen) for c in chosen}
+            latched = [c for c in chosen if wanted[c.topic].lookbacks]
+            for past in BagPast(files, latched, wanted, first_ns).messages():
+                if past.stamp_ns < first_ns:
+                    yield self._message(by_place, past, first_ns)
+            for recorded in files.messages(chosen, first_ns, last_ns):
+                yield self._message(by_place, recorded, recorded.stamp_ns)
+        finally:
+            files.close()
+
+    def at_ns(self) -> int:
+        """`Slice.at_ns`."""
+        return self.shown_ns
+
+    def _is_chosen(self, channel: BagChannel) -> bool:
+        if channel.topic in (CLOCK_TOPIC, ROSOUT):
+            return True
+        wish = self.wanted.get(channel.topic)
+        return wish is not None and wish.type == channel.type
+
+    def _wish(self, channel: BagChannel, chosen: Sequence[BagChannel]) -> Subscription:
+        """The subscription of a channel, with the lookback of latched messages."""
+        wish = self.wanted.get(channel.topic)
+        if wish is None:
+            wish = Subscription(channel.type, Topic(channel.topic), lookbacks=())
+        publishers = channel.publishers
+        if channel.topic != ROSOUT and any(p.durability == "transient_local" for p in publishers):
+            depth = sum(each.depth for each in chosen if each.topic == channel.topic)
+            is_tf = channel.type == "tf2_msgs/msg/TFMessage"
+            latched = Lookback() if is_tf else Lookback(count=depth)
+            wish = replace(wish, lookbacks=(*wish.lookbacks, latched))
+        return wish
+
+    def _message(
+        self, channels: Mapping[tuple[str, str], BagChannel], recorded: Recorded, stamp_ns: int
+    ) -> SliceMessage:
+        channel = channels[recorded.topic, recorded.type].recorded
+        if name := self.renamed.get(recorded.topic):
+            channel = replace(channel, topic=name)
+        return channel, stamp_ns, recorded.cdr
+
+
+@dataclass(frozen=True)
+class WrittenSlice:
+    """A slice that was written.
+
+    Args:
+        first_ns, last_ns: times of recording of its first and last message.
+        at_ns: the moment that was shown.
+        log: the last lines of /rosout.
+    """
+
+    first_ns: int
+    last_ns: int
+    at_ns: int
+    log: Sequence[str]
+
+
+def write_slice(
+    part: Slice, path: Path, max_bytes: int, changed: Callable[[bytes], bytes]
+) -> WrittenSlice:
+    """Write a slice to a new MCAP file.
+
+    Args:
+        part: the slice.
+        path: of the file.
+        max_bytes: of the file.
+        changed: makes the message that is written of each.
+
+    Raises:
+        Error: it has no messages, or is too large; one sentence.
+        OSError: the file cannot be written.
+    """
+    file = McapFile(path, library())
+    lines: deque[tuple[int, str, bytes]] = deque(maxlen=LOG_LINES)
+    is_whole = False
+    try:
+        for channel, stamp_ns, data in part.messages():
+            data = changed(data)
+            file.add(channel, stamp_ns, data)
+            if channel.topic == ROSOUT:
+                lines.append((stamp_ns, channel.type, data))
+            _refuse_large(file.size, max_bytes)
+        is_whole = True
+    finally:
+        file.close(is_whole=is_whole)
+    _refuse_large(path.stat().st_size, max_bytes)
+    if file.span_ns is None:
+        raise Error("There are no messages to report. Show a topic first.")
+    first_ns, last_ns = file.span_ns
+    at_ns = min(max(part.at_ns(), first_ns), last_ns)
+    return WrittenSlice(first_ns, last_ns, at_ns, list(filter(None, map(_line, lines))))
+
+
+def _refuse_large(size: int, max_bytes: int) -> None:
+    if size > max_bytes:
+        raise Error(
+            f"The report would be larger than {max_bytes // 1_000_000} MB. Choose a shorter time "
+            "span, or hide displays of large messages."
+        )
+
+
+def _line(entry: tuple[int, str, bytes]) -> str:
+    """A message of /rosout as a line, "" if it cannot be read."""
+    stamp_ns, type_name, data = entry
+    if type_name != LOG:
+        return ""
+    try:
+        message = decode(LOG, data)
+    except MessageError:
+        return ""
+    level = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}.get(message.level, "?")
+    when = datetime.fromtimestamp(stamp_ns / 1e9, UTC).isoformat(timespec="milliseconds")
+    return f"{when} {level:5} {message.name}: {message.msg}"
