@@ -11,9 +11,14 @@ from tests.page.conftest import Loop, Tab
 from webviz.api.declared import make
 from webviz.api.panel import Panel
 from webviz.data.messages import decode, encode
-from webviz.engine.commands import Seek
-from webviz.engine.state import PanelTab
+from webviz.engine.commands import Seek, SetPanelProperty
+from webviz.engine.state import PanelTab, PanelTimes
+from webviz.panels.diagnostics import ARRAY, MAX_STATUSES, Diagnostics
+from webviz.panels.indicator import Indicator
 from webviz.panels.log import LOG, Log
+from webviz.panels.raw import RawMessage
+from webviz.panels.state_timeline import StateTimeline
+from webviz.panels.table import MessageTable
 from webviz.sources import Offer, Publisher
 from webviz.sources.past_state import PlaybackState
 
@@ -61,18 +66,7 @@ def test_the_log_is_filtered_and_opened_and_leads_to_its_time(loop: Loop, tab: T
         level = (20, 20, 20, 10, 40)[i % 5]
         log.add((float(i), level, f"node_{i % 3}", f"line {i} {HOSTILE}", "a.py:1 f"), i * SECOND)
     log.receive("/rosout", log_line(40, "base", "The motor is hot\nsecond line", 5), 7 * SECOND)
-    playback = PlaybackState(
-        names=("run",),
-        start_ns=0,
-        end_ns=10**6 * SECOND,
-        position_s=0.0,
-        rate=1.0,
-        is_playing=False,
-        is_seeking=False,
-        loop=False,
-        selected=None,
-    )
-    open_panel(loop, tab, log, offers=offered(rosout=LOG), playback=playback)
+    open_panel(loop, tab, log, offers=offered(rosout=LOG), playback=recorded())
     newest = tab.page.get_by_role("option").filter(has_text="The motor is hot")
     tab.wait_for(lambda: newest.count() == 1 and newest.is_visible())
     kept = len(log.chunks) * 200
@@ -86,3 +80,95 @@ def test_the_log_is_filtered_and_opened_and_leads_to_its_time(loop: Loop, tab: T
     tab.wait_for_command(Seek(7.0))
     tab.page.get_by_label("Node", exact=True).fill("nobody")
     tab.wait_for(lambda: "No line matches these filters." in tab.text())
+
+
+def recorded() -> PlaybackState:
+    """A bag of a million seconds."""
+    return PlaybackState(
+        names=("run",),
+        start_ns=0,
+        end_ns=10**6 * SECOND,
+        position_s=0.0,
+        rate=1.0,
+        is_playing=False,
+        is_seeking=False,
+        loop=False,
+        selected=None,
+    )
+
+
+def test_diagnostics_are_a_tree_with_the_worst_first(loop: Loop, tab: Tab) -> None:
+    panel = make(Diagnostics, {})
+
+    def report(at_s: int, load: str, count: int = 30) -> None:
+        motor = {"name": "base: motor", "level": 2, "message": HOSTILE, "hardware_id": "m1"}
+        motor["values"] = [{"key": "load", "value": load}, {"key": "name", "value": HOSTILE}]
+        fine = [{"name": f"arm: joint {i}", "message": "fine"} for i in range(count)]
+        array = message(ARRAY, status=[*fine, motor, {"name": "laser", "level": 1}])
+        panel.receive("/diagnostics", array, at_s * SECOND)
+
+    report(1, "0.5 A")
+    offers = offered(diagnostics=ARRAY)
+    open_panel(loop, tab, panel, offers=offers, clock=PanelTimes(ros_ns=2 * SECOND))
+    rows = tab.page.locator(".wv-diagnostic")
+    tab.wait_for(lambda: rows.count() == 4)
+    assert [text.split("\n")[0] for text in rows.all_inner_texts()] == [
+        "base",
+        "motor",
+        "laser",
+        "arm",
+    ]
+    assert rows.nth(0).get_attribute("data-level") == "error"
+    rows.nth(1).click()
+    tab.wait_for(lambda: "0.5 A" in tab.text())
+    report(2, "-1e308 A")
+    loop.show(offers=offers, clock=PanelTimes(ros_ns=2 * SECOND))
+    tab.wait_for(lambda: tab.page.get_by_label("2 values").count() == 1)
+    loop.show(offers=offers, clock=PanelTimes(ros_ns=99 * SECOND))
+    tab.wait_for(lambda: rows.nth(0).get_attribute("data-level") == "idle")
+    report(99, "1", count=10**5)
+    tab.wait_for(lambda: f"the limit is {MAX_STATUSES}" in tab.text())
+
+
+def test_a_message_is_a_tree_a_table_a_lamp_and_a_band(loop: Loop, tab: Tab) -> None:
+    statuses = [{"name": f"s{i}", "level": i % 3, "message": HOSTILE} for i in range(3)]
+    array = message(ARRAY, status=statuses)
+    offers = offered(diagnostics=ARRAY)
+    raw, table = (
+        make(RawMessage, {"path": "/diagnostics"}),
+        make(MessageTable, {"path": "/diagnostics.status"}),
+    )
+    lamp = make(
+        Indicator, {"path": "/diagnostics.status[2].level", "rules": ["<1: green", ">=2: red Bad"]}
+    )
+    band = make(StateTimeline, {"paths": ["/diagnostics.status[1].name", "/x"]})
+    panels: list[Panel] = [raw, table, lamp, band]
+    for panel in panels:
+        open_panel(loop, tab, panel, offers=offers, clock=PanelTimes(ros_ns=100 * SECOND))
+        tab.wait_for(lambda panel=panel: "/diagnostics" in panel.subscriptions())
+        panel.receive("/diagnostics", array, 90 * SECOND)
+        if panel is raw:
+            tab.wait_for(lambda: tab.page.locator(".wv-field-row").count() > 2)
+            field = tab.page.get_by_label("Message path", exact=True)
+            field.fill("/diagnostics.status[:]{level>0}.name")
+            tab.wait_for_command(SetPanelProperty("of RawMessage", "path", field.input_value()))
+        elif panel is table:
+            rows = tab.page.locator(".wv-table-row[aria-rowindex]")
+            tab.wait_for(lambda rows=rows: rows.count() == 3)
+            tab.page.get_by_role("columnheader", name="level").click()
+            tab.page.get_by_role("columnheader", name="level").click()
+            tab.wait_for(lambda rows=rows: rows.first.inner_text().startswith("2"))
+        elif panel is lamp:
+            tab.wait_for(lambda: tab.page.get_by_role("img", name="red").count() == 1)
+            assert "Bad" in tab.text()
+        else:
+            canvas = tab.page.get_by_role("img", name="/diagnostics.status[1].name")
+            tab.wait_for(lambda: "No publisher on /x." in tab.text())
+            loop.show(panels=loop.state.panels, offers=offers, playback=recorded())
+            box = canvas.bounding_box()
+            assert box is not None
+            canvas.click(position={"x": box["width"] * 0.75, "y": 10})
+            tab.wait_for(lambda: isinstance(loop.commands[-1], Seek))
+            (seek,) = loop.commands[-1:]
+            assert isinstance(seek, Seek)
+            assert 80 < seek.at_s < 90

@@ -1,0 +1,162 @@
+"""Panels that show message paths: tables, lamps, bands and trees, without a browser."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from webviz.data.messages import JointState, LaserScan, String, message_class
+from webviz.engine.state import PanelTimes, State
+from webviz.page.recorded_ui import RecordedUi
+from webviz.page.widgets import CustomWidget
+from webviz.panels.diagnostics import MAX_STATUSES, Diagnostics
+from webviz.panels.indicator import Indicator, judged, parse
+from webviz.panels.raw import RawMessage
+from webviz.panels.state_timeline import MAX_CHANGES, StateTimeline
+from webviz.panels.table import MAX_CHARACTERS, MAX_COLUMNS, MAX_ROWS, MessageTable, table_of
+from webviz.sources import Offer, Publisher
+
+SECOND = 10**9
+STATUS = message_class("diagnostic_msgs/msg/DiagnosticStatus")
+ARRAY = message_class("diagnostic_msgs/msg/DiagnosticArray")
+KEY = message_class("diagnostic_msgs/msg/KeyValue")
+
+
+def built(panel: Any, ros_ns: int = 100 * SECOND) -> Any:
+    """A panel that has shown a viewer with one topic."""
+    ui = RecordedUi()
+    panel.build(ui, lambda *_: None)
+    panel.own = next(each for each in ui.widgets.values() if isinstance(each, CustomWidget))
+    return shown(panel, ros_ns)
+
+
+def shown(panel: Any, ros_ns: int = 100 * SECOND) -> Any:
+    offer = Offer((Publisher("/node", "std_msgs/msg/String", "reliable", "volatile"),))
+    panel.show(State(offers={"/t": offer}, clock=PanelTimes(ros_ns=ros_ns)))
+    return panel
+
+
+def values(panel: Any) -> Any:
+    return panel.own.values["values"]
+
+
+def test_rows_of_a_table_are_elements_and_its_columns_their_fields() -> None:
+    status = [STATUS(name="a", level=2), STATUS(name="b", message="\x1b[31m" + "x" * 999)]
+    found = table_of([status])
+    assert found["columns"] == ["level", "name", "message", "hardware_id", "values"]
+    assert found["rows"][0] == [2.0, "a", "", "", "0 elements"]
+    assert len(found["rows"][1][2]) == 200
+    assert table_of([np.array([[1.0, math.nan]])])["columns"] == ["x", "y"]
+    assert table_of([np.array([1e308, math.inf])])["rows"] == [[1e308], ["inf"]]
+    assert table_of([JointState()])["columns"][0] == "header.stamp"
+    assert table_of([]) == {"columns": [], "rows": [], "note": ""}
+
+
+def test_a_large_table_is_cut_and_says_so() -> None:
+    scan = LaserScan(ranges=np.ones(100_000, np.float32))
+    found = table_of([scan.ranges])
+    assert len(found["rows"]) == MAX_ROWS
+    assert found["note"] == f"{100_000 - MAX_ROWS} rows more."
+    wide = [STATUS(name="n" * 200, message="m" * 200, hardware_id="h" * 200)] * MAX_ROWS
+    assert sum(len(str(row)) for row in table_of([wide])["rows"]) < 2 * MAX_CHARACTERS
+    assert len(table_of([np.ones((1, 4))])["columns"]) <= MAX_COLUMNS
+
+
+@pytest.mark.parametrize(
+    ("value", "color", "label"),
+    [
+        (5, "red", "Low"),
+        (20, "green", "20"),
+        (math.nan, "grey", "nan"),
+        (1e308, "green", "1e+308"),
+        ("IDLE", "blue", "Idle: all"),
+        ("<b>", "grey", "<b>"),
+        (True, "red", "Low"),
+    ],
+)
+def test_the_first_rule_that_fits_chooses_the_lamp(value: Any, color: str, label: str) -> None:
+    texts = ("< 20: red Low", ">=20:green", "== 'IDLE': blue Idle: all")
+    rules = [rule for text in texts if not isinstance(rule := parse(text), str)]
+    assert len(rules) == 3
+    assert judged(value, rules) == (color, label)
+
+
+@pytest.mark.parametrize("text", ["", "20: red", "< 20 red", "< 20: pink", "x" * 10_000])
+def test_a_rule_that_cannot_be_read_is_named(text: str) -> None:
+    panel = built(Indicator(path="/t.data", rules=[text]))
+    panel.take("/t", String("IDLE"))
+    assert "is not a rule" in values(shown(panel))["problem"]
+
+
+@pytest.mark.parametrize("kind", [RawMessage, MessageTable, Indicator])
+@pytest.mark.parametrize(
+    ("path", "problem"),
+    [
+        ("", "Choose a topic."),
+        ("t.data", "has no topic"),
+        ("/other.data", "No publisher on /other."),
+        ("/t.data", "No message yet."),
+    ],
+)
+def test_a_path_without_values_says_why(kind: type, path: str, problem: str) -> None:
+    assert problem in values(built(kind(path=path)))["problem"]
+
+
+def test_a_field_that_is_missing_is_named_and_a_new_path_starts_over() -> None:
+    panel = built(RawMessage(path="/t.text"))
+    assert panel.subscriptions() == {"/t": "std_msgs/msg/String"}
+    panel.take("/t", String("x" * 100_000))
+    assert "No field `text`" in values(shown(panel))["problem"]
+    panel.path = "/t"
+    assert values(shown(panel))["tree"] is None
+    panel.take("/t", String("x" * 100_000))
+    assert len(values(shown(panel))["tree"]["fields"]["data"]) < 1000
+    panel.refuse("/t", "Not a String.")
+    assert values(shown(panel))["problem"] == "Not a String."
+
+
+def test_a_band_has_only_changes_and_a_bounded_number() -> None:
+    panel = built(StateTimeline(paths=["/t.data"], window=50.0))
+    for i in range(10):
+        panel.receive("/t", String("idle" if i < 5 else "go"), (90 + i) * SECOND)
+    (track,) = values(shown(panel))["tracks"]
+    assert (track["times"], track["states"]) == ([90.0, 95.0], ["idle", "go"])
+    assert values(shown(panel, 200 * SECOND))["tracks"][0]["states"] == ["go"]
+    for i in range(3 * MAX_CHANGES):
+        panel.receive("/t", String(f"{i}" * 100), 200 * SECOND + i)
+    (track,) = values(shown(panel, 200 * SECOND))["tracks"]
+    assert len(track["states"]) == MAX_CHANGES
+    panel.receive("/t", String("back"), 5 * SECOND)
+    assert values(shown(panel, 6 * SECOND))["tracks"][0]["times"] == [5.0]
+
+
+def test_diagnostics_are_bounded_and_grow_stale() -> None:
+    panel = built(Diagnostics())
+    status = [STATUS(name=f"n: {i}", level=255, message="m" * 9999) for i in range(10**5)]
+    status[0] = STATUS(name="n: 0", values=[KEY(key="\x00" * 500, value="\\" * 9999)] * 1000)
+    panel.receive("/diagnostics", ARRAY(status=status), 99 * SECOND)
+    shown(panel)
+    found = [each for part in panel.own.parts.values() for each in part["statuses"]]
+    assert len(found) == MAX_STATUSES
+    assert found[1]["path"] == ["/diagnostics", "n", "1"]
+    assert (found[0]["level"], found[1]["level"]) == (0, 3)
+    assert "not shown; the limit is" in values(panel)["problem"]
+    before = dict(panel.own.parts)
+    panel.receive("/diagnostics", ARRAY(status=[STATUS(name="n: 25")]), 100 * SECOND)
+    shown(panel)
+    assert [key for key, part in panel.own.parts.items() if before[key] is not part] == ["1"]
+    shown(panel, 999 * SECOND)
+    found = [each for part in panel.own.parts.values() for each in part["statuses"]]
+    assert {each["level"] for each in found} == {3}
+    panel.receive("/diagnostics_agg", ARRAY(status=[STATUS(name="/Robot/Arm//x")]), SECOND)
+    panel.start_over()
+    panel.receive("/diagnostics_agg", ARRAY(status=[STATUS(name="/Robot/Arm//x")]), SECOND)
+    assert next(iter(panel.known.values())).shown["path"] == [
+        "/diagnostics_agg",
+        "Robot",
+        "Arm",
+        "x",
+    ]

@@ -1,0 +1,40 @@
+// The widget "indicator": a lamp and its label.
+
+/** @import {Page} from "../page/web/extensions.js" */
+
+const RULES = `
+.wv-indicator { display: flex; gap: 16px; align-items: center; padding: 16px 0; font-size: 28px; font-weight: 600;
+  overflow-wrap: anywhere }
+.wv-indicator > i { flex: none; width: 48px; height: 48px; border-radius: 50%; background: var(--lamp);
+  border: 1px solid var(--wv-line) }
+`;
+/** @type {Record<string, string>} */
+const COLORS = {
+  green: "#2e9e44",
+  yellow: "#e8c100",
+  orange: "#e87e04",
+  red: "#d32f2f",
+  blue: "#2274d6",
+  grey: "#8a8f98",
+};
+
+/** @param {Page} page */
+export default function install({ el, set, setText, style, widget }) {
+  style("indicator", RULES);
+  widget("indicator", () => {
+    const lamp = el("i", { role: "img" });
+    const label = el("span");
+    const empty = el("div", { class: "wv-empty", role: "status" });
+    const element = el("div", {}, el("div", { class: "wv-indicator" }, lamp, label), empty);
+    return {
+      element,
+      update(values) {
+        lamp.style.setProperty("--lamp", COLORS[values.color] ?? COLORS.grey);
+        set(lamp, { "aria-label": values.color });
+        setText(label, values.label ?? "");
+        setText(empty, values.problem ?? "");
+        set(empty, { hidden: !values.problem });
+      },
+    };
+  });
+}

@@ -1,0 +1,23 @@
+// The widget "raw": a message as rows that fold.
+
+/** @import {Page} from "../page/web/extensions.js" */
+
+/** @param {Page} page */
+export default function install({ el, messageRows, set, setText, widget }) {
+  widget("raw", () => {
+    let path = "";
+    const empty = el("div", { class: "wv-empty", role: "status" });
+    const tree = messageRows({ label: "Message", topic: () => path });
+    const element = el("div", { class: "wv-plugin-fill" }, empty, tree.element);
+    return {
+      element,
+      update(values) {
+        path = values.path ?? "";
+        tree.show(values.tree ?? null);
+        setText(empty, values.problem ?? "");
+        set(empty, { hidden: !values.problem });
+      },
+      close: tree.close,
+    };
+  });
+}

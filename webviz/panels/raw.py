@@ -1,0 +1,40 @@
+"""The panel Raw: any topic or field as a tree."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from webviz.api.panel import Send, Ui
+from webviz.data.messages import to_tree
+from webviz.panels.one_path import PathPanel
+
+
+class RawMessage(PathPanel):
+    """Any message, or a part of it, as a tree."""
+
+    title = "Raw message"
+    on_request = True
+    module = "raw.js"
+
+    def build(self, ui: Ui, send: Send) -> None:
+        """The path and the tree."""
+        self.build_path(ui, send)
+        self.tree = ui.widget("raw", {}, lambda value, browser: None)
+        self.drawn = -1
+        self.shown: Any = None
+
+    def show(self, state: Any) -> None:
+        """Show the newest values."""
+        problem = self.follow(state)
+        if self.drawn != self.revision:
+            self.drawn, self.shown = self.revision, self._tree()
+        self.tree.show({"path": self.path, "tree": self.shown, "problem": problem})
+
+    def _tree(self) -> Any:
+        """The values as a tree: the fields of the only one, else their number and all of them."""
+        if not self.found:
+            return None
+        several = self.reading.path is not None and self.reading.path.finds_many
+        tree = to_tree(self.found if several else self.found[0], max_items=100)
+        is_message = isinstance(tree, dict) and "fields" in tree
+        return tree if is_message else {"fields": {"value": tree}}

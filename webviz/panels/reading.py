@@ -1,0 +1,69 @@
+"""Message paths as panels read them: which topics, and why there is nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from webviz.data.messages.message_paths import MessagePath
+from webviz.data.messages.paths import PathError
+
+
+def types_of(state: Any) -> dict[str, str]:
+    """The message types of all topics with a publisher, as they are or would be read."""
+    return {
+        topic: offer.type or offer.publishers[0].type
+        for topic, offer in state.offers.items()
+        if offer.publishers
+    }
+
+
+class PathReading:
+    """A message path that a panel reads.
+
+    Args:
+        text: as written; an invalid one has a problem.
+    """
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.path: MessagePath | None = None
+        self.problem = ""
+        """Why the newest message has no value, a sentence or ""."""
+        self.has_message = False
+        self._invalid = ""
+        try:
+            self.path = MessagePath(text)
+        except PathError as error:
+            self._invalid = str(error) if text else "Choose a topic."
+
+    @property
+    def topic(self) -> str:
+        """Its topic, "" if it is invalid."""
+        return self.path.topic if self.path else ""
+
+    def values(self, message: Any) -> list[Any]:
+        """The values in a message; none if it has a problem."""
+        if self.path is None:
+            return []
+        self.has_message = True
+        try:
+            found = self.path.values(message)
+        except PathError as error:
+            self.problem = str(error)
+            return []
+        self.problem = ""
+        return found
+
+    def explanation(self, types: Mapping[str, str]) -> str:
+        """Why there is nothing to show, a sentence or ""."""
+        if self._invalid:
+            return self._invalid
+        if self.topic not in types:
+            return f"No publisher on {self.topic}. Start the node that publishes it."
+        return self.problem or ("" if self.has_message else "No message yet.")
+
+
+def subscribed(readings: Iterable[PathReading], types: Mapping[str, str]) -> dict[str, str]:
+    """The types of the topics that are read, as far as they are known."""
+    return {each.topic: types[each.topic] for each in readings if each.topic in types}

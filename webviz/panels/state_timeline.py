@@ -1,0 +1,127 @@
+"""The panel State timeline: when values changed."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Mapping
+from typing import Annotated, Any
+
+import msgspec
+
+from webviz.api.declared import Prop
+from webviz.api.lookback import Lookback
+from webviz.api.panel import Panel, Send, Ui
+from webviz.data.messages.paths import as_number
+from webviz.data.names import readable
+from webviz.panels.reading import PathReading, subscribed, types_of
+from webviz.panels.seeking import seek_to
+
+MAX_PATHS = 16
+MAX_CHANGES = 1000
+"""Changes of a value that are kept."""
+MAX_TEXT = 60
+NS_PER_S = 1e9
+
+
+class _Track:
+    """The changes of one value.
+
+    Args:
+        text: its message path.
+    """
+
+    def __init__(self, text: str) -> None:
+        self.reading = PathReading(text)
+        self.changes: deque[tuple[float, str]] = deque(maxlen=MAX_CHANGES)
+
+    def add(self, message: Any, at_s: float) -> None:
+        """Take the value of a message; nothing if a filter finds none."""
+        values = self.reading.values(message)
+        if not values:
+            return
+        text = ", ".join(map(_text, values[:10]))[:MAX_TEXT]
+        if self.changes and at_s < self.changes[-1][0]:
+            self.changes.clear()
+        if not self.changes or self.changes[-1][1] != text:
+            self.changes.append((at_s, text))
+
+
+class StateTimeline(Panel):
+    """Values as bands over time, a colour for each state."""
+
+    title = "State timeline"
+    on_request = True
+    module = "state_timeline.js"
+
+    paths: Annotated[
+        list[str],
+        Prop(help="Message paths of states, such as /robot_mode.mode or /battery.status."),
+    ] = msgspec.field(default_factory=list)
+    window: Annotated[float, Prop(gt=0, le=86400, unit="s", help="Time that is shown.")] = 60.0
+
+    def __post_init__(self) -> None:
+        """Without changes."""
+        self.types: Mapping[str, str] = {}
+        self.tracks: dict[str, _Track] = {}
+        self.state: Any = None
+
+    def build(self, ui: Ui, send: Send) -> None:
+        """The bands."""
+        self.send = send
+        self.bands = ui.widget("states", {}, self.seek)
+
+    def subscriptions(self) -> Mapping[str, str]:
+        """The topics of all paths."""
+        return subscribed((track.reading for track in self.tracks.values()), self.types)
+
+    def lookback(self, topic: str) -> Lookback:
+        """The messages of the window."""
+        return Lookback(seconds=self.window)
+
+    def receive(self, topic: str, message: Any, received_ns: int) -> None:
+        """Note what has changed."""
+        for track in self.tracks.values():
+            if track.reading.topic == topic:
+                track.add(message, received_ns / NS_PER_S)
+
+    def refuse(self, topic: str, reason: str) -> None:
+        """Show why a message cannot be read."""
+        for track in self.tracks.values():
+            if track.reading.topic == topic:
+                track.reading.problem = reason
+
+    def start_over(self) -> None:
+        """Forget all changes."""
+        self.tracks = {text: _Track(text) for text in self.tracks}
+
+    def show(self, state: Any) -> None:
+        """Show the bands."""
+        self.state = state
+        self.types = types_of(state)
+        wanted = list(dict.fromkeys(self.paths))[:MAX_PATHS]
+        self.tracks = {text: self.tracks.get(text) or _Track(text) for text in wanted}
+        now_s = state.clock.ros_ns / NS_PER_S
+        start_s = now_s - self.window
+        for track in self.tracks.values():
+            while len(track.changes) > 1 and track.changes[1][0] < start_s:
+                track.changes.popleft()
+        tracks = [
+            {
+                "name": text,
+                "problem": track.reading.explanation(self.types),
+                "times": [at_s for at_s, _ in track.changes],
+                "states": [state for _, state in track.changes],
+            }
+            for text, track in self.tracks.items()
+        ]
+        self.bands.show({"start": start_s, "end": now_s, "tracks": tracks})
+
+    def seek(self, value: Any, browser: int | None) -> None:
+        """Go to a time in seconds."""
+        self.send(seek_to(self.state, round(float(value) * NS_PER_S)), browser)
+
+
+def _text(value: Any) -> str:
+    number = as_number(value)
+    text = str(value)[:MAX_TEXT] if number is None else f"{number:g}"
+    return readable(("true" if value else "false") if isinstance(value, bool) else text)

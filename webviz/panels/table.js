@@ -1,0 +1,129 @@
+// The widget "table": rows that are sorted by a click on a column.
+
+/** @import {Page} from "../page/web/extensions.js" */
+
+/** @typedef {{key: string, cells: (number | string)[]}} Row */
+
+const ROW_PX = 22;
+const RULES = `
+.wv-table { overflow-x: auto; flex: 1; min-height: 0; display: flex; flex-direction: column }
+.wv-table > * { min-width: calc(var(--wv-columns) * 90px) }
+.wv-table > .wv-rows { overflow-x: hidden }
+.wv-table-row { display: grid; height: 22px; align-items: center; column-gap: 8px;
+  grid-template-columns: repeat(var(--wv-columns), minmax(0, 1fr)) }
+.wv-table-row > button { border: 0; padding: 0; background: none; color: var(--wv-quiet); font: inherit; font-size: 12px;
+  text-align: left; cursor: pointer }
+.wv-table-row > [aria-sort="ascending"]::after { content: " ↑" / "" }
+.wv-table-row > [aria-sort="descending"]::after { content: " ↓" / "" }
+`;
+
+/** @param {Page} page */
+export default function install({
+  download,
+  el,
+  iconButton,
+  rowList,
+  set,
+  setText,
+  style,
+  ...page
+}) {
+  const { touchable, widget } = page;
+  style("table", RULES);
+
+  /** @param {number | string} cell */
+  const textOf = (cell) =>
+    typeof cell === "number" && !Number.isInteger(cell)
+      ? String(Number.parseFloat(cell.toPrecision(6)))
+      : String(cell);
+
+  widget("table", () => {
+    /** @type {Row[]} */
+    let rows = [];
+    /** @type {string[]} */
+    let columns = [];
+    let sorted = -1;
+    let isUp = true;
+    const empty = el("div", { class: "wv-empty", role: "status" });
+    const note = el("span", { class: "wv-quiet" });
+    const head = el("div", { class: "wv-table-row", role: "row" });
+    const host = el("div", { class: "wv-table" });
+    const list = rowList({
+      label: "Table",
+      role: "grid",
+      rowRole: "row",
+      height: touchable(ROW_PX),
+      make: () => el("div", { class: "wv-table-row" }),
+      update(row, /** @type {Row} */ { cells }) {
+        while (row.children.length > cells.length) row.lastElementChild?.remove();
+        while (row.children.length < cells.length)
+          row.append(el("span", { class: "wv-ellipsis wv-number", role: "gridcell" }));
+        cells.forEach((cell, i) => setText(row.children[i], textOf(cell)));
+      },
+      host,
+    });
+    host.append(head, list.element);
+    const save = iconButton("download", "Download as CSV", () => {
+      const lines = [columns, ...rows.map(({ cells }) => cells)].map((cells) =>
+        cells.map((cell) => `"${String(cell).replaceAll('"', '""')}"`).join(","),
+      );
+      download("table.csv", `${lines.join("\n")}\n`);
+    });
+
+    /** @param {number} column */
+    function sort(column) {
+      [sorted, isUp] = [column, sorted === column ? !isUp : true];
+      draw();
+    }
+
+    /**
+     * @param {number | string} a
+     * @param {number | string} b
+     */
+    const compare = (a, b) =>
+      typeof a === "number" && typeof b === "number" ? a - b : String(a).localeCompare(String(b));
+
+    function draw() {
+      const order = isUp ? 1 : -1;
+      list.show(
+        sorted < 0
+          ? rows
+          : rows.toSorted((a, b) => order * compare(a.cells[sorted], b.cells[sorted])),
+      );
+      head.replaceChildren(
+        ...columns.map((name, i) => {
+          const state = i === sorted ? (isUp ? "ascending" : "descending") : null;
+          const options = { type: "button", role: "columnheader", "aria-sort": state };
+          return el("button", { ...options, class: "wv-ellipsis", onclick: () => sort(i) }, name);
+        }),
+      );
+    }
+
+    const element = el(
+      "div",
+      { class: "wv-plugin-fill" },
+      empty,
+      el("div", { class: "wv-plugin-bar" }, note, save),
+      host,
+    );
+    return {
+      element,
+      update(values) {
+        if (JSON.stringify(columns) !== JSON.stringify(values.columns ?? [])) sorted = -1;
+        columns = values.columns ?? [];
+        rows = (values.rows ?? []).map(
+          (/** @type {Row["cells"]} */ cells, /** @type {number} */ i) => ({
+            key: String(i),
+            cells,
+          }),
+        );
+        host.style.setProperty("--wv-columns", String(Math.max(1, columns.length)));
+        setText(note, [`${rows.length} rows`, values.note].filter(Boolean).join(", "));
+        setText(empty, values.problem ?? "");
+        set(empty, { hidden: !values.problem });
+        draw();
+      },
+      close: list.close,
+    };
+  });
+}
