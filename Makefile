@@ -46,7 +46,7 @@ $(PYTEST) $(1) --cache-clear $(2) || { [ $$? = 1 ] && \
 	$(PYTEST) -n 0 --last-failed --maxfail 3 $(2); }
 endef
 
-.PHONY: install test quick check bench soak attack mutants browser docs
+.PHONY: install test quick check bench soak attack mutants browser docs site
 
 install: $(VENV)/ready
 
@@ -90,6 +90,10 @@ mutants: $(VENV)/ready-to-mutate
 # All that is generated from declarations; RVIZ="a.rviz b.rviz" counts what is carried over of them.
 docs: $(VENV)/ready
 	@$(VENV)/bin/python -m webviz.shell.docs $(RVIZ)
+
+# The documentation as pages with a menu and search, in build/site/html.
+site: $(VENV)/ready-to-test
+	@$(VENV)/bin/python -m tests.site
 
 browser:
 	@for b in chromium-headless-shell chromium chromium-browser google-chrome; do \
