@@ -26,6 +26,7 @@ ENVIRONMENT = {
     VARIABLE: "Chromium or Chrome for pictures; otherwise one is searched for.",
     MESH_ROOT: "Folders of meshes besides ROS packages, separated by colons: `--mesh-root`.",
     ALLOWED_BY: "`1` lets RobotModel expand xacro files, which can run any Python as this user.",
+    "WEBVIZ_BAG": "Recording for tests of bug reports, instead of the one beside them.",
     **{
         f"WEBVIZ_TOKEN_{parameter.upper()}": f"Token of a link with the role {role_name(role)}."
         for parameter, role in LINKS.items()

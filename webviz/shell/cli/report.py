@@ -22,6 +22,7 @@ Examples:
   webviz report --bag run.mcap --from 10 --to 20 -o bug.zip
   webviz report --bag run.mcap --list                   print what a report would contain
   webviz bug.zip                                        open a report
+  webviz test bug.zip -o tests/test_bug.py              make a test of it
 
 Names of hosts, users and home folders are left out; nothing is sent anywhere.
 

@@ -2,7 +2,8 @@
 
 import contextlib
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import App, Parameter, validators
 
@@ -19,6 +20,7 @@ EXAMPLES = """\
 Examples:
   webviz test --bag run.mcap --rule "Scan.walls > 0.8"
   webviz test --bag run.mcap -d nav2.yaml --junit report.xml
+  webviz test bug.zip -o tests/test_bug.py     write a test of a bug report
   webviz test --rule "/scan.rate >= 5 for 2s" --rule "doctor.errors == 0" --seconds 30
 
 A rule names a display, a topic that a display shows, or the doctor, and a value: status, rate, age,
@@ -51,13 +53,50 @@ class RuleOptions:
     junit: Annotated[File | None, Parameter()] = None
     """Write the results to this file as JUnit XML, too."""
     plugin: Plugins = ()
+    output: Annotated[File | None, Parameter(alias="-o")] = None
+    """Write a test of a bug report to this Python file, with its recording beside it."""
+    check: Annotated[
+        Literal["finding", "status", "picture"] | None, Parameter(show_default=False)
+    ] = None
+    """Part of a bug report to test (default: findings, or else statuses, or else the picture)."""
 
 
-@app.default
-def check_rules(*, options: RuleOptions = RuleOptions(), ros: RosArgs) -> int:
-    """Check that rules hold, over a bag or live topics."""
+def _check(
+    report: Path | None = None, *, options: RuleOptions = RuleOptions(), **_: object
+) -> None:
+    """Raise ValueError for an invalid combination of arguments."""
+    if report is None:
+        if options.output or options.check:
+            raise ValueError("-o and --check need a bug report: webviz test bug.zip -o test_bug.py")
+        return
+    if options.output is None:
+        raise ValueError("A test of a bug report needs -o FILE.")
+    if not options.output.stem.isidentifier() or options.output.suffix != ".py":
+        raise ValueError(f"{options.output.name} is not a name of a Python module.")
+
+
+@app.default(validator=_check)
+def check_rules(
+    report: Annotated[File | None, Parameter(name="REPORT", show_default=False)] = None,
+    /,
+    *,
+    options: RuleOptions = RuleOptions(),
+    ros: RosArgs,
+) -> int:
+    """Check that rules hold, over a bag or live topics; or write a test of a bug report.
+
+    Args:
+        report: Zip file of a bug report, to write a test of it.
+        options: What to check.
+        ros: Arguments for ROS.
+    """
 
     def work(stop: Stop) -> int:
+        if report is not None and options.output is not None:
+            from webviz.shell.report.writing import write_test
+
+            print(f"webviz: {write_test(report, options.output, options.check)}", flush=True)
+            return 0
         from webviz.files.config.atomic import write_text
 
         results = _examined(options, ros)

@@ -21,7 +21,9 @@ from webviz.engine.commands import (
     SetRate,
 )
 from webviz.engine.loop import FrameLoop
+from webviz.engine.state import State
 from webviz.files.config import Config
+from webviz.shell.doctor.scene import NoScene
 from webviz.shell.pictures.times import At, TimeError, position_ns, seconds_from_start
 from webviz.shell.report.scenes import Pictured
 from webviz.sources import Source
@@ -81,6 +83,21 @@ def make_report(
             return maker.do(ListReport(with_names))
         picture = base64.b64encode(pictured.png()).decode()
         return maker.do(SaveReport(picture, (), with_names, str(path.absolute())))
+
+
+def play_through(config: Config, bag: BagSource, at_s: float) -> State:
+    """Play a bag from its start to its end without a browser, and show a moment of it.
+
+    Args:
+        config: the displays to show.
+        bag: the bag.
+        at_s: in seconds from the start; of a shorter bag its end.
+    """
+    end_s = seconds_from_start(bag.end_ns, bag)
+    loop = FrameLoop(config, bag, NoScene())
+    with contextlib.closing(_Maker(loop, bag, lambda what, share: None)) as maker:
+        maker.play(0.0, end_s, min(at_s, end_s))
+        return loop.state()
 
 
 def _times(

@@ -12,6 +12,7 @@ from webviz.shell.testing.display_checks import DisplayChecks
 from webviz.shell.testing.harness import Harness
 from webviz.shell.testing.live import LiveViewer
 from webviz.shell.testing.messages import header, turned
+from webviz.shell.testing.replaying import Replayed, looks_like, replay
 from webviz.shell.testing.seeking import BagViewer, check_seeks
 from webviz.shell.testing.shown import Shown
 from webviz.shell.testing.source import SECOND
@@ -25,10 +26,13 @@ __all__ = [
     "DisplayChecks",
     "Harness",
     "LiveViewer",
+    "Replayed",
     "Shown",
     "check_details",
     "check_seeks",
     "header",
+    "looks_like",
+    "replay",
     "serialized",
     "share_of_difference",
     "turned",

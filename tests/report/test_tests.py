@@ -1,0 +1,109 @@
+"""Tests of bug reports: they fail as the report did, and pass once the fault is repaired."""
+
+from __future__ import annotations
+
+import ast
+import contextlib
+from collections.abc import Callable
+from pathlib import Path
+
+import msgspec
+import pytest
+import stories
+
+from webviz.files.opening import parse
+from webviz.files.report import BugReport, write_report
+from webviz.files.report.content import FindingEntry, StatusEntry
+from webviz.shell.cli import main as cli
+from webviz.shell.report.making import make_report
+from webviz.shell.report.scenes import Pictured
+from webviz.sources.bag.source import BagSource
+
+
+@pytest.fixture
+def reported(tmp_path: Path) -> Callable[[stories.Fault], Path]:
+    def make(fault: stories.Fault) -> Path:
+        bag = stories.write(tmp_path / fault, fault)
+        path = tmp_path / f"{fault}.zip"
+        with contextlib.closing(BagSource(bag)) as source:
+            make_report(parse(stories.CONFIG, "it"), source, Pictured(None), path)
+        return path
+
+    return make
+
+
+@pytest.mark.parametrize(
+    ("fault", "check", "said"),
+    [
+        ("turned", "finding", "The scan of 'base_scan' is rotated by 18"),
+        ("misplaced", "status", "a shift by"),
+        ("obstacle", "status", "The path leads through"),
+    ],
+)
+def test_the_faults_of_the_course_become_tests(
+    reported: Callable[[stories.Fault], Path],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    fault: stories.Fault,
+    check: str,
+    said: str,
+) -> None:
+    test = tmp_path / "test_bug.py"
+    assert cli(["test", str(reported(fault)), "-o", str(test), "--check", check]) == 0
+    functions = compiled(test)
+    monkeypatch.delenv("WEBVIZ_BAG", raising=False)
+    texts = [failure(function) for function in functions]
+    assert any(said in text for text in texts), texts
+    monkeypatch.setenv("WEBVIZ_BAG", str(stories.write(tmp_path / "repaired", "none")))
+    assert [failure(function) for function in compiled(test)] == [""] * len(functions)
+
+
+def compiled(test: Path) -> list[Callable[[], None]]:
+    """The functions of a test file."""
+    names: dict[str, Callable[[], None]] = {"__file__": str(test)}  # pyright: ignore[reportAssignmentType]
+    exec(compile(test.read_text(), str(test), "exec"), names)
+    return [value for name, value in names.items() if name.startswith("test_")]
+
+
+def failure(function: Callable[[], None]) -> str:
+    """The values with which a test fails, "" if it passes."""
+    try:
+        function()
+    except AssertionError as error:
+        frames = error.__traceback__
+        assert frames is not None
+        from webviz.testing import replay
+
+        names = function.__globals__
+        seen = replay(names["BAG"], names["CONFIG"], names["AT_S"])
+        texts = [status.text for each in seen.statuses.values() for status in each.values()]
+        return " ".join([*texts, *seen.findings.values()])
+    return ""
+
+
+def test_strings_of_strangers_do_not_become_code(tmp_path: Path) -> None:
+    evil = '"""\nimport os; os.system("touch evil")\n"""'
+    report = BugReport(
+        source="live",
+        made=1.0,
+        at_ns=1,
+        first_ns=1,
+        last_ns=2,
+        statuses=(StatusEntry(evil, evil, "error", evil),),
+        findings=(FindingEntry(evil, "error", evil, evil, evil),),
+    )
+    path = tmp_path / "bug.zip"
+    content = {"report.json": msgspec.json.encode(report), "config.yaml": b"", "slice.mcap": b""}
+    write_report(path, content)
+    for check in ("finding", "status"):
+        test = tmp_path / f"test_{check}.py"
+        assert cli(["test", str(path), "-o", str(test), "--check", check]) == 0
+        tree = ast.parse(test.read_text())
+        calls = {ast.unparse(n.func) for n in ast.walk(tree) if isinstance(n, ast.Call)}
+        assert calls <= {"Path", "os.environ.get", "replay", "replay(BAG, CONFIG, AT_S).problem"}
+
+
+def test_nothing_is_overwritten(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "test_bug.mcap").touch()
+    assert cli(["test", "bug.zip", "-o", str(tmp_path / "test_bug.py")]) == 1
+    assert "test_bug.mcap exists already" in capfd.readouterr().err
