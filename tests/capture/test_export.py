@@ -5,8 +5,10 @@ from __future__ import annotations
 import base64
 import io
 import itertools
+import os
 import random
 import re
+import signal
 from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
@@ -17,12 +19,14 @@ import numpy as np
 import PIL.Image
 import playwright.sync_api as playwright
 import pytest
+from bags import START_NS, Bag, ns
 from drives import CONFIG, recorded
 from playwright.sync_api import expect
 
 import webviz
 from webviz.api.views import VIEW_TYPES, Rig, View, mimic, type_of
 from webviz.shell.cli import main as cli
+from webviz.shell.cli.options import MESH_ROOT
 from webviz.shell.pictures.browser_scripts import (
     CANVAS,
     COUNT_UNPACKING,
@@ -31,6 +35,7 @@ from webviz.shell.pictures.browser_scripts import (
     SETTLE,
 )
 from webviz.shell.pictures.headless_renderer import HeadlessRenderer
+from webviz.shell.testing import header
 
 TIMES = (1.0, 4.5, 0.5, 5.0, 2.0, 0.0)
 SIZE: playwright.ViewportSize = {"width": 800, "height": 500}
@@ -50,6 +55,8 @@ FOLLOW = """async (value) => {
   const { act } = await import(new URL("webviz/act.js", location.href));
   return act("ChangeView", { key: "target_frame", value });
 }"""
+
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 class OpenFile:
@@ -80,6 +87,19 @@ class OpenFile:
         """The picture of the scene, uint8 (H, W, 3)."""
         png = base64.b64decode(self.page.evaluate(OPAQUE).split(",")[1])
         return np.asarray(PIL.Image.open(io.BytesIO(png)).convert("RGB"))
+
+
+@pytest.fixture(scope="module", autouse=True)
+def kept_process() -> Iterator[None]:
+    """Takes back what commands change in this process."""
+    handlers = {number: signal.getsignal(number) for number in SIGNALS}
+    meshes = os.environ.get(MESH_ROOT)
+    yield
+    for number, handler in handlers.items():
+        signal.signal(number, handler)
+    os.environ.pop(MESH_ROOT, None)
+    if meshes is not None:
+        os.environ[MESH_ROOT] = meshes
 
 
 @pytest.fixture(scope="module")
@@ -183,3 +203,76 @@ def test_what_is_in_a_box_is_selected_with_its_place_and_display(file: OpenFile)
     shown = page.locator(".wv-selection")
     expect(shown.get_by_text("Odometry").first).to_be_attached()
     page.keyboard.press("Escape")
+
+
+@pytest.fixture(scope="module")
+def clouds(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A bag of clouds by chance, 3 MB in a second, and a config that shows them."""
+    folder = tmp_path_factory.mktemp("clouds")
+    bag = Bag()
+    bag.add("/points", "sensor_msgs/msg/PointCloud2", best_effort=True)
+    bag.transform(0, "map", "lidar", static=True)
+    chance = np.random.default_rng(0)
+    for step in range(10):
+        xyz = chance.uniform(-5.0, 5.0, (20_000, 3)).astype(np.float32)
+        bag.put(step / 10, "/points", cloud_of(xyz, START_NS + ns(step / 10)))
+    bag.write(folder / "run")
+    (folder / "lab.yaml").write_text("fixed_frame: map\ndisplays:\n- {type: PointCloud2}\n")
+    return folder
+
+
+def cloud_of(xyz: np.ndarray, stamp_ns: int) -> dict[str, Any]:
+    names = ("x", "y", "z")
+    fields = [{"name": n, "offset": 4 * i, "datatype": 7, "count": 1} for i, n in enumerate(names)]
+    return {
+        "header": header("lidar", stamp_ns),
+        "height": 1,
+        "width": len(xyz),
+        "fields": fields,
+        "point_step": 12,
+        "row_step": xyz.nbytes,
+        "data": xyz.ravel().view(np.uint8),
+    }
+
+
+def test_a_file_keeps_its_limit_and_says_what_was_left_out(
+    clouds: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    arguments = ["export", str(clouds / "run"), "-d", str(clouds / "lab.yaml")]
+    sizes = {}
+    for limit in ("50MB", "3MB"):
+        path = clouds / f"{limit}.html"
+        assert cli([*arguments, "-o", str(path), "--max-size", limit]) == 0
+        sizes[limit] = path.stat().st_size, capfd.readouterr().err
+    whole, said = sizes["50MB"]
+    assert (whole > 4_000_000, said) == (True, "")
+    thinned, said = sizes["3MB"]
+    assert thinned <= 3_000_000
+    assert "Clouds have at least one of" in said
+    assert cli([*arguments, "-o", str(clouds / "none.html"), "--max-size", "1kB"]) == 0
+    assert "Choose a shorter span, or fewer displays." in capfd.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (("--from", "4", "--to", "2"), "--from 4 s is later than --to 2 s. Swap them."),
+        (("--to", "99"), "99 s is outside of"),
+        (("-o", "missing/run.html"), "Cannot write missing/run.html: No such file or directory."),
+    ],
+)
+def test_what_cannot_be_exported_is_one_sentence_and_no_file(
+    folder: Path,
+    arguments: tuple[str, ...],
+    sentence: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    output = () if "-o" in arguments else ("-o", "run.html")
+    assert cli(["export", str(folder / "run"), *arguments, *output]) == 1
+    said = capfd.readouterr().err
+    assert sentence in said
+    assert len(said.splitlines()) == 1
+    assert list(tmp_path.iterdir()) == []

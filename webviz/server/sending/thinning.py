@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 PATIENCE_S = 0.3
 """Seconds of the link that all clouds together may take."""
@@ -30,14 +31,19 @@ def thinned(message: Any, every: int) -> Any:
     8th would be points of a single ring.
     """
     count = len(message.updates["points"])
-    starts = np.arange(0, count, every)
-    rows = starts + np.random.default_rng(0).integers(0, every, len(starts))
-    rows = np.minimum(rows, count - 1)
+    rows = chosen(count, every)
     updates = {
         name: value[rows] if isinstance(value, np.ndarray) and len(value) == count else value
         for name, value in message.updates.items()
     }
     return replace(message, updates=updates)
+
+
+def chosen(count: int, every: int) -> NDArray[np.intp]:
+    """Rows of a cloud of `count` points, one of `every`; see `thinned`."""
+    starts = np.arange(0, count, every)
+    rows = starts + np.random.default_rng(0).integers(0, every, len(starts))
+    return np.minimum(rows, count - 1)
 
 
 class Thinning:

@@ -8,7 +8,7 @@ from typing import Annotated
 from cyclopts import App, Parameter
 
 from webviz.shell.cli.ending import INTERRUPTED, end_in_time, on_signal, say_end
-from webviz.shell.cli.options import ConfigOptions, File
+from webviz.shell.cli.options import ConfigOptions, File, Size
 from webviz.shell.cli.progress import progress
 from webviz.shell.cli.screenshot_options import Seconds, Time
 
@@ -35,6 +35,8 @@ class ExportOptions(ConfigOptions):
     """Where to end."""
     rate: Annotated[Seconds, Parameter(metavar="HZ")] = 10.0
     """Frames per second of the bag."""
+    max_size: Annotated[Size, Parameter(metavar="SIZE")] = 50_000_000
+    """Limit of the file, such as 50MB: clouds are thinned, and large data shown less often."""
 
 
 @app.default
@@ -77,10 +79,19 @@ def _make(bag: Path, options: ExportOptions) -> int:
             options.first,
             options.last,
             options.rate,
+            options.max_size,
         )
         made = write(order, options.output, lambda share: progress("webviz: exporting", share))
         for remark in source.remarks:
             print(f"webviz: {bag}: {remark}", file=sys.stderr)
+    for note in made.notes:
+        print(f"webviz: to keep --max-size: {note}", file=sys.stderr)
+    if made.bytes > options.max_size:
+        print(
+            "webviz: the file is larger than --max-size, although everything large is left out. "
+            "Choose a shorter span, or fewer displays.",
+            file=sys.stderr,
+        )
     size, page = (f"{count / 1e6:.1f} MB" for count in (made.bytes, made.client_bytes))
     print(
         f"webviz: wrote {options.output}: {made.seconds:g} s, {made.frames} frames, {size} "

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, TypeVar
 from cyclopts import Parameter
 
 from webviz.api.errors import Error
+from webviz.shell.cli.amounts import bytes_of
 
 if TYPE_CHECKING:
     from webviz.files.config import Config
@@ -34,6 +35,15 @@ RosArgs = Annotated[Sequence[str], Parameter(parse=False)]
 MESH_ROOT = "WEBVIZ_MESH_ROOT"
 """Environment variable for the folders of --mesh-root, separated by colons."""
 ROS_ARGS_HELP = "Arguments after --ros-args, up to `--` or the end, are passed to ROS."
+
+
+def _size(type_: object, tokens: object) -> int:
+    """Convert the value of an option of bytes."""
+    (token,) = tokens  # pyright: ignore[reportGeneralTypeIssues]
+    return bytes_of(token.value)
+
+
+Size = Annotated[int, Parameter(converter=_size, metavar="SIZE", show_default=False)]
 
 
 @Parameter(name="*")

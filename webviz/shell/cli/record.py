@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import App, Parameter, validators
 
-from webviz.shell.cli.amounts import bytes_of
 from webviz.shell.cli.ending import Stop, say_end, until_signal
-from webviz.shell.cli.options import ROS_ARGS_HELP, RosArgs
+from webviz.shell.cli.options import ROS_ARGS_HELP, RosArgs, Size
 
 if TYPE_CHECKING:
     from webviz.shell.recording import TopicRecorder
@@ -28,15 +27,6 @@ SAY_S = 1.0
 """Time between two lines of progress."""
 
 app = App("record", help_epilogue=EXAMPLES + ROS_ARGS_HELP)
-
-
-def _size(type_: object, tokens: object) -> int:
-    """Convert the value of an option of bytes."""
-    (token,) = tokens  # pyright: ignore[reportGeneralTypeIssues]
-    return bytes_of(token.value)
-
-
-Size = Annotated[int, Parameter(converter=_size, metavar="SIZE", show_default=False)]
 
 
 @Parameter(name="*")

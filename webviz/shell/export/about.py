@@ -12,6 +12,7 @@ from webviz.api.views import VIEW_TYPES, target_group
 from webviz.page.content.forms import form
 from webviz.scene.cameras import placed
 from webviz.scene.names import node_path
+from webviz.server.channel.links import SlowLink
 from webviz.server.channel.messages import Shell, StartView, Tools
 from webviz.shell.export.order import ExportOrder
 from webviz.shell.export.recorder import ExportSpan, RunRecorder
@@ -45,7 +46,11 @@ def about(
         "start": span.first_ns / 1e9,
         "duration": last_s - first_s,
         "index": [msgspec.to_builtins(each) for each in index],
-        "greeting": [*filter(None, greeting), placed(StartView, settings.view, 0)],
+        "greeting": [
+            *filter(None, greeting),
+            placed(StartView, settings.view, 0),
+            *([SlowLink(" ".join(notes))] if notes else []),
+        ],
         "views": {name: msgspec.to_builtins(view) for name, view in settings.views.items()},
         "view_forms": {name: form(view) for name, view in VIEW_TYPES.items()},
         "frame_nodes": {frame: node_path(target_group(frame)) for frame in frames},
@@ -56,7 +61,6 @@ def about(
             "bookmarks": _bookmarks(channel.content("bookmarks"), first_s, last_s),
             "events": _events(channel.content("events"), first_s, last_s),
         },
-        "notes": notes,
     }
 
 

@@ -13,6 +13,8 @@ import msgspec
 import numpy as np
 
 from webviz.scene.adapter.tape import SceneMessage
+from webviz.server.sending.outbox import BULK_BYTES
+from webviz.server.sending.thinning import chosen
 
 ALIGNMENT = 8
 """Bytes; browsers make numbers only of what is aligned."""
@@ -23,27 +25,56 @@ SHUFFLED_BYTES = 256
 and so on, which compresses floats by a third more."""
 
 
+@dataclass(frozen=True)
+class _Buffer:
+    """Bytes of a chunk.
+
+    Args:
+        data: an array, or bytes.
+        width: size of its numbers in bytes if these are shuffled, else 1.
+        rows: how many points it has, 0 if it is not of a cloud.
+    """
+
+    data: memoryview
+    width: int
+    rows: int = 0
+
+    def packed(self, every: int) -> bytes:
+        """The bytes as they are compressed, of a cloud with one of `every` points."""
+        flat = np.frombuffer(self.data, np.uint8)
+        if self.rows and every > 1:
+            flat = flat.reshape(self.rows, -1)[chosen(self.rows, every)].ravel()
+        if self.width > 1:
+            flat = np.ascontiguousarray(flat.reshape(-1, self.width).T)
+        return flat.tobytes()
+
+
 class Buffers:
     """The binary part of a chunk."""
 
     def __init__(self) -> None:
-        self.data = bytearray()
-        self.index: list[tuple[int, int, int]] = []
-        """Start and size in bytes of each, and the size of its numbers if these are shuffled."""
+        self._all: list[_Buffer] = []
+        self.size = 0
+        """Bytes before compression."""
 
-    def add(self, data: memoryview | bytes, dtype: str = "") -> int:
+    def add(self, data: memoryview | bytes, dtype: str = "", rows: int = 0) -> int:
         """Add an array or bytes; its number."""
-        size = len(data) if isinstance(data, bytes) else data.nbytes
+        view = memoryview(data)
         item = np.dtype(dtype).itemsize if dtype else 1
-        width = item if item > 1 and size >= SHUFFLED_BYTES else 1
-        self.data += bytes(-len(self.data) % ALIGNMENT)
-        self.index.append((len(self.data), size, width))
-        if width > 1:
-            flat = np.frombuffer(data, np.uint8).reshape(-1, width)
-            self.data += np.ascontiguousarray(flat.T).tobytes()
-        else:
-            self.data += data
-        return len(self.index) - 1
+        width = item if item > 1 and view.nbytes >= SHUFFLED_BYTES else 1
+        self._all.append(_Buffer(view, width, rows))
+        self.size += view.nbytes
+        return len(self._all) - 1
+
+    def packed(self, every: int) -> tuple[list[tuple[int, int, int]], bytes]:
+        """Start, size and width of each, and all of them."""
+        whole, index = bytearray(), list[tuple[int, int, int]]()
+        for buffer in self._all:
+            data = buffer.packed(every)
+            whole += bytes(-len(whole) % ALIGNMENT)
+            index.append((len(whole), len(data), buffer.width))
+            whole += data
+        return index, bytes(whole)
 
 
 @dataclass
@@ -66,16 +97,19 @@ class TapeChunk:
     frames: list[Any] = field(default_factory=list[Any])
     buffers: Buffers = field(default_factory=Buffers)
     json_bytes: int = 0
+    has_clouds: bool = False
 
     @property
     def size(self) -> int:
         """About how many bytes it has before compression."""
-        return len(self.buffers.data) + self.json_bytes
+        return self.buffers.size + self.json_bytes
 
     def add_message(self, message: SceneMessage) -> None:
         """Add a message of the scene."""
+        rows = _points_of(message)
+        self.has_clouds |= rows > 0
         own = [
-            self.buffers.add(data, dtype)
+            self.buffers.add(data, dtype, rows if (data.shape or ())[:1] == (rows,) else 0)
             for data, dtype in zip(message.buffers, _dtypes(message.content), strict=True)
         ]
         content = _plain(message.content, own, self.buffers)
@@ -92,8 +126,13 @@ class TapeChunk:
         """Add a picture of a pane as pages receive it."""
         self.pictures.append(self.buffers.add(data))
 
-    def packed(self) -> bytes:
-        """The chunk as the page reads it: gzip of the length of the JSON, of it and the arrays."""
+    def packed(self, every: int = 1) -> bytes:
+        """The chunk as the page reads it: gzip of the length of the JSON, of it and the arrays.
+
+        Args:
+            every: of how many points of large clouds one is kept.
+        """
+        index, arrays = self.buffers.packed(every)
         text = msgspec.json.encode(
             {
                 "messages": {"first": self.first_message, "items": self.messages},
@@ -101,13 +140,23 @@ class TapeChunk:
                 "pictures": {"first": self.first_picture, "items": self.pictures},
                 "start": self.start,
                 "frames": self.frames,
-                "buffers": self.buffers.index,
+                "buffers": index,
             }
         )
         head = len(text).to_bytes(4, "little") + text
         head += bytes(-len(head) % ALIGNMENT)
         packer = zlib.compressobj(LEVEL, wbits=31)
-        return packer.compress(head) + packer.compress(self.buffers.data) + packer.flush()
+        return packer.compress(head) + packer.compress(arrays) + packer.flush()
+
+
+def _points_of(message: SceneMessage) -> int:
+    """The number of points of a message of a large cloud, 0 of others."""
+    updates = message.content.get("updates")
+    points = updates.get("points") if isinstance(updates, Mapping) else None
+    if not isinstance(points, Mapping) or "__binary_index" not in points:
+        return 0
+    data = message.buffers[points["__binary_index"]]
+    return data.shape[0] if data.ndim == 2 and data.nbytes > BULK_BYTES else 0
 
 
 def _dtypes(value: Any) -> list[str]:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from webviz.shell.export.about import about
 from webviz.shell.export.file import RunFile
+from webviz.shell.export.limit import SizeLimit
 from webviz.shell.export.order import ExportOrder
 from webviz.shell.export.recorder import RunRecorder
 from webviz.shell.export.tape import Tape
@@ -22,12 +23,14 @@ class ExportedFile:
     Args:
         seconds, frames: of the run in it.
         bytes, client_bytes: its size, and that of the page without the run.
+        notes: sentences on what was left out.
     """
 
     seconds: float
     frames: int
     bytes: int
     client_bytes: int
+    notes: Sequence[str]
 
 
 def export(
@@ -46,12 +49,13 @@ def export(
     span = order.span()
     with writing(path) as file:
         made = RunFile(file)
-        tape = Tape(made.write_chunk)
+        limit = SizeLimit(order.max_bytes, (span.last_ns - span.first_ns) / 1e9)
+        tape = Tape(made.write_chunk, limit, made.bytes)
         with contextlib.closing(RunRecorder(order.config, order.source)) as recorder:
             for frame in recorder.frames(span, tell):
                 tape.add(frame)
             tape.finish()
-            facts = about(order, span, recorder, tape.index, ())
+            facts = about(order, span, recorder, tape.index, limit.notes())
             made.finish(facts)
     seconds = (span.last_ns - span.first_ns) / 1e9
-    return ExportedFile(seconds, len(span.times_ns()), made.bytes, made.client_bytes)
+    return ExportedFile(seconds, len(span.times_ns()), made.bytes, made.client_bytes, limit.notes())

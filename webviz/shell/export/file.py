@@ -54,9 +54,10 @@ class RunFile:
         self.bytes = len(page)
         """Size so far."""
 
-    def write_chunk(self, packed: bytes) -> None:
-        """Add a chunk of the tape."""
+    def write_chunk(self, packed: bytes) -> int:
+        """Add a chunk of the tape; the size of the file with it."""
         self._write("chunk", packed)
+        return self.bytes
 
     def finish(self, about: Mapping[str, Any]) -> None:
         """End the file.

@@ -11,6 +11,7 @@ from webviz.shell.pictures.times import At, position_ns, seconds_from_start
 from webviz.sources.bag.source import BagSource
 
 RATE_HZ = 10.0
+MAX_BYTES = 50_000_000
 
 
 @dataclass(frozen=True)
@@ -24,6 +25,8 @@ class ExportOrder:
         name: of the config, "" for none.
         first, last: of the span to record.
         rate_hz: frames per second of the bag.
+        max_bytes: limit of the file; large clouds, and then versions of what is large, are left
+            out until it is kept.
     """
 
     config: Config
@@ -33,6 +36,7 @@ class ExportOrder:
     first: At = "start"
     last: At = "end"
     rate_hz: float = RATE_HZ
+    max_bytes: int = MAX_BYTES
 
     def span(self) -> ExportSpan:
         """The part of the bag to record.

@@ -8,8 +8,10 @@ from typing import Any
 
 import msgspec
 
-from webviz.scene.adapter.tape import SceneChange
+from webviz.scene.adapter.tape import SceneChange, SceneMessage
+from webviz.server.sending.outbox import BULK_BYTES
 from webviz.shell.export.chunks import TapeChunk
+from webviz.shell.export.limit import MAX_EVERY, SizeLimit
 from webviz.shell.export.stores import Changes
 
 KEYFRAME_S = 5.0
@@ -59,11 +61,18 @@ class Tape:
     """Collects frames, and hands each chunk on as soon as it is complete.
 
     Args:
-        write: takes a packed chunk.
+        write: takes a packed chunk, and returns the size of the file with it.
+        limit: of the file.
+        used: size of the file now.
     """
 
-    def __init__(self, write: Callable[[bytes], object]) -> None:
+    def __init__(self, write: Callable[[bytes], int], limit: SizeLimit, used: int) -> None:
         self._write = write
+        self._limit = limit
+        self._used = used
+        self._by_key: dict[str, int] = {}
+        """Numbers of the newest messages of the server, of those that may be left out."""
+        self._versions: dict[str, int] = {}
         self.index: list[ChunkIndex] = []
         self._messages = self._values = self._pictures = 0
         self._numbers: dict[int, int] = {}
@@ -80,7 +89,7 @@ class Tape:
         if chunk is not None:
             is_long = frame.at_s - self._times[0] >= KEYFRAME_S - 1e-6
             if is_long or chunk.size > CHUNK_BYTES:
-                self.finish()
+                self._pack(chunk, frame.at_s)
         is_key = self._chunk is None
         chunk = self._chunk = self._chunk or TapeChunk(self._messages, self._values, self._pictures)
         added, gone = self._add_scene(chunk, frame.scene)
@@ -95,22 +104,48 @@ class Tape:
     def finish(self) -> None:
         """Hand on the last chunk."""
         chunk = self._chunk
-        if chunk is None:
-            return
+        if chunk is not None:
+            self._pack(chunk, self._times[-1])
+
+    def _pack(self, chunk: TapeChunk, until_s: float) -> None:
         first = chunk.first_message, chunk.first_value, chunk.first_picture
+        first_s, limit = self._times[0], self._limit
         self.index.append(ChunkIndex(self._times, *first))
         self._chunk, self._times = None, []
-        self._write(chunk.packed())
+        room = limit.room(self._used, first_s, until_s)
+        packed = chunk.packed(limit.every)
+        while len(packed) > room and chunk.has_clouds and limit.every < MAX_EVERY:
+            limit.every *= 2
+            packed = chunk.packed(limit.every)
+        limit.adapt(len(packed), room, first_s, until_s)
+        self._used = self._write(packed)
 
     def _add_scene(self, chunk: TapeChunk, change: SceneChange) -> tuple[list[int], list[int]]:
-        gone = [self._numbers.pop(number) for number in change.gone if number in self._numbers]
         added: list[int] = []
-        for message in change.added:
+        messages = [message for message in change.added if not self._is_left_out(message)]
+        gone = [self._numbers.pop(number) for number in change.gone if number in self._numbers]
+        for message in messages:
             chunk.add_message(message)
             self._numbers[message.number] = self._messages
             added.append(self._messages)
             self._messages += 1
         return added, gone
+
+    def _is_left_out(self, message: SceneMessage) -> bool:
+        """Return whether the version before is shown instead of a message, since both are large."""
+        if message.phase or sum(each.nbytes for each in message.buffers) <= BULK_BYTES:
+            return False
+        before = self._by_key.get(message.key)
+        self._by_key[message.key] = message.number
+        shown = None if before is None else self._numbers.get(before)
+        if before is None or shown is None or not self._is_skipped(message.key):
+            return False
+        self._numbers[message.number] = self._numbers.pop(before)
+        return True
+
+    def _is_skipped(self, key: str) -> bool:
+        count = self._versions[key] = self._versions.get(key, 0) + 1
+        return count % self._limit.skip != 0
 
     def _add_values(self, chunk: TapeChunk, changes: Changes) -> list[Any]:
         told: list[Any] = []
@@ -145,6 +180,8 @@ class Tape:
                 told.append([display, []])
                 continue
             data, is_whole = picture
+            if is_whole and display in self._panes and self._is_skipped(f"picture of {display}"):
+                continue
             chunk.add_picture(data)
             before = [] if is_whole else self._panes.get(display, [])
             self._panes[display] = [*before, self._pictures]

@@ -54,7 +54,6 @@ export interface About {
   /** The node that each frame can be followed by. */
   frame_nodes: Record<string, string>;
   stores: Record<string, Record<string, unknown>>;
-  notes: string[];
 }
 /** What is shown at a moment, by the numbers in the chunks. */
 export interface Shown {
