@@ -134,6 +134,7 @@ setup(
             "MessageTable = webviz.panels.table:MessageTable",
             "MotionPlanningTasks = webviz.panels.planning_tasks:MotionPlanningTasks",
             "Nav2 = webviz.panels.nav2:Nav2",
+            "Parameters = webviz.panels.parameters:Parameters",
             "Plot = webviz.panels.plot:Plot",
             "RawMessage = webviz.panels.raw:RawMessage",
             "RvizVisualToolsGui = webviz.panels.visual_tools:RvizVisualToolsGui",

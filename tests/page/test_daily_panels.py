@@ -11,11 +11,12 @@ from tests.page.conftest import Loop, Tab
 from webviz.api.declared import make
 from webviz.api.panel import Panel
 from webviz.data.messages import decode, encode
-from webviz.engine.commands import Seek, SetPanelProperty
+from webviz.engine.commands import CallService, Seek, SetPanelProperty
 from webviz.engine.state import PanelTab, PanelTimes
 from webviz.panels.diagnostics import ARRAY, MAX_STATUSES, Diagnostics
 from webviz.panels.indicator import Indicator
 from webviz.panels.log import LOG, Log
+from webviz.panels.parameters import Parameters
 from webviz.panels.raw import RawMessage
 from webviz.panels.state_timeline import StateTimeline
 from webviz.panels.table import MessageTable
@@ -172,3 +173,29 @@ def test_a_message_is_a_tree_a_table_a_lamp_and_a_band(loop: Loop, tab: Tab) -> 
             (seek,) = loop.commands[-1:]
             assert isinstance(seek, Seek)
             assert 80 < seek.at_s < 90
+
+
+def calls(loop: Loop) -> list[CallService]:
+    """The services that were called."""
+    return [each for each in loop.commands if isinstance(each, CallService)]
+
+
+def test_a_parameter_is_set_by_enter(loop: Loop, tab: Tab) -> None:
+    panel = make(Parameters, {"node": "/base"})
+    open_panel(
+        loop, tab, panel, offers=offered(parameter_events="rcl_interfaces/msg/ParameterEvent")
+    )
+    tab.wait_for(lambda: calls(loop)[-1:])
+    assert calls(loop)[-1].service == "/base/list_parameters"
+    row = {"range": "0 to 2", "about": HOSTILE, "locked": False}
+    panel.known = {f"speed_{i}": {"kind": 3, "value": 0.5, **row} for i in range(300)}
+    field = tab.page.get_by_role("textbox", name="speed_1", exact=True)
+    tab.wait_for(lambda: field.count() == 1)
+    assert "double · 0 to 2 · " in tab.text()
+    field.fill("1e3")
+    field.press("Enter")
+    tab.wait_for(lambda: calls(loop)[-1].service == "/base/set_parameters")
+    value = {"type": 3, "double_value": 1000.0}
+    assert calls(loop)[-1].request == {"parameters": [{"name": "speed_1", "value": value}]}
+    panel.refused = {"speed_1": "Too fast."}
+    tab.wait_for(lambda: "Too fast." in tab.text())

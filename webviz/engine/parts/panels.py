@@ -31,6 +31,12 @@ from webviz.engine.state import PanelTab
 from webviz.files.config import MAX_PLUGINS, ConfigError, mistakes, nearest, sentences
 from webviz.sources import Advertisement, Subscriber, Subscription, merged
 
+READING = frozenset(
+    f"rcl_interfaces/srv/{name}"
+    for name in ("DescribeParameters", "GetParameters", "GetParameterTypes", "ListParameters")
+)
+"""Types of services that change nothing, which need no right."""
+
 
 class PanelsPart(Part):
     """All panels of plug-ins. What is drawn of them is known to the pages alone."""
@@ -173,7 +179,9 @@ class PanelsPart(Part):
         except ValueError as error:  # the name, the type or a value
             raise ConfigError(f"Not called: {error}") from error
 
-        sent = self.core.gate.call(name, command.type, request, command.timeout_s)
+        gate = self.core.gate
+        call = gate.query if command.type in READING else gate.call
+        sent = call(name, command.type, request, command.timeout_s)
         sent.add_done_callback(
             interfaces.taker(name, parts.response, command.answered, command.failed)
         )

@@ -1,0 +1,294 @@
+"""The panel Parameters: the parameters of a node, edited, saved and loaded."""
+
+from __future__ import annotations
+
+import functools
+import threading
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Any
+
+import msgspec
+
+from webviz.api.declared import Prop
+from webviz.api.errors import Error
+from webviz.api.panel import Panel, Send, Ui
+from webviz.data.names import readable
+from webviz.data.words import counted
+from webviz.engine.commands import CallService
+from webviz.panels.parameter_values import (
+    KINDS,
+    Value,
+    fitting,
+    flat,
+    of_node,
+    parse,
+    plain,
+    to_yaml,
+)
+from webviz.panels.yaml_text import inline, read_yaml
+
+EVENTS = "/parameter_events"
+"""Every node with parameters publishes here."""
+MAX_PARAMETERS = 1000
+MAX_TEXT = 300
+"""Characters of a value or description; longer values cannot be edited."""
+MAX_CHARACTERS = 200_000
+"""Of all that is shown."""
+MAX_STEPS = 100
+"""Changes that can be undone."""
+TIMEOUT_S = 5.0
+NOTHING = ""
+
+
+class Parameters(Panel):
+    """The parameters of a node, with types, ranges and descriptions."""
+
+    on_request = True
+    module = "parameters.js"
+
+    node: Annotated[str, Prop(help="Full name of the node, such as /controller_server.")] = ""
+    editable: Annotated[
+        list[str],
+        Prop(
+            help="Nodes whose parameters may be changed, as far as the config with which webviz "
+            "was started names them."
+        ),
+    ] = msgspec.field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        """Without parameters."""
+        self.lock = threading.Lock()
+        self.chosen = self.asked = self.node
+        self.known: dict[str, dict[str, Any]] = {}
+        self.steps: list[tuple[str, dict[str, tuple[int, Value]]]] = []
+        self.problem = self.outcome = ""
+        self.refused: dict[str, str] = {}
+
+    def build(self, ui: Ui, send: Send) -> None:
+        """The node and its parameters."""
+        self.send = send
+        self.nodes = ui.choice("Node", self.node, self.choose, "Node with parameters.")
+        self.list = ui.widget("parameters", {}, self.use)
+        self.asked = NOTHING
+
+    @property
+    def uses(self) -> tuple[str, ...]:
+        """The services that change parameters."""
+        nodes = dict.fromkeys([*self.editable])
+        return tuple(f"{node}/set_parameters" for node in nodes if node.startswith("/"))
+
+    def show(self, state: Any) -> None:
+        """Show the parameters, and ask for them if another node was chosen."""
+        offer = state.offers.get(EVENTS)
+        nodes = {each.node for each in offer.publishers if each.node} if offer else set[str]()
+        self.nodes.offer([NOTHING, *sorted(nodes)], self.chosen)
+        if self.asked != self.chosen:
+            self.refresh(None)
+        with self.lock:
+            self.list.show(self._shown())
+
+    def choose(self, node: str, browser: int | None) -> None:
+        """Show another node."""
+        with self.lock:
+            self.chosen = node
+            self.known, self.refused = {}, {}
+            self.problem = self.outcome = ""
+
+    def use(self, value: Any, browser: int | None) -> None:
+        """Do what a page asks: refresh, set one, undo, or load a file."""
+        if "set" in value:
+            name, text = value["set"]
+            with self.lock:
+                row = self.known.get(name)
+            if row is None:
+                raise Error(f"{str(name)[:100]} is not a parameter of this node any more.")
+            self.change({name: (row["kind"], parse(text, row["kind"]))}, browser)
+        elif "load" in value:
+            self.load(str(value["load"]), browser)
+        elif "undo" in value:
+            self.undo(browser)
+        else:
+            self.refresh(browser)
+
+    def refresh(self, browser: int | None) -> None:
+        """Ask the node for its parameters."""
+        self.asked = node = self.chosen
+        if not node:
+            return
+        self._call(
+            "list_parameters", "ListParameters", {"depth": 0}, self._take_names, browser, node
+        )
+
+    def load(self, text: str, browser: int | None) -> None:
+        """Change what a YAML text says of this node, as `ros2 param load` does."""
+        found = flat(of_node(read_yaml(text), self.chosen))
+        with self.lock:
+            known = {name: row["kind"] for name, row in self.known.items()}
+        changes = {
+            name: (known[name], fitting(value, known[name]))
+            for name, value in found.items()
+            if name in known
+        }
+        if unknown := [name for name in found if name not in known]:
+            self.outcome = f"Unknown parameters were skipped: {', '.join(unknown[:5])[:200]}."
+        if not changes:
+            raise Error("The file has no parameter of this node. Choose another file or node.")
+        self.change(changes, browser)
+
+    def change(
+        self,
+        changes: Mapping[str, tuple[int, Value]],
+        browser: int | None,
+        *,
+        is_undo: bool = False,
+    ) -> None:
+        """Set parameters; what the node accepts can be undone."""
+        node = self.chosen
+        with self.lock:
+            before = {
+                name: (self.known[name]["kind"], self.known[name]["value"])
+                for name in changes
+                if name in self.known and self.known[name]["value"] is not None
+            }
+        parameters = [
+            {"name": name, "value": {"type": kind, KINDS[kind][1]: value}}
+            for name, (kind, value) in changes.items()
+        ]
+
+        def taken(response: Any) -> None:
+            results = dict(zip(changes, response.results, strict=False))
+            refused = {
+                name: readable(result.reason[:MAX_TEXT]) or "The node gave no reason."
+                for name, result in results.items()
+                if not result.successful
+            }
+            accepted = {name: before[name] for name in results.keys() & before.keys() - refused}
+            with self.lock:
+                self.refused = refused
+                if accepted and not is_undo:
+                    self.steps = [*self.steps, (node, accepted)][-MAX_STEPS:]
+                said = f"{counted(len(results) - len(refused), 'parameter')} set"
+                also = f", {len(refused)} refused by the node" if refused else ""
+                self.outcome = f"{said}{also}."
+            self.refresh(browser)
+
+        self._call(
+            "set_parameters", "SetParameters", {"parameters": parameters}, taken, browser, node
+        )
+
+    def undo(self, browser: int | None) -> None:
+        """Take back the newest change."""
+        with self.lock:
+            if not self.steps:
+                raise Error("There is nothing to undo.")
+            node, before = self.steps[-1]
+            if node != self.chosen:
+                raise Error(f"The newest change is of {node}. Choose that node first.")
+            self.steps = self.steps[:-1]
+        self.change(before, browser, is_undo=True)
+
+    def _shown(self) -> dict[str, Any]:
+        rows: list[dict[str, Any]] = []
+        size = 0
+        for name, row in self.known.items():
+            value = row["value"]
+            text = value if isinstance(value, str) else "" if value is None else inline(value)
+            shown = {
+                "name": name,
+                "kind": KINDS.get(row["kind"], ("not set", ""))[0],
+                "text": text[:MAX_TEXT],
+                "range": row["range"],
+                "about": row["about"],
+                "locked": row["locked"] or value is None or len(text) > MAX_TEXT,
+                "refused": self.refused.get(name, ""),
+            }
+            size += sum(len(str(each)) for each in shown.values())
+            if size > MAX_CHARACTERS:
+                break
+            rows.append(shown)
+        rest = len(self.known) - len(rows)
+        note = f"{counted(rest, 'parameter')} more." if rest else ""
+        yaml = to_yaml(self.chosen, self.known) if rows else ""
+        return {
+            "node": self.chosen,
+            "rows": rows,
+            "note": note,
+            "problem": self.problem or ("" if self.chosen else "Choose a node."),
+            "outcome": self.outcome,
+            "undo": len(self.steps),
+            "yaml": yaml if len(yaml) < MAX_CHARACTERS else "",
+        }
+
+    def _take_names(self, response: Any) -> None:
+        node = self.asked
+        names = sorted(response.result.names)[:MAX_PARAMETERS]
+        with self.lock:
+            self.problem = "" if names else "This node has no parameters."
+        described = functools.partial(self._take_descriptions, node, names)
+        self._call(
+            "describe_parameters", "DescribeParameters", {"names": names}, described, None, node
+        )
+
+    def _take_descriptions(self, node: str, names: Sequence[str], response: Any) -> None:
+        about = dict(zip(names, response.descriptors, strict=False))
+        taken = functools.partial(self._take_values, node, names, about)
+        self._call("get_parameters", "GetParameters", {"names": list(names)}, taken, None, node)
+
+    def _take_values(
+        self, node: str, names: Sequence[str], about: Mapping[str, Any], response: Any
+    ) -> None:
+        known = {}
+        for name, value in zip(names, response.values, strict=False):
+            descriptor = about.get(name)
+            kind = int(value.type)
+            known[readable(name)] = {
+                "kind": kind,
+                "value": plain(value, kind),
+                "range": _range(descriptor),
+                "about": _about(descriptor),
+                "locked": bool(descriptor is not None and descriptor.read_only),
+            }
+        with self.lock:
+            if node == self.chosen:
+                self.known = known
+
+    def _call(
+        self,
+        service: str,
+        type_: str,
+        request: Mapping[str, Any],
+        answered: Any,
+        browser: int | None,
+        node: str,
+    ) -> None:
+        def failed(reason: str) -> None:
+            with self.lock:
+                self.problem = reason
+
+        self.send(
+            CallService(
+                f"{node}/{service}",
+                f"rcl_interfaces/srv/{type_}",
+                request,
+                answered=answered,
+                failed=failed,
+                timeout_s=TIMEOUT_S,
+            ),
+            browser,
+        )
+
+
+def _range(descriptor: Any) -> str:
+    if descriptor is None:
+        return ""
+    for each in [*descriptor.floating_point_range, *descriptor.integer_range]:
+        step = f", step {each.step:g}" if each.step else ""
+        return f"{each.from_value:g} to {each.to_value:g}{step}"
+    return ""
+
+
+def _about(descriptor: Any) -> str:
+    if descriptor is None:
+        return ""
+    texts = (descriptor.description, descriptor.additional_constraints)
+    return readable(" ".join(filter(None, texts))[:MAX_TEXT])
