@@ -23,7 +23,7 @@ from webviz.server.access.roles import LINKS, Role
 
 ANSWER_S = 20.0
 """In which the viewer must answer whatever else it is sent; a busy machine takes seconds."""
-MEMORY_MB = 1500.0
+MEMORY_MB = 1750.0
 """Of the viewer, its simulator and what reads meshes for it; 450 MB when nothing happens."""
 INTERNAL = re.compile(r"^.*(?:Traceback|[Ii]nternal (?:server )?error|handler failed).*$", re.M)
 """Lines of the log that an internal error leaves."""

@@ -19,6 +19,7 @@ from rosbags.rosbag2 import CompressionMode, StoragePlugin
 
 from webviz.data.messages import DecodeError, decode
 from webviz.data.recordings import open_recording
+from webviz.data.recordings.recording import END_MISSING, Losses
 from webviz.sources.bag.source import BagError, BagSource
 
 ZSTD = b"\x28\xb5\x2f\xfd"
@@ -428,3 +429,13 @@ def test_a_database_that_is_still_written_shows_what_it_had(tmp_path, opened, jo
         (remark,) = bag.source.remarks
         assert remark.startswith(f"{file.name} has no end: it is still being recorded, or ")
         recorder.rollback()
+
+
+def test_several_losses_name_the_reason_of_the_first():
+    losses = Losses("chunk", "incomplete", {0: "its checksum is wrong"})
+    assert str(losses) == "1 chunk is incomplete (its checksum is wrong)"
+    losses.skipped[9] = "its zstd data is damaged"
+    losses.others.append(END_MISSING)
+    assert str(losses) == (
+        "2 chunks are incomplete (the first because its checksum is wrong), and its end is missing"
+    )

@@ -146,8 +146,12 @@ class Losses:
         """All losses as a clause, "" without any."""
         parts = list(self.others)
         if count := len(self.skipped):
-            what = f"1 {self.unit} is" if count == 1 else f"{count} {self.unit}s are"
-            parts.insert(0, f"{what} {self.how} ({next(iter(self.skipped.values()))})")
+            reason = next(iter(self.skipped.values()))
+            if count == 1:
+                lost = f"1 {self.unit} is {self.how} ({reason})"
+            else:
+                lost = f"{count} {self.unit}s are {self.how} (the first because {reason})"
+            parts.insert(0, lost)
         return ", and ".join(parts)
 
 

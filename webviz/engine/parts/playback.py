@@ -138,6 +138,11 @@ class PlaybackPart(Part):
         remarks = self._control.playback.remarks
         return {"Bag": Status(Level.WARN, joined(*remarks))} if remarks else {}
 
+    def close(self) -> None:
+        """Close the recording that is shown in the place of live topics."""
+        if self._switchable is not None and self._switchable.bag is not None:
+            self._switchable.bag.close()
+
     # Commands
 
     def _play(self, command: Play, sender: Sender) -> None:

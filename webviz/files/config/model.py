@@ -35,7 +35,7 @@ class MemorySettings(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     seconds: Annotated[float, Prop(ge=0, le=3600, unit="s", help="0 keeps nothing.")] = 60.0
     megabytes: Annotated[
         float, Prop(ge=0, le=65536, unit="MB", help="Total size of the messages.")
-    ] = 256.0
+    ] = 512.0
 
 
 class Settings(msgspec.Struct, forbid_unknown_fields=True):
