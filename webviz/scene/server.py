@@ -6,7 +6,7 @@ import functools
 import math
 import ssl
 import threading
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import viser
 import websockets.asyncio.server as websocket
@@ -38,6 +38,7 @@ def open_server(
     trusted_proxies: Iterable[str] = (),
     access: Access | None = None,
     link_rate: float | None = None,
+    embedders: Sequence[str] = (),
 ) -> Server:
     """Opens a server with an empty, lit scene.
 
@@ -50,6 +51,7 @@ def open_server(
         trusted_proxies: IP addresses or networks of proxies whose forwarded headers are used.
         access: knows who may connect; None for everybody.
         link_rate: bytes a second that the link to each browser takes; None to measure it.
+        embedders: origins of pages that may embed the page, such as "http://localhost:8888".
 
     Returns:
         The running server; `stop()` ends its threads and frees the port.
@@ -73,7 +75,7 @@ def open_server(
         page(modules.head),
     )
     begin = Expelling(access, limits).begin
-    guard = RequestGuard(listener, steps, limits, tls, channel, begin, link_rate)
+    guard = RequestGuard(listener, steps, limits, tls, channel, begin, link_rate, embedders)
     with _opening, replaced(websocket, "serve", functools.partial(guard.serve, websocket.serve)):
         server = Server(channel, modules, limits.close, host=host, port=port, verbose=False)
     greet(server, channel, modules)

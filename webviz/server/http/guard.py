@@ -47,6 +47,7 @@ class RequestGuard:
         channel: to the modules of the page.
         begin: called on the event loop before the first connection.
         rate: bytes a second that links to browsers are known to take; None to measure it.
+        embedders: origins of pages that may embed the page.
     """
 
     listener: Listener
@@ -56,6 +57,7 @@ class RequestGuard:
     channel: Channel
     begin: Callable[[asyncio.AbstractEventLoop], object]
     rate: float | None
+    embedders: Sequence[str] = ()
 
     def serve(
         self, serve: Callable[..., Any], handler: Any, host: str, port: int, **options: Any
@@ -111,7 +113,8 @@ class RequestGuard:
 
     def _finish(self, connection: Connection, _: Request, response: Response) -> None:
         if response.status_code != http.HTTPStatus.SWITCHING_PROTOCOLS:
-            add_policy(response.headers, connection.host, is_tls=self.tls is not None)
+            is_tls = self.tls is not None
+            add_policy(response.headers, connection.host, is_tls=is_tls, embedders=self.embedders)
         if connection.wants_head:
             response.body = b""
 

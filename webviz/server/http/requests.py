@@ -7,6 +7,7 @@ looks up any path on the disk. Hence the head of a request is checked before eit
 from __future__ import annotations
 
 import http
+from collections.abc import Sequence
 
 from websockets.datastructures import Headers
 from websockets.exceptions import SecurityError
@@ -37,6 +38,8 @@ UNUSED_FEATURES = (
 """Of browsers; the page needs gamepads, full screen and the clipboard."""
 HTTPS_ONLY_S = 30 * 86400
 """Duration of HSTS. It holds for all ports of a host, so it should pass one day."""
+
+NOBODY = "'none'"
 
 Refusal = tuple[http.HTTPStatus, str]
 
@@ -91,7 +94,9 @@ def is_upgrade(request: Request) -> bool:
     return "websocket" in (value.lower() for value in request.headers.get_all("Upgrade"))
 
 
-def add_policy(headers: Headers, host: str, *, is_tls: bool = False) -> None:
+def add_policy(
+    headers: Headers, host: str, *, is_tls: bool = False, embedders: Sequence[str] = ()
+) -> None:
     """Restricts the page to this server, and forbids to embed it in other pages.
 
     There are three exceptions, since viser's page is one file of inline scripts and styles, decodes
@@ -101,6 +106,7 @@ def add_policy(headers: Headers, host: str, *, is_tls: bool = False) -> None:
         headers: of the response.
         host: Host header of the request if it is valid, else "".
         is_tls: whether the server itself uses TLS.
+        embedders: origins of pages that may embed it after all.
     """
     websockets = f"ws://{host} wss://{host}" if host else ""
     headers["Content-Security-Policy"] = "; ".join(
@@ -114,10 +120,11 @@ def add_policy(headers: Headers, host: str, *, is_tls: bool = False) -> None:
             f"connect-src 'self' {websockets} data: blob:",
             "base-uri 'none'",
             "form-action 'none'",
-            "frame-ancestors 'none'",
+            f"frame-ancestors {' '.join(embedders) or NOBODY}",
         )
     )
-    headers["X-Frame-Options"] = "DENY"
+    if not embedders:  # which this older header cannot name
+        headers["X-Frame-Options"] = "DENY"
     headers["X-Content-Type-Options"] = "nosniff"
     headers["Referrer-Policy"] = "no-referrer"
     headers["Permissions-Policy"] = ", ".join(f"{feature}=()" for feature in UNUSED_FEATURES)

@@ -22,7 +22,7 @@ from webviz.files.config import Config
 from webviz.files.sessions import Sessions
 from webviz.server.access.login import cookie_name
 from webviz.server.access.visitors import Visitor
-from webviz.shell.app import starting
+from webviz.shell.app import notebook, starting
 from webviz.shell.app.allow_list import check_names, report_everything
 from webviz.shell.app.closing import Closing
 from webviz.shell.app.link_rate import bytes_per_second
@@ -74,6 +74,7 @@ class Running(PictureControls):
         token: bool = False,
         journal: str | os.PathLike[str] | None = None,
         control: bool = True,
+        embed_in: Sequence[str] | None = None,
         read: Callable[[Path | None, Source | None], Config] = read_config,
     ) -> None:
         with contextlib.ExitStack() as stack:
@@ -87,8 +88,9 @@ class Running(PictureControls):
             # Report errors in files before importing viser, which is slow.
             shown = None if path is None else read(path, None)
             tls = starting.tls_context(certfile, keyfile)
+            embedders = notebook.embedders(embed_in)
             server = self._open_server(
-                host, port, allow_hosts, tls, trust_proxies, token, link_rate
+                host, port, allow_hosts, tls, trust_proxies, token, link_rate, embedders
             )
             node_control = None
             if source is None:
@@ -143,6 +145,7 @@ class Running(PictureControls):
         trust_proxies: Sequence[str],
         token: bool,
         link_rate: float | None,
+        embedders: Sequence[str],
     ) -> Server:
         """Serve the page, with a scene that is still empty."""
         from webviz.scene import ViserScene, open_server
@@ -159,7 +162,10 @@ class Running(PictureControls):
             trusted_proxies=trust_proxies,
             access=self.access,
             link_rate=link_rate,
+            embedders=embedders,
         )
+        self.is_embeddable = bool(embedders)
+        """True if some pages may embed this one."""
         self._closing.add("The server of the page", server.stop)
         make_missing(self.access)  # until then, nobody can connect
         self._host, self.port = host, server.get_port()

@@ -30,6 +30,7 @@ from webviz.engine.commands import (
 )
 from webviz.files import config as config_file
 from webviz.files import opening
+from webviz.shell.app import notebook
 from webviz.shell.app.adding import by_topic, check_properties
 from webviz.shell.app.handles import DisplayHandle, NoSuchDisplay
 from webviz.shell.app.picture_controls import checked_view
@@ -76,6 +77,8 @@ class Viewer(Running, TimeControls):
         journal: file to which it is appended who published, saved and opened what; 1 MB, and as
             much before that in FILE.1.
         control: whether parameters and services of the ROS node may change the viewer.
+        embed_in: origins of pages that may embed the page, such as "http://localhost:8888"; None
+            for notebooks of this machine, if this is one.
         read: reads a config file; called with None for the default config of a source.
 
     Raises:
@@ -91,6 +94,10 @@ class Viewer(Running, TimeControls):
 
     def __repr__(self) -> str:
         return f"<webviz.Viewer at {self.url}>"
+
+    def _repr_html_(self) -> str:
+        """The page, for notebooks whose cell ends with the viewer."""
+        return notebook.html(self.url, self.access, self.is_embeddable)
 
     # State
 

@@ -1,0 +1,69 @@
+"""Viewers in notebooks: embedded by pages that may, in a real browser, and by no others."""
+
+from __future__ import annotations
+
+import functools
+import http.server
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+import webviz
+from webviz.shell.app.notebook import OF_NOTEBOOKS, embedders
+from webviz.shell.pictures.browser import launched
+from webviz.shell.testing.source import HandFedSource
+
+Refused = Callable[[Callable[[], object]], str]
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Iterator[tuple[Path, int]]:
+    """A folder of pages that are served, and the port."""
+    handler = functools.partial(http.server.SimpleHTTPRequestHandler, directory=str(tmp_path))
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
+    thread = threading.Thread(target=server.serve_forever)
+    thread.start()
+    yield tmp_path, server.server_port
+    server.shutdown()
+    thread.join()
+    server.server_close()
+
+
+def test_a_page_that_may_embeds_the_viewer_and_others_do_not(folder: tuple[Path, int]) -> None:
+    path, port = folder
+    origin = f"http://localhost:{port}"
+    with (
+        webviz.Viewer(port=0, source=HandFedSource(), embed_in=(origin,), token=True) as shown,
+        webviz.Viewer(port=0, source=HandFedSource(), embed_in=()) as closed,
+        launched() as browser,
+    ):
+        (path / "open.html").write_text(shown._repr_html_())
+        (path / "closed.html").write_text(f"<iframe src={closed.url!r}></iframe>")
+        page = browser.new_page()
+        page.goto(f"{origin}/open.html")
+        frame = page.wait_for_selector("iframe")
+        assert frame is not None
+        inside = frame.content_frame()
+        assert inside is not None
+        inside.wait_for_function("window.webviz?.hasView()", timeout=60_000)
+        page.goto(f"{origin}/closed.html")
+        page.wait_for_function("window.length === 1")
+        assert all("chrome-error" in each.url for each in page.frames[1:])
+        assert "<iframe" not in closed._repr_html_()
+        assert closed.url in closed._repr_html_()
+    assert "?watch=" in shown._repr_html_(), "what is saved with a notebook lets nobody act"
+
+
+def test_a_viewer_in_a_notebook_may_be_embedded_by_it(
+    monkeypatch: pytest.MonkeyPatch, refused: Refused
+) -> None:
+    assert embedders(None) == ()
+    monkeypatch.setitem(sys.modules, "ipykernel", ModuleType("ipykernel"))
+    assert embedders(None) == OF_NOTEBOOKS
+    assert embedders(()) == ()
+    for wrong in ("http://a b", "http://a; script-src *", "a.org", "'self'"):
+        assert "is not the origin of a page" in refused(lambda w=wrong: embedders((w,)))
