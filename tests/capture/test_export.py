@@ -276,3 +276,64 @@ def test_what_cannot_be_exported_is_one_sentence_and_no_file(
     assert sentence in said
     assert len(said.splitlines()) == 1
     assert list(tmp_path.iterdir()) == []
+
+
+EVIL = "</script><script>alert(1)</script><img src=x onerror=alert(2)>"
+HOSTILE = f"""\
+version: 1
+fixed_frame: map
+displays:
+- {{type: Image, topic: /image, name: "{EVIL}"}}
+- {{type: Marker, topic: /markers}}
+panels:
+- {{type: Plot, curves: ["/odom.pose.pose.position.x"]}}
+"""
+
+
+def hostile() -> Bag:
+    """Images, an odometry and markers whose texts are markup, every second one at no place."""
+    bag = Bag()
+    bag.add("/image", "sensor_msgs/msg/Image")
+    bag.add("/markers", "visualization_msgs/msg/Marker")
+    bag.add("/odom", "nav_msgs/msg/Odometry")
+    bag.transform(0, "map", EVIL[:30], static=True)
+    for step in range(20):
+        about = header("map", START_NS + ns(step / 10))
+        place = {"position": {"x": [step / 10, np.nan][step % 2]}, "orientation": {"w": 1.0}}
+        marker = {"ns": EVIL, "type": 9, "text": EVIL, "scale": {"z": 0.5}, "color": {"a": 1.0}}
+        bag.put(step / 10, "/markers", {"header": about, "pose": place, **marker})
+        bag.put(step / 10, "/odom", {"header": about, "pose": {"pose": place}})
+        pixels = np.full(12, 10 * step, np.uint8)
+        size = {"width": 2, "height": 2, "step": 6, "encoding": "rgb8"}
+        bag.put(step / 10, "/image", {"header": about, **size, "data": pixels})
+    return bag
+
+
+def test_images_and_plots_are_in_the_file_and_no_text_becomes_markup(
+    browser: playwright.Browser, tmp_path: Path
+) -> None:
+    hostile().write(tmp_path / "run")
+    (tmp_path / "lab.yaml").write_text(HOSTILE)
+    path = tmp_path / "run.html"
+    assert (
+        cli(["export", str(tmp_path / "run"), "-d", str(tmp_path / "lab.yaml"), "-o", str(path)])
+        == 0
+    )
+    assert b"onerror=alert" not in path.read_bytes()
+    context = browser.new_context(viewport=SIZE, offline=True)
+    page = context.new_page()
+    said: list[str] = []
+
+    def dismiss(dialog: playwright.Dialog) -> None:
+        said.append(dialog.message)
+        dialog.dismiss()
+
+    page.on("dialog", dismiss)
+    opened = OpenFile(page, path)
+    opened.seek(1.0)
+    stamp = (START_NS + ns(1.0)) / 1e9
+    expect(page.locator(f".wv-pane[data-stamp='{stamp:.0f}']")).to_have_count(1)
+    page.evaluate("document.getElementById('wv-tab-plugin-Plot').click()")
+    expect(page.locator(".wv-panel")).to_contain_text("/odom.pose.pose.position.x")
+    context.close()
+    assert said == []
