@@ -17,6 +17,7 @@ import pytest
 from webviz.data.transforms import TransformBuffer, diagnose
 from webviz.data.transforms.picture import draw_tree
 from webviz.shell.frames import pixels
+from webviz.shell.pictures import videos
 from webviz.shell.pictures.files import (
     OutputError,
     check,
@@ -24,6 +25,7 @@ from webviz.shell.pictures.files import (
     numbered,
     save,
     save_animation,
+    with_clock,
 )
 
 RED, BLUE = (255, 0, 0), (0, 0, 255)
@@ -148,3 +150,37 @@ def test_a_tree_of_frames_is_a_png(
         assert image.size == (picture.width, picture.height)
         colors = {color for _, color in image.convert("RGB").getcolors(1 << 16) or ()}
     assert {(255, 255, 255), (0xF6, 0xF8, 0xFA)} <= colors
+
+
+def test_a_clock_is_written_into_the_lower_left_corner():
+    shown = np.asarray(with_clock(plain(BLUE, (640, 360)), "12.40 s"))
+    assert (shown[:300] == BLUE).all()
+    assert (shown[:, 300:] == BLUE).all()
+    assert (shown != BLUE).any(axis=2).sum() > 200
+
+
+def test_a_video_has_all_pictures(tmp_path):
+    name, reason = videos.encoder()
+    if not name:
+        pytest.skip(f"{reason}: no video can be made")
+    path = tmp_path / "a.mp4"
+    videos.save_video((plain(RED, (41, 31)) for _ in range(5)), path, 10.0, name)
+    data = path.read_bytes()
+    assert b"ftyp" in data[:32]
+    assert os.listdir(tmp_path) == [path.name]
+
+
+def test_a_video_that_ffmpeg_cannot_make_leaves_nothing(tmp_path):
+    name, reason = videos.encoder()
+    if not name:
+        pytest.skip(f"{reason}: no video can be made")
+
+    def broken():
+        yield plain(RED)
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        videos.save_video(broken(), tmp_path / "a.mp4", 10.0, name)
+    with pytest.raises(OutputError, match="ffmpeg failed"):
+        videos.save_video(iter([plain(RED)]), tmp_path / "no" / "a.mp4", 10.0, name)
+    assert os.listdir(tmp_path) == []

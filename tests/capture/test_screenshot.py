@@ -282,3 +282,12 @@ def test_a_browser_that_dies_midway_is_one_sentence(run, tmp_path, start: Callab
     assert program.output().count("\n") == 1
     assert os.listdir(tmp_path) == []
     assert left_of(family) == []
+
+
+def test_a_video_is_a_webp_where_there_is_no_ffmpeg(run, tmp_path, screenshot, monkeypatch):
+    monkeypatch.setattr("webviz.shell.pictures.videos.shutil.which", lambda name: None)
+    result = screenshot("--bag", str(run), "--every", "2", "--clock", "-o", "a.mp4", *SMALL)
+    assert result.errors.startswith("webviz: a.webp instead of a video, since ffmpeg is not inst")
+    assert result.output.startswith("webviz: wrote a.webp, 4 pictures")
+    with PIL.Image.open(tmp_path / "a.webp") as image:
+        assert len(list(PIL.ImageSequence.Iterator(image))) == 4

@@ -6,7 +6,9 @@ import contextlib
 import logging
 import math
 import sys
-from collections.abc import Iterator, Sequence
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -107,6 +109,12 @@ def _write(options: ScreenshotOptions, order: Order) -> int:
     path: Path = options.output
     times, views = len(order.positions()), len(order.looks())
     report = _Report()
+    clock = _clock(order) if options.clock else None
+
+    def image_of(picture: Picture) -> PIL.Image.Image:
+        image = PIL.Image.fromarray(picture.pixels)
+        return image if clock is None else picture_files.with_clock(image, clock(picture))
+
     if options.is_animation and views > 1:
         raise OutputError("An animation shows one view. Give one --view or another extension.")
     columns = views if min(times, views) > 1 else math.ceil(math.sqrt(times * views))
@@ -115,19 +123,18 @@ def _write(options: ScreenshotOptions, order: Order) -> int:
     with contextlib.closing(pictures(order)) as made:
         checked = report.follow(made)
         if options.contact_sheet:
-            captioned = [(_caption(picture), _image(picture)) for picture in checked]
+            captioned = [(_caption(picture), image_of(picture)) for picture in checked]
             picture_files.save(picture_files.contact_sheet(captioned, columns), path)
             written = [path]
         elif options.is_animation:
-            images = (_image(picture) for picture in checked)
-            picture_files.save_animation(images, path, options.fps or FPS)
-            written = [path]
+            images = (image_of(picture) for picture in checked)
+            written = [_save_animation(images, path, options.fps or FPS)]
         else:
             written = []
             for number, picture in enumerate(checked):
                 index = number // views if times > 1 else None
                 name = picture_files.numbered(path, picture.view, index, times)
-                picture_files.save(_image(picture), name)
+                picture_files.save(image_of(picture), name)
                 written.append(name)
     width, height = report.size
     names = f"{written[0]}" if len(written) == 1 else f"{written[0]} to {written[-1]}"
@@ -196,8 +203,37 @@ def _caption(picture: Picture) -> str:
     return "   ".join(filter(None, (picture.view, time)))
 
 
-def _image(picture: Picture) -> PIL.Image.Image:
-    return PIL.Image.fromarray(picture.pixels)
+def _clock(order: Order) -> Callable[[Picture], str]:
+    """Returns the line of a picture's time: seconds of a bag, and the local date and time."""
+    from webviz.sources.bag.source import BagSource
+
+    source = order.source
+    start_ns = source.start_ns if isinstance(source, BagSource) else 0
+
+    def text(picture: Picture) -> str:
+        at_s = picture.at_s
+        when = time.time() if at_s is None else start_ns / 1e9 + at_s
+        date = datetime.fromtimestamp(when).isoformat(" ", "milliseconds")
+        return date if at_s is None else f"{at_s:.2f} s   {date}"
+
+    return text
+
+
+def _save_animation(images: Iterable[PIL.Image.Image], path: Path, fps: float) -> Path:
+    """Write an animation or a video; the file, which is a WebP if no video can be made."""
+    from webviz.shell.pictures.videos import encoder, save_video
+
+    if path.suffix.lower() not in picture_files.VIDEOS:
+        picture_files.save_animation(images, path, fps)
+        return path
+    name, reason = encoder()
+    if name:
+        save_video(images, path, fps, name)
+        return path
+    path = path.with_suffix(".webp")
+    print(f"webviz: {path} instead of a video, since {reason}.", file=sys.stderr)
+    picture_files.save_animation(images, path, fps)
+    return path
 
 
 def _interrupt() -> None:

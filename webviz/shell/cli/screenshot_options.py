@@ -19,6 +19,7 @@ Examples:
   webviz screenshot -d lab.yaml --bag run.mcap --at 12.3 -o lab.png
   webviz screenshot -d lab.yaml --bag run --every 5 --contact-sheet -o run.png
   webviz screenshot -d lab.yaml --bag run --every 0.2 -o run.webp    animated
+  webviz screenshot -d lab.yaml --bag run --every 0.1 --clock -o run.mp4
   webviz screenshot --image /camera/image_raw --bag run --at 5 -o frame.png
   webviz screenshot -d a.rviz --bag run --map map.yaml --wait-for Map -o a.png
 
@@ -67,7 +68,7 @@ class ScreenshotOptions(ConfigOptions):
     """Options for the pictures to make."""
 
     output: Annotated[File, Parameter(alias="-o")]
-    """Picture to write (.png, .jpg, .webp, .gif); several get the view and a number as suffix."""
+    """File to write (.png, .jpg, .webp, .gif, .mp4); several get view and number as suffix."""
     size: Annotated[
         tuple[int, int] | None, Parameter(metavar="WxH", converter=_size, n_tokens=1)
     ] = None
@@ -80,6 +81,8 @@ class ScreenshotOptions(ConfigOptions):
     """Write the image of this topic alone, at its own size, instead of a config."""
     transparent: Flag = False
     """Make the background transparent (.png, .webp)."""
+    clock: Flag = False
+    """Write the time into each picture."""
     contact_sheet: Flag = False
     """Write all pictures to one file, with captions."""
     wait_for: Annotated[Repeatable[str], Parameter(metavar="DISPLAY")] = ()
@@ -98,7 +101,7 @@ class ScreenshotOptions(ConfigOptions):
     last: Annotated[Time | None, BAG, Parameter(name="--to")] = None
     """Time of the last picture of --every (default: end)."""
     fps: Annotated[Seconds | None, BAG, Parameter(metavar="N")] = None
-    """Frames per second of an animation: several times, in a .gif or .webp (default: 10)."""
+    """Frames per second of an animation: several times, in a .gif, .webp or .mp4 (default: 10)."""
     map: Annotated[Repeatable[Path], BAG, Parameter(metavar="FILE")] = ()
     """Add a map from a map_server YAML file, on /map in frame map (repeatable)."""
     transform: Annotated[
@@ -112,7 +115,7 @@ class ScreenshotOptions(ConfigOptions):
     def is_animation(self) -> bool:
         """Return whether the pictures become one animated file."""
         return (
-            self.output.suffix.lower() in picture_files.ANIMATIONS
+            self.output.suffix.lower() in (*picture_files.ANIMATIONS, *picture_files.VIDEOS)
             and not self.contact_sheet
             and (self.every is not None or len(self.at) > 1)
         )
@@ -146,4 +149,4 @@ def check(options: ScreenshotOptions, **_: Any) -> None:
     if options.every is None and (options.first, options.last) != (None, None):
         raise ValueError("--from and --to need --every.")
     if options.fps is not None and not options.is_animation:
-        raise ValueError("--fps needs an animation: several times, in a .gif or .webp file.")
+        raise ValueError("--fps needs an animation: several times, in a .gif, .webp or .mp4 file.")

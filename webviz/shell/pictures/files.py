@@ -18,6 +18,7 @@ from webviz.api.errors import Error
 
 STILLS = (".png", ".webp", ".jpg", ".jpeg", ".gif")
 ANIMATIONS = (".gif", ".webp")
+VIDEOS = (".mp4",)
 WITH_ALPHA = (".png", ".webp")
 CAPTION = 22
 """Height of the captions of a contact sheet in pixels."""
@@ -38,9 +39,11 @@ def check(path: Path, *, is_animation: bool, transparent: bool) -> None:
         OutputError: it cannot be used.
     """
     suffix = path.suffix.lower()
-    if suffix not in STILLS:
+    if suffix not in (*STILLS, *VIDEOS):
         raise OutputError(f"{path} has no supported image extension. Use {', '.join(STILLS)}.")
-    if is_animation and suffix not in ANIMATIONS:
+    if suffix in VIDEOS and not is_animation:
+        raise OutputError(f"A {suffix} file needs several times, such as --every 0.1.")
+    if is_animation and suffix not in (*ANIMATIONS, *VIDEOS):
         raise OutputError(f"{suffix} does not support animation. Use {' or '.join(ANIMATIONS)}.")
     if transparent and suffix not in WITH_ALPHA:
         raise OutputError(f"{suffix} does not support transparency. Use {' or '.join(WITH_ALPHA)}.")
@@ -77,6 +80,18 @@ def save_animation(images: Iterable[PIL.Image.Image], path: Path, fps: float) ->
             duration=round(1000 / fps),
             loop=0,
         )
+
+
+def with_clock(image: PIL.Image.Image, text: str) -> PIL.Image.Image:
+    """A picture with a line of text in its lower left corner, on a dark ground."""
+    image = image.copy()
+    draw = PIL.ImageDraw.Draw(image)
+    font = PIL.ImageFont.load_default(max(12, image.height // 36))
+    place = GAP * 2, image.height - GAP * 2
+    left, top, right, bottom = draw.textbbox(place, text, font, "ld")
+    draw.rectangle((left - GAP, top - GAP, right + GAP, bottom + GAP), PAPER)
+    draw.text(place, text, INK, font, "ld")
+    return image
 
 
 def contact_sheet(pictures: Sequence[tuple[str, PIL.Image.Image]], columns: int) -> PIL.Image.Image:

@@ -1,6 +1,7 @@
 // Overlays that explain the scene: axes, scale, legend, what is under the mouse, rates.
 
 import { places } from "../shell/shell.js";
+import { videoButton } from "../shell/video.js";
 import * as gizmo from "./gizmo.js";
 import * as legend from "./legend.js";
 import * as pointer from "./pointer.js";
@@ -26,6 +27,7 @@ export function overlay(place, name, element) {
 export function install() {
   overlay("status", "rates", rates.build());
   overlay("status", "slow link", slowLink.build());
+  overlay("status", "video", videoButton());
   overlay("status", "gizmo", gizmo.build());
   overlay("pointer", "pointer", pointer.build());
   overlay("legend", "legend", legend.build());

@@ -11,6 +11,7 @@ import { fold, openPanel } from "./layout.js";
 import { openPeople } from "./people.js";
 import { openReport } from "./report.js";
 import { setTheme } from "./theme.js";
+import { toggle } from "./video.js";
 
 /** @import {Command} from "./commands.js" */
 /** @import {MenuItem} from "./menu.js" */
@@ -50,6 +51,12 @@ export const actions = {
   yaml: { name: "Download as YAML", icon: "download", run: () => files.exportAs("yaml") },
   rviz: { name: "Download as .rviz", icon: "download", run: () => files.exportAs("rviz") },
   image: { name: "Save image", icon: "camera", group: "View", run: () => act("SaveImage") },
+  video: {
+    name: "Record or stop a video",
+    icon: "record",
+    group: "View",
+    run: () => toggle(),
+  },
   report: {
     name: "Report a bug…",
     icon: "file",

@@ -161,6 +161,7 @@ function menu(owner) {
     ...fileMenu(),
     null,
     item(actions.image),
+    item(actions.video),
     item(actions.fullscreen, { checked: document.fullscreenElement ? true : undefined }),
     item(actions.people),
     item(actions.doctor),

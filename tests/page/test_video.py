@@ -1,0 +1,32 @@
+"""Videos that the page records."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from playwright.sync_api import expect
+
+from tests.page.conftest import Tab
+
+SPIN = """() => {
+  const draw = () => { window.__viserMutable.requestRender?.(); requestAnimationFrame(draw); };
+  draw();
+}"""
+
+
+def test_a_video_of_the_scene_is_saved_by_the_browser(tab: Tab, tmp_path: Path) -> None:
+    tab.page.get_by_role("button", name="Menu", exact=True).click()
+    tab.page.get_by_role("menuitem", name="Record or stop a video").click()
+    stop = tab.page.get_by_role("button", name="Stop recording the video")
+    expect(stop).to_be_visible()
+    tab.page.evaluate(SPIN)
+    expect(stop).to_contain_text("Recording a video: ")
+    tab.wait_for(lambda: "· 0 kB" not in stop.inner_text())
+    with tab.page.expect_download() as found:
+        stop.click()
+    expect(stop).to_be_hidden()
+    path = tmp_path / found.value.suggested_filename
+    found.value.save_as(path)
+    assert path.suffix in (".mp4", ".webm")
+    head = path.read_bytes()[:64]
+    assert b"ftyp" in head or head.startswith(b"\x1a\x45\xdf\xa3")
