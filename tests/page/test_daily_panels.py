@@ -11,12 +11,13 @@ from tests.page.conftest import Loop, Tab
 from webviz.api.declared import make
 from webviz.api.panel import Panel
 from webviz.data.messages import decode, encode
-from webviz.engine.commands import CallService, Seek, SetPanelProperty
+from webviz.engine.commands import CallService, Publish, Seek, SetPanelProperty
 from webviz.engine.state import PanelTab, PanelTimes
 from webviz.panels.diagnostics import ARRAY, MAX_STATUSES, Diagnostics
 from webviz.panels.indicator import Indicator
 from webviz.panels.log import LOG, Log
 from webviz.panels.parameters import Parameters
+from webviz.panels.publish import PublishMessage
 from webviz.panels.raw import RawMessage
 from webviz.panels.state_timeline import StateTimeline
 from webviz.panels.table import MessageTable
@@ -199,3 +200,21 @@ def test_a_parameter_is_set_by_enter(loop: Loop, tab: Tab) -> None:
     assert calls(loop)[-1].request == {"parameters": [{"name": "speed_1", "value": value}]}
     panel.refused = {"speed_1": "Too fast."}
     tab.wait_for(lambda: "Too fast." in tab.text())
+
+
+def test_a_form_publishes_what_was_entered(loop: Loop, tab: Tab) -> None:
+    panel = make(PublishMessage, {"topic": "/name", "presets": {"greeting": "data: hello"}})
+    open_panel(loop, tab, panel, topics={"/name": ("std_msgs/msg/String",)})
+    field = tab.page.get_by_role("textbox", name="data", exact=True)
+    tab.wait_for(lambda: field.count() == 1)
+    tab.page.get_by_label("History and presets").select_option("greeting")
+    yaml = tab.page.get_by_label("YAML")
+    tab.wait_for(lambda: yaml.input_value() == "data: hello")
+    field.fill(HOSTILE)
+    field.press("Enter")
+    tab.wait_for(lambda: HOSTILE in yaml.input_value())
+    tab.button("Publish").click()
+    tab.wait_for(lambda: isinstance(loop.commands[-1], Publish))
+    assert [each.values for each in loop.commands if isinstance(each, Publish)] == [
+        {"data": HOSTILE}
+    ]

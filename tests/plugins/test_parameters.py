@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from webviz.api.errors import Error
-from webviz.data.messages import message_class
+from webviz.data.messages import encode, interfaces, message_class
 from webviz.engine.commands import CallService
 from webviz.engine.state import State
 from webviz.page.recorded_ui import RecordedUi
@@ -45,6 +45,7 @@ class Node:
 
     def __call__(self, command: Any, browser: int | None = None) -> None:
         self.sent.append(command)
+        encode(interfaces.service(command.type).request, command.request)
         service = command.service.rpartition("/")[2]
         request: Mapping[str, Any] = command.request
         if service == "list_parameters":

@@ -29,9 +29,20 @@ moveit_msgs/PlanningScene scene""",
     "moveit_task_constructor_msgs/srv/GetSolution": """uint32 solution_id
 ---
 moveit_task_constructor_msgs/Solution solution""",
+    "rcl_interfaces/srv/DescribeParameters": """string[] names
+---
+rcl_interfaces/ParameterDescriptor[] descriptors""",
     "rcl_interfaces/srv/GetParameters": """string[] names
 ---
 rcl_interfaces/ParameterValue[] values""",
+    "rcl_interfaces/srv/ListParameters": """uint64 DEPTH_RECURSIVE=0
+string[] prefixes
+uint64 depth
+---
+rcl_interfaces/ListParametersResult result""",
+    "rcl_interfaces/srv/SetParameters": """rcl_interfaces/Parameter[] parameters
+---
+rcl_interfaces/SetParametersResult[] results""",
     "slam_toolbox/srv/Pause": """---
 bool status""",
     "slam_toolbox/srv/ToggleInteractive": "---",

@@ -1,0 +1,155 @@
+"""The panels that publish, call and send goals, without a browser."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from bench import Bench
+
+from webviz.api.errors import Error
+from webviz.data.messages import encode
+from webviz.engine.commands import (
+    AddPanel,
+    CallService,
+    OpenPanels,
+    Publish,
+    SendGoal,
+    SetPanelProperty,
+)
+from webviz.engine.state import PanelTab, State
+from webviz.page.recorded_ui import RecordedUi
+from webviz.panels.calling import ActionGoal, ServiceCall
+from webviz.panels.publish import PublishMessage
+from webviz.panels.sending import HISTORY, MAX_PRESETS, fields_of, template
+from webviz.panels.yaml_text import MAX_CHARACTERS, write_yaml
+
+POSE, STRING = "geometry_msgs/msg/PoseStamped", "std_msgs/msg/String"
+TOPICS = {"/goal": (POSE,), "/name": (STRING,)}
+
+
+class Opened:
+    """A panel that is open on a viewer with two topics."""
+
+    def __init__(self, panel: Any) -> None:
+        self.panel, self.sent, self.ui = panel, list[Any](), RecordedUi()
+        panel.build(self.ui, lambda command, browser=None: self.sent.append(command))
+        self.show()
+
+    def show(self) -> dict[str, Any]:
+        tabs = (PanelTab("id", "Panel", self.panel),)
+        self.panel.show(State(topics=TOPICS, panels=tabs))
+        return dict(self.ui.widgets["0"].values["values"])
+
+
+def test_a_form_is_made_from_the_definition_and_follows_the_yaml() -> None:
+    opened = Opened(PublishMessage(topic="/goal"))
+    assert opened.show()["type"] == POSE
+    assert opened.show()["fields"][3] == {"path": "pose.position.x", "text": "0.0"}
+    opened.panel.use({"field": ["pose.position.x", "1.5"]}, 1)
+    opened.panel.use({"field": ["header.frame_id", "true"]}, 1)
+    assert "x: 1.5" in opened.show()["yaml"]
+    assert 'frame_id: "true"' in opened.show()["yaml"]
+    opened.panel.use({}, 1)
+    (publish,) = opened.sent
+    assert isinstance(publish, Publish)
+    assert publish.values["pose"]["position"]["x"] == 1.5
+    assert opened.show()["history"] == [opened.show()["yaml"]]
+    opened.panel.use({"reset": True}, 1)
+    assert "x: 0.0" in opened.show()["yaml"]
+
+
+@pytest.mark.parametrize(
+    ("yaml", "reason"),
+    [
+        ("data: 5", "data"),
+        ("text: x", "text"),
+        ("- 1", "Expected fields with values"),
+        ("data: &a [*a]", "Aliases"),
+        ("data: [", "not valid YAML"),
+        ("x" * (MAX_CHARACTERS + 1), "the limit is"),
+    ],
+)
+def test_what_does_not_fit_is_not_sent_and_stays_to_be_corrected(yaml: str, reason: str) -> None:
+    opened = Opened(PublishMessage(topic="/name"))
+    opened.panel.use({"yaml": yaml}, 1)
+    assert reason in opened.show()["problem"]
+    assert opened.show()["yaml"] == yaml
+    with pytest.raises(Error):
+        opened.panel.use({}, 1)
+    with pytest.raises(Error):
+        opened.panel.use({"repeat": True}, 1)
+    assert opened.sent == []
+
+
+def test_presets_are_properties_and_history_is_bounded() -> None:
+    opened = Opened(PublishMessage(topic="/name", presets={"hello": "data: hello"}))
+    opened.panel.use({"preset": "hello"}, 1)
+    assert opened.show()["fields"] == [{"path": "data", "text": "hello"}]
+    opened.panel.use({"keep": "again"}, 1)
+    presets = {"hello": "data: hello", "again": "data: hello"}
+    assert opened.sent.pop() == SetPanelProperty("id", "presets", presets)
+    opened.panel.presets = {str(i): "" for i in range(MAX_PRESETS)}
+    for refused in ("more", " "):
+        with pytest.raises(Error):
+            opened.panel.use({"keep": refused}, 1)
+    for i in range(3 * HISTORY):
+        opened.panel.use({"yaml": f"data: '{i}'"}, 1)
+        opened.panel.use({}, 1)
+    assert len(opened.show()["history"]) == HISTORY
+
+
+def test_a_message_repeats_until_it_is_stopped_or_nobody_looks(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    opened = Opened(PublishMessage(topic="/name", rate=0.001))
+    opened.panel.use({"repeat": True}, 1)
+    for _ in range(5):
+        assert opened.show()["repeats"]
+    assert [type(each) for each in opened.sent] == [Publish]
+    monkeypatch.setattr("webviz.panels.publish.PAUSE_S", -1.0)
+    assert not opened.show()["repeats"]
+
+
+def test_a_service_and_an_action_have_forms_of_their_requests() -> None:
+    call = Opened(ServiceCall(service="/light", service_type="std_srvs/srv/SetBool"))
+    call.panel.use({"field": ["data", "true"]}, 1)
+    call.panel.use({}, 1)
+    (sent,) = call.sent
+    assert isinstance(sent, CallService)
+    assert (sent.service, sent.request) == ("/light", {"data": True})
+    sent.failed("Nobody answers.")
+    assert call.show()["outcome"] == "Nobody answers."
+    goal = Opened(ActionGoal(action="/undock", action_type="nav2_msgs/action/UndockRobot"))
+    goal.panel.use({"field": ["max_undocking_time", "1"]}, 1)
+    goal.panel.use({}, 1)
+    assert isinstance(goal.sent[0], SendGoal)
+    for panel in (
+        ServiceCall(service_type="no/srv/Such"),
+        ActionGoal(action_type="no/action/Such"),
+    ):
+        assert "No definition of no/" in Opened(panel).show()["outcome"]
+        with pytest.raises(Error, match="message type is unknown"):
+            panel.use({}, 1)
+
+
+@pytest.mark.parametrize(
+    "type_", [POSE, "sensor_msgs/msg/CameraInfo", "moveit_msgs/msg/PlanningScene"]
+)
+def test_the_defaults_of_a_form_can_be_sent(type_: str) -> None:
+    values = template(type_)
+    assert encode(type_, values) == encode(type_)
+    assert len(write_yaml(values)) < MAX_CHARACTERS
+    assert fields_of(values)
+
+
+def test_nothing_is_published_to_a_read_only_source(
+    bench: Callable[..., Bench],
+) -> None:
+    b = bench()
+    b.do(AddPanel("PublishMessage", {"topic": "/cmd", "message_type": STRING}))
+    b.do(OpenPanels(frozenset({"PublishMessage"})))
+    said: list[str] = []
+    b.do(Publish("/cmd", STRING, {}, report=lambda status: said.append(status.text)))
+    assert said == ["This source can only be read."]

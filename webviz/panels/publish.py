@@ -1,0 +1,90 @@
+"""The panel Publish: a message on any topic that may be published, once or at a rate."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Mapping
+from typing import Annotated, Any
+
+from webviz.api.declared import Prop
+from webviz.api.errors import Error
+from webviz.api.panel import Send, Ui
+from webviz.api.status import Status
+from webviz.engine.commands import Publish
+from webviz.panels.sending import SendingPanel
+
+MAX_RATE_HZ = 10.0
+"""Panels are shown a few times a second, and publish then."""
+PAUSE_S = 2.0
+"""A panel that nobody has looked at for so long stops publishing."""
+
+
+class PublishMessage(SendingPanel):
+    """A message that is published on a topic, once or at a rate while the tab is open."""
+
+    title = "Publish"
+    on_request = True
+    module = "sending.js"
+    target = "topic"
+
+    topic: Annotated[str, Prop(help="Topic to publish on.")] = ""
+    message_type: Annotated[str, Prop(help="Message type; empty for that of the topic.")] = ""
+    rate: Annotated[
+        float, Prop(ge=0, le=MAX_RATE_HZ, unit="Hz", help="Messages per second while it repeats.")
+    ] = 1.0
+
+    def build(self, ui: Ui, send: Send) -> None:
+        """The form."""
+        self.build_form(ui, send)
+        self.is_repeating = False
+        self.sender: int | None = None
+        self.next_s = self.shown_s = 0.0
+        self.known = ""
+
+    def publications(self) -> Mapping[str, str]:
+        """The topic."""
+        type_ = self.message_type or self.type_shown
+        return {self.topic: type_} if self.topic.startswith("/") and type_ else {}
+
+    def show(self, state: Any) -> None:
+        """Show the form, and publish if it is time."""
+        types = state.topics.get(self.topic, ())
+        type_ = self.message_type or (types[0] if types else "")
+        now_s = time.monotonic()
+        if now_s - self.shown_s > PAUSE_S:
+            self.is_repeating = False
+        self.shown_s = now_s
+        if self.is_repeating and now_s >= self.next_s:
+            self.next_s = now_s + (1.0 / self.rate if self.rate > 0 else math.inf)
+            self._publish_or_stop()
+        topics = sorted(name for name, found in state.topics.items() if found)[:2000]
+        form = {"verb": "Publish", "name": self.topic, "label": "Topic", "names": topics}
+        self.show_form(state, type_, {**form, "repeats": self.is_repeating, "rate": self.rate})
+
+    def act(self, value: Any, browser: int | None) -> None:
+        """Publish once, or begin or end to repeat."""
+        self.sender = browser
+        if "repeat" in value:
+            if not value["repeat"]:
+                self.is_repeating = False
+                return
+            self.values()
+            self.is_repeating, self.next_s = True, 0.0
+        else:
+            self._publish()
+
+    def _publish_or_stop(self) -> None:
+        try:
+            self._publish()
+        except Error as error:
+            self.is_repeating = False
+            self.say(str(error))
+
+    def _publish(self) -> None:
+        values = self.values()
+        message = Publish(self.topic, self.type_shown, values, report=self._report)
+        self.send(message, self.sender)
+
+    def _report(self, outcome: Status) -> None:
+        self.say(outcome.text)

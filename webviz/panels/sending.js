@@ -1,0 +1,161 @@
+// The widget "form": fields of a message and its YAML, a button that sends it, history and presets.
+
+/** @import {Page} from "../page/web/extensions.js" */
+
+/**
+ * @typedef {{
+ *   verb: string, name: string, label: string, names: string[], type: string, yaml: string,
+ *   fields: {path: string, text: string}[], history: string[], presets: Record<string, string>,
+ *   problem: string, outcome: string, repeats?: boolean, rate?: number, response?: any,
+ * }} Form
+ */
+
+const RULES = `
+.wv-sending { display: grid; gap: 8px }
+.wv-sending textarea { min-height: 140px; resize: vertical; padding: 6px 8px; height: auto;
+  font: 12px/1.45 ui-monospace, "DejaVu Sans Mono", monospace; white-space: pre }
+.wv-sending-fields { display: grid; grid-template-columns: minmax(0, 1fr) minmax(0, 1fr); gap: 4px 8px; max-height: 40vh;
+  overflow: auto; align-items: center }
+.wv-sending-said[data-level="error"] { color: var(--wv-error) }
+`;
+
+let forms = 0;
+
+/** @param {Page} page */
+export default function install({ el, messageRows, set, setText, style, widget }) {
+  style("sending", RULES);
+  widget("form", (_, send) => {
+    forms += 1;
+    /** @type {Form | null} */
+    let shown = null;
+    const names = el("datalist", { id: `wv-sending-${forms}` });
+    /** @type {HTMLInputElement} */
+    const name = el("input", {
+      class: "wv-field",
+      type: "text",
+      list: names.id,
+      onchange: () => send({ name: name.value }),
+    });
+    const label = el("span", { class: "wv-quiet" });
+    const kind = el("div", { class: "wv-quiet" });
+    const fields = el("div", { class: "wv-sending-fields" });
+    /** @type {HTMLTextAreaElement} */
+    const yaml = el("textarea", {
+      class: "wv-field",
+      "aria-label": "YAML",
+      spellcheck: "false",
+      onchange: () => send({ yaml: yaml.value }),
+    });
+    const said = el("div", { class: "wv-sending-said", role: "status" });
+    const go = el("button", { type: "button", class: "wv-button", onclick: () => send({}) });
+    const repeat = el(
+      "button",
+      {
+        type: "button",
+        class: "wv-button",
+        onclick: () => send({ repeat: !shown?.repeats }),
+      },
+      "Repeat",
+    );
+    const reset = el(
+      "button",
+      { type: "button", class: "wv-button", onclick: () => send({ reset: true }) },
+      "Defaults",
+    );
+    const before = el("select", {
+      class: "wv-field",
+      "aria-label": "History and presets",
+      onchange: () => {
+        const [from, which] = [before.value[0], before.value.slice(1)];
+        if (from === "p") send({ preset: which });
+        else if (from === "h") send({ yaml: shown?.history[Number(which)] ?? "" });
+        before.value = "";
+      },
+    });
+    const keep = el("input", {
+      class: "wv-field",
+      type: "text",
+      placeholder: "Keep as preset",
+      "aria-label": "Name of a preset",
+      onchange: () => {
+        send({ keep: keep.value });
+        keep.value = "";
+      },
+    });
+    const response = messageRows({ label: "Response", topic: () => "" });
+    set(response.element, { hidden: true });
+
+    /** @param {Form} form */
+    function showFields(form) {
+      fields.replaceChildren(
+        ...form.fields.flatMap(({ path, text }) => {
+          /** @type {HTMLInputElement} */
+          const input = el("input", {
+            class: "wv-field",
+            type: "text",
+            "aria-label": path,
+            value: text,
+            onchange: () => send({ field: [path, input.value] }),
+          });
+          return [el("span", { class: "wv-ellipsis", "data-tip": path }, path), input];
+        }),
+      );
+    }
+
+    /** @param {Form} form */
+    function showBefore({ history, presets }) {
+      const options = [
+        el("option", { value: "" }, "History and presets"),
+        ...Object.keys(presets).map((each) => el("option", { value: `p${each}` }, each)),
+        ...history.map((text, i) => {
+          const line = text.replaceAll("\n", " ").slice(0, 60);
+          return el("option", { value: `h${i}` }, line);
+        }),
+      ];
+      before.replaceChildren(...options);
+    }
+
+    const element = el(
+      "div",
+      { class: "wv-sending" },
+      el("label", { class: "wv-plugin-line" }, label, name),
+      names,
+      kind,
+      fields,
+      yaml,
+      said,
+      el("div", { class: "wv-plugin-bar" }, go, repeat, reset),
+      el("div", { class: "wv-plugin-bar" }, before, keep),
+      response.element,
+    );
+    response.element.style.height = "200px";
+
+    /** @param {Form} form */
+    function update(form) {
+      if (!form.verb) return;
+      const old = shown;
+      shown = form;
+      setText(label, form.label);
+      set(name, { "aria-label": form.label });
+      if (document.activeElement !== name) name.value = form.name;
+      setText(kind, form.type || "Enter the message type in Properties.");
+      setText(go, form.verb);
+      setText(repeat, form.repeats ? "Stop" : `Repeat at ${form.rate} Hz`);
+      set(repeat, { hidden: form.rate === undefined, "aria-pressed": String(!!form.repeats) });
+      if (JSON.stringify(old?.names) !== JSON.stringify(form.names))
+        names.replaceChildren(...form.names.map((value) => el("option", { value })));
+      if (JSON.stringify(old?.fields) !== JSON.stringify(form.fields)) showFields(form);
+      if (old?.yaml !== form.yaml) yaml.value = form.yaml;
+      const isSame =
+        JSON.stringify([old?.history, old?.presets]) ===
+        JSON.stringify([form.history, form.presets]);
+      if (!old || !isSame) showBefore(form);
+      setText(said, form.problem || form.outcome);
+      set(said, { "data-level": form.problem ? "error" : null });
+      set(response.element, { hidden: !form.response });
+      response.show(form.response ?? null);
+    }
+
+    return { element, update, close: response.close };
+  });
+}

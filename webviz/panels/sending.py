@@ -1,0 +1,231 @@
+"""The base of panels that send a message: a form from its definition, YAML, history and presets."""
+
+from __future__ import annotations
+
+import itertools
+import threading
+from collections import deque
+from collections.abc import Iterator, Mapping
+from typing import Annotated, Any, ClassVar
+
+import msgspec
+
+from webviz.api.declared import Prop
+from webviz.api.errors import Error
+from webviz.api.panel import Panel, Send, Ui
+from webviz.data.messages import MessageError, encode, message_class, typestore
+from webviz.data.messages.classes import attribute
+from webviz.data.names import readable
+from webviz.engine.commands import SetPanelProperty
+from webviz.panels.yaml_text import inline, read_yaml, write_yaml
+
+MAX_DEPTH = 8
+"""Messages within messages that are written out."""
+MAX_FIELDS = 200
+"""Fields of the form."""
+MAX_FIXED = 100
+"""Elements of an array of fixed length that are written out."""
+HISTORY = 20
+MAX_PRESETS = 50
+DEFAULTS: Mapping[str, Any] = {
+    "bool": False,
+    "float32": 0.0,
+    "float64": 0.0,
+    "string": "",
+    "wstring": "",
+}
+"""Elements of arrays of primitives; those of all others are 0."""
+
+
+class SendingPanel(Panel):
+    """A panel with values of a message type, as a form and as YAML, which a button sends."""
+
+    target: ClassVar[str] = ""
+    """The property that names where it is sent."""
+
+    presets: Annotated[dict[str, str], Prop(help="Values as YAML, by the name of each preset.")] = (
+        msgspec.field(default_factory=dict)
+    )
+
+    def __post_init__(self) -> None:
+        """Without values."""
+        self.lock = threading.Lock()
+        self.id = ""
+        self.text = ""
+        self.type_shown = ""
+        self.fields: list[dict[str, str]] = []
+        self.history: deque[str] = deque(maxlen=HISTORY)
+        self.problem = ""
+        self.outcome = ""
+
+    def build_form(self, ui: Ui, send: Send) -> None:
+        """Add the form."""
+        self.send = send
+        self.form = ui.widget("form", {}, self.use)
+
+    def show_form(self, state: Any, type_: str, extra: Mapping[str, Any]) -> None:
+        """Show the form of a message type; `extra` is what else pages need."""
+        self.id = next((tab.id for tab in state.panels if tab.panel is self), "")
+        with self.lock:
+            if type_ != self.type_shown:
+                self.type_shown = type_
+                self._use_defaults()
+            values = {
+                "type": type_,
+                "yaml": self.text,
+                "fields": self.fields,
+                "history": list(self.history),
+                "presets": dict(list(self.presets.items())[:MAX_PRESETS]),
+                "problem": self.problem,
+                "outcome": self.outcome,
+                **extra,
+            }
+        self.form.show(values)
+
+    def use(self, value: Any, browser: int | None) -> None:
+        """Do what a page asks: another text or field, a preset, or sending."""
+        if "yaml" in value:
+            self.edit(str(value["yaml"]))
+        elif "field" in value:
+            path, text = value["field"]
+            self.edit_field(str(path), str(text))
+        elif "preset" in value:
+            self.edit(self.presets.get(str(value["preset"]), self.text))
+        elif "keep" in value:
+            name = readable(str(value["keep"]))[:60].strip()
+            if not name:
+                raise Error("The preset has no name. Enter one.")
+            presets = {**self.presets, name: self.text}
+            if len(presets) > MAX_PRESETS:
+                raise Error(f"There are {MAX_PRESETS} presets. Remove one in Properties first.")
+            self.send(SetPanelProperty(self.id, "presets", presets), browser)
+        elif "name" in value:
+            self.send(SetPanelProperty(self.id, self.target, str(value["name"])[:300]), browser)
+        elif "reset" in value:
+            with self.lock:
+                self._use_defaults()
+        else:
+            self.act(value, browser)
+
+    def act(self, value: Any, browser: int | None) -> None:
+        """Send; `value` says how."""
+        raise NotImplementedError
+
+    def edit(self, text: str) -> None:
+        """Take another text; one that does not fit is kept, with the reason."""
+        with self.lock:
+            self.text = text
+            self.problem = ""
+            try:
+                self.fields = fields_of(self._values())
+            except Error as error:
+                self.problem = str(error)
+
+    def edit_field(self, path: str, text: str) -> None:
+        """Change one field of the form."""
+        with self.lock:
+            values = self._values()
+        found = _assigned(values, path, text)
+        self.edit(write_yaml(found))
+
+    def values(self) -> Mapping[str, Any]:
+        """The values, checked.
+
+        Raises:
+            Error: the text is not YAML, or does not fit the type.
+        """
+        with self.lock:
+            values = self._values()
+            if self.text in self.history:
+                self.history.remove(self.text)
+            self.history.append(self.text)
+        return values
+
+    def say(self, outcome: str) -> None:
+        """Show what became of what was sent; from any thread."""
+        with self.lock:
+            self.outcome = outcome
+
+    def _values(self) -> Mapping[str, Any]:
+        values = read_yaml(self.text)
+        values = {} if values is None else values
+        if not isinstance(values, Mapping):
+            raise Error("Expected fields with values, such as `data: 5`.")
+        if not self.type_shown:
+            raise Error("The message type is unknown. Choose another name, or enter the type.")
+        try:
+            encode(self.type_shown, values)
+        except MessageError as error:
+            raise Error(str(error)) from None
+        return values
+
+    def _use_defaults(self) -> None:
+        self.problem = ""
+        self.text, self.fields = "", []
+        if not self.type_shown:
+            return
+        try:
+            values = template(self.type_shown)
+        except MessageError as error:
+            self.problem = str(error)
+        else:
+            self.text, self.fields = write_yaml(values), fields_of(values)
+
+
+def template(type_name: str) -> dict[str, Any]:
+    """The default values of a message type by field; sequences are empty.
+
+    Fields that are left out have their defaults, too: arrays of messages, and what is beyond
+    `MAX_DEPTH` and `MAX_FIELDS`.
+
+    Raises:
+        UnknownTypeError: no definition is known.
+    """
+    return _template(type_name, MAX_DEPTH, itertools.count())
+
+
+def _template(type_name: str, depth: int, made: Iterator[int]) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    defaults = message_class(type_name)()
+    for field in typestore.fields(type_name):
+        if next(made) >= MAX_FIELDS:
+            break
+        if field.is_message:
+            if field.size is None and depth > 0:
+                found[field.name] = _template(field.base, depth - 1, made)
+            elif field.size == 0:
+                found[field.name] = []
+            continue
+        if field.size is None:
+            found[field.name] = getattr(defaults, attribute(field.name))
+        elif field.size <= MAX_FIXED:
+            found[field.name] = [DEFAULTS.get(field.base, 0)] * field.size
+    return found
+
+
+def fields_of(values: Mapping[str, Any]) -> list[dict[str, str]]:
+    """The first fields of values as the form has them: paths and texts."""
+    return [
+        {"path": path, "text": text}
+        for (path, text), _ in zip(_leaves(values, ""), range(MAX_FIELDS), strict=False)
+    ]
+
+
+def _leaves(values: Mapping[str, Any], before: str) -> Iterator[tuple[str, str]]:
+    for key, value in values.items():
+        path = f"{before}{key}"
+        if isinstance(value, Mapping) and value:
+            yield from _leaves(value, f"{path}.")
+        else:
+            yield path, value if isinstance(value, str) else inline(value)
+
+
+def _assigned(values: Mapping[str, Any], path: str, text: str) -> dict[str, Any]:
+    """Values with another one at a path; texts stay texts."""
+    key, _, rest = path.partition(".")
+    if key not in values:
+        raise Error(f"`{path[:80]}` is not a field any more.")
+    before = values[key]
+    if rest and isinstance(before, Mapping):
+        return {**values, key: _assigned(before, rest, text)}
+    return {**values, key: text if isinstance(before, str) else read_yaml(text)}
