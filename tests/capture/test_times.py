@@ -47,6 +47,12 @@ def test_what_is_no_time_is_refused(text):
         read_at(text)
 
 
+@pytest.mark.parametrize("at", [float("nan"), float("inf")])
+def test_a_number_that_is_no_time_is_refused(at):
+    with pytest.raises(TimeError, match="is not a valid time"):
+        position_ns(at, Span(), "run.mcap")
+
+
 def test_times_at_equal_distances_end_where_they_should():
     assert every("start", 1, 0.25, Span(), "run") == [0, 0.25, 0.5, 0.75, 1]
     assert every(45, "end", 1, Span(), "run") == pytest.approx([45, 46])

@@ -186,6 +186,7 @@ def test_a_violated_condition_saves_what_led_to_it(make: Callable[..., Bench]) -
     bench = make(WatchRule(rule="Plan.status < error"))
     publish(bench, 1.0)
     bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
+    bench.clock += 2.0  # for another round of the doctor
     (path,) = saved(bench)
     assert path.name.endswith("_Plan_status_error")
 
@@ -199,6 +200,17 @@ def test_no_more_is_saved_than_the_limits_allow(make: Callable[..., Bench]) -> N
         "watch_limits.per_day."
     )
     assert not Path("webviz_black_box").exists()
+
+
+def test_a_recording_that_was_cut_off_is_listed(make: Callable[..., Bench]) -> None:
+    bench = make(WatchRule(display="Plan", status="error"))
+    publish(bench, 1.0)
+    bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
+    (path,) = saved(bench)
+    (path / "metadata.yaml").unlink()
+    bench.viewer.settings.watch = (WatchRule(topic="/none", rate="<1"),)
+    bench.do(Refresh())
+    assert saved(bench) == [path]
 
 
 def test_a_rule_about_a_display_that_is_not_there_says_so(make: Callable[..., Bench]) -> None:

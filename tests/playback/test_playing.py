@@ -26,6 +26,8 @@ from webviz.engine.commands import (
 )
 from webviz.engine.commands.requests import Refused
 from webviz.engine.playback import PlaybackControl
+from webviz.files.config import dump
+from webviz.files.opening import parse
 
 CONFIG = """\
 fixed_frame: map
@@ -189,6 +191,13 @@ def test_bookmarks_name_moments_and_can_be_undone(theater: Callable, bag: Bag) -
     assert shown_by("bookmarks", viewer.loop.state()) == {"all": [["later", 3.5]]}
     viewer.do(Undo())
     assert shown_by("bookmarks", viewer.loop.state()) == shown
+
+
+def test_bookmarks_are_saved_in_the_config(theater: Callable, bag: Bag) -> None:
+    viewer = theater(bag)
+    viewer.do(SaveBookmark("door opens", 1.5))
+    saved = parse(dump(viewer.loop.config()), "the config")
+    assert saved.settings.bookmarks == {"door opens": (START_NS + ns(1.5)) / 1e9}
 
 
 def test_bookmarks_are_read_from_a_config_and_those_of_other_recordings_kept(

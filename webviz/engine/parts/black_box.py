@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -35,6 +36,8 @@ FOLDER = "webviz_black_box"
 """In the working folder."""
 BEFORE_S, AFTER_S = 60.0, 10.0
 """Time around the moment at which a rule fires that is saved, as far as it is remembered."""
+PARTS = "metadata.yaml", "*.mcap"
+"""Of a recording; either may be missing if it was cut off or has no messages."""
 MOMENT = "%Y-%m-%d_%H-%M-%S"
 GIGABYTE = 10**9
 
@@ -254,8 +257,9 @@ class BlackBoxPart(Part):
 
 def _saved() -> tuple[SavedMoment, ...]:
     """The recordings in the folder, the newest first."""
-    found = []
-    for path in sorted(Path(FOLDER).absolute().glob("*/metadata.yaml"), reverse=True):
-        files = path.parent.iterdir()
-        found.append(SavedMoment(path.parent, sum(each.stat().st_size for each in files)))
-    return tuple(found)
+    files = itertools.chain(*(Path(FOLDER).absolute().glob(f"*/{name}") for name in PARTS))
+    paths = {file.parent for file in files}
+    return tuple(
+        SavedMoment(path, sum(each.stat().st_size for each in path.iterdir()))
+        for path in sorted(paths, reverse=True)
+    )

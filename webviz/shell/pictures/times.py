@@ -58,7 +58,7 @@ def position_ns(at: At, span: Span, name: str) -> int:
         name: of the bag, for errors.
 
     Raises:
-        TimeError: it is outside of the bag.
+        TimeError: it is invalid or outside of the bag.
     """
     if isinstance(at, str):
         at = read_at(at)
@@ -67,6 +67,8 @@ def position_ns(at: At, span: Span, name: str) -> int:
     if at == "end":
         return span.end_ns
     assert not isinstance(at, str)
+    if not math.isfinite(at):
+        raise TimeError(f"{at} is not a valid time. Give seconds, `start` or `end`.")
     offset_ns = span.start_ns if at < ABSOLUTE_S else 0
     wanted_ns = offset_ns + round(at * 1e9)
     # Unix times as floats are accurate to some hundred nanoseconds only.
