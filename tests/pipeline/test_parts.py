@@ -119,6 +119,7 @@ PARTS += [
     "Topics",
     "Transforms",
     "Views",
+    "What if",
 ]
 
 

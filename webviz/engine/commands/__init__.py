@@ -85,6 +85,7 @@ from webviz.engine.commands.views import (
     StartWithView,
     ViewCommand,
 )
+from webviz.engine.commands.what_if import EndTrial, FindFrame, TryFrame
 
 __all__ = [
     "MAX_PRIORITY",
@@ -98,8 +99,10 @@ __all__ = [
     "DismissGoal",
     "DragHandle",
     "DuplicateDisplay",
+    "EndTrial",
     "Export",
     "FileCommand",
+    "FindFrame",
     "FocusDisplay",
     "FocusFrame",
     "Identify",
@@ -159,6 +162,7 @@ __all__ = [
     "StepMessage",
     "StopRecording",
     "TraceDisplay",
+    "TryFrame",
     "Undo",
     "UseTool",
     "ViewCommand",

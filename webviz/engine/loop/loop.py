@@ -43,6 +43,7 @@ from webviz.engine.parts.tools import ToolsPart
 from webviz.engine.parts.topics import TopicsPart
 from webviz.engine.parts.transforms import TransformsPart
 from webviz.engine.parts.views import ViewsPart
+from webviz.engine.parts.what_if import WhatIfPart
 from webviz.engine.pipeline import Services, Workers
 from webviz.engine.pipeline.own_names import own_names
 from webviz.engine.pipeline.point_budget import PointBudget
@@ -150,7 +151,11 @@ class FrameLoop:
         first = [transforms, self._time, self._playback, self._displays, self._settings, views]
         others, history, kept = self._other_parts(config, path, views, memory, autosave, session)
         reports = ReportsPart(core, self._files, control, self._examined, lambda: self._shown)
-        last = [reports, *(make(core) for make in parts)]
+        last = [
+            reports,
+            WhatIfPart(core, self._displays, services),
+            *(make(core) for make in parts),
+        ]
         self._parts = Parts([*first, *others, *last], self._guard)
         self._do = history.noting(self._parts.do)
         self.doctor = Doctor(core, self._displays, waiting)

@@ -4,29 +4,54 @@ from __future__ import annotations
 
 import math
 import time
+from collections.abc import Collection
+from typing import NamedTuple
+
+import numpy as np
 
 from webviz.api.consistency import Fit, MapFit, OccupiedCells, RobotPath, ScanPoints
 from webviz.api.frames import compose, is_placeable, to_pose
 from webviz.api.nodes import Pose
 from webviz.api.status import Level, Measurement, Status
-from webviz.data.rotations import conjugate, matrices
+from webviz.data.rotations import conjugate, from_rpy, matrices
 from webviz.data.transforms import TransformException
 from webviz.data.transforms.reasons import in_words
 from webviz.engine.parts.display_list import DisplayList
 from webviz.engine.parts.part import Core
 from webviz.engine.pipeline import Runner
-from webviz.engine.state.consistency import C128, fit, in_the_way
+from webviz.engine.state.alignment import Correction, align, distances
+from webviz.engine.state.consistency import C128, NEAR_M, OCCUPIED, POINTS, fit, in_the_way, thinned
 
 EVERY_S = 1.0
 """Interval of the consistency check."""
+SOON_S = 0.15
+"""Interval while a frame is dragged."""
 ON_MAP, ON_WAY = "Map", "Obstacles"
 """Keys of the statuses of scans and of paths."""
 LEVEL = math.cos(math.radians(6.0))
 """A scanner that is tilted by more sees floors and ceilings."""
+FIND_REACH_M = 20.0
+"""Distance of the points of a scan that are aligned with the map."""
+FEWEST_ALIGNED = 40
 FEWEST = 3
 """Points that make an obstacle."""
 OLD_S = 3.0
 """Age of a path whose planner seems to have stopped."""
+
+
+class Aligned(NamedTuple):
+    """The pose of a sensor with which its scan lies on walls.
+
+    Args:
+        before, after: its pose in the frame of the map, as it is and as it would be.
+        map_frame: id of that frame.
+        stamp_ns: of the scan.
+    """
+
+    before: Pose
+    after: Pose
+    map_frame: str
+    stamp_ns: int
 
 
 class ConsistencyCheck:
@@ -41,6 +66,7 @@ class ConsistencyCheck:
         self._core = core
         self._displays = displays
         self._next = 0.0, 0.0
+        self._compared_s = 0.0
         self.fits: dict[str, MapFit] = {}
         """Of laser scans to the map, by id of their display."""
         self.blocked: dict[str, int] = {}
@@ -52,12 +78,56 @@ class ConsistencyCheck:
         if now[0] < self._next[0] and now[1] < self._next[1]:
             return
         self._next = now[0] + EVERY_S, now[1] + EVERY_S
+        self._compared_s = now[1]
         for runner in self._displays.runners():
             for key in (ON_MAP, ON_WAY):
                 runner.external_statuses.pop(key, None)
         self.fits, self.blocked = {}, {}
         if self._core.is_watched():
             self._compare()
+
+    def hurry(self) -> None:
+        """Compare soon: a frame has moved."""
+        self._next = self._next[0], self._compared_s + SOON_S
+
+    def aligned(self, frames: Collection[str]) -> Aligned | None:
+        """Align the scan of one of these frames with a map.
+
+        Returns:
+            Where the scan would lie on walls; None without scan or map.
+        """
+        scans: list[ScanPoints] = []
+        maps: list[OccupiedCells] = []
+        for runner in self._displays.active():
+            match runner.consistency_input(self._core.frames):
+                case ScanPoints() as scan if scan.frame in frames:
+                    scans.append(scan)
+                case OccupiedCells() as cells:
+                    maps.append(cells)
+        for scan in sorted(scans, key=lambda each: -len(each.xyz)):
+            for cells in maps:
+                if found := self._aligned(scan, cells):
+                    return found
+        return None
+
+    def _aligned(self, scan: ScanPoints, cells: OccupiedCells) -> Aligned | None:
+        placed = self._placed(scan, cells.frame, cells.origin)
+        if placed is None:
+            return None
+        laser, _, points = placed
+        far = np.abs(points)
+        points = thinned(points[(far > NEAR_M) & (far < FIND_REACH_M)], POINTS)
+        if len(points) < FEWEST_ALIGNED:
+            return None
+        resolution = cells.resolution
+        reach = math.ceil((float(np.abs(points).max()) + 2.0) / resolution)
+        column, row = math.floor(laser.real / resolution), math.floor(laser.imag / resolution)
+        corner = complex(column - reach, row - reach) * resolution
+        window = cells.window(row - reach, column - reach, 2 * reach, 2 * reach)
+        field = distances(window >= OCCUPIED, resolution)
+        best = align(field, resolution, laser - corner, points)
+        pose = to_pose(self._core.buffer.lookup(cells.frame, scan.frame, scan.stamp_ns))
+        return Aligned(pose, _corrected(pose, cells.origin, best), cells.frame, scan.stamp_ns)
 
     def _compare(self) -> None:
         scans: list[tuple[Runner, ScanPoints]] = []
@@ -128,6 +198,17 @@ class ConsistencyCheck:
         xy = scan.xyz @ turn[:2].T
         laser, points = complex(*pose.position[:2]), xy[:, 0] + 1j * xy[:, 1]
         return laser, math.atan2(turn[1, 0], turn[0, 0]), points
+
+
+def _corrected(pose: Pose, origin: Pose, by: Correction) -> Pose:
+    """The pose of a sensor in the frame of a map, corrected in the plane of the map's cells."""
+    back = tuple(conjugate(origin.wxyz).tolist())
+    x, y, z = origin.position
+    on_map = compose(compose(Pose(wxyz=back), Pose((-x, -y, -z))), pose)
+    px, py, pz = on_map.position
+    turned = compose(Pose(wxyz=from_rpy(0.0, 0.0, by.turn)), Pose(wxyz=on_map.wxyz)).wxyz
+    moved = Pose((px + by.shift.real, py + by.shift.imag, pz), turned)
+    return compose(origin, moved)
 
 
 def _status(best: Fit, cells: OccupiedCells, scan: ScanPoints, is_placed: bool) -> Status:

@@ -38,6 +38,8 @@ class DisplayList:
         self._services = services
         self._entries: list[Entry] = []
         self._made = 0
+        self.aids: list[Runner] = []
+        """Displays that the viewer adds for a while; no list or config has them."""
 
     @property
     def entries(self) -> Sequence[Entry]:
@@ -159,12 +161,12 @@ class DisplayList:
         return [entry.content for entry in self._entries if isinstance(entry.content, Runner)]
 
     def active(self) -> list[Runner]:
-        """The displays that are enabled, and all groups they are in."""
+        """The displays that are enabled, and all groups they are in; then the aids."""
         return [
             entry.content
             for entry in self._entries
             if isinstance(entry.content, Runner) and entry.is_enabled
-        ]
+        ] + self.aids
 
     def read_again(self, settings: Settings) -> Settings:
         """Retry entries that could not be read, after a plug-in was loaded.

@@ -15,6 +15,7 @@ from webviz.engine.state.state import (
     ToolButton,
     Traffic,
     UndoHistory,
+    WhatIf,
 )
 
 __all__ = [
@@ -32,4 +33,5 @@ __all__ = [
     "ToolButton",
     "Traffic",
     "UndoHistory",
+    "WhatIf",
 ]

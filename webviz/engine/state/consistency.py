@@ -72,7 +72,7 @@ def fit(
     reach = min(REACH_CELLS, math.ceil((np.abs(points).max(initial=0.0) + SHIFT_M) / resolution))
     distances = np.abs(points)
     points = points[(distances > NEAR_M) & (distances < reach * resolution)]
-    points = _thinned(points, POINTS)
+    points = thinned(points, POINTS)
     if len(points) < FEWEST:
         return None
     column, row = math.floor(laser.real / resolution), math.floor(laser.imag / resolution)
@@ -146,11 +146,11 @@ def in_the_way(laser: complex, points: C128, way: C128) -> int:
     points = points[np.abs(points - way[-1]) > AROUND_M]
     beside = np.maximum(line.real.min() - points.real, points.real - line.real.max())
     ahead = np.maximum(line.imag.min() - points.imag, points.imag - line.imag.max())
-    points = _thinned(points[(beside < WIDTH_M) & (ahead < WIDTH_M)], POINTS)
+    points = thinned(points[(beside < WIDTH_M) & (ahead < WIDTH_M)], POINTS)
     return int((np.abs(points[:, None] - line).min(axis=1, initial=math.inf) < WIDTH_M).sum())
 
 
-def _thinned(points: C128, most: int) -> C128:
+def thinned(points: C128, most: int) -> C128:
     """At most so many of the points, evenly picked."""
     if len(points) <= most:
         return points

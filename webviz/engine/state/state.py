@@ -281,6 +281,27 @@ class Step:
 
 
 @dataclass(frozen=True)
+class WhatIf:
+    """A static frame that is tried in another pose.
+
+    Args:
+        frame, parent: ids.
+        position: of the frame in its parent, in metres.
+        rpy: roll, pitch and yaw in radians.
+        fits: by name of each display of a scan in that frame: the share of its points on walls,
+            the number of them, and the topic of the map.
+        browser: that tries it, None for a program.
+    """
+
+    frame: str
+    parent: str
+    position: tuple[float, float, float]
+    rpy: tuple[float, float, float]
+    fits: Mapping[str, tuple[float, int, str]] = field(default_factory=dict)
+    browser: int | None = None
+
+
+@dataclass(frozen=True)
 class UndoHistory:
     """Undo and redo steps, each with the newest first."""
 
@@ -324,6 +345,7 @@ class State:
         memory: what is remembered of live topics, None for a recording.
         recording: the one that goes on, None for none.
         black_box: recordings that the rules of the config made, None for a bag.
+        what_if: the frame that is tried in another pose, None for none.
         selected: ids of what each browser has selected, each with that of its display, and
             whether it moves.
         selections: what is known of it, for the browsers that show it.
@@ -361,6 +383,7 @@ class State:
     memory: MemoryState | None = None
     recording: RecordingState | None = None
     black_box: BlackBoxState | None = None
+    what_if: WhatIf | None = None
     selected: Mapping[int, Mapping[int, tuple[str, bool]]] = field(default_factory=dict)
     selections: Mapping[int, Mapping[str, Any]] = field(default_factory=dict)
     reported: tuple[ReportedPick, ...] = ()

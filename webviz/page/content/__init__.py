@@ -30,6 +30,7 @@ from webviz.page.content.transforms import between, frame_tree, transforms
 from webviz.page.content.types import types
 from webviz.page.content.viewer import file, frames, graph, settings, view_type
 from webviz.page.content.views import view, views
+from webviz.page.content.what_if import what_if
 
 MAKERS: Mapping[str, Callable[[State, str], PageStore | None]] = {
     "between": between,
@@ -74,4 +75,5 @@ MAKERS: Mapping[str, Callable[[State, str], PageStore | None]] = {
     "types": types,
     "view_type": view_type,
     "watchers": watchers,
+    "what_if": what_if,
 }

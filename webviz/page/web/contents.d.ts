@@ -326,4 +326,5 @@ export interface Stores {
   view_type: { own: { type?: string; target_frame?: string }; items: never };
   views: { own: { saved: Array<SavedView> }; items: never };
   watchers: { own: { count: number }; items: never };
+  what_if: { own: { frame?: string; parent?: string; fits?: Array<string>; urdf?: string; command?: string; browser?: number | null }; items: never };
 }

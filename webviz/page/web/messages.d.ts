@@ -190,7 +190,9 @@ export interface Commands {
   DismissGoal: { goal: string };
   DragHandle: { display: string; drag: { handle: string; control: number; kind: "choose" | "hold" | "move" | "press" | "release"; pose?: { position?: [number, number, number]; wxyz?: [number, number, number, number] } | null; turned?: number; point?: [number, number, number] | null; entry?: number } };
   DuplicateDisplay: { display: string };
+  EndTrial: Record<string, never>;
   Export: { name?: string };
+  FindFrame: Record<string, never>;
   FocusDisplay: { display: string };
   FocusFrame: { frame: string };
   Identify: { picks: { group: string; key: string; items: Array<[number, number | null, [number, number, number], [number, number, number] | null]> } };
@@ -236,6 +238,7 @@ export interface Commands {
   StartWithView: { view?: { type: "Orbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "XYOrbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "ThirdPersonFollower"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "FPS"; target_frame?: string; yaw?: number; pitch?: number; position?: [number, number, number] } | { type: "TopDownOrtho"; target_frame?: string; scale?: number; angle?: number; x?: number; y?: number } | string | null };
   StepMessage: { topic?: string; is_forward?: boolean };
   StopRecording: Record<string, never>;
+  TryFrame: { frame: string };
   Undo: { steps?: number; own?: boolean };
   UseTool: { tool: string; points: Array<[number, number, number]>; yaw?: number; keys?: Array<string>; yaws?: Array<number>; several?: string };
   UseWidget: { panel: string; widget: string; value?: boolean | string | null };

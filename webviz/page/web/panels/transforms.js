@@ -6,6 +6,8 @@ import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
 import { recall, remember } from "../remember.js";
 import { watch } from "../stores.js";
+import { needs } from "../access.js";
+import { tryFrame } from "../tools/what_if.js";
 import { between } from "./frame_between.js";
 import { openFramePicture } from "./frame_picture.js";
 import { ageText, factOf, frameNames, frameRows, makeFrame, updateFrame } from "./frame_rows.js";
@@ -72,7 +74,26 @@ export const transforms = {
       "data-level": "warn",
     });
     const empty = el("div", { class: "wv-empty", role: "status", hidden: true });
-    const detail = el("div", { class: "wv-frame-detail", hidden: true });
+    const facts = el("div");
+    const attempt = el(
+      "button",
+      {
+        type: "button",
+        class: "wv-button",
+        "data-tip": "Move or turn this frame for yourself; nothing is published",
+        onclick: () => {
+          const row = list.marked();
+          if (row) tryFrame(row.name);
+        },
+      },
+      "What if…",
+    );
+    const detail = el(
+      "div",
+      { class: "wv-frame-detail", hidden: true },
+      facts,
+      needs("TryFrame", attempt),
+    );
     const pair = between();
     element.append(
       el(
@@ -106,7 +127,8 @@ export const transforms = {
     function showDetail() {
       const row = list.marked();
       set(detail, { hidden: !row });
-      if (row) setText(detail, detailOf(row));
+      if (row) setText(facts, detailOf(row));
+      set(attempt, { hidden: !row?.frame?.is_static });
     }
 
     /** @param {FrameRow} row */

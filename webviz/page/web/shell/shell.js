@@ -14,6 +14,7 @@ import * as history from "./history.js";
 import * as layout from "./layout.js";
 import * as timeBar from "./time_bar.js";
 import { banner } from "../timeline/rewound.js";
+import { whatIf } from "../tools/what_if.js";
 import { tabs } from "./tabs.js";
 import * as toasts from "./toasts.js";
 import * as tooltips from "./tooltips.js";
@@ -43,7 +44,7 @@ function build() {
   displayCommands.install();
   const side = el("aside", { class: "wv-side", "aria-label": "Panels" });
   const scene = el("div", { class: "wv-over" }, Object.values(places).slice(0, -1));
-  scene.append(banner());
+  scene.append(banner(), whatIf());
   toasts.install(scene);
   timeBar.build(places.time);
   side.append(header.build(), ...tabs(), layout.border(side));

@@ -1,0 +1,138 @@
+"""A static frame that is tried in another pose."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import building
+import pytest
+from examining import HERE, display
+
+from webviz.api.errors import Error
+from webviz.api.handles import Drag
+from webviz.api.nodes import Pose
+from webviz.data.rotations import from_rpy
+from webviz.engine.commands import DragHandle, EndTrial, FindFrame, RemoveDisplay, TryFrame
+from webviz.engine.parts.what_if import ID
+from webviz.engine.pipeline.frame_handle import KEY
+from webviz.page.content.what_if import what_if
+from webviz.shell.testing.harness import Harness
+from webviz.shell.testing.messages import header
+from webviz_displays.laser_scan import LaserScan
+from webviz_displays.map import Map
+
+Make = Callable[..., Harness]
+WRONG_YAW, WRONG_X = 0.4, 0.3
+
+
+@pytest.fixture
+def robot(webviz_harness: Make) -> Harness:
+    """A robot whose transforms say that its laser is turned and ahead of where it is."""
+    stage = webviz_harness(LaserScan(name="Scan"), Map(), fixed_frame="map")
+    now = stage.source.now
+    stage.transform("map", "base_link", (HERE.x, HERE.y, 0.0), stamp_ns=now)
+    mount(stage, WRONG_YAW)
+    grid = {"header": header("map", now)} | building.grid()
+    stage.publish("/map", "nav_msgs/msg/OccupancyGrid", grid)
+    scan = {"header": header("laser", now)} | building.scan(HERE)
+    stage.publish("/scan", "sensor_msgs/msg/LaserScan", scan)
+    stage.turn()
+    return stage
+
+
+def mount(stage: Harness, yaw: float) -> None:
+    """Publish where the laser is said to be."""
+    w, x, y, z = from_rpy(0.0, 0.0, yaw)
+    stage.transform("base_link", "laser", (WRONG_X, 0.0, 0.2), (x, y, z, w))
+
+
+def share(stage: Harness) -> float:
+    """The share of points on walls, as pages see it."""
+    stage.clock += 1.1
+    stage.turn()
+    tried = stage.viewer.snapshot().what_if
+    assert tried is not None
+    return tried.fits["Scan"][0]
+
+
+def drag(stage: Harness, kind: str, pose: Pose | None = None) -> None:
+    """Do something with the arrow along x."""
+    stage.do(DragHandle(ID, Drag(KEY, 0, kind, pose)))  # pyright: ignore[reportArgumentType]
+
+
+def pose_of_laser(stage: Harness) -> Pose:
+    """The laser in the map."""
+    pose = stage.viewer.buffer.lookup("map", "laser", 0)
+    return Pose(pose.translation)
+
+
+def test_a_frame_is_found_and_returns(robot: Harness) -> None:
+    robot.do(TryFrame("laser"))
+    assert share(robot) < 0.4
+    robot.do(FindFrame())
+    assert share(robot) > 0.95
+    store = what_if(robot.viewer.snapshot(), "")
+    assert store is not None
+    tried = robot.viewer.snapshot().what_if
+    assert tried is not None
+    assert tried.position == pytest.approx((0.0, 0.0, 0.2), abs=0.03)
+    assert tried.rpy == pytest.approx((0.0, 0.0, 0.0), abs=0.01)
+    x = f"{round(tried.position[0], 4):g}"
+    assert store.urdf.startswith(f'<origin xyz="{x} ')
+    assert store.command.startswith("ros2 run tf2_ros static_transform_publisher --x ")
+    assert store.command.endswith(" --frame-id base_link --child-frame-id laser")
+    assert store.fits[0].endswith("points on walls of /map")
+    robot.do(EndTrial())
+    assert robot.viewer.snapshot().what_if is None
+    assert not robot.viewer.snapshot().handles
+    assert pose_of_laser(robot).position[0] == pytest.approx(HERE.x + WRONG_X)
+
+
+def test_dragging_moves_what_hangs_below(robot: Harness) -> None:
+    robot.do(TryFrame("laser"))
+    ((key, (handle, _)),) = robot.viewer.snapshot().handles.items()
+    assert key == (ID, KEY)
+    assert (handle.name, handle.frame) == ("laser", "base_link")
+    before = share(robot)
+    drag(robot, "press")
+    drag(robot, "move", Pose((0.0, 0.0, 0.2)))
+    assert pose_of_laser(robot).position == pytest.approx((HERE.x, HERE.y, 0.2))
+    assert share(robot) > 0.95 > before
+    drag(robot, "release")
+    tried = robot.viewer.snapshot().what_if
+    assert tried is not None
+    assert tried.position == (0.0, 0.0, 0.2)
+
+
+def test_what_is_published_meanwhile_counts_afterwards(robot: Harness) -> None:
+    robot.do(TryFrame("laser"))
+    drag(robot, "press")
+    drag(robot, "move", Pose((5.0, 0.0, 0.0)))
+    mount(robot, math.pi)
+    robot.turn()
+    assert pose_of_laser(robot).position[0] == pytest.approx(HERE.x + 5.0)
+    robot.do(EndTrial())
+    turned = robot.viewer.buffer.lookup("map", "laser", 0).rotation
+    assert abs(turned[2]) == pytest.approx(1.0)
+
+
+def test_a_frame_that_begins_to_move_ends_it(robot: Harness) -> None:
+    robot.do(TryFrame("laser"))
+    robot.transform("base_link", "laser", (1.0, 0.0, 0.0), stamp_ns=robot.source.now)
+    robot.turn()
+    robot.do(EndTrial())
+    assert robot.viewer.snapshot().what_if is None
+    assert pose_of_laser(robot).position[0] == pytest.approx(HERE.x + 1.0)
+
+
+def test_refusals(robot: Harness) -> None:
+    for frame in ("base_link", "nothing"):
+        with pytest.raises(Error, match="does not have a static transform"):
+            robot.do(TryFrame(frame))
+    with pytest.raises(Error, match="No frame is tried"):
+        robot.do(FindFrame())
+    robot.do(RemoveDisplay(display(robot, "Scan")))
+    robot.do(TryFrame("laser"))
+    with pytest.raises(Error, match="no laser scan of this frame"):
+        robot.do(FindFrame())
