@@ -1,7 +1,14 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { csv, curvesOf, extent, valueAt, visit } from "../../webviz/page/web/charts/curves.js";
+import {
+  csv,
+  curvesOf,
+  extent,
+  statistics,
+  valueAt,
+  visit,
+} from "../../webviz/page/web/charts/curves.js";
 import { changed, numberText, roomy, share, ticks } from "../../webviz/page/web/charts/scale.js";
 
 const MOST = Number.MAX_VALUE;
@@ -13,6 +20,15 @@ function visited(curve, range) {
   visit(curve, range, (time) => found.push(time));
   return found;
 }
+
+test("statistics are of the finite values within a range, and do not overflow", () => {
+  assert.deepEqual(statistics(TWO, [0.5, 3]), { count: 2, low: 6, high: 7, mean: 6.5 });
+  assert.equal(statistics(TWO, [8, 9]).count, 0);
+  const large = { name: "x", pieces: [piece([0, 1, 2], [MOST, MOST, -MOST])] };
+  const { low, high, mean } = statistics(large, [0, 2]);
+  assert.deepEqual([low, high], [-MOST, MOST]);
+  assert.ok(Math.abs(mean / MOST - 1 / 3) < 1e-9);
+});
 
 test("ticks are round numbers within their range", () => {
   assert.deepEqual(ticks(0, 10, 5), [0, 2, 4, 6, 8, 10]);

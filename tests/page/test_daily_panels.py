@@ -71,6 +71,12 @@ def test_the_log_is_filtered_and_opened_and_leads_to_its_time(loop: Loop, tab: T
     open_panel(loop, tab, log, offers=offered(rosout=LOG), playback=recorded())
     newest = tab.page.get_by_role("option").filter(has_text="The motor is hot")
     tab.wait_for(lambda: newest.count() == 1 and newest.is_visible())
+    follow = tab.button("Follow the newest line")
+    for i in range(3):
+        log.add((float(i), 20, "arm", f"still cold {i}", ""), 8 * SECOND)
+        newer = tab.page.get_by_role("option").filter(has_text=f"still cold {i}")
+        tab.wait_for(lambda newer=newer: newer.count() == 1 and newer.is_visible())
+        assert follow.get_attribute("aria-pressed") == "true"
     kept = len(log.chunks) * 200
     assert 90_000 < kept <= 100_000
     tab.page.get_by_label("Lowest level").select_option("Error")

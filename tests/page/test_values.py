@@ -185,3 +185,13 @@ def test_a_field_is_plotted_from_its_row_and_removed_in_the_legend(
     plot.wait_for(lambda: SetPanelProperty("plot", "curves", curves) in plot.loop.commands)
     plot.button(f"Remove {CURVES[0]}").click()
     plot.wait_for(lambda: SetPanelProperty("plot", "curves", CURVES[1:]) in plot.loop.commands)
+
+
+def test_the_statistics_of_a_plot_are_of_what_is_in_sight(plot: Any) -> None:
+    sums = plot.page.locator(".wv-chart-sums").last
+    assert sums.inner_text() == ""
+    button = plot.button("Statistics of what is drawn")
+    button.click()
+    plot.wait_for(lambda: sums.inner_text().startswith("min 0, max 0.999, mean 0.4"))
+    button.click()
+    plot.wait_for(lambda: sums.inner_text() == "")

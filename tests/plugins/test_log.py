@@ -78,4 +78,6 @@ def test_a_time_is_sought_only_in_a_recording(log: Log) -> None:
 
 def test_no_publisher_is_named(log: Log) -> None:
     log.show(State())
-    assert widget(log).values["values"]["problem"].startswith("No publisher on /rosout.")
+    values = widget(log).values["values"]
+    assert values["problem"].startswith("No publisher on /rosout.")
+    assert values["total"] == 0

@@ -7,7 +7,7 @@
  *   stamps: number[], levels: number[], names: string[], texts: string[], places: string[],
  * }} Chunk
  * @typedef {{key: string, stamp: number, level: number, name: string, text: string, place: string}} Line
- * @typedef {{chunks: [number, number], problem: string, level: string, nodes: string, text: string}} Values
+ * @typedef {{chunks: [number, number], problem: string, total: number, level: string, nodes: string, text: string}} Values
  */
 
 const LEVELS = ["Debug", "Info", "Warn", "Error", "Fatal"];
@@ -63,6 +63,7 @@ export default function install({
     let collect = () => [];
     let isFollowing = true;
     let problem = "";
+    let total = 0;
 
     const level = el(
       "select",
@@ -118,7 +119,9 @@ export default function install({
     });
 
     function toEnd() {
-      if (isFollowing) list.element.scrollTop = top = list.element.scrollHeight;
+      if (!isFollowing) return;
+      list.element.scrollTop = list.element.scrollHeight;
+      top = list.element.scrollTop; // the browser takes less
     }
 
     /** @param {string} what */
@@ -172,7 +175,8 @@ export default function install({
       list.show(shown);
       const number = shown.length.toLocaleString("en").replaceAll(",", " ");
       setText(count, `${number} line${shown.length === 1 ? "" : "s"}`);
-      const sentence = problem || (shown.length ? "" : "No line matches these filters.");
+      const sentence =
+        problem || (shown.length ? "" : total ? "No line matches these filters." : "No line yet.");
       setText(empty, sentence);
       set(empty, { hidden: !sentence });
       requestAnimationFrame(toEnd); // the list may have no height yet
@@ -229,6 +233,7 @@ export default function install({
         return found.flat();
       };
       problem = values.problem ?? "";
+      total = values.total ?? 0;
       draw();
     }
 

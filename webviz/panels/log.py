@@ -136,11 +136,13 @@ class Log(Panel):
         with self.lock:
             self.shown = self.shown or _columns(self.open)
             numbers = range(self.first, self.first + len(self.chunks) + 1)
+            total = sum(map(len, self.times))
             parts = dict(zip(map(str, numbers), [*self.chunks, self.shown], strict=True))
         problem = self.problem
         if not types and len(parts) == 1 and not self.open:
             problem = f"No publisher on {self.topic}. Start a node, or choose another topic."
-        values = {"chunks": [numbers.start, numbers.stop], "problem": problem}
+        values: dict[str, Any] = {"chunks": [numbers.start, numbers.stop], "problem": problem}
+        values["total"] = total
         values |= {"level": self.level, "nodes": self.nodes, "text": self.text}
         self.list.show(values, parts)
 

@@ -7,7 +7,7 @@ import { el, set, setChildren, setText } from "../dom.js";
 import { icon, iconButton } from "../icons.js";
 import { download } from "../shell/download.js";
 import { timeOfDay } from "../shell/time_text.js";
-import { csv, curvesOf, extent, valueAt } from "./curves.js";
+import { csv, curvesOf, extent, statistics, valueAt } from "./curves.js";
 import { draw, inside } from "./draw.js";
 import { at, changed, numberText, roomy } from "./scale.js";
 
@@ -49,6 +49,7 @@ export function chart(_, send) {
   /** @type {{from: Vec2, times: Range, values: Range, isBox: boolean, isFar: boolean} | null} */
   let drag = null;
   let frame = 0;
+  let hasSums = false;
 
   const canvas = el("canvas", {
     class: "wv-chart-canvas",
@@ -67,14 +68,19 @@ export function chart(_, send) {
   const pause = iconButton("pause", "Pause", togglePause);
   const back = iconButton("reset", "Reset zoom (double click)", reset);
   const save = iconButton("download", "Download as CSV", () => download("plot.csv", csv(shown())));
+  const sums = iconButton("list", "Statistics of what is drawn", () => {
+    hasSums = !hasSums;
+    set(sums, { "aria-pressed": String(hasSums) });
+    later();
+  });
   const when = el("span", { class: "wv-quiet wv-number" });
   const legend = el("ul", { class: "wv-chart-legend" });
-  /** @type {Map<number, {element: HTMLElement, value: HTMLElement, problem: HTMLElement}>} */
+  /** @type {Map<number, {element: HTMLElement, value: HTMLElement, problem: HTMLElement, sums: HTMLElement}>} */
   const entries = new Map();
   const element = el(
     "div",
     { class: "wv-chart" },
-    el("div", { class: "wv-chart-tools" }, pause, back, save, when),
+    el("div", { class: "wv-chart-tools" }, pause, back, save, sums, when),
     el("div", { class: "wv-chart-place" }, canvas, box),
     legend,
   );
@@ -250,8 +256,18 @@ export function chart(_, send) {
           ? "no value"
           : numberText(found.value, 0.001);
       const shownEntry = entries.get(curve.key);
-      if (shownEntry) setText(shownEntry.value, text);
+      if (!shownEntry) continue;
+      setText(shownEntry.value, text);
+      setText(shownEntry.sums, hasSums ? sumsOf(curve) : "");
     }
+  }
+
+  /** @param {Curve} curve */
+  function sumsOf(curve) {
+    const { count, low, high, mean } = statistics(curve, times());
+    if (!count) return "No values in this span.";
+    const [least, most, middle] = [low, high, mean].map((each) => numberText(each, 0.001));
+    return `min ${least}, max ${most}, mean ${middle}, ${count} values`;
   }
 
   function showLegend() {
@@ -275,6 +291,7 @@ export function chart(_, send) {
   function entry(id, name) {
     const value = el("span", { class: "wv-number wv-chart-value" });
     const problem = el("div", { class: "wv-chart-problem" });
+    const own = el("div", { class: "wv-chart-sums wv-quiet wv-number" });
     const swatch = el("span", { class: "wv-chart-swatch" });
     swatch.style.background = color(id);
     const remove = el(
@@ -297,7 +314,7 @@ export function chart(_, send) {
       value,
       needs("UseWidget", remove),
     );
-    return { element: el("li", {}, line, problem), value, problem };
+    return { element: el("li", {}, line, own, problem), value, problem, sums: own };
   }
 
   /**

@@ -88,6 +88,24 @@ export function extent(curves, range) {
 }
 
 /**
+ * The finite values of a curve in a range of time: their number, lowest, highest and mean.
+ *
+ * @param {Curve} curve
+ * @param {Range} range
+ */
+export function statistics(curve, range) {
+  let [count, low, high, mean] = [0, Infinity, -Infinity, 0];
+  visit(curve, range, (time, value) => {
+    if (!Number.isFinite(value) || time < range[0] || time > range[1]) return;
+    count += 1;
+    low = Math.min(low, value);
+    high = Math.max(high, value);
+    mean += value / count - mean / count; // a sum of large values overflows
+  });
+  return { count, low, high, mean };
+}
+
+/**
  * The newest value up to a time, null if there is none.
  *
  * @param {Curve} curve
