@@ -7,11 +7,15 @@ from pathlib import Path
 
 from webviz.api.errors import Error
 from webviz.sources.bag.extras import Extra
+from webviz.sources.bag.ghost import Ghost
 from webviz.sources.bag.source import BagSource
 
 
 def bag_source(
-    paths: Path | Sequence[Path], extras: Sequence[Extra] = (), ros_args: Sequence[str] = ()
+    paths: Path | Sequence[Path],
+    extras: Sequence[Extra] = (),
+    ros_args: Sequence[str] = (),
+    ghost: Ghost | None = None,
 ) -> BagSource:
     """One or several bags, merged by time.
 
@@ -19,11 +23,12 @@ def bag_source(
         paths: MCAP files, db3 files or rosbag2 folders.
         extras: messages to add, see `webviz.sources.bag.extras`.
         ros_args: remappings of topics: `["--ros-args", "-r", "/scan:=/front/scan"]`.
+        ghost: a second run to show beside it.
 
     Raises:
         Error: a bag cannot be read, or an argument is unsupported.
     """
-    return BagSource(paths, extras, _remappings(ros_args))
+    return BagSource(paths, extras, _remappings(ros_args), ghost)
 
 
 def _remappings(ros_args: Sequence[str]) -> dict[str, str]:

@@ -12,6 +12,7 @@ from webviz.api.ports import TRANSPORTS
 from webviz.api.registry import display_types
 from webviz.engine.commands.by_topic import Pick, picks
 from webviz.files.config import STANDARD, Config, Item
+from webviz.sources.bag.ghost import ROOT
 from webviz.sources.bag.source import BagSource
 from webviz.sources.bag.time import TF
 
@@ -30,7 +31,11 @@ FRAMES = ("map", "odom", "world")
 
 def config_of(bag: BagSource) -> Config:
     """The displays that fit the topics of a bag, in a frame that it has."""
-    offers = {topic: offer for topic, offer in bag.offers().items() if bag.has(topic)}
+    offers = {
+        topic: offer
+        for topic, offer in bag.offers().items()
+        if bag.has(topic) and not (bag.ghost and topic.startswith(f"{ROOT}/"))
+    }
     config, shown = displays_of(offers)
     links = bag.links() or [(frame, frame) for frame in bag.frames(shown)]
     if frame := fixed_frame_of(links):

@@ -15,11 +15,15 @@ from webviz.data.messages import type_exists
 from webviz.files.config import Config
 from webviz.files.sessions import Sessions, name_of
 from webviz.server.access.starting import link
+from webviz.shell.app.ghost_config import with_ghost
 from webviz.shell.app.viewer import Viewer
+from webviz.shell.bag_source import bag_source
 from webviz.shell.cli.ending import INTERRUPTED, Stop, say_end
 from webviz.shell.cli.links import show_links
-from webviz.shell.cli.viewing_options import BagOptions, ViewingOptions
+from webviz.shell.cli.viewing_options import BagOptions, ViewingOptions, align_of
 from webviz.sources import Source
+from webviz.sources.bag.ghost import Ghost
+from webviz.sources.bag.source import BagSource
 
 YOUNG_OBJECTS = 10_000
 """Garbage that the collector may leave before it runs: more objects than most messages make."""
@@ -53,9 +57,12 @@ def serve(
 
     template = options.template or standard
 
+    beside = _with_ghost(bag, ros)
+
     @functools.cache
     def read(path: Path | None, source: Source | None = None) -> Config:
-        return options.read(path or template, source)
+        config = options.read(path or template, beside or source)
+        return with_ghost(config, beside) if beside else config
 
     if (options.display_config or options.template) and not options.plugin:
         # Report errors before imports that take seconds. With plug-ins the viewer reads the file
@@ -72,11 +79,12 @@ def serve(
             port=options.port,
             allow_hosts=options.allow_host,
             fixed_frame=options.fixed_frame,
-            bag=bag.bag or None,
+            bag=None if beside else bag.bag or None,
+            source=beside,
             autoplay=not bag.paused,
             ros_args=ros,
             plugins=options.plugin,
-            sessions=_sessions(options, template, bag) if options.autosave else None,
+            sessions=_sessions(options, template, bag) if options.autosave and not beside else None,
             config_folders=options.config_folder,
             publish=not options.no_publish,
             allow_publish=options.allow_publish,
@@ -139,6 +147,14 @@ def _announce(options: ViewingOptions, viewer: Viewer, note: str) -> None:
         address = next((link(viewer.url, token) for token in tokens), "") or viewer.url
         # Browsers in a terminal run until they are closed.
         threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
+
+
+def _with_ghost(bag: BagOptions, ros: Sequence[str]) -> BagSource | None:
+    """The bag with a second run beside it, None without one."""
+    if bag.ghost is None:
+        return None
+    ghost = Ghost(bag.ghost, align_of(bag.ghost_align), bag.ghost_difference)
+    return bag_source(bag.bag, ros_args=ros, ghost=ghost)
 
 
 def _sessions(options: ViewingOptions, template: Path | None, bag: BagOptions) -> Sessions:

@@ -15,6 +15,7 @@ Examples:
   webviz -d lab.yaml -f odom      open a config, in another fixed frame
   webviz -d nav2.rviz             open a config of RViz
   webviz --bag run.mcap           play a bag, without ROS
+  webviz --bag today.mcap --ghost yesterday.mcap
   webviz --plugin my_display.py   load your own display, see the README
   webviz demo                     show a simulated robot
   webviz demo --robots 3          show several, each in a namespace of its own
@@ -30,6 +31,10 @@ def check(*, bag: BagOptions = BagOptions(), **_: object) -> None:
     """Raise ValueError for an invalid combination of arguments."""
     if bag.paused and not bag.bag:
         raise ValueError("--paused needs --bag.")
+    if bag.ghost is None and (bag.ghost_align != "start" or bag.ghost_difference):
+        raise ValueError("--ghost-align and --ghost-difference need --ghost.")
+    if bag.ghost is not None and not bag.bag:
+        raise ValueError("--ghost needs --bag.")
 
 
 def view(

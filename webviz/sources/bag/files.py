@@ -7,6 +7,7 @@ import heapq
 import itertools
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import Protocol
 
 from webviz.data.messages.typestore import are_same
 from webviz.data.recordings.recording import Counts, TimeParts
@@ -16,22 +17,63 @@ from webviz.sources.bag.file import BagChannel, BagFile, Recorded
 DAY_NS = 86_400_000_000_000
 
 
+class MergedFile(Protocol):
+    """One of several files that are played together; see `BagFile`."""
+
+    path: Path
+    start_ns: int
+    end_ns: int
+    channels: tuple[BagChannel, ...]
+    skipped: dict[str, str]
+
+    @property
+    def remarks(self) -> list[str]:
+        """Sentences on damage."""
+        ...
+
+    def messages(
+        self, channels: Collection[BagChannel], start_ns: int, end_ns: int | None = None
+    ) -> Iterator[Recorded]:
+        """Messages of channels by time, both ends included."""
+        ...
+
+    def newest(self, channels: Collection[BagChannel], end_ns: int) -> Iterator[Recorded]:
+        """Messages of channels until a time, the newest first."""
+        ...
+
+    def is_used(self, channel: BagChannel) -> bool:
+        """Return whether a channel has messages, or may have."""
+        ...
+
+    def histogram(self, parts: TimeParts) -> dict[str, Counts]:
+        """Count the messages of each topic."""
+        ...
+
+    def close(self) -> None:
+        """Close the file."""
+        ...
+
+
 class BagFiles:
     """One or several bags, merged by time of recording.
 
     Args:
         paths: of files or folders, at least one; each is read once.
+        others: further ones, which are open; closed with these.
 
     Raises:
         BagError: one cannot be read.
     """
 
-    def __init__(self, paths: Sequence[Path]) -> None:
+    def __init__(self, paths: Sequence[Path], others: Sequence[MergedFile] = ()) -> None:
         with contextlib.ExitStack() as stack:
-            self._files: list[BagFile] = []
+            self._files: list[MergedFile] = []
             for path in {path.resolve(): path for path in paths}.values():
                 self._files.append(BagFile(path))
                 stack.callback(self._files[-1].close)
+            for other in others:
+                self._files.append(other)
+                stack.callback(other.close)
             self._stack = stack.pop_all()
         files = self._files
         self.names = tuple(file.path.name for file in files)
@@ -78,7 +120,7 @@ class BagFiles:
 
     def _by_file(
         self, channels: Collection[BagChannel]
-    ) -> Iterator[tuple[BagFile, Sequence[BagChannel]]]:
+    ) -> Iterator[tuple[MergedFile, Sequence[BagChannel]]]:
         """The files that have some of the channels, and which."""
         wanted = frozenset(channels)
         for file in self._files:

@@ -17,6 +17,7 @@ from webviz.sources.bag.extras import Extra
 from webviz.sources.bag.file import BagChannel, BagError, Recorded
 from webviz.sources.bag.files import BagFiles
 from webviz.sources.bag.frames import frames_of, links_of
+from webviz.sources.bag.ghost import Ghost, ghost_files
 from webviz.sources.bag.log import LogReader
 from webviz.sources.bag.past import BagPast
 from webviz.sources.bag.time import CLOCK, TF, BagTime
@@ -49,6 +50,7 @@ class BagSource:
         paths: of the bag, or of several.
         extras: messages that the bag lacks, latched from its start on.
         remappings: full topic names by the full names that displays use.
+        ghost: a second run to show beside it, with topics of its own.
 
     Raises:
         BagError: a bag cannot be read.
@@ -59,12 +61,14 @@ class BagSource:
         paths: Path | Sequence[Path],
         extras: Sequence[Extra] = (),
         remappings: Mapping[str, str] | None = None,
+        ghost: Ghost | None = None,
     ) -> None:
         self.inbox = Inbox()
         self.graph = ReadOnly("A bag is read-only. Connect to a live ROS graph to publish.")
         paths = [paths] if isinstance(paths, Path) else paths
         self._paths = tuple(paths)
-        self._file = BagFiles(paths)
+        self.ghost = ghost
+        self._file = BagFiles(paths, ghost_files(paths, ghost) if ghost else ())
         self._log = LogReader(paths, self.inbox.arrived.set)
         self._extras = tuple(extras)
         self._remappings = dict(remappings or {})

@@ -1,0 +1,173 @@
+"""A second run beside a bag: moved in time, with topics and transforms of its own."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from bags import START_NS, Bag, ns
+
+from webviz.data.messages import TFMessage, decode, encode
+from webviz.data.messages.stamps import shifted
+from webviz.engine.commands import Seek
+from webviz.engine.loop import FrameLoop
+from webviz.files.config import Config
+from webviz.files.opening import parse
+from webviz.shell.app.ghost_config import with_ghost
+from webviz.shell.cli import main as cli
+from webviz.shell.testing import BagViewer, header
+from webviz.shell.testing.recording import RecordingScene
+from webviz.sources.bag.ghost import DIFFERENCE, DISTANCE, Align, Ghost
+from webviz.sources.bag.source import BagSource
+
+CONFIG = """\
+version: 1
+fixed_frame: map
+displays:
+- {type: Grid}
+- {type: Group, name: Sensors, displays: [{type: LaserScan, name: Scan, size: 0.1}]}
+"""
+TF = "tf2_msgs/msg/TFMessage"
+AHEAD_M = 1.0
+"""Of the second run, which drives as fast and begins later."""
+LATER_S = 2.0
+
+
+def write(path: Path, begin_s: float, ahead_m: float) -> Path:
+    """A robot that drives along x, one metre a second, for six seconds."""
+    bag = Bag()
+    bag.add("/scan", "sensor_msgs/msg/LaserScan", best_effort=True)
+    bag.add("/speed", "std_msgs/msg/Float64")
+    bag.transform(begin_s, "map", "odom", static=True)
+    for step in range(61):
+        at_s = begin_s + step / 10
+        bag.transform(at_s, "odom", "base", x=step / 10 + ahead_m)
+        bag.put(at_s, "/speed", {"data": 1.0 + ahead_m})
+        ranges = {"angle_increment": 0.1, "range_max": 9.0, "ranges": [1.0]}
+        bag.put(at_s, "/scan", ranges | {"header": header("base", START_NS + ns(at_s))})
+    return bag.write(path)
+
+
+@pytest.fixture(scope="module")
+def runs(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
+    folder = tmp_path_factory.mktemp("runs")
+    return write(folder / "today", 0.0, 0.0), write(folder / "yesterday", LATER_S, AHEAD_M)
+
+
+@contextlib.contextmanager
+def viewer(runs: tuple[Path, Path], align: Align | float) -> Iterator[BagViewer]:
+    today, yesterday = runs
+    source = BagSource(today, ghost=Ghost(yesterday, align, "/speed.data"))
+    shown = BagViewer(today, Config())
+    shown.close()
+    shown.source, shown.scene = source, RecordingScene()
+    config = with_ghost(parse(CONFIG, "the config"), source)
+    shown.loop = FrameLoop(config, source, shown.scene, strict=True)
+    shown.turn()
+    with contextlib.closing(shown):
+        yield shown
+
+
+def x_of(shown: BagViewer, frame: str) -> float:
+    return shown.loop.buffer.lookup("map", frame, 0).translation[0]
+
+
+@pytest.mark.parametrize(
+    ("align", "ghost_m"),
+    [("start", 4.0), ("stamp", 2.0), ("path", 3.0), (0.5, 3.5)],
+)
+def test_both_runs_are_shown_at_a_time(
+    runs: tuple[Path, Path], align: Align | float, ghost_m: float
+) -> None:
+    with viewer(runs, align) as shown:
+        shown.do(Seek(3.0))
+        assert x_of(shown, "base") == pytest.approx(3.0, abs=1e-6)
+        assert x_of(shown, "ghost/base") == pytest.approx(ghost_m, abs=0.11)
+        rows = {row.name: row.statuses for row in shown.rows}
+        assert rows["Scan (ghost)"]["Transform"].text == "Transform OK"
+        shown.do(Seek(1.0))  # back
+        assert x_of(shown, "base") == pytest.approx(1.0, abs=1e-6)
+
+
+def numbers(source: BagSource, topic: str) -> list[float]:
+    channels = [channel for channel in source._file.channels if channel.topic == topic]
+    found = source._file.messages(channels, source.start_ns)
+    return [decode(each.type, each.cdr).data for each in found]
+
+
+def test_the_distance_and_a_difference_over_time(runs: tuple[Path, Path]) -> None:
+    with viewer(runs, "start") as shown:
+        distances = numbers(shown.source, DISTANCE)
+        assert len(distances) == 61
+        assert distances == pytest.approx([AHEAD_M] * 61)
+        assert numbers(shown.source, DIFFERENCE) == pytest.approx([-AHEAD_M] * 61)
+        (plot,) = [tab.panel for tab in shown.loop.state().panels if tab.panel.name == "Ghost"]
+        assert plot.curves == [f"{DISTANCE}.data", f"{DIFFERENCE}.data"]  # pyright: ignore
+
+
+def test_copies_are_tinted_and_read_topics_of_their_own(runs: tuple[Path, Path]) -> None:
+    with viewer(runs, "start") as shown:
+        rows = {row.name: row.display for row in shown.rows}
+        assert [*rows] == ["Grid", "Sensors", "Scan", "Ghost", "Scan (ghost)"]
+        first, second = rows["Scan"], rows["Scan (ghost)"]
+        assert first is not None
+        assert second is not None
+        assert second.topic.name == "/ghost/scan"  # pyright: ignore
+        assert second.size == first.size  # pyright: ignore
+        assert second.color != first.color  # pyright: ignore
+        assert second.alpha < first.alpha  # pyright: ignore
+
+
+def test_all_stamps_of_a_message_are_moved() -> None:
+    stamps = [(5, 0), (0, 0), (7, 999_999_999)]
+    transforms = [
+        {"header": {"stamp": {"sec": sec, "nanosec": nanosec}, "frame_id": "map"}}
+        for sec, nanosec in stamps
+    ]
+    cdr = encode(TF, {"transforms": transforms})
+    moved: TFMessage = decode(TF, shifted(TF, cdr, 1_500_000_001))
+    assert [each.stamp_ns for each in moved.transforms] == [6_500_000_001, 0, 9_500_000_000]
+    assert shifted(TF, shifted(TF, cdr, 10**9), -(10**9)) == cdr
+
+
+def test_malformed_messages_stay_as_they_are() -> None:
+    cdr = encode(TF, {"transforms": [{"header": {"stamp": {"sec": 1}, "frame_id": "map"}}] * 3})
+    for end in range(len(cdr)):
+        assert len(shifted(TF, cdr[:end], 10**9)) == end
+    for place in range(len(cdr)):
+        changed = bytearray(cdr)
+        changed[place] ^= 0xFF
+        assert len(shifted(TF, bytes(changed), 10**9)) == len(cdr)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["--ghost", "a.mcap"], "--ghost needs --bag."),
+        (["--bag", "a", "--ghost-align", "path"], "--ghost-align and --ghost-difference need"),
+        (["--bag", "a", "--ghost", "b", "--ghost-align", "x"], "x is not start, stamp, path or"),
+    ],
+)
+def test_invalid_arguments(
+    arguments: list[str], sentence: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    assert cli(arguments) == 2
+    assert sentence in capfd.readouterr().err
+
+
+def test_unknown_paths_and_numbers_are_one_sentence(
+    runs: tuple[Path, Path], tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    bag = Bag()
+    bag.add("/speed", "std_msgs/msg/Float64")
+    bag.put(0.0, "/speed", {"data": 1.0})
+    other = str(bag.write(tmp_path / "other"))
+    command = ["--bag", str(runs[0]), "--ghost", other, "--port", "0"]
+    assert cli([*command, "--ghost-align", "path"]) == 1
+    assert "The paths of the robots are unknown" in capfd.readouterr().err
+    assert cli([*command, "--ghost-difference", "/speed.no"]) == 1
+    assert "Cannot read /speed.no: " in capfd.readouterr().err
+    assert cli([*command, "--ghost-difference", "/none.data"]) == 1
+    assert "has no messages on /none" in capfd.readouterr().err

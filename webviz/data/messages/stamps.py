@@ -1,0 +1,112 @@
+"""Moving all stamps of serialised messages, without decoding the rest."""
+
+from __future__ import annotations
+
+import functools
+import struct
+
+from webviz.data.messages.cdr import Reader
+from webviz.data.messages.errors import MessageError
+from webviz.data.messages.typestore import MessageField, fields
+
+TIME = "builtin_interfaces/msg/Time"
+SIZES = {
+    **dict.fromkeys(("bool", "byte", "char", "int8", "uint8"), 1),
+    **dict.fromkeys(("int16", "uint16"), 2),
+    **dict.fromkeys(("int32", "uint32", "float32"), 4),
+    **dict.fromkeys(("int64", "uint64", "float64"), 8),
+}
+"""Bytes of primitives."""
+SECOND_NS = 1_000_000_000
+MAX_SECONDS = 2**31 - 1
+MAX_DEPTH = 30
+
+
+def shifted(type_name: str, cdr: bytes, by_ns: int) -> bytes:
+    """A message with all its stamps moved; those that are zero stay, as they mean "now" or none.
+
+    Args:
+        type_name: a type that is known.
+        cdr: the serialised message.
+        by_ns: added to each stamp, which is kept within the range of the type.
+
+    Returns:
+        A message of the same length; the same one if it is malformed.
+    """
+    places: list[int] = []
+    try:
+        if not by_ns or not has_stamps(type_name):
+            return cdr
+        reader = Reader(cdr)
+        _walk(reader, type_name, places, 0)
+        layout = struct.Struct(f"{reader.order}iI")
+        moved = bytearray(cdr)
+        for place in places:
+            sec, nanosec = layout.unpack_from(moved, place)
+            if sec or nanosec:
+                total = max(0, sec * SECOND_NS + nanosec + by_ns)
+                sec, nanosec = divmod(total, SECOND_NS)
+                layout.pack_into(moved, place, min(sec, MAX_SECONDS), nanosec)
+    except (MessageError, struct.error, IndexError):
+        return cdr
+    return bytes(moved)
+
+
+@functools.cache
+def has_stamps(type_name: str) -> bool:
+    """Return whether a type has stamps anywhere in it."""
+    return type_name == TIME or any(
+        each.is_message and has_stamps(each.base) for each in fields(type_name)
+    )
+
+
+@functools.cache
+def _layout(type_name: str) -> tuple[MessageField, ...]:
+    return tuple(fields(type_name))
+
+
+@functools.cache
+def _stamped(type_name: str) -> int:
+    """The number of fields up to the last that has stamps."""
+    found = _layout(type_name)
+    return max(
+        (n for n, each in enumerate(found, 1) if each.is_message and has_stamps(each.base)),
+        default=0,
+    )
+
+
+def _walk(reader: Reader, type_name: str, places: list[int], depth: int) -> None:
+    """Note where the stamps of a message are; of the outermost, the rest is not read."""
+    if depth > MAX_DEPTH:
+        raise MessageError("it is nested too deeply")
+    if type_name == TIME:
+        reader.align(4)
+        places.append(reader.pos)
+        reader.pos += 8
+        return
+    found = _layout(type_name)
+    for field in found if depth else found[: _stamped(type_name)]:
+        _field(reader, field, places, depth)
+
+
+def _field(reader: Reader, field: MessageField, places: list[int], depth: int) -> None:
+    size = None if field.is_message else SIZES.get(field.base)
+    if size is not None:
+        count = 1 if field.size is None else field.size or reader.count()
+        if count:
+            reader.align(size)
+            reader.pos += count * size
+        if reader.pos > reader.size:
+            raise MessageError("it is cut off")
+        return
+    count = 1 if field.size is None else field.size or reader.elements()
+    for _ in range(count):
+        if field.is_message:
+            _walk(reader, field.base, places, depth + 1)
+        elif field.base == "string":
+            length = reader.count()
+            reader.pos += length
+            if reader.pos > reader.size:
+                raise MessageError("it is cut off")
+        else:
+            raise MessageError(f"{field.base} is unsupported")

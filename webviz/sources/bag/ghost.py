@@ -1,0 +1,378 @@
+"""A second run beside a bag: its topics in a namespace of their own, and moved in time."""
+
+from __future__ import annotations
+
+import heapq
+import math
+import struct
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from webviz.api.errors import Error
+from webviz.api.offer import Publisher
+from webviz.data.messages import MessageError, decode, definition
+from webviz.data.messages.paths import FieldPath
+from webviz.data.messages.stamps import shifted
+from webviz.data.recordings import RecordedChannel
+from webviz.data.recordings.recording import Counts, TimeParts
+from webviz.data.transforms.geometry import IDENTITY, PoseTuple, compose
+from webviz.sources.bag.file import BagChannel, BagFile, Recorded
+from webviz.sources.bag.files import BagFiles
+from webviz.sources.bag.time import TF, BagTime
+
+NAMESPACE = "ghost"
+ROOT = f"/{NAMESPACE}"
+DISTANCE, DIFFERENCE = f"{ROOT}/distance", f"{ROOT}/difference"
+FLOAT = "std_msgs/msg/Float64"
+BASES = ("base_link", "base_footprint", "base")
+"""Frames of a robot that tell where it is, by preference."""
+SAMPLE_S = 0.1
+"""Between two poses of a path."""
+MAX_SAMPLES = 200_000
+STEP_S = 0.5
+"""Of the offsets that are tried."""
+MAX_STEPS = 20_000
+OVERLAP = 0.3
+"""Share of the shorter path that must lie beside the other for an offset to count."""
+
+Align = Literal["stamp", "start", "path"]
+Floats = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Ghost:
+    """A second run to show beside a bag.
+
+    Args:
+        path: of its bag.
+        align: "stamp" keeps its times, "start" lets both begin together, "path" moves it to where
+            the robots are closest; or seconds to add to the times of "start".
+        difference: a message path of a number, such as /odom.twist.twist.linear.x, "" for none.
+    """
+
+    path: Path
+    align: Align | float = "start"
+    difference: str = ""
+
+
+class GhostFile(BagFile):
+    """A bag whose topics are in the namespace of the ghost, and whose times are moved.
+
+    Args:
+        path: of the file or folder.
+        offset_ns: added to times of recording.
+        stamps_ns: added to the stamps in messages.
+    """
+
+    def __init__(self, path: Path, offset_ns: int, stamps_ns: int) -> None:
+        self._offset_ns = offset_ns
+        self._stamps_ns = stamps_ns
+        super().__init__(path)
+        self.start_ns += offset_ns
+        self.end_ns += offset_ns
+        self.channels = tuple(
+            replace(channel, topic=ROOT + channel.topic) for channel in self.channels
+        )
+        self.skipped = {ROOT + topic: why for topic, why in self.skipped.items()}
+
+    def messages(
+        self, channels: Collection[BagChannel], start_ns: int, end_ns: int | None = None
+    ) -> Iterator[Recorded]:
+        """See `BagFile.messages`."""
+        by_ns = self._offset_ns
+        until_ns = self.end_ns if end_ns is None else end_ns
+        return map(self._moved, super().messages(channels, start_ns - by_ns, until_ns - by_ns))
+
+    def newest(self, channels: Collection[BagChannel], end_ns: int) -> Iterator[Recorded]:
+        """See `BagFile.newest`."""
+        return map(self._moved, super().newest(channels, end_ns - self._offset_ns))
+
+    def histogram(self, parts: TimeParts) -> dict[str, Counts]:
+        """See `BagFile.histogram`."""
+        by_ns = self._offset_ns
+        moved = TimeParts(parts.start_ns - by_ns, parts.end_ns - by_ns, parts.count)
+        return super().histogram(moved)
+
+    def _moved(self, recorded: Recorded) -> Recorded:
+        cdr = shifted(recorded.type, recorded.cdr, self._stamps_ns)
+        return recorded._replace(cdr=cdr, stamp_ns=recorded.stamp_ns + self._offset_ns)
+
+
+class NumbersFile:
+    """Computed numbers as a bag.
+
+    Args:
+        found: times of recording in ns and numbers, by topic; not empty.
+    """
+
+    def __init__(self, found: dict[str, tuple[npt.NDArray[np.int64], Floats]]) -> None:
+        self._found = found
+        self.path = Path(NAMESPACE)
+        self.start_ns = min(int(times[0]) for times, _ in found.values())
+        self.end_ns = max(int(times[-1]) for times, _ in found.values())
+        self.skipped: dict[str, str] = {}
+        self.channels = tuple(map(_number_channel, found))
+
+    def messages(
+        self, channels: Collection[BagChannel], start_ns: int, end_ns: int | None = None
+    ) -> Iterator[Recorded]:
+        """See `BagFile.messages`."""
+        until_ns = self.end_ns if end_ns is None else end_ns
+        found = [self._of_topic(channel.topic, start_ns, until_ns) for channel in channels]
+        return heapq.merge(*found, key=_stamp)
+
+    def newest(self, channels: Collection[BagChannel], end_ns: int) -> Iterator[Recorded]:
+        """See `BagFile.newest`."""
+        found = [
+            self._of_topic(channel.topic, self.start_ns, end_ns, step=-1) for channel in channels
+        ]
+        return heapq.merge(*found, key=_stamp, reverse=True)
+
+    @property
+    def remarks(self) -> list[str]:
+        """None."""
+        return []
+
+    def is_used(self, channel: BagChannel) -> bool:
+        """Return True."""
+        return True
+
+    def histogram(self, parts: TimeParts) -> dict[str, Counts]:
+        """See `BagFile.histogram`."""
+        return {
+            topic: np.bincount(parts.part_of(times.astype(np.uint64)), minlength=parts.count)
+            for topic, (times, _) in self._found.items()
+        }
+
+    def close(self) -> None:
+        """Do nothing."""
+
+    def _of_topic(
+        self, topic: str, start_ns: int, end_ns: int, step: int = 1
+    ) -> Iterator[Recorded]:
+        """The numbers of a topic in a span of time, both ends included."""
+        times, values = self._found[topic]
+        first, last = np.searchsorted(times, start_ns), np.searchsorted(times, end_ns, "right")
+        for number in range(first, last)[::step]:
+            cdr = b"\0\1\0\0" + struct.pack("<d", values[number])
+            yield Recorded(topic, FLOAT, cdr, int(times[number]))
+
+
+def _stamp(recorded: Recorded) -> int:
+    return recorded.stamp_ns
+
+
+def ghost_files(paths: Sequence[Path], ghost: Ghost) -> list[GhostFile | NumbersFile]:
+    """The second run as files to merge with a bag, and numbers that compare both.
+
+    Args:
+        paths: of the bag.
+        ghost: the second run.
+
+    Raises:
+        Error: a bag cannot be read, or the paths of the robots are unknown.
+    """
+    own, other = BagFiles(paths), BagFiles([ghost.path])
+    try:
+        here, there = Track.of(own), Track.of(other)
+        offset_ns = _offset_ns(own, other, here, there, ghost.align)
+        ros_ns = _ros_offset_ns(other) - _ros_offset_ns(own)
+        found: dict[str, tuple[npt.NDArray[np.int64], Floats]] = {}
+        if here is not None and there is not None and here.root == there.root:
+            distance = np.hypot(*(here.xy - there.at(here.times - offset_ns)).T)
+            _add(found, DISTANCE, here.times, distance)
+        if ghost.difference:
+            times, values = _numbers(own, ghost.difference)
+            ghost_times, ghost_values = _numbers(other, ghost.difference)
+            there_values = _interpolated(times - offset_ns, ghost_times, ghost_values)
+            _add(found, DIFFERENCE, times, values - there_values)
+    finally:
+        own.close()
+        other.close()
+    numbers = [NumbersFile(found)] if found else []
+    return [GhostFile(ghost.path, offset_ns, offset_ns + ros_ns), *numbers]
+
+
+@dataclass(frozen=True)
+class Track:
+    """The path of a robot.
+
+    Args:
+        root: frame at the root of its transforms.
+        times: of recording, in ns, increasing.
+        xy: (N, 2), in metres in that frame.
+    """
+
+    root: str
+    times: npt.NDArray[np.int64]
+    xy: Floats
+
+    @staticmethod
+    def of(files: BagFiles) -> Track | None:
+        """The path in a bag, None if there is no frame of a robot."""
+        channels = [c for c in files.channels if c.type == TF and c.topic in ("/tf", "/tf_static")]
+        links: dict[str, tuple[str, PoseTuple]] = {}
+        times: list[int] = []
+        found: list[tuple[str, str, float, float]] = []
+        for recorded in files.messages(channels, files.start_ns):
+            _learn(links, recorded)
+            if times and recorded.stamp_ns - times[-1] < SAMPLE_S * 1e9:
+                continue
+            place = _place(links)
+            if place is not None and len(times) < MAX_SAMPLES:
+                times.append(recorded.stamp_ns)
+                found.append(place)
+        if not found:
+            return None
+        kind = found[-1][:2]  # frames may become known one by one
+        kept = [n for n, each in enumerate(found) if each[:2] == kind]
+        xy = np.array([found[n][2:] for n in kept], float)
+        return Track(kind[0], np.array([times[n] for n in kept], np.int64), xy)
+
+    def at(self, times: npt.NDArray[np.int64]) -> Floats:
+        """Positions at other times, (N, 2); NaN outside of the path."""
+        columns = [_interpolated(times, self.times, self.xy[:, axis]) for axis in (0, 1)]
+        return np.stack(columns, axis=1)
+
+
+def _learn(links: dict[str, tuple[str, PoseTuple]], recorded: Recorded) -> None:
+    try:
+        message = decode(TF, recorded.cdr)
+    except MessageError:
+        return
+    for each in message.transforms:
+        pose = (*each.translation, *each.rotation)
+        if all(map(math.isfinite, pose)):
+            links[each.child.lstrip("/")] = each.parent.lstrip("/"), pose
+
+
+def _place(links: dict[str, tuple[str, PoseTuple]]) -> tuple[str, str, float, float] | None:
+    """The root, the frame of the robot, and its position in the root."""
+    frame = next((name for name in BASES if name in links), None)
+    if frame is None:
+        return None
+    pose, root, seen = IDENTITY, frame, {frame}
+    while root in links:
+        root, link = links[root]
+        if root in seen:
+            return None
+        seen.add(root)
+        pose = compose(link, pose)
+    return root, frame, pose[0], pose[1]
+
+
+def _offset_ns(
+    own: BagFiles, other: BagFiles, here: Track | None, there: Track | None, align: Align | float
+) -> int:
+    """Time to add to the second run."""
+    if align == "stamp":
+        return 0
+    start_ns = own.start_ns - other.start_ns
+    if align == "start":
+        return start_ns
+    if align != "path":
+        return start_ns + round(align * 1e9)
+    if here is None or there is None:
+        raise Error(
+            f"The paths of the robots are unknown, since there is no frame {' or '.join(BASES)}. "
+            "Align by start, or give seconds."
+        )
+    return int(here.times[0] - there.times[0]) + round(_closest(here, there) * 1e9)
+
+
+def _closest(here: Track, there: Track) -> float:
+    """Seconds that the second path begins after the first where both are closest."""
+    a, b = here.times[0], there.times[0]
+    times, ghost_times = (here.times - a) / 1e9, (there.times - b) / 1e9
+    lengths = times[-1], ghost_times[-1]
+    step = max(STEP_S, (lengths[0] + lengths[1]) / MAX_STEPS)
+    thin = max(1, len(times) // 2000)
+    times, xy = times[::thin], here.xy[::thin]
+    coarse = np.arange(-lengths[1], lengths[0] + step, step)
+    best = _best(coarse, times, xy, ghost_times, there.xy, min(lengths))
+    fine = best + np.arange(-step, step + SAMPLE_S / 2, SAMPLE_S)
+    return _best(fine, times, xy, ghost_times, there.xy, min(lengths))
+
+
+def _best(
+    offsets: Floats, times: Floats, xy: Floats, ghost_times: Floats, ghost_xy: Floats, least: float
+) -> float:
+    """The offset with the least mean distance, of those with enough overlap."""
+    best, least_m = 0.0, math.inf
+    needed = max(2, round(OVERLAP * least / max(1e-9, times[-1]) * len(times)))
+    for offset in offsets:
+        at = times - offset
+        inside = (at >= 0) & (at <= ghost_times[-1])
+        if inside.sum() < needed:
+            continue
+        dx, dy = (
+            np.interp(at[inside], ghost_times, ghost_xy[:, n]) - xy[inside, n] for n in (0, 1)
+        )
+        mean = float(np.hypot(dx, dy).mean())
+        # Of equal ones, such as while both stand, the one next to the start.
+        if mean < least_m - 1e-9 or (mean < least_m + 1e-9 and abs(offset) < abs(best)):
+            best, least_m = float(offset), mean
+    return best
+
+
+def _ros_offset_ns(files: BagFiles) -> int:
+    """Time of recording minus ROS time."""
+    return files.start_ns - BagTime(files).at(files.start_ns)
+
+
+def _numbers(files: BagFiles, path: str) -> tuple[npt.NDArray[np.int64], Floats]:
+    """Times of recording and values of a number.
+
+    Raises:
+        Error: it has no values.
+    """
+    topic, _, field = path.partition(".")
+    channels = [channel for channel in files.channels if channel.topic == topic]
+    times: list[int] = []
+    values: list[float] = []
+    try:
+        read = FieldPath(field)
+        for recorded in files.messages(channels, files.start_ns):
+            if len(times) >= MAX_SAMPLES:
+                break
+            value = read.number(decode(recorded.type, recorded.cdr))
+            times.append(recorded.stamp_ns)
+            values.append(value)
+    except MessageError as error:
+        raise Error(f"Cannot read {path}: {str(error).rstrip('.')}.") from error
+    if not times:
+        raise Error(f"{', '.join(files.names)} has no messages on {topic}. Choose another number.")
+    return np.array(times, np.int64), np.array(values, float)
+
+
+def _interpolated(
+    at: npt.NDArray[np.int64], times: npt.NDArray[np.int64], values: Floats
+) -> Floats:
+    """Values at other times; NaN outside."""
+    start = times[0]
+    return np.interp(
+        (at - start) / 1e9, (times - start) / 1e9, values, left=math.nan, right=math.nan
+    )
+
+
+def _add(
+    found: dict[str, tuple[npt.NDArray[np.int64], Floats]],
+    topic: str,
+    times: npt.NDArray[np.int64],
+    values: Floats,
+) -> None:
+    """Add the numbers that are known, if any."""
+    known = np.isfinite(values)
+    if known.any():
+        found[topic] = times[known], values[known]
+
+
+def _number_channel(topic: str) -> BagChannel:
+    recorded = RecordedChannel(topic, FLOAT, "cdr", definition(FLOAT), "")
+    publishers = (Publisher("webviz", FLOAT, "reliable", "volatile"),)
+    return BagChannel(topic, FLOAT, publishers, 1, recorded)
