@@ -53,6 +53,7 @@ from webviz.sources.bag.source import BagSource
 from webviz.sources.past_state import Event
 from webviz.sources.rewindable import Rewindable
 from webviz.sources.slices import Slice, WrittenSlice, write_slice
+from webviz.sources.switchable import Switchable
 
 BEFORE_NS, AFTER_NS = 30_000_000_000, 5_000_000_000
 """Of a bag around the moment that is shown, unless a span is selected."""
@@ -172,6 +173,8 @@ class ReportsPart(Part):
     def _slice(self) -> tuple[Slice, str]:
         """The slice around the moment that is shown, and the name of its source."""
         source, control = self.core.source, self._control
+        if isinstance(source, Switchable):
+            source = source.shown
         if isinstance(source, BagSource):
             at_ns = min(max(control.position_ns, source.start_ns), source.end_ns)
             first_ns, last_ns = control.selected or (at_ns - BEFORE_NS, at_ns + AFTER_NS)
