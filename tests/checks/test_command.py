@@ -85,6 +85,8 @@ def test_a_bag_is_examined_for_a_program(run_bag: Path, capsys: pytest.CaptureFi
     ]
     assert START_NS / 1e9 <= finding.first <= finding.last <= START_NS / 1e9 + 6.0
     assert not [each for each in report.unexplained if each.display == "LaserScan"]
+    causes = {(each.display, each.status): each.finding for each in report.statuses}
+    assert causes["LaserScan", "Transform"] == "TF016"
     assert {*msgspec.json.decode(schema_text())["$defs"]} >= {"DoctorReport", "ReportedFinding"}
 
 

@@ -28,6 +28,9 @@ class ReportedStatus(msgspec.Struct):
     values: Annotated[
         Sequence[Measurement], Meta(description="What was measured, more exact than in the text.")
     ] = ()
+    finding: Annotated[
+        str, Meta(description='Id of the first finding that explains it; "" for none.')
+    ] = ""
 
 
 class ReportedFinding(msgspec.Struct, kw_only=True):
@@ -58,6 +61,10 @@ class DoctorReport(msgspec.Struct, kw_only=True):
     findings: Annotated[
         Sequence[ReportedFinding], Meta(description="The one to repair first comes first.")
     ]
+    statuses: Annotated[
+        Sequence[ReportedStatus],
+        Meta(description="All warnings and errors, each with the finding that explains it."),
+    ] = ()
     unexplained: Annotated[
         Sequence[ReportedStatus],
         Meta(description="Warnings and errors of displays that no finding explains."),
@@ -89,10 +96,15 @@ def report_of(
         status = statuses.get(place)
         name = names.get(place[0], "")
         if status is None:
-            return ReportedStatus(name, place[1])
-        return ReportedStatus(name, place[1], status.text, status.values)
+            return ReportedStatus(name, place[1], finding=causes.get(place, ""))
+        return ReportedStatus(name, place[1], status.text, status.values, causes.get(place, ""))
 
-    explained = {symptom for finding in findings for symptom in finding.explains}
+    causes = {
+        (symptom.display, symptom.status): finding.id
+        for finding in reversed(findings)
+        for symptom in finding.explains
+    }
+    bad = [place for place, status in statuses.items() if status.level >= Level.WARN]
     return DoctorReport(
         source=source,
         checks=checks,
@@ -113,11 +125,8 @@ def report_of(
             )
             for each in findings
         ],
-        unexplained=[
-            reported(place)
-            for place, status in statuses.items()
-            if status.level >= Level.WARN and place not in explained
-        ],
+        statuses=[reported(place) for place in bad],
+        unexplained=[reported(place) for place in bad if place not in causes],
     )
 
 
