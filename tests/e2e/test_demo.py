@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+import re
 import signal
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
+import playwright.sync_api as playwright
 import pytest
 from program import Program
 from side import GLOBAL_OPTIONS, Side
@@ -223,6 +225,53 @@ def test_robot_and_scan_move_by_the_commanded_amount_and_the_map_stands(
 def test_seen_from_the_robot_the_map_moves(page: Page, driver: Driver) -> None:
     choose_fixed_frame(page, "base_link")
     check_drive_in_base(page, driver)
+
+
+def test_a_laser_that_is_moved_on_the_page_alone_is_found_again(
+    page: Page, open_page: Callable[..., Page]
+) -> None:
+    choose_fixed_frame(page, "map")
+    settled(page)
+    page = open_page(page.tab.url, 1200, 900)  # a page that is held has no place for a mouse
+    tab = page.tab
+    tab.get_by_role("tab", name="TF", exact=True).click()
+    tab.locator(".wv-frame", has_text="base_scan").click()
+    tab.get_by_role("button", name="What if…").click()
+    card = tab.get_by_role("region", name="What if")
+
+    def fit() -> int:
+        page.draw()
+        found = re.search(r"(\d+)% of \d+ points on walls of /map", card.inner_text())
+        return int(found[1]) if found else -1
+
+    page.wait_for(lambda: fit() > 90, "the fit of the scan", 60)
+
+    def on_screen(y: float) -> list[float]:
+        page.draw()
+        return page.evaluate(
+            """async (point) => {
+              const { frameNode, sightOf } = await import("/webviz/handles/sight.js");
+              const { all } = await import("/webviz/handles/known.js");
+              const [handle] = all().values();
+              return sightOf(frameNode(handle.frame)).project(point);
+            }""",
+            [0.05, y, 0.2],
+        )
+
+    page.wait_for(lambda: on_screen(0.65) == pytest.approx(on_screen(0.65), abs=0.5), "the view")
+    start, end = on_screen(0.65), on_screen(1.15)  # an arrow, and a place across the corridor
+    tab.mouse.move(*start)
+    page.draw()
+    tab.mouse.down()
+    tab.mouse.move(*end, steps=6)
+    page.wait_for(lambda: 0 <= fit() < 90, "a worse fit while it is dragged", 60)
+    tab.mouse.up()
+    card.get_by_role("button", name="Find it").click()
+    page.wait_for(lambda: fit() > 90, "the place that fits", 60)
+    assert "--frame-id base_link --child-frame-id base_scan" in card.inner_text()
+    tab.keyboard.press("Escape")
+    playwright.expect(card).to_be_hidden()
+    tab.get_by_role("tab", name="Displays", exact=True).click()
 
 
 def test_a_dead_scan_publisher_fails_the_check_and_the_page_says_so(
