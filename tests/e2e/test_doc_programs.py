@@ -14,7 +14,11 @@ from program import Program
 
 pytest.importorskip("rclpy", reason="needs rclpy")
 
-PROGRAMS = [each for each in blocks("python") if "webviz.Viewer(" in each.text]
+PROGRAMS = [
+    each
+    for each in blocks("python")
+    if "webviz.Viewer(" in each.text and "import webviz" in each.text  # not cells of notebooks
+]
 TESTS = [each for each in blocks("python") if "\ndef test_" in each.text]
 
 
