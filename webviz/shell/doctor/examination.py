@@ -27,8 +27,8 @@ from webviz.shell.doctor.scene import NoScene
 from webviz.sources import Offer, Source
 from webviz.sources.bag.source import BagSource
 
-DISCOVERY_S = 2.5
-"""Time for the graph: it is read every two seconds."""
+DISCOVERY_S = 4.3
+"""Time for the graph, which is read every two seconds: the first reading may be half of it."""
 REST_S = 0.05
 MAP = "/map"
 """A robot that publishes it is to be seen in its frame, so that a missing localisation is found."""
