@@ -20,8 +20,10 @@ PACKAGES = ("webviz", "displays/webviz_displays", "urdf/webviz_urdf", "sim/webvi
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 LICENCES = (ROOT / "THIRD_PARTY.md").read_text(encoding="utf-8")
 CLIENT = Path(viser.__file__).parent / "client"
-OPTIONAL = {"rclpy", "xacro", "playwright", "pytest", "_pytest"}
-"""Modules of extras and of those who write tests; imported where they are used."""
+OPTIONAL = {"rclpy", "xacro", "pytest", "_pytest"}
+"""Modules of ROS and of those who write tests; imported where they are used."""
+EXTRAS = "pictures", "mcp"
+"""Whose modules are imported where they are used."""
 REQUIREMENT = {"PIL": "pillow", "collada": "pycollada", "re2": "google_re2"}
 REQUIREMENT |= {"ruamel": "ruamel.yaml", "svg": "svg.path"}
 """Of modules with another name."""
@@ -66,7 +68,7 @@ def test_the_description_on_a_package_index_has_no_links_into_a_clone() -> None:
 
 
 def test_every_imported_library_is_required() -> None:
-    known = {name.replace("-", "_") for name in requirements()} | OPTIONAL
+    known = {name.replace("-", "_") for name in requirements(*EXTRAS)} | OPTIONAL
     known |= sys.stdlib_module_names | {Path(package).name for package in PACKAGES}
     found: dict[str, Path] = {}
     for file in files():
@@ -79,7 +81,7 @@ def test_every_imported_library_is_required() -> None:
 
 def test_the_licence_of_every_requirement_is_listed() -> None:
     rows = dict(re.findall(r"^\| `([\w.-]+)` \| (.+?) \|", LICENCES, re.MULTILINE))
-    assert rows.keys() == requirements("ros", "pictures")
+    assert rows.keys() == requirements("ros", *EXTRAS)
     for name, licence in rows.items():
         try:
             about = metadata.metadata(name)
