@@ -15,12 +15,12 @@ DATA = "py.typed *.yaml *.pgm *.urdf *.stl *.dae *.png *.webp *.json *.js *.d.ts
 
 
 def files(folder: str, *patterns: str) -> list[str]:
-    """The files of a folder, relative to this one, as `data_files` wants them."""
+    """Return the files of a folder, relative to this one, as `data_files` wants them."""
     return sorted(str(path) for pattern in patterns for path in Path(folder).glob(pattern))
 
 
 def readme() -> str:
-    """The README without pictures and links to files, which only a clone has.
+    """Return the README without pictures and links to files, which only a clone has.
 
     colcon runs a link to this file elsewhere.
     """

@@ -28,7 +28,7 @@ class Axes(Display):
         group.axes("axes", [(0.0, 0.0, 0.0)], [(1.0, 0.0, 0.0, 0.0)], self.length, self.radius)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
-        """The frame, and where it is."""
+        """Return the frame, and where it is."""
         frame = frame_of(self.reference_frame) or ctx.frames.fixed_frame
         pose = ctx.frames.latest(frame)
         values = {} if pose is None else {f"Pose in {ctx.frames.fixed_frame}": pose}

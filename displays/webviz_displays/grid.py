@@ -96,7 +96,7 @@ class Grid(Display):
         )
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
-        """The grid as a whole."""
+        """Return the grid as a whole."""
         plane, normal = _inner(self.plane_cell_count, self.normal_cell_count)
         values = {
             "Cell size": f"{self.cell_size:g} m",
@@ -113,7 +113,7 @@ def _count(plane: int, normal: int) -> int:
 
 
 def _inner(plane: int, normal: int) -> tuple[int, int]:
-    """The cells along the plane and along the normal that can be drawn around the middle."""
+    """Return the cells along the plane and along the normal that can be drawn around the middle."""
 
     def within(most: int) -> tuple[int, int]:
         # Fewer by an even number, so that the remaining lines keep their places.
@@ -127,7 +127,7 @@ def _inner(plane: int, normal: int) -> tuple[int, int]:
 
 @functools.lru_cache(maxsize=4)
 def _unit_grid(plane: int, normal: int, axes: str) -> NDArray[np.float64]:
-    """The segments (N, 2, 3) of a grid with cells of edge 1 around the origin."""
+    """Return the segments (N, 2, 3) of a grid with cells of edge 1 around the origin."""
     across = np.arange(plane + 1) - plane / 2
     heights = np.arange(normal + 1) - normal / 2
     place, height = (g.ravel() for g in np.meshgrid(across, heights))

@@ -102,7 +102,7 @@ class ImagePlane(ImageDisplay):
         self._place(texture, pose, ctx)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
-        """A pixel, with its value if it is a measurement."""
+        """Return a pixel, with its value if it is a measurement."""
         shown: _Texture | None = ctx.state.shown
         if shown is None or not isinstance(hit.node, Image):
             return None
@@ -119,7 +119,7 @@ class ImagePlane(ImageDisplay):
         return Details(title)
 
     def _texture(self, picture: Pixels | Encoded, ctx: Context) -> _Texture | None:
-        """The newest texture that is ready."""
+        """Return the newest texture that is ready."""
         number, alpha = ctx.state.number, self.alpha
         tone = picture.tone if isinstance(picture, Pixels) else None
         texture = ctx.state.textures.of(

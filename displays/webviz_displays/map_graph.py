@@ -63,7 +63,7 @@ class MapGraph(Display):
     alpha: Annotated[Alpha, Prop(help="Opacity of the links.")] = 1.0
 
     def draw(self, sample: Sample, ctx: Context) -> None:
-        """The links between known poses, in the frame and at the stamp of the header."""
+        """Draw the links between known poses, in the frame and at the stamp of the header."""
         message = sample.message
         count = len(message.poses_id)
         if len(message.poses) != count:
@@ -103,14 +103,14 @@ class MapGraph(Display):
         group.lines("links", segments - origin, both, ids=numbers, opacity=self.alpha)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
-        """A link: the poses that it connects, and what it comes from."""
+        """Return a link: the poses that it connects, and what it comes from."""
         link = hit.sample.message.links[hit.id]
         kind = kind_of(link).replace("_", " ")
         return Details(f"Link {link.from_id} to {link.to_id}", {"Type": f"{link.type}, {kind}"})
 
 
 def kind_of(link: Any) -> str:
-    """The property with the colour of a link."""
+    """Return the property with the colour of a link."""
     return KINDS[link.type if 0 <= link.type < len(KINDS) else 1]
 
 

@@ -47,7 +47,7 @@ class MapInfo(Display):
         return False
 
     def lookback(self, name: str) -> Lookback:
-        """The newest; loops are counted from there on."""
+        """Return the newest; loops are counted from there on."""
         return Lookback(count=1)
 
     def fold(self, name: str, sample: Sample, state: SeenInfo | None) -> SeenInfo:
@@ -63,7 +63,7 @@ class MapInfo(Display):
         )
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
-        """The statuses; nothing is drawn."""
+        """Draw the statuses; nothing is drawn."""
         if not samples:
             return
         seen: SeenInfo = samples[-1].message
@@ -97,7 +97,7 @@ def _link(message: Any) -> str:
 
 
 def _pose(transform: Any) -> Pose | None:
-    """The transform of a link, None if it is invalid."""
+    """Return the transform of a link, None if it is invalid."""
     place, turn = transform.translation, transform.rotation
     wxyz = np.array([[turn.w, turn.x, turn.y, turn.z]])
     if not np.isfinite([place.x, place.y, place.z, *wxyz[0]]).all() or not wxyz.any():

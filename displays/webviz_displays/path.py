@@ -85,7 +85,7 @@ class Path(Display, Comparable):
     ] = 0.3
 
     def history(self) -> Keep:
-        """The newest paths."""
+        """Return the newest paths."""
         return Keep(count=self.buffer_length)
 
     def draw(self, sample: Sample, ctx: Context) -> None:
@@ -129,7 +129,7 @@ class Path(Display, Comparable):
             self._draw_poses(xyz, orientations, rows, group, ctx)
 
     def consistency_input(self, samples: Sequence[Sample], ctx: Context) -> RobotPath | None:
-        """The newest path."""
+        """Return the newest path."""
         if not samples:
             return None
         sample = samples[-1]
@@ -139,7 +139,7 @@ class Path(Display, Comparable):
         return RobotPath(sample.frame, sample.received_ns, xyz)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
-        """A pose, or the one that a piece of the line begins at."""
+        """Return a pose, or the one that a piece of the line begins at."""
         path: messages.Path = hit.sample.message
         pose = path.poses[hit.id]
         (wxyz,), _ = normalized(w_first([path.poses.orientations[hit.id]]))
@@ -169,7 +169,7 @@ class Path(Display, Comparable):
 
 
 def _fault(path: messages.Path, index: int) -> str:
-    """A description of an invalid pose."""
+    """Return a description of an invalid pose."""
     x, y, z = path.poses.positions[index].tolist()
     qx, qy, qz, qw = path.poses.orientations[index].tolist()
     return (

@@ -101,7 +101,7 @@ class Text(Display):
             state.problems.append(f"Only the first {MAX_FIELDS} fields are shown.")
 
     def _found(self, sample: Sample, state: _State, ctx: Context) -> tuple[FieldPath, ...]:
-        """The chosen fields that the message has; says which are missing."""
+        """Return the chosen fields that the message has; says which are missing."""
         found: list[FieldPath] = []
         problems = list(state.problems)
         for path in state.paths:

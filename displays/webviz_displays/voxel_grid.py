@@ -88,7 +88,7 @@ class VoxelGrid(Display):
     ] = 0.1
 
     def draw(self, sample: Sample, ctx: Context) -> None:
-        """The voxels that can be seen as boxes, in the frame and at the stamp of the header."""
+        """Draw the visible voxels as boxes, in the frame and at the stamp of the header."""
         message = sample.message
         if fault := _fault_of(message):
             ctx.error("Voxels", fault)
@@ -105,7 +105,7 @@ class VoxelGrid(Display):
             ctx.warn("Voxels", text, self._remedy(cells))
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
-        """A voxel."""
+        """Return a voxel."""
         message = hit.sample.message
         x, y, z = _indices(np.array([hit.id]), message)[0].tolist()
         center = np.add(_corner(message), _centers(np.array([hit.id]), message)[0])
@@ -114,7 +114,7 @@ class VoxelGrid(Display):
         )
 
     def _remedy(self, cells: Mapping[str, NDArray[np.bool_]]) -> Remedy | None:
-        """The change that shows the first kind of which there are voxels."""
+        """Return the change that shows the first kind of which there are voxels."""
         kind = next((each for each in KINDS if cells[each].any()), None)
         if kind is None:
             return None

@@ -51,19 +51,19 @@ class ServerGoal:
         return self.status == GoalStatus.STATUS_CANCELING
 
     def report(self, feedback: Mapping[str, Any]) -> None:
-        """Publishes feedback by field."""
+        """Publish feedback by field."""
         self._server.publish(self, feedback)
 
     def succeed(self, result: Mapping[str, Any]) -> None:
-        """Ends it with a result by field."""
+        """End it with a result by field."""
         self._server.end(self, GoalStatus.STATUS_SUCCEEDED, result)
 
     def abort(self, result: Mapping[str, Any]) -> None:
-        """Ends it as failed, with a result by field."""
+        """End it as failed, with a result by field."""
         self._server.end(self, GoalStatus.STATUS_ABORTED, result)
 
     def cancel(self, result: Mapping[str, Any]) -> None:
-        """Ends it as cancelled, with a result by field."""
+        """End it as cancelled, with a result by field."""
         self._server.end(self, GoalStatus.STATUS_CANCELED, result)
 
 
@@ -105,12 +105,12 @@ class ActionServer:
         self._status = node.create_publisher(GoalStatusArray, f"{prefix}/status", _LATCHED)
 
     def publish(self, goal: ServerGoal, feedback: Mapping[str, Any]) -> None:
-        """Publishes feedback; see `ServerGoal.report`."""
+        """Publish feedback; see `ServerGoal.report`."""
         values = {"goal_id": goal.info.goal_id, "feedback": feedback}
         self._feedback.publish(encode(self._parts.feedback, values))
 
     def end(self, goal: ServerGoal, status: int, result: Mapping[str, Any]) -> None:
-        """Ends a goal; see `ServerGoal.succeed`."""
+        """End a goal; see `ServerGoal.succeed`."""
         goal.status, goal.result = status, result
         id = bytes(goal.info.goal_id.uuid)
         for _ in range(len(self._waiting)):
@@ -174,10 +174,10 @@ class ActionServer:
 
 
 def _as_sent(request: Any, response: Any) -> Any:
-    """Passes a request on to where its response would be sent."""
+    """Pass a request on to where its response would be sent."""
     return request
 
 
 def response_of(name: str, values: Mapping[str, Any], cls: Any) -> Any:
-    """A response for rclpy, also of a type that was composed, from values by field."""
+    """Return a response for rclpy, also of a type that was composed, from values by field."""
     return from_cdr(encode(name, values), cls)

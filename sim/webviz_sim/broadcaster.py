@@ -37,7 +37,7 @@ class Broadcaster:
     """Publishes the state of a simulation after each step."""
 
     def __init__(self, node: Node, simulation: Simulation, values: dict[str, Any], now: int):
-        """Creates the publishers and publishes the latched messages.
+        """Create the publishers and publish the latched messages.
 
         Args:
             node: The node to publish from.
@@ -99,7 +99,7 @@ class Broadcaster:
             self._map.publish(messages.occupancy_grid(simulation.world, now))
 
     def publish(self, now: int) -> None:
-        """Publishes the messages that are due; `now` is the simulation's time in nanoseconds."""
+        """Publish the messages that are due; `now` is the simulation's time in nanoseconds."""
         simulation, robot = self._simulation, self._simulation.robot
         values, time = self._values, self._simulation.time
         if self._clock:
@@ -165,7 +165,7 @@ class Broadcaster:
         return Slam(self._simulation.world, self._map) if kind == "slam" else Perfect()
 
     def _tf_message(self, transforms: Iterable[FrameTransform]) -> bytes:
-        """A message of transforms, with prefixes before the names of the robot's own frames."""
+        """Return a message of transforms, with the prefix of the robot before its own frames."""
         return messages.tf(
             transform._replace(
                 parent=self._named(transform.parent), child=self._named(transform.child)

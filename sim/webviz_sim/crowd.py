@@ -56,6 +56,6 @@ def _length(walk: NDArray[np.float64]) -> float:
 
 
 def _along(walk: NDArray[np.float64], distance: float) -> NDArray[np.float64]:
-    """The point of a polyline at a distance from its start, in metres."""
+    """Return the point of a polyline at a distance from its start, in metres."""
     passed = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(walk, axis=0).T))])
     return np.array([np.interp(distance, passed, walk[:, axis]) for axis in (0, 1)])

@@ -25,13 +25,13 @@ class JointOfDescription(NamedTuple):
     axis: Vector
 
     def transform(self, stamp_ns: int, angle: float = 0.0) -> FrameTransform:
-        """The child link in the parent link's frame, with the joint turned by `angle` rad."""
+        """Return the pose of the child link in the parent's frame with the joint at `angle` rad."""
         rotation = multiply(self.rotation, from_axis_angle(self.axis, angle))
         return FrameTransform(self.parent, self.child, stamp_ns, self.translation, w_last(rotation))
 
 
 def demo_description() -> str:
-    """The bundled robot's URDF.
+    """Return the bundled robot's URDF.
 
     It is found without importing webviz_urdf, which takes long.
     """
@@ -43,7 +43,7 @@ def demo_description() -> str:
 
 
 def read_robot(path: str) -> str:
-    """The text of a URDF that has what the simulator moves.
+    """Return the text of a URDF that has what the simulator moves.
 
     Raises:
         WorldError: it cannot be read, or lacks a joint.
@@ -64,7 +64,7 @@ def read_robot(path: str) -> str:
 
 
 def read_joints(urdf: str) -> list[JointOfDescription]:
-    """The joints of a URDF in document order."""
+    """Return the joints of a URDF in document order."""
     return [
         JointOfDescription(
             element.attrib["name"],

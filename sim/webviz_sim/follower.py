@@ -24,7 +24,7 @@ class Follower:
     """
 
     def __init__(self, path: NDArray[np.float64], yaw: float | None = None):
-        """Starts at the beginning of the path.
+        """Start at the beginning of the path.
 
         Args:
             path: Points in the map frame, shape (n, 2), n at least 2.
@@ -36,13 +36,13 @@ class Follower:
         self.done = False
 
     def remaining(self) -> NDArray[np.float64]:
-        """The points still ahead, shape (n, 2); none when the robot has arrived."""
+        """Return the points still ahead, shape (n, 2); none when the robot has arrived."""
         return self._path[self._passed :] if not self.done else self._path[:0]
 
     def step(
         self, pose: Pose2D, velocity: tuple[float, float], speed: float, seconds: float
     ) -> tuple[float, float]:
-        """The linear and angular velocity for the next step, in m/s and rad/s.
+        """Return the linear and angular velocity for the next step, in m/s and rad/s.
 
         Args:
             pose: The robot in the map frame.

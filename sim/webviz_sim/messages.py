@@ -24,18 +24,18 @@ _COVARIANCE = np.diag([0.001, 0.001, 0.001, 0.001, 0.001, 0.01]).ravel()
 
 
 def stamp(nanoseconds: int) -> Time:
-    """A time as ROS has it."""
+    """Return a time as ROS has it."""
     return Time(*divmod(nanoseconds, 1_000_000_000))
 
 
 def planar(parent: str, child: str, nanoseconds: int, pose: Pose2D) -> FrameTransform:
-    """A pose in the plane as a transform."""
+    """Return a pose in the plane as a transform."""
     rotation = w_last(from_rpy(0.0, 0.0, pose.yaw))
     return FrameTransform(parent, child, nanoseconds, (pose.x, pose.y, 0.0), rotation)
 
 
 def to_pose(position: Any, orientation: Any) -> Pose2D | None:
-    """The planar part of a pose; None if it is not finite or its quaternion is zero."""
+    """Return the planar part of a pose; None if it is not finite or its quaternion is zero."""
     x, y, z, w = orientation.x, orientation.y, orientation.z, orientation.w
     norm = math.hypot(x, y, z, w)
     if not (all(map(math.isfinite, (position.x, position.y, norm))) and norm > 1e-6):
@@ -45,24 +45,24 @@ def to_pose(position: Any, orientation: Any) -> Pose2D | None:
 
 
 def to_map_pose(header: Any, pose: Any) -> Pose2D | str:
-    """The pose in the map, or why it is invalid."""
+    """Return the pose in the map, or why it is invalid."""
     if header.frame_id.removeprefix("/") != "map":
         return f"in the frame {header.frame_id!r}: send it in map"
     return to_pose(pose.position, pose.orientation) or "that is not finite"
 
 
 def clock(nanoseconds: int) -> bytes:
-    """A rosgraph_msgs/Clock."""
+    """Return a rosgraph_msgs/Clock."""
     return encode("rosgraph_msgs/msg/Clock", {"clock": stamp(nanoseconds)})
 
 
 def tf(transforms: Iterable[FrameTransform]) -> bytes:
-    """A tf2_msgs/TFMessage."""
+    """Return a tf2_msgs/TFMessage."""
     return encode("tf2_msgs/msg/TFMessage", {"transforms": list(transforms)})
 
 
 def path(points: NDArray[np.float64], nanoseconds: int) -> bytes:
-    """A nav_msgs/Path in the frame `map` along points (n, 2) in metres, n at least 2.
+    """Return a nav_msgs/Path in the frame `map` along points (n, 2) in metres, n at least 2.
 
     The poses look along the path.
     """
@@ -80,7 +80,7 @@ def path(points: NDArray[np.float64], nanoseconds: int) -> bytes:
 
 
 def occupancy_grid(world: World, nanoseconds: int) -> bytes:
-    """The map as a nav_msgs/OccupancyGrid, as map_server publishes it."""
+    """Return the map as a nav_msgs/OccupancyGrid, as map_server publishes it."""
     height, width = world.cells.shape
     origin = planar("", "", 0, world.origin)
     info = {
@@ -96,7 +96,7 @@ def occupancy_grid(world: World, nanoseconds: int) -> bytes:
 
 
 def pose_with_covariance(pose: Pose2D, covariance: NDArray[np.float64], nanoseconds: int) -> bytes:
-    """A geometry_msgs/PoseWithCovarianceStamped in the map, with a covariance of shape (6, 6)."""
+    """Return a geometry_msgs/PoseWithCovarianceStamped in the map; the covariance is (6, 6)."""
     place = planar("", "", 0, pose)
     values = {
         "header": Header(stamp(nanoseconds), "map"),
@@ -109,7 +109,7 @@ def pose_with_covariance(pose: Pose2D, covariance: NDArray[np.float64], nanoseco
 
 
 def particle_cloud(poses: NDArray[np.float64], nanoseconds: int) -> bytes:
-    """A nav2_msgs/ParticleCloud in the map: x, y and yaw, shape (n, 3), of equal weight."""
+    """Return a nav2_msgs/ParticleCloud in the map: x, y and yaw, shape (n, 3), of equal weight."""
     places = [planar("", "", 0, Pose2D(*pose)) for pose in poses.tolist()]
     particles = [
         {
@@ -123,7 +123,7 @@ def particle_cloud(poses: NDArray[np.float64], nanoseconds: int) -> bytes:
 
 
 def odometry(robot: DifferentialDrive, nanoseconds: int, prefix: str = "") -> bytes:
-    """The wheel odometry as a nav_msgs/Odometry: base_link in odom, velocity in base_link."""
+    """Return wheel odometry as nav_msgs/Odometry: base_link in odom, its velocity in base_link."""
     pose = planar("", "", 0, robot.odometry)
     twist = {"linear": {"x": robot.linear}, "angular": {"z": robot.angular}}
     values = {
@@ -139,7 +139,7 @@ def odometry(robot: DifferentialDrive, nanoseconds: int, prefix: str = "") -> by
 
 
 def joint_state(robot: DifferentialDrive, nanoseconds: int) -> bytes:
-    """The wheels' angles and speeds as a sensor_msgs/JointState."""
+    """Return the wheels' angles and speeds as a sensor_msgs/JointState."""
     values = {
         "header": Header(stamp(nanoseconds)),
         "name": WHEEL_JOINTS,

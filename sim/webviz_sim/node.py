@@ -21,7 +21,7 @@ MAX_LAG = 0.5  # s; a simulation that is later than this (a suspended laptop) sk
 
 
 def main(args: list[str] | None = None) -> int:
-    """Runs the simulator until SIGINT or SIGTERM.
+    """Run the simulator until SIGINT or SIGTERM.
 
     Args:
         args: Command line without the program's name; None takes that of the process.
@@ -84,7 +84,7 @@ def main(args: list[str] | None = None) -> int:
 
 
 def _run(nodes: Sequence["SimNode"], stopping: threading.Event) -> None:
-    """Steps the nodes in real time, and serves their subscriptions in between."""
+    """Step the nodes in real time, and serve their subscriptions in between."""
     from rclpy.experimental.events_executor import EventsExecutor
 
     executor = EventsExecutor()
@@ -107,14 +107,14 @@ def _run(nodes: Sequence["SimNode"], stopping: threading.Event) -> None:
 
 
 def _on_signal(action: Callable[[], object]) -> None:
-    """Calls `action` on Ctrl-C, SIGTERM and, unless `nohup` ignores it, a closed terminal."""
+    """Call `action` on Ctrl-C, SIGTERM and, unless `nohup` ignores it, a closed terminal."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         if signal.getsignal(number) is not signal.SIG_IGN:
             signal.signal(number, lambda *_: action())
 
 
 def _end_with_stdin() -> None:
-    """Ends the simulator when the program that started it has ended, even if it was killed."""
+    """End the simulator when the program that started it has ended, even if it was killed."""
     while os.read(sys.stdin.fileno(), 1024):
         pass
     os.kill(os.getpid(), signal.SIGTERM)
@@ -123,7 +123,7 @@ def _end_with_stdin() -> None:
 
 
 def _fault(text: str) -> str:
-    """A fault of the command line, as a parameter."""
+    """Return a fault of the command line, as a parameter."""
     try:
         return fault_parameter(text)
     except ValueError as error:

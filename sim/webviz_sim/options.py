@@ -119,7 +119,9 @@ OPTIONS |= {
 
 
 def fault_parameter(text: str) -> str:
-    """The parameter, as NAME:=VALUE, of a fault that is given as NAME=VALUE; 1 without a value.
+    """Return the parameter, as NAME:=VALUE, of a fault that is given as NAME=VALUE.
+
+    1 without a value.
 
     Raises:
         ValueError: the fault is unknown, or its value is invalid; the text says which.

@@ -35,7 +35,7 @@ class PlanError(ValueError):
 
 
 def draw(path: Path, resolution: float) -> NDArray[np.float64]:
-    """The picture of a plan.
+    """Return the picture of a plan.
 
     Painted are `line`, `rect`, `circle`, `ellipse`, `polyline`, `polygon` and `path`, with colours,
     widths of strokes and transforms, in the order of the file, on white. Strokes are at least a
@@ -141,7 +141,7 @@ def _parse(path: Path) -> etree._Element:
 
 
 def _frame(root: etree._Element) -> tuple[float, float, float, float, float]:
-    """The viewBox, and the metres of a user unit."""
+    """Return the viewBox, and the metres of a user unit."""
     box = _numbers(root.get("viewBox", ""))
     if len(box) != 4 or min(box[2:]) <= 0.0:
         raise PlanError("viewBox must be four numbers, such as 0 0 12 8")
@@ -165,7 +165,7 @@ def _frame(root: etree._Element) -> tuple[float, float, float, float, float]:
 def _shapes(
     element: etree._Element, style: Style, matrix: NDArray[np.float64]
 ) -> Iterator[tuple[list[tuple[Points, bool]], Style]]:
-    """The outlines of the shapes in an element, in pixels, each with its style.
+    """Yield the outlines of the shapes in an element, in pixels, each with its style.
 
     Args:
         element: A group or a shape.
@@ -198,7 +198,7 @@ def _shapes(
 
 
 def _outlines(element: etree._Element, tag: str) -> Iterator[tuple[Points, bool]]:
-    """The outlines of a shape in its own coordinates, and whether they are closed."""
+    """Yield the outlines of a shape in its own coordinates, and whether they are closed."""
     at = {name: _number(element.get(name, "0")) for name in _ATTRIBUTES.get(tag, ())}
     if tag == "line":
         yield np.array([[at["x1"], at["y1"]], [at["x2"], at["y2"]]]), False
@@ -267,7 +267,7 @@ def _numbers(text: str) -> list[float]:
 
 
 def _number(text: str) -> float:
-    """A finite number in user units.
+    """Return a finite number in user units.
 
     Raises:
         PlanError: It is not.

@@ -31,7 +31,7 @@ INITIAL = Style(0, None, 1.0, False, False, False)
 
 
 def restyled(style: Style, element: Any) -> Style:
-    """The style of an element, given that of its parent.
+    """Return the style of an element, given that of its parent.
 
     Raises:
         ValueError: A colour or number is invalid; the text says which.
@@ -59,7 +59,7 @@ def restyled(style: Style, element: Any) -> Style:
 
 
 def transform(text: str) -> NDArray[np.float64]:
-    """The matrix (3, 3) of a `transform` (https://www.w3.org/TR/css-transforms-1/#svg-transform).
+    """Return the matrix (3, 3) of a `transform` (w3.org/TR/css-transforms-1/#svg-transform).
 
     Raises:
         ValueError: It is invalid.
@@ -103,7 +103,10 @@ def _step(name: str, numbers: list[float]) -> NDArray[np.float64] | None:
 
 
 def _shade(colour: str, inherited: int | None) -> int | None:
-    """The mean of a colour's channels, as map_server has it; None for what is not painted."""
+    """Return the mean of a colour's channels, as map_server has it.
+
+    None for what is not painted.
+    """
     match colour.strip().lower():
         case "none" | "transparent":
             return None

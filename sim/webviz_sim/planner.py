@@ -96,7 +96,10 @@ class Planner:
         return chosen
 
     def roomy_pose(self) -> Pose2D | None:
-        """A place with room around it near the middle of the free space; None without any."""
+        """Return a place with room around it near the middle of the free space.
+
+        None without any.
+        """
         cells = np.argwhere(self._open)
         if not len(cells):
             return None
@@ -106,12 +109,12 @@ class Planner:
         return Pose2D(float(x), float(y))
 
     def _roomy(self, cells: NDArray[np.intp]) -> NDArray[np.float64]:
-        """The cells with at least the usual room around them, in the map frame."""
+        """Return the cells with at least the usual room around them, in the map frame."""
         clearance = self._clearance[tuple(cells.T)]
         return self._to_map(cells[clearance >= min(COMFORT, np.median(clearance))].astype(float))
 
     def _reachable(self, source: Cell) -> NDArray[np.bool_]:
-        """The open cells that can be reached from a cell."""
+        """Return the open cells that can be reached from a cell."""
         reached = np.zeros_like(self._open)
         reached[source] = True
         count = 0
@@ -127,7 +130,7 @@ class Planner:
         return reached
 
     def _search(self, source: Cell, target: Cell, costs: NDArray[np.float64]) -> dict[Cell, Cell]:
-        """A* from one cell to another; maps each visited cell to its predecessor.
+        """Return a* from one cell to another; maps each visited cell to its predecessor.
 
         Args:
             source: The first cell.
@@ -159,7 +162,7 @@ class Planner:
         return came_from
 
     def _nearest(self, is_open: NDArray[np.bool_], pose: Pose2D) -> Cell | None:
-        """The open cell that is nearest to a pose; None without any."""
+        """Return the open cell that is nearest to a pose; None without any."""
         x, y, _ = self._world.to_grid(pose)
         cells = np.argwhere(is_open)
         if not len(cells):
@@ -169,7 +172,7 @@ class Planner:
         return int(row), int(column)
 
     def _is_beside(self, circles: Circles) -> NDArray[np.bool_]:
-        """The planning cells, shape as `_open`, in whose middles the robot touches no circle."""
+        """Return the planning cells (like `_open`) at whose centres the robot touches no circle."""
         height, width = self._open.shape
         is_beside = np.ones((height, width), dtype=bool)
         at = self._world.to_cells(circles[:, :2])
@@ -240,7 +243,7 @@ def _shifts(steps: int) -> list[tuple[slice, slice]]:
 
 
 def _resample(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The same line with at least two points, about `SPACING` apart; its ends are kept."""
+    """Return the same line with at least two points, about `SPACING` apart; its ends are kept."""
     lengths = np.hypot(*np.diff(points, axis=0).T) if len(points) > 1 else np.zeros(0)
     travelled = np.concatenate([[0.0], np.cumsum(lengths)])
     count = max(2, math.ceil(travelled[-1] / SPACING) + 1)

@@ -21,11 +21,11 @@ class Pose2D(NamedTuple):
         )
 
     def inverse(self) -> "Pose2D":
-        """The parent, seen from this frame."""
+        """Return the parent, seen from this frame."""
         cos, sin = math.cos(self.yaw), math.sin(self.yaw)
         return Pose2D(-cos * self.x - sin * self.y, sin * self.x - cos * self.y, wrap(-self.yaw))
 
 
 def wrap(angle: float) -> float:
-    """The same angle in [-pi, pi]."""
+    """Return the same angle in [-pi, pi]."""
     return math.remainder(angle, math.tau)

@@ -19,7 +19,7 @@ MAX_ANGULAR = 2.0  # rad/s
 
 
 def drive(pose: Pose2D, linear: float, angular: float, seconds: float) -> Pose2D:
-    """Moves a pose with constant velocities, exactly: along a circular arc.
+    """Move a pose with constant velocities, exactly: along a circular arc.
 
     Args:
         pose: The start.
@@ -56,7 +56,7 @@ class DifferentialDrive:
     """Share of the wheels' motion that the robot does not make."""
 
     def step(self, linear: float, angular: float, seconds: float) -> None:
-        """Moves with the commanded velocities, as far as limits and walls allow.
+        """Move with the commanded velocities, as far as limits and walls allow.
 
         At a wall the wheels stall: the robot stops where it touches, and can still turn on the
         spot or drive away.
@@ -85,7 +85,7 @@ class DifferentialDrive:
         return min(beside, self.world.clearance(pose, RADIUS))
 
     def _free_fraction(self, linear: float, angular: float, seconds: float) -> float:
-        """The possible share of a step's forward motion, less than 1 at a wall."""
+        """Return the possible share of a step's forward motion, less than 1 at a wall."""
         if linear == 0.0 or self._clearance(self.pose) < RADIUS:
             return 1.0  # a robot placed inside a wall may leave it
 

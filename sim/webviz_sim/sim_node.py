@@ -28,7 +28,7 @@ class SimNode(Node):
     """Steps a simulation, publishes what a real robot would, and receives commands."""
 
     def __init__(self, start: int, fleet: Sequence["SimNode"] = (), namespace: str = ""):
-        """Creates the node and publishes the latched messages.
+        """Create the node and publish the latched messages.
 
         Args:
             start: The time in nanoseconds; ignored with `publish_clock`.
@@ -137,7 +137,7 @@ class SimNode(Node):
             self._simulation.put(pose)
 
     def _free_place(self, robots: int) -> Pose2D:
-        """The place for the next robot, as far as possible from those of so many robots.
+        """Return the place for the next robot, as far as possible from those of so many robots.
 
         Raises:
             WorldError: The world has no other place.

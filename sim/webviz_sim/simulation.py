@@ -56,7 +56,7 @@ class Simulation:
         seed: int = 0,
         obstacles: int = 0,
     ):
-        """Puts the robot into the world.
+        """Put the robot into the world.
 
         Args:
             world: The world.
@@ -140,17 +140,17 @@ class Simulation:
         return True
 
     def stop(self) -> None:
-        """Drops the goal; the tour continues after a rest."""
+        """Drop the goal; the tour continues after a rest."""
         self._follower = None
         self._rest_until = self.time + REST_AT_GOAL
 
     def put(self, pose: Pose2D) -> None:
-        """Moves the robot to a place in the map; its odometry does not change."""
+        """Move the robot to a place in the map; its odometry does not change."""
         self.robot.pose = pose
         self._follower = None
 
     def reset_odometry(self) -> None:
-        """Makes the robot's place the origin of the odom frame."""
+        """Make the robot's place the origin of the odom frame."""
         self.robot.odometry = Pose2D()
 
     def step(self, seconds: float) -> None:
@@ -190,7 +190,7 @@ class Simulation:
         return self.settings.tour and bool(self.places) and self.time >= self._rest_until
 
     def _next_place(self) -> None:
-        """Sets out for the place of the tour after the last one."""
+        """Set out for the place of the tour after the last one."""
         place = self.places.pop(0)
         self.places.append(place)
         path = self._plan(place)
@@ -200,7 +200,7 @@ class Simulation:
             self._rest_until = self.time + REST
 
     def _plan(self, goal: Pose2D) -> NDArray[np.float64] | None:
-        """A path around walls and what moves nearby, which it passes on the right as others do."""
+        """Return a path around walls and moving people, whom it passes on the right."""
         near = self._near
         x, y = (near[:, :2] - self.robot.pose[:2]).T
         left = np.column_stack([-y, x]) / np.maximum(np.hypot(x, y), RADIUS)[:, None]

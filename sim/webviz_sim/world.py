@@ -48,12 +48,12 @@ class World:
         return np.array([[cos, -sin], [sin, cos]])
 
     def to_grid(self, pose: Pose2D) -> Pose2D:
-        """A pose in the map frame converted to the grid's frame, with x and y in cells."""
+        """Return a pose in the map frame converted to the grid's frame, with x and y in cells."""
         local = self.origin.inverse() @ pose
         return Pose2D(local.x / self.resolution, local.y / self.resolution, local.yaw)
 
     def to_cells(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The reverse of `to_map`."""
+        """Return the reverse of `to_map`."""
         return (points - (self.origin.x, self.origin.y)) @ self._rotation / self.resolution
 
     def to_map(self, cells: NDArray[np.float64]) -> NDArray[np.float64]:

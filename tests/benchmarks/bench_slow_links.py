@@ -69,13 +69,13 @@ class Robot(threading.Thread):
             self._scene.flush()
 
     def end(self) -> None:
-        """Waits for the last change."""
+        """Wait for the last change."""
         self._ended.set()
         self.join()
 
 
 def watch(peer: Peer, seconds: float) -> Found:
-    """Reads whatever comes, and counts it once the link has settled."""
+    """Read whatever comes, and count it once the link has settled."""
     ages: list[float] = []
     counts = {"scan": 0, "lidar": 0}
     newest: float | None = None
@@ -110,7 +110,7 @@ def behind_proxy(port: int, mbit: float, seconds: float) -> Found:
 
 
 def measure(mbit: float, seconds: float) -> None:
-    """Prints a row of the table."""
+    """Print a row of the table."""
     server = open_server(port=0)
     robot = Robot(server)
     robot.start()
@@ -134,7 +134,7 @@ def measure(mbit: float, seconds: float) -> None:
 
 
 def main() -> None:
-    """Reads the command line."""
+    """Read the command line."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--mbit", type=float, nargs="*", default=[1.0, 5.0, 20.0])
     parser.add_argument("--seconds", type=float, default=10.0)

@@ -73,7 +73,7 @@ def screenshot(
     monkeypatch: pytest.MonkeyPatch,
     capfd: pytest.CaptureFixture[str],
 ) -> Iterator[Callable[..., Ended]]:
-    """Runs `webviz screenshot` in this process, by the browser of all tests, in the test's folder.
+    """Run `webviz screenshot` in this process, by the browser of all tests, in the test's folder.
 
     To start Python and a browser takes longer than most pictures.
     """

@@ -91,7 +91,7 @@ class OpenFile:
 
 @pytest.fixture(scope="module", autouse=True)
 def kept_process() -> Iterator[None]:
-    """Takes back what commands change in this process."""
+    """Take back what commands change in this process."""
     handlers = {number: signal.getsignal(number) for number in SIGNALS}
     meshes = os.environ.get(MESH_ROOT)
     yield

@@ -10,5 +10,5 @@ import pytest
 
 @pytest.fixture
 def bench(webviz_bench: Callable[..., Any]) -> Callable[..., Any]:
-    """Makes a `DisplayBench` of a display."""
+    """Make a `DisplayBench` of a display."""
     return webviz_bench

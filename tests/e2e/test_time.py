@@ -36,7 +36,7 @@ MAP = {
 
 @pytest.fixture
 def make_robot(ros_env: dict[str, str]) -> Iterator[Callable[..., Robot]]:
-    """Makes nodes that publish, on the domain of the viewer."""
+    """Make nodes that publish, on the domain of the viewer."""
     robots: list[Robot] = []
 
     def make(name: str) -> Robot:

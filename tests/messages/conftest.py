@@ -28,7 +28,7 @@ def rosbags_store() -> Any:
 
 @pytest.fixture(scope="session")
 def random_message(rosbags_store: Any) -> Callable[[str, Random], Any]:
-    """Makes a message of rosbags', with sequences of 0 to 3 elements and strings of 0 to 9 bytes.
+    """Make a message of rosbags', with sequences of 0 to 3 elements and strings of 0 to 9 bytes.
 
     Hypothesis could draw every field, but needs seconds for a marker; it draws the seed.
     """

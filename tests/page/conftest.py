@@ -249,7 +249,7 @@ def loop(tab: Tab) -> Loop:
 def open_tab(
     browser: playwright.Browser, server: Server, lasting: Tab
 ) -> Iterator[Callable[..., Tab]]:
-    """Opens more tabs, each in a browser session of its own."""
+    """Open more tabs, each in a browser session of its own."""
     tabs: list[Tab] = []
 
     def open_tab(

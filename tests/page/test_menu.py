@@ -26,7 +26,7 @@ OPEN = """async ([x, y]) => {
 
 @pytest.fixture
 def open_menu(tab: Tab) -> Callable[..., playwright.Locator]:
-    """Opens a menu of four, the second of which is disabled."""
+    """Open a menu of four, the second of which is disabled."""
 
     def open_menu(x: float = 400, y: float = 300) -> playwright.Locator:
         tab.page.mouse.move(5, 5)  # or what lies under it would have the focus

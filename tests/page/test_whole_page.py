@@ -212,7 +212,7 @@ def lasting(server: Server, browser: playwright.Browser) -> Iterator[Tab]:
 
 @pytest.fixture
 def open_still(open_tab: Callable[..., Tab]) -> Callable[..., Tab]:
-    """Opens tabs in which no time passes."""
+    """Open tabs in which no time passes."""
 
     def open_still(size: tuple[int, int], **options: Any) -> Tab:
         return still(open_tab(*size, **FINE, **options, resolution=1))

@@ -10,6 +10,6 @@ from bench import Bench, benches
 
 @pytest.fixture
 def bench() -> Iterator[Callable[..., Bench]]:
-    """Makes a viewer of displays."""
+    """Make a viewer of displays."""
     with benches() as make:
         yield make

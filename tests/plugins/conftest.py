@@ -17,7 +17,7 @@ EXAMPLE = Path(__file__).with_name("polygon.py")
 
 @pytest.fixture
 def bench() -> Iterator[Callable[..., Bench]]:
-    """Makes a viewer of displays."""
+    """Make a viewer of displays."""
     with benches() as make:
         yield make
 

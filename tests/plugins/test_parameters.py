@@ -75,7 +75,7 @@ class Node:
 
 @pytest.fixture
 def opened() -> Callable[..., tuple[Parameters, Node, Callable[[], dict[str, Any]]]]:
-    """Opens the panel on a node."""
+    """Open the panel on a node."""
 
     def open_(**values: tuple[int, Any]) -> Any:
         node, panel, ui = Node(**values), Parameters(node="/base"), RecordedUi()

@@ -80,7 +80,7 @@ def ros(webviz_domain):
 
 @pytest.fixture
 def peer(webviz_domain):
-    """Starts the other process; it is fed one message on stdin and prints what it receives."""
+    """Start the other process; it is fed one message on stdin and prints what it receives."""
     started = []
 
     def start(role, *args):

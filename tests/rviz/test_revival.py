@@ -53,7 +53,7 @@ class Sonar(Display):
 
 @pytest.fixture
 def install() -> Iterator[Callable[[], None]]:
-    """Makes the display known."""
+    """Make the display known."""
     yield lambda: registry.register("test", {"Sonar": Sonar})
     registry.register("test", {})
 

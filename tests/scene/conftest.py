@@ -80,7 +80,7 @@ class View(Page):
         self.wait_for(lambda: self.evaluate(CANVAS) == [*SIZE], "the canvas has its size")
 
     def look(self, position: Point, at: Point) -> None:
-        """Puts the camera at `position`."""
+        """Put the camera at `position`."""
         for client in self.scene.link.server.get_clients().values():
             with client.atomic():
                 client.camera.position = position
@@ -92,7 +92,7 @@ class View(Page):
         )
 
     def show(self) -> None:
-        """Sends what was changed and waits until it is drawn."""
+        """Send what was changed and wait until it is drawn."""
         self.scene.flush()
         # The driver must keep running while the browser answers, so wait in slices of its time.
         self.wait_for(self._acknowledged, "the tab has applied everything")
@@ -150,12 +150,12 @@ class Peer:
         )
 
     def send(self, message: dict[str, Any] | bytes) -> None:
-        """Sends a message, or bytes as they are."""
+        """Send a message, or bytes as they are."""
         data = message if isinstance(message, bytes) else msgspec.msgpack.encode(message)
         self._socket.send(data)
 
     def look(self, x: float = 1.0) -> None:
-        """Sends a camera, upon which the server counts this peer as a browser."""
+        """Send a camera, upon which the server counts this peer as a browser."""
         self.send(
             {
                 "type": "ViewerCameraMessage",
@@ -206,7 +206,7 @@ class Peer:
 
 @pytest.fixture
 def call(server: viser.ViserServer) -> Iterator[Callable[..., Peer]]:
-    """Connects a `Peer`; headers as keyword arguments."""
+    """Connect a `Peer`; headers as keyword arguments."""
     peers: list[Peer] = []
 
     def call(**headers: str) -> Peer:
@@ -220,7 +220,7 @@ def call(server: viser.ViserServer) -> Iterator[Callable[..., Peer]]:
 
 @pytest.fixture
 def ask(server: viser.ViserServer) -> Callable[[bytes], tuple[int, bytes, bytes]]:
-    """Sends the bytes of a request; returns status, headers and body of the answer."""
+    """Send the bytes of a request; return status, headers and body of the answer."""
 
     def ask(request: bytes) -> tuple[int, bytes, bytes]:
         with socket.create_connection(("127.0.0.1", server.get_port()), timeout=60) as client:
@@ -234,7 +234,7 @@ def ask(server: viser.ViserServer) -> Callable[[bytes], tuple[int, bytes, bytes]
 
 @pytest.fixture
 def wait_until() -> Callable[[Callable[[], bool]], None]:
-    """Waits until a condition holds, for what another thread is about to do."""
+    """Wait until a condition holds, for what another thread is about to do."""
 
     def wait_until(condition: Callable[[], bool]) -> None:
         deadline = time.monotonic() + 60

@@ -61,7 +61,7 @@ class Queue:
 
 
 def with_parts(queue: Queue, version: int, names: str) -> None:
-    """Puts a version of a cloud in the queue, of which two parts do not fit one frame."""
+    """Put a version of a cloud in the queue, of which two parts do not fit one frame."""
     for name in names:
         points = np.zeros(WINDOW_BYTES // 4, np.float32)
         updates = {"points": points, "cloud": ("cloud", version, len(names))}

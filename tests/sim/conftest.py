@@ -7,7 +7,7 @@ from webviz_sim.world import World
 
 @pytest.fixture
 def draw():
-    """Makes a world of cells from lines of text, first line topmost: # wall, . free, ? unknown."""
+    """Make a world of cells from lines of text, first line topmost: # wall, . free, ? unknown."""
 
     def make(text: str, resolution: float = 1.0, origin: Pose2D = Pose2D()) -> World:  # noqa: B008
         lines = text.split()

@@ -58,7 +58,7 @@ def environment() -> dict[str, str]:
 
 @pytest.fixture
 def sim():
-    """Starts the simulator in a process of its own and stops it as Ctrl-C does."""
+    """Start the simulator in a process of its own and stop it as Ctrl-C does."""
     started = []
 
     def start(*parameters):
@@ -124,7 +124,7 @@ class Robot(Node):
         assert condition()
 
     def drive(self, kind, twist, seconds):
-        """Sends a velocity at 20 Hz for a while, then 0."""
+        """Send a velocity at 20 Hz for a while, then 0."""
         publisher = self.create_publisher(kind, "/cmd_vel", 10)
         self.spin_until(lambda: publisher.get_subscription_count() > 0)
         for _ in range(round(20 * seconds)):

@@ -16,7 +16,7 @@ SIZE = 'width="4m" viewBox="0 0 4000 2000"'
 
 @pytest.fixture
 def load(tmp_path):
-    """Loads a plan of some shapes."""
+    """Load a plan of some shapes."""
 
     def make(shapes, size=SIZE, before=""):
         path = tmp_path / "plan.svg"

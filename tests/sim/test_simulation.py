@@ -19,7 +19,7 @@ def building():
 
 @pytest.fixture
 def simulate(building):
-    """Makes a simulation which starts in the corridor and stands still unless told otherwise."""
+    """Make a simulation which starts in the corridor and stands still unless told otherwise."""
 
     def make(start=Pose2D(), seed=0, **settings):  # noqa: B008
         settings = SimulationSettings(**{"tour": False, **settings})

@@ -23,7 +23,7 @@ ENTRIES = {
 
 @pytest.fixture
 def write(tmp_path):
-    """Writes a map; an entry given as None is left out."""
+    """Write a map; an entry given as None is left out."""
 
     def make(pixels, pixel_mode="L", **changes):
         if pixels is not None:

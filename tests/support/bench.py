@@ -133,7 +133,7 @@ class Bench:
 
 @contextmanager
 def benches() -> Iterator[Callable[..., Bench]]:
-    """Makes benches, and ends them all."""
+    """Make benches, and end them all."""
     made: list[Bench] = []
 
     def make(*displays: Item, **options: Any) -> Bench:

@@ -33,7 +33,7 @@ def with_album(stage: Harness, folder: Path, *, update: bool = False) -> Referen
 
 @pytest.fixture
 def album(filled: Harness, tmp_path: Path) -> ReferenceImages:
-    """Holds the picture `scan` of `filled`."""
+    """Hold the picture `scan` of `filled`."""
     with_album(filled, tmp_path, update=True)
     filled.check_picture("scan")
     return with_album(filled, tmp_path)

@@ -93,7 +93,7 @@ def textured_effect() -> str:
 
 @pytest.fixture
 def load() -> Callable[..., Robot]:
-    """Loads URDF text with no files but those of the given mesh roots."""
+    """Load URDF text with no files but those of the given mesh roots."""
 
     def load(text: str, *roots: Path) -> Robot:
         return load_robot(text, Resolver(roots, ament_prefix_path=""))

@@ -55,7 +55,7 @@ def processes() -> list[psutil.Process]:
 
 @pytest.fixture
 def start(tmp_path, monkeypatch):
-    """Runs a `Loading` in a thread; every test begins without a spare process."""
+    """Run a `Loading` in a thread; every test begins without a spare process."""
     monkeypatch.setenv("WEBVIZ_MESH_ROOT", str(tmp_path))
     loading._end_spare()
     with ThreadPoolExecutor() as pool:

@@ -140,7 +140,7 @@ class _Builder:
         self._bytes += size
 
     def _node(self, geometry: yourdfpy.Geometry, material: Material) -> Mesh | Glb:
-        """The node of a geometry; equal ones share one object."""
+        """Return the node of a geometry; equal ones share one object."""
         if geometry.mesh is None:
             part = _primitive(geometry)
             self._warn(material.warning)

@@ -13,7 +13,7 @@ _UTF_16 = (b"\xff\xfe", b"\xfe\xff")
 
 
 def only_xml(data: bytes) -> bytes:
-    """A COLLADA file without white space before its declaration, and without what follows a NUL.
+    """Return a COLLADA file without white space before its declaration and text after a NUL.
 
     Exporters leave both behind; XML forbids them, and Assimp, and so RViz, tolerates them.
     """
@@ -21,7 +21,7 @@ def only_xml(data: bytes) -> bytes:
 
 
 def without_broken_materials(data: bytes) -> tuple[bytes, list[str]]:
-    """A COLLADA file without references to materials that it does not define.
+    """Return a COLLADA file without references to materials that it does not define.
 
     pycollada drops a body entirely when one of its materials refers to a missing picture or
     effect, which some exporters leave behind; Assimp, and so RViz, draws it.

@@ -101,7 +101,7 @@ def _mimic(mimic: yourdfpy.Mimic) -> Mimic:
 
 
 def _root(links: set[str], joints: dict[str, Joint]) -> str:
-    """The one link from which the joints reach all others."""
+    """Return the one link from which the joints reach all others."""
     parent_joint: dict[str, Joint] = {}
     for joint in joints.values():
         for role, link in (("parent", joint.parent), ("child", joint.child)):

@@ -147,7 +147,7 @@ def _parse_xml(text: str) -> etree._Element:
 
 
 def _without_unbound_prefixes(text: str, error: etree.XMLSyntaxError) -> etree._Element:
-    """The tree without elements whose namespace prefix is not declared, which TinyXML ignores.
+    """Return the tree without elements of undeclared namespace prefixes, as TinyXML reads it.
 
     Raises:
         XMLSyntaxError: `error`, if the root is one of them.
@@ -228,7 +228,7 @@ def _no_geometry(source: etree._Element, copy: etree._Element) -> str:
 def _numbers(
     source: etree._Element, tag: str, name: str, value: str, counts: tuple[int, ...]
 ) -> str:
-    """The attribute's numbers as clean text."""
+    """Return the attribute's numbers as clean text."""
     where = f"Line {source.sourceline}: {name}='{value[:80]}' of <{tag}>"
     words = value.split()
     if len(words) not in counts:

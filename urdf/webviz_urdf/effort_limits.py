@@ -12,7 +12,7 @@ TURNING = ("revolute", "continuous")
 
 
 def turning_joints(text: str) -> dict[str, TurningJoint]:
-    """The joints of URDF text that turn, by name.
+    """Return the joints of URDF text that turn, by name.
 
     Raises:
         RobotDescriptionError: it is not a robot; one sentence says why.
@@ -38,6 +38,6 @@ def turning_joints(text: str) -> dict[str, TurningJoint]:
 
 
 def _numbers(element: object, name: str) -> tuple[float, ...]:
-    """The numbers of an attribute, none if it is missing."""
+    """Return the numbers of an attribute, none if it is missing."""
     text = "" if element is None else element.get(name, "")  # pyright: ignore
     return tuple(map(float, text.split()))

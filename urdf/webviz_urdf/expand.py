@@ -43,7 +43,7 @@ except BaseException as error:
 
 
 def expand(path: Path) -> str:
-    """The URDF of a xacro file.
+    """Return the URDF of a xacro file.
 
     Raises:
         RobotDescriptionError: that is not allowed, or fails; one sentence.

@@ -85,7 +85,7 @@ def write_glb(parts: Sequence[MeshPart]) -> bytes:
 
 
 def glb_with(data: bytes, alpha: float | None = None, color: Rgb | None = None) -> bytes:
-    """A binary glTF with another opacity or colour; the geometry is unchanged.
+    """Return a binary glTF with another opacity or colour; the geometry is unchanged.
 
     Args:
         data: binary glTF.
@@ -118,7 +118,7 @@ def glb_with(data: bytes, alpha: float | None = None, color: Rgb | None = None) 
 
 
 def glb_parts(data: bytes) -> tuple[bytes, ...]:
-    """The parts of a binary glTF, each as one of its own, with one mesh of one material.
+    """Return the parts of a binary glTF, each as one of its own, with one mesh of one material.
 
     Args:
         data: as written by `write_glb` or `glb_with`.

@@ -20,7 +20,7 @@ _TOLERANCE = 1e-6
 
 
 def mass_sphere(link: Link) -> Mesh | None:
-    """A sphere of lead of the link's mass at its centre of mass, in the link's frame.
+    """Return a sphere of lead of the link's mass at its centre of mass, in the link's frame.
 
     Its radius is the cube root of 3 m / (4 π density), as in RViz. None without a positive mass.
     """
@@ -32,7 +32,7 @@ def mass_sphere(link: Link) -> Mesh | None:
 
 
 def inertia_box(link: Link) -> Mesh | None:
-    """The uniform box that has the link's mass and moments of inertia, in the link's frame.
+    """Return the uniform box that has the link's mass and moments of inertia, in the link's frame.
 
     With principal moments I and mass m its edges are `sqrt(6 (Iy + Iz - Ix) / m)` and so on
     (gz-math's `MassMatrix3::EquivalentBox`). None for a physically impossible mass or inertia: not

@@ -71,7 +71,7 @@ class Kinematics:
     def places(
         self, positions: F64, moved: Mapping[str, Pose] = _NONE, base: Pose = Pose()
     ) -> tuple[F64, F64]:
-        """The poses of all links.
+        """Return the poses of all links.
 
         Args:
             positions: float64 (..., J), one for each of `joints`, rad or m; finite.
@@ -114,7 +114,7 @@ class Kinematics:
         return xyz, wxyz
 
     def moved_by(self, joints: Collection[str]) -> set[str]:
-        """The links that any of `joints` or `free` moves, directly or through other joints."""
+        """Return the links that any of `joints` or `free` moves, directly or through others."""
         chosen = np.array([name in joints for name in self.joints] + [False])
         moved = chosen[self._columns]
         moved[[row for name, row in self._free_rows.items() if name in joints]] = True
@@ -129,7 +129,7 @@ class Kinematics:
 
 
 def leader_of(joint: Joint, joints: Mapping[str, Joint]) -> tuple[str, float, float]:
-    """The joint that decides the position of a joint, with multiplier and offset.
+    """Return the joint that decides the position of a joint, with multiplier and offset.
 
     One that mimics an unknown joint, or itself, decides its own.
     """

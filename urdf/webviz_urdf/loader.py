@@ -52,7 +52,7 @@ def _answer(
     skip: dict[int, str],
     memory: int,
 ) -> bytes:
-    """The result of a request, or an exception that says why there is none, serialised."""
+    """Return the result of a request, or an exception that says why there is none, serialised."""
     try:
         data = pickle.dumps(_load(connection, request, resolver, skip))
         if len(data) <= memory // RESULT_SHARE:

@@ -164,7 +164,7 @@ class Loading:
         return result
 
     def _converse(self, process: _Process, skip: dict[int, str], memory: int) -> tuple[Loaded, int]:
-        """The answer of a process, and its size in bytes."""
+        """Return the answer of a process, and its size in bytes."""
         try:
             process.connection.send((self._request, self._resolver, skip, memory))
             patience = START_S
@@ -244,7 +244,7 @@ _lock = threading.Lock()
 
 
 def _take() -> _Process:
-    """An idle process, or a new one."""
+    """Return an idle process, or a new one."""
     with _lock:
         while _spare:
             process = _spare.pop()

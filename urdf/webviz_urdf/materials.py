@@ -52,7 +52,7 @@ class Materials:
                 self._define(visual.material, f"link '{link.name}'")
 
     def of(self, visual: yourdfpy.Visual, link: str) -> Material:
-        """The material of a visual of the link named `link`."""
+        """Return the material of a visual of the link named `link`."""
         material = visual.material
         if material is None:
             return DEFAULT
@@ -64,7 +64,7 @@ class Materials:
         )
 
     def of_collisions(self, link: yourdfpy.Link) -> Material:
-        """The material of a link's collisions: in RViz that of its first visual."""
+        """Return the material of a link's collisions: in RViz that of its first visual."""
         return self.of(link.visuals[0], link.name) if link.visuals else DEFAULT
 
     def _define(self, material: yourdfpy.Material | None, where: str) -> None:
@@ -81,7 +81,7 @@ class Materials:
 
 
 def _definition(material: yourdfpy.Material) -> Material | None:
-    """The content of a material, None if it is only a name."""
+    """Return the content of a material, None if it is only a name."""
     texture = (material.texture and material.texture.filename) or ""
     if material.color is not None:
         r, g, b, a = (min(max(float(v), 0.0), 1.0) for v in material.color.rgba)

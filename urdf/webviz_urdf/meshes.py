@@ -102,7 +102,7 @@ def _check_format(path: Path) -> str:
 
 
 def _read(data: bytes, suffix: str, textures: TextureFolder) -> tuple[list[MeshPart], list[str]]:
-    """The file's parts, and the ids of materials that could not be used."""
+    """Return the file's parts, and the ids of materials that could not be used."""
     if suffix != "dae":
         return _parts(data, suffix, textures), []
     data = only_xml(data)
@@ -140,7 +140,7 @@ def _parts(data: bytes, suffix: str, textures: TextureFolder) -> list[MeshPart]:
 
 
 def _part(mesh: trimesh.Trimesh, transform: np.ndarray, unit: float) -> MeshPart:
-    """The mesh in the scene's frame, in metres."""
+    """Return the mesh in the scene's frame, in metres."""
     exact, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
     linear, is_moved = transform[:3, :3], not np.array_equal(transform, np.eye(4))
     with np.errstate(over="ignore", invalid="ignore"):
@@ -182,7 +182,7 @@ def _unit_metres(mesh: trimesh.Trimesh) -> float:
 
 
 def _surface(mesh: trimesh.Trimesh) -> tuple[Surface | None, np.ndarray | None]:
-    """The file's own material, None if it has none, and texture coordinates."""
+    """Return the file's own material, None if it has none, and texture coordinates."""
     visual: Any = mesh.visual
     if visual.kind != "texture":
         return None, None

@@ -11,7 +11,7 @@ from webviz_urdf.robot import Joint, Mimic, RobotDescriptionError
 
 
 def moving_joints(text: str) -> dict[str, Joint]:
-    """The revolute, continuous and prismatic joints of URDF text, by name.
+    """Return the revolute, continuous and prismatic joints of URDF text, by name.
 
     Their origins and axes are not read. Limits are None if they are missing, no numbers, or
     reversed; those of continuous joints always are.
@@ -40,7 +40,7 @@ def moving_joints(text: str) -> dict[str, Joint]:
 
 
 def _number(element: object, name: str, default: float) -> float:
-    """An attribute as a finite number; the default if it is missing or none."""
+    """Return an attribute as a finite number; the default if it is missing or none."""
     try:
         value = float(element.get(name, default))  # pyright: ignore
     except ValueError:

@@ -51,7 +51,7 @@ class MaterialApplier:
         return Surface((1.0, 1.0, 1.0, alpha), data)
 
     def _picture(self, uri: str) -> tuple[bytes, tuple[float, float, float]] | None:
-        """The picture at `uri` as glTF stores it, and its mean colour."""
+        """Return the picture at `uri` as glTF stores it, and its mean colour."""
         if uri not in self._pictures:
             self._pictures[uri] = None
             try:

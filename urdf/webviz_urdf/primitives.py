@@ -10,7 +10,7 @@ _SEGMENTS = 32
 
 
 def box(x: float, y: float, z: float) -> MeshPart:
-    """A box around the origin, edges in metres; each side shows a whole texture."""
+    """Return a box around the origin, edges in metres; each side shows a whole texture."""
     u = np.array((0.0, 1.0, 1.0, 0.0))
     v = np.array((0.0, 0.0, 1.0, 1.0))
     vertices, faces = [], []
@@ -29,7 +29,7 @@ def box(x: float, y: float, z: float) -> MeshPart:
 
 
 def sphere(radius: float) -> MeshPart:
-    """A sphere around the origin, metres."""
+    """Return a sphere around the origin, metres."""
     import trimesh  # by the process that loads robots; in a viewer only for centres of mass
 
     ball = trimesh.creation.icosphere(subdivisions=3, radius=radius)
@@ -37,7 +37,7 @@ def sphere(radius: float) -> MeshPart:
 
 
 def cylinder(radius: float, length: float) -> MeshPart:
-    """A cylinder along z around the origin, metres.
+    """Return a cylinder along z around the origin, metres.
 
     The caps have vertices of their own, so that a renderer that averages normals at shared
     vertices keeps the edge sharp and the side round.

@@ -64,13 +64,13 @@ class Resolver:
         self.base = None if base is None else Path(base).absolute()
 
     def relative_to(self, base: str | Path) -> Resolver:
-        """The same resolver for a description in the folder `base`."""
+        """Return the same resolver for a description in the folder `base`."""
         resolver = copy.copy(self)
         resolver.base = Path(base).absolute()
         return resolver
 
     def resolve(self, uri: str) -> Path:
-        """The file that `uri` names.
+        """Return the file that `uri` names.
 
         Raises:
             ResolveError: there is none, or webviz may not open it.
@@ -202,7 +202,7 @@ def _walk(root: Path, depth: int) -> Iterator[Path]:
 
 
 def _package_name(folder: Path) -> str | None:
-    """The name in the folder's `package.xml`, None without one."""
+    """Return the name in the folder's `package.xml`, None without one."""
     try:
         text = read_file(folder / "package.xml", _PACKAGE_XML_BYTES)
     except OSError:

@@ -78,12 +78,12 @@ class TextureFolder(TrimeshResolver):
         raise PermissionError(name)
 
     def namespaced(self, namespace: str) -> TextureFolder:
-        """The resolver for files below the folder `namespace`."""
+        """Return the resolver for files below the folder `namespace`."""
         return TextureFolder((self._resolver.base or Path()) / namespace, self._resolver)
 
 
 def open_image(path: Path) -> Image.Image:
-    """The picture at `path`.
+    """Return the picture at `path`.
 
     Raises:
         TextureError: it cannot be read, is not a picture, or has too many pixels.
@@ -96,7 +96,7 @@ def open_image(path: Path) -> Image.Image:
 
 
 def parse_image(data: bytes, path: Path) -> Image.Image:
-    """The picture whose file has this content; `path` is its name.
+    """Return the picture whose file has this content; `path` is its name.
 
     Raises:
         TextureError: it is not a picture, or has too many pixels.
@@ -113,7 +113,7 @@ def parse_image(data: bytes, path: Path) -> Image.Image:
 
 
 def _open(path: Path, data: bytes) -> Image.Image:
-    """A picture of acceptable size, of which only the header was decoded."""
+    """Return a picture of acceptable size, of which only the header was decoded."""
     with contextlib.suppress(ImageError):  # Pillow says what is wrong with it
         if header := read_header(memoryview(data)):
             _check_size(path, *header.size)  # of large ones Pillow warns, and not this thread alone
@@ -138,7 +138,7 @@ def _megapixels(pixels: int) -> str:
 
 
 def encode(image: Image.Image) -> bytes:
-    """The picture as PNG, or as JPEG if it was one: glTF's two formats."""
+    """Return the picture as PNG, or as JPEG if it was one: glTF's two formats."""
     data = io.BytesIO()
     is_jpeg = image.format == "JPEG"
     if max(image.size) > MAX_EDGE:

@@ -47,18 +47,18 @@ class Box:
     high: F64
 
     def moved(self, pose: Pose) -> Box:
-        """The axis-aligned box around this one at a pose."""
+        """Return the axis-aligned box around this one at a pose."""
         corners = np.where(_CORNERS, self.high, self.low) @ matrices(pose.wxyz).T + pose.position
         return Box(corners.min(axis=0), corners.max(axis=0))
 
 
 def bounds(node: Node) -> Box | None:
-    """The box around a node in its own coordinates; None if nothing of it is visible."""
+    """Return the box around a node in its own coordinates; None if nothing of it is visible."""
     return _around(_EXTENTS[type(node)](node))
 
 
 def union(boxes: Iterable[Box]) -> Box | None:
-    """The box around several boxes; None without any."""
+    """Return the box around several boxes; None without any."""
     boxes = list(boxes)
     if not boxes:
         return None
@@ -120,7 +120,7 @@ def _corners(document: dict[str, Any], nodes: list[int], outer: F64, depth: int)
 
 
 def _matrix(node: dict[str, Any]) -> F64:
-    """The matrix of a glTF node relative to its parent, float64 (4, 4)."""
+    """Return the matrix of a glTF node relative to its parent, float64 (4, 4)."""
     if "matrix" in node:
         return np.array(node["matrix"], dtype=np.float64).reshape(4, 4).T
     x, y, z, w = node.get("rotation", (0.0, 0.0, 0.0, 1.0))

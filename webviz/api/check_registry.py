@@ -47,7 +47,7 @@ def register_checks(owner: str, checks: Sequence[type[Check]]) -> None:
 
 
 def registered_checks(owner: str) -> Sequence[type[Check]]:
-    """The registered checks of an owner."""
+    """Return the registered checks of an owner."""
     return _registered.get(owner, ())
 
 
@@ -60,7 +60,7 @@ def is_id(text: str) -> bool:
 
 
 def checks_of(module: ModuleType) -> Iterator[type[Check]]:
-    """The checks that a module defines; names that start with an underscore are left out."""
+    """Yield the checks that a module defines; names that start with an underscore are left out."""
     for value in vars(module).values():
         is_check = isinstance(value, type) and issubclass(value, Check)
         if is_check and value.__module__ == module.__name__ and not value.__name__.startswith("_"):
@@ -69,14 +69,14 @@ def checks_of(module: ModuleType) -> Iterator[type[Check]]:
 
 @functools.lru_cache(maxsize=1)
 def _in_order(registered: tuple[Sequence[type[Check]], ...]) -> Sequence[type[Check]]:
-    """The checks of packages and those of files, in the order of causes."""
+    """Return the checks of packages and those of files, in the order of causes."""
     found = itertools.chain(_installed(), *registered)
     return tuple(sorted(found, key=lambda check: (CauseLevel.of(check.id).place, check.id)))
 
 
 @functools.cache
 def _installed() -> Sequence[type[Check]]:
-    """The checks of packages.
+    """Return the checks of packages.
 
     A package that does not load is logged and left out, as are checks without a valid id and those
     whose id is taken.
@@ -103,7 +103,7 @@ def _installed() -> Sequence[type[Check]]:
 
 
 def _modules(module: ModuleType) -> Sequence[ModuleType]:
-    """A module, or all modules of a package."""
+    """Return a module, or all modules of a package."""
     if not hasattr(module, "__path__"):
         return [module]
     names = pkgutil.walk_packages(module.__path__, f"{module.__name__}.")

@@ -213,7 +213,7 @@ class Background(Protocol):
         *args: Any,
         stop: Callable[[], None] | None = None,
     ) -> Any:
-        """The result of `fn(*args)`, None until it is ready.
+        """Return the result of `fn(*args)`, None until it is ready.
 
         `stop` makes `fn` end early; it is called from any thread once the result is not needed.
         """
@@ -273,7 +273,7 @@ class Context(Group):
         is_rigid: bool = False,
         key: str = "",
     ) -> Group:
-        """A group of nodes that moves with a frame; see `Placement`.
+        """Return a group of nodes that moves with a frame; see `Placement`.
 
         Args:
             frame: frame id; None or "" is the fixed frame.

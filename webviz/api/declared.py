@@ -92,12 +92,12 @@ P = TypeVar("P", bound=Declared)
 
 
 def default_name(cls: type[Declared]) -> str:
-    """The name of an instance without one of its own."""
+    """Return the name of an instance without one of its own."""
     return cls.title or cls.__name__
 
 
 def make(cls: type[P], values: dict[str, Any]) -> P:
-    """A display, tool or panel from plain values, as in a config file.
+    """Return a display, tool or panel from plain values, as in a config file.
 
     A topic may be given by its name alone. Missing keys of a nested setting have their defaults.
 
@@ -118,7 +118,10 @@ def completed(cls: type[Declared], values: Mapping[str, Any]) -> dict[str, Any]:
 
 @functools.cache
 def _defaults(cls: type[Declared]) -> dict[str, Any]:
-    """The defaults of properties by name; msgspec evaluates annotations anew for each call."""
+    """Return the defaults of properties by name.
+
+    Msgspec evaluates annotations anew for each call.
+    """
     return {field.name: field.default for field in msgspec.structs.fields(cls)}
 
 
@@ -140,7 +143,7 @@ def set_property(declared: Declared, path: str, value: Any) -> None:
 
 
 def _replaced(current: Any, path: list[str], value: Any) -> Any:
-    """`current` as plain values, with the value at a path replaced."""
+    """Return `current` as plain values, with the value at a path replaced."""
     plain = msgspec.to_builtins(current)
     if not path:
         return _merge(current, value)
@@ -175,7 +178,7 @@ def _check_finite(value: Any, path: str) -> None:
 
 
 def to_values(declared: Declared) -> dict[str, Any]:
-    """The properties that differ from the defaults, as plain values for a config file."""
+    """Return the properties that differ from the defaults, as plain values for a config file."""
     defaults = msgspec.to_builtins(type(declared)(name=default_name(type(declared))))
     values = _difference(msgspec.to_builtins(declared), defaults)
     for name, value in values.items():

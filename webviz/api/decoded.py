@@ -12,7 +12,7 @@ PIXEL_BYTES = 8
 
 
 def opened(picture: Pixels | Encoded) -> Image.Image:
-    """A picture as Pillow's.
+    """Return a picture as Pillow's.
 
     Raises:
         ImageError: its file is damaged.

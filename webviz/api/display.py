@@ -118,7 +118,7 @@ class Display(Declared, kw_only=True):
     enabled: Annotated[bool, msgspec.Meta(description="Draw this display.")] = True
 
     def new_state(self) -> Any:
-        """The state to keep between calls, any object; available as `ctx.state`.
+        """Return the state to keep between calls, any object; available as `ctx.state`.
 
         Called before the first hook that gets a context, and after each reset.
         """
@@ -209,7 +209,7 @@ def overrides(display: Display, hook: str) -> bool:
 
 @functools.cache
 def inputs_of(cls: type[Display]) -> dict[str, Input]:
-    """The inputs of a display class by property name, in the order of declaration.
+    """Return the inputs of a display class by property name, in the order of declaration.
 
     Raises:
         TypeError: its `sync` names something that is not an input.

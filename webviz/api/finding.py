@@ -41,7 +41,7 @@ class CauseLevel(enum.Enum):
 
     @staticmethod
     def of(id: str) -> CauseLevel:
-        """The level that the id of a check names.
+        """Return the level that the id of a check names.
 
         Raises:
             ValueError: it names none.

@@ -68,7 +68,7 @@ class Frames:
         return self.buffer.structure_version
 
     def next(self, fixed_frame: str, now_ns: int) -> Frames:
-        """The frames of the next turn, reusing poses that did not change."""
+        """Return the frames of the next turn, reusing poses that did not change."""
         frames = Frames(self.buffer, fixed_frame, now_ns)
         frames._is_all_wanted = self._is_all_wanted
         if (frames._version, fixed_frame) == (self._version, self.fixed_frame):
@@ -96,11 +96,11 @@ class Frames:
             self._poses[name, 0] = Pose(tuple(position), tuple(wxyz)) if is_ok else None
 
     def named(self, frame: str) -> str:
-        """The name in the viewer of a frame that a message names."""
+        """Return the name in the viewer of a frame that a message names."""
         return frame.removeprefix("/")
 
     def own(self, frame: str) -> str:
-        """The name of a frame of the viewer for those who read messages of the display."""
+        """Return the name of a frame of the viewer for those who read messages of the display."""
         return frame
 
     def at(self, frame: str, stamp_ns: int) -> Pose | None:
@@ -123,7 +123,10 @@ class Frames:
         return self.at(frame, self.now_ns) or self.at(frame, 0)
 
     def link(self, frame: str) -> NewestTransform | None:
-        """The newest transform of a frame to its parent; None for roots and frames without data."""
+        """Return the newest transform of a frame to its parent.
+
+        None for roots and frames without data.
+        """
         return self.buffer.link(frame)
 
     def along(
@@ -169,7 +172,7 @@ class Frames:
 
 
 def to_pose(transform: Transform) -> Pose:
-    """A transform as the pose of its source frame in its target frame."""
+    """Return a transform as the pose of its source frame in its target frame."""
     x, y, z, w = transform.rotation
     return Pose(transform.translation, (w, x, y, z))
 
@@ -180,7 +183,7 @@ def is_placeable(pose: Pose) -> bool:
 
 
 def compose(a: Pose, b: Pose) -> Pose:
-    """The pose of `b`, given relative to `a`."""
+    """Return the pose of `b`, given relative to `a`."""
     x, y, z, qx, qy, qz, qw = compose_tuples(_flat(a), _flat(b))
     return Pose((x, y, z), (qw, qx, qy, qz))
 

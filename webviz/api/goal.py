@@ -57,7 +57,9 @@ def goal_request(
     feedback: Callable[[Any], Mapping[str, str]] | None = None,
     fault: Callable[[Any], str] = nothing,
 ) -> GoalRequest:
-    """A goal from values by field; see `GoalRequest` and `webviz.api.tool.ToolContext.send_goal`.
+    """Return a goal from values by field.
+
+    See `GoalRequest` and `webviz.api.tool.ToolContext.send_goal`.
 
     Raises:
         EncodeError: a value does not fit the goal.

@@ -79,12 +79,12 @@ class DisplaySeen:
     blocked: int = 0
 
     def problem(self, key: str) -> Status | None:
-        """The status of a key if it is a warning or an error."""
+        """Return the status of a key if it is a warning or an error."""
         status = self.statuses.get(key)
         return status if status and status.level >= Level.WARN else None
 
     def symptom(self, key: str) -> tuple[Symptom, ...]:
-        """The status of a key as a symptom, none if it is neither a warning nor an error."""
+        """Return the status of a key as a symptom, none if it is neither a warning nor an error."""
         return (Symptom(self.id, key),) if self.problem(key) else ()
 
 
@@ -134,29 +134,29 @@ class Observation:
                     yield display, each
 
     def starved(self) -> Iterator[tuple[DisplaySeen, InputSeen, Offer]]:
-        """The inputs whose topic has a warning or an error, each with its publishers."""
+        """Yield the inputs whose topic has a warning or an error, each with its publishers."""
         for display, each in self.inputs():
             if display.problem(each.status):
                 yield display, each, self.offers.get(each.topic, NO_OFFER)
 
     def undiscovered(self) -> tuple[Symptom, ...]:
-        """The statuses of topics that have no publisher."""
+        """Return the statuses of topics that have no publisher."""
         found = [(d, each) for d, each, offer in self.starved() if not offer.publishers]
         return tuple(symptom for display, each in found for symptom in display.symptom(each.status))
 
     def unreceived(self) -> tuple[Symptom, ...]:
-        """The statuses of topics that have a publisher and no message."""
+        """Return the statuses of topics that have a publisher and no message."""
         found = [(d, each) for d, each, o in self.starved() if o.publishers and not each.received]
         return tuple(symptom for display, each in found for symptom in display.symptom(each.status))
 
     def samples(self, *types: str) -> Iterator[tuple[DisplaySeen, InputSeen]]:
-        """The inputs with a message of one of these types."""
+        """Yield the inputs with a message of one of these types."""
         for display, each in self.inputs():
             if each.type in types and each.message is not None:
                 yield display, each
 
     def misfits(self) -> Iterator[tuple[DisplaySeen, MapFit]]:
-        """The laser scans that do not fit the map."""
+        """Yield the laser scans that do not fit the map."""
         for display in self.displays:
             if display.fit is not None and not display.fit.fit.is_good:
                 yield display, display.fit
@@ -173,12 +173,12 @@ class Observation:
         return found
 
     def lost(self, *kinds: Kind) -> Iterator[tuple[Symptom, Explanation]]:
-        """The statuses of frames that have no pose for one of these reasons."""
+        """Yield the statuses of frames that have no pose for one of these reasons."""
         for kind in kinds:
             yield from self._lost.get(kind, ())
 
     def symptom(self, key: str) -> tuple[Symptom, ...]:
-        """A status of the viewer as a symptom, none if it is neither a warning nor an error."""
+        """Return a warning or error of the viewer as a symptom, None for other statuses."""
         status = self.statuses.get(key)
         return (Symptom("", key),) if status and status.level >= Level.WARN else ()
 
@@ -188,12 +188,12 @@ class Observation:
         return diagnose(self.buffer, self.now_ns)
 
     def conflicts(self, kind: ConflictKind) -> Iterator[tuple[str, Conflict]]:
-        """The frames with this sign of two publishers."""
+        """Yield the frames with this sign of two publishers."""
         for frame, conflict in self.buffer.conflicts.all():
             if conflict.kind is kind:
                 yield frame, conflict
 
     def nodes_of(self, topic: str) -> str:
-        """The nodes that publish a topic, for sentences; "" if none does."""
+        """Return the nodes that publish a topic, for sentences; "" if none does."""
         publishers = self.offers.get(topic, NO_OFFER).publishers
         return ", ".join(dict.fromkeys(publisher.label for publisher in publishers))

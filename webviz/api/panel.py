@@ -232,7 +232,7 @@ class Panel(Declared, kw_only=True, dict=True):
         """
 
     def subscriptions(self) -> Mapping[str, str]:
-        """The topics to read while the tab is open: message types by full name."""
+        """Return the topics to read while the tab is open: message types by full name."""
         return {}
 
     def lookback(self, topic: str) -> Lookback:
@@ -260,13 +260,13 @@ class Panel(Declared, kw_only=True, dict=True):
         self.take(topic, message)
 
     def refuse(self, topic: str, reason: str) -> None:
-        """A message of one of these topics cannot be decoded; a sentence says why."""
+        """Note why a message of one of these topics cannot be decoded."""
 
     def start_over(self) -> None:
         """Discard received data: time has gone back, or somebody asks for it."""
 
     def publications(self) -> Mapping[str, str]:
-        """The topics to publish on while the tab is open: message types by full name.
+        """Return the topics to publish on while the tab is open: message types by full name.
 
         Messages are sent by the command `webviz.commands.Publish`. Other topics are refused unless
         somebody allows them, and their first messages get lost while subscribers connect.

@@ -134,7 +134,7 @@ class Readout:
         return self.topic, self.type, texts, self.received_s, self.digits, self.max_items
 
     def tree(self) -> Tree:
-        """The text; see `webviz.data.messages.to_tree`."""
+        """Return the text; see `webviz.data.messages.to_tree`."""
 
         def text(value: Any) -> Tree:
             return to_tree(value, digits=self.digits, max_items=self.max_items, is_readable=True)

@@ -63,7 +63,7 @@ class Property:
 
 
 def value_at(declared: msgspec.Struct, path: str) -> Any:
-    """The value at a dotted path."""
+    """Return the value at a dotted path."""
     value: Any = declared
     for name in path.split("."):
         value = getattr(value, name)
@@ -72,13 +72,13 @@ def value_at(declared: msgspec.Struct, path: str) -> Any:
 
 @functools.cache
 def properties_of(cls: type[msgspec.Struct]) -> tuple[Property, ...]:
-    """The properties of a class, such as a display or tool; the name first."""
+    """Return the properties of a class, such as a display or tool; the name first."""
     found = _properties(cls, "", "")
     return tuple(sorted(found, key=lambda each: each.path not in FIRST))
 
 
 def bare(hint: Any) -> Any:
-    """A type without its annotations."""
+    """Return a type without its annotations."""
     while typing.get_origin(hint) is Annotated:
         hint = typing.get_args(hint)[0]
     return hint
@@ -122,7 +122,7 @@ def _properties(cls: type[msgspec.Struct], prefix: str, group: str) -> tuple[Pro
 
 
 def _known(hint: Any) -> dict[str, Any]:
-    """The values of a type's annotations; the outermost wins."""
+    """Return the values of a type's annotations; the outermost wins."""
     known: dict[str, Any] = {}
     for mark in getattr(hint, "__metadata__", ()):
         if isinstance(mark, Input | Output):
@@ -142,7 +142,7 @@ def _default(field: msgspec.inspect.Field) -> Any:
 def _conditions(
     name: str, prefix: str, known: Mapping[str, Mapping[str, Any]], hints: Mapping[str, Any]
 ) -> tuple[tuple[str, tuple[object, ...]], ...]:
-    """The conditions of a property: its own, and those of the property it names."""
+    """Return the conditions of a property: its own, and those of the property it names."""
     when = known[name].get("when")
     if when is None:
         return ()
@@ -155,7 +155,7 @@ def _conditions(
 
 
 def _choices(hint: Any) -> tuple[Any, ...]:
-    """The values of a Literal; msgspec has them too, but sorted."""
+    """Return the values of a Literal; msgspec has them too, but sorted."""
     hint = bare(hint)
     return typing.get_args(hint) if typing.get_origin(hint) is Literal else ()
 

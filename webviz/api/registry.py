@@ -20,7 +20,7 @@ _registered: dict[str, dict[str, type[Declared]]] = {}
 
 
 def entry_point_group(kind: str) -> str:
-    """The entry point group of a kind of plug-in."""
+    """Return the entry point group of a kind of plug-in."""
     return f"webviz.{kind}s"
 
 
@@ -47,7 +47,7 @@ def display_types() -> dict[str, type[Display]]:
 
 
 def type_name(cls: type[Declared]) -> str:
-    """The name of a class in config files."""
+    """Return the name of a class in config files."""
     types = plugin_types(cls)
     return next((name for name, each in types.items() if each is cls), cls.__name__)
 

@@ -43,13 +43,16 @@ class NamespacedRobot(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         return f"/{self.name}/"
 
     def frame(self, name: str) -> str:
-        """The name in the viewer of a frame of the robot, which may be that already."""
+        """Return the name in the viewer of a frame of the robot, which may be that already."""
         name = name.removeprefix("/")
         prefix = self._prefix
         return name if not name or name in self.shared or name.startswith(prefix) else prefix + name
 
     def own(self, frame: str) -> str:
-        """The robot's own name of a frame of the viewer; other robots' frames keep theirs."""
+        """Return the robot's own name of a frame of the viewer.
+
+        Other robots' frames keep theirs.
+        """
         return frame.removeprefix(self._prefix)
 
     @property
@@ -59,12 +62,12 @@ class NamespacedRobot(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 @functools.lru_cache(maxsize=8)
 def robots_of(entries: tuple[str | NamespacedRobot, ...]) -> tuple[NamespacedRobot, ...]:
-    """The entries of a config; a name alone is a namespace."""
+    """Return the entries of a config; a name alone is a namespace."""
     return tuple(NamespacedRobot(each) if isinstance(each, str) else each for each in entries)
 
 
 def robot_of(topics: Iterable[str], robots: Sequence[NamespacedRobot]) -> NamespacedRobot | None:
-    """The robot of a display, by the namespace of the first of its topics that has one."""
+    """Return the robot of a display, by the namespace of the first of its topics that has one."""
     for topic in topics:
         for robot in robots:
             if topic.startswith(robot.root):
@@ -86,11 +89,11 @@ class RobotFrames(Frames):
         self._robot = robot
 
     def named(self, frame: str) -> str:
-        """The name of a frame in the viewer."""
+        """Return the name of a frame in the viewer."""
         return self._robot.frame(frame)
 
     def own(self, frame: str) -> str:
-        """The robot's own name of a frame of the viewer."""
+        """Return the robot's own name of a frame of the viewer."""
         return self._robot.own(frame)
 
     def at(self, frame: str, stamp_ns: int) -> Pose | None:

@@ -72,7 +72,7 @@ class Rule:
         return f"{self.comparison} {names.get(self.limit, f'{self.limit:g}')}"
 
     def shown(self, value: float) -> str:
-        """A value for sentences."""
+        """Return a value for sentences."""
         names = {level: name for name, level in LEVELS.items()} if self.value == "status" else {}
         return names.get(value, f"{value:.4g}")
 

@@ -98,5 +98,5 @@ class Status:
 
 
 def worst(statuses: Iterable[Status]) -> Level:
-    """The level of a parent with these children."""
+    """Return the level of a parent with these children."""
     return max((status.level for status in statuses), default=Level.OK)

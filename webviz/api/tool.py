@@ -304,7 +304,7 @@ class Tool(Declared, kw_only=True):
 
 @functools.cache
 def outputs_of(cls: type[Tool]) -> dict[str, Output]:
-    """The outputs of a tool class by property name, in the order of declaration."""
+    """Return the outputs of a tool class by property name, in the order of declaration."""
     ports = {each.path: each.port for each in properties_of(cls)}
     return {path: port for path, port in ports.items() if isinstance(port, Output)}
 

@@ -49,7 +49,7 @@ class End:
     receive_buffer: int
 
     def settings(self, name: str, default: str = "") -> Mapping[str, str]:
-        """The values of a variable in use, each with who uses it.
+        """Return the values of a variable in use, each with who uses it.
 
         Those of running nodes; without any, that of the shell.
         """
@@ -60,7 +60,7 @@ class End:
         return found or {self.variables.get(name, "") or default: "the environment"}
 
     def interface(self, address: str) -> NetworkInterface | None:
-        """The interface that has an address, None if none has."""
+        """Return the interface that has an address, None if none has."""
         return next((each for each in self.interfaces if address in each.addresses), None)
 
 

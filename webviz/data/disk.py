@@ -55,7 +55,7 @@ class DiskThreads:
         return done
 
     def within(self, seconds: float, work: Callable[[], T]) -> T:
-        """The result of work on a disk.
+        """Return the result of work on a disk.
 
         Raises:
             OSError: the time is over; the work continues in its thread.

@@ -17,7 +17,7 @@ _VERTICES, _INDICES = 34962, 34963
 
 
 def pack(document: dict[str, Any], rest: bytes = b"") -> bytes:
-    """A binary glTF from its JSON and the following chunks."""
+    """Return a binary glTF from its JSON and the following chunks."""
     text = msgspec.json.encode(document)
     text += b" " * (-len(text) % 4)
     size = _START.size + len(text) + len(rest)
@@ -25,7 +25,7 @@ def pack(document: dict[str, Any], rest: bytes = b"") -> bytes:
 
 
 def unpack(data: bytes) -> tuple[dict[str, Any], bytes]:
-    """The JSON of a binary glTF, and the following chunks.
+    """Return the JSON of a binary glTF, and the following chunks.
 
     Raises:
         ValueError: it is not one.
@@ -40,7 +40,7 @@ def unpack(data: bytes) -> tuple[dict[str, Any], bytes]:
 
 
 def pack_with(document: dict[str, Any], binary: bytes) -> bytes:
-    """A binary glTF from its JSON, but for `buffers`, and its one buffer."""
+    """Return a binary glTF from its JSON, but for `buffers`, and its one buffer."""
     buffers = [{"byteLength": len(binary)}]
     chunk = struct.pack("<I4s", len(binary), b"BIN\0") + binary
     return pack({**document, "buffers": buffers}, chunk)
@@ -84,7 +84,7 @@ class Buffer:
         return len(self._views) - 1
 
     def packed(self, primitives: list[dict[str, Any]], **more: Any) -> bytes:
-        """A binary glTF of one mesh of these primitives, with more JSON such as `materials`."""
+        """Return a binary glTF of one mesh of these primitives, with more JSON like `materials`."""
         document = {
             "asset": {"version": "2.0"},
             "scene": 0,

@@ -90,7 +90,7 @@ def occupancy(
     occupied_thresh: float,
     free_thresh: float,
 ) -> NDArray[np.int8]:
-    """The occupancies that map_server computes from an image.
+    """Return the occupancies that map_server computes from an image.
 
     Args:
         shade: Shape (height, width), mean of the colour channels, 0 black to 1 white.
@@ -124,7 +124,7 @@ def occupancy(
 
 
 def _load_image(path: Path) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
-    """The mean of the colours and the alpha of each pixel, both 0 to 1, top row first."""
+    """Return the mean of the colours and the alpha of each pixel, both 0 to 1, top row first."""
     try:
         with Image.open(path) as image:
             if image.mode.startswith("I"):  # 16 bits of grey
@@ -153,7 +153,7 @@ def _number(entries: dict[str, Any], key: str) -> float:
 
 
 def _flag(entries: dict[str, Any], key: str) -> bool:
-    """An integer or a YAML 1.1 boolean, as map_server accepts."""
+    """Return a boolean from an integer or a YAML 1.1 boolean, as map_server accepts them."""
     value = entries.get(key)
     if isinstance(value, int):
         return bool(value)

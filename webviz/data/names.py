@@ -16,7 +16,7 @@ _UNREADABLE = re.compile(
 
 
 def readable(name: str) -> str:
-    """A name as one line that is read in one direction."""
+    """Return a name as one line that is read in one direction."""
     return _UNREADABLE.sub(" ", name)
 
 

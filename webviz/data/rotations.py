@@ -19,7 +19,7 @@ F64 = NDArray[np.float64]
 
 
 def multiply(a: Any, b: Any) -> Quaternion:
-    """The rotation `b` followed by the rotation `a`: the Hamilton product."""
+    """Return the rotation `b` followed by the rotation `a`: the Hamilton product."""
     aw, ax, ay, az = a
     bw, bx, by, bz = b
     return (
@@ -31,12 +31,15 @@ def multiply(a: Any, b: Any) -> Quaternion:
 
 
 def multiply_many(a: ArrayLike, b: ArrayLike) -> F64:
-    """The rotations `b` (..., 4), each followed by the rotation `a`; they broadcast."""
+    """Return the rotations `b` (..., 4), each followed by the rotation `a`; they broadcast."""
     return np.stack(multiply(_components(a), _components(b)), axis=-1)
 
 
 def from_axis_angle(axis: Vector, angle: float) -> Quaternion:
-    """The rotation by `angle` rad about the unit vector `axis`; the identity for a zero axis."""
+    """Return the rotation by `angle` rad about the unit vector `axis`.
+
+    The identity for a zero axis.
+    """
     if not any(axis):
         return 1.0, 0.0, 0.0, 0.0
     s = math.sin(angle / 2.0)
@@ -44,7 +47,7 @@ def from_axis_angle(axis: Vector, angle: float) -> Quaternion:
 
 
 def from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
-    """The rotation that URDF's rpy means: in rad about the fixed axes x, then y, then z."""
+    """Return the rotation that URDF's rpy means: in rad about the fixed axes x, then y, then z."""
     about_x = from_axis_angle((1.0, 0.0, 0.0), roll)
     about_y = from_axis_angle((0.0, 1.0, 0.0), pitch)
     about_z = from_axis_angle((0.0, 0.0, 1.0), yaw)
@@ -61,7 +64,10 @@ def to_rpy(wxyz: Quaternion) -> Vector:
 
 
 def angle_between(a: Quaternion, b: Quaternion) -> float:
-    """The angle of the rotation from `a` to `b`, in [0, pi] rad; neither need have length one."""
+    """Return the angle of the rotation from `a` to `b`, in [0, pi] rad.
+
+    Neither need have length one.
+    """
     w, x, y, z = b
     w, x, y, z = multiply((w, -x, -y, -z), a)
     return 2.0 * math.atan2(math.sqrt(x * x + y * y + z * z), abs(w))
@@ -73,7 +79,7 @@ def w_first(xyzw: ArrayLike) -> F64:
 
 
 def w_last(wxyz: Quaternion) -> Quaternion:
-    """A quaternion converted to the order of ROS messages: x, y, z, w."""
+    """Return a quaternion converted to the order of ROS messages: x, y, z, w."""
     w, x, y, z = wxyz
     return x, y, z, w
 
@@ -92,7 +98,7 @@ def normalized(quaternions: ArrayLike) -> tuple[F64, NDArray[np.bool_]]:
 
 
 def conjugate(wxyz: ArrayLike) -> F64:
-    """The inverse rotations of unit quaternions (..., 4)."""
+    """Return the inverse rotations of unit quaternions (..., 4)."""
     return np.asarray(wxyz, dtype=np.float64) * (1.0, -1.0, -1.0, -1.0)
 
 
@@ -108,7 +114,7 @@ def matrices(wxyz: ArrayLike) -> F64:
 
 
 def from_matrices(m: F64) -> F64:
-    """Unit quaternions (N, 4), of either sign, of rotation matrices (N, 3, 3).
+    """Return unit quaternions (N, 4), of either sign, of rotation matrices (N, 3, 3).
 
     Each is the eigenvector to the largest eigenvalue of a symmetric matrix of the entries
     (I. Bar-Itzhack, "New method for extracting the quaternion from a rotation matrix", JGCD 23(6),

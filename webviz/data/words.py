@@ -20,12 +20,12 @@ class Problem(NamedTuple):
 
 
 def counted(number: int, noun: str) -> str:
-    """A count with its noun, such as "2 links"."""
+    """Return a count with its noun, such as "2 links"."""
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
 def listed(names: Sequence[str], most: int) -> str:
-    """The first names, and how many more there are, such as "a, b and 3 more"."""
+    """Return the first names, and how many more there are, such as "a, b and 3 more"."""
     rest = len(names) - most
     return ", ".join(names[:most]) + (f" and {rest} more" if rest > 0 else "")
 
@@ -40,5 +40,5 @@ def joined(*texts: str) -> str:
 
 
 def shortened(text: str, most: int) -> str:
-    """A text of at most `most` characters; "…" ends one that was longer."""
+    """Return a text of at most `most` characters; "…" ends one that was longer."""
     return text if len(text) <= most else f"{text[: most - 1]}…"

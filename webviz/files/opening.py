@@ -33,7 +33,7 @@ def load(path: Path) -> Config:
 
 
 def parse(text: str, where: str) -> Config:
-    """A config from its text.
+    """Return a config from its text.
 
     Args:
         text: in RViz's format if `where` ends with .rviz, else YAML.
@@ -52,7 +52,7 @@ def parse(text: str, where: str) -> Config:
 
 
 def text_of(config: Config, name: str) -> tuple[str, list[str]]:
-    """The text of a config file, in RViz's format if `name` ends with .rviz, else YAML.
+    """Return the text of a config file, in RViz's format if `name` ends with .rviz, else YAML.
 
     Returns:
         The text, and sentences on what RViz's format cannot hold, which is left out.
@@ -89,7 +89,7 @@ def _is_kept(item: Item) -> bool:
 
 
 def _comments(path: Path) -> str:
-    """The comments at the beginning of a file, with the lines between them."""
+    """Return the comments at the beginning of a file, with the lines between them."""
     with contextlib.suppress(ConfigError, OSError):
         if path.is_file():
             lines = read_text(path).splitlines(keepends=True)

@@ -141,7 +141,7 @@ class Sessions:
     restore: bool = True
 
     def claim(self, config: Path | None) -> Claim | None:
-        """The session file of a config that no other running viewer has.
+        """Return the session file of a config that no other running viewer has.
 
         Args:
             config: the config file, None for none.

@@ -63,7 +63,7 @@ class ChartWidget(Widget):
 
 
 def _part(chunk: Chunk) -> Mapping[str, Any]:
-    """A piece for JSON: times in microseconds precision from its start, None ends a line."""
+    """Return a piece for JSON: times in microseconds precision from its start, None ends a line."""
     start = chunk.times_s[0] if chunk.times_s else 0.0
     return {
         "start": start,

@@ -119,7 +119,7 @@ def _most_per_second(command: Any) -> int:
 
 
 def command_of(name: str, arguments: dict[str, Any], **own: Any) -> object:
-    """The command that a page asks for.
+    """Return the command that a page asks for.
 
     Args:
         name: of its class.
@@ -167,7 +167,7 @@ def _refuse_endless(arguments: dict[str, Any]) -> None:
 
 
 def form_of(name: str) -> type[msgspec.Struct]:
-    """The struct of the fields that a page may fill in, of a command of pages by its name."""
+    """Return the struct of the fields that a page may fill in, by the name of the command."""
     return _forms()[name][1]
 
 

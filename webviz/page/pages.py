@@ -129,7 +129,7 @@ class Pages:
 
 
 def _ranked(channel: Channel, sender: Sender) -> Sender:
-    """A sender with the priority of their role."""
+    """Return a sender with the priority of their role."""
     if sender.browser is None:
         return sender
     grant = channel.grant_of(sender.browser)

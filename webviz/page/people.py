@@ -118,7 +118,7 @@ class People:
         self._disk = DiskThreads(MAX_THREADS)
 
     def people(self, state: State, _: str) -> PeopleStore:
-        """The connected browsers."""
+        """Return the connected browsers."""
         names = {button.id: button.name for button in state.tools}
         driving = {tool: driving.driver for tool, driving in state.driving.items()}
         return PeopleStore(
@@ -135,12 +135,12 @@ class People:
         )
 
     def addresses(self, state: State, _: str) -> AddressesStore:
-        """The network addresses of browsers."""
+        """Return the network addresses of browsers."""
         visitors = self._channel.visitors()
         return AddressesStore({str(id_): visitor.address for id_, visitor in visitors.items()})
 
     def links(self, state: State, _: str) -> LinksStore:
-        """The valid links."""
+        """Return the valid links."""
         return LinksStore({token.name: _link(token) for token in self._access.tokens})
 
     def journal(self, state: State, _: str) -> JournalStore:

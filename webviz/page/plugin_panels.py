@@ -138,13 +138,13 @@ class PluginPanels:
     # What stores hold, see `webviz.page.content`
 
     def panels(self, state: State, _: str) -> PanelsStore:
-        """The panels of plug-ins."""
+        """Return the panels of plug-ins."""
         titles = {name: tab.title for name, tab in self._tabs.items()}
         broken = {name: clean(name) for name in self._broken}
         return PanelsStore(titles | broken, [*self._order, *self._broken], _types())
 
     def panel(self, state: State, name: str) -> PanelStore:
-        """The widgets of a panel."""
+        """Return the widgets of a panel."""
         tab = self._tabs.get(name)
         if tab is None:
             return PanelStore({}, [], self._broken.get(name, ""))
@@ -166,7 +166,7 @@ class PluginPanels:
         return PanelPropertiesStore(found.id, cls.__name__, form(cls, _SHARED), own)
 
     def commands(self, state: State, _: str) -> PanelCommandsStore:
-        """The commands of all panels."""
+        """Return the commands of all panels."""
         return PanelCommandsStore(
             {
                 f"{name}/{id_}": PanelCommand(name, id_, **command.values)
@@ -176,7 +176,7 @@ class PluginPanels:
         )
 
     def modules(self, state: State, _: str) -> ModulesStore:
-        """The modules of plug-ins for the page, of panels, tools and displays."""
+        """Return the modules of plug-ins for the page, of panels, tools and displays."""
         return modules()
 
     # Called on the event loop
@@ -212,7 +212,7 @@ MAKERS_OF_PANELS: Mapping[str, Callable[[PluginPanels, State, str], PageStore | 
 
 
 def _types() -> list[PanelType]:
-    """The types of panels."""
+    """Return the types of panels."""
     return [
         PanelType(name, clean(cls.title or name))
         for name, cls in sorted(plugin_types(Panel).items())

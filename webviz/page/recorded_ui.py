@@ -32,7 +32,7 @@ class RecordedUi:
         self.commands: dict[str, Shortcut] = {}
 
     def find(self, id_: str) -> Widget | None:
-        """A widget or command."""
+        """Return a widget or command."""
         return self.widgets.get(id_) or self.commands.get(id_)
 
     def area(self) -> AreaWidget:

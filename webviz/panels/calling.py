@@ -32,7 +32,7 @@ class ServiceCall(SendingPanel):
     definition: Definition = ""
 
     def build(self, ui: Ui, send: Send) -> None:
-        """The form."""
+        """Show the form."""
         self.build_form(ui, send)
         self.response: Any = None
 
@@ -91,7 +91,7 @@ class ActionGoal(SendingPanel):
     definition: Definition = ""
 
     def build(self, ui: Ui, send: Send) -> None:
-        """The form."""
+        """Show the form."""
         self.build_form(ui, send)
 
     @property

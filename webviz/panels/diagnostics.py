@@ -60,7 +60,7 @@ class Diagnostics(Panel):
         self.start_over()
 
     def build(self, ui: Ui, send: Send) -> None:
-        """The tree."""
+        """Show the tree."""
         self.tree = ui.widget("diagnostics", {}, lambda value, browser: None)
 
     def subscriptions(self) -> Mapping[str, str]:
@@ -145,7 +145,7 @@ class Diagnostics(Panel):
 
 
 def _path(topic: str, name: str, *, is_aggregated: bool) -> Iterator[str]:
-    """The names from the root of the tree: the aggregator's have slashes, others `node: task`."""
+    """Yield the names from the root of the tree: split at slashes, or at `node: task`."""
     yield topic
     if is_aggregated:
         yield from [part for part in name.split("/") if part][:16] or [name]

@@ -37,7 +37,7 @@ class Indicator(PathPanel):
     ] = msgspec.field(default_factory=list)
 
     def build(self, ui: Ui, send: Send) -> None:
-        """The path and the lamp."""
+        """Show the path and the lamp."""
         self.build_path(ui, send)
         self.lamp = ui.widget("indicator", {}, lambda value, browser: None)
 
@@ -59,7 +59,7 @@ class Indicator(PathPanel):
 
 
 def parse(text: str) -> Rule | str:
-    """A rule, or why it is not one."""
+    """Return a rule, or why it is not one."""
     match = _RULE.fullmatch(text[:400])
     if match is None or match[3] not in COLORS:
         colors = ", ".join(COLORS)
@@ -69,7 +69,7 @@ def parse(text: str) -> Rule | str:
 
 
 def judged(value: Any, rules: list[Rule]) -> tuple[str, str]:
-    """The color and label of a value; grey and the value itself if no rule fits."""
+    """Return the color and label of a value; grey and the value itself if no rule fits."""
     number = as_number(value)
     text = readable(str(value)[:MAX_TEXT]) if number is None else f"{number:.6g}"
     for operator, limit, color, label in rules:

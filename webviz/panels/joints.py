@@ -37,7 +37,7 @@ class Joints(Panel):
     topic: Annotated[str, Prop(help="Topic of the positions.")] = "/joint_states"
 
     def build(self, ui: Ui, send: Send) -> None:
-        """A check box, two buttons and the sliders."""
+        """Show a check box, two buttons and the sliders."""
         self.send = send
         self.lock = threading.RLock()
         self.joints: Mapping[str, Joint] = {}
@@ -66,11 +66,11 @@ class Joints(Panel):
         self.result = ui.area()
 
     def subscriptions(self) -> Mapping[str, str]:
-        """The description."""
+        """Return the description."""
         return {self.robot_description: "std_msgs/msg/String"}
 
     def publications(self) -> Mapping[str, str]:
-        """The positions."""
+        """Return the positions."""
         return {self.topic: STATE}
 
     def take(self, topic: str, message: Any) -> None:
@@ -196,7 +196,7 @@ class Joints(Panel):
 
 
 def _limits(joint: Joint) -> tuple[float, float]:
-    """The ends of a slider: those of the joint, else half a turn or a metre to both sides."""
+    """Return the ends of a slider: the joint's limits, else half a turn or a metre each way."""
     if joint.limits is not None and max(map(abs, joint.limits)) < FARTHEST:
         return joint.limits
     return (-1.0, 1.0) if joint.type == "prismatic" else (-math.pi, math.pi)

@@ -66,16 +66,16 @@ class Log(Panel):
             self.shown: dict[str, Any] | None = None
 
     def build(self, ui: Ui, send: Send) -> None:
-        """The lines, which the page filters."""
+        """Show the lines, which the page filters."""
         self.send = send
         self.list = ui.widget("log", {}, self.use)
 
     def subscriptions(self) -> Mapping[str, str]:
-        """The log."""
+        """Return the log."""
         return {self.topic: self.type} if self.topic.startswith("/") else {}
 
     def lookback(self, topic: str) -> Lookback:
-        """The last lines."""
+        """Return the last lines."""
         return Lookback(count=AFTER_SEEK)
 
     def receive(self, topic: str, message: Any, received_ns: int) -> None:

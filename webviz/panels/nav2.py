@@ -124,7 +124,7 @@ class Nav2(Panel):
             self.progress.text("No goal of any client so far.")
 
     def _full(self, name: str) -> str:
-        """A name in the namespace, unless it is absolute."""
+        """Return a name in the namespace, unless it is absolute."""
         if name.startswith("/"):
             return name
         return "/".join(["", *filter(None, [self.namespace.strip("/")]), name])

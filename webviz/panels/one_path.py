@@ -38,7 +38,7 @@ class PathPanel(Panel):
         self.field = ui.field("Message path", self.path, self._set, "Topic, fields and filters.")
 
     def subscriptions(self) -> Mapping[str, str]:
-        """The topic of the path."""
+        """Return the topic of the path."""
         return subscribed([self.reading], self.types)
 
     def take(self, topic: str, message: Any) -> None:

@@ -28,7 +28,7 @@ Value = bool | int | float | str | Sequence[Any]
 
 
 def plain(value: Any, kind: int) -> Value | None:
-    """The value in a rcl_interfaces/msg/ParameterValue, None if it is not set."""
+    """Return the value in a rcl_interfaces/msg/ParameterValue, None if it is not set."""
     if kind not in KINDS:
         return None
     found = getattr(value, KINDS[kind][1])
@@ -38,7 +38,7 @@ def plain(value: Any, kind: int) -> Value | None:
 
 
 def parse(text: str, kind: int) -> Value:
-    """A value from what somebody entered.
+    """Return a value from what somebody entered.
 
     Raises:
         Error: it does not fit the type.
@@ -47,7 +47,7 @@ def parse(text: str, kind: int) -> Value:
 
 
 def fitting(value: Any, kind: int) -> Value:
-    """A value of YAML as one of this type.
+    """Return a value of YAML as one of this type.
 
     Raises:
         Error: it does not fit the type.
@@ -83,7 +83,7 @@ EXAMPLES = {
 
 
 def of_node(found: Any, node: str) -> Mapping[str, Any]:
-    """The parameters of a node in a file as `ros2 param dump` writes it.
+    """Return the parameters of a node in a file as `ros2 param dump` writes it.
 
     Raises:
         Error: the file is not about this node.

@@ -65,7 +65,7 @@ class Parameters(Panel):
         self.refused: dict[str, str] = {}
 
     def build(self, ui: Ui, send: Send) -> None:
-        """The node and its parameters."""
+        """Show the node and its parameters."""
         self.send = send
         self.nodes = ui.choice("Node", self.node, self.choose, "Node with parameters.")
         self.list = ui.widget("parameters", {}, self.use)

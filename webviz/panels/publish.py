@@ -35,7 +35,7 @@ class PublishMessage(SendingPanel):
     ] = 1.0
 
     def build(self, ui: Ui, send: Send) -> None:
-        """The form."""
+        """Show the form."""
         self.build_form(ui, send)
         self.is_repeating = False
         self.sender: int | None = None
@@ -43,7 +43,7 @@ class PublishMessage(SendingPanel):
         self.known = ""
 
     def publications(self) -> Mapping[str, str]:
-        """The topic."""
+        """Return the topic."""
         type_ = self.message_type or self.type_shown
         return {self.topic: type_} if self.topic.startswith("/") and type_ else {}
 

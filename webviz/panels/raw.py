@@ -17,7 +17,7 @@ class RawMessage(PathPanel):
     module = "raw.js"
 
     def build(self, ui: Ui, send: Send) -> None:
-        """The path and the tree."""
+        """Show the path and the tree."""
         self.build_path(ui, send)
         self.tree = ui.widget("raw", {}, lambda value, browser: None)
         self.drawn = -1
@@ -31,7 +31,7 @@ class RawMessage(PathPanel):
         self.tree.show({"path": self.path, "tree": self.shown, "problem": problem})
 
     def _tree(self) -> Any:
-        """The values as a tree: the fields of the only one, else their number and all of them."""
+        """Return the values as a tree: the fields of a single one, else their number and all."""
         if not self.found:
             return None
         several = self.reading.path is not None and self.reading.path.finds_many

@@ -10,7 +10,7 @@ from webviz.data.messages.paths import PathError
 
 
 def types_of(state: Any) -> dict[str, str]:
-    """The message types of all topics with a publisher, as they are or would be read."""
+    """Return the message types of all topics with a publisher, as they are or would be read."""
     return {
         topic: offer.type or offer.publishers[0].type
         for topic, offer in state.offers.items()
@@ -43,7 +43,7 @@ class PathReading:
         return self.path.topic if self.path else ""
 
     def values(self, message: Any) -> list[Any]:
-        """The values in a message; none if it has a problem."""
+        """Return the values in a message; none if it has a problem."""
         if self.path is None:
             return []
         self.has_message = True
@@ -65,5 +65,5 @@ class PathReading:
 
 
 def subscribed(readings: Iterable[PathReading], types: Mapping[str, str]) -> dict[str, str]:
-    """The types of the topics that are read, as far as they are known."""
+    """Return the types of the topics that are read, as far as they are known."""
     return {each.topic: types[each.topic] for each in readings if each.topic in types}

@@ -129,7 +129,7 @@ class SendingPanel(Panel):
         self.edit(write_yaml(found))
 
     def values(self) -> Mapping[str, Any]:
-        """The values, checked.
+        """Return the values, checked.
 
         Raises:
             Error: the text is not YAML, or does not fit the type.
@@ -173,7 +173,7 @@ class SendingPanel(Panel):
 
 
 def template(type_name: str) -> dict[str, Any]:
-    """The default values of a message type by field; sequences are empty.
+    """Return the default values of a message type by field; sequences are empty.
 
     Fields that are left out have their defaults, too: arrays of messages, and what is beyond
     `MAX_DEPTH` and `MAX_FIELDS`.
@@ -204,7 +204,7 @@ def _template(type_name: str, depth: int, made: Iterator[int]) -> dict[str, Any]
 
 
 def fields_of(values: Mapping[str, Any]) -> list[dict[str, str]]:
-    """The first fields of values as the form has them: paths and texts."""
+    """Return the first fields of values as the form has them: paths and texts."""
     return [
         {"path": path, "text": text}
         for (path, text), _ in zip(_leaves(values, ""), range(MAX_FIELDS), strict=False)

@@ -106,7 +106,7 @@ class SlamToolbox(Panel):
         return tuple(map(self._full, names))
 
     def subscriptions(self) -> Mapping[str, str]:
-        """The poses of 2D Pose Estimate."""
+        """Return the poses of 2D Pose Estimate."""
         return {self.initial_pose_topic: INITIAL_POSE} if self.initial_pose_topic else {}
 
     def take(self, topic: str, message: Any) -> None:
@@ -213,7 +213,7 @@ class SlamToolbox(Panel):
 
 
 def _said(value: bool | None, true: str, false: str) -> str:
-    """A word for a state, "" if it is not known."""
+    """Return a word for a state, "" if it is not known."""
     return "" if value is None else true if value else false
 
 

@@ -66,16 +66,16 @@ class StateTimeline(Panel):
         self.state: Any = None
 
     def build(self, ui: Ui, send: Send) -> None:
-        """The bands."""
+        """Show the bands."""
         self.send = send
         self.bands = ui.widget("states", {}, self.seek)
 
     def subscriptions(self) -> Mapping[str, str]:
-        """The topics of all paths."""
+        """Return the topics of all paths."""
         return subscribed((track.reading for track in self.tracks.values()), self.types)
 
     def lookback(self, topic: str) -> Lookback:
-        """The messages of the window."""
+        """Return the messages of the window."""
         return Lookback(seconds=self.window)
 
     def receive(self, topic: str, message: Any, received_ns: int) -> None:

@@ -35,7 +35,7 @@ class MessageTable(PathPanel):
     module = "table.js"
 
     def build(self, ui: Ui, send: Send) -> None:
-        """The path and the table."""
+        """Show the path and the table."""
         self.build_path(ui, send)
         self.table = ui.widget("table", {}, lambda value, browser: None)
         self.drawn = -1
@@ -50,7 +50,7 @@ class MessageTable(PathPanel):
 
 
 def table_of(values: list[Any]) -> dict[str, Any]:
-    """The columns and rows of values; one array is its elements."""
+    """Return the columns and rows of values; one array is its elements."""
     items: Any = values
     if len(values) == 1 and _is_array(values[0]):
         items = values[0]
@@ -74,7 +74,7 @@ def table_of(values: list[Any]) -> dict[str, Any]:
 
 
 def _cells(value: Any, path: str, depth: int) -> Iterator[tuple[str, Cell]]:
-    """The cells of an element by the paths of their fields; arrays are their length."""
+    """Yield the cells of an element by the paths of their fields; arrays are their length."""
     number = as_number(value)
     if number is not None:
         yield path, number if math.isfinite(number) else str(number)

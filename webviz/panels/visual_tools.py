@@ -44,7 +44,7 @@ class RvizVisualToolsGui(Panel):
         self.result = ui.area()
 
     def publications(self) -> Mapping[str, str]:
-        """The buttons."""
+        """Return the buttons."""
         return {self.topic: JOY}
 
     def show(self, state: object) -> None:

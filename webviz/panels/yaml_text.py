@@ -20,7 +20,7 @@ _WORDS = frozenset({"true", "false", "yes", "no", "on", "off", "null", "y", "n"}
 
 
 def read_yaml(text: str) -> Any:
-    """The values of a short YAML text, without aliases.
+    """Return the values of a short YAML text, without aliases.
 
     Raises:
         Error: it cannot be read; a sentence.
@@ -57,7 +57,7 @@ def _lines(values: Mapping[str, Any], indent: str) -> Iterator[str]:
 
 
 def inline(value: Any) -> str:
-    """A value in one line."""
+    """Return a value in one line."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, float):

@@ -132,7 +132,7 @@ class Calls:
         return cdr is not None
 
     def _response(self, call: _Call, now: float) -> bytes | None:
-        """The serialised response, None while it is awaited."""
+        """Return the serialised response, None while it is awaited."""
         name = call.name
         is_ready = call.client.service_is_ready()
         if call.sent is None:

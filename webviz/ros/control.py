@@ -74,7 +74,7 @@ class Controlled(Protocol):
         ...
 
     def last_findings(self) -> Sequence[Finding]:
-        """The findings of the last round, and let rounds go on for some seconds."""
+        """Return the findings of the last round, and let rounds go on for some seconds."""
         ...
 
     def save_screenshot(self) -> Path:
@@ -212,7 +212,7 @@ class ControlNode:
         return (SetFixedFrame(value),)
 
     def _allowed(self, value: str) -> str:
-        """The path of a config that may be opened through ROS.
+        """Return the path of a config that may be opened through ROS.
 
         Links are not resolved, since creating one takes the same permission as writing a config.
         """
@@ -288,7 +288,7 @@ class ControlNode:
         ] + self._doctor_service(viewer)
 
     def _doctor_service(self, viewer: Controlled) -> list[_Service]:
-        """The service that returns findings, none if diagnostic_msgs is missing."""
+        """Return the service that returns findings, none if diagnostic_msgs is missing."""
         module = _diagnostics()
         if module is None:
             return []
@@ -362,7 +362,7 @@ class _Service:
 
 @functools.cache
 def _diagnostics() -> ModuleType | None:
-    """The module of diagnostic messages, None if diagnostic_msgs is missing."""
+    """Return the module of diagnostic messages, None if diagnostic_msgs is missing."""
     try:
         from webviz.ros import diagnostics
     except ImportError:
@@ -380,7 +380,7 @@ def _say(response: Any, done: Future[Any]) -> None:
 
 
 def _values(state: State) -> dict[str, str]:
-    """The values of the parameters."""
+    """Return the values of the parameters."""
     start, saved = state.settings.view, state.settings.views
     return {
         CONFIG_FILE: _absolute(state.file.path),

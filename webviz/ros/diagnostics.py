@@ -51,7 +51,7 @@ class DiagnosticsPublisher:
 
 
 def statuses_of(findings: Sequence[Finding]) -> list[DiagnosticStatus]:
-    """A status for each finding, and one for the doctor as a whole at the beginning."""
+    """Return a status for each finding, and one for the doctor as a whole at the beginning."""
     severe = [finding for finding in findings if finding.severity > Severity.NOTE]
     whole = DiagnosticStatus(
         level=LEVELS[max((finding.severity for finding in severe), default=Severity.NOTE)],

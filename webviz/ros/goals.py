@@ -47,7 +47,7 @@ class Goals:
         self._feedback: dict[bytes, Callable[[bytes], object]] = {}
 
     def new(self, action: str) -> Goal:
-        """A goal that is not sent yet. Cancel its result to stop following it."""
+        """Return a goal that is not sent yet. Cancel its result to stop following it."""
         goal_id = uuid.uuid4().bytes
 
         def cancel() -> Future[int]:
@@ -119,7 +119,7 @@ class Goals:
         _then(answer, sent.result, status)
 
     def _subscribe(self, action: str, type: str) -> Subscription:
-        """The subscription to the feedback of all goals of an action."""
+        """Return the subscription to the feedback of all goals of an action."""
         topic = f"{action}/_action/feedback"
         if topic in self._subscriptions:
             return self._subscriptions[topic]
@@ -139,7 +139,7 @@ class Goals:
 
 
 def _read(type: str, cdr: bytes, action: str) -> Any:
-    """A part of an answer of an action.
+    """Return a part of an answer of an action.
 
     Raises:
         NotConnected: it is malformed.

@@ -118,7 +118,7 @@ class RosSource:
         return self._clock_messages if is_simulated else None
 
     def resolve(self, topic: str) -> str:
-        """The full name of a topic.
+        """Return the full name of a topic.
 
         Raises:
             ValueError: the name is invalid.
@@ -282,7 +282,7 @@ class _Held:
 
 
 def _executor(context: Context) -> Executor:
-    """The events executor (20 µs per message) if available.
+    """Return the events executor (20 µs per message) if available.
 
     The default one rebuilds its wait set on every wake-up, 25 µs per subscription.
     """

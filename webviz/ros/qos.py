@@ -34,7 +34,7 @@ the default events would log."""
 
 
 def adapt(wish: Subscription, publishers: Sequence[Publisher]) -> tuple[Reliability, Durability]:
-    """The QoS that matches the most publishers.
+    """Return the QoS that matches the most publishers.
 
     As in rosbag2: reliable only if all publishers are, and transient local only if all are. Without
     publishers it is best effort and volatile, which matches any.
@@ -65,7 +65,7 @@ def is_mixed(wish: Subscription, publishers: Sequence[Publisher]) -> bool:
 
 
 def profile(wish: Subscription, reliability: Reliability, durability: Durability) -> QoSProfile:
-    """The rclpy profile for a wish and its adapted policies."""
+    """Return the rclpy profile for a wish and its adapted policies."""
     return QoSProfile(
         depth=wish.topic.depth or DEPTHS.get(wish.type, SENSOR_DEPTH),
         history=HistoryPolicy.KEEP_LAST,

@@ -32,7 +32,7 @@ def remove_abandoned() -> None:
 
 
 def segments_of(process: int) -> set[Path]:
-    """The segments that a process uses, its own and those of others that it talks to.
+    """Return the segments that a process uses, its own and those of others that it talks to.
 
     Args:
         process: its id.

@@ -36,7 +36,7 @@ class Talker:
         return self._node.get_fully_qualified_name()
 
     def open(self, topic: str, type_name: str, latched: bool) -> Publisher:
-        """The publisher of a topic, created on first use."""
+        """Return the publisher of a topic, created on first use."""
         if topic not in self._publishers:
             durability = DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE
             qos = QoSProfile(depth=DEPTH, durability=durability)

@@ -20,7 +20,7 @@ class AxesDrawn(SingleNode[Axes]):
     """All axes of a node in one draw call: instances of a model, since viser's axes are not lit."""
 
     def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:
-        """A node without axes."""
+        """Return a node without axes."""
         return scene.add_batched_glb(
             name,
             _model(0.1),
@@ -33,7 +33,7 @@ class AxesDrawn(SingleNode[Axes]):
         )
 
     def props(self, node: Axes) -> tuple[Props, ...]:
-        """The model, then poses and lengths; poses that are not finite are dropped.
+        """Return the model, then poses and lengths; poses that are not finite are dropped.
 
         Browsers show nothing while they parse a new model, so it depends on proportions only.
         """

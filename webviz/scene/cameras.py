@@ -93,12 +93,12 @@ class ViserCameras:
                 self._link.channel.send(placed(PlaceCamera, view, number), id_)
 
     def views(self) -> Mapping[int, View]:
-        """The current view of every browser, by its id."""
+        """Return the current view of every browser, by its id."""
         clients = self._take_reports()
         return {id_: self._view(known, clients[id_]) for id_, known in self._browsers.items()}
 
     def target_frames(self) -> set[str]:
-        """The target frames of all views, including that of browsers that join."""
+        """Return the target frames of all views, including that of browsers that join."""
         self._take_reports()
         views = [self._start, *(known.view for known in self._browsers.values())]
         return {view.target_frame for view in views} - {FIXED_FRAME}
@@ -157,7 +157,7 @@ class ViserCameras:
 
 
 def placed(kind: type[M], view: View, number: int) -> M:
-    """The message that puts the camera of a page where a view says.
+    """Return the message that puts the camera of a page where a view says.
 
     Args:
         kind: of the message.

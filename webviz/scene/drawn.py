@@ -25,11 +25,11 @@ class Drawn(Protocol[NodeT_contra]):
     """A node in the browsers."""
 
     def draw(self, node: NodeT_contra) -> None:
-        """Sends the changes since the last call."""
+        """Send the changes since the last call."""
         ...
 
     def remove(self) -> None:
-        """Removes it from the scene."""
+        """Remove it from the scene."""
         ...
 
 
@@ -48,14 +48,14 @@ class SingleNode(ABC, Generic[NodeT]):
 
     @abstractmethod
     def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:
-        """Creates the empty node."""
+        """Create the empty node."""
 
     @abstractmethod
     def props(self, node: NodeT) -> tuple[Props, ...]:
         """Disjoint sets of viser's properties; a set is sent when one of its values changes."""
 
     def draw(self, node: NodeT) -> None:
-        """Sends the sets of properties that changed."""
+        """Send the sets of properties that changed."""
         sets = self.props(node)
         for index, props in enumerate(sets):
             if index >= len(self._sent) or not _is_same(props, self._sent[index]):
@@ -63,7 +63,7 @@ class SingleNode(ABC, Generic[NodeT]):
         self._sent = sets
 
     def remove(self) -> None:
-        """Removes the node from the scene."""
+        """Remove the node from the scene."""
         self._handle.remove()
 
 

@@ -14,7 +14,7 @@ from webviz.scene.solids import Solid
 
 
 def matte(glb: bytes) -> bytes:
-    """Makes every material of a binary glTF non-metallic, as RViz draws meshes.
+    """Make every material of a binary glTF non-metallic, as RViz draws meshes.
 
     Materials are metallic by default (5.22.3), and metal without an environment to reflect is
     black.
@@ -55,7 +55,7 @@ def colored_glb(parts: Sequence[tuple[Solid, Rgb]]) -> bytes:
 
 
 def _normals(vertices: NDArray[np.float32], faces: NDArray[np.uint32]) -> NDArray[np.float32]:
-    """The mean normal of the faces around each vertex, weighted by area."""
+    """Return the mean normal of the faces around each vertex, weighted by area."""
     a, b, c = (vertices[faces[:, i]] for i in range(3))
     normals = np.zeros_like(vertices)
     np.add.at(normals, faces, np.cross(b - a, c - a)[:, None])

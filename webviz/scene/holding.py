@@ -44,6 +44,6 @@ class Holding:
             return min(self._reports.values(), default=POINTS_HELD)
 
     def _hear(self, browser: int, report: Holds) -> None:
-        """Called on viser's event loop."""
+        """Note the report of a page, on viser's event loop."""
         with self._lock:
             self._reports[browser] = min(max(report.points, FEWEST_POINTS), MAX_POINTS)

@@ -48,7 +48,7 @@ class ImageDrawn:
         self._sent: Image | None = None
 
     def draw(self, node: Image) -> None:
-        """Sends the tiles that changed.
+        """Send the tiles that changed.
 
         Raises:
             ValueError: the cells do not have the type and shape that `Image` requires.
@@ -68,7 +68,7 @@ class ImageDrawn:
         self._wanted = wanted
 
     def remove(self) -> None:
-        """Removes the image from the scene."""
+        """Remove the image from the scene."""
         for tile in self._wanted:
             self._drop(tile)
         self._frame.remove()
@@ -104,7 +104,7 @@ class ImageDrawn:
 
 
 def _shape(node: Image) -> Shape:
-    """The shape of tiles: square, or with as many cells if one edge of the image is short."""
+    """Return the shape of tiles: square, or with as many cells if the image has a short edge."""
     rows, columns = node.cells.shape[:2]
     height = max(TILE, min(LONGEST_TILE, TILE * TILE // max(columns, 1)))
     width = max(TILE, min(LONGEST_TILE, TILE * TILE // max(rows, 1)))

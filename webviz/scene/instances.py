@@ -18,7 +18,7 @@ class InstancesDrawn(SingleNode[Instances]):
     """All solids of a node in one draw call: viser's batched meshes."""
 
     def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:
-        """A node without solids."""
+        """Return a node without solids."""
         return scene.add_batched_meshes_simple(
             name,
             *SOLIDS["box"],
@@ -32,7 +32,9 @@ class InstancesDrawn(SingleNode[Instances]):
         )
 
     def props(self, node: Instances) -> tuple[Props, ...]:
-        """The solid, poses with colours, and opacity; instances that are not finite are dropped.
+        """Return the solid, poses with colours, and opacity.
+
+        Instances that are not finite are dropped.
 
         A browser recreates the batch for a new solid or opacity, hence separate sets.
         """
@@ -55,14 +57,14 @@ class InstancesDrawn(SingleNode[Instances]):
 
 
 def _material(node: Instances) -> str:
-    """The material of viser's whose name says how the solids are shaded; see shade.js."""
+    """Return the material of viser's whose name says how the solids are shaded; see shade.js."""
     if not node.is_data:
         return "standard"
     return "toon5" if node.shape in ("box", "square") else "toon3"
 
 
 def _opacity(opacity: float | F32) -> Props:
-    """A single opacity goes to the material: browsers draw that faster than one per instance."""
+    """Return the opacity of the material: browsers draw one faster than one per instance."""
     if isinstance(opacity, np.ndarray):
         each = np.ascontiguousarray(opacity, dtype=np.float32)
         return {"opacity": None, "batched_opacities": each}

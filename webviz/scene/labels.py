@@ -42,7 +42,7 @@ class LabelsDrawn:
         self._anchor = ""
 
     def draw(self, node: Labels) -> None:
-        """Sends changed labels; those whose position is not finite are dropped."""
+        """Send changed labels; those whose position is not finite are dropped."""
         anchor = "top-center" if node.below else "center-center"
         texts = node.texts[:MAX_LABELS]
         heights = _tinted(node.height / _LINE, _steps(node.colors, len(texts)))
@@ -63,13 +63,13 @@ class LabelsDrawn:
         self._add_more()
 
     def remove(self) -> None:
-        """Removes the labels from the scene."""
+        """Remove the labels from the scene."""
         self._link.count_removals(len(self._labels))
         self.forget()
         self._frame.remove()
 
     def forget(self) -> None:
-        """Gives back the room of labels that go with their group."""
+        """Give back the room of labels that go with their group."""
         budget = self._link.label_budget
         budget.leave(self._name)
         for label in self._sent:
@@ -127,7 +127,7 @@ def _steps(colors: U8 | Rgb | None, count: int) -> U8:
 
 
 def _tinted(height: float, steps: U8) -> list[float]:
-    """A height for each colour (N, 3) of 32 steps per channel, whose last bits are that colour.
+    """Return a height for each colour (N, 3) of 32 steps per channel, with it in the last bits.
 
     viser's labels have no colour. Their height reaches the shader as a float32, which labels.js
     makes use of: five bits for each channel, which changes the height by less than 0.2 %.
@@ -139,5 +139,5 @@ def _tinted(height: float, steps: U8) -> list[float]:
 
 
 def _encodable(text: str) -> str:
-    """Replaces lone surrogates, from invalid UTF-8, which would end every browser's connection."""
+    """Replace lone surrogates, from invalid UTF-8, which would end every browser's connection."""
     return text.encode(errors="replace").decode()

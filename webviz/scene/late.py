@@ -29,7 +29,7 @@ class Late:
         self._changed = threading.Condition()
 
     def put(self, name: str, make: Callable[[], T], send: Callable[[T], None]) -> None:
-        """Calls `make` in the thread, and `send` with its result in the next `deliver`.
+        """Call `make` in the thread, and `send` with its result in the next `deliver`.
 
         Work that has not started, or was not sent, is dropped when the name is put again.
 
@@ -61,7 +61,7 @@ class Late:
             job = self._jobs[name] = self._pool.submit(run)
 
     def drop(self, name: str) -> None:
-        """Cancels the work of a node and of all below it."""
+        """Cancel the work of a node and of all below it."""
         with self._changed:
             for each in tuple(self._jobs):
                 if each == name or each.startswith(f"{name}/"):
@@ -69,7 +69,7 @@ class Late:
                     self._forget(each)
 
     def deliver(self) -> None:
-        """Sends the messages that are ready."""
+        """Send the messages that are ready."""
         with self._changed:
             made = dict(self._made)
         for name, send in made.items():
@@ -81,7 +81,7 @@ class Late:
                 self._forget(name)
 
     def finish(self, timeout: float) -> None:
-        """Waits for all work, and sends the messages.
+        """Wait for all work, and send the messages.
 
         Raises:
             TimeoutError: it takes longer than `timeout` seconds.
@@ -95,7 +95,7 @@ class Late:
         self.deliver()
 
     def wait(self, timeout: float) -> bool:
-        """Waits until all was sent; whether this took less than `timeout` seconds."""
+        """Wait until all was sent; return whether this took less than `timeout` seconds."""
         with self._changed:
             return self._changed.wait_for(lambda: not self._jobs, timeout)
 

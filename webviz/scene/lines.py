@@ -20,7 +20,7 @@ class LinesDrawn(SingleNode[Lines]):
     """Lines as viser's line segments."""
 
     def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:
-        """A node without segments."""
+        """Return a node without segments."""
         return scene.add_line_segments(name, _NOTHING, _BLACK, thickness=1.0)
 
     def props(self, node: Lines) -> tuple[Props, ...]:
@@ -42,7 +42,7 @@ class ArrowsDrawn(SingleNode[Arrows]):
     """Arrows as viser's arrows."""
 
     def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:
-        """A node without arrows."""
+        """Return a node without arrows."""
         return scene.add_arrows(name, _NOTHING, _BLACK)
 
     def props(self, node: Arrows) -> tuple[Props, ...]:

@@ -20,7 +20,7 @@ class MeshDrawn(SingleNode[Mesh]):
     """A mesh, lit from both sides as RViz lights its triangle lists."""
 
     def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:
-        """A mesh without faces."""
+        """Return a mesh without faces."""
         return scene.add_mesh_simple(
             name,
             np.zeros((1, 3), np.float32),
@@ -77,11 +77,11 @@ class GlbDrawn(SingleNode[Glb]):
     """A glTF model. Browsers show nothing while they parse a new one."""
 
     def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:
-        """An empty model."""
+        """Return an empty model."""
         return scene.add_glb(name, _NOTHING, cast_shadow=False, receive_shadow=False)
 
     def props(self, node: Glb) -> tuple[Props, ...]:
-        """The model.
+        """Return the model.
 
         Raises:
             ValueError: `node.data` is not a binary glTF 2.0.
@@ -106,7 +106,7 @@ class ModelsDrawn(SingleNode[Models]):
         )
 
     def props(self, node: Models) -> tuple[Props, ...]:
-        """The model, then its copies; those that are not finite are dropped.
+        """Return the model, then its copies; those that are not finite are dropped.
 
         Raises:
             ValueError: `node.data` is not a binary glTF 2.0.

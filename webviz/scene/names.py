@@ -29,12 +29,12 @@ def segment(text: str) -> str:
 
 
 def node_path(group: str, key: str | None = None) -> str:
-    """The name of a group in viser, or of the node `key` in it."""
+    """Return the name of a group in viser, or of the node `key` in it."""
     path = f"{ROOT}/{segment(group)}"
     return path if key is None else f"{path}/{segment(key)}"
 
 
 def display_of(path: str) -> str:
-    """The id of the display that a node belongs to, by the name of the node in viser."""
+    """Return the id of the display that a node belongs to, by the name of the node in viser."""
     group = unquote(path.removeprefix(f"{ROOT}/").partition("/")[0], errors="surrogatepass")
     return group.partition("/")[0]

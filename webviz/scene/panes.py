@@ -17,7 +17,7 @@ class PaneDrawn:
         self._is_visible = True
 
     def draw(self, node: Pane) -> None:
-        """Shows another picture."""
+        """Show another picture."""
         self._node = node
         if self._is_visible:
             self._link.pictures.show(self._display, node)

@@ -13,7 +13,7 @@ _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 
 def encode_png(cells: U8, palette: U8 | None = None) -> bytes:
-    """Encodes an image, mostly without holding Python's global lock.
+    """Encode an image, mostly without holding Python's global lock.
 
     Rows are unfiltered and compressed at zlib's fastest level, which is enough for maps. A palette
     takes a tenth of the time of RGBA.

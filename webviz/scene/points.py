@@ -37,7 +37,7 @@ class PointsDrawn:
         self._node: Points | None = None
 
     def draw(self, node: Points) -> None:
-        """Sends the parts that changed."""
+        """Send the parts that changed."""
         prefix = BLOCK_PREFIX if node.thins else PART_PREFIX
         while len(self._parts) * PART < len(node.xyz):
             self._parts.append(_Part(self._link, f"{self._name}/{prefix}{len(self._parts)}"))
@@ -60,7 +60,7 @@ class PointsDrawn:
             part.draw(replace(node, xyz=node.xyz[rows], colors=colors))
 
     def remove(self) -> None:
-        """Removes the points from the scene."""
+        """Remove the points from the scene."""
         self._link.count_removals(len(self._parts) - 1)
         self._parts[0].remove()
 
@@ -76,7 +76,7 @@ class _Part(SingleNode[Points]):
     """Name, version and number of parts of the cloud that it is part of, None if it is whole."""
 
     def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:
-        """A cloud without points."""
+        """Return a cloud without points."""
         return _add(scene, name, np.zeros((0, 3), np.float32), np.zeros(3, np.uint8))
 
     def props(self, node: Points) -> tuple[Props, ...]:
@@ -94,7 +94,7 @@ class _Part(SingleNode[Points]):
 
 
 def keep_shaders(scene: SceneApi, root: str) -> None:
-    """Adds clouds out of sight, which keep the point shaders alive.
+    """Add clouds out of sight, which keep the point shaders alive.
 
     viser creates a new material for each update with colours, and three.js compiles its shader
     again (0.4 s without a GPU) unless another node uses it. There is one shader for a colour per

@@ -115,14 +115,14 @@ class ViserScene:
         wanted.dirty[key] = None
 
     def remove(self, group: str, key: str) -> None:
-        """Removes a node, if it exists."""
+        """Remove a node, if it exists."""
         if group in self._groups and key in self._groups[group].nodes:
             wanted = self._touch(group)
             del wanted.nodes[key]
             wanted.dirty[key] = None
 
     def remove_group(self, group: str) -> None:
-        """Removes a group with its nodes and pose, if it exists."""
+        """Remove a group with its nodes and pose, if it exists."""
         self._dirty.pop(group, None)
         if group in self._groups:
             self._gone.append(self._groups.pop(group))
@@ -132,7 +132,7 @@ class ViserScene:
         self._touch(group).visible = visible
 
     def bounds(self, prefix: str) -> Box | None:
-        """The bounding box in the fixed frame of all visible groups with a prefix."""
+        """Return the bounding box in the fixed frame of all visible groups with a prefix."""
         return union(
             box.moved(pose).moved(group.pose)
             for name, group in self._groups.items()
@@ -142,12 +142,12 @@ class ViserScene:
         )
 
     def clear(self) -> None:
-        """Removes every group."""
+        """Remove every group."""
         for group in tuple(self._groups):
             self.remove_group(group)
 
     def flush(self) -> None:
-        """Sends everything that changed since the last flush, in one piece.
+        """Send everything that changed since the last flush, in one piece.
 
         Raises:
             Exception: a node is malformed. It is dropped and named in a note; the rest follows in
@@ -172,7 +172,7 @@ class ViserScene:
             self.link.late.wake()
 
     def acknowledge(self, timeout: float) -> None:
-        """Waits until every browser has applied everything that was flushed.
+        """Wait until every browser has applied everything that was flushed.
 
         Raises:
             TimeoutError: it takes longer than `timeout` seconds.
@@ -215,7 +215,7 @@ class _Group:
         self._drawn: dict[str, tuple[Node, Pose, Drawn[Any]]] = {}
 
     def send(self, link: Adapter, moves: list[Move]) -> None:
-        """Sends the changes, except for the pose of the group, which is added to `moves`."""
+        """Send the changes, except for the pose of the group, which is added to `moves`."""
         if self._handle is None:
             self._handle = link.server.scene.add_frame(self._path, show_axes=False)
         position = self.pose.position

@@ -40,7 +40,7 @@ def open_server(
     link_rate: float | None = None,
     embedders: Sequence[str] = (),
 ) -> Server:
-    """Opens a server with an empty, lit scene.
+    """Open a server with an empty, lit scene.
 
     Args:
         host: address to bind to.

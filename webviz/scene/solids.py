@@ -25,7 +25,7 @@ class Solid(NamedTuple):
 
 
 def _turned(profile: ArrayLike, corners: int) -> Solid:
-    """A smooth solid of revolution about z.
+    """Return a smooth solid of revolution about z.
 
     Args:
         profile: (radius, z) of its points, from bottom to top.

@@ -16,7 +16,7 @@ SCHEMA = "report.schema.json"
 
 
 def pages() -> dict[str, str]:
-    """The text of each file in the folder of the doctor, by name."""
+    """Return the text of each file in the folder of the doctor, by name."""
     texts = [CheckText(check) for check in built_in()]
     return {"checks.md": _index(texts), SCHEMA: schema_text()} | {
         f"{text.id}.md": _page(text) for text in texts
@@ -24,7 +24,7 @@ def pages() -> dict[str, str]:
 
 
 def built_in() -> Sequence[type[Check]]:
-    """The checks that come with webviz."""
+    """Return the checks that come with webviz."""
     return [check for check in known_checks() if check.__module__.startswith("webviz.")]
 
 

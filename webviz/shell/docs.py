@@ -61,7 +61,7 @@ class Notes(msgspec.Struct, forbid_unknown_fields=True):
 
 
 def pages() -> dict[str, str]:
-    """The text of each page by file name."""
+    """Return the text of each page by file name."""
     notes = read_notes()
     types = built_in(Display)
     found = {
@@ -76,7 +76,7 @@ def pages() -> dict[str, str]:
 
 
 def groups(types: Mapping[str, type[Display]]) -> dict[str, list[str]]:
-    """The names of the displays by what they are for; those in no group come last.
+    """Return the names of the displays by what they are for; those in no group come last.
 
     Raises:
         ValueError: a group names a display that does not exist, or that another one has.
@@ -91,19 +91,19 @@ def groups(types: Mapping[str, type[Display]]) -> dict[str, list[str]]:
 
 
 def built_in(base: type[P]) -> dict[str, type[P]]:
-    """The displays or tools that come with webviz, by name."""
+    """Return the displays or tools that come with webviz, by name."""
     types = plugin_types(base)
     return {n: c for n, c in types.items() if c.__module__.split(".")[0] in BUILT_IN}
 
 
 def read_notes() -> Mapping[str, Notes]:
-    """The notes by display."""
+    """Return the notes by display."""
     text = (PAGES / "notes.yaml").read_text(encoding="utf-8")
     return msgspec.convert(YAML(typ="safe", pure=True).load(text), dict[str, Notes])
 
 
 def page_name(name: str) -> str:
-    """The file name of a display's page: `laser_scan.md` for `LaserScan`."""
+    """Return the file name of a display's page: `laser_scan.md` for `LaserScan`."""
     return f"{snake_case(name)}.md"
 
 
@@ -113,7 +113,7 @@ def snake_case(name: str) -> str:
 
 
 def page(name: str, cls: type[Display], notes: Notes) -> str:
-    """The page of a display."""
+    """Return the page of a display."""
     shown = pictures(snake_case(name))
     lines = [f"# {name}", "", *paragraphs(cls), ""]
     lines += [f"![{name}]({shown.pop('default')})", ""] if "default" in shown else []
@@ -134,7 +134,7 @@ def page(name: str, cls: type[Display], notes: Notes) -> str:
 
 
 def tools_page(types: Mapping[str, type[Tool]]) -> str:
-    """The page of the tools."""
+    """Return the page of the tools."""
     lines = ["# The tools", "", "The toolbar of the page has a button for each.", ""]
     for name, cls in types.items():
         lines += [f"## {cls.title or name}", "", *paragraphs(cls), ""]
@@ -148,7 +148,7 @@ def tools_page(types: Mapping[str, type[Tool]]) -> str:
 
 
 def index(types: Mapping[str, type[Display]], notes: Notes) -> str:
-    """The overview, with links to the other pages."""
+    """Return the overview, with links to the other pages."""
     lines = ["# The displays", ""]
     for title, names in groups(types).items():
         rows = [(f"[{n}]({page_name(n)})", next(iter(paragraphs(types[n])))) for n in names]
@@ -178,7 +178,7 @@ def index(types: Mapping[str, type[Display]], notes: Notes) -> str:
 
 
 def paragraphs(cls: type[Declared]) -> list[str]:
-    """The docstring of a class, one line per paragraph."""
+    """Return the docstring of a class, one line per paragraph."""
     text = "\n".join(line.strip() for line in (cls.__doc__ or "").splitlines()).strip()
     return [" ".join(part.split()) for part in text.split("\n\n")]
 
@@ -199,7 +199,7 @@ def gallery(shown: Mapping[str, str]) -> list[str]:
 
 
 def inputs_table(cls: type[Display]) -> list[str]:
-    """A table of the subscriptions of a display."""
+    """Return a table of the subscriptions of a display."""
     rows = []
     for name, declared in inputs_of(cls).items():
         topic = value_at(cls(), name).name or _default_topic(declared)
@@ -209,7 +209,7 @@ def inputs_table(cls: type[Display]) -> list[str]:
 
 
 def _types(declared: Input) -> str:
-    """The message types of an input."""
+    """Return the message types of an input."""
     if declared.type == ANY:
         return "any"
     return ", ".join(f"`{type_}`" for type_ in declared.types)
@@ -223,13 +223,13 @@ def _default_topic(declared: Input) -> str:
 
 
 def properties_table(cls: type[Declared]) -> list[str]:
-    """A table of all properties."""
+    """Return a table of all properties."""
     rows = list(property_rows(properties_of(cls), cls()))
     return table(("property", "key", "values", "default", "what it does"), rows)
 
 
 def property_rows(found: tuple[Property, ...], declared: Declared) -> Iterator[tuple[str, ...]]:
-    """A row for each property, including nested ones."""
+    """Yield a row for each property, including nested ones."""
     for each in found:
         if each.path in FIRST:
             continue
@@ -246,7 +246,7 @@ def property_rows(found: tuple[Property, ...], declared: Declared) -> Iterator[t
 
 
 def values(each: Property | inspect.Field) -> str:
-    """The valid values of a property, in words."""
+    """Return the valid values of a property, in words."""
     if isinstance(each, Property) and is_topic(each):
         return "topic"
     if (
@@ -266,7 +266,7 @@ def is_topic(each: Property) -> bool:
 
 
 def type_words(type_: inspect.Type) -> str:
-    """A type in words, with its bounds."""
+    """Return a type in words, with its bounds."""
     if isinstance(type_, inspect.Metadata):
         return type_words(type_.type)
     if type_ == COLOR:
@@ -297,7 +297,7 @@ def bounds(type_: Any) -> str:
 
 
 def default_of(value: Any) -> str:
-    """A value as a config file has it."""
+    """Return a value as a config file has it."""
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, tuple | list):
@@ -308,7 +308,7 @@ def default_of(value: Any) -> str:
 
 
 def topic_fields() -> list[inspect.Field]:
-    """The keys of a topic besides its name."""
+    """Return the keys of a topic besides its name."""
     info = inspect.type_info(Topic)
     assert isinstance(info, inspect.StructType)
     return [field for field in info.fields if field.name != "name"]

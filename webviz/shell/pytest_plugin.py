@@ -55,7 +55,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 @pytest.fixture(scope="session")
 def webviz_renderer() -> Iterator[SharedRenderer]:
-    """The browser of all pictures, launched for the first one."""
+    """Share one browser for all pictures, launched for the first one."""
     from webviz.shell.testing.shared_renderer import SharedRenderer
 
     shared_renderer = SharedRenderer()
@@ -65,7 +65,7 @@ def webviz_renderer() -> Iterator[SharedRenderer]:
 
 @pytest.fixture(scope="session")
 def webviz_domain() -> Iterator[int]:
-    """A ROS domain that is unused on this machine, also for processes started by tests."""
+    """Reserve a ROS domain that is unused on this machine, also for processes started by tests."""
     from webviz.shell.testing.domain import isolated_domain
 
     with isolated_domain() as domain:
@@ -76,7 +76,7 @@ def webviz_domain() -> Iterator[int]:
 def webviz_harness(
     webviz_renderer: SharedRenderer, request: pytest.FixtureRequest
 ) -> Iterator[Callable[..., Harness]]:
-    """Creates viewers without ROS: `webviz_harness("my.yaml")` or `webviz_harness(Grid(), Map())`.
+    """Create viewers without ROS: `webviz_harness("my.yaml")` or `webviz_harness(Grid(), Map())`.
 
     Keyword arguments: `view`, `fixed_frame`, `size` of pictures.
     """
@@ -96,7 +96,7 @@ def webviz_harness(
 
 @pytest.fixture
 def webviz_bench() -> Iterator[Callable[..., DisplayBench]]:
-    """Creates displays at work without ROS and browser: `webviz_bench(Grid(), fixed_frame="map")`.
+    """Create displays at work without ROS and browser: `webviz_bench(Grid(), fixed_frame="map")`.
 
     They receive messages and draw nodes and statuses when their test says so.
     """
@@ -110,7 +110,7 @@ def webviz_bench() -> Iterator[Callable[..., DisplayBench]]:
 
 @pytest.fixture
 def webviz_stage(webviz_harness: Callable[..., Harness]) -> Callable[..., Harness]:
-    """The former name of `webviz_harness`."""
+    """Warn about the former name of `webviz_harness`, and return the same."""
     warnings.warn("webviz_stage is webviz_harness now.", DeprecationWarning, stacklevel=2)
     return webviz_harness
 
@@ -119,7 +119,7 @@ def webviz_stage(webviz_harness: Callable[..., Harness]) -> Callable[..., Harnes
 def webviz_viewer(
     webviz_renderer: SharedRenderer, webviz_domain: int, request: pytest.FixtureRequest
 ) -> Iterator[Callable[..., LiveViewer]]:
-    """Creates viewers on an isolated ROS domain: `webviz_viewer("my.yaml", simulator=True)`.
+    """Create viewers on an isolated ROS domain: `webviz_viewer("my.yaml", simulator=True)`.
 
     Keyword arguments: `view`, `fixed_frame`, `size` of pictures, `simulator` (True or the
     parameters of a simulated robot).
@@ -151,7 +151,7 @@ def _set_up(
     fixed_frame: str | None = None,
     size: Size = SIZE,
 ) -> tuple[Config, RecordingScene, SnapshotFixture]:
-    """The config, scene and photographer of a viewer."""
+    """Return the config, scene and photographer of a viewer."""
     from webviz.shell.testing.pictures import ReferenceImages, SnapshotFixture
     from webviz.shell.testing.recording import RecordingScene
 
@@ -177,7 +177,7 @@ def _set_up(
 
 
 def _config(what: tuple[str | Path | Display, ...], folder: Path) -> Config:
-    """The config of a file, relative to `folder`, or of displays."""
+    """Return the config of a file, relative to `folder`, or of displays."""
     from webviz.files import config, opening
 
     if not what:

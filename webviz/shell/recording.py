@@ -76,7 +76,7 @@ class TopicRecorder:
         return new
 
     def progress(self) -> str:
-        """The amount that was recorded, in words."""
+        """Return the amount that was recorded, in words."""
         recorder = self._recorder
         megabytes, seconds = recorder.bytes_written / 1e6, recorder.seconds
         messages = counted(recorder.messages, "message")
@@ -116,7 +116,7 @@ class TopicRecorder:
 
 
 def topics_of(config: Config, resolve: Callable[[str], str]) -> Sequence[str]:
-    """The topics that the displays of a config read, transforms and the log of all nodes.
+    """Return the topics that the displays of a config read, transforms and the log of all nodes.
 
     Args:
         config: of which displays that are switched off are left out.

@@ -58,7 +58,7 @@ def reference_page() -> str:
 
 
 def _commands(app: App, words: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], App]]:
-    """The commands of a program, each with the words that call it."""
+    """Yield the commands of a program, each with the words that call it."""
     if app.default_command is not None:
         yield words, app
     for name in app:
@@ -91,7 +91,7 @@ def _keys() -> Iterator[tuple[str, str, str]]:
 
 
 def api_page() -> str:
-    """The names that `import webviz` offers."""
+    """Return the names that `import webviz` offers."""
     lines = ["# Python API", "", "All names are in the module `webviz`.", ""]
     package = importlib.import_module("webviz")  # whose names come from the rooms below, too
     for name in sorted(package.__all__):
@@ -122,7 +122,7 @@ def _is_property(member: object) -> bool:
 
 
 def _parameters(function: Callable[..., object]) -> str:
-    """The parameters of a method by name, without annotations."""
+    """Return the parameters of a method by name, without annotations."""
     given = list(inspect.signature(function).parameters.values())[1:]
     plain = [each.replace(annotation=inspect.Parameter.empty) for each in given]
     # Those have addresses.
@@ -136,7 +136,7 @@ def _parameters(function: Callable[..., object]) -> str:
 
 
 def _paragraphs(thing: object) -> list[str]:
-    """A docstring, one line per paragraph, with its sections as lists."""
+    """Return a docstring, one line per paragraph, with its sections as lists."""
     alias = typing.get_origin(thing) is not None
     text = f"An alias of `{thing}`." if alias else inspect.getdoc(thing) or ""
     return [line for part in text.split("\n\n") for line in (*_paragraph(part), "")][:-1]

@@ -18,7 +18,7 @@ NO_ROS = (
 
 
 def ros_source(ros_args: Sequence[str] = ()) -> RosSource:
-    """The ROS graph.
+    """Return the ROS graph.
 
     Args:
         ros_args: command line arguments for ROS.

@@ -151,7 +151,7 @@ class Gate:
         return self._source.graph.nodes()
 
     def _graph(self, name: str) -> Graph:
-        """The graph for a name; one that refuses everything if nothing may be sent to it."""
+        """Return the graph for a name; one that refuses everything if nothing may be sent to it."""
         reason = self.refusal(name)
         return ReadOnly(reason) if reason else self._source.graph
 
@@ -159,12 +159,12 @@ class Gate:
         return self._pattern(names).fullmatch(name) is not None
 
     def _compiled(self, names: tuple[str, ...]) -> re.Pattern[str]:
-        """Matches the full names on a list."""
+        """Return a pattern for the full names on a list."""
         patterns = [fnmatch.translate(full) for name in names if (full := self._resolved(name))]
         return re.compile("|".join(patterns) or r"(?!)")
 
     def _resolved(self, name: str) -> str:
-        """The full name or pattern, "" for an invalid one."""
+        """Return the full name or pattern, "" for an invalid one."""
         try:
             return self._source.resolve(name.replace("*", ALL)).replace(ALL, "*")
         except ValueError:

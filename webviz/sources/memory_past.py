@@ -20,15 +20,15 @@ class WallClock:
         self._offset_ns = time.time_ns() - time.monotonic_ns()
 
     def now_ns(self) -> int:
-        """The time."""
+        """Return the time."""
         return time.monotonic_ns() + self._offset_ns
 
     def stamp_ns(self, arrived_s: float) -> int:
-        """The time of recording of a message that arrived at a monotonic time, in seconds."""
+        """Return the time of recording of a message that arrived at a monotonic time in seconds."""
         return round(arrived_s * 1e9) + self._offset_ns
 
     def arrived_s(self, stamp_ns: int) -> float:
-        """The monotonic time of a time of recording, in seconds."""
+        """Return the monotonic time of a time of recording, in seconds."""
         return (stamp_ns - self._offset_ns) / 1e9
 
 
@@ -75,12 +75,12 @@ class MemoryPast:
     def messages(
         self, channels: Collection[MemoryChannel], start_ns: int, end_ns: int | None = None
     ) -> Iterator[MemoryMessage]:
-        """The messages of some channels by time, both ends included."""
+        """Return the messages of some channels by time, both ends included."""
         found = [self._of_topic(channel.topic, start_ns, end_ns) for channel in channels]
         return heapq.merge(*found, key=_order)
 
     def newest(self, channels: Collection[MemoryChannel], end_ns: int) -> Iterator[MemoryMessage]:
-        """The messages of some channels until a time, the newest first."""
+        """Return the messages of some channels until a time, the newest first."""
         found = [self._newest_of(channel.topic, end_ns) for channel in channels]
         return heapq.merge(*found, key=_order, reverse=True)
 

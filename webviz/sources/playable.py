@@ -84,7 +84,7 @@ class Playable(Protocol):
         ...
 
     def neighbour(self, topic: str, is_forward: bool) -> int | None:
-        """The time of the next or previous message of a topic, seen from the position.
+        """Return the time of the next or previous message of a topic, seen from the position.
 
         Args:
             topic: full name; "" is every subscribed topic but those of transforms and time.

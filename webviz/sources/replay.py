@@ -73,7 +73,10 @@ class Replay(Generic[C, M]):
         self._next = next(self._upcoming, None)
 
     def neighbour(self, channels: Collection[C], is_forward: bool) -> int | None:
-        """The time of the next or previous message of some channels; see `Playable.neighbour`."""
+        """Return the time of the next or previous message of some channels.
+
+        See `Playable.neighbour`.
+        """
         if is_forward:
             found = next(self.past.messages(channels, self.position_ns + 1), None)
         else:

@@ -250,7 +250,7 @@ class Rewindable:
         return self.live.clock_messages()
 
     def resolve(self, topic: str) -> str:
-        """The full name of a topic; raises ValueError."""
+        """Return the full name of a topic; raises ValueError."""
         return self.live.resolve(topic)
 
     def close(self) -> None:
@@ -260,7 +260,7 @@ class Rewindable:
     # Internal
 
     def _past(self) -> MemoryPast:
-        """The messages that were held when it was rewound, and those since."""
+        """Return the messages that were held when it was rewound, and those since."""
         newest = self.memory.after(self._held[-1][1].arrived_s)
         return MemoryPast([*self._held, *newest], self._clock)
 
@@ -281,7 +281,7 @@ class Rewindable:
         self._histogram.release()
 
     def _channels_to_read(self) -> list[MemoryChannel]:
-        """The subscribed channels that are remembered as this type."""
+        """Return the subscribed channels that are remembered as this type."""
         return [
             MemoryChannel(topic, wish.type)
             for topic, wish in self._wanted.items()
@@ -302,7 +302,7 @@ class Rewindable:
             self._deliver(message)
 
     def _with_log(self, told: Mapping[str, Subscription]) -> Mapping[str, Subscription]:
-        """These, and the log of all nodes, if there is a memory for it and no other reader."""
+        """Return these and the log of all nodes, if a memory needs it and no other reads it."""
         offer = self.live.offers().get(ROSOUT)
         is_offered = offer is not None and any(each.type == LOG for each in offer.publishers)
         if not self.memory.is_on or ROSOUT in told or not is_offered:
@@ -311,7 +311,7 @@ class Rewindable:
         return {**told, ROSOUT: Subscription(LOG, Topic(ROSOUT, durability="volatile"))}
 
     def _passed_on(self, topic: str, wish: Subscription) -> Subscription:
-        """The wish for the live source: nothing is repeated while the past is shown."""
+        """Return the wish for the live source: nothing is repeated while the past is shown."""
         asked, told = self._asked.get(topic, (-1, -1))
         is_repeated = asked >= 0 and (wish.asked == asked or self._replay is not None)
         told = told if is_repeated else wish.asked

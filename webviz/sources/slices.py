@@ -44,11 +44,14 @@ class Slice(Protocol):
         ...
 
     def messages(self) -> Iterator[SliceMessage]:
-        """The messages in order, latched ones first; may be read in any thread."""
+        """Return the messages in order, latched ones first; may be read in any thread."""
         ...
 
     def at_ns(self) -> int:
-        """The moment that was shown, as a time of recording of `messages`; known after them."""
+        """Return the moment that was shown, as a time of recording of `messages`.
+
+        Known after them.
+        """
         ...
 
 
@@ -153,7 +156,7 @@ class BagSlice:
         return wish is not None and wish.type == channel.type
 
     def _wish(self, channel: BagChannel, chosen: Sequence[BagChannel]) -> Subscription:
-        """The subscription of a channel, with the lookback of latched messages."""
+        """Return the subscription of a channel, with the lookback of latched messages."""
         wish = self.wanted.get(channel.topic)
         if wish is None:
             wish = Subscription(channel.type, Topic(channel.topic), lookbacks=())
@@ -235,7 +238,7 @@ def _refuse_large(size: int, max_bytes: int) -> None:
 
 
 def _line(entry: tuple[int, str, bytes]) -> str:
-    """A message of /rosout as a line, "" if it cannot be read."""
+    """Return a message of /rosout as a line, "" if it cannot be read."""
     stamp_ns, type_name, data = entry
     if type_name != LOG:
         return ""

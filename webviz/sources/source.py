@@ -54,7 +54,7 @@ def merged(wishes: Iterable[Mapping[str, Subscription]]) -> dict[str, Subscripti
 
 
 def _shared(first: Subscription, other: Subscription) -> Subscription:
-    """A subscription that serves both."""
+    """Return a subscription that serves both."""
     first = replace(
         first,
         asked=max(first.asked, other.asked),
@@ -91,7 +91,7 @@ class Source(Protocol):
         ...
 
     def offers(self) -> Mapping[str, Offer]:
-        """Publishers and QoS by topic; another object only after a change."""
+        """Return publishers and QoS by topic; another object only after a change."""
         ...
 
     def now_ns(self) -> int:
@@ -103,7 +103,7 @@ class Source(Protocol):
         ...
 
     def resolve(self, topic: str) -> str:
-        """The full name of a topic, remapped and in the namespace of the source.
+        """Return the full name of a topic, remapped and in the namespace of the source.
 
         Raises:
             ValueError: it is not a valid topic name; one sentence.

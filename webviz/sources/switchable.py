@@ -159,7 +159,7 @@ class Switchable:
         self.live.want(subscriptions)
 
     def offers(self) -> Mapping[str, Offer]:
-        """Publishers and QoS by topic, of what is shown."""
+        """Return publishers and QoS by topic, of what is shown."""
         return self.shown.offers()
 
     def now_ns(self) -> int:
@@ -171,7 +171,7 @@ class Switchable:
         return self.shown.clock_messages()
 
     def resolve(self, topic: str) -> str:
-        """The full name of a topic; raises ValueError."""
+        """Return the full name of a topic; raises ValueError."""
         return self.live.resolve(topic)
 
     def close(self) -> None:

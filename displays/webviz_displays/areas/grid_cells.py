@@ -48,7 +48,7 @@ class GridCells(Display):
     history_length: HistoryLength = 1
 
     def draw(self, sample: Sample, ctx: Context) -> None:
-        """A flat rectangle for each cell, in the frame and at the stamp of the header."""
+        """Draw a flat rectangle for each cell, in the frame and at the stamp of the header."""
         width, height = sample.message.cell_width, sample.message.cell_height
         cells = sample.message.cells
         if not (0 < width < FARTHEST and 0 < height < FARTHEST):
@@ -89,7 +89,7 @@ class GridCells(Display):
         group.add("cells", mesh)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
-        """The cell nearest to what was clicked."""
+        """Return the cell nearest to what was clicked."""
         message = hit.sample.message
         clicked = np.add(hit.point, origin_near(message.cells[is_drawable(message.cells)]))
         distances = np.linalg.norm(message.cells - clicked, axis=1)

@@ -68,7 +68,7 @@ class Polygon(Display):
         group.strip("outline", corners, self.color, opacity=self.alpha)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
-        """A side, from one corner to the next."""
+        """Return a side, from one corner to the next."""
         points = hit.sample.message.polygon.points
         start, end = points[hit.id], points[(hit.id + 1) % len(points)]
         return Details(

@@ -22,7 +22,7 @@ MIN_WIDTH, WIDTH_SHARE = 0.1, 0.05
 
 
 def outline(kind: int, size: F64, footprint: F64, is_flat: bool) -> F64:
-    """The edges (M, 2, 3) of a shape.
+    """Return the edges (M, 2, 3) of a shape.
 
     Args:
         kind: of the shape; others count as polygons.
@@ -47,7 +47,7 @@ def outline(kind: int, size: F64, footprint: F64, is_flat: bool) -> F64:
 
 
 def heading(size: F64, is_known: bool, is_flat: bool) -> F64:
-    """The marks (M, 2, 3) of the front of a box: a triangle, or ticks if front may be back."""
+    """Return the marks (M, 2, 3) of a box's front: a triangle, or ticks if it may be the back."""
     x, y, z = size / 2
     top = -z if is_flat else z
     if not is_known:
@@ -64,7 +64,7 @@ def heading(size: F64, is_known: bool, is_flat: bool) -> F64:
 
 
 def sector(start: float, end: float, radius: float) -> F64:
-    """The edges (M, 2, 3) of a sector between two angles in radians."""
+    """Return the edges (M, 2, 3) of a sector between two angles in radians."""
     count = max(3, int(abs(end - start) / STEP))
     angles = np.linspace(start, end, count)
     arc = radius * np.column_stack((np.cos(angles), np.sin(angles), np.zeros(count)))
@@ -73,7 +73,7 @@ def sector(start: float, end: float, radius: float) -> F64:
 
 
 def interval(middle: float, half: float, radius: float) -> F64:
-    """The lines (M, 2, 3) of an interval of angles in radians: two chords, and bars at its ends."""
+    """Return the lines (M, 2, 3) of an interval of angles in rad: two chords, bars at its ends."""
     bar = max(WIDTH_SHARE * radius / 0.8, MIN_WIDTH)
     low, high = middle - half, middle + half
     return np.array(
@@ -98,7 +98,7 @@ def arrowheads(points: F64, yaws: F64, length: float = 0.5) -> F64:
 
 
 def ellipse(matrix: ArrayLike) -> tuple[float, float, float] | None:
-    """Standard deviations along the axes of a covariance (2, 2), and the angle of the first.
+    """Return standard deviations along the axes of a covariance (2, 2), and the angle of the first.
 
     Returns:
         None if it is not a covariance.

@@ -97,7 +97,7 @@ class ObjectsDisplay(Display):
     )
 
     def draw(self, sample: Sample, ctx: Context) -> None:
-        """The objects, in the frame and at the stamp of the header."""
+        """Draw the objects, in the frame and at the stamp of the header."""
         given: Sequence[Any] = sample.message.objects
         wanted = [(number, each) for number, each in enumerate(given) if self.is_wanted(each)]
         found = [seen(number, each) for number, each in wanted[:MAX_OBJECTS]]
@@ -129,7 +129,7 @@ class ObjectsDisplay(Display):
         """Add what only some kinds of objects have."""
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
-        """An object: its class, how sure it is, its size and speed."""
+        """Return an object: its class, how sure it is, its size and speed."""
         given = hit.sample.message.objects[hit.id]
         found = seen(hit.id, given)
         if found is None:
@@ -346,10 +346,10 @@ def _speed(each: SeenObject) -> str:
 
 
 def _density(share: float, found: tuple[float, float, float]) -> float:
-    """The opacity of an ellipse: the larger, the fainter."""
+    """Return the opacity of an ellipse: the larger, the fainter."""
     return min(max(share / max(found[0] * found[1], 1e-9), 0.1), 0.5)
 
 
 def _deviation(variance: float) -> float:
-    """The standard deviation of a variance; 0 if the variance is invalid."""
+    """Return the standard deviation of a variance; 0 if the variance is invalid."""
     return math.sqrt(variance) if math.isfinite(variance) and variance > 0 else 0.0

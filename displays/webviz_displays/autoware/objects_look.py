@@ -51,7 +51,7 @@ class ClassColors(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     )
 
     def of(self, name: str) -> Rgb:
-        """The colour of a class by its name in capitals."""
+        """Return the colour of a class by its name in capitals."""
         return getattr(self, name.lower())
 
 

@@ -94,7 +94,7 @@ class AutowarePathDisplay(Display):
     view_text_slope: Annotated[TextView, Prop(help="Slopes as numbers, in radians.")] = TextView()
 
     def draw(self, sample: Sample, ctx: Context) -> None:
-        """The path, in the frame and at the stamp of the header."""
+        """Draw the path, in the frame and at the stamp of the header."""
         given = sample.message.points
         if not len(given):
             ctx.warn("Path", "The path is empty. Check the planner's log.")
@@ -137,7 +137,7 @@ class AutowarePathDisplay(Display):
         """
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
-        """A point of the path."""
+        """Return a point of the path."""
         points = hit.sample.message.points
         if hit.id is None or hit.id >= len(points):
             return Details("Path", {"Points": len(points)})
@@ -253,7 +253,7 @@ class AutowarePath(AutowarePathDisplay):
                 group.strip(f"{name} bound", line, view.color, view.width, "m", opacity=view.alpha)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
-        """A point of the path, or a bound."""
+        """Return a point of the path, or a bound."""
         if hit.key.endswith("bound"):
             return Details(hit.key.capitalize())
         return super().inspect(hit, ctx)
@@ -289,12 +289,15 @@ class AutowareTrajectory(AutowarePathDisplay):
 
 
 def seconds(point: Any) -> float:
-    """The time since the start of a trajectory."""
+    """Return the time since the start of a trajectory."""
     return point.time_from_start.ns / 1e9
 
 
 def slopes(xyz: F64) -> F64:
-    """The slopes (N,) to the next of two or more points (N, 3), in radians; up is positive."""
+    """Return the slopes (N,) to the next of two or more points (N, 3), in radians.
+
+    Up is positive.
+    """
     steps = np.diff(xyz, axis=0)
     found = np.arctan2(steps[:, 2], np.linalg.norm(steps[:, :2], axis=1))
     return np.append(found, found[-1])

@@ -68,7 +68,7 @@ class PoseHistory(Display, Selective):
         return _State()
 
     def history(self) -> Keep:
-        """The newest poses."""
+        """Return the newest poses."""
         return Keep(count=self.buffer_size)
 
     def accept(self, new: Sample, kept: Sequence[Sample]) -> bool | str:
@@ -76,7 +76,7 @@ class PoseHistory(Display, Selective):
         return fault(new.message.pose) or True
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
-        """A line through the poses, each where its frame was at its stamp."""
+        """Draw a line through the poses, each where its frame was at its stamp."""
         if not samples:
             return
         state: _State = ctx.state
@@ -100,7 +100,7 @@ class PoseHistory(Display, Selective):
             group.strip("line", xyz - near, color, width, unit, rows[:-1], alpha)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
-        """The pose that a piece of the line begins at."""
+        """Return the pose that a piece of the line begins at."""
         if hit.id >= len(hit.samples):
             return None
         sample = hit.samples[hit.id]

@@ -79,7 +79,7 @@ class SeenObject:
 
 
 def seen(number: int, given: Any) -> SeenObject | None:
-    """An object of a message, None if its pose or shape cannot be drawn."""
+    """Return an object of a message, None if its pose or shape cannot be drawn."""
     kinematics = given.kinematics
     pose = _of(kinematics, "pose_with_covariance")
     twist = _of(kinematics, "twist_with_covariance")
@@ -122,7 +122,10 @@ def seen(number: int, given: Any) -> SeenObject | None:
 
 
 def _of(kinematics: Any, name: str) -> Any:
-    """A part of the kinematics, which predicted objects call initial; None if it has none."""
+    """Return a part of the kinematics, which predicted objects call initial.
+
+    None if it has none.
+    """
     return getattr(kinematics, name, getattr(kinematics, f"initial_{name}", None))
 
 
@@ -131,6 +134,6 @@ def _are_metres(values: F64) -> bool:
 
 
 def _vector(given: Any) -> F64:
-    """A geometry_msgs/msg/Vector3; zero if it is not finite or too large."""
+    """Return a geometry_msgs/msg/Vector3; zero if it is not finite or too large."""
     values = np.array((given.x, given.y, given.z))
     return values if _are_metres(values) else np.zeros(3)

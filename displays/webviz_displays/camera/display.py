@@ -88,7 +88,7 @@ class Camera(ImageDisplay):
         return _State()
 
     def waits(self, name: str) -> bool:
-        """The camera info is used as soon as it arrives; its frame is that of the images."""
+        """Return whether a transform is needed: camera info has the frame of the images."""
         return name != "camera_info_topic"
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
@@ -207,7 +207,7 @@ class Camera(ImageDisplay):
 
 
 def _part(info: Any, whole: CameraModel) -> tuple[float, float, float, float]:
-    """The region of interest: left, top, right and bottom as shares of the size."""
+    """Return the region of interest: left, top, right and bottom as shares of the size."""
     roi = info.roi
     left, top = int(roi.x_offset) / whole.width, int(roi.y_offset) / whole.height
     width = (int(roi.width) or whole.width) / whole.width

@@ -28,7 +28,7 @@ class Infos:
             self._by_stamp.popitem(last=False)
 
     def of(self, stamp_ns: int) -> tuple[Any, float]:
-        """The camera info with the stamp of an image, else the newest one.
+        """Return the camera info with the stamp of an image, else the newest one.
 
         Returns:
             The message, and by how many seconds the nearest stamp differs if that is suspicious:

@@ -93,7 +93,7 @@ class CameraInfo(Display):
         return _State()
 
     def listens(self, name: str) -> bool:
-        """The image only if it is shown."""
+        """Return whether an input is needed: the image only if it is shown."""
         return name == "topic" or self.show_image
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:

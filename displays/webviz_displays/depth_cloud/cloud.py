@@ -55,7 +55,7 @@ def depth_points(
     most: int,
     behind: Behind | None = None,
 ) -> DepthPoints:
-    """The points of a depth image, evenly thinned out to `most` at most; 0 is all.
+    """Return the points of a depth image, evenly thinned out to `most` at most; 0 is all.
 
     With `behind` the points that they hide follow, up to as many again.
 
@@ -92,7 +92,7 @@ def _points(
     step: int,
     behind: Behind | None,
 ) -> DepthPoints:
-    """The points of every `step`-th pixel of an image."""
+    """Return the points of every `step`-th pixel of an image."""
     numbers = values(image)[::step, ::step]
     depths = numbers.astype(np.float32)
     if image.layout.unit == "mm":
@@ -124,7 +124,7 @@ def _points(
 
 
 def _rows(grid: NDArray[Any], chosen: NDArray[np.intp]) -> NDArray[Any]:
-    """Some triples (N, 3) of a grid (H, W, 3)."""
+    """Return selected triples (N, 3) of a grid (H, W, 3)."""
     flat = grid.reshape(-1, 3)
     return flat if len(chosen) == len(flat) else flat.take(chosen, axis=0)
 

@@ -160,7 +160,7 @@ class DepthCloud(PointsDisplay):
         return name != "color_topic" or bool(self.color_topic.name)
 
     def waits(self, name: str) -> bool:
-        """The camera info is used whatever its stamp; its frame is that of the images."""
+        """Return whether a transform is needed: camera info has the frame of the images."""
         return name != "camera_info_topic"
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
@@ -208,7 +208,7 @@ class DepthCloud(PointsDisplay):
     def _points(
         self, sample: Sample, model: CameraModel, ctx: Context
     ) -> tuple[int, DepthPoints] | None:
-        """The points of an image and its number; of an earlier one until they are ready."""
+        """Return the points of an image and its number; of an earlier one until they are ready."""
         colored = sample.synced.get("color_topic") if self.color_topic.name else None
         number, most = sample.number, self.max_points
         depth = transports.read(sample)

@@ -137,7 +137,7 @@ class GridMap(Display):
             self._draw_lines(points, is_valid[thinned], layers.resolution, group)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
-        """The values of a cell in all layers."""
+        """Return the values of a cell in all layers."""
         try:
             layers = read_layers(hit.sample.message)
         except GridMapFault:
@@ -153,7 +153,7 @@ class GridMap(Display):
         return Details(f"Cell {row}, {column}", layers.values_at(row, column) | values)
 
     def _colors(self, layers: Layers, is_valid: Mask, ctx: Context) -> U8:
-        """The colours (rows, columns, 3) of all cells."""
+        """Return the colours (rows, columns, 3) of all cells."""
         if self.color_transformer not in ("IntensityLayer", "ColorLayer"):
             return np.broadcast_to(np.array(self.color, np.uint8), (*layers.shape, 3))
         values = layers.layer(self.color_layer, "color_layer")

@@ -64,7 +64,7 @@ class Layers:
         return self.message.layers
 
     def layer(self, name: str, path: str = "") -> F32:
-        """The values (rows, columns) of a layer, NaN where there is none.
+        """Return the values (rows, columns) of a layer, NaN where there is none.
 
         Args:
             name: of the layer.
@@ -88,7 +88,7 @@ class Layers:
         return np.roll(matrix, (-start[0], -start[1]), axis=(0, 1))
 
     def _other(self, name: str, path: str) -> Remedy | None:
-        """The choice of the layer with the most similar name."""
+        """Return the choice of the layer with the most similar name."""
         best = difflib.get_close_matches(name, self.names, 1, cutoff=0.0)
         return Remedy(path, best[0], f"Use {best[0]}") if path and best else None
 
@@ -108,7 +108,7 @@ class Layers:
         return is_valid
 
     def values_at(self, row: int, column: int) -> dict[str, float]:
-        """The values of a cell in all layers that can be read, by name."""
+        """Return the values of a cell in all layers that can be read, by name."""
         values = {}
         for name in self.names:
             try:
@@ -119,7 +119,7 @@ class Layers:
 
 
 def read_layers(message: Any) -> Layers:
-    """The layers of a grid_map_msgs/msg/GridMap.
+    """Return the layers of a grid_map_msgs/msg/GridMap.
 
     Raises:
         GridMapFault: it contradicts itself, or what it describes cannot be drawn.
@@ -150,7 +150,7 @@ def read_layers(message: Any) -> Layers:
 
 
 def _matrix(array: Any, name: str) -> F32:
-    """A std_msgs/msg/Float32MultiArray as (rows, columns), not yet unrolled."""
+    """Return a std_msgs/msg/Float32MultiArray as (rows, columns), not yet unrolled."""
     dimensions, first = array.layout.dim, array.layout.data_offset
     sizes = tuple(dimension.size for dimension in dimensions)
     if len(sizes) != 2 or first + sizes[0] * sizes[1] > len(array.data):

@@ -21,7 +21,7 @@ that of both 3. First if all are there, then without 0, 1, 2, 3."""
 
 
 def places(shape: tuple[int, int], resolution: float, heights: F32) -> F32:
-    """The centres (rows, columns, 3) of all cells, metres from the centre of the map."""
+    """Return the centres (rows, columns, 3) of all cells, metres from the centre of the map."""
     rows, columns = (resolution * ((count - 1) / 2 - np.arange(count)) for count in shape)
     x, y = np.meshgrid(rows, columns, indexing="ij")
     return np.stack((x, y, heights), axis=-1).astype(np.float32)

@@ -29,15 +29,15 @@ class Image(ImageDisplay):
         return ImageState()
 
     def waits(self, name: str) -> bool:
-        """A pane needs no transform."""
+        """Return whether a transform is needed: a pane needs none."""
         return False
 
     def lookback(self, name: str) -> Lookback:
-        """The newest message, or all packets of a video since its last key frame."""
+        """Return the newest message, or all packets of a video since its last key frame."""
         return Lookback(starts_over=video.stands_alone)
 
     def fold(self, name: str, sample: Sample, state: Any) -> Any:
-        """The newest message, or all packets of a video since its last key frame."""
+        """Return the newest message, or all packets of a video since its last key frame."""
         if sample.type in video.TYPES:
             return video.extended(state if isinstance(state, video.Clip) else None, sample)
         return sample.message

@@ -22,7 +22,9 @@ class Newest(Generic[T]):
         self._done: tuple[Hashable, T] | None = None
 
     def of(self, key: Hashable, run: Callable[[], T], ctx: Context) -> T | None:
-        """The result of `run`, or until that is ready the newest before it; None without one.
+        """Return the result of `run`, or until that is ready the newest before it.
+
+        None without one.
 
         Args:
             key: identifies the work and all that it depends on.

@@ -15,7 +15,7 @@ class RunningRange:
         self._seen: deque[tuple[int, tuple[float, float]]] = deque()
 
     def of(self, number: int, image: RawImage, window: int) -> tuple[float, float] | None:
-        """The range for an image, None if no image of the window has a valid value.
+        """Return the range for an image, None if no image of the window has a valid value.
 
         Args:
             number: of the message; the same message counts once.

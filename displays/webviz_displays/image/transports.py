@@ -37,7 +37,7 @@ class Decompression:
 
 
 def read(sample: Sample) -> RawImage | Encoded | Decompression:
-    """The image of a sensor_msgs/Image or a sensor_msgs/CompressedImage.
+    """Return the image of a sensor_msgs/Image or a sensor_msgs/CompressedImage.
 
     Raises:
         ImageError: it cannot be shown.

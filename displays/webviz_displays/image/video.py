@@ -57,7 +57,7 @@ class Clip:
 
 
 def extended(clip: Clip | None, sample: Sample) -> Clip:
-    """A clip with the packet of one more message; a key frame begins a new one.
+    """Return a clip with the packet of one more message; a key frame begins a new one.
 
     The memory of each packet is counted while it lives.
     """
@@ -94,7 +94,7 @@ def extended(clip: Clip | None, sample: Sample) -> Clip:
 
 
 def codec_of(name: str) -> str:
-    """The codec that a message names, such as "h264" or FFmpeg's "hevc;yuv420p;bgr8;bgr8".
+    """Return the codec that a message names, such as "h264" or FFmpeg's "hevc;yuv420p;bgr8;bgr8".
 
     Raises:
         ImageError: browsers cannot decode it.

@@ -32,7 +32,7 @@ class Mag(Display):
     alpha: Annotated[Alpha, Prop(help="Opacity; 0 is invisible.")] = 1.0
 
     def draw(self, sample: Sample, ctx: Context) -> None:
-        """An arrow along the field at the sensor, of the same length for every field."""
+        """Draw an arrow along the field at the sensor, of the same length for every field."""
         field = sample.message.magnetic_field
         vector = np.array((field.x, field.y, 0.0 if self.is_2d else field.z))
         with np.errstate(over="ignore"):
@@ -60,7 +60,7 @@ class Mag(Display):
         add_solid_arrows(ctx, segments, self.color, *sizes, self.alpha)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
-        """The field in the frame of the sensor."""
+        """Return the field in the frame of the sensor."""
         field = hit.sample.message.magnetic_field
         return Details(
             "Magnetic field",

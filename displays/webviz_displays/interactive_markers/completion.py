@@ -133,7 +133,9 @@ def completed(message: Any) -> Completed | RefusedMarker:
 
 
 def pose_of(message: Any) -> Pose | None:
-    """A geometry_msgs/Pose with a unit quaternion; None if it is not finite, or out of reach.
+    """Return a geometry_msgs/Pose with a unit quaternion.
+
+    None if it is not finite, or out of reach.
 
     A quaternion of length zero becomes the identity.
     """
@@ -239,7 +241,10 @@ def _with_sizes(shapes: MarkerSequence) -> MarkerSequence:
 
 
 def _wxyz(quaternion: Any) -> Wxyz | None:
-    """A unit quaternion, None if it is not finite; of length zero it becomes the identity."""
+    """Return a unit quaternion, None if it is not finite.
+
+    Of length zero it becomes the identity.
+    """
     wxyz = quaternion.w, quaternion.x, quaternion.y, quaternion.z
     if not all(abs(value) <= REACH_M for value in wxyz):  # whose squares are finite, too
         return None

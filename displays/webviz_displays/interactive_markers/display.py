@@ -115,7 +115,7 @@ class InteractiveMarkers(Display, Draggable):
             connection.wake()
 
     def depends(self, ctx: Context) -> object:
-        """The markers, and the transforms that some of them wait for."""
+        """Return the markers, and the transforms that some of them wait for."""
         state: _State = ctx.state
         server = state.server
         if server is None:
@@ -202,7 +202,7 @@ class InteractiveMarkers(Display, Draggable):
         connection.wake()
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
-        """A marker and its control: where it is and what it can do."""
+        """Return a marker and its control: where it is and what it can do."""
         state: _State = ctx.state
         found = part_of(hit.key)
         marker = state.server.find(found[0]) if state.server and found else None

@@ -152,7 +152,10 @@ class ShownMarker:
     def _placed(
         self, index: int, part: CompleteControl, marker: Tracked, place: Place, frames: Frames
     ) -> MarkerBatch:
-        """The shapes in the coordinates of their group; those in their own frame are pinned."""
+        """Return the shapes in the coordinates of their group.
+
+        Those in their own frame are pinned.
+        """
         shapes = part.shapes
         batch = batch_of(shapes)
         numbers = np.column_stack((shapes.positions, shapes.orientations, shapes.scales))
@@ -186,7 +189,7 @@ class ShownMarker:
         shapes: MarkerSequence,
         row: int,
     ) -> Pose | None:
-        """The frame of a shape in the coordinates of its control."""
+        """Return the frame of a shape in the coordinates of its control."""
         frame, stamp_ns = shapes.frame_ids[row].removeprefix("/"), int(shapes.stamps_ns[row])
         at, base = frames.at(frame, stamp_ns), frames.latest(place.frame)
         if at is None or base is None:

@@ -27,7 +27,9 @@ def values_of(
     point: Position | None = None,
     entry: int = 0,
 ) -> Mapping[str, Any] | None:
-    """The values of a visualization_msgs/InteractiveMarkerFeedback; None without a transform.
+    """Return the values of a visualization_msgs/InteractiveMarkerFeedback.
+
+    None without a transform.
 
     A marker that moves with its frame is reported in that frame, at the latest time at which its
     transform is known; another one in the fixed frame with a stamp of 0. Frames have the names that
@@ -80,7 +82,7 @@ class FeedbackQueue:
         self._waiting.append(values)
 
     def next(self) -> Mapping[str, Any] | None:
-        """The next message, None if there is none."""
+        """Return the next message, None if there is none."""
         return self._waiting.popleft() if self._waiting else None
 
 

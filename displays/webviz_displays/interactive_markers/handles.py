@@ -82,14 +82,14 @@ def handles_of(mode: Mode, wxyz: Wxyz, scale: float, text: str) -> list[Marker]:
 
 
 def _color(wxyz: Wxyz) -> ColorRGBA:
-    """The direction of the x axis: red along x, green along y, blue along z."""
+    """Return the direction of the x axis: red along x, green along y, blue along z."""
     axis = np.abs(matrices(wxyz)[:, 0])
     r, g, b = (axis / axis.max()).tolist()
     return ColorRGBA(r, g, b, ALPHA)
 
 
 def _ring(mode: Mode) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The corners of the triangles of a ring, (3 n, 3), and a shade for each triangle, (n,)."""
+    """Return the corners of a ring's triangles, (3 n, 3), and a shade for each of them, (n,)."""
     angle = np.arange(RING_STEPS) * (2.0 * np.pi / RING_STEPS)
     circle = np.column_stack((np.zeros(RING_STEPS), np.cos(angle), np.sin(angle)))
     inner, outer = RING[0] * circle, RING[1] * circle

@@ -12,13 +12,13 @@ _KEY = re.compile(r"(?:c(\d+)|\w+)/(m\d+)")
 
 
 def part_of(key: str) -> tuple[str, int | None] | None:
-    """The key of the marker that a node belongs to, and the index of its control, if of one."""
+    """Return the key of the marker that a node belongs to, and the index of its control, if any."""
     found = _KEY.match(key)
     return (found[2], None if found[1] is None else int(found[1])) if found else None
 
 
 def details(marker: Tracked, index: int | None) -> Details:
-    """A marker, and one of its controls."""
+    """Return a marker, and one of its controls."""
     made, place = marker.made, marker.source
     values: dict[str, object] = {"Marker": made.name}
     if made.description:

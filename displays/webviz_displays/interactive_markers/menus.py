@@ -17,7 +17,7 @@ SHELL = "It would run a shell command on the machine of the viewer, which webviz
 
 
 def menu_of(entries: Sequence[Any]) -> tuple[tuple[MenuEntry, ...], list[str]]:
-    """The menu of visualization_msgs/MenuEntry, and what is wrong with it, in sentences.
+    """Return the menu of visualization_msgs/MenuEntry, and what is wrong with it, in sentences.
 
     An entry belongs into the submenu of its parent, which precedes it in the list.
     """

@@ -66,11 +66,11 @@ class InteractiveMarkerServer:
         """The handle of each marker by key, and what it was made of."""
 
     def find(self, key: str) -> Tracked | None:
-        """The marker of a handle."""
+        """Return the marker of a handle."""
         return self._by_key.get(key)
 
     def requests(self) -> set[LoadRequest]:
-        """The files that shapes name."""
+        """Return the files that shapes name."""
         return {request for shown in self.shown.values() for request in shown.requests}
 
     def take(self, news: Sequence[News]) -> None:

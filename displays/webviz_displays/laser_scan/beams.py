@@ -50,7 +50,7 @@ class BeamPoints:
 
 
 def fault(scan: messages.LaserScan) -> str:
-    """A sentence why no beam of a scan can be placed, "" if they can."""
+    """Return a sentence why no beam of a scan can be placed, "" if they can."""
     if not len(scan.ranges):
         return "The scan has no ranges. Check the laser driver."
     for name in ("angle_min", "angle_increment", "range_min", "range_max"):
@@ -69,7 +69,7 @@ def fault(scan: messages.LaserScan) -> str:
 
 
 def project(scan: messages.LaserScan) -> BeamPoints:
-    """The points of a scan without `fault`, as seen from where it was at its stamp.
+    """Return the points of a scan without `fault`, as seen from where it was at its stamp.
 
     The rules are those of laser_geometry: a range counts if range_min <= range < range_max, and
     beam i points at angle_min + i * angle_increment from x towards y.
@@ -95,19 +95,19 @@ def project(scan: messages.LaserScan) -> BeamPoints:
 
 @functools.lru_cache(maxsize=8)
 def _directions(angle_min: float, angle_increment: float, count: int) -> F64:
-    """Unit vectors (count, 3) of all beams, which most lasers measure along in every scan."""
+    """Return unit vectors (count, 3) of all beams; most lasers have the same in every scan."""
     return _unit_vectors(angle_min + np.arange(count) * angle_increment)
 
 
 def _unit_vectors(angles: NDArray[np.floating]) -> F64:
-    """Unit vectors (N, 3) in the x-y plane at angles (N,) from x towards y, in rad."""
+    """Return unit vectors (N, 3) in the x-y plane at angles (N,) from x towards y, in rad."""
     found = np.zeros((len(angles), 3))
     found[:, 0], found[:, 1] = np.cos(angles), np.sin(angles)
     return found
 
 
 def _reasons(scan: messages.LaserScan, ranges: F64, farthest: float) -> dict[str, int]:
-    """Counts of the ranges (N,) of a scan that are no hits, by reason."""
+    """Return counts of the ranges (N,) of a scan that are no hits, by reason."""
     nan, infinite = np.isnan(ranges), np.isinf(ranges)
     near, far = ~infinite & (ranges < scan.range_min), ~infinite & (ranges >= farthest)
     counts = {
@@ -120,7 +120,7 @@ def _reasons(scan: messages.LaserScan, ranges: F64, farthest: float) -> dict[str
 
 
 def deskew(points: BeamPoints, sample: Sample, frames: Frames) -> tuple[F64, int]:
-    """The points as if all beams had been measured at the stamp of the scan.
+    """Return the points as if all beams had been measured at the stamp of the scan.
 
     Each beam is placed in the fixed frame with the transform at its own time, stamp +
     i * time_increment. If it is missing, the transform of the nearest beam that has one is used.

@@ -102,7 +102,7 @@ class LaserScan(PointsDisplay, Comparable, Sweep):
         self.draw_points(xyz, colors, ctx, ctx, turn, ids=points.beams)
 
     def consistency_input(self, samples: Sequence[Sample], ctx: Context) -> ScanPoints | None:
-        """The points of the newest scan."""
+        """Return the points of the newest scan."""
         if not samples or beams.fault(samples[-1].message):
             return None
         sample = samples[-1]
@@ -110,7 +110,7 @@ class LaserScan(PointsDisplay, Comparable, Sweep):
         return ScanPoints(sample.frame, sample.stamp_ns, xyz)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
-        """A beam: its range, intensity and angle."""
+        """Return a beam: its range, intensity and angle."""
         scan: messages.LaserScan = hit.sample.message
         values: dict[str, object] = {"Range": Quantity(np.float32(scan.ranges[hit.id]), "m")}
         if len(scan.intensities) == len(scan.ranges):
@@ -123,7 +123,7 @@ class LaserScan(PointsDisplay, Comparable, Sweep):
         return Details(f"Beam {hit.id}", values | {"Beams in the scan": len(scan.ranges)})
 
     def _place(self, points: beams.BeamPoints, sample: Sample, ctx: Context) -> F64:
-        """The points in the frame of the laser at the stamp."""
+        """Return the points in the frame of the laser at the stamp."""
         scan: messages.LaserScan = sample.message
         duration = (points.total - 1) * scan.time_increment
         if not abs(duration) < _ENDLESS_SCAN_S:
@@ -157,7 +157,7 @@ class LaserScan(PointsDisplay, Comparable, Sweep):
         sample: Sample,
         ctx: Context,
     ) -> U8 | Rgb:
-        """A colour for each point (N, 3), or one for all."""
+        """Return a colour for each point (N, 3), or one for all."""
         if self.color_transformer == "FlatColor":
             return self.color
         if self.color_transformer == "AxisColor":
@@ -172,7 +172,7 @@ class LaserScan(PointsDisplay, Comparable, Sweep):
         sample: Sample,
         ctx: Context,
     ) -> F64:
-        """The values (N,) that determine the colour."""
+        """Return the values (N,) that determine the colour."""
         if self.channel_name in ("x", "y", "z"):
             return coordinate(sample.pose, xyz, "xyz".index(self.channel_name))
         if self.channel_name == "intensity":

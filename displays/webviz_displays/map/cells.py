@@ -18,7 +18,7 @@ MEANINGS: dict[Scheme, dict[int, str]] = {
 
 
 def tile_key(corner: Corner) -> str:
-    """The key of a tile's node."""
+    """Return the key of a tile's node."""
     row, column = corner
     return f"tile {row} {column}"
 
@@ -29,7 +29,7 @@ def cell_details(
     point: tuple[float, float, float],
     told: Callable[[int], str | int],
 ) -> Details | None:
-    """The cell at a point, None if there is none.
+    """Return the cell at a point, None if there is none.
 
     Args:
         grid: the map.

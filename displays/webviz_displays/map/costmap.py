@@ -17,7 +17,7 @@ _MEANINGS = {0: "free", 253: "inscribed", 254: "lethal", 255: "unknown"}
 
 
 def _occupancies() -> NDArray[np.uint8]:
-    """The value of an occupancy grid for each cost, int8 read as uint8, as nav2 publishes both.
+    """Return the value of an occupancy grid for each cost, int8 read as uint8, as in nav2.
 
     The formula is that of nav2_costmap_2d's costmap_2d_publisher.cpp.
     """
@@ -28,7 +28,7 @@ def _occupancies() -> NDArray[np.uint8]:
 
 @functools.lru_cache(maxsize=64)
 def cost_table(scheme: Scheme, alpha: float, threshold: int | None) -> NDArray[np.uint8]:
-    """The colours of costs, uint8 (256, 4), not to be written to; see `lookup_table`."""
+    """Return the colours of costs, uint8 (256, 4), not to be written to; see `lookup_table`."""
     table = lookup_table(scheme, alpha, threshold)
     if scheme == "raw" and threshold is None:
         return table
@@ -68,10 +68,10 @@ class Costmap(MapDisplay):
         return SimpleNamespace(x=message.x, y=message.y, data=cells, **size)
 
     def table(self, alpha: float, threshold: int | None) -> NDArray[np.uint8]:
-        """The colours of costs."""
+        """Return the colours of costs."""
         return cost_table(self.color_scheme, alpha, threshold)
 
     def told(self, value: int) -> str | int:
-        """The cost, 0 to 255."""
+        """Return the cost, 0 to 255."""
         cost = value & 255
         return f"{cost}, {_MEANINGS[cost]}" if cost in _MEANINGS else cost

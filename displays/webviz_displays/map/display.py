@@ -145,7 +145,7 @@ class MapDisplay(Display):
     ] = 100
 
     def as_grid(self, name: str, message: Any) -> Any:
-        """A message of the input `name` with the fields of an OccupancyGrid or its update.
+        """Return a message of the input `name` with the fields of an OccupancyGrid or its update.
 
         Raises:
             GridFault: it cannot be one; the text says why.
@@ -153,7 +153,7 @@ class MapDisplay(Display):
         return message
 
     def table(self, alpha: float, threshold: int | None) -> NDArray[np.uint8]:
-        """The colours of cells, cached; see `lookup_table`."""
+        """Return the colours of cells, cached; see `lookup_table`."""
         return lookup_table(self.color_scheme, alpha, threshold)
 
     def told(self, value: int) -> str | int:
@@ -166,11 +166,11 @@ class MapDisplay(Display):
         return _State()
 
     def waits(self, name: str) -> bool:
-        """A map that follows its frame needs no transform at its stamp, often long ago."""
+        """Return whether a transform is needed: not if the map follows its frame."""
         return self.use_timestamp and name == "topic"
 
     def lookback(self, name: str) -> Lookback:
-        """The newest map, and its updates."""
+        """Return the newest map, and its updates."""
         return Lookback(count=1) if name == "topic" else Lookback(since="topic")
 
     def fold(self, name: str, sample: Sample, state: Folded | None) -> Folded | None:
@@ -224,7 +224,7 @@ class MapDisplay(Display):
         self._report(folded, grid, ctx)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
-        """A cell, with the value that it has now."""
+        """Return a cell, with the value that it has now."""
         grid: TiledGrid | None = ctx.state.grid
         corner = next((c for c in grid.tiles if tile_key(c) == hit.key), None) if grid else None
         return cell_details(grid, corner, hit.point, self.told) if grid and corner else None
@@ -287,7 +287,7 @@ class Map(MapDisplay, Comparable):
 
 
 def _images(grid: TiledGrid, look: MapStyle, state: _State) -> dict[Corner, Image]:
-    """A node for each tile; unchanged tiles keep the node of the previous call."""
+    """Return a node for each tile; unchanged tiles keep the node of the previous call."""
     before = state.tiles if look.is_like(state.look) else {}
     tiles: dict[Corner, Tile] = {}
     for corner, cells in grid.tiles.items():

@@ -18,7 +18,7 @@ _ILLEGAL = (0, 255, 0)
 def lookup_table(
     scheme: Scheme, alpha: float = 1.0, binary_threshold: int | None = None
 ) -> NDArray[np.uint8]:
-    """The colour of each cell value.
+    """Return the colour of each cell value.
 
     The values are those of rviz_default_plugins' palette_builder.cpp. A free cell of a costmap is
     transparent at any alpha; RViz shows it black at alpha 1.
@@ -58,7 +58,7 @@ def _raw() -> NDArray[np.uint8]:
 
 
 def _legal_and_special(scheme: Scheme) -> NDArray[np.uint8]:
-    """The colours outside the legal values 0 to 100, shared by map and costmap."""
+    """Return the colours outside the legal values 0 to 100, shared by map and costmap."""
     colors = np.empty((256, 3), np.uint8)
     legal = (255 * np.arange(101)) // 100
     if scheme == "map":

@@ -65,7 +65,7 @@ class TiledGrid:
 
 
 def tiled(message: Any, frame: str, before: TiledGrid | None = None) -> TiledGrid:
-    """A grid from a nav_msgs/msg/OccupancyGrid.
+    """Return a grid from a nav_msgs/msg/OccupancyGrid.
 
     Args:
         message: the grid.
@@ -109,7 +109,7 @@ def tiled(message: Any, frame: str, before: TiledGrid | None = None) -> TiledGri
 
 
 def updated(grid: TiledGrid, update: Any, frame: str) -> TiledGrid:
-    """The grid after a map_msgs/msg/OccupancyGridUpdate in the frame `frame`.
+    """Return the grid after a map_msgs/msg/OccupancyGridUpdate in the frame `frame`.
 
     Raises:
         GridFault: the update does not fit; the grid stays as it is.
@@ -145,7 +145,7 @@ def updated(grid: TiledGrid, update: Any, frame: str) -> TiledGrid:
 
 
 def window(grid: TiledGrid, row: int, column: int, rows: int, columns: int) -> NDArray[np.int8]:
-    """The cells from a row and column on, which may lie outside; cells there are -1."""
+    """Return the cells from a row and column on, which may lie outside; cells there are -1."""
     cells = np.full((rows, columns), -1, np.int8)
     for (top, left), tile in grid.tiles.items():
         up, down = max(top, row), min(top + tile.shape[0], row + rows)
@@ -173,7 +173,7 @@ def tile_shape(height: int, width: int) -> tuple[int, int]:
 def _corners(
     rows: tuple[int, int], columns: tuple[int, int], shape: tuple[int, int]
 ) -> Iterator[Corner]:
-    """The tiles that touch the cells from the first to before the last row and column."""
+    """Yield the tiles that touch the cells from the first to before the last row and column."""
     if rows[0] == rows[1] or columns[0] == columns[1]:
         return
     for row in range(rows[0] // shape[0] * shape[0], rows[1], shape[0]):
@@ -182,7 +182,10 @@ def _corners(
 
 
 def _origin(pose: Any) -> Pose:
-    """A geometry_msgs/msg/Pose; an all-zero orientation counts as the identity, as in RViz."""
+    """Return a geometry_msgs/msg/Pose.
+
+    An all-zero orientation counts as the identity, as in RViz.
+    """
     p, q = pose.position, pose.orientation
     position, wxyz = (p.x, p.y, p.z), (q.w, q.x, q.y, q.z)
     if not all(map(isfinite, (*position, *wxyz))):

@@ -26,7 +26,7 @@ MAX_FLOATS = 16_000_000
 
 
 def depths_of(data: U8) -> F32:
-    """The depths (H, W) of an image in metres; 0 where nothing was measured.
+    """Return the depths (H, W) of an image in metres; 0 where nothing was measured.
 
     Args:
         data: a PNG of 16 bits in millimetres, RVL of the same, or a PNG whose four channels are the
@@ -51,7 +51,7 @@ def depths_of(data: U8) -> F32:
 
 
 def colors_of(data: U8) -> U8:
-    """The pixels (H, W, 3) of an image.
+    """Return the pixels (H, W, 3) of an image.
 
     Raises:
         ImageError: it is damaged.
@@ -61,7 +61,7 @@ def colors_of(data: U8) -> U8:
 
 
 def matrix_of(data: U8) -> F32:
-    """A compressed matrix of float32: (N, channels), one row per element.
+    """Return a compressed matrix of float32: (N, channels), one row per element.
 
     Raises:
         ImageError: it is damaged, or not of float32.

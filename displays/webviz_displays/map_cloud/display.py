@@ -170,7 +170,7 @@ class MapCloud(PointsDisplay, ProtocolClient):
         return _State()
 
     def history(self) -> Keep:
-        """The collected map."""
+        """Return the collected map."""
         return Keep()
 
     def fold(self, name: str, sample: Sample, state: KnownMap | None) -> KnownMap:
@@ -206,7 +206,7 @@ class MapCloud(PointsDisplay, ProtocolClient):
         return (state.held if state.total > state.held else 0), state.refused
 
     def draw(self, sample: Sample, ctx: Context) -> None:
-        """The clouds, in the frame and at the stamp of the newest graph."""
+        """Draw the clouds, in the frame and at the stamp of the newest graph."""
         known: KnownMap = sample.message
         state: _State = ctx.state
         state.missing = tuple(known.missing)
@@ -237,7 +237,7 @@ class MapCloud(PointsDisplay, ProtocolClient):
             self.draw_points(cloud.xyz, own, group, ctx, ids=numbers, of=shown)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
-        """A point: which node has seen it, and when."""
+        """Return a point: which node has seen it, and when."""
         known: KnownMap = hit.sample.message
         for id, start in _starts(known).items():
             cloud = known.clouds[id]
@@ -252,7 +252,7 @@ class MapCloud(PointsDisplay, ProtocolClient):
         return None
 
     def _rows(self, known: KnownMap) -> NDArray[np.intp]:
-        """The nodes to show, as rows of the graph."""
+        """Return the nodes to show, as rows of the graph."""
         rows = known.apart(self.node_filtering_radius, math.radians(self.node_filtering_angle))
         rows = rows[[id in known.clouds for id in known.ids[rows].tolist()]]
         if self.decay_time and len(rows):
@@ -324,7 +324,7 @@ class MapCloud(PointsDisplay, ProtocolClient):
 
 
 def _starts(known: KnownMap) -> dict[int, int]:
-    """The number of the first point of each node, among those of all."""
+    """Return the number of the first point of each node, among those of all."""
     starts: dict[int, int] = {}
     count = 0
     for id, cloud in known.clouds.items():

@@ -52,7 +52,7 @@ class KnownMap:
     problem: str = ""
 
     def merged(self, message: Any, settings: CloudSettings) -> KnownMap:
-        """The map after an rtabmap_msgs/msg/MapData."""
+        """Return the map after an rtabmap_msgs/msg/MapData."""
         ids = np.array(message.graph.poses_id[:MAX_NODES], np.int64)
         poses: PoseSequence = message.graph.poses
         problem = ""

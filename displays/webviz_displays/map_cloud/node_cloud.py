@@ -66,14 +66,14 @@ class NodeCloud:
     intensities: F32 | None = None
 
     def __getitem__(self, rows: Any) -> NodeCloud:
-        """Some of the points."""
+        """Return some of the points."""
         colors = None if self.colors is None else self.colors[rows]
         intensities = None if self.intensities is None else self.intensities[rows]
         return NodeCloud(self.xyz[rows], colors, intensities)
 
 
 def cloud_of(node: Any, settings: CloudSettings) -> NodeCloud | None:
-    """The points of an rtabmap_msgs/msg/Node, None if it has no data for them.
+    """Return the points of an rtabmap_msgs/msg/Node, None if it has no data for them.
 
     Raises:
         ImageError: its data is invalid or unsupported.
@@ -108,7 +108,7 @@ def cloud_of(node: Any, settings: CloudSettings) -> NodeCloud | None:
 
 
 def _of_cameras(data: Any, settings: CloudSettings) -> Iterator[NodeCloud]:
-    """The points of each camera; their images are beside each other."""
+    """Yield the points of each camera; their images are beside each other."""
     count = len(data.left_camera_info)
     if not count or len(data.local_transform) != count:
         places = len(data.local_transform)
@@ -162,7 +162,7 @@ def _of_scan(data: Any, settings: CloudSettings) -> NodeCloud:
 
 
 def _scaled(model: CameraModel, width: int, height: int) -> CameraModel:
-    """A camera whose images have another size."""
+    """Return a camera whose images have another size."""
     x, y = width / model.width, height / model.height
     return replace(
         model,
@@ -176,7 +176,7 @@ def _scaled(model: CameraModel, width: int, height: int) -> CameraModel:
 
 
 def _pose(position: Any, rotation: Any) -> Pose:
-    """The pose of a geometry_msgs Transform or Pose.
+    """Return the pose of a geometry_msgs Transform or Pose.
 
     Raises:
         ImageError: it cannot be placed.

@@ -15,7 +15,7 @@ Key = tuple[str, int]
 
 
 def name_of(key: Key) -> str:
-    """A marker in texts."""
+    """Return a marker in texts."""
     return f"{key[0]}/{key[1]}"
 
 
@@ -62,7 +62,7 @@ def deletes_all(message: Any, _: str) -> bool:
 
 
 def effect_of(markers: MarkerSequence) -> Effect:
-    """The net effect of the markers of one message, in order."""
+    """Return the net effect of the markers of one message, in order."""
     effect = Effect()
     namespaces, ids = markers.namespaces, markers.ids.tolist()
     actions = markers.actions

@@ -49,7 +49,7 @@ class Assets:
         return sum(request not in self._known for request in self._loading)
 
     def version(self) -> int:
-        """Changes when `load` is to be called; files that failed some time ago are tried again."""
+        """Return what changes when `load` is to be called, as when failed files are due again."""
         now = time.monotonic()
         due = [request for request, (at, _) in self._failed.items() if at <= now]
         for request in due:
@@ -133,7 +133,7 @@ class Assets:
         return Files(meshes, pictures), faults, requests
 
     def _asset(self, request: LoadRequest) -> LoadedMesh | PictureFile | str | None:
-        """A mesh, a picture, why there is none, or None while it is being loaded."""
+        """Return a mesh, a picture, why there is none, or None while it is being loaded."""
         if request in self._known:
             return self._known[request]
         if request not in self._loading:
@@ -144,7 +144,7 @@ class Assets:
 
 
 def _request(type_: int, content: Content) -> LoadRequest | str | None:
-    """The file that a marker names, None if it names none, or why that is impossible."""
+    """Return the file that a marker names, None if it names none, or why that is impossible."""
     if type_ == Marker.MESH_RESOURCE:
         uri = content.mesh_resource
         if not uri.startswith(EMBEDDED):

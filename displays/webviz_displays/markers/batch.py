@@ -50,7 +50,7 @@ class MarkerBatch:
         return len(self.types)
 
     def only(self, rows: Rows) -> MarkerBatch:
-        """Some of the markers."""
+        """Return some of the markers."""
         return MarkerBatch(
             self.types[rows],
             self.positions[rows],
@@ -87,5 +87,5 @@ def opacities(alphas: ArrayLike) -> F64:
 
 
 def rgb(colors: NDArray[np.floating]) -> U8:
-    """The red, green and blue of colours (N, 3 or 4), uint8 (N, 3)."""
+    """Return the red, green and blue of colours (N, 3 or 4), uint8 (N, 3)."""
     return np.rint(np.clip(colors[..., :3], 0.0, 1.0) * 255.0).astype(np.uint8)

@@ -63,7 +63,7 @@ class Blocks:
         self._large.clear()
 
     def requests(self) -> set[LoadRequest]:
-        """The files that markers name."""
+        """Return the files that markers name."""
         return {request for block in self for request in block.requests}
 
     def renew(

@@ -39,7 +39,7 @@ def size_of(content: Content) -> int:
 
 
 def detached(content: Content) -> Content:
-    """A copy that does not keep the message alive, of which it may be a small part."""
+    """Return a copy that does not keep the message alive, of which it may be a small part."""
     if not (len(content.points) or len(content.colors) or len(content.uv_coordinates)):
         return content
     values: dict[str, Any] = {name: getattr(content, name) for name in Content.__struct_fields__}
@@ -71,5 +71,5 @@ class Memory:
         return True
 
     def free(self, row: int) -> None:
-        """A row has no content any more."""
+        """Note that a row has no content any more."""
         self._total -= self._sizes.pop(row, 0)

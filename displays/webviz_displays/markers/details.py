@@ -18,7 +18,7 @@ _COLORFUL = re.compile(r"triangles (\d+) in ")
 
 
 def serial_of(hit: Hit) -> int | None:
-    """The serial number of the marker that was selected, None if it cannot be told."""
+    """Return the serial number of the marker that was selected, None if it cannot be told."""
     if hit.id is not None:
         return int(hit.id)
     found = _COLORFUL.match(hit.key)
@@ -26,7 +26,7 @@ def serial_of(hit: Hit) -> int | None:
 
 
 def marker_details(store: Store, serial: int, now_ns: int) -> Details | None:
-    """A marker by its serial number, None if it is not known any more."""
+    """Return a marker by its serial number, None if it is not known any more."""
     table = store.table
     rows = np.flatnonzero(table.serials == serial)
     if not len(rows) or (key := table.keys[row := int(rows[0])]) is None:

@@ -132,7 +132,7 @@ class Markers(Display):
         report_nothing(state.store, ctx)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
-        """A marker."""
+        """Return a marker."""
         state: _State = ctx.state
         serial = serial_of(hit)
         if state.store is None or serial is None:

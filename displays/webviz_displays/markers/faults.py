@@ -41,7 +41,7 @@ _HAS_CONTENT = ~np.isin(np.arange(len(TYPES)), _SHAPES)
 
 
 def type_name(type_: int) -> str:
-    """The name of a type, or its number."""
+    """Return the name of a type, or its number."""
     return TYPES[type_] if 0 <= type_ < len(TYPES) else f"type {type_}"
 
 

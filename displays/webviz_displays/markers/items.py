@@ -30,7 +30,7 @@ class Items:
 
 
 def items_of(batch: MarkerBatch, rows: Rows, points: list[F64] | None = None) -> Items:
-    """The points of the markers in some rows, or other `points` in their place."""
+    """Return the points of the markers in some rows, or other `points` in their place."""
     contents = [batch.contents[row] for row in rows.tolist()]
     points = [content.points for content in contents] if points is None else points
     counts = np.array([len(each) for each in points], np.intp)

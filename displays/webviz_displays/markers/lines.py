@@ -16,7 +16,7 @@ from webviz_displays.shared.colors import faded
 
 
 def lines_of(batch: MarkerBatch) -> dict[str, Node]:
-    """A node for the lines of each width and opacity."""
+    """Return a node for the lines of each width and opacity."""
     widths, counts = batch.scales[:, 0], batch.counts
     is_list = (batch.types == Marker.LINE_LIST) & (counts % 2 == 0)
     is_line = is_list | (batch.types == Marker.LINE_STRIP)
@@ -54,7 +54,7 @@ def _pairing(rows: Rows, is_list: NDArray[np.bool_]) -> Callable[[NDArray[Any]],
 
 
 def points_of(batch: MarkerBatch) -> dict[str, Node]:
-    """A node for the points of each size."""
+    """Return a node for the points of each size."""
     sizes = batch.scales[:, 0]
     nodes: dict[str, Node] = {}
     is_list = (batch.types == Marker.POINTS) & (batch.counts > 0)
@@ -73,7 +73,10 @@ def points_of(batch: MarkerBatch) -> dict[str, Node]:
 
 
 def texts_of(batch: MarkerBatch) -> dict[str, Node]:
-    """A node for the texts of each height; texts face the camera whatever their orientation is."""
+    """Return a node for the texts of each height.
+
+    Texts face the camera whatever their orientation is.
+    """
     heights = batch.scales[:, 2]
     is_visible = (batch.types == Marker.TEXT_VIEW_FACING) & (batch.colors[:, 3] > 0.0)
     is_visible &= heights > 0.0

@@ -62,7 +62,7 @@ class LoadedMesh:
         return tuple(filter(is_colorful, self.parts))
 
     def model(self, number: int, tint: Tint) -> bytes:
-        """A part of `colorful` in a tint, as a binary glTF."""
+        """Return a part of `colorful` in a tint, as a binary glTF."""
         key = number, tint
         if key not in self._models:
             data = write_glb([_tinted(self.colorful[number], tint)])

@@ -28,7 +28,7 @@ class Files:
 
 
 def nodes_of(batch: MarkerBatch, files: Files = Files()) -> dict[str, Node]:
-    """The nodes that draw markers, in the coordinates of their group.
+    """Return the nodes that draw markers, in the coordinates of their group.
 
     Args:
         batch: such as from `batch_of`; markers that cannot be drawn are left out.

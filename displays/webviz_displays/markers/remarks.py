@@ -54,11 +54,11 @@ class Remarks:
     overflow: int = 0
 
     def refuse(self, key: Key, why: str) -> None:
-        """The newest version of a marker cannot be drawn."""
+        """Note that the newest version of a marker cannot be drawn."""
         _append(self.refused, key, why)
 
     def go(self, serial: int, gone: Gone) -> None:
-        """A marker has expired, or was deleted."""
+        """Note that a marker has expired, or was deleted."""
         _append(self.gone, serial, gone)
 
     def accept(self, keys: Iterable[Key | None]) -> None:

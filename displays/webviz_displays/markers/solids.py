@@ -63,7 +63,7 @@ class Solids:
         return self.shape if isinstance(self.shape, str) else self.mesh
 
     def only(self, rows: NDArray[np.bool_]) -> Solids:
-        """Some of the solids."""
+        """Return some of the solids."""
         if rows.all():
             return self
         return replace(self, **{name: getattr(self, name)[rows] for name in _ARRAYS})
@@ -73,7 +73,7 @@ _ARRAYS = ("positions", "wxyzs", "scales", "colors", "ids")
 
 
 def solids_of(batch: MarkerBatch) -> Iterator[Solids]:
-    """The solids of all markers that consist of them."""
+    """Yield the solids of all markers that consist of them."""
     for type_, shape in _SHAPES.items():
         some = batch.only(np.flatnonzero(batch.types == type_))
         if len(some):

@@ -69,7 +69,7 @@ class Table:
         return len(self.rows)
 
     def row_of(self, key: Key) -> int:
-        """The row of a marker, a new one if it is new."""
+        """Return the row of a marker, a new one if it is new."""
         row = self.rows.get(key)
         if row is not None:
             return row
@@ -116,7 +116,7 @@ class Table:
         return np.isin(self._namespace_of, numbers)
 
     def batch(self, rows: NDArray[np.intp], origin: tuple[float, float, float]) -> MarkerBatch:
-        """The markers in some rows as they are drawn, relative to an origin."""
+        """Return the markers in some rows as they are drawn, relative to an origin."""
         some = self.shown[rows]
         return MarkerBatch(
             some["type"],

@@ -18,7 +18,7 @@ OneColor = tuple[int, int, int, float]
 
 
 def triangles_of(batch: MarkerBatch, pictures: Mapping[int, bytes]) -> dict[str, Node]:
-    """A node for the triangles of each colour, one for those with several, one for each texture.
+    """Return a node for the triangles of each colour, of several colours, and of each texture.
 
     Args:
         batch: the markers.
@@ -64,7 +64,7 @@ def triangles_of(batch: MarkerBatch, pictures: Mapping[int, bytes]) -> dict[str,
 
 
 def corner_colors(content: Content) -> F32 | None:
-    """The colour of each corner (N, 4), None if the triangles have one colour."""
+    """Return the colour of each corner (N, 4), None if the triangles have one colour."""
     corners, given = len(content.points), len(content.colors)
     if given and given == corners:
         return content.colors
@@ -74,20 +74,20 @@ def corner_colors(content: Content) -> F32 | None:
 def _joined(
     batch: MarkerBatch, rows: list[int]
 ) -> tuple[F32, NDArray[np.uint32], NDArray[np.int64]]:
-    """The corners of all triangles (N, 3), the faces (M, 3), and of which marker each is (M,)."""
+    """Return the corners of all triangles (N, 3), the faces (M, 3), and the marker of each (M,)."""
     vertices = _corners(batch, np.array(rows))
     faces = np.arange(len(vertices), dtype=np.uint32).reshape(-1, 3)
     return vertices, faces, np.repeat(batch.ids[rows], batch.counts[rows] // 3)
 
 
 def _corners(batch: MarkerBatch, rows: Rows) -> F32:
-    """The corners of all triangles, float32 (N, 3)."""
+    """Return the corners of all triangles, float32 (N, 3)."""
     scaled = [batch.contents[row].points * batch.scales[row] for row in rows.tolist()]
     return items_of(batch, rows, scaled).xyz.astype(np.float32)
 
 
 def _rgba(content: Content) -> U8:
-    """The colour of each corner, uint8 (N, 4)."""
+    """Return the colour of each corner, uint8 (N, 4)."""
     colors = corner_colors(content)
     assert colors is not None
     alphas = np.rint(255.0 * opacities(colors[:, 3])).astype(np.uint8)
@@ -95,7 +95,7 @@ def _rgba(content: Content) -> U8:
 
 
 def _covered(batch: MarkerBatch, row: int, picture: bytes) -> bytes:
-    """A binary glTF of triangles with a picture, multiplied by their colours."""
+    """Return a binary glTF of triangles with a picture, multiplied by their colours."""
     vertices, faces, _ = _joined(batch, [row])
     content = batch.contents[row]
     uvs = content.uv_coordinates

@@ -81,7 +81,7 @@ class Body:
     size: int = 0
 
     def joined(self, more: Body) -> Body:
-        """The same with the shapes of another, in the coordinates of this one."""
+        """Return the same with the shapes of another, in the coordinates of this one."""
         solids = dict(self.solids)
         for kind, some in more.solids.items():
             pairs = zip(solids[kind], some, strict=True) if kind in solids else ()
@@ -104,12 +104,12 @@ class Body:
 
 
 def named(name: str) -> str:
-    """A name in quotes, shortened if it is long."""
+    """Return a name in quotes, shortened if it is long."""
     return f"'{name[: LONGEST_NAME - 3]}...'" if len(name) > LONGEST_NAME else f"'{name}'"
 
 
 def body_of(message: Any, frame: str | None = None) -> Body | None:
-    """A moveit_msgs/CollisionObject, None if its pose is invalid.
+    """Return a moveit_msgs/CollisionObject, None if its pose is invalid.
 
     Args:
         message: the object.

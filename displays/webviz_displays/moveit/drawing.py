@@ -99,7 +99,7 @@ def drawn(shown: Iterable[ShownObject], prefix: str) -> DrawnObjects:
 
 
 def _solids(shown: Sequence[ShownObject]) -> list[Solids]:
-    """The solids of objects in the frame of the scene, those of one kind together."""
+    """Return the solids of objects in the frame of the scene, those of one kind together."""
     some: dict[Solid, list[int]] = {}
     for number, (body, _, _) in enumerate(shown):
         for kind in body.solids:
@@ -162,7 +162,7 @@ class HeldObjects:
         return [key for key in scene.attached if key not in held]
 
     def inspect(self, hit: Hit) -> Details | None:
-        """An object, by one of its shapes."""
+        """Return an object, by one of its shapes."""
         body = owner_of(hit, self.owners)
         if body is None:
             return None
@@ -170,7 +170,7 @@ class HeldObjects:
 
 
 def owner_of(hit: Hit, owners: Mapping[str, object]) -> Body | None:
-    """The object of a shape that was selected; see `DrawnObjects`."""
+    """Return the object of a shape that was selected; see `DrawnObjects`."""
     owner = owners.get(hit.key)
     if isinstance(owner, list):
         owner = owner[hit.id] if hit.id is not None and hit.id < len(owner) else None
@@ -189,17 +189,17 @@ def body_details(body: Body, first: Mapping[str, object]) -> Details:
 
 
 def opacity_of(rgba: Rgba) -> float:
-    """The opacity of a colour."""
+    """Return the opacity of a colour."""
     return float(opacities(rgba[3]))
 
 
 def rgb_of(rgba: Rgba) -> Rgb:
-    """A colour without its opacity."""
+    """Return a colour without its opacity."""
     red, green, blue = rgb(np.array(rgba)).tolist()
     return red, green, blue
 
 
 def with_alpha(color: Rgb, alpha: float) -> Rgba:
-    """A colour of a property with an opacity."""
+    """Return a colour of a property with an opacity."""
     red, green, blue = color
     return red / 255.0, green / 255.0, blue / 255.0, alpha

@@ -80,7 +80,7 @@ class Places:
         return [body for body in bodies if body.id not in self.world]
 
     def attached(self, scene: KnownScene, links: Links) -> dict[str, Pose]:
-        """The poses of attached objects in the frame of the scene, where the link has one."""
+        """Return the poses of attached objects in the scene's frame, where the link has one."""
         return {
             key: compose(links[attached.link], self.held[key][1])
             for key, attached in scene.attached.items()
@@ -90,11 +90,11 @@ class Places:
     def base(
         self, name: str, scene: KnownScene, frame: str, links: Links, frames: Frames
     ) -> Pose | None:
-        """The pose of a frame in that of the scene."""
+        """Return the pose of a frame in that of the scene."""
         return self._known(name, scene, frame, links) or _between(frame, name, frames)
 
     def _known(self, name: str, scene: KnownScene, frame: str, links: Links) -> Pose | None:
-        """The pose of a frame of the scene, the robot or an object in the frame of the scene."""
+        """Return the pose of a frame of the scene, robot or object in the scene's frame."""
         if name in ("", frame):
             return _HERE
         if (known := links.get(name) or scene.transforms.get(name)) is not None:
@@ -109,7 +109,7 @@ class Places:
 
 
 def _between(frame: str, name: str, frames: Frames) -> Pose | None:
-    """The pose of a frame in `frame`, by transforms."""
+    """Return the pose of a frame in `frame`, by transforms."""
     here, there = frames.latest(frame), frames.latest(name)
     return compose(inverse(here), there) if here and there else None
 

@@ -43,7 +43,7 @@ class JointValues:
         return not (self.positions or self.poses)
 
     def over(self, before: JointValues) -> JointValues:
-        """The same, completed from an earlier state."""
+        """Return the same, completed from an earlier state."""
         return JointValues(
             _bounded({**before.positions, **self.positions}),
             _bounded({**before.poses, **self.poses}),
@@ -53,7 +53,7 @@ class JointValues:
 
 
 def joints_of(state: Any) -> JointValues:
-    """The joints in a moveit_msgs/RobotState."""
+    """Return the joints in a moveit_msgs/RobotState."""
     positions, fault = positions_of(state.joint_state)
     several = state.multi_dof_joint_state
     poses, other = poses_of(several.joint_names, several.transforms)
@@ -63,7 +63,7 @@ def joints_of(state: Any) -> JointValues:
 
 
 def poses_of(names: Sequence[str], transforms: Sequence[Any]) -> tuple[dict[str, Pose], str]:
-    """The poses of joints of several degrees of freedom by name, and what is wrong, or "".
+    """Return the poses of joints of several degrees of freedom by name, and what is wrong, or "".
 
     Args:
         names: of the joints.
@@ -85,7 +85,10 @@ def poses_of(names: Sequence[str], transforms: Sequence[Any]) -> tuple[dict[str,
 
 
 def pose_of(position: Iterable[float], wxyz: Iterable[float]) -> Pose | None:
-    """A pose with a normalised quaternion, None if it cannot be drawn; zeros are no rotation."""
+    """Return a pose with a normalised quaternion, None if it cannot be drawn.
+
+    Zeros are no rotation.
+    """
     quaternion = np.array([*wxyz], float)
     turns, ok = normalized(quaternion)
     x, y, z = position
@@ -134,7 +137,7 @@ class Poser:
         return np.array([positions.get(name, default) for name, default in pairs], float)
 
     def place(self, values: F64, poses: Mapping[str, Pose] = NO_POSES) -> dict[str, Pose]:
-        """The poses of the links, given the joints.
+        """Return the poses of the links, given the joints.
 
         Args:
             values: float64 (J,), of `Kinematics.joints`.

@@ -145,7 +145,7 @@ class MotionPlanning(Display, ProtocolClient):
             connection.wake()
 
     def depends(self, ctx: Context) -> object:
-        """Loading progress, the scene of move_group, frames, and the point of the path."""
+        """Return loading progress, the scene of move_group, frames, and the point of the path."""
         state: MotionPlanningDrawing = ctx.state
         point = state.view.advance(self._playback(), ctx.frames.now_ns)
         late = state.world.is_late(self.scene_geometry.scene_display_time, ctx.frames.now_ns)
@@ -154,7 +154,7 @@ class MotionPlanning(Display, ProtocolClient):
         return state.robots.progress(), asking.scene, asking.problem, structure, point, late
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
-        """The newest scene and plan."""
+        """Draw the newest scene and plan."""
         state: MotionPlanningDrawing = ctx.state
         plans: Plans = samples[-1].message if samples else Plans()
         robots, received = state.robots, plans.received
@@ -183,7 +183,7 @@ class MotionPlanning(Display, ProtocolClient):
         )
 
     def tick(self, ctx: Context) -> None:
-        """The trails of links."""
+        """Draw the trails of links."""
         state: MotionPlanningDrawing = ctx.state
         look, prefix = look_of(self.scene_robot), ""
         if not look.links:
@@ -191,7 +191,7 @@ class MotionPlanning(Display, ProtocolClient):
         state.robots.follow(look, prefix, ctx)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
-        """An object, or a link of one of the robots."""
+        """Return an object, or a link of one of the robots."""
         state: MotionPlanningDrawing = ctx.state
         return state.world.inspect(hit) or state.view.inspect(hit, ctx)
 
@@ -201,7 +201,7 @@ class MotionPlanning(Display, ProtocolClient):
     def _draw_ends(
         self, plans: Plans, path: JointPath | None, model: PosedRobot, frame: str, ctx: Context
     ) -> None:
-        """The robot at the start and at the goal of the newest plan."""
+        """Draw the robot at the start and at the goal of the newest plan."""
         asked = self.planning_request
         ends = (
             ("start", asked.query_start_state, asked.start_state_color, asked.start_state_alpha),

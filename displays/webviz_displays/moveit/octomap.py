@@ -124,7 +124,7 @@ class Octomap:
             )
 
     def inspect(self, hit: Hit) -> Details | None:
-        """A voxel."""
+        """Return a voxel."""
         seen = self.shown and self.shown.seen
         if hit.key != KEY or seen is None or hit.id is None or hit.id >= len(seen.voxels.nodes):
             return None

@@ -161,7 +161,7 @@ class PathView:
             self._trail.draw(self.robots, path, step, last, playback.look, frame, ctx)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
-        """A link, with the point of the path; or what the robot holds."""
+        """Return a link, with the point of the path; or what the robot holds."""
         path = self.player.path
         details = self.held.inspect(hit) or self._trail.inspect(hit)
         details = details or self.robots.inspect(hit, ctx.frames)

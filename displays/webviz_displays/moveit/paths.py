@@ -52,7 +52,7 @@ class JointPath:
 
 
 def path_of(message: Any, poser: Poser) -> JointPath:
-    """A moveit_msgs/DisplayTrajectory: its trajectories one after another."""
+    """Return a moveit_msgs/DisplayTrajectory: its trajectories one after another."""
     scene = updated_state(KnownScene(), message.trajectory_start)
     builder = _Builder(poser, scene.joints)
     for each in message.trajectory:
@@ -130,7 +130,7 @@ class _Builder:
             self.poses.append(self._poses)
 
     def _rows(self, points: JointTrajectoryPointSequence, width: int) -> dict[int, F64]:
-        """The positions of each point that has valid ones."""
+        """Return the positions of each point that has valid ones."""
         numbers, rows = points.positions(width, MAX_POINTS)
         valid = (np.abs(rows) < FARTHEST).all(axis=1)
         if wrong := min(len(points), MAX_POINTS) - int(valid.sum()):

@@ -47,13 +47,13 @@ class ReceivedPlanningScene:
     scene: KnownScene | None = None
 
     def with_sample(self, name: str, sample: Sample) -> ReceivedPlanningScene:
-        """The same with a message of the input `name`."""
+        """Return the same with a message of the input `name`."""
         if name == "robot_description":
             return replace(self, description=sample.message.data)
         return replace(self, scene=updated(self.scene or KnownScene(), sample.message))
 
     def scene_over(self, answer: KnownScene | None) -> KnownScene | None:
-        """The scene, completed by the answer of move_group where messages have changes only."""
+        """Return the scene, completed by move_group's answer where messages have changes only."""
         if self.scene is None or answer is None or self.scene.is_whole:
             return self.scene or answer
         return self.scene.over(answer)
@@ -99,7 +99,7 @@ class PlanningScene(Display, ProtocolClient):
         return False
 
     def lookback(self, name: str) -> Lookback:
-        """The newest description, and all changes since a whole scene."""
+        """Return the newest description, and all changes since a whole scene."""
         return Lookback(count=1) if name == "robot_description" else SINCE_WHOLE
 
     def fold(
@@ -114,14 +114,14 @@ class PlanningScene(Display, ProtocolClient):
         state.asking.step(self.move_group_namespace, connection, ctx)
 
     def depends(self, ctx: Context) -> object:
-        """Loading progress, the answer of move_group, and frames that objects wait for."""
+        """Return loading progress, the answer of move_group, and frames that objects wait for."""
         state: PlanningSceneDrawing = ctx.state
         structure = ctx.frames.structure, ctx.frames.fixed_frame
         late = state.world.is_late(self.scene_geometry.scene_display_time, ctx.frames.now_ns)
         return state.robots.progress(), state.asking.scene, state.asking.problem, structure, late
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
-        """The newest scene."""
+        """Draw the newest scene."""
         state: PlanningSceneDrawing = ctx.state
         received: ReceivedPlanningScene = (
             samples[-1].message if samples else ReceivedPlanningScene()
@@ -137,12 +137,12 @@ class PlanningScene(Display, ProtocolClient):
         state.world.draw(scene, self.scene_geometry, self.scene_robot, ctx)
 
     def tick(self, ctx: Context) -> None:
-        """The trails of links."""
+        """Draw the trails of links."""
         state: PlanningSceneDrawing = ctx.state
         state.robots.follow(look_of(self.scene_robot), "", ctx)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
-        """An object, or a link of the robot."""
+        """Return an object, or a link of the robot."""
         state: PlanningSceneDrawing = ctx.state
         return state.world.inspect(hit) or state.robots.inspect(hit, ctx.frames)
 

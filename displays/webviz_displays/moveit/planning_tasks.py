@@ -176,7 +176,7 @@ class MotionPlanningTasks(Display, ProtocolClient):
         return False
 
     def lookback(self, name: str) -> Lookback:
-        """The newest solution, and what is known of each task."""
+        """Return the newest solution, and what is known of each task."""
         several = name in ("description_topic", "statistics_topic")
         return Lookback(count=MAX_TASKS if several else 1)
 
@@ -195,7 +195,7 @@ class MotionPlanningTasks(Display, ProtocolClient):
             connection.wake()
 
     def depends(self, ctx: Context) -> object:
-        """Loading progress, frames, the answer, and the point of the path."""
+        """Return loading progress, frames, the answer, and the point of the path."""
         state: TasksDrawing = ctx.state
         point = state.view.advance(self._playback(), ctx.frames.now_ns)
         structure = ctx.frames.structure, ctx.frames.fixed_frame
@@ -203,7 +203,7 @@ class MotionPlanningTasks(Display, ProtocolClient):
         return state.robots.progress(), structure, answer, point, state.markers.version(ctx)
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
-        """The stages of the tasks, and the solution to play."""
+        """Draw the stages of the tasks, and the solution to play."""
         state: TasksDrawing = ctx.state
         tasks = state.tasks = samples[-1].message if samples else KnownTasks()
         self._report_tasks(tasks, ctx)
@@ -228,12 +228,12 @@ class MotionPlanningTasks(Display, ProtocolClient):
             state.markers.draw((solution, chosen), solution.markers(chosen), ctx)
 
     def tick(self, ctx: Context) -> None:
-        """The trails of links."""
+        """Draw the trails of links."""
         state: TasksDrawing = ctx.state
         state.robots.follow(self._playback().look, PREFIX, ctx)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
-        """A link, an object of the scene, or a marker."""
+        """Return a link, an object of the scene, or a marker."""
         state: TasksDrawing = ctx.state
         found = state.view.inspect(hit, ctx) or state.world.inspect(hit)
         return found or state.markers.inspect(hit, ctx)
@@ -271,7 +271,7 @@ class MotionPlanningTasks(Display, ProtocolClient):
         )
 
     def _report_tasks(self, tasks: KnownTasks, ctx: Context) -> None:
-        """The tree of stages of each task, the newest task first."""
+        """Show the tree of stages of each task, the newest task first."""
         offered: dict[str, int] = {}
         solved: dict[str, int] = {}
         failed: dict[str, int] = {}
@@ -319,7 +319,7 @@ class MotionPlanningTasks(Display, ProtocolClient):
 
 
 def _name(info: Any, tasks: KnownTasks) -> str:
-    """The stage that made a trajectory."""
+    """Return the stage that made a trajectory."""
     for plan in reversed(list(tasks.plans.values())):
         for stage in plan.stages:
             if stage.id == info.stage_id:

@@ -25,7 +25,10 @@ class Speed(NamedTuple):
     state_s: float = 0.0
 
     def ahead(self, path: JointPath, place: float, seconds: float) -> float:
-        """The place after some time; a place is the number of a point, and parts to the next."""
+        """Return the place after some time.
+
+        A place is the number of a point, and parts to the next.
+        """
         if self.state_s:
             return place + seconds / self.state_s
         numbers = np.arange(len(path))
@@ -36,7 +39,7 @@ class Speed(NamedTuple):
 
 
 def speed_of(text: str) -> Speed | None:
-    """A speed as MoveIt writes it: "3x", "0.05 s" or "REALTIME"; None if it is invalid."""
+    """Return a speed as MoveIt writes it: "3x", "0.05 s" or "REALTIME"; None if it is invalid."""
     words = text.strip()
     if words.upper() == "REALTIME":
         return Speed(1.0, 0.0)

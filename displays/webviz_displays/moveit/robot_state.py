@@ -85,7 +85,7 @@ class RobotState(Display):
         return False
 
     def lookback(self, name: str) -> Lookback:
-        """The newest description; all states, since they may tell changes only."""
+        """Return the newest description; all states, since they may tell changes only."""
         return Lookback(count=int(name == "robot_description"))
 
     def fold(
@@ -107,11 +107,11 @@ class RobotState(Display):
         return ReceivedRobotState(before.description, state_of, highlights, bool(message.hide))
 
     def depends(self, ctx: Context) -> object:
-        """Loading progress."""
+        """Return loading progress."""
         return ctx.state.robots.progress()
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
-        """The newest state."""
+        """Draw the newest state."""
         state: RobotStateDrawing = ctx.state
         received: ReceivedRobotState = samples[-1].message if samples else ReceivedRobotState()
         robots = state.robots
@@ -144,12 +144,12 @@ class RobotState(Display):
                 ctx.error("Objects", f"The link or frame of object {named(lost[0])} is unknown.")
 
     def tick(self, ctx: Context) -> None:
-        """The trails of links."""
+        """Draw the trails of links."""
         state: RobotStateDrawing = ctx.state
         state.robots.follow(self._look({}), "", ctx)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
-        """A link, or what the robot holds."""
+        """Return a link, or what the robot holds."""
         state: RobotStateDrawing = ctx.state
         return state.held.inspect(hit) or state.robots.inspect(hit, ctx.frames)
 

@@ -68,7 +68,7 @@ class RobotLook:
         )
 
     def color_of(self, link: str) -> Rgb | None:
-        """The colour of a link, None for its own."""
+        """Return the colour of a link, None for its own."""
         return self.colors[link][0] if link in self.colors else self.color
 
 
@@ -95,13 +95,15 @@ class Robots:
     trails_frame: str = ""
 
     def progress(self) -> object:
-        """Changes while a robot is being loaded."""
+        """Return what changes while a robot is being loaded."""
         return [progress(each) for each in self.loading.values()]
 
     def load(
         self, text: str | None, topic: str, collisions: bool, ctx: Context
     ) -> PosedRobot | None:
-        """The described robot, the previous one until it is loaded; `ctx.state.robots` is this.
+        """Return the described robot, the previous one until it is loaded.
+
+        `ctx.state.robots` is this.
 
         Args:
             text: the URDF, None if there is none.
@@ -182,7 +184,7 @@ class Robots:
                 report_link(link, pose, ctx)
 
     def inspect(self, hit: Hit, frames: Frames) -> Details | None:
-        """A link, by one of its shapes or its trail."""
+        """Return a link, by one of its shapes or its trail."""
         model = self.model
         trail = hit.key.removesuffix(TRAIL)
         place, link = self.owners.get(hit.key) or (trail, trail)

@@ -67,7 +67,7 @@ class KnownScene:
     faults: tuple[str, ...] = ()
 
     def over(self, base: KnownScene) -> KnownScene:
-        """This scene, which has changes only, applied to a whole one."""
+        """Return this scene, which has changes only, applied to a whole one."""
         objects = {key: each for key, each in base.objects.items() if key not in self.gone}
         attached = {key: each for key, each in base.attached.items() if key not in self.loose}
         return replace(
@@ -89,7 +89,7 @@ SINCE_WHOLE = Lookback(starts_over=lambda message, _: not message.is_diff)
 
 
 def updated(scene: KnownScene, message: Any) -> KnownScene:
-    """A scene after a moveit_msgs/PlanningScene: the whole of it, or changes."""
+    """Return a scene after a moveit_msgs/PlanningScene: the whole of it, or changes."""
     if not message.is_diff:
         scene = KnownScene(is_whole=True)
     edit = _Edit(scene)
@@ -111,7 +111,7 @@ def updated(scene: KnownScene, message: Any) -> KnownScene:
 
 
 def updated_state(scene: KnownScene, state: Any) -> KnownScene:
-    """A scene after a moveit_msgs/RobotState, with what the robot holds."""
+    """Return a scene after a moveit_msgs/RobotState, with what the robot holds."""
     edit = _Edit(scene)
     edit.state(state)
     return replace(edit.done(), frame=edit.joints.frame or scene.frame)
@@ -136,7 +136,7 @@ class _Edit:
         self._size = 0
 
     def done(self) -> KnownScene:
-        """The scene with all changes."""
+        """Return the scene with all changes."""
         before = self._scene
         return replace(
             before,

@@ -52,7 +52,7 @@ class KnownSolution:
     scenes: Sequence[KnownScene]
 
     def part_at(self, point: int) -> int:
-        """The trajectory that a point belongs to, the last one of those that begin there."""
+        """Return the trajectory that a point belongs to, the last one of those that begin there."""
         return max(bisect_right(self.starts, point) - 1, 0)
 
     @property
@@ -63,14 +63,17 @@ class KnownSolution:
         return first and first.info
 
     def markers(self, part: int | None) -> list[MarkerSequence]:
-        """The markers of the whole solution, and of one of its trajectories; None for all."""
+        """Return the markers of the whole solution, and of one of its trajectories.
+
+        None for all.
+        """
         parts = self.message.sub_trajectory[:MAX_PARTS]
         chosen = parts if part is None else parts[part : part + 1]
         return [each.info.markers for each in (*self.message.sub_solution, *chosen)]
 
 
 def known(message: Any) -> KnownSolution:
-    """A solution with the scenes that its parts lead to."""
+    """Return a solution with the scenes that its parts lead to."""
     scene = updated(KnownScene(), message.start_scene)
     parts = message.sub_trajectory[:MAX_PARTS]
     starts, scenes, count = [], [scene], 0
@@ -152,7 +155,7 @@ class ShownMarkers:
     _assets: Assets = field(default_factory=Assets)
 
     def version(self, ctx: Context) -> object:
-        """Changes when something else is to be drawn."""
+        """Return what changes when something else is to be drawn."""
         self._store.place(ctx.frames)
         return self._store.version, self._assets.version()
 
@@ -172,6 +175,6 @@ class ShownMarkers:
         report_waiting(self._store, ctx)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
-        """A marker."""
+        """Return a marker."""
         serial = serial_of(hit)
         return None if serial is None else marker_details(self._store, serial, ctx.frames.now_ns)

@@ -50,7 +50,7 @@ class KnownTasks:
     solution: Any = None
 
     def with_message(self, name: str, message: Any) -> KnownTasks:
-        """These after a message for one of the inputs of the display."""
+        """Return these after a message for one of the inputs of the display."""
         if name == "robot_description":
             return replace(self, description=message.data)
         if name == "task_solution_topic":
@@ -67,7 +67,7 @@ class KnownTasks:
         return KnownTasks(self.description, plans, statistics, None if is_gone else self.solution)
 
     def stages(self, task: str) -> list[TaskStage]:
-        """The stages of a task, each before those within it."""
+        """Return the stages of a task, each before those within it."""
         plan, known = self.plans.get(task), self.statistics.get(task)
         if plan is None:
             return []
@@ -75,7 +75,10 @@ class KnownTasks:
         return list(_ordered(plan.stages[:MAX_STAGES], counts))
 
     def task_of(self, solution: int) -> str:
-        """The newest task with a solution of this id, else the newest of all; "" without one."""
+        """Return the newest task with a solution of this id, else the newest of all.
+
+        "" without one.
+        """
         for task in reversed(list(self.plans)):
             known = self.statistics.get(task)
             for stage in known.stages if known is not None else ():

@@ -80,7 +80,7 @@ class PathTrail:
                 self.owners[key] = part.link
 
     def inspect(self, hit: Hit) -> Details | None:
-        """A link in a state of the trail."""
+        """Return a link in a state of the trail."""
         if hit.key not in self.owners or hit.id is None:
             return None
         return Details(f"Link {self.owners[hit.key]}", {"Point": str(self._rows[hit.id] + 1)})
@@ -101,7 +101,7 @@ class PathTrail:
 
 
 def _moved(xyz: F64, wxyz: F64, pose: Pose) -> Primitives:
-    """A pose given relative to many."""
+    """Return a pose given relative to many."""
     turned = [transformed(Pose(wxyz=tuple(turn)), pose.position) for turn in wxyz.tolist()]
     places = xyz + np.array(turned).reshape(-1, 3)
     return Primitives(places, multiply_many(wxyz, np.array(pose.wxyz)), np.ones_like(places))

@@ -91,12 +91,12 @@ class Trajectory(Display, ProtocolClient):
             connection.wake()
 
     def depends(self, ctx: Context) -> object:
-        """Loading progress, and the point of the path."""
+        """Return loading progress, and the point of the path."""
         state: TrajectoryDrawing = ctx.state
         return state.robots.progress(), state.view.advance(playback_of(self), ctx.frames.now_ns)
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
-        """The robot at the current point."""
+        """Draw the robot at the current point."""
         state: TrajectoryDrawing = ctx.state
         newest = {sample.input: sample.message for sample in samples}
         description, path = newest.get("robot_description"), newest.get("trajectory_topic")
@@ -112,11 +112,11 @@ class Trajectory(Display, ProtocolClient):
         state.view.draw(playback, model.robot.root if model else "", ctx)
 
     def tick(self, ctx: Context) -> None:
-        """The trails of links."""
+        """Draw the trails of links."""
         state: TrajectoryDrawing = ctx.state
         state.robots.follow(playback_of(self).look, PREFIX, ctx)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
-        """A link, or what the robot holds."""
+        """Return a link, or what the robot holds."""
         state: TrajectoryDrawing = ctx.state
         return state.view.inspect(hit, ctx)

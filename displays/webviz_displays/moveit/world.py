@@ -50,7 +50,7 @@ class _Look:
         return self.world is world and self.colors is colors and self.default == default
 
     def drawn(self) -> DrawnObjects:
-        """The nodes."""
+        """Return the nodes."""
         return drawn(
             [
                 ShownObject(body, pose, self.colors.get(key, self.default))
@@ -138,7 +138,7 @@ class DrawnWorld:
         report_objects(scene, lost, lost_held, ctx)
 
     def _objects(self, scene: KnownScene, default: Rgba, ctx: Context) -> DrawnObjects:
-        """The objects as nodes, made anew only if one of them or its colour has changed.
+        """Return the objects as nodes, made anew only if one of them or its colour has changed.
 
         Many are made in a thread; until then the previous ones stay.
         """
@@ -166,7 +166,7 @@ class DrawnWorld:
         return self._stance[3]
 
     def inspect(self, hit: Hit) -> Details | None:
-        """An object, by one of its shapes."""
+        """Return an object, by one of its shapes."""
         body = owner_of(hit, self.owners)
         if body is None:
             return self.held.inspect(hit) or self.octomap.inspect(hit)

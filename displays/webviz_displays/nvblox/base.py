@@ -50,7 +50,7 @@ class NvbloxDisplay(Display):
         return (state or Layer()).merged(sample.message)
 
     def draw(self, sample: Sample, ctx: Context) -> None:
-        """The blocks, in the frame and at the stamp of the newest message."""
+        """Draw the blocks, in the frame and at the stamp of the newest message."""
         layer: Layer = sample.message
         state: _State = ctx.state
         for what, metres in (("block_size_m", layer.block_m), ("voxel_size_m", layer.voxel_m)):

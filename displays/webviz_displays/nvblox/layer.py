@@ -58,7 +58,7 @@ class Layer:
     dropped: int = 0
 
     def merged(self, message: Any) -> Layer:
-        """The layer after a message: an nvblox_msgs/msg/Mesh or VoxelBlockLayer."""
+        """Return the layer after a message: an nvblox_msgs/msg/Mesh or VoxelBlockLayer."""
         blocks = {} if message.clear else dict(self.blocks)
         points = 0 if message.clear else self.points
         dropped = 0 if message.clear else self.dropped
@@ -79,7 +79,7 @@ class Layer:
         return Layer(message.block_size_m, voxel_m, blocks, points, faults, dropped)
 
     def below(self, height: float) -> Iterator[tuple[Key, MapBlock]]:
-        """The blocks whose lower side is not above a height in metres, as RViz2's plug-in cuts."""
+        """Return the blocks whose lower side is not above a height in m, as in RViz2's plug-in."""
         return ((k, block) for k, block in self.blocks.items() if k[2] * self.block_m <= height)
 
 
@@ -92,7 +92,7 @@ def regions(blocks: Iterable[tuple[Key, MapBlock]], edge: int) -> dict[Key, list
 
 
 def _block_of(part: Any) -> MapBlock | str:
-    """A block of a message, or why it cannot be drawn."""
+    """Return a block of a message, or why it cannot be drawn."""
     is_mesh = hasattr(part, "triangles")
     points = part.vertices if is_mesh else part.centers
     triangles = part.triangles if is_mesh else np.empty(0, np.int32)

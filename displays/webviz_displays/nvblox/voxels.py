@@ -28,7 +28,7 @@ class NvbloxVoxelBlockLayer(NvbloxDisplay):
         return len(block.points)
 
     def node(self, blocks: Sequence[MapBlock], layer: Layer) -> Instances:
-        """A box for each voxel."""
+        """Return a box for each voxel."""
         centers = np.concatenate([block.points for block in blocks])
         return Instances(
             centers,

@@ -131,7 +131,7 @@ class OctreeDisplay(Display):
         return _State()
 
     def draw(self, sample: Sample, ctx: Context) -> None:
-        """The voxels that can be seen as boxes, in the frame and at the stamp of the header."""
+        """Draw the visible voxels as boxes, in the frame and at the stamp of the header."""
         state: _State = ctx.state
         levels = self.max_octree_depth or LEVELS
         choice = VoxelChoice(self.voxel_rendering, levels, self.min_height, self.max_height)
@@ -160,7 +160,7 @@ class OctreeDisplay(Display):
         )
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
-        """The voxel at the place of the one that was selected, with its newest values."""
+        """Return the voxel at the place of the one that was selected, with its newest values."""
         state: _State = ctx.state
         if state.drawn is None:
             return None
@@ -195,7 +195,7 @@ class OctreeDisplay(Display):
         return colors
 
     def _other_voxels(self, tree: Octree) -> Remedy:
-        """The change that shows voxels: those of the other kind, or of more heights."""
+        """Return the change that shows voxels: those of the other kind, or of more heights."""
         heights = voxels_of(tree, LEVELS).centers[:, 2]
         is_low, is_high = heights < self.min_height, heights > self.max_height
         if not (is_low | is_high).all():
@@ -274,7 +274,7 @@ def _read(before: _Known, message: Any, choice: VoxelChoice) -> _Known:
 
 
 def _tree_of(message: Any) -> tuple[Octree, tuple[float, float]]:
-    """The tree of a message, and its lowest and highest z."""
+    """Return the tree of a message, and its lowest and highest z."""
     tree = read_octree(message)
     keep_memory(tree)
     leaves = voxels_of(tree, LEVELS)

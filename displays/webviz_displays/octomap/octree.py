@@ -124,7 +124,10 @@ def keep_memory(tree: Octree) -> None:
 
 
 def _nodes_in(message: Any) -> int:
-    """The nodes of a tree, by the bits of its records; those that are too many are not counted."""
+    """Return the nodes of a tree, by the bits of its records.
+
+    Those that are too many are not counted.
+    """
     if message.binary:
         records = _records(message.data, np.dtype("<u2"))
         has_child = (records | records >> 1) & 0x5555
@@ -138,7 +141,7 @@ def _nodes_in(message: Any) -> int:
 
 
 def read_octree(message: Any) -> Octree:
-    """The tree of an octomap_msgs/msg/Octomap.
+    """Return the tree of an octomap_msgs/msg/Octomap.
 
     Raises:
         OctreeFault: its data is of an unknown kind, contradicts itself or is too large.
@@ -185,7 +188,7 @@ def _read_binary(kind: str, size: float, data: NDArray[np.int8]) -> Octree:
 
 
 def _records(data: NDArray[np.int8], dtype: np.dtype[Any]) -> NDArray[Any]:
-    """The records of a message, at most one more than a tree may have."""
+    """Return the records of a message, at most one more than a tree may have."""
     count = min(len(data) // dtype.itemsize, MAX_NODES + 1)
     return np.frombuffer(np.ascontiguousarray(data).data, dtype, count)
 
@@ -200,7 +203,7 @@ def _tree(
 
 
 def _ends(kinds: U8) -> I64:
-    """The record after the last one below each record, (N,); N ends where the tree does.
+    """Return the record after the last one below each record, (N,); N ends where the tree does.
 
     Args:
         kinds: (N, 8), what each child of each record is.
@@ -233,7 +236,7 @@ _TOO_LARGE = (
 
 
 def _levels(kinds: U8, ends: I64) -> list[_Level]:
-    """The nodes by depth, those of one parent side by side in their order.
+    """Return the nodes by depth, those of one parent side by side in their order.
 
     Args:
         kinds: (N, 8), what each child of each record is.

@@ -34,7 +34,7 @@ _UNKNOWN, _FREE, _OCCUPIED = -1, 0, 100
 
 
 def projected(tree: Octree, depth: int) -> Any:
-    """A tree seen from above, with the fields of a nav_msgs/msg/OccupancyGrid.
+    """Return a tree seen from above, with the fields of a nav_msgs/msg/OccupancyGrid.
 
     A cell is occupied if any voxel above or below it is, free if all known ones are.
 
@@ -70,7 +70,7 @@ def projected(tree: Octree, depth: int) -> Any:
 
 
 def _covered(lows: I64, edges: I64, shape: tuple[int, int]) -> NDArray[np.bool_]:
-    """The cells (height, width) in at least one square.
+    """Return the cells (height, width) in at least one square.
 
     Args:
         lows: column and row (N, 2) of the first cell of each square.
@@ -113,7 +113,7 @@ class ProjectedOctree(MapDisplay):
     ] = LEVELS
 
     def as_grid(self, name: str, message: Any) -> Any:
-        """An octree seen from above."""
+        """Return an octree seen from above."""
         if name != "topic":
             return message
         try:

@@ -30,12 +30,12 @@ class Voxels:
     sizes: F64
 
     def only(self, chosen: Mask | NDArray[np.intp]) -> Voxels:
-        """Some of them."""
+        """Return some of them."""
         return Voxels(self.nodes[chosen], self.centers[chosen], self.sizes[chosen])
 
 
 def voxels_of(tree: Octree, depth: int) -> Voxels:
-    """The leaves of a tree that is cut off below a depth, along the Morton curve."""
+    """Return the leaves of a tree that is cut off below a depth, along the Morton curve."""
     is_end = tree.is_leaf & (tree.depths <= depth) | (tree.depths == depth)
     nodes = np.flatnonzero(is_end)
     nodes = nodes[np.argsort(tree.codes[nodes])]
@@ -64,7 +64,7 @@ def is_exposed(tree: Octree, voxels: Voxels) -> Mask:
     before = np.cumsum(volumes) - volumes
 
     def filled(places: I64) -> I64:
-        """The volume of all voxels before each place of the curve."""
+        """Return the volume of all voxels before each place of the curve."""
         index = np.searchsorted(starts, places, side="right") - 1
         inside = np.minimum(places - starts[index], volumes[index])
         return np.where(index < 0, 0, before[index] + inside)
@@ -81,7 +81,7 @@ def is_exposed(tree: Octree, voxels: Voxels) -> Mask:
 
 
 def _coordinate(codes: I64, axis: int) -> I64:
-    """A coordinate (N,) of Morton codes, in smallest voxels from the corner of the tree."""
+    """Return a coordinate (N,) of Morton codes, in smallest voxels from the corner of the tree."""
     found = np.zeros_like(codes)
     for bit in range(LEVELS):
         found |= (codes >> (2 * bit + axis)) & (1 << bit)

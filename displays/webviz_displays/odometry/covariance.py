@@ -169,7 +169,7 @@ def _is_semidefinite(matrices: F64) -> Mask:
 
 
 def _deviations(matrices: F64) -> tuple[F64, F64]:
-    """Standard deviations (N, k) along the principal axes, and these as columns (N, k, k)."""
+    """Return standard deviations (N, k) along the principal axes, and the axes as columns."""
     variances, vectors = np.linalg.eigh(matrices)  # reads the lower triangle, as Eigen does
     return np.maximum(np.sqrt(np.maximum(variances, 0.0)), _LEAST), vectors
 

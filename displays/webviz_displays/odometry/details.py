@@ -52,7 +52,7 @@ def _deviations(covariance: Any) -> str:
 
 
 def _rows(covariance: Any) -> dict[str, object]:
-    """The rows of a matrix by their axes."""
+    """Return the rows of a matrix by their axes."""
     matrix = np.asarray(covariance).reshape(6, 6)
     return {
         axis: ", ".join(f"{v:.4g}" for v in row) for axis, row in zip(_AXES, matrix, strict=True)

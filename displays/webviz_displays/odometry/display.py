@@ -57,15 +57,15 @@ class Odometry(Display, Selective):
         return GrowingTrail(lambda message: message.pose.pose)
 
     def history(self) -> Keep:
-        """The newest poses that were accepted."""
+        """Return the newest poses that were accepted."""
         return Keep(count=self.keep)
 
     def lookback(self, name: str) -> Lookback:
-        """The poses that are kept, as far as they do not take too many messages to find."""
+        """Return the poses that are kept, as far as they do not take too many messages to find."""
         return Lookback(chooses=lambda past: kept_poses(past, self.keep, self.rule()))
 
     def rule(self) -> TrailRule:
-        """The rule by which poses are kept."""
+        """Return the rule by which poses are kept."""
         return TrailRule(self.position_tolerance, self.angle_tolerance, self.covariance.value)
 
     def accept(self, new: Sample, kept: Sequence[Sample]) -> bool | str:
@@ -92,7 +92,7 @@ class Odometry(Display, Selective):
         draw_covariances(self.covariance, rows, poses, group, ctx, np.arange(len(samples)))
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
-        """A message; the wedges are one mesh, which does not know of its messages."""
+        """Return a message; the wedges are one mesh, which does not know of its messages."""
         if hit.id is None:
             return Details("Covariances of yaw")
         return details(hit.samples[hit.id])

@@ -38,7 +38,7 @@ class TrailRule:
     with_covariance: bool
 
     def place_of(self, message: messages.Odometry) -> TrailPlace:
-        """The place of a pose."""
+        """Return the place of a pose."""
         return place_of(message, with_covariance=self.with_covariance)
 
     def keeps(self, new: TrailPlace, last: TrailPlace) -> bool:
@@ -53,7 +53,7 @@ class TrailRule:
 def kept_poses(
     newest_first: Iterator[messages.Odometry], keep: int, rule: TrailRule
 ) -> Sequence[int]:
-    """The past messages that are the poses of the trail.
+    """Return the past messages that are the poses of the trail.
 
     Args:
         newest_first: past messages.
@@ -87,7 +87,7 @@ def _sizes() -> Iterator[int]:
 
 
 def _met(newest_first: Sequence[TrailPlace | None], rule: TrailRule) -> int | None:
-    """The number of newest places from the first on that every trail has, None without any."""
+    """Return the number of newest places that every trail has, None if there are none."""
     first: TrailPlace | None = None
     is_older_possible = True
     """True while the last place that was kept may be one before the first."""
@@ -110,7 +110,7 @@ def _met(newest_first: Sequence[TrailPlace | None], rule: TrailRule) -> int | No
 
 
 def _kept(newest_first: Sequence[TrailPlace | None], rule: TrailRule) -> Sequence[int]:
-    """The numbers of the places of the trail that begins with the oldest."""
+    """Return the numbers of the places of the trail that begins with the oldest."""
     last: TrailPlace | None = None
     found: list[int] = []
     for number, place in _oldest_first(newest_first):

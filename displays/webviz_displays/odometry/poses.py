@@ -15,7 +15,7 @@ from webviz_displays.shared.pose_history import UNIT_TOLERANCE
 
 
 def fault(message: messages.Odometry) -> str:
-    """A sentence why a pose cannot be drawn, "" if it can."""
+    """Return a sentence why a pose cannot be drawn, "" if it can."""
     if problem := pose_history.fault(message.pose.pose):
         return problem
     q = message.pose.pose.orientation
@@ -45,7 +45,7 @@ class TrailPlace(NamedTuple):
 
 
 def place_of(message: messages.Odometry, *, with_covariance: bool) -> TrailPlace:
-    """The place of a pose."""
+    """Return the place of a pose."""
     p, q = message.pose.pose.position, message.pose.pose.orientation
     is_known_sound = not with_covariance or is_sound(message)
     return TrailPlace((p.x, p.y, p.z), (q.w, q.x, q.y, q.z), is_known_sound)

@@ -16,7 +16,7 @@ _SAMPLE = 10_000
 
 
 def in_blocks(xyz: NDArray[np.float32]) -> Rows:
-    """The rows of points (N, 3) in an order for `Points.thins`.
+    """Return the rows of points (N, 3) in an order for `Points.thins`.
 
     The first `POINTS_PER_BLOCK` of them are from everywhere. Each further block has points that are
     near each other, shuffled: the first of them stand for all of it. Blocks follow each other at
@@ -39,7 +39,9 @@ def in_blocks(xyz: NDArray[np.float32]) -> Rows:
 
 
 def _cells(xyz: NDArray[np.float32]) -> NDArray[np.uint16]:
-    """The number (N,) of the cell of each point; cells with numbers near each other are neighbours.
+    """Return the number (N,) of the cell of each point.
+
+    Cells with numbers near each other are neighbours.
 
     The box around most points is halved again and again across its longest side; each half is a
     bit. With equal sides this is the Morton order.

@@ -81,7 +81,9 @@ class Cloud:
         return listed([f"{name:.40}" for name in self.names], _NAMED) or "none"
 
     def values(self, name: str) -> NDArray[Any]:
-        """A field of all points (N,) in the type of the message; the first of several elements.
+        """Return a field of all points (N,) in the type of the message.
+
+        The first of several elements.
 
         Raises:
             CloudError: the field is missing or cannot be read.
@@ -90,7 +92,7 @@ class Cloud:
         return self._view(dtype, offset)
 
     def quads(self, name: str) -> NDArray[np.uint32]:
-        """The four bytes of a field of all points as one number (N,), whatever its type.
+        """Return the four bytes of a field of all points as one number (N,), whatever its type.
 
         Raises:
             CloudError: the field is missing or does not have four bytes.
@@ -177,7 +179,7 @@ class Cloud:
         return field.offset, dtype
 
     def _view(self, dtype: np.dtype[Any], offset: int) -> NDArray[Any]:
-        """The values at an offset in all points (N,); a copy only if rows are padded."""
+        """Return the values at an offset in all points (N,); a copy only if rows are padded."""
         if not self.count:
             return np.empty(0, dtype)
         height, width, step = self._message.height, self._message.width, self._message.point_step
@@ -216,7 +218,7 @@ def _are_sensible(values: NDArray[Any]) -> NDArray[np.bool_]:
 
 
 def _middle(columns: list[NDArray[Any]]) -> Position:
-    """A round point near most points, estimated from a hundred of them."""
+    """Return a round point near most points, estimated from a hundred of them."""
     step = max(len(columns[0]) // 100, 1)
     with np.errstate(invalid="ignore"):
         some = np.stack([column[::step].astype(np.float64) for column in columns], axis=1)

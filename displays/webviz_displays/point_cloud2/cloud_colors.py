@@ -14,12 +14,12 @@ U8 = NDArray[np.uint8]
 
 
 def picked(values: NDArray[Any], rows: Rows | None) -> NDArray[Any]:
-    """Some rows of an array, or all of them."""
+    """Return some rows of an array, or all of them."""
     return values if rows is None else values.take(rows, axis=0)
 
 
 def automatic(names: list[str]) -> str:
-    """The transformer for a cloud with these fields.
+    """Return the transformer for a cloud with these fields.
 
     RViz takes RGB8 or Intensity, and leaves clouds white that have neither; here they show their
     RGBF32 colours, or else their height.

@@ -34,7 +34,7 @@ def evenly(total: int, limit: int) -> Rows:
 
 
 def one_per_voxel(xyz: NDArray[np.float32], size: float) -> Rows:
-    """The first point of each voxel, ascending rows of (N, 3).
+    """Return the first point of each voxel, ascending rows of (N, 3).
 
     Args:
         xyz: finite points, metres.

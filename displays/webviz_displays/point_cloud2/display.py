@@ -90,7 +90,7 @@ class CloudDisplay(PointsDisplay):
     ] = 0.0
 
     def cloud_of(self, message: Any) -> Cloud:
-        """The points of a message.
+        """Return the points of a message.
 
         Raises:
             CloudError: they cannot be read.
@@ -179,7 +179,7 @@ class CloudDisplay(PointsDisplay):
         return Details(f"Point {hit.id}", values | {"Points in the cloud": cloud.count})
 
     def _select(self, xyz: F32, state: _State, rests: bool) -> tuple[Rows | None, bool, str]:
-        """The points to show.
+        """Return the points to show.
 
         Args:
             xyz: all points of a cloud.
@@ -255,7 +255,10 @@ class CloudDisplay(PointsDisplay):
         return colors, opacities
 
     def _channel(self, cloud: Cloud) -> NDArray[Any]:
-        """The values (N,) that determine the colour; as in RViz "intensities" is a fallback."""
+        """Return the values (N,) that determine the colour.
+
+        As in RViz "intensities" is a fallback.
+        """
         name = self.channel_name
         if name == "intensity" and name not in cloud.names and "intensities" in cloud.names:
             name = "intensities"
@@ -273,10 +276,10 @@ class PointCloud2(CloudDisplay):
     ] = Topic("/points")
 
     def cloud_of(self, message: Any) -> Cloud:
-        """The message as it is."""
+        """Return the message as it is."""
         return Cloud(message)
 
 
 def spaced(count: int) -> str:
-    """A number with spaces between thousands."""
+    """Return a number with spaces between thousands."""
     return f"{count:,}".replace(",", " ")

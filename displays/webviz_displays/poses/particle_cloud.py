@@ -77,7 +77,7 @@ class ParticleCloud(Display):
             found.draw_arrows(lengths, *sizes, self.color, self.alpha)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
-        """A particle: its weight and its pose in its own frame."""
+        """Return a particle: its weight and its pose in its own frame."""
         particles = hit.sample.message.particles
         poses = PoseSequence(particles[:, _POSITION], particles[:, _ORIENTATION])
         found = pose_details(hit, "Particle", poses[hit.id], len(particles))

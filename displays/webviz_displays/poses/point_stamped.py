@@ -68,6 +68,6 @@ class PointStamped(Display):
             )
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
-        """The point in its own frame."""
+        """Return the point in its own frame."""
         sample = hit.samples[hit.id]
         return Details(f"Point {sample.number}", {f"Point in {sample.frame}": sample.message.point})

@@ -21,5 +21,5 @@ class Pose(PoseDisplay):
     ] = Topic("/goal_pose")
 
     def pose_of(self) -> PoseOf:
-        """That of a PoseStamped."""
+        """Return that of a PoseStamped."""
         return lambda message: message.pose

@@ -63,6 +63,6 @@ class PoseArray(Display):
             found.draw_arrows(length, *sizes, self.color, self.alpha)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
-        """A pose in its own frame."""
+        """Return a pose in its own frame."""
         poses: messages.PoseSequence = hit.sample.message.poses
         return pose_details(hit, "Pose", poses[hit.id], len(poses))

@@ -85,7 +85,7 @@ class PoseDisplay(Display):
         """
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
-        """The pose in its own frame."""
+        """Return the pose in its own frame."""
         sample = hit.samples[hit.id]
         return Details(
             f"Pose {sample.number}",
@@ -98,7 +98,7 @@ class PoseDisplay(Display):
 
 
 def placed(pose: messages.Pose) -> Pose:
-    """A pose of a message with a unit quaternion."""
+    """Return a pose of a message with a unit quaternion."""
     p, q = pose.position, pose.orientation
     (wxyz,), _ = normalized([(q.w, q.x, q.y, q.z)])
     return Pose((p.x, p.y, p.z), tuple(wxyz.tolist()))

@@ -110,7 +110,7 @@ class PoseSet:
 def pose_set(
     positions: F64, orientations: F64, sample: Sample, ctx: Context, noun: str
 ) -> PoseSet | None:
-    """The poses of a message that can be drawn, None if there are none; says so.
+    """Return the poses of a message that can be drawn, None if there are none; says so.
 
     Args:
         positions: (N, 3), metres, in the frame of the sample.

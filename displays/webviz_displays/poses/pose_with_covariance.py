@@ -27,18 +27,21 @@ class PoseWithCovariance(PoseDisplay):
     covariance: Annotated[Covariance, Prop(help="How to draw the covariances.")] = Covariance()
 
     def pose_of(self) -> PoseOf:
-        """That of a PoseWithCovarianceStamped."""
+        """Return that of a PoseWithCovarianceStamped."""
         return lambda message: message.pose.pose
 
     def draw_more(
         self, samples: Sequence[Sample], poses: PoseTrail, group: Group, ctx: Context, ids: Ids
     ) -> None:
-        """The covariances of the newest poses."""
+        """Draw the covariances of the newest poses."""
         rows = [sample.message.pose.covariance for sample in samples[-MAX_COVARIANCES:]]
         draw_covariances(self.covariance, rows, poses, group, ctx, ids)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
-        """The pose and its covariance; the wedges are one mesh, which does not know of poses."""
+        """Return the pose and its covariance.
+
+        The wedges are one mesh, which does not know of poses.
+        """
         if hit.id is None:
             return Details("Covariances of yaw")
         pose = super().inspect(hit, ctx)

@@ -10,7 +10,7 @@ TRAIL = " trail"
 
 
 def link_details(robot: Robot, name: str, pose: Pose | None, frame: str, frames: Frames) -> Details:
-    """A link: where it is, its mass, and what it looks like.
+    """Return a link: where it is, its mass, and what it looks like.
 
     Args:
         robot: that it belongs to.

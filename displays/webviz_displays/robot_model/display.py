@@ -114,7 +114,7 @@ class RobotModel(Display):
         return RobotDrawing()
 
     def listens(self, name: str) -> bool:
-        """A description from a file needs no topic, nor do transforms need joint states."""
+        """Return whether an input is needed: no topic for files, no joint states for transforms."""
         if name == "joint_states_topic":
             return self.joint_source == "Joint states"
         return self.description_source == "Topic"
@@ -124,7 +124,7 @@ class RobotModel(Display):
         return False
 
     def lookback(self, name: str) -> Lookback:
-        """The newest description; all joint states, as each may have some of the joints."""
+        """Return the newest description; all joint states, as each may have some of the joints."""
         return Lookback(count=int(name != "joint_states_topic"))
 
     def fold(self, name: str, sample: Sample, state: ReceivedRobot | None) -> ReceivedRobot:
@@ -132,7 +132,7 @@ class RobotModel(Display):
         return (state or ReceivedRobot()).with_sample(name, sample)
 
     def depends(self, ctx: Context) -> object:
-        """Loading progress, and which links lack a transform; those turn grey.
+        """Return loading progress, and which links lack a transform; those turn grey.
 
         Links lost when it was drawn count too: a robot just loaded has no earlier state.
         """
@@ -187,7 +187,7 @@ class RobotModel(Display):
         self._draw_trails(model, [link for link, c in chosen.items() if c.show_trail], ctx)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
-        """A link, by one of its shapes, its trail or a joint on it."""
+        """Return a link, by one of its shapes, its trail or a joint on it."""
         model: LoadedRobot | None = ctx.state.model
         if model is None:
             return None
@@ -227,7 +227,7 @@ class RobotModel(Display):
         )
 
     def _model(self, samples: Sequence[Sample], ctx: Context) -> LoadedRobot | None:
-        """The described robot; the previous one until it is loaded."""
+        """Return the described robot; the previous one until it is loaded."""
         state: RobotDrawing = ctx.state
         before, state.loading = state.loading, {}
         request = self._request(samples, ctx)
@@ -261,7 +261,7 @@ class RobotModel(Display):
         return state.placer.place(prefix + robot.root, received, self._round(ctx))
 
     def _round(self, ctx: Context) -> int | None:
-        """Changes when links that joint states place may move again."""
+        """Return what changes when links that joint states place may move again."""
         if self.joint_source == "Transforms" or not self.update_interval:
             return None
         return ctx.frames.now_ns // max(round(self.update_interval * SECOND), 1)

@@ -31,7 +31,7 @@ class ReceivedRobot:
     fault: str = ""
 
     def with_sample(self, name: str, sample: Sample) -> ReceivedRobot:
-        """The same with a message of the input `name`."""
+        """Return the same with a message of the input `name`."""
         if name == "description_topic":
             return replace(self, description=sample.message.data)
         positions, fault = positions_of(sample.message)
@@ -44,7 +44,7 @@ class ReceivedRobot:
 
 
 def positions_of(state: messages.JointState) -> tuple[dict[str, float], str]:
-    """The valid positions in a joint state, and what is wrong with the others, or "".
+    """Return the valid positions in a joint state, and what is wrong with the others, or "".
 
     A state with velocities or efforts only has none.
     """

@@ -50,7 +50,7 @@ def _written_ns(path: str) -> int:
 
 
 def load(request: LoadRequest, before: Loadings, ctx: Context, loadings: Loadings) -> Robot | None:
-    """The robot, None while it is being loaded.
+    """Return the robot, None while it is being loaded.
 
     Args:
         request: what to load.
@@ -70,6 +70,6 @@ def load(request: LoadRequest, before: Loadings, ctx: Context, loadings: Loading
 
 
 def progress(loading: Loading) -> str:
-    """Loading progress for a status."""
+    """Return loading progress for a status."""
     done, total, link = loading.at
     return f"Loading: {done} of {total} shapes, at link '{link}'." if total else "Loading."

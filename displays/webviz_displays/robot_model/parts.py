@@ -73,7 +73,7 @@ class Choices:
     all_links: bool
 
     def of(self, link: str) -> LinkSettings:
-        """The settings of a link."""
+        """Return the settings of a link."""
         return self.links.get(link) or LinkSettings(enabled=self.all_links)
 
 

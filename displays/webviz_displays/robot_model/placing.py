@@ -30,15 +30,15 @@ class Placing(Protocol):
     lacks: str
 
     def frame(self, link: str) -> str:
-        """The frame that places a link."""
+        """Return the frame that places a link."""
         ...
 
     def pose(self, link: str, frames: Frames) -> Pose | None:
-        """The pose of a link in the fixed frame, None if it is unknown."""
+        """Return the pose of a link in the fixed frame, None if it is unknown."""
         ...
 
     def group(self, link: str, ctx: Context, interval_s: float) -> Group:
-        """A group that moves with a link; without a pose it stays at the last one."""
+        """Return a group that moves with a link; without a pose it stays at the last one."""
         ...
 
     def reasons(self, robot: Robot, lost: Sequence[str], frames: Frames) -> dict[str, Explanation]:
@@ -59,15 +59,15 @@ class ByTransforms:
         self._prefix = prefix
 
     def frame(self, link: str) -> str:
-        """The link's own frame."""
+        """Return the link's own frame."""
         return self._prefix + link
 
     def pose(self, link: str, frames: Frames) -> Pose | None:
-        """The latest pose of the link's frame."""
+        """Return the latest pose of the link's frame."""
         return frames.latest(self._prefix + link)
 
     def group(self, link: str, ctx: Context, interval_s: float) -> Group:
-        """A group in the link's frame."""
+        """Return a group in the link's frame."""
         return ctx.follow(self._prefix + link, keep_last=True, interval_s=interval_s)
 
     def reasons(self, robot: Robot, lost: Sequence[str], frames: Frames) -> dict[str, Explanation]:
@@ -108,18 +108,18 @@ class ByJoints:
         self.fault = fault
 
     def frame(self, link: str) -> str:
-        """The frame of the root link."""
+        """Return the frame of the root link."""
         return self._root
 
     def pose(self, link: str, frames: Frames) -> Pose | None:
-        """The pose of a link if all joints up to the root have a position."""
+        """Return the pose of a link if all joints up to the root have a position."""
         if link in self._assumed or link not in self._poses:
             return None
         base = frames.latest(self._root)
         return base and compose(base, self._poses[link])
 
     def group(self, link: str, ctx: Context, interval_s: float) -> Group:
-        """A group at the link in the frame of the root link."""
+        """Return a group at the link in the frame of the root link."""
         return ctx.follow(
             self._root, offset=self._poses.get(link, Pose()), keep_last=True, key=link
         )
@@ -165,7 +165,10 @@ class JointPlacer:
 
 
 def poses_by_link(kinematics: Kinematics, xyz: F64, wxyz: F64) -> dict[str, Pose]:
-    """The poses of links by name, from one result of `Kinematics.places`; only drawable ones."""
+    """Return the poses of links by name, from one result of `Kinematics.places`.
+
+    Only drawable ones.
+    """
     rows = zip(kinematics.links, xyz.tolist(), wxyz.tolist(), strict=True)
     poses = {link: Pose(tuple(position), tuple(turn)) for link, position, turn in rows}
     return {link: pose for link, pose in poses.items() if is_placeable(pose)}

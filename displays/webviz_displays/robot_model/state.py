@@ -30,7 +30,7 @@ class LoadedRobot:
     shown: tuple[str, ...]
 
     def lost(self, frames: Frames) -> list[str]:
-        """Enabled links without a pose."""
+        """Return enabled links without a pose."""
         pose = self.placing.pose
         return [link for link in self.shown if pose(link, frames) is None]
 

@@ -26,7 +26,7 @@ class PointCloud(CloudDisplay):
     ] = Topic("/point_cloud")
 
     def cloud_of(self, message: Any) -> Cloud:
-        """The message with its channels as fields; those of another length are left out."""
+        """Return the message with its channels as fields; those of another length are left out."""
         points, channels = message.points, message.channels
         fitting = [channel for channel in channels if len(channel.values) == len(points)]
         names = ["x", "y", "z", *(channel.name for channel in fitting)]

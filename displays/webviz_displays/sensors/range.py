@@ -31,7 +31,7 @@ class Range(Display):
     ] = 1
 
     def history(self) -> Keep:
-        """The newest ranges."""
+        """Return the newest ranges."""
         return Keep(count=self.buffer_length)
 
     def draw(self, sample: Sample, ctx: Context) -> None:
@@ -58,7 +58,7 @@ class Range(Display):
         ctx.instances("cone", "cone", *cone[:2], self.color, cone.wxyzs, self.alpha)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
-        """The message."""
+        """Return the message."""
         message = hit.sample.message
         return Details(
             f"Range {hit.sample.number}",
@@ -72,7 +72,7 @@ class Range(Display):
 
 
 def measured(message: Any) -> tuple[float, str]:
-    """The distance in metres that a sensor_msgs/Range stands for, 0 if nothing, and a sentence.
+    """Return the distance in metres of a sensor_msgs/Range, 0 if none is drawn, and a sentence.
 
     With equal limits it is a sensor that only says whether something is within that distance, as
     REP 117 has it: -inf if so, +inf if not.

@@ -52,7 +52,7 @@ def fractions(values: ArrayLike, low: float, high: float) -> F64:
 
 
 def bounds(values: ArrayLike, least_span: float = 0.0) -> tuple[float, float]:
-    """The smallest and largest finite value of (N,), at least `least_span` apart."""
+    """Return the smallest and largest finite value of (N,), at least `least_span` apart."""
     values = np.asarray(values)
     if not len(values):
         return 0.0, least_span

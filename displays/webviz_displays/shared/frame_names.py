@@ -7,11 +7,11 @@ FIXED_FRAME = "<Fixed Frame>"
 
 
 def frame_of(name: str) -> str | None:
-    """The frame id of a property, None for the fixed frame."""
+    """Return the frame id of a property, None for the fixed frame."""
     return None if name in ("", FIXED_FRAME) else name.removeprefix("/")
 
 
 def prefixed(prefix: str, link: str) -> str:
-    """The frame id of a link of a robot whose frames have a prefix, as in prefix/link."""
+    """Return the frame id of a link of a robot whose frames have a prefix, as in prefix/link."""
     prefix = prefix.strip("/")
     return f"{prefix}/{link}" if prefix else link

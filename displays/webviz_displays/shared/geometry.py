@@ -39,7 +39,7 @@ def coordinate(pose: Pose, xyz: NDArray[np.floating[Any]], axis: int) -> F64:
 
 
 def inverse(pose: Pose) -> Pose:
-    """The pose of the frame that `pose` is given in, relative to it."""
+    """Return the pose of the frame that `pose` is given in, relative to it."""
     w, x, y, z = pose.wxyz
     px, py, pz = (-matrices(pose.wxyz).T @ pose.position).tolist()
     return Pose((px, py, pz), (w, -x, -y, -z))
@@ -62,7 +62,7 @@ def along_x(positions: F64, rotations: F64, length: float | F64) -> F64:
 
 
 def origin_near(xyz: ArrayLike) -> tuple[float, float, float]:
-    """A round point within 1 km of the last of `xyz` (N, 3); zero where that is near zero.
+    """Return a round point within 1 km of the last of `xyz` (N, 3); zero where that is near zero.
 
     Nodes are float32, which resolves 0.5 m at UTM coordinates. Drawn relative to this point, in a
     group with this offset, they keep 0.1 mm. It is round so that it stays while data moves.

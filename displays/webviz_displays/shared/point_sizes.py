@@ -20,7 +20,7 @@ LEAST_M, MAX_M = 1e-6, 1e6
 def by_size(
     sizes: NDArray[np.floating],
 ) -> tuple[NDArray[np.intp], Sequence[tuple[str, slice, float]]]:
-    """An order of points (N,) in which those of nearly the same size are neighbours.
+    """Return an order of points (N,) in which those of nearly the same size are neighbours.
 
     Args:
         sizes: (N,), metres.

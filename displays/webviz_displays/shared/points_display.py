@@ -78,7 +78,7 @@ class PointStyle(Display):
     ] = 0.0
 
     def history(self) -> Keep:
-        """The messages within the decay time, or the newest."""
+        """Return the messages within the decay time, or the newest."""
         return Keep(count=0, seconds=self.decay_time) if self.decay_time else Keep()
 
     def draw_points(

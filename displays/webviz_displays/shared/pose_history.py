@@ -46,12 +46,12 @@ class PoseTrail:
     ok: Mask
 
     def __getitem__(self, rows: Any) -> PoseTrail:
-        """Some of the poses."""
+        """Return some of the poses."""
         return PoseTrail(*(getattr(self, f.name)[rows] for f in fields(PoseTrail)))
 
 
 def fault(pose: messages.Pose) -> str:
-    """A sentence why a pose cannot be drawn, "" if it can."""
+    """Return a sentence why a pose cannot be drawn, "" if it can."""
     p, q = pose.position, pose.orientation
     if not all(map(isfinite, (p.x, p.y, p.z, q.x, q.y, q.z, q.w))):
         return (

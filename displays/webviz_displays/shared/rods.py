@@ -45,7 +45,7 @@ def rods(tails: ArrayLike, tips: ArrayLike, diameters: ArrayLike, wxyzs: F64 | N
 
 
 def from_z(directions: F64) -> F64:
-    """The shortest rotations (N, 4) of z to unit vectors (N, 3), or to vectors of length zero."""
+    """Return the shortest rotations (N, 4) of z to vectors (N, 3) of length one or zero."""
     x, y, z = directions.T
     # It is (1 + z·d, z x d), normalised; to -z any half turn will do.
     wxyzs = np.stack((1.0 + z, -y, x, np.zeros_like(z)), axis=1)

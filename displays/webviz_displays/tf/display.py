@@ -180,7 +180,7 @@ class TF(Display):
         state.last = _Tick(now_ns, groups, dict(ctx.statuses))
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
-        """A frame: its parent, its pose and how old that is."""
+        """Return a frame: its parent, its pose and how old that is."""
         return details(ctx.frames, hit.id)
 
     def _known(self, ctx: Context, names: list[str]) -> _Known:
@@ -254,7 +254,7 @@ class TF(Display):
 
 
 def _pattern(which: str, text: str, ctx: Context) -> Pattern | None:
-    """The regular expression of a filter, None if it is empty or invalid."""
+    """Return the regular expression of a filter, None if it is empty or invalid."""
     try:
         return compiled(text) if text else None
     except PatternFault as error:

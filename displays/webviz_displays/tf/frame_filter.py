@@ -20,7 +20,7 @@ class Pattern(Protocol):
     """A regular expression."""
 
     def search(self, text: str) -> object:
-        """A match anywhere in a text, or None."""
+        """Return a match anywhere in a text, or None."""
         ...
 
 
@@ -29,7 +29,7 @@ class PatternFault(ValueError):
 
 
 def compiled(text: str) -> Pattern:
-    """A regular expression, in RE2's syntax.
+    """Return a regular expression, in RE2's syntax.
 
     Its matching takes linear time. Python's tries all ways: with `(a+)+$` that takes hours for 40
     letters, and stops the frame loop meanwhile.

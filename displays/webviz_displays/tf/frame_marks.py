@@ -46,7 +46,7 @@ class Marks:
     names: NDArray[np.object_]
 
     def only(self, rows: NDArray[np.bool_]) -> Marks:
-        """A subset of the frames."""
+        """Return a subset of the frames."""
         return Marks(
             self.positions[rows], self.greyness[rows], self.opacity[rows], self.names[rows]
         )

@@ -10,7 +10,7 @@ from webviz.data.rotations import to_rpy
 
 
 def readout(frames: Frames, name: str) -> str | None:
-    """The newest pose of a frame in its parent and in the fixed frame, None if there is none.
+    """Return the newest pose of a frame in its parent and in the fixed frame, None if unknown.
 
     Angles are roll, pitch and yaw about the parent's axes (URDF's order), in degrees.
     """

@@ -107,7 +107,7 @@ class Effort(Display):
         return _State()
 
     def history(self) -> Keep:
-        """The newest messages, and those that wait for their transforms."""
+        """Return the newest messages, and those that wait for their transforms."""
         return Keep(count=self.history_length + self.topic.filter_size)
 
     def waits(self, name: str) -> bool:
@@ -115,7 +115,7 @@ class Effort(Display):
         return False
 
     def depends(self, ctx: Context) -> object:
-        """The newest message that can be drawn."""
+        """Return the newest message that can be drawn."""
         state: _State = ctx.state
         for each in reversed(state.waiting):
             if _is_ready(each, ctx.frames):
@@ -124,7 +124,7 @@ class Effort(Display):
         return state.ready
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
-        """The rings of the newest messages, each link where it was at the stamp."""
+        """Draw the rings of the newest messages, each link where it was at the stamp."""
         state: _State = ctx.state
         descriptions = [sample for sample in samples if sample.input == "robot_description"]
         measured = [sample for sample in samples if sample.input == "topic"]
@@ -150,7 +150,7 @@ class Effort(Display):
         self._draw_rings(measured, joints, ctx)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
-        """The newest effort of a joint."""
+        """Return the newest effort of a joint."""
         state: _State = ctx.state
         name = str(hit.id)
         if name not in state.efforts:
@@ -207,7 +207,7 @@ class Effort(Display):
         joints: Joints,
         transforms: Frames,
     ) -> Rings:
-        """The rings of one message; joints without a transform have none."""
+        """Return the rings of one message; joints without a transform have none."""
         found = [
             (name, transforms.at(frame, stamp_ns))
             for name, frame in zip(efforts, frames, strict=True)
@@ -265,7 +265,7 @@ class Effort(Display):
         return self.joints.get(joint, True)
 
     def _efforts(self, message: messages.JointState, joints: Joints) -> dict[str, float]:
-        """The sensible efforts in Nm of the joints that turn and are shown, by name."""
+        """Return the sensible efforts in Nm of the joints that turn and are shown, by name."""
         if len(message.effort) != len(message.name):
             return {}
         pairs = zip(message.name, message.effort.tolist(), strict=True)

@@ -32,7 +32,7 @@ class MotionDisplay(VectorDisplay):
         raise NotImplementedError
 
     def looks(self) -> tuple[VectorLook, VectorLook]:
-        """The linear and the angular part."""
+        """Return the linear and the angular part."""
         linear, angular = self.units()
         return (
             VectorLook("linear", linear, self.linear_color, self.linear_arrow_scale),

@@ -26,7 +26,7 @@ class Twist(MotionDisplay):
     ] = "base_link"
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
-        """The newest velocity, at the origin of the reference frame."""
+        """Draw the newest velocity, at the origin of the reference frame."""
         if samples:
             group = ctx.follow(frame_of(self.reference_frame))
             self.draw_vectors(samples, (0.0, 0.0, 0.0), group, ctx)

@@ -48,7 +48,7 @@ class VectorDisplay(Display):
     arrow_width: Annotated[Length, Prop(help="Width of the arrows; a head takes 0.2 of it.")] = 0.5
 
     def vectors(self, message: Any) -> tuple[messages.Vector3, messages.Vector3]:
-        """The linear and the angular vector of a message."""
+        """Return the linear and the angular vector of a message."""
         raise NotImplementedError
 
     def looks(self) -> tuple[VectorLook, VectorLook]:

@@ -74,7 +74,7 @@ class ZedOdDisplay(Display):
     label_scale: Annotated[float, Prop(ge=0.5, le=15, help="Height of labels, in 2 cm.")] = 5.0
 
     def draw(self, sample: Sample, ctx: Context) -> None:
-        """The objects that are tracked, in the frame and at the stamp of the header."""
+        """Draw the objects that are tracked, in the frame and at the stamp of the header."""
         objects: Sequence[Any] = sample.message.objects
         tracked = [row for row, each in enumerate(objects) if _is_tracked(each)]
         positions = np.array([objects[row].position for row in tracked], np.float64).reshape(-1, 3)
@@ -99,7 +99,7 @@ class ZedOdDisplay(Display):
             self._draw_skeletons(found, rows, colors, origin, group, ctx)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
-        """An object: what it is, how sure that is, and how it moves."""
+        """Return an object: what it is, how sure that is, and how it moves."""
         found = hit.sample.message.objects[hit.id]
         x, y, z = found.velocity.tolist()
         values: dict[str, object] = {
@@ -202,13 +202,13 @@ class ZedOdDisplay(Display):
 
 
 def box_color(label_id: int) -> tuple[int, int, int]:
-    """The colour of an object, by its number, as in Stereolabs' plug-in."""
+    """Return the colour of an object, by its number, as in Stereolabs' plug-in."""
     step = 2 if label_id == -1 else label_id + 2
     return 30 * step % 256, 60 * step % 256, 120 * step % 256
 
 
 def label_of(found: Any) -> str:
-    """The label of an object: its number and kind."""
+    """Return the label of an object: its number and kind."""
     number = "" if found.label_id == -1 else str(found.label_id)
     if found.skeleton_available:
         return "-".join(filter(None, ("Person", number)))
@@ -226,5 +226,5 @@ def _is_tracked(found: Any) -> bool:
 
 
 def _state_of(found: Any) -> int:
-    """The tracking state of an object; unknown ones count as off."""
+    """Return the tracking state of an object; unknown ones count as off."""
     return found.tracking_state if 0 <= found.tracking_state < len(TRACKING) else 0

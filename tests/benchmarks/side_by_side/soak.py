@@ -60,7 +60,7 @@ MAX_GROWTH = {
 
 
 def steer(port: int, ended: threading.Event, failures: list[str]) -> None:
-    """Adds displays and undoes it, changes the fixed frame and pauses, until it is ended."""
+    """Add displays and undo it, change the fixed frame and pause, until it is ended."""
     with contextlib.closing(Visitor(port)) as owner:
 
         def do(command: str, **arguments: object) -> None:

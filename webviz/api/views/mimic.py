@@ -40,18 +40,18 @@ class Rig:
     yaw: float = 0.0
 
     def outward(self, camera: Camera) -> Camera:
-        """A camera of these coordinates in the fixed frame."""
+        """Return a camera of these coordinates in the fixed frame."""
         origin = np.array(self.origin)
         return Camera(*(_turned(p, self.yaw) + origin for p in (camera.position, camera.look_at)))
 
     def inward(self, camera: Camera) -> Camera:
-        """A camera of the fixed frame in these coordinates."""
+        """Return a camera of the fixed frame in these coordinates."""
         origin = np.array(self.origin)
         return Camera(*(_turned(p - origin, -self.yaw) for p in (camera.position, camera.look_at)))
 
 
 def rig_of(cls: type[View], pose: Pose | None) -> Rig:
-    """The coordinates of a view that follows its target frame.
+    """Return the coordinates of a view that follows its target frame.
 
     Args:
         cls: only a ThirdPersonFollower rotates with the frame.
@@ -66,7 +66,7 @@ def rig_of(cls: type[View], pose: Pose | None) -> Rig:
 def mimic(
     view: View, rig: Rig, cls: type[View], frame: str, new_rig: Rig, height_px: float
 ) -> View:
-    """A view of another type or target frame that shows nearly the same."""
+    """Return a view of another type or target frame that shows nearly the same."""
     if type(view) is cls:
         camera = camera_of(view, height_px)
         return view_of(cls, frame, new_rig.inward(rig.outward(camera)), height_px)
@@ -77,7 +77,7 @@ def mimic(
 def focus(
     view: View, rig: Rig, low: Vector, high: Vector, width_px: float, height_px: float
 ) -> View:
-    """The view from the same direction that fits a box.
+    """Return the view from the same direction that fits a box.
 
     Args:
         view: the current view.
@@ -102,7 +102,7 @@ def _looking(
 
 
 def _eye(view: View, height_px: float) -> Camera:
-    """A perspective camera that shows nearly the same as a view and looks at its focal point."""
+    """Return a perspective camera that shows nearly the same as a view, with its focal point."""
     camera = camera_of(view, height_px)
     if isinstance(view, TopDownOrtho):
         distance = camera.distance * FLATTER
@@ -119,7 +119,7 @@ def _eye(view: View, height_px: float) -> Camera:
 
 
 def _fitted(cls: type[View], frame: str, eye: Camera, height_px: float) -> View:
-    """The view of a type that shows the same as a perspective camera."""
+    """Return the view of a type that shows the same as a perspective camera."""
     back = (eye.position - eye.look_at) / eye.distance
     if cls is TopDownOrtho:
         level = math.hypot(back[0], back[1])

@@ -45,7 +45,7 @@ class Camera:
 
 
 def camera_of(view: View, height_px: float) -> Camera:
-    """The camera of a view, for a picture of that height."""
+    """Return the camera of a view, for a picture of that height."""
     if isinstance(view, FPS):
         position = np.array(view.position)
         return Camera(position, position - EYE * _direction(view.yaw + math.pi, view.pitch))
@@ -60,7 +60,7 @@ def camera_of(view: View, height_px: float) -> Camera:
 
 
 def view_of(cls: type[View], frame: str, camera: Camera, height_px: float) -> View:
-    """The view of a type that a camera shows.
+    """Return the view of a type that a camera shows.
 
     The inverse of `camera_of`, rounded to six decimals and clamped to the bounds of the type.
 
@@ -102,14 +102,14 @@ def view_of(cls: type[View], frame: str, camera: Camera, height_px: float) -> Vi
 
 
 def _direction(yaw: float, pitch: float) -> Vector:
-    """Unit vector from the focal point to the camera."""
+    """Return the unit vector from the focal point to the camera."""
     return np.array(
         (math.cos(yaw) * math.cos(pitch), math.sin(yaw) * math.cos(pitch), math.sin(pitch))
     )
 
 
 def _up(yaw: float, pitch: float) -> Vector:
-    """Unit vector to the top of the picture of a camera in that direction."""
+    """Return the unit vector to the top of the picture of a camera in that direction."""
     return _direction(yaw, pitch + math.pi / 2)
 
 

@@ -77,15 +77,15 @@ VIEW_TYPES: dict[str, type[View]] = {
 
 
 def with_type(values: Any) -> Any:
-    """The values of a view from a config file, where the type defaults to Orbit."""
+    """Return the values of a view from a config file, where the type defaults to Orbit."""
     return {"type": "Orbit", **values} if isinstance(values, Mapping) else values
 
 
 def type_of(view: View) -> str:
-    """The name of the type of a view."""
+    """Return the name of the type of a view."""
     return type(view).__name__
 
 
 def target_group(frame: str) -> str:
-    """The group of the scene that views of a target frame follow."""
+    """Return the group of the scene that views of a target frame follow."""
     return f"target frame/{frame}"

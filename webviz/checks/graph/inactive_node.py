@@ -49,7 +49,7 @@ class InactiveNode(Check):
 
 
 def lifecycle_nodes(seen: Observation, publishers: Sequence[Publisher]) -> Sequence[str]:
-    """The lifecycle nodes among the nodes of publishers: they have a topic of transitions."""
+    """Return the lifecycle nodes among the nodes of publishers, by their transition topics."""
     return [
         publisher.node
         for publisher in publishers

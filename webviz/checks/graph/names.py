@@ -12,7 +12,7 @@ SIMILAR = 0.8
 
 
 def suggested(display: DisplaySeen, port: InputSeen) -> Remedy | None:
-    """The change to a published topic of the same type that has a similar name, if there is one."""
+    """Return the change to a similarly named, published topic of the same type, if any."""
     status = display.problem(port.status)
     remedy = status.remedy if status else None
     if not isinstance(remedy, Remedy) or not isinstance(remedy.value, str):

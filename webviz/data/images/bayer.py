@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 
 def demosaic(mosaic: NDArray[Any], pattern: str) -> NDArray[Any]:
-    """The colours of a mosaic: missing ones are means of their two or four neighbours.
+    """Return the colours of a mosaic: missing ones are means of their two or four neighbours.
 
     Args:
         mosaic: unsigned integers (H, W).

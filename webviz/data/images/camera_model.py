@@ -38,7 +38,7 @@ class CameraModel:
 
     @staticmethod
     def of(info: Any, otherwise: tuple[int, int] = (0, 0)) -> CameraModel:
-        """The camera of a sensor_msgs/CameraInfo: P, or K if P is empty.
+        """Return the camera of a sensor_msgs/CameraInfo: P, or K if P is empty.
 
         Args:
             info: a sensor_msgs/CameraInfo.
@@ -107,7 +107,7 @@ class CameraModel:
         return np.stack(np.broadcast_arrays(x, y, np.ones_like(x)), axis=-1)
 
     def corners(self, distance: float) -> F64:
-        """The corners of the image (4, 3) at a distance, around from the upper left one."""
+        """Return the corners of the image (4, 3) at a distance, around from the upper left one."""
         columns = np.array([0.0, self.width, self.width, 0.0])
         rows = np.array([0.0, 0.0, self.height, self.height])
         return self.rays(columns, rows) * distance + (*self.center, 0.0)
@@ -140,7 +140,7 @@ class CameraModel:
 
 
 def _checked(model: CameraModel) -> CameraModel:
-    """A model whose image is somewhere in front of the camera, and not a point."""
+    """Return a model whose image is somewhere in front of the camera, and not a point."""
     corners = np.abs(model.corners(1.0) - (*model.center, 0.0))[:, :2]
     spans = model.width / model.fx, model.height / model.fy
     if not (corners.max() < WIDEST and min(spans) > NARROWEST):

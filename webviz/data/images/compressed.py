@@ -77,7 +77,7 @@ def inspect_compressed(format_: str, data: NDArray[np.uint8]) -> CompressedInfo:
 
 
 def read_png16(data: NDArray[np.uint8]) -> NDArray[np.uint16]:
-    """The values (H, W) of a PNG with 16 bits of grey.
+    """Return the values (H, W) of a PNG with 16 bits of grey.
 
     Raises:
         ImageError: it is broken.
@@ -119,7 +119,7 @@ def decoding(width: int, height: int, pixel_bytes: int) -> Iterator[None]:
 
 
 def open_compressed(data: NDArray[np.uint8]) -> Image.Image:
-    """A JPEG, PNG or WebP as Pillow's; its pixels are not read yet.
+    """Return a JPEG, PNG or WebP as Pillow's; its pixels are not read yet.
 
     Raises:
         ImageError: it is none, or damaged, or larger than its header says.
@@ -135,7 +135,7 @@ def open_compressed(data: NDArray[np.uint8]) -> Image.Image:
 
 
 def _chunks(data: memoryview) -> Iterator[memoryview]:
-    """The parts of a PNG that its pixels depend on."""
+    """Yield the parts of a PNG that its pixels depend on."""
     at = len(PNG)
     for _ in range(_MAX_CHUNKS):
         if at >= len(data):

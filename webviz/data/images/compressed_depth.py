@@ -20,7 +20,7 @@ _DEPTH_BYTES = 7
 
 
 def decode_depth(format_: str, data: NDArray[np.uint8]) -> tuple[str, NDArray[Any]]:
-    """The depths of a compressed depth image.
+    """Return the depths of a compressed depth image.
 
     Args:
         format_: such as "32FC1; compressedDepth png" or "16UC1; compressedDepth rvl".

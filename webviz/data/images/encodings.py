@@ -94,7 +94,7 @@ ENCODINGS = (
 
 @functools.cache
 def layout_of(encoding: str) -> PixelLayout:
-    """The layout of an encoding.
+    """Return the layout of an encoding.
 
     Raises:
         ImageError: the encoding is unknown.

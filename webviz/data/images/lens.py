@@ -52,7 +52,7 @@ class Lens:
 
     @staticmethod
     def of(info: Any, otherwise: tuple[int, int] = (0, 0)) -> Lens:
-        """The lens of a sensor_msgs/CameraInfo.
+        """Return the lens of a sensor_msgs/CameraInfo.
 
         Args:
             info: with a valid P, see `CameraModel.whole`.

@@ -45,7 +45,7 @@ class RawImage:
 
     @staticmethod
     def of(message: Any) -> RawImage:
-        """The image of a sensor_msgs/Image.
+        """Return the image of a sensor_msgs/Image.
 
         A step of 0 counts as rows without a gap.
 
@@ -87,7 +87,7 @@ class RawImage:
 
     @staticmethod
     def from_values(encoding: str, pixels: NDArray[Any]) -> RawImage:
-        """An image of numbers (H, W) of an encoding with one channel."""
+        """Return an image of numbers (H, W) of an encoding with one channel."""
         height, width = pixels.shape
         data = np.ascontiguousarray(pixels).view(np.uint8).reshape(-1)
         step = width * pixels.itemsize
@@ -113,7 +113,7 @@ def remarks(message: Any, image: RawImage) -> str:
 
 
 def values(image: RawImage) -> NDArray[Any]:
-    """The pixels of an image.
+    """Return the pixels of an image.
 
     Returns:
         (H, W) of one channel, (H, W, 2) of two, else RGB (H, W, 3) without alpha. Numbers are those
@@ -166,13 +166,13 @@ def _in_strips(shape: tuple[int, ...], make: Callable[[int, int], NDArray[Any]])
 
 
 def _colors(mosaic: NDArray[Any], pattern: str, start: int, stop: int) -> NDArray[Any]:
-    """Some rows of a mosaic; `start` is even, as the pattern repeats every two rows."""
+    """Return some rows of a mosaic; `start` is even, as the pattern repeats every two rows."""
     begin = max(0, start - 2)  # colours depend on neighbours
     return demosaic(mosaic[begin : stop + 2], pattern)[start - begin : stop - begin]
 
 
 def _grid(image: RawImage, layout: PixelLayout) -> NDArray[Any]:
-    """The numbers of an image, (H, W, channels), in the byte order of this machine."""
+    """Return the numbers of an image, (H, W, channels), in the byte order of this machine."""
     size = layout.dtype.itemsize
     row = image.width * layout.pixel_bytes
     data = np.ascontiguousarray(image.data)

@@ -56,7 +56,7 @@ def _rendered(image: RawImage, tone: Tone, factor: int) -> Image.Image:
 
 
 def jpeg(image: RawImage, tone: Tone, factor: int = 1) -> bytes:
-    """The same as a JPEG file."""
+    """Return the same as a JPEG file."""
     file = io.BytesIO()
     render(image, tone, factor).save(file, "JPEG", quality=JPEG_QUALITY)
     return file.getvalue()

@@ -26,7 +26,7 @@ _BLOCK = 1 << 14
 
 
 def decode_rvl(data: NDArray[np.uint8]) -> NDArray[np.uint16]:
-    """The values (H, W) of an RVL stream behind its size, two uint32: columns and rows.
+    """Return the values (H, W) of an RVL stream behind its size, two uint32: columns and rows.
 
     Raises:
         ImageError: it is broken.
@@ -66,7 +66,7 @@ def _numbers(data: NDArray[np.uint8]) -> NDArray[np.int32]:
 def _joined(
     nibbles: NDArray[np.uint8], starts: NDArray[np.intp], ends: NDArray[np.intp]
 ) -> NDArray[np.int32]:
-    """The numbers whose nibbles are from `starts` to `ends`."""
+    """Return the numbers whose nibbles are from `starts` to `ends`."""
     places = np.arange(len(nibbles)) - np.repeat(starts, ends - starts + 1)
     numbers = np.add.reduceat((nibbles & 7).astype(np.int64) << (3 * places), starts)
     # No run and no difference is as large as that.
@@ -74,7 +74,7 @@ def _joined(
 
 
 def _pixels(numbers: NDArray[np.int32], count: int) -> NDArray[np.uint16]:
-    """Runs of zeros and of differences to the pixel before them, which zeros do not interrupt."""
+    """Return pixels from runs of zeros and of differences to the pixel before, zeros left out."""
     runs = _runs(numbers, count)
     lengths = np.stack((numbers[runs], numbers[runs + 1]), axis=-1).reshape(-1)
     end = int(runs[-1]) + 2 + int(lengths[-1])

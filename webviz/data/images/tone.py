@@ -33,7 +33,7 @@ class Tone:
 
 
 def value_range(values: NDArray[Any], zero_is_invalid: bool) -> tuple[float, float] | None:
-    """The smallest and the largest valid value, None if none is valid.
+    """Return the smallest and the largest valid value, None if none is valid.
 
     Args:
         values: (H, ...).

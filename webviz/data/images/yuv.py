@@ -29,7 +29,7 @@ def packed_to_rgb(pixels: U8, is_color_first: bool) -> U8:
 
 
 def planes_to_rgb(luma: U8, chroma: U8, step: int, is_nv21: bool) -> U8:
-    """A plane of brightness, and one of colours.
+    """Return a plane of brightness, and one of colours.
 
     Args:
         luma: (H, W).

@@ -90,7 +90,7 @@ SEQUENCES: dict[str, Callable[[], Any]] = {
 
 @cache
 def message_class(type_name: str) -> type[Any]:
-    """The class of a message type; its constructor takes the fields by name, as in rclpy.
+    """Return the class of a message type; its constructor takes the fields by name, as in rclpy.
 
     Raises:
         UnknownTypeError: No definition of the type is known.
@@ -110,7 +110,7 @@ def message_class(type_name: str) -> type[Any]:
 
 
 def attribute(name: str) -> str:
-    """The Python attribute of a field: its name, followed by "_" if that is a keyword."""
+    """Return the Python attribute of a field: its name, followed by "_" if that is a keyword."""
     return f"{name}_" if keyword.iskeyword(name) else name
 
 

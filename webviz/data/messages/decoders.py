@@ -27,7 +27,7 @@ Build = Callable[[Iterator[Any]], Any]
 
 @cache
 def decoder(type_name: str, order: str) -> Read:
-    """The function that reads a message of this type from a `Reader` of this byte order.
+    """Return the function that reads a message of this type from a `Reader` of this byte order.
 
     Raises:
         UnknownTypeError: No definition of the type, or of one it holds, is known.
@@ -48,7 +48,7 @@ def decoder(type_name: str, order: str) -> Read:
 
 
 def _codes(field: MessageField) -> str | None:
-    """The `struct` codes of a field of fixed size, else None."""
+    """Return the `struct` codes of a field of fixed size, else None."""
     if field.size is not None:
         return None
     if not field.is_message:
@@ -123,7 +123,7 @@ def _reader_of(field: MessageField, order: str) -> Read:
 
 
 def _array_of(base: str, width: int, size: int) -> Read:
-    """An array of numbers, (N,) or (N, width); a sequence if `size` is 0."""
+    """Return an array of numbers, (N,) or (N, width); a sequence if `size` is 0."""
     dtype = DTYPES[base]
 
     def read(reader: Reader) -> Any:

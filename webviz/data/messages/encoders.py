@@ -51,7 +51,7 @@ class Misfit(Exception):
 
 @cache
 def encoder(type_name: str) -> Write:
-    """The function that appends a message of this type.
+    """Return the function that appends a message of this type.
 
     Raises:
         UnknownTypeError: No definition of the type, or of one it holds, is known.
@@ -136,7 +136,7 @@ def _string(longest: int) -> Write:
 
 
 def _numbers(field: MessageField, base: str, width: int = 1) -> Write:
-    """An array of numbers, (N,) or (N, width)."""
+    """Return an array of numbers, (N,) or (N, width)."""
     dtype = DTYPES[base]
 
     def write(out: bytearray, value: Any) -> None:
@@ -184,7 +184,7 @@ def _check(given: np.ndarray, exact: np.ndarray, base: str) -> None:
 
 
 def _elements(field: MessageField, one: Write, many: Write | None = None) -> Write:
-    """An array of messages or strings; `many` writes those given as a numpy array."""
+    """Return an array of messages or strings; `many` writes those given as a numpy array."""
 
     def write(out: bytearray, value: Any) -> None:
         if isinstance(value, np.ndarray) and many:
@@ -231,7 +231,7 @@ def _further(poses: PoseStampedSequence) -> bytes:
 
 
 def _stamped(transform: FrameTransform) -> dict[str, Any]:
-    """A TransformStamped in the layout of its definition."""
+    """Return a TransformStamped in the layout of its definition."""
     sec, nanosec = divmod(transform.stamp_ns, NANOSECONDS)
     return {
         "header": {"stamp": {"sec": sec, "nanosec": nanosec}, "frame_id": transform.parent},
@@ -268,7 +268,7 @@ def _expected(what: str, value: Any) -> Misfit:
 
 
 def _range(base: str) -> str:
-    """The name of a primitive and its range."""
+    """Return the name of a primitive and its range."""
     dtype = DTYPES.get(base)
     if dtype is None or dtype.kind == "f":
         return base

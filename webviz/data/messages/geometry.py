@@ -29,7 +29,7 @@ NANOSECONDS = 1_000_000_000
 
 
 def zeros(dtype: DTypeLike, *shape: int) -> Any:
-    """A field whose default is a read-only array of zeros, (0,) if no shape is given."""
+    """Return a field whose default is a read-only array of zeros, (0,) if no shape is given."""
 
     def make() -> np.ndarray:
         array = np.zeros(shape or 0, dtype)

@@ -47,7 +47,7 @@ class Action(NamedTuple):
 
 
 def service(type_name: str, text: str = "") -> Service:
-    """The parts of a service type; declares them when first used.
+    """Return the parts of a service type; declares them when first used.
 
     Args:
         type_name: such as "std_srvs/srv/SetBool".
@@ -66,7 +66,7 @@ def service(type_name: str, text: str = "") -> Service:
 
 
 def action(type_name: str, text: str = "") -> Action:
-    """The parts of an action type; declares them when first used.
+    """Return the parts of an action type; declares them when first used.
 
     Args:
         type_name: such as "nav2_msgs/action/NavigateToPose".

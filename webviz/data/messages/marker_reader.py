@@ -111,7 +111,7 @@ class _Layout:
             raise CdrError("a marker is longer than the rest of the message")
 
     def _list(self, counts: list[int], item: int, align: int = 1) -> None:
-        """A count, and as many items of some bytes each."""
+        """Skip a count, and as many items of some bytes each."""
         self._align(4)
         self.places.append(self._pos - self._start)
         (count,) = self._uint(self._data, self._pos)
@@ -187,7 +187,7 @@ def read_markers(reader: Reader) -> MarkerSequence:
 
 
 def _walk(reader: Reader, count: int) -> tuple[list[_Layout], list[int], list[int]]:
-    """The layouts, and the first byte and the number of the layout of each marker."""
+    """Return the layouts, and the first byte and the number of the layout of each marker."""
     data, end, pos = reader.data, reader.size, reader.pos
     layouts: list[_Layout] = []
     known: dict[tuple[int, ...], int] = {}
@@ -213,7 +213,7 @@ def _walk(reader: Reader, count: int) -> tuple[list[_Layout], list[int], list[in
 
 
 def _strings(column: NDArray[np.uint8]) -> list[str]:
-    """The strings (N, bytes), of which the last byte is NUL."""
+    """Return the strings (N, bytes), of which the last byte is NUL."""
     count, length = column.shape
     if not length:
         return [""] * count
@@ -230,7 +230,7 @@ def _text(raw: bytes) -> str:
 
 
 def _content(reader: Reader, layout: _Layout, start: int) -> Content:
-    """The fields of a marker whose size varies."""
+    """Return the fields of a marker whose size varies."""
     counts, places = layout.counts, layout.places
 
     def string(place: int) -> str:

@@ -224,7 +224,7 @@ class MarkerArray(Struct, frozen=True, eq=False):
 
 
 def content_of(marker: Marker) -> Content:
-    """The fields of a marker whose size varies."""
+    """Return the fields of a marker whose size varies."""
     if (
         not len(marker.points)
         and not len(marker.colors)

@@ -88,7 +88,7 @@ class MessagePath:
             raise PathError(f"Unknown function `@{name[:40]}`. Use {known}.")
 
     def values(self, message: Any) -> list[Any]:
-        """The values in a message before functions over time; the message without a field.
+        """Return the values in a message before functions over time; the message without a field.
 
         Raises:
             PathError: it has no such field or element, or a function does not fit it.
@@ -99,13 +99,16 @@ class MessagePath:
         return [self._calculated(value) for value in found]
 
     def one(self, message: Any) -> Any:
-        """The only value in a message, as `values`; see `FieldPath.one`."""
+        """Return the only value in a message, as `values`; see `FieldPath.one`."""
         value = message if self._field is None else self._field.one(message)
         is_plain = not self._geometry and not self._functions
         return value if is_plain else self._calculated(value)
 
     def number(self, message: Any) -> float:
-        """The only number in a message, before functions over time; see `FieldPath.number`."""
+        """Return the only number in a message, before functions over time.
+
+        See `FieldPath.number`.
+        """
         if (number := as_number(self.one(message))) is None:
             raise PathError(f"`{self.text}` is not a number. Choose one of its parts.")
         return number
@@ -202,7 +205,7 @@ def _seconds(argument: str) -> float:
 
 
 def _geometry(name: str, value: Any, text: str) -> float:
-    """The length of a vector, or an angle of a quaternion (x, y, z, w)."""
+    """Return the length of a vector, or an angle of a quaternion (x, y, z, w)."""
     size = 0 if name == "norm" else 4
     parts = _parts(value)
     if parts is None or (size and len(parts) != size):
@@ -220,7 +223,7 @@ def _geometry(name: str, value: Any, text: str) -> float:
 
 
 def _parts(value: Any) -> list[float] | None:
-    """The numbers of a vector, None if it is not one."""
+    """Return the numbers of a vector, None if it is not one."""
     if isinstance(value, np.ndarray) and value.ndim == 1:
         return [float(each) for each in value]
     if isinstance(value, tuple) and all(isinstance(each, float | int) for each in value):

@@ -118,7 +118,7 @@ class FieldPath:
         """True if messages may have several values, or none: slices and filters choose them."""
 
     def __call__(self, message: Any) -> Any:
-        """The value in a message; the list of them if the path has a slice or a filter.
+        """Return the value in a message; the list of them if the path has a slice or a filter.
 
         Raises:
             PathError: it has no such field or element.
@@ -127,7 +127,7 @@ class FieldPath:
         return values if self.finds_many else values[0]
 
     def values(self, message: Any) -> list[Any]:
-        """The values in a message, at most `MAX_FOUND`.
+        """Return the values in a message, at most `MAX_FOUND`.
 
         Raises:
             PathError: it has no such field or element.
@@ -138,7 +138,7 @@ class FieldPath:
         return [value for _, value in found]
 
     def one(self, message: Any) -> Any:
-        """The only value in a message.
+        """Return the only value in a message.
 
         Raises:
             NothingMatches: a filter or slice finds none.
@@ -153,7 +153,7 @@ class FieldPath:
         return values[0]
 
     def number(self, message: Any) -> float:
-        """The only value as a number: that of times and durations in seconds, 1 for true.
+        """Return the only value as a number: that of times and durations in seconds, 1 for true.
 
         Raises:
             PathError: as `one`, or it is not a number.
@@ -163,7 +163,7 @@ class FieldPath:
         return number
 
     def _taken(self, found: Iterable[_Found], step: _Step) -> Iterator[_Found]:
-        """The values a step leads to from those found so far."""
+        """Yield the values a step leads to from those found so far."""
         for parent, value in found:
             if isinstance(step, str):
                 yield value, self._field(value, step)
@@ -207,7 +207,7 @@ class FieldPath:
 
 
 def _steps(text: str) -> Iterator[_Step]:
-    """The steps of a path; the last is followed by nothing, else none at all is returned."""
+    """Yield the steps of a path; the last is followed by nothing, else none at all is returned."""
     steps: list[_Step] = []
     at = 0
     while at < len(text):
@@ -237,7 +237,7 @@ def _key(text: str) -> int | tuple[str] | _Slice:
 
 
 def _literal(text: str) -> bool | float | str | None:
-    """The value that a filter compares with; None if it is none."""
+    """Return the value that a filter compares with; None if it is none."""
     if text[0] in "\"'":
         return text[1:-1]
     if text in ("true", "false"):
@@ -250,14 +250,14 @@ def _literal(text: str) -> bool | float | str | None:
 
 
 def as_number(value: Any) -> float | None:
-    """A value as a number, None if it is not one."""
+    """Return a value as a number, None if it is not one."""
     if isinstance(value, bool | int | float | np.number | np.bool_):
         return float(value)
     return value.ns / 1e9 if isinstance(value, Time | Duration) else None
 
 
 def numeric_paths(message: Any, most: int) -> list[str]:
-    """The paths of the first numbers in a message, with some elements of each sequence."""
+    """Return the paths of the first numbers in a message, with some elements of each sequence."""
     return list(islice(_numbers(None, message, "", MAX_DEPTH), most))
 
 
@@ -276,7 +276,7 @@ def _numbers(parent: Any, value: Any, path: str, depth: int) -> Iterator[str]:
 
 
 def _keys(parent: Any, value: Sequence[Any]) -> Iterable[str | int]:
-    """The names of the elements of a sequence, their numbers if they have none."""
+    """Return the names of the elements of a sequence, their numbers if they have none."""
     names = _names_beside(parent, value)
     if len(names) == len(value) and len({*names}) == len(names) and all(map(_is_key, names)):
         return names
@@ -284,7 +284,7 @@ def _keys(parent: Any, value: Sequence[Any]) -> Iterable[str | int]:
 
 
 def _index_of(name: str, parent: Any, value: Sequence[Any]) -> int | None:
-    """The place of the element with a name."""
+    """Return the place of the element with a name."""
     for index, each in enumerate(islice(_names_beside(parent, value), MAX_SEARCHED)):
         if each == name:
             return index

@@ -64,7 +64,7 @@ class Ros1Type:
         self._read = self._message(name, ())
 
     def definition(self) -> str:
-        """The .msg text of the type in ROS 2, "" if ROS 2 has the type itself."""
+        """Return the .msg text of the type in ROS 2, "" if ROS 2 has the type itself."""
         if typestore.type_exists(self.name):
             return ""
         store = get_typestore(Stores.EMPTY)
@@ -76,7 +76,7 @@ class Ros1Type:
         return store.generate_msgdef(self.name, ros_version=2)[0]
 
     def to_cdr(self, data: bytes) -> bytes:
-        """A message as ROS 2 has it; its type must be registered.
+        """Return a message as ROS 2 has it; its type must be registered.
 
         Raises:
             DecodeError: the message is cut off.
@@ -89,7 +89,7 @@ class Ros1Type:
         return encode(self.name, values)
 
     def _message(self, name: str, inside: tuple[str, ...]) -> _Read:
-        """The reader of a message."""
+        """Return the reader of a message."""
         if name in self._made:
             return self._made[name]
         if name in _TIMES:
@@ -151,7 +151,7 @@ def _number(base: str) -> _Read:
 
 
 def _numbers(base: str, count: int | None) -> _Read:
-    """A reader of an array, of a sequence without a count."""
+    """Return a reader of an array, of a sequence without a count."""
     dtype = np.dtype(f"<{_NUMBERS[base]}")
 
     def read(data: bytes, at: int) -> tuple[Any, int]:
@@ -163,7 +163,7 @@ def _numbers(base: str, count: int | None) -> _Read:
 
 
 def _several(one: _Read, count: int | None) -> _Read:
-    """A reader of several messages or texts."""
+    """Return a reader of several messages or texts."""
 
     def read(data: bytes, at: int) -> tuple[Any, int]:
         size, at = _count(data, at, count)

@@ -23,7 +23,9 @@ MAX_DEPTH = 30
 
 
 def shifted(type_name: str, cdr: bytes, by_ns: int) -> bytes:
-    """A message with all its stamps moved; those that are zero stay, as they mean "now" or none.
+    """Return a message with all its stamps moved.
+
+    Those that are zero stay, as they mean "now" or none.
 
     Args:
         type_name: a type that is known.
@@ -67,7 +69,7 @@ def _layout(type_name: str) -> tuple[MessageField, ...]:
 
 @functools.cache
 def _stamped(type_name: str) -> int:
-    """The number of fields up to the last that has stamps."""
+    """Return the number of fields up to the last that has stamps."""
     found = _layout(type_name)
     return max(
         (n for n, each in enumerate(found, 1) if each.is_message and has_stamps(each.base)),

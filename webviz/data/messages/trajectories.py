@@ -62,7 +62,7 @@ class JointTrajectoryPointSequence(Struct, frozen=True, eq=False):
         return (self[index] for index in range(len(self)))
 
     def positions(self, width: int, most: int) -> tuple[I64, F64]:
-        """The positions of the points that have a number of them.
+        """Return the positions of the points that have a number of them.
 
         Args:
             width: how many positions a point must have.
@@ -94,7 +94,7 @@ def read_trajectory_points(reader: Reader) -> JointTrajectoryPointSequence:
 
 
 def _read_one(reader: Reader) -> _Point:
-    """This loop inlines `Reader`, as lengths may differ from point to point."""
+    """Read points in a loop that inlines `Reader`, as their lengths may differ."""
     data, size, pos = reader.data, reader.size, (reader.pos + 3) & ~3
     count = _COUNT[reader.order]
     starts, lengths = [], []

@@ -33,7 +33,7 @@ def to_tree(
     max_items: int | None = None,
     is_readable: bool = False,
 ) -> Tree:
-    """A message without what is too long to read.
+    """Return a message without what is too long to read.
 
     Args:
         message: what `decode` returned, or a value in it.
@@ -52,7 +52,7 @@ def to_tree(
 
 
 def time_text(ns: int) -> str:
-    """A time as a date in UTC; within a year of 0, as simulations have it, in seconds."""
+    """Return a time as a date in UTC; within a year of 0, as simulations have it, in seconds."""
     if ns < _YEAR_NS:
         return f"{ns / NANOSECONDS:.3f} s"
     seconds, rest = divmod(ns, NANOSECONDS)

@@ -50,7 +50,7 @@ def _store() -> Any:
 
 @cache
 def full_name(type_name: str) -> str:
-    """The three-part name of a type: "std_msgs/String" becomes "std_msgs/msg/String".
+    """Return the three-part name of a type: "std_msgs/String" becomes "std_msgs/msg/String".
 
     Raises:
         UnknownTypeError: `type_name` is not the name of a ROS 2 type.
@@ -72,7 +72,7 @@ def type_exists(type_name: str) -> bool:
 
 
 def fields(type_name: str) -> list[MessageField]:
-    """The fields of a type in the order of the wire.
+    """Return the fields of a type in the order of the wire.
 
     Raises:
         UnknownTypeError: No definition of the type is known.
@@ -81,7 +81,7 @@ def fields(type_name: str) -> list[MessageField]:
 
 
 def constants(type_name: str) -> dict[str, bool | int | float | str]:
-    """The constants of a type, such as `ARROW` of a marker.
+    """Return the constants of a type, such as `ARROW` of a marker.
 
     Raises:
         UnknownTypeError: No definition of the type is known.
@@ -90,7 +90,7 @@ def constants(type_name: str) -> dict[str, bool | int | float | str]:
 
 
 def definition(type_name: str) -> str:
-    """The .msg text of a type, followed by those of its nested types, as bags store it.
+    """Return the .msg text of a type, followed by those of its nested types, as bags store it.
 
     Raises:
         UnknownTypeError: No definition of the type is known.
@@ -100,7 +100,7 @@ def definition(type_name: str) -> str:
 
 
 def type_hash(type_name: str) -> str:
-    """The hash by which ROS 2 distinguishes versions of a type (REP 2016), "RIHS01_...".
+    """Return the hash by which ROS 2 distinguishes versions of a type (REP 2016), "RIHS01_...".
 
     Raises:
         UnknownTypeError: No definition of the type is known.

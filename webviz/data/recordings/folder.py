@@ -124,7 +124,7 @@ class FolderRecording:
         self._stack.close()
 
     def _existing(self, folder: Path, names: Sequence[str]) -> list[Path]:
-        """The files to read."""
+        """Return the files to read."""
         files = [folder / name for name in names]
         found = [file for file in files if file.exists()]
         missing = ", ".join(file.name for file in files if file not in found)
@@ -184,7 +184,7 @@ def _stamp(entry: RecordedMessage) -> int:
 
 
 def _files_in(folder: Path) -> list[Path]:
-    """The files that may be parts of a bag.
+    """Return the files that may be parts of a bag.
 
     Raises:
         RecordingError: there are none.

@@ -165,7 +165,7 @@ class RecordingFolder:
             file.path.unlink(missing_ok=True)
 
     def _failed(self, error: OSError) -> RecordingError:
-        """The error as a sentence; the file that was written is closed."""
+        """Return the error as a sentence; the file that was written is closed."""
         file, self._file = self._file, None
         if file is not None:
             with contextlib.suppress(OSError):

@@ -67,14 +67,14 @@ class LatchedMessages(Generic[T]):
         return tuple(sorted(self._topics))
 
     def copy(self) -> LatchedMessages[T]:
-        """The same messages, apart from later changes."""
+        """Return the same messages, apart from later changes."""
         copy = LatchedMessages[T]()
         copy._topics = {topic: dict(own) for topic, own in self._topics.items()}
         return copy
 
 
 def _publisher_of(topic: str, cdr: bytes) -> object:
-    """A key that tells the messages of several publishers apart, as their bytes alone may not."""
+    """Return a key that tells apart messages of several publishers, even if bytes are equal."""
     if topic.endswith(STATIC_TF):
         try:
             message: TFMessage = decode(TF, cdr)

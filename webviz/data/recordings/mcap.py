@@ -142,7 +142,7 @@ class McapRecording:
         end_ns: int,
         is_backwards: bool = False,
     ) -> Iterator[RecordedMessage]:
-        """The messages of some channels within a span, by time or against it."""
+        """Yield the messages of some channels within a span, by time or against it."""
         sign = -1 if is_backwards else 1
         wanted = {number for number, each in self._numbers.items() if each in channels}
         is_wanted = np.zeros(1 << 16, bool)
@@ -174,7 +174,7 @@ class McapRecording:
                 size -= own_size
 
     def _set_back(self, in_order: Sequence[McapChunk]) -> SetBack | None:
-        """A jump of the clock between chunks in the order of the file, or within one of them.
+        """Return a jump of the clock between chunks in the order of the file, or within a chunk.
 
         Files that have their topics one after the other have none: only the times of one channel
         count.
@@ -201,7 +201,7 @@ class McapRecording:
         end_ns: int,
         sign: int,
     ) -> Iterator[RecordedMessage]:
-        """The wanted messages of a chunk by time, against it with a sign of -1."""
+        """Yield the wanted messages of a chunk by time, against it with a sign of -1."""
         content = self._content(chunk, is_wanted)
         stamps = content.stamps
         inside = is_wanted[content.numbers] & (stamps >= start_ns) & (stamps <= end_ns)
@@ -213,7 +213,7 @@ class McapRecording:
             yield RecordedMessage(channel, int(stamps[row]), message)
 
     def _content(self, chunk: McapChunk, is_wanted: npt.NDArray[np.bool_]) -> ChunkContent:
-        """The messages of a chunk.
+        """Return the messages of a chunk.
 
         The small ones of the last chunks are remembered: a seek reads the transforms of many chunks
         that are full of images or clouds, and the next seek is often near.
@@ -261,7 +261,7 @@ class McapRecording:
 
 
 def _first(chunk: McapChunk, sign: int) -> int:
-    """The least key of the messages of a chunk."""
+    """Return the least key of the messages of a chunk."""
     return chunk.start_ns if sign > 0 else -chunk.end_ns
 
 

@@ -58,7 +58,7 @@ class McapChunk:
 
 
 def chunk_of(offset: int, data: bytes, length: int) -> McapChunk:
-    """The chunk whose record contains `length` bytes, of which `data` is the beginning.
+    """Return the chunk whose record contains `length` bytes, of which `data` is the beginning.
 
     Args:
         offset: of the contents of the record in the file.
@@ -81,7 +81,7 @@ def chunk_of(offset: int, data: bytes, length: int) -> McapChunk:
 
 
 def chunk_index_of(fields: RecordFields) -> McapChunk:
-    """The chunk that a record of the summary describes; its checksum is not in there."""
+    """Return the chunk that a record of the summary describes; its checksum is not in there."""
     start_ns, end_ns, offset, _ = fields.numbers("QQQQ")
     offsets = fields.block()
     if len(offsets) % 10:
@@ -108,7 +108,7 @@ def counts_of(counts: Iterable[tuple[int, int]]) -> ChannelCounts:
 
 
 def _counts(offsets: bytes, size: int) -> tuple[ChannelCounts | None, tuple[int, int]]:
-    """The messages of each channel, and where they are indexed.
+    """Return the messages of each channel, and where they are indexed.
 
     The records of the index follow each other and have 16 bytes a message, so that the offsets of
     these records are enough.
@@ -148,7 +148,7 @@ class IndexOfMessages(NamedTuple):
 
 
 def index_in(data: bytes) -> IndexOfMessages:
-    """The index at the beginning of some bytes."""
+    """Return the index at the beginning of some bytes."""
     counts: list[tuple[int, int]] = []
     entries: list[bytes] = []
     at, is_cut = 0, True
@@ -174,7 +174,7 @@ def header_of(chunk: McapChunk) -> int:
 
 
 def contents_of(chunk: McapChunk, file: BinaryIO) -> tuple[bytes, str]:
-    """The records of a chunk.
+    """Return the records of a chunk.
 
     Returns:
         They, or of a damaged chunk the intact beginning; and what is damaged, "" for nothing and

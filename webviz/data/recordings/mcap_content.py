@@ -33,7 +33,7 @@ class ChunkContent:
     left_out: Sequence[int] = ()
 
     def small(self) -> ChunkContent:
-        """The messages of the channels that have small ones only."""
+        """Return the messages of the channels that have small ones only."""
         sizes = np.subtract(self.ends, self.starts, dtype=np.int64)
         left_out = np.unique(self.numbers[sizes > SMALL])
         if not len(left_out):

@@ -166,7 +166,7 @@ class McapIndex:
         return all(known[c.counts["channel"]].all() for c in chunks if c.counts is not None)
 
     def _summarised(self, summary: bytes) -> tuple[list[McapChunk], int | None]:
-        """The chunks, and how many there must be, None if unknown."""
+        """Return the chunks, and how many there must be, None if unknown."""
         chunks: list[McapChunk] = []
         count: int | None = None
         for opcode, fields in records_of(summary):
@@ -189,7 +189,7 @@ class McapIndex:
         return int.from_bytes(data, "little")
 
     def _chunk(self, offset: int, length: int) -> McapChunk:
-        """The chunk whose record has these contents."""
+        """Return the chunk whose record has these contents."""
         chunk = chunk_of(offset, self._read(offset, CHUNK_FIELDS.size + 64), length)
         rest = self._size - chunk.offset
         if rest < chunk.packed_size:
@@ -250,12 +250,12 @@ class McapIndex:
         return start + length
 
     def _index_length(self, start: int) -> int:
-        """The length of the index of a channel in a chunk, as its contents say."""
+        """Return the length of the index of a channel in a chunk, as its contents say."""
         _, size = RecordFields(self._read(start, 6)).numbers("HI")
         return 6 + size
 
     def _indexed(self, chunk: McapChunk) -> McapChunk | None:
-        """The chunk as the records behind it index it, which is quicker than to unpack it.
+        """Return the chunk as the records behind it index it, which is quicker than to unpack it.
 
         Returns:
             None if the index is missing, may be incomplete, contradicts the chunk, or has an
@@ -312,7 +312,10 @@ class McapIndex:
             self.chunks.append(McapChunk(offset, size, size, 0, "", stamp_ns, stamp_ns, own))
 
     def _looked_into(self, chunk: McapChunk) -> list[McapChunk]:
-        """The chunk with the times of its messages, none if it has none; learns its channels."""
+        """Return the chunk with the times of its messages, none if it has none.
+
+        Learns its channels.
+        """
         data, fault = contents_of(chunk, self._file)
         first_ns, last_ns, counts = FOREVER_NS, -1, Counter[int]()
         try:

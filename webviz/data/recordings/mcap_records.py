@@ -47,7 +47,7 @@ class RecordFields:
         return self._take(size)
 
     def text(self) -> str:
-        """A text; what is not UTF-8 becomes replacement characters."""
+        """Return a text; what is not UTF-8 becomes replacement characters."""
         return self.block().decode(errors="replace")
 
     def _take(self, size: int) -> bytes:

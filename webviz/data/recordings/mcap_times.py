@@ -26,7 +26,7 @@ class ChunkTimes:
         self._by_channel = _by_channel(chunks)
 
     def within(self, numbers: Set[int], start_ns: int, end_ns: int, sign: int) -> Sequence[int]:
-        """The chunks that may have messages of channels within a span, both ends included.
+        """Return the chunks that may have messages of channels within a span, both ends included.
 
         Args:
             numbers: of the channels.
@@ -46,7 +46,7 @@ class ChunkTimes:
 
 
 def _by_channel(chunks: Sequence[McapChunk]) -> dict[int, npt.NDArray[np.int64]]:
-    """The indices of the chunks that have messages of a channel, by its number."""
+    """Return the indices of the chunks that have messages of a channel, by its number."""
     counts = [(index, chunk.counts) for index, chunk in enumerate(chunks)]
     known = [(index, each["channel"]) for index, each in counts if each is not None]
     if not known:

@@ -18,7 +18,7 @@ MAX_METADATA = 16 << 20
 
 
 def read_metadata(folder: Path) -> tuple[list[str], str]:
-    """The names of the files, and the compression of each message, "" for none.
+    """Return the names of the files, and the compression of each message, "" for none.
 
     Raises:
         RecordingError: the metadata are broken.
@@ -42,7 +42,7 @@ def read_metadata(folder: Path) -> tuple[list[str], str]:
 
 
 def recorded_counts(file: Path) -> Mapping[str, int]:
-    """The numbers of messages by topic in a file, if metadata.yaml beside it is of this file alone.
+    """Return the numbers of messages by topic, if metadata.yaml is of this file alone.
 
     Returns:
         Nothing if there are none, or they cannot be read.

@@ -66,7 +66,10 @@ class TimeParts:
         return max(1, -(-(self.end_ns - self.start_ns + 1) // self.count))
 
     def part_of(self, stamps_ns: npt.NDArray[np.uint64]) -> npt.NDArray[np.int64]:
-        """The numbers of the parts that times lie in; those outside belong to the outermost."""
+        """Return the numbers of the parts that times lie in.
+
+        Those outside belong to the outermost.
+        """
         inside = np.clip(stamps_ns.astype(np.int64), self.start_ns, self.end_ns) - self.start_ns
         return inside // self.length_ns
 
@@ -90,13 +93,19 @@ class Recording(Protocol):
     def messages(
         self, channels: Collection[RecordedChannel], start_ns: int, end_ns: int
     ) -> Iterator[RecordedMessage]:
-        """The messages of some channels by time, both ends included; skips what is damaged."""
+        """Return the messages of some channels by time, both ends included.
+
+        Skips what is damaged.
+        """
         ...
 
     def newest(
         self, channels: Collection[RecordedChannel], end_ns: int
     ) -> Iterator[RecordedMessage]:
-        """The messages of some channels until a time, the newest first; skips what is damaged."""
+        """Return the messages of some channels until a time, the newest first.
+
+        Skips what is damaged.
+        """
         ...
 
     @property

@@ -124,7 +124,7 @@ class Ros1Recording:
     def _within(
         self, channel: RecordedChannel, start_ns: int, end_ns: int, step: int = 1
     ) -> Iterator[tuple[RecordedChannel, _Place]]:
-        """The places of the messages of a channel within a span, by time or against it."""
+        """Yield the places of the messages of a channel within a span, by time or against it."""
         places = self._places[channel]
         first = bisect.bisect_left(places, start_ns, key=_time)
         last = bisect.bisect_right(places, end_ns, key=_time)
@@ -132,7 +132,7 @@ class Ros1Recording:
             yield channel, places[index]
 
     def _entry(self, channel: RecordedChannel, place: _Place) -> RecordedMessage | None:
-        """A message in the form of ROS 2, None if it is damaged."""
+        """Return a message in the form of ROS 2, None if it is damaged."""
         stamp_ns, chunk, at = place
         data = self._chunk(chunk)
         size = int.from_bytes(data[at : at + 4], "little")
@@ -149,7 +149,7 @@ class Ros1Recording:
             return None
 
     def _chunk(self, position: int) -> bytes:
-        """The unpacked chunk at an offset of the file, or what can be unpacked of it."""
+        """Return the unpacked chunk at an offset of the file, or what can be unpacked of it."""
         if position in self._chunks:
             return self._chunks[position]
         chunk, file = self._reader.chunks[position], self._reader.bio

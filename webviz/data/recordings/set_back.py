@@ -28,7 +28,7 @@ class SetBack(NamedTuple):
 
 
 def set_back_in(stamps_ns: npt.NDArray[np.uint64]) -> SetBack | None:
-    """The largest jump back of times in the order of writing, None if there is none."""
+    """Return the largest jump back of times in the order of writing, None if there is none."""
     if len(stamps_ns) < 2:
         return None
     before = np.maximum.accumulate(stamps_ns)[:-1]

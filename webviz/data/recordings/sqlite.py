@@ -73,18 +73,18 @@ class _Query:
     last: tuple[int, int] = (-1, 0)
 
     def after(self, row: _Row) -> _Query:
-        """The rest behind a row."""
+        """Return the rest behind a row."""
         stamp_ns = row.stamp_ns
         if self.is_backwards:
             return replace(self, end_ns=stamp_ns, last=(stamp_ns, row.id))
         return replace(self, start_ns=stamp_ns, last=(stamp_ns, row.id))
 
     def within(self, start_ns: int, end_ns: int) -> _Query:
-        """The part within a span."""
+        """Return the part within a span."""
         return replace(self, start_ns=start_ns, end_ns=end_ns)
 
     def sql(self, limit: int) -> tuple[str, Sequence[int]]:
-        """The statement and its values; a limit of -1 is none."""
+        """Return the statement and its values; a limit of -1 is none."""
         marks = ", ".join("?" * len(self.topics))
         order, known = ("DESC", ">=") if self.is_backwards else ("ASC", "<=")
         return (
@@ -193,7 +193,7 @@ class SqliteRecording:
         self._db.close()
 
     def _used(self) -> frozenset[RecordedChannel]:
-        """The channels that have messages, all if that takes long to find out."""
+        """Return the channels that have messages, all if that takes long to find out."""
         try:
             with self._hurrying(PATIENCE_S):
                 numbers = self._db.execute("SELECT DISTINCT topic_id FROM messages").fetchall()
@@ -202,7 +202,7 @@ class SqliteRecording:
         return frozenset(self._numbers[n] for (n,) in numbers if n in self._numbers)
 
     def _topics(self, path: Path) -> dict[int, RecordedChannel]:
-        """The channels by the ids of their topics."""
+        """Return the channels by the ids of their topics."""
         if self._db.execute(_TABLES).fetchone() != (2,):
             if self._is_cut:
                 raise damaged(path, "its end is missing")
@@ -225,7 +225,7 @@ class SqliteRecording:
         return found
 
     def _definitions(self, allowance: TextAllowance) -> dict[str, str]:
-        """The .msg texts by type; older bags have none."""
+        """Return the .msg texts by type; older bags have none."""
         if not self._db.execute("PRAGMA table_info(message_definitions)").fetchall():
             return {}
         found = {}
@@ -238,7 +238,7 @@ class SqliteRecording:
         return found
 
     def _totals(self, path: Path) -> Mapping[int, int]:
-        """The numbers of messages of topics, if metadata.yaml has those of this file alone."""
+        """Return the numbers of messages by topic, if metadata.yaml is of this file alone."""
         try:
             (last,) = self._db.execute("SELECT max(id) FROM messages").fetchone()
         except sqlite3.Error:
@@ -266,7 +266,7 @@ class SqliteRecording:
     def _rows(
         self, wanted: Collection[int], start_ns: int, end_ns: int, is_backwards: bool = False
     ) -> Iterator[_Row]:
-        """The rows of some topics within a span, by time or against it.
+        """Yield the rows of some topics within a span, by time or against it.
 
         The only index of rosbag2 is one of times. Finding the next message of a rare topic by it
         takes reading everything in between, so that of such topics it is found out first when
@@ -290,7 +290,7 @@ class SqliteRecording:
             yield from self._queried(query.within(*span))
 
     def _queried(self, query: _Query, patience_s: float = math.inf) -> Iterator[_Row]:
-        """The rows that answer a query.
+        """Yield the rows that answer a query.
 
         They are taken few by few at first: sqlite3 looks for the next row before it returns one,
         and may read the whole table for the second of a rare topic.
@@ -338,7 +338,7 @@ class SqliteRecording:
             self._db.set_progress_handler(None, 0)
 
     def _salvaged(self) -> Iterator[_Row]:
-        """The rows of a damaged table that can be read, one by one."""
+        """Yield the rows of a damaged table that can be read, one by one."""
         try:
             last = self._db.execute("SELECT max(id) FROM messages").fetchone()[0] or 0
         except sqlite3.Error:

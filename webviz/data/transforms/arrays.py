@@ -47,7 +47,7 @@ def to_rows(pairs: C128) -> F64:
 
 
 def _rows_of(pairs: C128) -> tuple[F64, ...]:
-    """The seven rows within pairs, as views."""
+    """Return the seven rows within pairs, as views."""
     a, b, c, d = pairs
     return a.imag, b.real, b.imag, c.imag, d.real, d.imag, c.real
 

@@ -192,7 +192,7 @@ class TransformBuffer:
             )
 
     def lookup(self, target: str, source: str, stamp_ns: int) -> Transform:
-        """The pose of `source` in `target` at a time; 0 means the latest common time.
+        """Return the pose of `source` in `target` at a time; 0 means the latest common time.
 
         The same frame twice gives the identity, even if it does not exist.
 
@@ -239,7 +239,7 @@ class TransformBuffer:
     def lookup_full(
         self, target: str, target_stamp_ns: int, source: str, source_stamp_ns: int, fixed: str
     ) -> Transform:
-        """The pose of `source` at one time in `target` at another; `fixed` does not move.
+        """Return the pose of `source` at one time in `target` at another; `fixed` does not move.
 
         The returned stamp is that of the target.
 
@@ -263,11 +263,11 @@ class TransformBuffer:
         return True
 
     def can_transform_error(self, target: str, source: str, stamp_ns: int) -> str | None:
-        """The text of tf2's canTransform, or None if the transform is available."""
+        """Return the text of tf2's canTransform, or None if the transform is available."""
         return self._tree.can_transform_error(target, source, stamp_ns)
 
     def latest_common_time(self, target: str, source: str) -> int:
-        """The newest time at which every link between the frames has data, as tf2 computes it.
+        """Return the newest time at which every link between the frames has data, as in tf2.
 
         Returns:
             Nanoseconds; 0 if all links are static.
@@ -304,7 +304,7 @@ class TransformBuffer:
             publishers.forget()
 
     def link(self, frame: str) -> NewestTransform | None:
-        """The newest transform of a frame to its parent; None for roots and without data."""
+        """Return the newest transform of a frame to its parent; None for roots and without data."""
         cache = self._tree.caches.get(frame)
         if cache is None or (newest := cache.newest) is None:
             return None
@@ -312,7 +312,9 @@ class TransformBuffer:
         return NewestTransform(parent, _transform(pose, cache.newest_stamp), cache.is_static)
 
     def rigid_root(self, frame: str) -> str:
-        """The uppermost frame that static transforms join with this one; itself if there is none.
+        """Return the uppermost frame that static transforms join with this one.
+
+        Itself if there is none.
 
         Frames of one rigid root never move relative to each other. Valid until
         `structure_version` changes.
@@ -320,13 +322,16 @@ class TransformBuffer:
         return self._tree.rigid_root(frame)
 
     def who(self, child: str) -> list[str]:
-        """The recent publishers of a child frame, as far as known, the current one last."""
+        """Return the recent publishers of a child frame, as far as known, the current one last."""
         publishers = self._publishers.get(child)
         names = publishers.names() if publishers else []
         return [self.nodes.get(name, name) for name in names if name]
 
     def largest_tree(self) -> tuple[str, int]:
-        """The root of the tree with the most frames, and how many it has; "" and 0 without any."""
+        """Return the root of the tree with the most frames, and how many it has.
+
+        "" and 0 without any.
+        """
         if self._largest is None or self._largest[0] != self.structure_version:
             sizes = Counter(roots(self._tree).values())
             (largest,) = sizes.most_common(1) or [("", 0)]

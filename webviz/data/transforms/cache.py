@@ -58,18 +58,18 @@ class StaticCache:
         return True
 
     def at(self, stamp_ns: int) -> ParentedPose | None:
-        """The sample, whatever the time."""
+        """Return the sample, whatever the time."""
         return self.sample
 
     def bracket(self, stamp_ns: int) -> Bracket | None:
-        """The sample, whatever the time."""
+        """Return the sample, whatever the time."""
         if self.sample is None:
             return None
         pose, parent = self.sample
         return pose, pose, 0.0, parent
 
     def clear(self) -> None:
-        """Static transforms outlive a cleared buffer."""
+        """Keep the transform: static ones outlive a cleared buffer."""
 
 
 class TimeCache:
@@ -171,7 +171,10 @@ class TimeCache:
         return horizon
 
     def at(self, stamp_ns: int) -> ParentedPose | None:
-        """The sample interpolated at a time, 0 for the newest; None if `refusal` has a reason."""
+        """Return the sample interpolated at a time, 0 for the newest.
+
+        None if `refusal` has a reason.
+        """
         bracket = self.bracket(stamp_ns)
         if bracket is None:
             return None
@@ -179,7 +182,7 @@ class TimeCache:
         return before if after is before else interpolate(before, after, ratio), parent
 
     def bracket(self, stamp_ns: int) -> Bracket | None:
-        """The samples that `at` interpolates; the same pose twice if it does not."""
+        """Return the samples that `at` interpolates; the same pose twice if it does not."""
         stamps = self.stamps
         if not stamps:
             return None

@@ -74,7 +74,7 @@ class Conflicts:
         """By frame: the state they were found in, and the conflicts."""
 
     def of(self, frame: str) -> Sequence[Conflict]:
-        """The signs of two publishers of a child frame."""
+        """Return the signs of two publishers of a child frame."""
         cache = self._caches[frame]
         contest = self._publishers[frame].contested(cache.newest_stamp, self._cache_time_ns)
         state = id(cache), cache.newest_stamp, len(cache), contest
@@ -132,7 +132,7 @@ def _found(frame: str, cache: Cache, contest: Contest | None) -> Iterator[Confli
 
 
 def _contested(frame: str, contest: Contest) -> Conflict:
-    """A contest as a conflict."""
+    """Return a contest as a conflict."""
     parents = contest.parents()
     statics = [claim[0] for claim in contest.claims if isinstance(claim, tuple)]
     if len(parents) == 2:

@@ -108,14 +108,14 @@ def diagnose(buffer: TransformBuffer, now_ns: int = 0) -> Diagnosis:
 
 
 def loops(buffer: TransformBuffer) -> tuple[tuple[str, ...], ...]:
-    """The cycles of parents, each from a frame back to itself."""
+    """Return the cycles of parents, each from a frame back to itself."""
     tree = buffer.tree
     tops = dict.fromkeys(roots(tree).values())
     return tuple(tuple(chain) for top in tops if len(chain := ancestors(tree, top)) > 1)
 
 
 def tree_text(buffer: TransformBuffer, now_ns: int = 0) -> str:
-    """The tree as indented lines, each frame with its kind, rate, age and publisher."""
+    """Return the tree as indented lines, each frame with its kind, rate, age and publisher."""
     diagnosis = diagnose(buffer, now_ns)
     reports = {report.frame: report for report in diagnosis.frames}
     children: dict[str, list[str]] = {}
@@ -167,7 +167,7 @@ def _age(stamp_ns: int, age_ns: int) -> str:
 
 
 def _gap(cache: Cache) -> int:
-    """The longest of the recent times without a transform, 0 if none is unusual."""
+    """Return the longest of the recent times without a transform, 0 if none is unusual."""
     if not isinstance(cache, TimeCache) or len(cache) <= GAP_PERIODS:
         return 0
     stamps = islice(cache.stamps, max(0, len(cache) - GAP_SAMPLES), None)

@@ -62,5 +62,5 @@ def stamp_to_seconds(stamp_ns: int) -> float:
 
 
 def format_stamp(stamp_ns: int) -> str:
-    """A stamp in tf2's texts: seconds with six decimals."""
+    """Return a stamp in tf2's texts: seconds with six decimals."""
     return f"{stamp_to_seconds(stamp_ns):.6f}"

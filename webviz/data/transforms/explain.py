@@ -120,7 +120,7 @@ def unknown_fixed_frame(buffer: TransformBuffer, fixed_frame: str) -> Explanatio
 
 
 def _nearest(buffer: TransformBuffer, name: str) -> str:
-    """The frame whose name is misspelled, "" if none is similar enough.
+    """Return the frame whose name is misspelled, "" if none is similar enough.
 
     Frames that differ by a number, a namespace, left or right are distinct.
     """
@@ -194,7 +194,7 @@ def _not_connected(tree: FrameTree, fixed_frame: str, frame: str) -> Explanation
 
 
 def _missing_link(tree: FrameTree, root: str, fixed_root: str) -> str:
-    """The usual publisher of the link between two trees (REP 105), "" for none."""
+    """Return the usual publisher of the link between two trees (REP 105), "" for none."""
     if fixed_root == "map" and root == "odom":
         return 'Start localisation or SLAM, which publishes "map" → "odom", and initialise it.'
     if root.startswith("base") and "odom" in tree.names and tree.root("odom") == fixed_root:

@@ -30,7 +30,7 @@ class _Waiting(Generic[P]):
     size: int
 
     def stamps(self) -> tuple[int, ...]:
-        """The times at which a transform is needed."""
+        """Return the times at which a transform is needed."""
         if self.duration_ns and self.stamp_ns:
             return self.stamp_ns, self.stamp_ns + self.duration_ns
         return (self.stamp_ns,)
@@ -94,7 +94,7 @@ class MessageFilter(Generic[P]):
         self._new.append(_Waiting(payload, frame, stamp_ns, duration_ns, size))
 
     def ready(self, buffer: TransformBuffer, fixed_frame: str, now_ns: int = 0) -> list[P]:
-        """The messages that became transformable, in order of arrival."""
+        """Return the messages that became transformable, in order of arrival."""
         state = (buffer.version, fixed_frame)
         waiting = [] if state == self._tried else list(self._queue)
         if waiting:
@@ -158,7 +158,7 @@ class MessageFilter(Generic[P]):
         self._given_up = message
 
     def _queue_full(self, buffer: TransformBuffer, fixed_frame: str, now_ns: int) -> Explanation:
-        """Transforms arrive, but later than the queue can wait."""
+        """Return whether transforms arrive, but later than the queue can wait."""
         if self._is_heavy:
             return Explanation(
                 Kind.QUEUE_FULL,
@@ -188,7 +188,7 @@ def _why(
 
 
 def _pose(buffer: TransformBuffer, fixed_frame: str, message: _Waiting[P]) -> Transform | None:
-    """The pose of a message at its stamp, None unless it has one at all its stamps."""
+    """Return the pose of a message at its stamp, None unless it has one at all its stamps."""
     try:
         poses = [buffer.lookup(fixed_frame, message.frame, t) for t in message.stamps()]
     except TransformException:

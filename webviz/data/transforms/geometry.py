@@ -34,7 +34,7 @@ def is_within_reach(pose: PoseTuple) -> bool:
 
 
 def to_matrix(x: float, y: float, z: float, w: float) -> Matrix:
-    """The rotation matrix of a quaternion of any length but zero."""
+    """Return the rotation matrix of a quaternion of any length but zero."""
     s = 2.0 / (x * x + y * y + z * z + w * w)
     xs, ys, zs = x * s, y * s, z * s
     wx, wy, wz = w * xs, w * ys, w * zs
@@ -48,7 +48,7 @@ def to_matrix(x: float, y: float, z: float, w: float) -> Matrix:
 
 
 def to_quaternion(matrix: Matrix) -> Quaternion:
-    """The quaternion (x, y, z, w) of a rotation matrix, in the sign that tf2 gives it.
+    """Return the quaternion (x, y, z, w) of a rotation matrix, in the sign that tf2 gives it.
 
     With a positive trace w is positive, otherwise the component of the largest diagonal element is.
     The formula is the one of K. Shoemake, "Quaternion calculus and fast animation", SIGGRAPH 1987
@@ -77,7 +77,7 @@ def to_quaternion(matrix: Matrix) -> Quaternion:
 
 
 def canonical(x: float, y: float, z: float, w: float) -> Quaternion:
-    """The rotation as tf2 returns it, by way of a matrix: normalised, with a defined sign.
+    """Return the rotation as tf2 returns it, by way of a matrix: normalised, with a defined sign.
 
     A quaternion of length zero or with NaN gives NaN.
     """
@@ -104,7 +104,7 @@ def canonical(x: float, y: float, z: float, w: float) -> Quaternion:
 
 
 def compose_as_matrices(a: PoseTuple, b: PoseTuple) -> PoseTuple:
-    """The pose `a * b` by way of rotation matrices, as tf2 joins two finished lookups."""
+    """Return the pose `a * b` by way of rotation matrices, as tf2 joins two finished lookups."""
     ax, ay, az, *aq = a
     x, y, z, *bq = b
     a0, a1, a2, a3, a4, a5, a6, a7, a8 = to_matrix(*aq)
@@ -123,7 +123,7 @@ def compose_as_matrices(a: PoseTuple, b: PoseTuple) -> PoseTuple:
 
 
 def rotate(qx: Any, qy: Any, qz: Any, qw: Any, x: Any, y: Any, z: Any) -> Any:
-    """The vector turned by a unit quaternion: q * v * q^-1, as two quaternion products."""
+    """Return the vector turned by a unit quaternion: q * v * q^-1, as two quaternion products."""
     tx = qw * x + qy * z - qz * y
     ty = qw * y + qz * x - qx * z
     tz = qw * z + qx * y - qy * x
@@ -136,7 +136,7 @@ def rotate(qx: Any, qy: Any, qz: Any, qw: Any, x: Any, y: Any, z: Any) -> Any:
 
 
 def compose(a: Any, b: Any) -> Any:
-    """The pose `a * b`: first `b`, then `a`."""
+    """Return the pose `a * b`: first `b`, then `a`."""
     ax, ay, az, aqx, aqy, aqz, aqw = a
     x, y, z, bqx, bqy, bqz, bqw = b
     x, y, z = rotate(aqx, aqy, aqz, aqw, x, y, z)
@@ -152,7 +152,7 @@ def compose(a: Any, b: Any) -> Any:
 
 
 def inverse(a: Any) -> Any:
-    """The pose that undoes `a`, whose rotation has unit length."""
+    """Return the pose that undoes `a`, whose rotation has unit length."""
     x, y, z, qx, qy, qz, qw = a
     return (*rotate(-qx, -qy, -qz, qw, -x, -y, -z), -qx, -qy, -qz, qw)
 

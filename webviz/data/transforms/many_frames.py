@@ -116,7 +116,7 @@ class _Links:
         self.tops.append(top)
 
     def poses_by_floats(self) -> list[PoseTuple]:
-        """The pose of every frame in its top."""
+        """Return the pose of every frame in its top."""
         poses: list[PoseTuple] = []
         for start, end, ratio, parent in zip(
             self.starts, self.ends, self.ratios, self.parents, strict=True
@@ -127,7 +127,7 @@ class _Links:
         return poses
 
     def poses_by_arrays(self) -> C128:
-        """The same as pairs (4, links): all interpolated at once, then joined level by level."""
+        """Return the same as pairs (4, links): interpolated at once, then joined by level."""
         table = interpolation_table(poses_to_rows(self.starts), poses_to_rows(self.ends))
         poses = interpolate_many(table, np.array(self.ratios))
         parents, depths = np.array(self.parents), np.array(self.depths)
@@ -183,7 +183,7 @@ def poses_in(
 
 
 def _stamps(tree: FrameTree, target: str, frames: list[str], stamp_ns: int) -> Sequence[int | None]:
-    """The time at which to look up each frame; None if there is none."""
+    """Return the time at which to look up each frame; None if there is none."""
     if stamp_ns != 0:
         return [stamp_ns] * len(frames)
     caches = tree.caches
@@ -228,5 +228,5 @@ def _stamps(tree: FrameTree, target: str, frames: list[str], stamp_ns: int) -> S
 
 
 def _older(common: int | None, stamp: int) -> int | None:
-    """The older of the two; a stamp of 0 does not count."""
+    """Return the older of the two; a stamp of 0 does not count."""
     return stamp if stamp != 0 and (common is None or stamp < common) else common

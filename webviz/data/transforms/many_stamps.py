@@ -134,7 +134,7 @@ class _Histories:
         self._made: dict[str, _History] = {}
 
     def of(self, frame: str, cache: TimeCache) -> _History:
-        """The history of a frame whose cache is not empty."""
+        """Return the history of a frame whose cache is not empty."""
         if frame not in self._made:
             self._made[frame] = _History(cache, self._first, self._last)
         return self._made[frame]
@@ -215,7 +215,7 @@ def _part(group: _Group, keep: NDArray[np.bool_]) -> _Group:
 
 
 def _climb(histories: _Histories, group: _Group, stamps: I64) -> tuple[list[_Group], _Group | None]:
-    """The group one link higher, split by parent; and the requests without such a link."""
+    """Return the group one link higher, split by parent; and the requests without such a link."""
     cache = histories.caches.get(group.frame)
     if cache is None or cache.parent is None:
         return [], group

@@ -176,7 +176,7 @@ def _text(text: str, x: float, y: float, kind: str = "") -> str:
 
 
 def _escaped(text: str) -> str:
-    """A text without markup, and without the characters that XML does not have."""
+    """Return a text without markup, and without the characters that XML does not have."""
     return escape("".join(_legal(text)))
 
 
@@ -188,7 +188,7 @@ def _legal(text: str) -> Iterator[str]:
 
 
 def _short(text: str) -> str:
-    """A text without its middle if it is too long: names differ in their ends."""
+    """Return a text without its middle if it is too long: names differ in their ends."""
     half = MAX_CHARACTERS // 2
     return text if len(text) <= MAX_CHARACTERS else f"{text[:half]}…{text[1 - half :]}"
 

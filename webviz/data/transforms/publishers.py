@@ -90,7 +90,7 @@ class Publishers:
         self._replaced.clear()
 
     def contested(self, newest_ns: int, cache_time_ns: int) -> Contest | None:
-        """The contest, unless it is between moving transforms and older than the cache time.
+        """Return the contest, unless it is between moving transforms and older than the cache time.
 
         Args:
             newest_ns: newest stamp of the frame.
@@ -102,6 +102,6 @@ class Publishers:
         return None
 
     def names(self) -> list[str]:
-        """The recent authorities, the current one last."""
+        """Return the recent authorities, the current one last."""
         others = dict.fromkeys(who for who, _ in self._replaced.values() if who != self.current)
         return [*others, self.current]

@@ -95,13 +95,13 @@ def distinct(
 
 
 def listed(frames: Sequence[str], link: str = ", ") -> str:
-    """The first frames by name; the number of the others."""
+    """Return the first frames by name; the number of the others."""
     more = len(frames) - MAX_LISTED
     return link.join(frames) if more <= 0 else f"{link.join(frames[:MAX_LISTED])} and {more} more"
 
 
 def in_words(duration_ns: int) -> str:
-    """A duration in a suitable unit, with so few digits that a growing one changes seldom."""
+    """Return a duration in a suitable unit, with few digits so that it changes seldom."""
     size = abs(duration_ns)
     for limit, unit, digits, name in (
         (10_000_000, 1_000_000, 1, "ms"),

@@ -86,7 +86,7 @@ class Topology:
         self._is_target = self._asked == self._base
 
     def _climb(self, tree: FrameTree, frame: str) -> bool:
-        """Number a frame and its ancestors, parents first; False if they form a loop.
+        """Assign numbers to a frame and its ancestors, parents first; return if they form no loop.
 
         Then they get no pose: the frame at which the loop closes counts as a root.
         """
@@ -108,7 +108,7 @@ class Topology:
         return not is_loop
 
     def poses(self) -> tuple[F64, I64] | None:
-        """The poses of all frames in the target, each at its latest common time with it.
+        """Return the poses of all frames in the target, each at its latest common time with it.
 
         Returns:
             float64 (7, N), NaN where there is none, and int64 (N,) the times: 0 if all links are
@@ -191,7 +191,7 @@ class Topology:
 
 
 def _jumps(parents: I64) -> tuple[Jumps, I64]:
-    """The steps by which all nodes reach their roots, and the roots.
+    """Return the steps by which all nodes reach their roots, and the roots.
 
     Args:
         parents: (N,), -1 at the uppermost nodes.

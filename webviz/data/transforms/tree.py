@@ -28,7 +28,7 @@ class FrameTree:
         self.caches: dict[str, Cache] = {}
 
     def fault(self, frame: str) -> str:
-        """The fault of a requested frame id in tf2's words; empty if it is valid."""
+        """Return the fault of a requested frame id in tf2's words; empty if it is valid."""
         if not frame:
             return "in tf2 frame_ids cannot be empty"
         if frame[0] == "/":
@@ -46,7 +46,7 @@ class FrameTree:
             )
 
     def latest_common_time(self, target: str, source: str) -> int:
-        """The newest time for which every link between two known frames has data, as tf2 sees it.
+        """Return the newest time for which every link between two known frames has data, as in tf2.
 
         That is the oldest of the newest stamps along the chain of newest parents; links whose
         newest stamp is 0 (static ones, and moving ones stamped 0) do not count. Without any other
@@ -96,7 +96,7 @@ class FrameTree:
         raise unconnected(target, source)
 
     def resolve(self, target: str, source: str, stamp_ns: int) -> tuple[PoseTuple, int]:
-        """The pose of `source` in `target`, and the time it holds for: 0 if all links are static.
+        """Return the pose of `source` in `target`, and its time: 0 if all links are static.
 
         The walk from the source stops at the first link without data, and fails only if the walk
         from the target does not arrive there. So frames below a stale common parent still resolve.
@@ -185,7 +185,7 @@ class FrameTree:
         return frame
 
     def root(self, frame: str) -> str:
-        """The uppermost frame above this one now; of a loop, the frame where it closes."""
+        """Return the uppermost frame above this one now; of a loop, the frame where it closes."""
         return ancestors(self, frame)[-1]
 
     def as_text(self) -> str:
@@ -220,7 +220,7 @@ def extrapolation(cache: Cache, target: str, source: str, stamp_ns: int) -> Exce
 
 
 def ancestors(tree: FrameTree, frame: str) -> list[str]:
-    """The frame and its current ancestors, up to the root or until a loop closes."""
+    """Return the frame and its current ancestors, up to the root or until a loop closes."""
     chain: dict[str, None] = {}
     while frame not in chain:
         chain[frame] = None

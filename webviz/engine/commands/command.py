@@ -34,4 +34,4 @@ PROGRAM = Sender()
 
 
 def ignore(result: object) -> None:
-    """The default callback of commands: ignore the result."""
+    """Ignore the result, as callbacks of commands do by default."""

@@ -54,7 +54,7 @@ class Guard:
         return {scope: text for scope, (text, at) in self._crashes.items() if at >= since}
 
     def __call__(self, scope: str, call: Callable[..., Any], *args: Any) -> Any:
-        """The result of a call, or `CRASHED`; `scope` distinguishes calls."""
+        """Return the result of a call, or `CRASHED`; `scope` distinguishes calls."""
         try:
             result = call(*args)
         except (Exception, SystemExit) as error:  # a plug-in may call sys.exit
@@ -78,7 +78,7 @@ class Guard:
         return text
 
     def attempt(self, scope: str, otherwise: T, call: Callable[..., T], *args: Any) -> T:
-        """The result of a call, or `otherwise`."""
+        """Return the result of a call, or `otherwise`."""
         result = self(scope, call, *args)
         return otherwise if result is CRASHED else result
 

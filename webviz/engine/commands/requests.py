@@ -140,7 +140,7 @@ class Requests:
         working.add_done_callback(lambda _: self._wake())
 
     def _next(self) -> Request | None:
-        """The next request that was not cancelled and may run now."""
+        """Return the next request that was not cancelled and may run now."""
         while True:
             if self._files and self._running is None:
                 request = max(self._files, key=lambda each: each[1].priority)

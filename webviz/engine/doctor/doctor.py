@@ -105,7 +105,7 @@ class Doctor:
         return self.findings
 
     def _environment(self, state: State) -> Environment | None:
-        """This machine as it was some seconds ago, None with a bag; a thread looks at it."""
+        """Return this machine as it was some seconds ago, None with a bag; a thread looks at it."""
         if state.playback is not None and state.playback.is_live is None:
             return None
         looking = self._looking
@@ -163,7 +163,7 @@ class Doctor:
             self._note(at_ns)
 
     def _current(self) -> Sequence[Check]:
-        """The checks, those of files as they are now."""
+        """Return the checks, those of files as they are now."""
         classes = known_checks()
         if tuple(map(type, self._checks)) != classes:
             self._checks = [check() for check in classes]
@@ -180,7 +180,7 @@ class Doctor:
 
 
 def _rules(state: State) -> Iterator[Rule]:
-    """The conditions among the rules of the config."""
+    """Return the conditions among the rules of the config."""
     return (rule.condition for rule in state.settings.watch if rule.condition)
 
 

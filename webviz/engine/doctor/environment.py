@@ -65,7 +65,7 @@ def lost_datagrams() -> int:
 
 
 def _middlewares() -> Sequence[str]:
-    """The implementations of ROS's middleware that are installed, by ament's index."""
+    """Return the implementations of ROS's middleware that are installed, by ament's index."""
     prefixes = [*os.environ.get("AMENT_PREFIX_PATH", "").split(":"), sys.prefix]
     folders = [Path(prefix) / RMW_INDEX for prefix in prefixes if prefix]
     return tuple(sorted({path.name for folder in folders for path in folder.glob("rmw_*")}))
@@ -132,7 +132,7 @@ def _receive_buffer() -> int:
 
 
 def _profiles(variables: Mapping[str, str]) -> Mapping[str, str]:
-    """The problems of the files that variables name."""
+    """Return the problems of the files that variables name."""
     found: dict[str, str] = {}
     for name in PROFILES:
         for entry in filter(None, variables.get(name, "").split(",")):

@@ -35,7 +35,7 @@ class Judge:
 
 
 def value_of(rule: Rule, seen: Observation) -> float | None:
-    """The value that a rule is about, None while it is unknown."""
+    """Return the value that a rule is about, None while it is unknown."""
     if rule.subject == DOCTOR:
         least = Severity.ERROR if rule.value == "errors" else Severity.WARNING
         return float(sum(finding.severity >= least for finding in seen.findings))

@@ -12,7 +12,7 @@ SUMMARIES = {Symptom("", "Transforms")}
 
 
 def ordered(findings: Iterable[Finding]) -> Sequence[Finding]:
-    """The findings to show, the one to repair first at the beginning.
+    """Return the findings to show, the one to repair first at the beginning.
 
     Findings of one check about one subject become one. Of the others, those on a level that affects
     more come first; notes, which break nothing, come last. A finding that explains no status but

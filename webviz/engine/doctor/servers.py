@@ -14,7 +14,7 @@ _TCP = re.compile(r"tcp/(?:\[([^\]]+)\]|([^:/\"]+)):(\d+)")
 
 
 def zenoh_routers(variables: Mapping[str, str]) -> Mapping[str, str]:
-    """The problem of each Zenoh router that this machine connects to, "" for one that listens.
+    """Return the problem of each Zenoh router that this machine uses, "" for one that listens.
 
     None without Zenoh, or if a file of the session names the routers.
     """
@@ -29,7 +29,7 @@ def zenoh_routers(variables: Mapping[str, str]) -> Mapping[str, str]:
 
 
 def discovery_servers(variables: Mapping[str, str]) -> Mapping[str, str]:
-    """The problem of each discovery server of Fast DDS, "" for one that is not refused.
+    """Return the problem of each discovery server of Fast DDS, "" for one that is not refused.
 
     UDP has no connections: only the machine of the server can say that nothing listens there.
     """

@@ -63,7 +63,7 @@ class VelocityController:
         return math.inf if self._wanted == STILL else self._heard + BEAT_S
 
     def driver(self, now: float) -> int | None:
-        """The browser in control."""
+        """Return the browser in control."""
         is_held = self._velocity != STILL or now - self._held < RELEASE_S
         return self._driver if is_held else None
 
@@ -106,7 +106,7 @@ class VelocityController:
             self._tail = TAIL
 
     def step(self, now: float) -> Velocity | None:
-        """The velocity to publish now; None at rest."""
+        """Return the velocity to publish now; None at rest."""
         if now >= self.deadline:
             self.halt()
         if self.is_at_rest:
@@ -134,13 +134,13 @@ class VelocityController:
 
 
 def _part(share: float, limit: float) -> float:
-    """A share of a limit."""
+    """Return a share of a limit."""
     # Adding 0 makes -0.0 a 0.0.
     return min(max(share, -1.0), 1.0) * limit + 0.0 if math.isfinite(share) else 0.0
 
 
 def _approach(value: float, wanted: float, up: float, down: float) -> float:
-    """A step from a speed towards another one: by `down` to zero first, by `up` from there."""
+    """Return a step towards another speed: by `down` to zero first, by `up` from there."""
     if value == 0.0 or (value * wanted > 0.0 and abs(wanted) > abs(value)):
         return min(max(wanted, value - up), value + up)
     nearest = wanted if value * wanted > 0.0 else 0.0

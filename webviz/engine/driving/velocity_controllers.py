@@ -80,7 +80,7 @@ class VelocityControllers:
             }
 
     def attended(self) -> set[str]:
-        """The tools that browsers look at or drive."""
+        """Return the tools that browsers look at or drive."""
         now = time.monotonic()
         with self._lock:
             return {tool for tool in self._controllers if self._is_attended(tool, now)}
@@ -104,7 +104,7 @@ class VelocityControllers:
             return {controller.advertisement for controller in self._leaving}
 
     def drivers(self) -> dict[str, int]:
-        """The browser that drives, by tool."""
+        """Return the browser that drives, by tool."""
         now = time.monotonic()
         with self._lock:
             found = {tool: controller.driver(now) for tool, controller in self._controllers.items()}
@@ -163,7 +163,10 @@ class VelocityControllers:
             return DrivingAnswer(controller.driver(now) if driver is None else driver, problem)
 
     def _driver(self, topic: str, now: float) -> int | None:
-        """The browser that drives what listens to a topic; several tools may publish there."""
+        """Return the browser that drives what listens to a topic.
+
+        Several tools may publish there.
+        """
         controllers = (
             controller
             for controller in self._controllers.values()

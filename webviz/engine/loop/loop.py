@@ -340,7 +340,7 @@ class FrameLoop:
                 return
 
     def state(self) -> State:
-        """A snapshot for a panel, as of the last turn."""
+        """Return a snapshot for a panel, as of the last turn."""
         state, statuses = self._parts.state(), self._parts.statuses()
         crashed = failures(self._guard.crashes)
         self._black_box.look(state.rows, self.doctor.verdicts)
@@ -357,7 +357,7 @@ class FrameLoop:
         return any(runner.is_busy() for runner in self._displays.list.active())
 
     def config(self) -> Config:
-        """The current config."""
+        """Return the current config."""
         return self._files.config()
 
     def _show_state(self) -> None:

@@ -47,7 +47,7 @@ def publish(core: Core, type: str, topic: Topic, payload: bytes, report: Report)
 
 
 def _outcome(topic: str, sent: Future[int]) -> Status:
-    """The result of publishing a message."""
+    """Return the result of publishing a message."""
     try:
         count = sent.result()
     except (Error, CancelledError) as error:

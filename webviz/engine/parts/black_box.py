@@ -90,7 +90,7 @@ class BlackBoxPart(Part):
             live.inbox.read_along(lambda: self._observer.put)
 
     def subscriptions(self) -> Mapping[str, Subscription]:
-        """The topics of the rules, as the first type of each that can be read."""
+        """Return the topics of the rules, as the first type of each that can be read."""
         wanted: dict[str, Subscription] = {}
         for rule in self._watcher.rules:
             name = self._resolved(rule)
@@ -124,7 +124,7 @@ class BlackBoxPart(Part):
         self._go_on(live)
 
     def state(self) -> Mapping[str, Any]:
-        """The recordings."""
+        """Return the recordings."""
         if self._live is None:
             return {"black_box": None}
         listing = self._listing
@@ -197,7 +197,7 @@ class BlackBoxPart(Part):
         self._saving = _Saving(rule.title, time.monotonic() + AFTER_S, past.whole, folder)
 
     def _excess(self, now: datetime) -> str:
-        """The reason why no more may be saved; "" if more may."""
+        """Return the reason why no more may be saved; "" if more may."""
         limits = self._settings.settings.watch_limits
         today = f"{now:{MOMENT}}".partition("_")[0]
         count = sum(each.path.name.startswith(today) for each in self._saved)
@@ -256,7 +256,7 @@ class BlackBoxPart(Part):
 
 
 def _saved() -> tuple[SavedMoment, ...]:
-    """The recordings in the folder, the newest first."""
+    """Return the recordings in the folder, the newest first."""
     files = itertools.chain(*(Path(FOLDER).absolute().glob(f"*/{name}") for name in PARTS))
     paths = {file.parent for file in files}
     return tuple(

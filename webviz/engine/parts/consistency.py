@@ -181,7 +181,7 @@ class ConsistencyCheck:
     def _placed(
         self, scan: ScanPoints, frame: str, origin: Pose
     ) -> tuple[complex, float, C128] | None:
-        """The sensor, its heading, and its points relative to it, in the plane of `origin`.
+        """Return the sensor, its heading, and its points relative to it, in the plane of `origin`.
 
         Returns None without a transform, or if the sensor is tilted out of that plane.
         """
@@ -201,7 +201,7 @@ class ConsistencyCheck:
 
 
 def _corrected(pose: Pose, origin: Pose, by: Correction) -> Pose:
-    """The pose of a sensor in the frame of a map, corrected in the plane of the map's cells."""
+    """Return the pose of a sensor in a map's frame, corrected in the plane of its cells."""
     back = tuple(conjugate(origin.wxyz).tolist())
     x, y, z = origin.position
     on_map = compose(compose(Pose(wxyz=back), Pose((-x, -y, -z))), pose)

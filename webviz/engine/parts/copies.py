@@ -15,7 +15,7 @@ D = TypeVar("D", bound=Display)
 
 
 def copy_of(item: Item, names: set[str]) -> Item:
-    """A copy of a display, or of a group with its contents, under an unused name.
+    """Return a copy of a display, or of a group with its contents, under an unused name.
 
     Args:
         item: to copy.
@@ -39,6 +39,6 @@ def _copied(display: D) -> D:
 
 
 def _fresh(name: str, taken: set[str]) -> str:
-    """An unused name: `Scan 2` for `Scan`."""
+    """Return an unused name: `Scan 2` for `Scan`."""
     stem = re.sub(r" \d+$", "", name)
     return next(n for i in itertools.count(2) if (n := f"{stem} {i}") not in taken)

@@ -110,16 +110,16 @@ class DisplayList:
             self._insert(block, parent, successor)
 
     def group(self, id: str) -> Entry | None:
-        """The entry of an id if it is a group, else None."""
+        """Return the entry of an id if it is a group, else None."""
         entry = self.find(id)
         return entry if entry and isinstance(entry.content, DisplayGroup) else None
 
     def find(self, id: str) -> Entry | None:
-        """The entry of an id, None if it is unknown."""
+        """Return the entry of an id, None if it is unknown."""
         return next((entry for entry in self._entries if entry.id == id), None)
 
     def within(self, id: str) -> list[str]:
-        """The ids of a display or group and of its contents."""
+        """Return the ids of a display or group and of its contents."""
         outer = self.find(id)
         return [entry.id for entry in self._entries if outer and entry.is_within(outer)]
 
@@ -161,7 +161,7 @@ class DisplayList:
         return [entry.content for entry in self._entries if isinstance(entry.content, Runner)]
 
     def active(self) -> list[Runner]:
-        """The displays that are enabled, and all groups they are in; then the aids."""
+        """Return the displays that are enabled, and all groups they are in; then the aids."""
         return [
             entry.content
             for entry in self._entries
@@ -195,7 +195,7 @@ class DisplayList:
         ]
 
     def items(self, parent: Entry | None = None) -> list[Item]:
-        """The contents of a group or of the list to save: a snapshot, for any thread."""
+        """Return the contents of a group or of the list to save: a snapshot, for any thread."""
         return [self._item(entry) for entry in self._entries if entry.parent is parent]
 
     def kept(self, before: Mapping[str, Snapshot]) -> dict[str, Snapshot]:
@@ -242,7 +242,7 @@ class DisplayList:
                     self.set(entry.id, name, value)
 
     def _made_of(self, item: Item, parent: Entry | None) -> list[Entry]:
-        """The entry of a display, or those of a group and its contents."""
+        """Return the entry of a display, or those of a group and its contents."""
         if isinstance(item, Unreadable) and not item.is_from_rviz:  # else it is in the report
             log.warning("%s", item.reason)
         self._made += 1

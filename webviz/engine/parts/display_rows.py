@@ -17,7 +17,7 @@ from webviz.files.config import Unreadable
 def rows(
     entries: Sequence[Entry], statuses_of: Callable[[Runner], Mapping[str, Status]]
 ) -> tuple[Row, ...]:
-    """The list for a panel; the statuses of a group summarize the displays in it."""
+    """Return the list for a panel; the statuses of a group summarize the displays in it."""
     rows = [_row(entry, statuses_of) for entry in entries]
     for index, entry in enumerate(entries):
         if isinstance(entry.content, DisplayGroup) and entry.is_enabled:
@@ -47,7 +47,7 @@ def _row(entry: Entry, statuses_of: Callable[[Runner], Mapping[str, Status]]) ->
 
 
 def _summary(rows: Iterable[Row]) -> dict[str, Status]:
-    """The statuses of a group: the worst of each display in it that has a problem.
+    """Return the statuses of a group: the worst of each display in it that has a problem.
 
     A group whose displays are all idle is idle.
     """

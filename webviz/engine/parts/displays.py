@@ -66,7 +66,7 @@ class DisplaysPart(Part):
         }
 
     def subscriptions(self) -> Mapping[str, Subscription]:
-        """The subscriptions of the displays. The first decides on type and QoS of a topic."""
+        """Return the displays' subscriptions. The first decides on type and QoS of a topic."""
         active = self.list.active()
         return merged(each.subscriptions() for each in active if not self._is_unseen(each))
 
@@ -89,7 +89,7 @@ class DisplaysPart(Part):
             self.core.guard(self.name, runner.reset)
 
     def state(self) -> Mapping[str, Any]:
-        """The list of displays."""
+        """Return the list of displays."""
         self.core.guard("Consistency check", self.consistency.update)
         return {"rows": rows(self.list.entries, self._statuses_of)}
 

@@ -46,7 +46,7 @@ class DrivingPart(Part):
         self._subscriber = Subscriber()
 
     def subscriptions(self) -> Mapping[str, Subscription]:
-        """The odometry of attended vehicles; none while nobody drives."""
+        """Return the odometry of attended vehicles; none while nobody drives."""
         topics = self._topics().values()
         return self._subscriber.subscribe(
             {name: Subscription(ODOMETRY, topic) for name, topic in topics}

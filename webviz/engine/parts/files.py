@@ -109,11 +109,11 @@ class FilesPart(Part):
         return self._path
 
     def saved(self, path: Path | None) -> Mapping[str, Any] | None:
-        """The content of a config file as far as it is known; see `config.document`."""
+        """Return the content of a config file as far as it is known; see `config.document`."""
         return self._saved.get(path)
 
     def config(self) -> Config:
-        """The current config: a snapshot, for any thread."""
+        """Return the current config: a snapshot, for any thread."""
         displays, tools, panels = self.displays.list, self.tools, self.panels
         return Config(
             self.settings.settings,
@@ -142,14 +142,14 @@ class FilesPart(Part):
             self._list_folder()
 
     def state(self) -> Mapping[str, Any]:
-        """The file, and the others of its folder."""
+        """Return the file, and the others of its folder."""
         if self._listing is not None and self._listing.done():
             self._others, self._listing = self._listing.result(), None
         path = str(self._path) if self._path else ""
         return {"file": ConfigFile(path, self._is_changed, str(self._folder), self._others)}
 
     def statuses(self) -> Mapping[str, Status]:
-        """The unsupported parts of the open .rviz file."""
+        """Return the unsupported parts of the open .rviz file."""
         return {"Import": import_status(self._report)} if self._report else {}
 
     def _list_folder(self) -> None:
@@ -159,7 +159,7 @@ class FilesPart(Part):
                 self._listing = in_thread(functools.partial(_config_files, self._folder))
 
     def _in_folder(self, path: str, sender: Sender) -> Path:
-        """A file that was named, relative to the folder; for pages one within it."""
+        """Return a file that was named, relative to the folder; for pages one within it."""
         if "\0" in path:
             raise ConfigError("A file name cannot contain a null character. Choose another name.")
         is_config = path == Path(path).name and Path(path).suffix.lower() in SUFFIXES
@@ -277,7 +277,7 @@ def _refuse_elsewhere(file: Path) -> None:
 
 
 def _config_files(folder: Path) -> tuple[str, ...]:
-    """The names of the config files in a folder, sorted, at most `MAX_OTHERS`."""
+    """Return the names of the config files in a folder, sorted, at most `MAX_OTHERS`."""
     try:
         names = [path.name for path in folder.iterdir() if path.suffix.lower() in SUFFIXES]
     except OSError:

@@ -114,7 +114,7 @@ class HandlesPart(Part):
 
 
 def _checked(drag: Drag) -> Drag:
-    """A drag with a pose and a point that are finite and near enough, and a unit quaternion."""
+    """Return a drag with a finite pose and point within reach, and a unit quaternion."""
     pose = drag.pose
     if pose is not None:
         length = math.hypot(*pose.wxyz)

@@ -58,7 +58,7 @@ class HistoryPart(Part):
         return {Undo: self._take_back, Redo: self._do_again}
 
     def state(self) -> Mapping[str, Any]:
-        """The steps."""
+        """Return the steps."""
         undo = tuple(done.step for done in reversed(self._undo))
         redo = tuple(done.step for done in reversed(self._redo))
         return {"history": UndoHistory(undo, redo)}

@@ -64,7 +64,7 @@ class LatencyPart(Part):
         return {InspectLatency: self._inspect}
 
     def state(self) -> Mapping[str, Any]:
-        """The latencies, none while no page shows them."""
+        """Return the latencies, none while no page shows them."""
         if not self._is_wanted:
             return {"latencies": ()}
         runners = list(self._runners())[:MAX_DISPLAYS]
@@ -113,7 +113,7 @@ class LatencyPart(Part):
                     del self._asked[display]
 
     def _measure(self, runners: Sequence[Runner], passed_s: float) -> None:
-        """The share of a processor that each display took since the last time."""
+        """Measure the share of a processor that each display took since the last time."""
         busy = dict(self._tracer.busy_s)
         for runner in runners:
             used = busy.get(runner.id, 0.0) - self._busy.get(runner.id, 0.0)
@@ -150,7 +150,7 @@ class LatencyPart(Part):
 
 
 def percentiles(spans: NDArray[np.float64]) -> tuple[list[float], list[float]]:
-    """The medians and the 99th percentiles of columns, float64 (N, M): values that occurred."""
+    """Return the medians and 99th percentiles of columns, float64 (N, M): values that occurred."""
     p50, p99 = np.percentile(spans, (50, 99), axis=0, method="inverted_cdf").tolist()
     return p50, p99
 
@@ -167,7 +167,9 @@ def _times(trace: Trace) -> Times:
 
 
 def slowest_link(buffer: TransformBuffer, target: str, source: str) -> str:
-    """The link whose newest transform is oldest between two frames, in words; "" without any.
+    """Return the link whose newest transform is oldest between two frames, in words.
+
+    "" without any.
 
     It decides on the newest time at which the source has a pose in the target.
     """

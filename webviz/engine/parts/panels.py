@@ -107,7 +107,7 @@ class PanelsPart(Part):
         }
 
     def state(self) -> Mapping[str, Any]:
-        """The tabs."""
+        """Return the tabs."""
         return {"panels": tuple(self._tabs())}
 
     def statuses(self) -> Mapping[str, Status]:
@@ -119,7 +119,7 @@ class PanelsPart(Part):
         return lookback if isinstance(lookback, Lookback) else Lookback(count=1)
 
     def _attended(self) -> list[PanelTab]:
-        """The panels that are open in a browser, and those that always read."""
+        """Return the panels that are open in a browser, and those that always read."""
         return [
             tab for tab in self._tabs() if tab.tab in self._open or type(tab.panel).always_reads
         ]

@@ -80,7 +80,7 @@ class Parts:
             self._guard(part.name, part.keep_up, commanded)
 
     def state(self) -> State:
-        """The fields of all parts; those of a part that fails have their defaults."""
+        """Return the fields of all parts; those of a part that fails have their defaults."""
         found: dict[str, Any] = {}
         for part in self._overriding["state"]:
             own: Mapping[str, Any] = {}
@@ -89,7 +89,7 @@ class Parts:
         return State(**{name: value for name, value in found.items() if name in _FIELDS}, more=more)
 
     def statuses(self) -> dict[str, Status]:
-        """The statuses of the viewer as a whole, by key."""
+        """Return the statuses of the viewer as a whole, by key."""
         found: dict[str, Status] = {}
         for part in self._overriding["statuses"]:
             own: Mapping[str, Status] = {}

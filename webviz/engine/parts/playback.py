@@ -114,7 +114,7 @@ class PlaybackPart(Part):
             self._start_over()
 
     def state(self) -> Mapping[str, Any]:
-        """The state of the control, and what is recorded when."""
+        """Return the state of the control, and what is recorded when."""
         playback = self._control.playback
         if playback.absence:
             return {"playback": None, "recorded": {}, "logged": ()}
@@ -251,7 +251,7 @@ class PlaybackPart(Part):
         return self._control
 
     def _at_ns(self, seconds: float) -> int:
-        """A position, not before the first message."""
+        """Return a position, not before the first message."""
         playback = self._known().playback
         if math.isnan(seconds):
             raise Error("NaN is not a valid time. Give seconds from the start of the recording.")
@@ -281,5 +281,5 @@ def _state_of(control: PlaybackControl, is_opened: bool) -> PlaybackState:
 
 
 def _seconds(span_ns: tuple[int, int] | None, start_ns: int) -> tuple[float, float] | None:
-    """A span in seconds from the start."""
+    """Return a span in seconds from the start."""
     return span_ns and ((span_ns[0] - start_ns) / 1e9, (span_ns[1] - start_ns) / 1e9)

@@ -124,7 +124,7 @@ class PluginList(Generic[P]):
         }
 
     def _set_back(self, item: P | Unreadable, now: Snapshot, wanted: Snapshot) -> P | Unreadable:
-        """An item with its old properties."""
+        """Return an item with its old properties."""
         if isinstance(item, Unreadable):
             return cast(Unreadable, wanted.content)
         for name, value in wanted.values.items():

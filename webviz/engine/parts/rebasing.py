@@ -37,7 +37,7 @@ def _settings(now: Settings, old: Settings, new: Settings) -> Settings:
 def _values(
     now: Mapping[str, Any], old: Mapping[str, Any], new: Mapping[str, Any]
 ) -> dict[str, Any]:
-    """A mapping with the changes of another: keys that went, came or have other values."""
+    """Return a mapping with the changes of another: keys that went, came or have other values."""
     kept = {key: value for key, value in now.items() if key in new or key not in old}
     return kept | {k: value for k, value in new.items() if k not in old or old[k] != value}
 

@@ -66,7 +66,7 @@ class RecordingPart(Part):
             self._end(self._recorder)
 
     def state(self) -> Mapping[str, Any]:
-        """The memory and the recording."""
+        """Return the memory and the recording."""
         if self._live is None:
             return {"memory": None, "recording": None}
         memory = self._live.memory
@@ -174,7 +174,7 @@ class RecordingPart(Part):
 
 
 def new_folder(path: Path) -> RecordingFolder:
-    """A folder to record to; blocks.
+    """Return a folder to record to; blocks.
 
     Raises:
         Error: it cannot be written.

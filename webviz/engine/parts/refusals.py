@@ -13,7 +13,7 @@ from webviz.files.config import ConfigError, explain, sentences
 def not_changed(
     error: msgspec.ValidationError, cls: type[msgspec.Struct], path: str, value: Any
 ) -> ConfigError:
-    """The error for an invalid value of a property.
+    """Return the error for an invalid value of a property.
 
     Args:
         error: of validating the value.

@@ -122,7 +122,7 @@ class ReportsPart(Part):
         }
 
     def state(self) -> Mapping[str, Any]:
-        """The selection of the report that is shown."""
+        """Return the selection of the report that is shown."""
         return {"reported": self._reported}
 
     def _restore(self, command: RestoreSelection, sender: Sender) -> None:
@@ -171,7 +171,7 @@ class ReportsPart(Part):
         )
 
     def _slice(self) -> tuple[Slice, str]:
-        """The slice around the moment that is shown, and the name of its source."""
+        """Return the slice around the moment that is shown, and the name of its source."""
         source, control = self.core.source, self._control
         if isinstance(source, Switchable):
             source = source.shown
@@ -189,7 +189,7 @@ class ReportsPart(Part):
 
 
 def _listing(moment: _Moment) -> list[str]:
-    """The content of a report, a line per member."""
+    """Return the content of a report, a line per member."""
     state, part, names = moment.state, moment.part, moment.names
     topics = counted(part.topics, "topic")
     whose = "the bag" if moment.source != "live" else "memory"
@@ -298,7 +298,7 @@ def _time(event: Event) -> int:
 
 
 def _picked(picks: Sequence[Picks], state: State) -> tuple[ReportedPick, ...]:
-    """A selection, with the numbers of displays instead of their ids, which differ later."""
+    """Return a selection, with the numbers of displays instead of their ids, which differ later."""
     places = {row.id: number for number, row in enumerate(state.rows)}
     found: list[ReportedPick] = []
     for each in picks:
@@ -355,7 +355,7 @@ def _encoded(value: Any) -> bytes:
 
 
 def _picture(text: str) -> tuple[str, bytes] | None:
-    """The name and content of the member with a picture that was sent, None without one.
+    """Return the name and content of the member with a picture that was sent, None without one.
 
     Raises:
         Error: it is not a picture.
@@ -374,7 +374,7 @@ def _picture(text: str) -> tuple[str, bytes] | None:
 
 
 def _new_path() -> Path:
-    """A new file in the working folder, named by the time."""
+    """Return a new file in the working folder, named by the time."""
     stem = f"webviz_report_{datetime.now():%Y_%m_%d-%H_%M_%S}"
     for number in itertools.count(1):
         path = Path(f"{stem}.zip" if number == 1 else f"{stem}_{number}.zip").absolute()

@@ -38,7 +38,10 @@ class Snapshot:
 
 
 def kept(content: Declared | Unreadable, group: str, before: Snapshot | None) -> Snapshot:
-    """A snapshot of an entry; the one from before if it is still the same, to save memory."""
+    """Return a snapshot of an entry.
+
+    The one from before if it is still the same, to save memory.
+    """
     if isinstance(content, Unreadable):
         now = Snapshot(None, {}, content, group)
     else:
@@ -163,7 +166,7 @@ def _of_changes(new: Mapping[str, Snapshot], changes: list[tuple[str, str]]) -> 
 
 
 def _moved(old: Mapping[str, Snapshot], new: Mapping[str, Snapshot]) -> str:
-    """The name of what was moved, "" if nothing was."""
+    """Return the name of what was moved, "" if nothing was."""
     for id, kept in new.items():
         if kept.group != old[id].group:
             return kept.name

@@ -68,7 +68,7 @@ class ToolsPart(Part):
         return {UseTool: self._use, SetToolProperty: self._set}
 
     def odometry(self) -> dict[str, Topic]:
-        """The odometry of each vehicle, by id of its tool."""
+        """Return the odometry of each vehicle, by id of its tool."""
         vehicles = {id: tool.vehicle for id, tool in self.list.usable().items()}
         return {id: vehicle.odometry for id, vehicle in vehicles.items() if vehicle}
 
@@ -96,7 +96,7 @@ class ToolsPart(Part):
             gate.advertise(wanted, stopping)
 
     def state(self) -> Mapping[str, Any]:
-        """The buttons of the toolbar; a key belongs to the first tool that asks for it."""
+        """Return the buttons of the toolbar; a key belongs to the first tool that asks for it."""
         keys: dict[str, str] = {}
         for id, tool in self.list.usable().items():
             keys.setdefault(tool.shortcut, id)
@@ -149,7 +149,7 @@ class ToolsPart(Part):
         return refusals[0] if refusals and all(refusals) else ""
 
     def _advertisements(self, tool: Tool) -> list[Advertisement]:
-        """The advertisements of a tool whose topics have valid names."""
+        """Return the advertisements of a tool whose topics have valid names."""
         found = [
             advertisement_of(self.core, output.type, topic) for _, output, topic in outputs(tool)
         ]

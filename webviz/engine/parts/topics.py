@@ -47,7 +47,7 @@ class TopicsPart(Part):
         return {InspectTopic: self._inspect, InspectTopics: self._inspect_for_pages}
 
     def subscriptions(self) -> Mapping[str, Subscription]:
-        """The topics that are looked into while a browser is open, as the first type of each."""
+        """Return the topics that are inspected while a browser is open, with their first types."""
         inspected = self._inspected() if self.core.is_watched() else ()
         offers = {topic: self.core.offers.get(topic) for topic in inspected}
         return self._subscriber.subscribe(

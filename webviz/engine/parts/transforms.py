@@ -41,7 +41,7 @@ class TransformsPart(Part):
         return {InspectTransforms: self._inspect, LookUpTransform: self._look_up}
 
     def subscriptions(self) -> Mapping[str, Subscription]:
-        """The topics of tf2."""
+        """Return the topics of tf2."""
         if (robots := self._robots()) != self._followed:
             self._followed = robots
             self._listener.follow(robots)
@@ -61,7 +61,7 @@ class TransformsPart(Part):
         self._tree = None
 
     def state(self) -> Mapping[str, Any]:
-        """The frames, and the requested reports on them."""
+        """Return the frames, and the requested reports on them."""
         buffer = self.core.buffer
         is_watched = self.core.is_watched()
         between = sorted(self._wanted.between)[:MAX_BETWEEN] if is_watched else ()
@@ -95,7 +95,7 @@ class TransformsPart(Part):
         )
 
     def _diagnosis(self) -> Diagnosis:
-        """The tree as it was less than a second ago; at once if frames came or moved."""
+        """Return the tree as it was less than a second ago; at once if frames came or moved."""
         now, structure = self.core.clock(), self.core.buffer.structure_version
         tree = self._tree
         if tree is None or tree[1] != structure or not 0.0 <= now - tree[0] < EVERY_S:

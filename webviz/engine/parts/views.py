@@ -96,7 +96,7 @@ class ViewsPart(Part):
         self._cameras.show(view)
 
     def followed(self) -> set[str]:
-        """The frames whose poses `follow` needs."""
+        """Return the frames whose poses `follow` needs."""
         return self._cameras.target_frames()
 
     def follow(self, targets: set[str], frames: Frames) -> None:
@@ -109,7 +109,7 @@ class ViewsPart(Part):
         self._placed = targets
 
     def statuses(self) -> Mapping[str, Status]:
-        """Views whose target frame has no pose."""
+        """Return views whose target frame has no pose."""
         frames = self.core.frames
         lost = [
             f"The view cannot follow {frame}. {frames.why_not(frame)}"
@@ -119,7 +119,7 @@ class ViewsPart(Part):
         return {"Target Frame": Status(Level.WARN, joined(*lost))} if lost else {}
 
     def state(self) -> Mapping[str, Any]:
-        """The current view of every browser."""
+        """Return the current view of every browser."""
         return {"views": self._cameras.views()}
 
     # Commands
@@ -191,7 +191,7 @@ class ViewsPart(Part):
         self._cameras.save_image(command.name, _browser(command, sender))
 
     def _seen(self, browser: int | None) -> Mapping[int, View]:
-        """The views of one browser, or of all.
+        """Return the views of one browser, or of all.
 
         Raises:
             ConfigError: no browser is connected.
@@ -245,7 +245,7 @@ def _check_name(name: str) -> None:
 
 
 def _browser(command: Any, sender: Sender) -> int | None:
-    """The browser that a command acts on, None for all."""
+    """Return the browser that a command acts on, None for all."""
     return sender.browser if command.browser is None else command.browser
 
 

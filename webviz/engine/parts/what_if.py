@@ -57,7 +57,7 @@ class WhatIfPart(Part):
             self._leave()
 
     def state(self) -> Mapping[str, Any]:
-        """The trial, and how well scans fit."""
+        """Return the trial, and how well scans fit."""
         trial = self._trial
         if trial is None:
             return {"what_if": None}

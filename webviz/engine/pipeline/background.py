@@ -77,7 +77,9 @@ class Tasks:
         *args: Any,
         stop: Callable[[], None] | None = None,
     ) -> Any:
-        """The result of `fn(*args)`, None until it is ready; the same for all calls of a drawing.
+        """Return the result of `fn(*args)`, None until it is ready.
+
+        The same for all calls of a drawing.
 
         Args:
             key: identifies the work and its arguments.

@@ -32,7 +32,7 @@ _UNTURNED = np.array((1.0, 0.0, 0.0, 0.0), np.float32)
 
 
 def origin_near(position: Position, former: Position) -> Position:
-    """An origin for data at a position: the former one if it is near enough."""
+    """Return an origin for data at a position: the former one if it is near enough."""
     if max(abs(p - f) for p, f in zip(position, former, strict=True)) <= REACH_M:
         return former
     x, y, z = (round(p / REACH_M) * REACH_M for p in position)
@@ -68,7 +68,7 @@ def bake(group: Group, former: Position) -> Position:
 
 
 def baked(node: Node, pose: Pose, origin: Position) -> Node:
-    """The node that looks at `origin` like `node` does at `pose`.
+    """Return the node that looks at `origin` like `node` does at `pose`.
 
     Args:
         node: one that `can_bake`.

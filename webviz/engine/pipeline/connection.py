@@ -124,11 +124,11 @@ class DisplayConnection:
     # For the runner
 
     def subscriptions(self) -> dict[str, Subscription]:
-        """The subscriptions by topic."""
+        """Return the subscriptions by topic."""
         return {name: line.subscription for name, line in self._lines.items()}
 
     def topics(self) -> tuple[str, ...]:
-        """The names of these topics."""
+        """Return the names of these topics."""
         return tuple(self._lines)
 
     def advertisements(self) -> list[Advertisement]:

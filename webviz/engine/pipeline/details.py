@@ -26,7 +26,7 @@ def details_tree(values: Mapping[str, object]) -> dict[str, Any]:
 
 
 def first_line(values: Mapping[str, object]) -> str:
-    """The first value with its name, "" if it is nothing that fits a line."""
+    """Return the first value with its name, "" if it is nothing that fits a line."""
     for name, value in values.items():
         text = _Maker().tree(value)
         return f"{name} {text}" if isinstance(text, str) else ""

@@ -19,7 +19,7 @@ UNSEEN_TURNS = 2
 
 
 def reference_group(display: str, frame: str) -> str:
-    """The group of the scene that is where a frame is, for pages that move a handle in it."""
+    """Return the group of the scene at a frame, for pages that move a handle in it."""
     return f"{display}/frame of handles/{frame}"
 
 
@@ -54,7 +54,7 @@ class Dragging:
         return self._connection.subscriptions() if self._connection else {}
 
     def topics(self) -> tuple[str, ...]:
-        """The names of these topics."""
+        """Return the names of these topics."""
         return self._connection.topics() if self._connection else ()
 
     def advertisements(self) -> list[Advertisement]:
@@ -62,7 +62,7 @@ class Dragging:
         return self._connection.advertisements() if self._connection else []
 
     def followed(self) -> set[str]:
-        """The frames whose poses `communicate` needs."""
+        """Return the frames whose poses `communicate` needs."""
         return self._placed
 
     def is_busy(self) -> bool:

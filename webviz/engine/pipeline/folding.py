@@ -100,7 +100,7 @@ class Folding:
 
 
 def _merged(display: Display, received: Received, state: Any) -> Any:
-    """The state with a sample merged into it, or why its message is invalid."""
+    """Return the state with a sample merged into it, or why its message is invalid."""
     decoded = _decoded(received)
     if isinstance(decoded, MessageError):
         return decoded
@@ -108,7 +108,7 @@ def _merged(display: Display, received: Received, state: Any) -> Any:
 
 
 def _decoded(received: Received) -> Received | MessageError:
-    """A sample with its message, or why that is invalid."""
+    """Return a sample with its message, or why that is invalid."""
     sample = received.sample
     if sample.message is not None:
         return received

@@ -75,7 +75,7 @@ class FrameHandle(Display, Draggable):
     trial: Any = None
 
     def handles(self, ctx: Context) -> Mapping[str, Handle]:
-        """The one handle."""
+        """Return the one handle."""
         return self.trial.shown
 
     def drag(self, drag: Drag, connection: GraphConnection, ctx: Context) -> None:
@@ -103,7 +103,7 @@ class FrameHandle(Display, Draggable):
 
 
 def _ring(wxyz: Wxyz) -> tuple[Any, Any]:
-    """The vertices and faces of a torus about the turned x axis."""
+    """Return the vertices and faces of a torus about the turned x axis."""
     radius, tube = RING_M
     around = np.arange(STEPS)[:, None] * (2 * np.pi / STEPS)
     about = np.arange(SIDES) * (2 * np.pi / SIDES)

@@ -81,7 +81,7 @@ class History:
         """Cache of `samples`; never changed in place, as callers hold it."""
 
     def samples(self) -> Sequence[Sample]:
-        """The samples that can be drawn, oldest first."""
+        """Return the samples that can be drawn, oldest first."""
         if self._samples is None:
             self._samples = [held.sample for held in self.held if held.has_pose]
         return self._samples
@@ -115,7 +115,7 @@ class History:
         return freed
 
     def shortage(self, keep: Keep, now_ns: int) -> str:
-        """A sentence if samples within `keep` were dropped for their size, else ""."""
+        """Return a sentence if samples within `keep` were dropped for their size, else ""."""
         if self._missed_ns is None or not self.held or len(self.held) >= self._most(keep):
             return ""
         limit = f"limit of {MAX_BYTES // 1_000_000} MB for all displays"
@@ -186,7 +186,7 @@ Histories = dict[str, History]
 
 
 def held_samples(histories: Histories) -> Sequence[Sample]:
-    """The samples of all inputs that can be drawn, oldest first."""
+    """Return the samples of all inputs that can be drawn, oldest first."""
     if len(histories) == 1:
         return next(iter(histories.values())).samples()
     every = (history.samples() for history in histories.values())

@@ -109,7 +109,7 @@ class InputSubscription:
         return len(self._filter) > 0 and self._newest > self._newest_placed
 
     def subscription(self, lookback: Lookback, is_placed: bool) -> Subscription:
-        """The subscription of the topic.
+        """Return the subscription of the topic.
 
         Args:
             lookback: which past messages of a recording it needs; the newest, too, for the status.
@@ -228,7 +228,7 @@ class InputSubscription:
         self._stamps.clear()
 
     def observed(self, sample: Sample | None) -> InputSeen:
-        """The input as the checks of the doctor see it.
+        """Return the input as the checks of the doctor see it.
 
         Args:
             sample: its newest message with a pose, None without one.
@@ -299,7 +299,7 @@ def _lag(lag_ns: int) -> tuple[Measurement, ...]:
 def input_subscriptions_of(
     display: Display, resolve: Callable[[str], str]
 ) -> dict[str, InputSubscription]:
-    """The subscriptions of a display by input.
+    """Return the subscriptions of a display by input.
 
     Args:
         display: has the topics.

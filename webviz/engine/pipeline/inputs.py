@@ -50,7 +50,7 @@ class Inputs:
         self._guard = guard
 
     def subscriptions(self) -> dict[str, Subscription]:
-        """The subscriptions by topic."""
+        """Return the subscriptions by topic."""
         wanted: dict[str, Subscription] = {}
         for name, input_subscription in self.active().items():
             if input_subscription.name and input_subscription.type:
@@ -65,7 +65,7 @@ class Inputs:
         self._subscriber.ask()
 
     def topics(self) -> list[str]:
-        """The full names of the topics."""
+        """Return the full names of the topics."""
         return [input_subscription.name for input_subscription in self.input_subscriptions.values()]
 
     def is_waiting(self) -> bool:
@@ -143,7 +143,7 @@ class Inputs:
     def _lookback(
         self, name: str, input_subscription: InputSubscription, is_placed: bool
     ) -> Lookback:
-        """The declared lookback of an input, and the messages that wait for others."""
+        """Return the declared lookback of an input, and the messages that wait for others."""
         lookback = self._guard("lookback", self._display.lookback, name)
         if not isinstance(lookback, Lookback):
             return Lookback()
@@ -170,7 +170,7 @@ class Inputs:
         return is_silent and other is not None and other.has_received
 
     def active(self) -> dict[str, InputSubscription]:
-        """The intakes that the display listens to, by input."""
+        """Return the intakes that the display listens to, by input."""
         if not overrides(self._display, "listens"):
             return self.input_subscriptions
         listens = self._display.listens
@@ -180,7 +180,7 @@ class Inputs:
         }
 
     def _renewed(self, active: Mapping[str, InputSubscription]) -> Synchronizer[Arrival] | None:
-        """The synchronizer of the inputs that currently take part."""
+        """Return the synchronizer of the inputs that currently take part."""
         sync = type(self._display).sync
         if sync is None:
             return None

@@ -77,7 +77,7 @@ class TransformListener:
         self._offers = None
 
     def subscriptions(self) -> dict[str, Subscription]:
-        """The topics of tf2."""
+        """Return the topics of tf2."""
         return self._subscriber.subscribe(
             {
                 topic: Subscription(
@@ -154,7 +154,7 @@ class TransformListener:
             )
 
     def _names_of(self, topic: str, batch: TransformBatch, robot: NamespacedRobot | None) -> Names:
-        """The frames of a batch by their names in the viewer, made once for equal messages."""
+        """Return the frames of a batch by their names in the viewer, cached for equal messages."""
         if robot is None:
             return batch.names
         known = self._names.get(topic)
@@ -231,7 +231,7 @@ class TransformListener:
 
 
 def _topics(robots: Sequence[NamespacedRobot]) -> dict[str, tuple[bool, NamespacedRobot | None]]:
-    """The topics of tf2: whether each is static, and whose it is."""
+    """Return the topics of tf2: whether each is static, and whose it is."""
     roots: list[tuple[str, NamespacedRobot | None]] = [
         ("/", None),
         *((each.root, each) for each in robots),
@@ -253,6 +253,6 @@ def _few(sentences: list[str]) -> list[str]:
 
 
 def _nodes(offers: Mapping[str, Offer], topic: str) -> tuple[str, ...]:
-    """The nodes that publish a topic, with duplicates."""
+    """Return the nodes that publish a topic, with duplicates."""
     publishers = offers[topic].publishers if topic in offers else ()
     return tuple(publisher.label for publisher in publishers)

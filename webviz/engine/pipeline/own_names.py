@@ -20,7 +20,7 @@ PATTERN = frozenset("*?[")
 
 
 def own_names(config: Config, guard: Guard) -> tuple[str, ...]:
-    """The names of a config's own topics, services and actions, sorted.
+    """Return the names of a config's own topics, services and actions, sorted.
 
     They are those of its tools, displays and panels, and those of installed displays and panels
     with default properties, since pages may add these. What is changed later adds no name, or

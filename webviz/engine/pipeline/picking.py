@@ -63,7 +63,10 @@ class Found:
     fixed_frame: str
 
     def position(self, frames: Frames) -> tuple[str, Position] | None:
-        """A frame, and where it is in that frame; the fixed one unless that changed meanwhile."""
+        """Return a frame, and where it is in that frame.
+
+        The fixed one unless that changed meanwhile.
+        """
         frame, pose = self.fixed_frame, self.pose
         if (moving := self.placement.frame) is not None:
             is_latest = self.placement.when == "latest"
@@ -131,7 +134,7 @@ def _ids(node: Items, rows: NDArray[np.intp]) -> list[Any]:
 
 
 def _drawn_rows(node: Items) -> NDArray[np.intp] | None:
-    """The rows that browsers have, None for all; those that are not finite are not sent."""
+    """Return the rows that browsers have, None for all; those that are not finite are not sent."""
     if isinstance(node, Points):
         return None
     arrays = [getattr(node, name, None) for name in ("segments", "positions", "scales", "wxyzs")]
@@ -142,7 +145,7 @@ def _drawn_rows(node: Items) -> NDArray[np.intp] | None:
 
 
 def _only(node: N, rows: NDArray[np.intp]) -> N:
-    """Some of the items."""
+    """Return some of the items."""
     count = _count(node)
     values = {f.name: getattr(node, f.name) for f in fields(node)}
     arrays = {name: v for name, v in values.items() if isinstance(v, np.ndarray)}
@@ -151,7 +154,7 @@ def _only(node: N, rows: NDArray[np.intp]) -> N:
 
 
 def _face_at(node: Mesh, point: Position) -> int:
-    """The face that a point is on."""
+    """Return the face that a point is on."""
     corners = node.vertices[node.faces].astype(np.float64)
     a = corners[:, 0]
     ab, ac, ap = corners[:, 1] - a, corners[:, 2] - a, point - a

@@ -119,7 +119,7 @@ class Watcher:
             self._thread.join()
 
     def changed(self) -> list[Path]:
-        """The files that changed since the last call."""
+        """Return the files that changed since the last call."""
         now = {path: _stamp(path) for path in self._known}
         changed = [path for path, stamp in now.items() if stamp != self._known[path]]
         self._known = now
@@ -145,7 +145,7 @@ def _module_name(path: Path) -> str:
 
 
 def _compiled(path: Path) -> Any:
-    """The code of a file, always from its text: byte-code caches miss saves within a second."""
+    """Return the code of a file from its text: byte-code caches miss saves within a second."""
     try:
         return compile(path.read_bytes(), str(path), "exec", dont_inherit=True)
     except OSError as error:
@@ -205,7 +205,7 @@ def _classes_of(module: ModuleType) -> dict[str, type[Declared]]:
 
 
 def _line(path: Path, trace: TracebackType | None) -> int | None:
-    """The innermost line of the file in a traceback."""
+    """Return the innermost line of the file in a traceback."""
     lines = [each.lineno for each in traceback.extract_tb(trace) if each.filename == str(path)]
     return lines[-1] if lines else None
 
@@ -228,7 +228,7 @@ def _renew(runner: Runner, types: Mapping[str, type[Display]], path: Path) -> No
 
 
 def made_new(old: Declared, cls: type[P]) -> tuple[P, list[str]]:
-    """An instance of a class with the values of an older one, and which of them do not fit."""
+    """Return an instance of a class with an older one's values, and those that do not fit."""
     made = make(cls, {})
     lost = [
         problem

@@ -44,6 +44,6 @@ class PointBudget:
 
 
 def _rounded(count: int) -> int:
-    """The next smaller number with two significant digits, at least 1."""
+    """Return the next smaller number with two significant digits, at least 1."""
     unit = 10 ** max(len(str(count)) - 2, 0)
     return max(count // unit * unit, 1)

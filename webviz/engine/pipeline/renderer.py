@@ -172,11 +172,11 @@ class Renderer:
         return self._draw_job.held.size if self._draw_job else 0
 
     def followed(self) -> set[str]:
-        """The frames whose poses `draw` needs."""
+        """Return the frames whose poses `draw` needs."""
         return self._diff.followed()
 
     def lost(self, frames: Frames) -> list[str]:
-        """The frames without a pose that hidden groups follow."""
+        """Return the frames without a pose that hidden groups follow."""
         return self._diff.lost(frames)
 
     def is_empty(self) -> bool:
@@ -184,7 +184,7 @@ class Renderer:
         return self._diff.is_empty()
 
     def statuses(self) -> dict[str, Status]:
-        """The statuses of the last call of each hook; the worst per key."""
+        """Return the statuses of the last call of each hook; the worst per key."""
         result: dict[str, Status] = {}
         for said in self._statuses.values():
             for key, status in said.items():
@@ -201,7 +201,7 @@ class Renderer:
         return {path: names for said in self._offered.values() for path, names in said.items()}
 
     def context(self, display: Display, guard: Guard, frames: Frames) -> Context | None:
-        """A context for hooks that do not draw; None without a state."""
+        """Return a context for hooks that do not draw; None without a state."""
         return self._context(frames) if self._has_state(display, guard) else None
 
     def _has_state(self, display: Display, guard: Guard) -> bool:
@@ -317,7 +317,7 @@ class Renderer:
 
 
 def _result(done: Future[None], context: Context) -> None:
-    """The hook of a sample that was drawn in a worker: raises what it raised there."""
+    """Raise what the hook of a sample raised in the worker that drew it."""
     done.result()
 
 

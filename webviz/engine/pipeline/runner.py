@@ -108,7 +108,7 @@ class Runner:
         self._dragging.hide()
 
     def subscriptions(self) -> dict[str, Subscription]:
-        """The subscriptions by topic, none while the display is disabled."""
+        """Return the subscriptions by topic, none while the display is disabled."""
         if not self.display.enabled:
             return {}
         return merged([self._sample_buffer.inputs.subscriptions(), self._dragging.subscriptions()])
@@ -163,7 +163,7 @@ class Runner:
         return self.display.enabled and bool(is_busy)
 
     def followed(self) -> set[str]:
-        """The frames whose poses `draw` needs."""
+        """Return the frames whose poses `draw` needs."""
         if not self.display.enabled:
             return set()
         return self._renderer.followed() | self._dragging.followed()
@@ -245,7 +245,7 @@ class Runner:
     # Internal
 
     def _own(self, frames: Frames) -> Frames:
-        """The frames by the names of the robot whose topics the display has."""
+        """Return the frames by the names of the robot whose topics the display has."""
         robots = self._services.robots()
         if not robots:
             return frames
@@ -288,5 +288,5 @@ class Runner:
 
 
 def _sample_source(display: Display) -> tuple[object, ...]:
-    """Samples of one class serve another if this is equal."""
+    """Return what must be equal for samples of one class to serve another."""
     return inputs(display), type(display).sync, overrides(display, "fold")

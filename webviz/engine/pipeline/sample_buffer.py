@@ -105,7 +105,7 @@ class SampleBuffer:
         return is_moved
 
     def observed(self) -> tuple[InputSeen, ...]:
-        """The inputs that the display listens to, as the checks of the doctor see them."""
+        """Return the inputs that the display listens to, as the checks of the doctor see them."""
         newest: dict[str, Sample] = {}
         if not overrides(self._display, "fold"):  # whose samples are no messages
             for sample in held_samples(self.histories):
@@ -199,7 +199,7 @@ class SampleBuffer:
     def _sample(
         self, name: str, arrival: Arrival, frames: Frames, is_decoded_later: bool
     ) -> Sample | None:
-        """A message with its pose, None if it cannot be shown."""
+        """Return a message with its pose, None if it cannot be shown."""
         input_subscription = self.inputs.input_subscriptions[name]
         if not arrival.frame:
             pose = Pose()

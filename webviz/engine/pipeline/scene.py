@@ -23,11 +23,11 @@ class Cameras(Protocol):
         ...
 
     def views(self) -> Mapping[int, View]:
-        """The current view of every browser, by its id."""
+        """Return the current view of every browser, by its id."""
         ...
 
     def target_frames(self) -> set[str]:
-        """The target frames of current views, and of the one that browsers start with."""
+        """Return the target frames of current views, and of the one that browsers start with."""
         ...
 
     def size(self, browser: int) -> tuple[float, float]:
@@ -73,7 +73,7 @@ class Scene(SceneWriter, Protocol):
         ...
 
     def bounds(self, prefix: str) -> Box | None:
-        """The box around everything visible in the groups of a prefix."""
+        """Return the box around everything visible in the groups of a prefix."""
         ...
 
     def flush(self) -> None:

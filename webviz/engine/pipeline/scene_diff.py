@@ -82,7 +82,7 @@ class _Followers:
 
 
 def groups_of(context: Context) -> dict[str, Group]:
-    """The context itself by "", and its groups that follow frames by their keys."""
+    """Return the context itself by "", and its groups that follow frames by their keys."""
     return {"": context, **context.groups}
 
 
@@ -167,7 +167,7 @@ class SceneDiff:
             self.remove(scope)
 
     def followed(self) -> set[str]:
-        """The frames whose poses `move` needs."""
+        """Return the frames whose poses `move` needs."""
         return {each.placement.frame for each in self._following() if each.placement.frame}
 
     def move(self, frames: Frames) -> None:
@@ -190,7 +190,7 @@ class SceneDiff:
         )
 
     def lost(self, frames: Frames) -> list[str]:
-        """The frames without a pose that hidden groups follow."""
+        """Return the frames without a pose that hidden groups follow."""
         placements = [each.placement for each in self._following()]
         return sorted(
             {p.frame for p in placements if p.frame and not p.keep_last and not _pose(p, frames)}

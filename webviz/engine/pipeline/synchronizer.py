@@ -99,7 +99,7 @@ class Synchronizer(Generic[P]):
         return Gap(present, stamp_ns, missing, offs[missing])
 
     def _nearest(self, name: str, stamp_ns: int) -> dict[str, int] | None:
-        """The stamps of the set that a message completes.
+        """Return the stamps of the set that a message completes.
 
         Every set lies in a window of the slop that starts at its earliest stamp. Within a window
         each input is chosen independently, so trying all windows is cheap, unlike trying all

@@ -143,7 +143,7 @@ class TopicStatistics:
         return Remedy(self._path, AUTOMATIC, "Set QoS to automatic")
 
     def _nearest(self, offers: Mapping[str, Offer]) -> str:
-        """The topic of this type whose name is most like this one's, "" if there is none."""
+        """Return the topic of this type whose name is most like this one's, "" if there is none."""
         if offers is not self._others[0]:  # else nothing has changed
             others = (
                 topic

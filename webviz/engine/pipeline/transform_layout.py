@@ -63,7 +63,7 @@ class TransformLayout:
         self._head = cdr[:4]
 
     def read(self, cdr: bytes) -> TransformBatch | None:
-        """The transforms of another message, None if its frames differ."""
+        """Return the transforms of another message, None if its frames differ."""
         if len(cdr) != self._size or cdr[:4] != self._head or self._expected is None:
             return None
         words = _words(cdr)
@@ -82,7 +82,7 @@ class Layouts:
         self._by_size: dict[int, list[TransformLayout]] = {}
 
     def read(self, cdr: bytes) -> TransformBatch | None:
-        """The transforms of a message, None if its layout is unknown."""
+        """Return the transforms of a message, None if its layout is unknown."""
         for layout in self._by_size.get(len(cdr), ()):
             if (batch := layout.read(cdr)) is not None:
                 return batch
@@ -100,7 +100,7 @@ class Layouts:
 
 
 def _behind(pos: int, text: str) -> int:
-    """The position of the word after a string at a position."""
+    """Return the position of the word after a string at a position."""
     return (pos + 4 + len(text.encode()) + 1 + 3) & ~3
 
 

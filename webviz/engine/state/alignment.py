@@ -48,7 +48,7 @@ class Correction(NamedTuple):
 
 
 def distances(occupied: NDArray[np.bool_], resolution: float) -> F64:
-    """The distance of the middle of each cell to that of the nearest occupied one, up to `FAR_M`.
+    """Return the distance of each cell to the nearest occupied one, centre to centre.
 
     Args:
         occupied: bool (rows, columns).
@@ -95,7 +95,7 @@ def _size(correction: Correction) -> float:
 def _beginnings(
     field: F64, resolution: float, here: complex, points: C128
 ) -> Iterator[tuple[complex, float]]:
-    """The best places of a grid around the laser, and the present one."""
+    """Yield the best places of a grid around the laser, and the present one."""
     yield 0j, 0.0
     line = np.arange(-REACH_M, REACH_M + STEP_M / 2, STEP_M)
     shifts = (line + 1j * line[:, None]).ravel()
@@ -110,7 +110,7 @@ def _beginnings(
 
 
 def _nearest(field: F64, resolution: float, places: C128) -> F64:
-    """The distances at places, without interpolation."""
+    """Return the distances at places, without interpolation."""
     rows, columns = field.shape
     x = np.floor(places.real / resolution).astype(np.intp)
     y = np.floor(places.imag / resolution).astype(np.intp)
@@ -146,7 +146,7 @@ def _refined(
 
 
 def _sampled(field: F64, resolution: float, places: C128) -> tuple[F64, C128]:
-    """The distances at places and their slopes along x and y, interpolated bilinearly."""
+    """Return the distances at places and their slopes along x and y, interpolated bilinearly."""
     rows, columns = field.shape
     x, y = places.real / resolution - 0.5, places.imag / resolution - 0.5
     inside = (x >= 0) & (y >= 0) & (x < columns - 1) & (y < rows - 1)

@@ -82,7 +82,7 @@ def fit(
     here = laser - corner
 
     def at(grid: NDArray[np.bool_], places: C128) -> NDArray[np.bool_]:
-        """The cells at places relative to the corner; those outside are False."""
+        """Return the cells at places relative to the corner; those outside are False."""
         x = np.floor(places.real / resolution).astype(np.intp)
         y = np.floor(places.imag / resolution).astype(np.intp)
         inside = (x >= 0) & (y >= 0) & (x < 2 * reach) & (y < 2 * reach)
@@ -158,7 +158,7 @@ def thinned(points: C128, most: int) -> C128:
 
 
 def _middle(values: C128, shares: F64) -> complex:
-    """The mean of the best values around the one with the smallest size."""
+    """Return the mean of the best values around the one with the smallest size."""
     best = values[shares >= shares.max() - EQUAL]
     nearest = best[np.argmin(np.abs(best))]
     step = np.abs(values[1] - values[0])
@@ -166,7 +166,7 @@ def _middle(values: C128, shares: F64) -> complex:
 
 
 def _widened(cells: NDArray[np.bool_], by: int) -> NDArray[np.bool_]:
-    """The cells that have a true one at most `by` rows and columns away."""
+    """Return the cells that have a true one at most `by` rows and columns away."""
     sums = np.zeros(np.add(cells.shape, 2 * by + 1), np.int32)
     inner = sums[by + 1 : by + 1 + cells.shape[0], by + 1 : by + 1 + cells.shape[1]]
     inner[...] = cells

@@ -15,7 +15,7 @@ _COMPARED = (
 
 
 def reuse_unchanged(state: State, before: State) -> State:
-    """The same state, of the very objects of the one before wherever they are equal."""
+    """Return the same state, of the very objects of the one before wherever they are equal."""
     kept: dict[str, Any] = {
         name: old for name in _COMPARED if (old := getattr(before, name)) == getattr(state, name)
     }

@@ -30,12 +30,12 @@ def fixed_frame_status(fixed_frame: str, buffer: TransformBuffer) -> Status:
 
 
 def import_status(report: Sequence[str]) -> Status:
-    """The unsupported parts of a .rviz file, at least one sentence."""
+    """Return the unsupported parts of a .rviz file, at least one sentence."""
     return Status(Level.WARN, joined("Parts of this .rviz file are unsupported.", *report))
 
 
 def failures(crashes: Mapping[str, str]) -> dict[str, Status]:
-    """The parts of the viewer that failed, by name."""
+    """Return the parts of the viewer that failed, by name."""
     return {
         part: Status(Level.ERROR, joined(text, "The log has the details; please report this."))
         for part, text in crashes.items()

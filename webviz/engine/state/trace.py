@@ -47,7 +47,7 @@ class Trace:
     acknowledged_ns: int | None = None
 
     def times(self) -> dict[str, int]:
-        """The known times by name, in order."""
+        """Return the known times by name, in order."""
         names = ("published", "received", "ready", "decoded", "drawn", "sent", "acknowledged")
         return {name: ns for name in names if (ns := getattr(self, f"{name}_ns"))}
 
@@ -128,11 +128,11 @@ class Tracer:
         return display in self._asked
 
     def decoded(self, display: str, sample: Sample, raw: Raw, ready_s: float, at_s: float) -> None:
-        """A display holds a sample, decoded at `at_s`."""
+        """Note that a display holds a sample, decoded at `at_s`."""
         self._begun[display] = _Begun(sample, raw.arrived_s, ready_s, at_s)
 
     def drawn(self, display: str) -> None:
-        """A display has drawn its samples."""
+        """Draw a display has drawn its samples."""
         if begun := self._begun.get(display):
             begun.drawn_s = self.clock()
 

@@ -92,7 +92,7 @@ class TopicObserver:
             }
 
     def levels(self, now_s: float) -> dict[str, Level]:
-        """The worst level of the messages of the last seconds; OK if there was none."""
+        """Return the worst level of the messages of the last seconds; OK if there was none."""
         with self._lock:
             waiting, self._waiting = self._waiting, {}
             types = self._leveled
@@ -109,7 +109,7 @@ class TopicObserver:
 
 
 def _level(type_name: str, raw: Raw) -> Level:
-    """The level of a message; OK of one that cannot be read."""
+    """Return the level of a message; OK of one that cannot be read."""
     try:
         if type_name == DIAGNOSTICS:
             array = decode(DIAGNOSTICS, raw.cdr)

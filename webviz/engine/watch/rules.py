@@ -26,7 +26,7 @@ class RuleWatcher:
         self._states = [_State() for _ in self.rules]
 
     def fired(self, now: WatchedMoment) -> list[WatchRule]:
-        """The rules that fire at a moment, which must not be before the last one."""
+        """Return the rules that fire at a moment, which must not be before the last one."""
         return [
             rule
             for rule, state in zip(self.rules, self._states, strict=True)

@@ -109,7 +109,7 @@ def _keep(target: Path) -> None:
 
 @contextlib.contextmanager
 def _spare(folder: Path) -> Iterator[Path]:
-    """A temporary name; the file is removed afterwards unless it was renamed."""
+    """Provide a temporary name; the file is removed afterwards unless it was renamed."""
     path = folder / f".{secrets.token_hex(8)}.tmp"
     try:
         yield path
@@ -119,7 +119,7 @@ def _spare(folder: Path) -> Iterator[Path]:
 
 @contextlib.contextmanager
 def alone_in(folder: Path) -> Iterator[int]:
-    """A folder's file descriptor, locked against other programs that save in it."""
+    """Provide a folder's file descriptor, locked against other programs that save in it."""
     descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
     try:
         _lock(descriptor)

@@ -21,7 +21,7 @@ class ConfigError(Error):
 
 
 def nearest(word: str, valid: Iterable[str]) -> str:
-    """A hint at the closest valid word, or the list of all."""
+    """Return a hint at the closest valid word, or the list of all."""
     valid = sorted(valid)
     if not valid:
         return "none are known"
@@ -32,18 +32,18 @@ def nearest(word: str, valid: Iterable[str]) -> str:
 
 
 def unknown_key(key: str, valid: Iterable[str]) -> str:
-    """The clause for an unknown key."""
+    """Return the clause for an unknown key."""
     return f"unknown key, {nearest(key, valid)}"
 
 
 def choices(values: Iterable[object]) -> str:
-    """The valid values, such as "a, b or c"."""
+    """Return the valid values, such as "a, b or c"."""
     *most, last = map(str, values)
     return f"{', '.join(most)} or {last}" if most else last
 
 
 def shown(value: Any) -> str:
-    """A value as written in a config file, shortened."""
+    """Return a value as written in a config file, shortened."""
     if value is None:
         return "nothing"
     if isinstance(value, str):

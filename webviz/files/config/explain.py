@@ -17,7 +17,7 @@ MAX_MISTAKES = 10
 
 
 def explain(error: msgspec.ValidationError, hint: Any, values: Any) -> Fault:
-    """The place of an invalid value, and what was expected.
+    """Return the place of an invalid value, and what was expected.
 
     Args:
         error: of converting `values` to `hint`.

@@ -70,7 +70,7 @@ class Fault(NamedTuple):
 
 
 def first_fault(hint: Any, values: Any) -> Fault | None:
-    """The part at which `msgspec.convert(values, hint)` fails; None if it does not.
+    """Return the part at which `msgspec.convert(values, hint)` fails; None if it does not.
 
     msgspec reports it as an English sentence, without the keys of mappings on the way.
 
@@ -126,7 +126,7 @@ def _fault(type_: Type, value: Any, path: Path) -> Fault | None:
 
 
 def _tagged(structs: Sequence[StructType], value: Mapping[Any, Any], path: Path) -> Fault | None:
-    """A struct of several that one of its keys tells apart."""
+    """Return a struct of several that one of its keys tells apart."""
     key = structs[0].tag_field or ""
     if key not in value:
         if len(structs) == 1:
@@ -163,7 +163,7 @@ def _in_struct(type_: StructType, value: Mapping[Any, Any], path: Path) -> Fault
 
 
 def _in_order(type_: Type, hint: Any) -> Type:
-    """A type whose choices are in the order of their declaration; msgspec sorts them."""
+    """Return a type whose choices are in the order of their declaration; msgspec sorts them."""
     match type_:
         case Metadata():
             return _in_order(type_.type, hint)
@@ -219,7 +219,7 @@ def _first(faults: Iterable[Fault | None]) -> Fault | None:
 
 
 def _parts(type_: UnionType) -> Sequence[Type]:
-    """The types of a union; what may be left out is not asked for."""
+    """Return the types of a union; what may be left out is not asked for."""
     return [each for each in type_.types if not isinstance(each, NoneType)]
 
 
@@ -252,7 +252,7 @@ def _has_kind(type_: Type, value: Any) -> bool:
 
 
 def _name(type_: Type) -> str:
-    """A type in words."""
+    """Return a type in words."""
     match type_:
         case Metadata():
             return _name(type_.type)

@@ -141,13 +141,13 @@ PanelItem = Panel | Unreadable
 
 
 def all_tools() -> list[ToolItem]:
-    """The toolbar without a list of tools: every installed tool."""
+    """Return the toolbar without a list of tools: every installed tool."""
     types = sorted(plugin_types(Tool).values(), key=lambda cls: cls.order)
     return [make(cls, {}) for cls in types]
 
 
 def all_panels() -> list[PanelItem]:
-    """The panels without a list of panels: those installed ones that are not on request."""
+    """Return the panels without a list of panels: those installed ones that are not on request."""
     types = sorted(plugin_types(Panel).items(), key=lambda item: (item[1].place, item[0]))
     return [make(cls, {}) for _, cls in types if not cls.on_request]
 
@@ -173,12 +173,12 @@ class Config:
     templates: tuple[Template, ...] = ()
 
     def set_fixed_frame(self, frame: str) -> None:
-        """The config with another fixed frame; a leading slash is removed from its name."""
+        """Set another fixed frame; a leading slash is removed from its name."""
         fixed_frame = frame.removeprefix("/")
         self.settings = msgspec.structs.replace(self.settings, fixed_frame=fixed_frame)
 
 
 def standard() -> Config:
-    """The config used without a file: the usual displays on their usual topics."""
+    """Return the config used without a file: the usual displays on their usual topics."""
     types = display_types()
     return Config(displays=[make(types[name], {}) for name in STANDARD if name in types])

@@ -42,7 +42,7 @@ _STEP = re.compile(
 
 
 def override(config: Config, assignments: Sequence[str]) -> Config:
-    """A config with overridden values.
+    """Return a config with overridden values.
 
     Args:
         config: not modified.
@@ -125,7 +125,7 @@ class _Assignment:
         return changed
 
     def _in_unreadable(self, item: Unreadable, steps: Path) -> Entry:
-        """An invalid entry, which this value may repair."""
+        """Return an invalid entry, which this value may repair."""
         if item.is_from_rviz or not isinstance(item.values, Mapping) or not steps:
             self._refuse(f"this {self._kind} is not shown: {item.reason}")
         read_again = _LISTS[str(self._path[0])]
@@ -135,7 +135,7 @@ class _Assignment:
         return read
 
     def _found(self, items: Sequence[Entry], step: str | int) -> int:
-        """The place in a list of what has a name, or this place."""
+        """Return the place in a list of what has a name, or this place."""
         named = [index for index, item in enumerate(items) if _name(item) == step]
         if len(named) == 1:
             return named[0]

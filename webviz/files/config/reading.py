@@ -46,7 +46,7 @@ _TELLING = frozenset(_KEYS) - {"version", "rviz"}
 
 
 def read(text: str, where: str) -> Config:
-    """A config from YAML text; parts kept from a .rviz file are not interpreted.
+    """Return a config from YAML text; parts kept from a .rviz file are not interpreted.
 
     Args:
         text: YAML.
@@ -95,7 +95,7 @@ def read(text: str, where: str) -> Config:
 def _plugins(
     base: type[P], entries: Sequence[Repetition], where: str, top: Location
 ) -> list[P | Unreadable]:
-    """The list of tools or panels."""
+    """Return the list of tools or panels."""
     key = f"{base.kind}s"
     if len(entries) > MAX_PLUGINS:
         raise ConfigError(f"{where} has {len(entries)} {key}; the limit is {MAX_PLUGINS}.")
@@ -105,7 +105,7 @@ def _plugins(
 def _templates(
     entries: Iterable[Repetition], items: Iterable[Item | ToolItem]
 ) -> tuple[Template, ...]:
-    """The entries that were repeated, given what became of them."""
+    """Return the entries that were repeated, given what became of them."""
     found: dict[int, tuple[Any, list[Any]]] = {}
     for (place, entry, name), item in zip(entries, items, strict=True):
         if name:
@@ -156,7 +156,7 @@ def _refuse_other_files(document: Mapping[Any, Any], where: str, top: Location) 
 
 
 def _typed(settings: dict[str, Any]) -> dict[str, Any]:
-    """Settings with an explicit type in every view."""
+    """Return settings with an explicit type in every view."""
     if "view" in settings:
         settings = settings | {"view": with_type(settings["view"])}
     if isinstance(views := settings.get("views"), Mapping):
@@ -165,7 +165,7 @@ def _typed(settings: dict[str, Any]) -> dict[str, Any]:
 
 
 def read_display(entry: Any, place: Location) -> Item:
-    """A display or group from an entry at `place` of a list in a config file."""
+    """Return a display or group from an entry at `place` of a list in a config file."""
     is_group = isinstance(entry, Mapping) and entry.get("type") == "Group"
     inner = (entry.get("displays") or []) if is_group else []
     if not isinstance(inner, list):
@@ -178,19 +178,19 @@ def read_display(entry: Any, place: Location) -> Item:
 
 
 def read_tool(entry: Any, place: Location) -> ToolItem:
-    """A tool from an entry at `place` of a list in a config file."""
+    """Return a tool from an entry at `place` of a list in a config file."""
     return _read_plugin(Tool, entry, place)
 
 
 def read_panel(entry: Any, place: Location) -> PanelItem:
-    """A panel from an entry at `place` of a list in a config file."""
+    """Return a panel from an entry at `place` of a list in a config file."""
     return _read_plugin(Panel, entry, place)
 
 
 def _read_plugin(
     base: type[P], entry: Any, place: Location, others: tuple[str, ...] = ()
 ) -> P | Unreadable:
-    """A plug-in from an entry of a list; the keys `others` are not its properties."""
+    """Return a plug-in from an entry of a list; the keys `others` are not its properties."""
     kind = base.kind
     if not isinstance(entry, Mapping) or not isinstance(entry.get("type"), str):
         return Unreadable(entry, place.says(NO_TYPE.format(kind, EXAMPLES[kind])))

@@ -27,7 +27,7 @@ class Template:
 
 
 def folded(entries: Sequence[Any], templates: Sequence[Template]) -> list[Any]:
-    """A list to save, in which unchanged repetitions of an entry are that entry again."""
+    """Return a list to save, in which unchanged repetitions of an entry are that entry again."""
     result: list[Any] = []
     place = 0
     while place < len(entries):
@@ -58,7 +58,7 @@ def repeated(entries: Iterable[Any], robots: Sequence[str]) -> list[Repetition]:
 
 
 def filled(entry: Any, robot: str) -> Any:
-    """An entry with a robot in the place of `PLACE`; as it is without one."""
+    """Return an entry with a robot in the place of `PLACE`; as it is without one."""
     if not robot:
         return entry
     if isinstance(entry, str):

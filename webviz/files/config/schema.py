@@ -42,7 +42,7 @@ def schema(
     tools: Mapping[str, type[Tool]],
     panels: Mapping[str, type[Panel]],
 ) -> Schema:
-    """The JSON Schema of a config file.
+    """Return the JSON Schema of a config file.
 
     Args:
         displays: display classes by the name each has in config files.
@@ -76,7 +76,10 @@ def _list_of(base: type[Declared], description: str) -> Schema:
 
 
 def _any(base: type[Declared], types: Mapping[str, type[Declared]], name: Schema) -> Schema:
-    """An entry of a list; only what its type says is checked, so that errors are about that."""
+    """Return an entry of a list.
+
+    Only what its type says is checked, so that errors are about that.
+    """
     known = [{"const": name, "description": _words(cls)} for name, cls in types.items()]
     schema: Schema = {
         "type": "object",
@@ -106,7 +109,7 @@ def _any(base: type[Declared], types: Mapping[str, type[Declared]], name: Schema
 
 
 def _definition(base: type[Declared], name: str) -> str:
-    """A display and a tool may have the same name; those of displays stand alone."""
+    """Return a display and a tool may have the same name; those of displays stand alone."""
     return name if base is Display else f"{base.kind}.{name}"
 
 
@@ -206,5 +209,5 @@ def _object(properties: dict[str, Schema], description: str) -> Schema:
 
 
 def _words(cls: type) -> str:
-    """The first paragraph of a docstring."""
+    """Return the first paragraph of a docstring."""
     return " ".join((python.getdoc(cls) or "").partition("\n\n")[0].split())

@@ -62,7 +62,7 @@ class YamlDocument:
         self._refuse_endless()
 
     def values(self) -> Any:
-        """The document as mappings, lists and plain values.
+        """Return the document as mappings, lists and plain values.
 
         Raises:
             ConfigError: a value is invalid, such as a date in a month that does not exist.
@@ -75,7 +75,7 @@ class YamlDocument:
             raise self._refused(error) from error
 
     def line(self, path: Path) -> int:
-        """The line of a value, from 1; for a missing value the line of its parent."""
+        """Return the line of a value, from 1; for a missing value the line of its parent."""
         node, line = self.node, 1
         for step in path:
             if isinstance(node, MappingNode):
@@ -156,7 +156,7 @@ class Location:
     source: YamlDocument | None = None
 
     def at(self, *path: str | int) -> Location:
-        """A place below this one."""
+        """Return a place below this one."""
         return Location((*self.path, *path), self.source)
 
     @property
@@ -165,7 +165,7 @@ class Location:
         return self.source.line(self.path) if self.source else 0
 
     def words(self) -> str:
-        """The path: `displays[2].size`."""
+        """Return the path: `displays[2].size`."""
         words = ""
         for step in self.path:
             if isinstance(step, str) and step.replace("_", "a").isalnum():
@@ -175,7 +175,7 @@ class Location:
         return words
 
     def says(self, clause: str) -> str:
-        """A sentence about the value that starts with its place."""
+        """Return a sentence about the value that starts with its place."""
         words = self.words()
         parts = [words, clause] if words else [clause]
         if self.source:

@@ -31,7 +31,7 @@ LINE = 88
 
 
 def document(config: Config) -> dict[str, Any]:
-    """A config as the values of its file, without defaults."""
+    """Return a config as the values of its file, without defaults."""
     settings = msgspec.to_builtins(config.settings)
     basis = msgspec.to_builtins(Settings())
     values: dict[str, Any] = {"version": VERSION}
@@ -54,7 +54,7 @@ def document(config: Config) -> dict[str, Any]:
 
 
 def _without_defaults(view: View) -> dict[str, Any]:
-    """A view as the values of its entry, whose type defaults to Orbit."""
+    """Return a view as the values of its entry, whose type defaults to Orbit."""
     basis = msgspec.to_builtins(type(view)())
     values = msgspec.to_builtins(view)
     of_type = {} if type(view) is Orbit else {"type": values["type"]}
@@ -62,12 +62,12 @@ def _without_defaults(view: View) -> dict[str, Any]:
 
 
 def dump(config: Config) -> str:
-    """A config as YAML text; see `document`."""
+    """Return a config as YAML text; see `document`."""
     return _text(document(config))
 
 
 def dump_displays(items: Sequence[Item]) -> str:
-    """Displays as the list under the key `displays` of a config file."""
+    """Return displays as the list under the key `displays` of a config file."""
     return _text([entry_of(item) for item in items])
 
 
@@ -103,7 +103,7 @@ def _fits(nodes: Sequence[Node]) -> bool:
 
 
 def entry_of(item: Item | Declared) -> Any:
-    """A display, tool or panel as the entry of a list, without defaults."""
+    """Return a display, tool or panel as the entry of a list, without defaults."""
     if isinstance(item, Unreadable):
         return item.values
     if isinstance(item, Branch):

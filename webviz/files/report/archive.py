@@ -113,7 +113,7 @@ def _refuse_large_directory(path: Path) -> None:
 
 
 def _members(path: Path, archive: zipfile.ZipFile) -> dict[str, zipfile.ZipInfo]:
-    """The members that are read, by name."""
+    """Return the members that are read, by name."""
     found: dict[str, zipfile.ZipInfo] = {}
     for info in archive.infolist():
         limit = LIMITS.get(info.filename)

@@ -49,12 +49,12 @@ class PrivateNames:
         self._in_messages = _pattern([word for word in hidden if len(word) >= MIN_BYTES])
 
     def text(self, text: str) -> str:
-        """A text without the names."""
+        """Return a text without the names."""
         data = text.encode("utf-8", "surrogateescape")
         return self._without(data, self._in_texts).decode("utf-8", "surrogateescape")
 
     def message(self, data: bytes) -> bytes:
-        """A serialised message without the names, of the same length."""
+        """Return a serialised message without the names, of the same length."""
         return self._without(data, self._in_messages)
 
     def _without(self, data: bytes, words: re.Pattern[bytes] | None) -> bytes:
@@ -83,7 +83,7 @@ def _own_words() -> list[str]:
 
 
 def _pattern(words: Iterable[str]) -> re.Pattern[bytes] | None:
-    """The words where they stand alone, the longest first; None without any."""
+    """Return the words where they stand alone, the longest first; None without any."""
     parts = [re.escape(word.encode()) for word in sorted(words, key=len, reverse=True)]
     if not parts:
         return None

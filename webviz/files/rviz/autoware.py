@@ -39,7 +39,7 @@ SHAPES = {"2d": "Skeleton 2D", "disable": "None"}
 
 
 def grouped(tree: Tree) -> Tree:
-    """A display of objects with the keys of now, which count if both are there.
+    """Return a display of objects with the keys of now, which count if both are there.
 
     Args:
         tree: of the file, not changed.

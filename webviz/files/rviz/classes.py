@@ -17,7 +17,7 @@ ROS_1 = {
 
 
 def counterpart(base: type[P], cls: str) -> type[P] | None:
-    """The type of display or tool for RViz's class, also by its name in ROS 1."""
+    """Return the type of display or tool for RViz's class, also by its name in ROS 1."""
     return _classes(tuple(plugin_types(base).values())).get(ROS_1.get(cls, cls))
 
 

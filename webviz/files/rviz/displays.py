@@ -40,7 +40,7 @@ class Kept:
     entries: list[Tree] = field(default_factory=list)
 
     def take(self, cls: str, name: str) -> Tree:
-        """The first entry of a class and name that was not taken yet, an empty one if none is."""
+        """Return the first entry of a class and name that is not taken yet, else an empty one."""
         for index, entry in enumerate(self.entries):
             if (entry.get("Class"), entry.get("Name")) == (cls, name):
                 del self.entries[index]
@@ -49,7 +49,7 @@ class Kept:
 
 
 def read_items(entries: list[Any], report: Report, kept: Kept, place: Location) -> list[Item]:
-    """Displays of the list at `place` in a .rviz file."""
+    """Return displays of the list at `place` in a .rviz file."""
     return [_read_item(entry, report, kept, place.at(i)) for i, entry in enumerate(entries)]
 
 
@@ -96,7 +96,7 @@ def note_properties(
 
 
 def _at_line(name: str, place: Location) -> str:
-    """A name with the line to correct."""
+    """Return a name with the line to correct."""
     return f"{name} (line {place.line})" if place.line else name
 
 
@@ -107,7 +107,7 @@ def _effective(tree: Tree) -> list[Path]:
 
 
 def display_from(cls: type[Display], tree: Tree, reading: Reading) -> Display:
-    """A display from RViz's tree of its properties, as RViz would show it."""
+    """Return a display from RViz's tree of its properties, as RViz would show it."""
     tree = modern(tree, keys(cls))
     plain = reading.struct(cls, tree)
     if tree.get("Class") != cls.rviz:  # ROS 1's class; some topics have other names
@@ -117,7 +117,7 @@ def display_from(cls: type[Display], tree: Tree, reading: Reading) -> Display:
 
 
 def made(cls: type[P], plain: Tree, least: Tree, reading: Reading) -> P:
-    """A display or tool from plain values, or `least` if they break a plug-in's own rule."""
+    """Return a display or tool from plain values, or `least` if they break a plug-in's own rule."""
     try:
         return make(cls, plain)
     except msgspec.ValidationError as error:
@@ -158,7 +158,7 @@ def is_writable(item: P | Unreadable, report: Report) -> TypeGuard[P]:
 
 
 def write_items(items: list[Item], report: Report, kept: Kept) -> list[Any] | None:
-    """Displays as RViz's list, None if it is empty."""
+    """Return displays as RViz's list, None if it is empty."""
     written = []
     for item in items:
         if isinstance(item, Branch):

@@ -56,7 +56,7 @@ are those of tf2, the usual choice of `Transformation`.
 
 
 def page(paths: Iterable[Path]) -> str:
-    """The page, with counts of these files."""
+    """Return the page, with counts of these files."""
     reports = {path.name: read(read_text(path), path.name)[1] for path in paths}
     whole = Report()
     for report in reports.values():

@@ -41,7 +41,7 @@ NEW_FILE: Tree = {
 
 
 def read(text: str, where: str) -> tuple[Config, Report]:
-    """A config from the text of a .rviz file, as RViz would open it.
+    """Return a config from the text of a .rviz file, as RViz would open it.
 
     Unsupported parts are kept in the settings and listed in the report.
 
@@ -85,7 +85,7 @@ def read(text: str, where: str) -> tuple[Config, Report]:
 
 
 def write(config: Config) -> tuple[str, Report]:
-    """The text of a .rviz file, and a report of what RViz does not support."""
+    """Return the text of a .rviz file, and a report of what RViz does not support."""
     report = Report()
     rest = config.settings.rviz
     manager = child(rest, MANAGER)
@@ -151,7 +151,7 @@ def _option(options: Tree, key: str, kind: Any, default: Any, report: Report) ->
 
 
 def _bare(settings: Settings) -> Tree:
-    """The tree of a file with these settings, without displays and kept parts."""
+    """Return the tree of a file with these settings, without displays and kept parts."""
     return {
         MANAGER: {
             "Class": "",

@@ -19,7 +19,7 @@ from webviz.files.rviz.tree import Tree
 
 
 def read_panels(entries: Any, tools: Any, report: Report) -> list[PanelItem]:
-    """The panels that every config has, and those in RViz's list that are plug-ins here.
+    """Return the panels that every config has, and those in RViz's list that are plug-ins here.
 
     Args:
         entries: RViz's list.
@@ -43,7 +43,7 @@ def read_panels(entries: Any, tools: Any, report: Report) -> list[PanelItem]:
 
 
 def _of_tools(tools: Any) -> list[type[Panel]]:
-    """The panels that do what tools of RViz's list do."""
+    """Return the panels that do what tools of RViz's list do."""
     entries = tools if isinstance(tools, list) else []
     names = {values.text(each.get("Class")) for each in entries if isinstance(each, Mapping)}
     return [cls for cls in plugin_types(Panel).values() if cls.rviz_tool in names]
@@ -87,5 +87,5 @@ def _counterpart(entry: Any) -> type[Panel] | None:
 
 
 def _changed(panel: Panel) -> Tree:
-    """The properties of a panel, if some are not at their defaults."""
+    """Return the properties of a panel, if some are not at their defaults."""
     return struct_tree(panel) if to_values(panel).keys() - {"name"} else {}

@@ -48,14 +48,14 @@ class RvizProperty:
 
 @functools.lru_cache(maxsize=256)
 def properties(cls: type[msgspec.Struct]) -> tuple[RvizProperty, ...]:
-    """The properties of a display or tool, or of a nested setting, besides the common ones."""
+    """Return the properties of a display, tool or nested setting besides the common ones."""
     left_out = COMMON if issubclass(cls, Declared) else ()
     return tuple(_property(each) for each in properties_of(cls) if each.path not in left_out)
 
 
 @functools.lru_cache(maxsize=256)
 def keys(cls: type[Declared]) -> frozenset[str]:
-    """The keys of a display or tool at the top level of its tree in RViz."""
+    """Return the keys of a display or tool at the top level of its tree in RViz."""
     return frozenset(each.path[0] for each in properties(cls))
 
 

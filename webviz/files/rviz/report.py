@@ -53,11 +53,11 @@ class Report:
         return [kind for kind, total in self.total.items() if self.carried[kind] < total]
 
     def sentences(self) -> list[str]:
-        """The notes as sentences; a note on several places becomes one."""
+        """Return the notes as sentences; a note on several places becomes one."""
         return sentences(self.notes)
 
     def table(self) -> str:
-        """The number of things carried over, one line per kind."""
+        """Return the number of things carried over, one line per kind."""
         lines = [
             f"{kind:12} {self.carried[kind]:4} of {total:4}  {percent(self.carried[kind], total)}"
             for kind, total in self.total.items()
@@ -66,7 +66,7 @@ class Report:
 
 
 def sentences(notes: Sequence[Note]) -> list[str]:
-    """Notes as sentences; equal notes on several places or things become one."""
+    """Return notes as sentences; equal notes on several places or things become one."""
     places: dict[tuple[str, str], list[str]] = {}
     for note in notes:
         where = places.setdefault((note.reason, note.what), [])
@@ -93,5 +93,5 @@ def _listed(places: list[str]) -> str:
 
 
 def percent(part: int, whole: int) -> str:
-    """A percentage."""
+    """Return a percentage."""
     return f"{100 * part / whole:3.0f} %" if whole else "-"

@@ -16,7 +16,7 @@ from webviz.files.rviz.tree import MANAGER, Tree, child
 
 
 def revive(items: Sequence[Item], settings: Settings) -> tuple[list[Item], Settings, Report]:
-    """Displays kept from a .rviz file, converted where their class is now supported.
+    """Return displays kept from a .rviz file, converted where their class is now supported.
 
     Args:
         items: of a config; other displays and unsupported ones stay unchanged.
@@ -49,5 +49,5 @@ def _revived(item: Item, report: Report, kept: Kept) -> Item:
 
 
 def _plain(entry: Mapping) -> Tree:
-    """An entry as read from the .rviz file, with keys as text."""
+    """Return an entry as read from the .rviz file, with keys as text."""
     return {str(key): _plain(v) if isinstance(v, Mapping) else v for key, v in entry.items()}

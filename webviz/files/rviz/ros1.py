@@ -11,7 +11,7 @@ from webviz.files.rviz.values import Unfit
 
 
 def _variance(raw: Any) -> Any:
-    """The square of a standard deviation."""
+    """Return the square of a standard deviation."""
     try:
         return values.human(values.read(raw, float) ** 2)
     except Unfit:
@@ -19,7 +19,7 @@ def _variance(raw: Any) -> Any:
 
 
 def _namespace(raw: Any) -> Any:
-    """The namespace of interactive markers, given the topic of their updates."""
+    """Return the namespace of interactive markers, given the topic of their updates."""
     return values.text(values.own_value(raw)).removesuffix("/update")
 
 
@@ -36,7 +36,7 @@ RENAMED: Mapping[str, tuple[str, Callable[[Any], Any]]] = {
 
 
 def modern(tree: Tree, keys: frozenset[str]) -> Tree:
-    """A display or tool with the keys of ROS 2, which count if both are there.
+    """Return a display or tool with the keys of ROS 2, which count if both are there.
 
     Args:
         tree: of the file.

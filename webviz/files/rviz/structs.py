@@ -88,7 +88,7 @@ class Reading:
         return self._bounded(value, place, path)
 
     def _entries(self, kind: Any, raw: Any, path: Path, others: set[str]) -> dict[str, Any]:
-        """Settings by name, such as a robot's links; `others` are keys to skip."""
+        """Return settings by name, such as a robot's links; `others` are keys to skip."""
         if not isinstance(raw, Mapping):
             raise Unfit("expected entries")
         result = {}
@@ -124,7 +124,7 @@ def _is_said(place: RvizProperty, tree: Tree) -> bool:
 
 
 def struct_tree(value: msgspec.Struct) -> Tree:
-    """The properties of a display, tool or nested setting as RViz's tree."""
+    """Return the properties of a display, tool or nested setting as RViz's tree."""
     tree: Tree = {}
     places = properties(type(value))
     first = next((getattr(value, p.name) for p in places if p.port), Topic())
@@ -154,14 +154,14 @@ def _written(value: Any, place: RvizProperty, first: Topic) -> Any:
 
 
 def _at(tree: Any, path: Path) -> Any:
-    """The value at a path; a property without children has only its own value."""
+    """Return the value at a path; a property without children has only its own value."""
     for key in path:
         tree = _opened(tree).get(key)
     return tree
 
 
 def _limited(raw: Any, place: RvizProperty) -> Any:
-    """The bound of a property in place of an infinity, which means no limit in RViz."""
+    """Return the bound of a property in place of an infinity, which means no limit in RViz."""
     if place.kind is float and place.low is not None and place.high is not None:
         infinities = {"inf": place.high, "-inf": place.low}
         return infinities.get(values.text(values.own_value(raw)).replace(".inf", "inf"), raw)
@@ -169,7 +169,7 @@ def _limited(raw: Any, place: RvizProperty) -> Any:
 
 
 def _opened(raw: Any) -> Tree:
-    """A property with its children; old files have only its own value."""
+    """Return a property with its children; old files have only its own value."""
     return dict(raw) if isinstance(raw, Mapping) else {"Value": raw}
 
 

@@ -29,7 +29,7 @@ def read(raw: Any) -> dict[str, bool]:
 
 
 def write(switches: Mapping[str, bool]) -> Tree:
-    """The tree of these switches."""
+    """Return the tree of these switches."""
     tree: Tree = {}
     for path, is_on in switches.items():
         *groups, name = path.split(PATH)

@@ -35,7 +35,7 @@ NEW_TOOLS: list[Tree] = [
 
 
 def read_tools(entries: Any, panels: Any, report: Report, place: Location) -> list[ToolItem]:
-    """The tools of the list at `place` in a .rviz file; without a list, all tools.
+    """Return the tools of the list at `place` in a .rviz file; without a list, all tools.
 
     Tools that RViz does not have are added, since no such list can name them; `panels` of the file
     may.
@@ -95,7 +95,7 @@ def _is_added(tool: ToolItem, panels: Any) -> bool:
 
 
 def _with_topic(tool: ToolItem, panels: Any) -> ToolItem:
-    """A tool with the topic of the panel that does the same in RViz, if there is one."""
+    """Return a tool with the topic of the panel that does the same in RViz, if there is one."""
     topic = (_panel_of(tool, panels) or {}).get(TOPIC)
     if topic and isinstance(topic, str) and isinstance(tool, Tool):
         set_property(tool, f"{TOPIC.lower()}.name", topic)
@@ -103,7 +103,7 @@ def _with_topic(tool: ToolItem, panels: Any) -> ToolItem:
 
 
 def _panel_of(tool: ToolItem, panels: Any) -> Tree | None:
-    """The entry of the panel that does the same as a tool."""
+    """Return the entry of the panel that does the same as a tool."""
     cls = type(tool).rviz_panel if isinstance(tool, Tool) else ""
     entries = panels if cls and isinstance(panels, list) else []
     return next((e for e in entries if isinstance(e, dict) and e.get("Class") == cls), None)
@@ -115,7 +115,7 @@ def _counterpart(entry: Any) -> type[Tool] | None:
 
 
 def _tool_from(cls: type[Tool], tree: Tree, reading: Reading) -> Tool:
-    """A tool from RViz's tree of its properties."""
+    """Return a tool from RViz's tree of its properties."""
     return made(cls, reading.struct(cls, modern(tree, keys(cls))), {}, reading)
 
 
@@ -127,7 +127,7 @@ def _bare(tool: Tool) -> Tree:
 
 
 def _write(tool: Tool, kept: Tree) -> Tree:
-    """A tool with what was kept of its entry in the file."""
+    """Return a tool with what was kept of its entry in the file."""
 
     def meaning(tree: Tree) -> dict[str, Any]:
         return _values(_tool_from(type(tool), tree, Reading()))
@@ -136,5 +136,5 @@ def _write(tool: Tool, kept: Tree) -> Tree:
 
 
 def _values(tool: Tool) -> dict[str, Any]:
-    """The properties of a tool that a .rviz file contains."""
+    """Return the properties of a tool that a .rviz file contains."""
     return {key: value for key, value in to_values(tool).items() if key != "name"}

@@ -41,7 +41,7 @@ RAW = "raw"
 
 
 def read(tree: Tree, place: RvizProperty, faults: list[tuple[Path, str]]) -> tuple[dict, set[Path]]:
-    """A topic of a display as plain values, and the paths they come from.
+    """Return a topic of a display as plain values, and the paths they come from.
 
     Args:
         tree: of the display.
@@ -81,7 +81,7 @@ def read(tree: Tree, place: RvizProperty, faults: list[tuple[Path, str]]) -> tup
 
 
 def _suited(input: Input) -> dict[str, str]:
-    """The policies that hear the usual publishers of a type where RViz's defaults do not."""
+    """Return the policies that hear the usual publishers of a type where RViz's defaults do not."""
     if input.type.startswith("sensor_msgs/"):
         return {"reliability": "Best Effort"}  # which hears all publishers
     is_map = input.type == "nav_msgs/msg/OccupancyGrid" and not input.latched
@@ -89,7 +89,7 @@ def _suited(input: Input) -> dict[str, str]:
 
 
 def _with_transport(name: str, hint: Any) -> str:
-    """The topic of images of a transport, which is below that of raw ones."""
+    """Return the topic of images of a transport, which is below that of raw ones."""
     transport = values.text(hint)
     is_said = transport in ("", RAW) or name.endswith(f"/{transport}") or not name
     return name if is_said else f"{name}/{transport}"
@@ -106,7 +106,7 @@ def complete(display: dict[str, Any], topics: list[RvizProperty]) -> None:
 
 
 def without_idle_marks(tree: Tree, places: Iterable[RvizProperty]) -> Tree:
-    """A display's tree without `AUTOMATIC` where its file has RViz's default, which is automatic.
+    """Return a display's tree without `AUTOMATIC` where that is RViz's default.
 
     Args:
         tree: of the display, not changed.
@@ -122,7 +122,7 @@ def without_idle_marks(tree: Tree, places: Iterable[RvizProperty]) -> Tree:
 
 
 def write(topic: Topic, port: Input | Output, first: Topic) -> Tree | str:
-    """A topic as RViz has it; `first` is the first topic of the display."""
+    """Return a topic as RViz has it; `first` is the first topic of the display."""
     if isinstance(port, Input) and port.is_plain:
         return topic.name
     if isinstance(port, Output):
@@ -150,7 +150,7 @@ def _write_input(topic: Topic, input: Input, first: Topic) -> Tree:
 
 
 def _written(topic: Topic, reliability: str, durability: str) -> Tree:
-    """A topic as RViz has it, with what `auto` stands for."""
+    """Return a topic as RViz has it, with what `auto` stands for."""
     return {
         "Value": topic.name,
         "Depth": topic.depth or DEPTH,
@@ -161,7 +161,7 @@ def _written(topic: Topic, reliability: str, durability: str) -> Tree:
 
 
 def _policies(tree: Tree, path: Path, raw: Any) -> Iterator[tuple[str, Path, Any]]:
-    """The QoS in a file: ROS 2's under the topic, ROS 1's next to it."""
+    """Yield the QoS in a file: ROS 2's under the topic, ROS 1's next to it."""
     inner = raw if isinstance(raw, Mapping) else {}
     for word in POLICIES:
         if word in inner:

@@ -33,7 +33,7 @@ _MAX_DIGITS = 18
 
 
 def parse(source: YamlDocument) -> Any:
-    """A tree from YAML; the last of duplicate keys counts.
+    """Return a tree from YAML; the last of duplicate keys counts.
 
     Raises:
         ConfigError: a key is not a plain word.
@@ -54,7 +54,7 @@ def _built(node: Node | None, where: str) -> Any:
 
 
 def scalar(text: str) -> bool | int | float | str:
-    """The value with exactly this spelling, or the text."""
+    """Return the value with exactly this spelling, or the text."""
     if text in ("true", "false"):
         return text == "true"
     for kind in (int, float):
@@ -79,7 +79,7 @@ _Representer.add_representer(
 
 
 def write(tree: Tree) -> str:
-    """A tree as YAML text, keys sorted, as RViz writes it."""
+    """Return a tree as YAML text, keys sorted, as RViz writes it."""
     yaml = YAML(typ="safe", pure=True)
     yaml.Representer = _Representer
     yaml.default_flow_style = False
@@ -99,7 +99,7 @@ def _tidied(value: Any) -> Any:
 
 
 def child(tree: Any, *path: str) -> Tree:
-    """The mapping at a path, an empty one if there is none."""
+    """Return the mapping at a path, an empty one if there is none."""
     for key in path:
         tree = tree.get(key) if isinstance(tree, Mapping) else None
     return dict(tree) if isinstance(tree, Mapping) else {}
@@ -145,7 +145,7 @@ def is_same(a: Any, b: Any) -> bool:
 
 
 def difference(tree: Tree, basis: Tree) -> Tree:
-    """The part of a tree that is missing from `basis` or differs there."""
+    """Return the part of a tree that is missing from `basis` or differs there."""
     result: Tree = {}
     for key, value in tree.items():
         if key not in basis:
@@ -159,7 +159,7 @@ def difference(tree: Tree, basis: Tree) -> Tree:
 
 
 def restored(tree: Tree, kept: Any, meant: object, meaning: Callable[[Tree], object]) -> Tree:
-    """A tree merged with the kept parts of its file.
+    """Return a tree merged with the kept parts of its file.
 
     A kept value that differs from the tree's is another spelling of it, unless the value has
     changed since: it is used if the tree then still means what is meant.

@@ -28,12 +28,12 @@ class Unfit(ValueError):
 
 
 def own_value(raw: Any) -> Any:
-    """The value of a property that may have children; None if it has none of its own."""
+    """Return the value of a property that may have children; None if it has none of its own."""
     return raw.get("Value") if isinstance(raw, Mapping) else raw
 
 
 def read(raw: Any, kind: Any) -> Any:
-    """A value converted to `kind` (bool, int, float, str, a Literal or a tuple of numbers).
+    """Return a value converted to `kind` (bool, int, float, str, a Literal or a tuple of numbers).
 
     Raises:
         Unfit: it is invalid; the text says why.
@@ -64,7 +64,7 @@ def read(raw: Any, kind: Any) -> Any:
 
 
 def write(value: Any, kind: Any) -> Any:
-    """A value as RViz spells it."""
+    """Return a value as RViz spells it."""
     if typing.get_origin(kind) is tuple:
         if _is_color(typing.get_args(kind)):
             return "; ".join(str(part) for part in value)
@@ -75,12 +75,12 @@ def write(value: Any, kind: Any) -> Any:
 
 
 def text(raw: Any) -> str:
-    """A scalar as RViz reads it."""
+    """Return a scalar as RViz reads it."""
     return str(raw).lower() if isinstance(raw, bool) else str(raw)
 
 
 def human(number: float) -> float:
-    """A number printed from single precision, in its shortest form: 0.03."""
+    """Return a number printed from single precision, in its shortest form: 0.03."""
     if abs(number) <= _FLOAT_MAX and float(np.float32(number)) == number:
         return float(str(np.float32(number)))
     return number
@@ -119,7 +119,7 @@ def _vector(raw: Any, length: int) -> tuple[float, ...]:
 
 
 def _color(raw: Any) -> tuple[int, ...]:
-    """A colour such as "255; 0; 0", "#ff0000" or "red"."""
+    """Return a colour such as "255; 0; 0", "#ff0000" or "red"."""
     words = text(own_value(raw))
     parts = words.split(";")
     if len(parts) == 3:

@@ -45,12 +45,12 @@ FARTHEST = 1e9
 
 
 def kind_of(tree: Mapping[str, Any]) -> type[View] | None:
-    """The type for RViz's view class, None if unsupported."""
+    """Return the type for RViz's view class, None if unsupported."""
     return VIEW_TYPES.get(values.text(tree.get("Class", PREFIX + "Orbit")).rpartition("/")[2])
 
 
 def read(tree: Any, report: Report, place: str = "current view") -> View | None:
-    """A view from RViz's tree, None if its type is unsupported.
+    """Return a view from RViz's tree, None if its type is unsupported.
 
     Args:
         tree: of the view.
@@ -77,7 +77,7 @@ def read(tree: Any, report: Report, place: str = "current view") -> View | None:
 
 
 def read_saved(trees: Any, report: Report) -> dict[str, View]:
-    """The saved views by name; duplicates get a number."""
+    """Return the saved views by name; duplicates get a number."""
     found: dict[str, View] = {}
     for tree in trees if isinstance(trees, list) else []:
         if not isinstance(tree, Mapping):
@@ -89,7 +89,7 @@ def read_saved(trees: Any, report: Report) -> dict[str, View]:
 
 
 def free_name(name: str, taken: Mapping[str, Any]) -> str:
-    """An unused name, with a number if necessary."""
+    """Return an unused name, with a number if necessary."""
     number, free = 1, name
     while free in taken:
         number += 1
@@ -98,7 +98,7 @@ def free_name(name: str, taken: Mapping[str, Any]) -> str:
 
 
 def write(view: View, name: str = "Current View") -> Tree:
-    """A view as RViz writes it."""
+    """Return a view as RViz writes it."""
     tree: Tree = {
         "Class": PREFIX + type_of(view),
         "Name": name,
@@ -111,12 +111,12 @@ def write(view: View, name: str = "Current View") -> Tree:
 
 
 def read_current(tree: Any, report: Report) -> View:
-    """The initial view of a file."""
+    """Return the initial view of a file."""
     return read(tree, report) or Orbit()
 
 
 def write_saved(saved: Mapping[str, View], kept: Any) -> list[Any] | None:
-    """The list of saved views as RViz writes it.
+    """Return the list of saved views as RViz writes it.
 
     Args:
         saved: by name.
@@ -148,14 +148,14 @@ def _name(tree: Mapping[str, Any]) -> str:
 
 
 def _others(tree: Mapping[str, Any], view: View) -> Tree:
-    """The other keys of a tree, if it has the view's type."""
+    """Return the other keys of a tree, if it has the view's type."""
     if kind_of(tree) is not type(view):
         return {}
     return {key: value for key, value in tree.items() if key not in KEYS.values()}
 
 
 def _read_field(field: msgspec.structs.FieldInfo, given: Any, report: Report, place: str) -> Any:
-    """The value of a field in RViz's tree, clamped to its bounds."""
+    """Return the value of a field in RViz's tree, clamped to its bounds."""
     key = KEYS[field.name]
     try:
         value = values.read(given, _kind(field))

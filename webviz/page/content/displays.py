@@ -88,7 +88,7 @@ class RateStore(PageStore, frozen=True):
 
 
 def displays(state: State, _: str) -> DisplaysStore:
-    """The tree of displays."""
+    """Return the tree of displays."""
     return DisplaysStore([row.id for row in state.rows], _rows(state.rows, causes(state)))
 
 
@@ -122,12 +122,15 @@ _rows = _Rows()
 
 
 def causes(state: State) -> tuple[Status, ...]:
-    """The problems of the viewer that a click can solve; displays have others because of them."""
+    """Return the problems of the viewer that a click can solve.
+
+    Displays have others because of them.
+    """
     return tuple(status for status in state.statuses.values() if status.remedy)
 
 
 def remedy_of(status: Status, display: str, known: Sequence[Status] = ()) -> RemedyButton | None:
-    """The button of a command that would help; None if none would.
+    """Return the button of a command that would help; None if none would.
 
     Args:
         status: of a display, or of the viewer.
@@ -174,7 +177,10 @@ def _row(row: Row, causes: Sequence[Status]) -> DisplayRow:
 
 
 def _worst(row: Row, level: Level) -> str:
-    """The first status of this level if it is a problem; that of a group names the display."""
+    """Return the first status of this level if it is a problem.
+
+    That of a group names the display.
+    """
     if level < Level.WARN:
         return ""
     key, status = next((k, s) for k, s in row.statuses.items() if s.level == level)
@@ -193,5 +199,5 @@ def _rounded(value: float) -> float:
 
 
 def level_name(level: Level) -> LevelName:
-    """A level as the page calls it."""
+    """Return a level as the page calls it."""
     return _LEVELS[level]

@@ -61,7 +61,7 @@ class FindingsStore(PageStore, frozen=True):
 
 
 def findings(state: State, _: str) -> FindingsStore:
-    """The findings of the last round."""
+    """Return the findings of the last round."""
     names = {row.id: row.name for row in state.rows}
     return FindingsStore([_finding(each, names) for each in state.findings])
 
@@ -86,7 +86,7 @@ def _finding(finding: Finding, names: Mapping[str, str]) -> ShownFinding:
 
 
 def _button(finding: Finding) -> RemedyButton | None:
-    """The change that repairs it, as for statuses."""
+    """Return the change that repairs it, as for statuses."""
     button = finding.button
     if isinstance(button, ChangeDisplay):
         return remedy_of(Status(Level.WARN, "", button.remedy), button.display)

@@ -96,7 +96,7 @@ def values_of(declared: msgspec.Struct, without: tuple[str, ...] = ()) -> dict[s
 
 
 def leaves(properties: Iterator[Property] | tuple[Property, ...]) -> Iterator[Property]:
-    """The properties that have a value of their own."""
+    """Yield the properties that have a value of their own."""
     for each in properties:
         if each.children:
             yield from leaves(each.children)
@@ -105,12 +105,12 @@ def leaves(properties: Iterator[Property] | tuple[Property, ...]) -> Iterator[Pr
 
 
 def brief(text: str, most: int = 300) -> str:
-    """A text that JSON can hold, of so many characters at most."""
+    """Return a text that JSON can hold, of so many characters at most."""
     return sendable(text if len(text) <= most else f"{text[: most - 1]}…")
 
 
 def sendable(value: Any) -> Any:
-    """A value that JSON can hold: without halves of letters, and no endless texts."""
+    """Return a value that JSON can hold: without halves of letters, and no endless texts."""
     if isinstance(value, str):
         short = value if len(value) <= MAX_TEXT else value[: MAX_TEXT - 1] + "…"
         return short.encode(errors="replace").decode()
@@ -180,7 +180,7 @@ def _kind(each: Property) -> PropertyKind:
 
 
 def _given(type_: inspect.Type) -> inspect.Type:
-    """The type of an optional value that is not None."""
+    """Return the type of an optional value that is not None."""
     if isinstance(type_, inspect.UnionType):
         types = [one for one in type_.types if not isinstance(one, inspect.NoneType)]
         return types[0] if len(types) == 1 else type_

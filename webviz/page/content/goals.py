@@ -68,12 +68,12 @@ class RoutesStore(PageStore, frozen=True):
 
 
 def goals(state: State, _: str) -> GoalsStore:
-    """The goals by id."""
+    """Return the goals by id."""
     return GoalsStore({goal.id: _goal(goal) for goal in state.goals})
 
 
 def routes(state: State, _: str) -> RoutesStore:
-    """The poses of goals that have not ended."""
+    """Return the poses of goals that have not ended."""
     return RoutesStore(
         {
             goal.id: Route(goal.frame, list(goal.poses[:MAX_POSES]))

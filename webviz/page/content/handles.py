@@ -64,7 +64,7 @@ class HandlesStore(PageStore, frozen=True):
 
 
 def handles(state: State, _: str) -> HandlesStore:
-    """The handles of all displays."""
+    """Return the handles of all displays."""
     return HandlesStore(
         {
             f"{display}/{key}": _handle(display, handle, holder)

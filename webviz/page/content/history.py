@@ -26,7 +26,7 @@ class HistoryStore(PageStore, frozen=True):
 
 
 def history(state: State, _: str) -> HistoryStore:
-    """The steps that can be undone and redone."""
+    """Return the steps that can be undone and redone."""
     known = state.history
     return HistoryStore([_step(step) for step in known.undo], [_step(step) for step in known.redo])
 

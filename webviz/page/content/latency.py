@@ -43,7 +43,7 @@ class LatencyStore(PageStore, frozen=True):
 
 
 def latency(state: State, _: str) -> LatencyStore:
-    """The latencies, those of the slowest display first."""
+    """Return the latencies, those of the slowest display first."""
     names = {row.id: row.name for row in state.rows}
     found = [
         ShownLatency(

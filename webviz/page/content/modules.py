@@ -22,7 +22,7 @@ class ModulesStore(PageStore, frozen=True):
 
 
 def modules() -> ModulesStore:
-    """The modules of all plug-ins that have one."""
+    """Return the modules of all plug-ins that have one."""
     return ModulesStore(
         {
             f"{base.kind} {name}": module_text(cls)

@@ -48,7 +48,7 @@ class PanesStore(PageStore, frozen=True):
 
 
 def panes(state: State, _: str) -> PanesStore:
-    """The captions of panes."""
+    """Return the captions of panes."""
     rows = [row for row in enabled(state.rows) if row.display and type(row.display).has_pane]
     titled = titles(rows)
     hidden = hidden_in(rows, state.rows)

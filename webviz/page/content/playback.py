@@ -97,7 +97,7 @@ class EventsStore(PageStore, frozen=True):
 
 
 def playback(state: State, _: str) -> PlaybackStore | None:
-    """The recording or the memory, None without either."""
+    """Return the recording or the memory, None without either."""
     recording = state.playback
     if recording is None:
         return None
@@ -127,7 +127,7 @@ def playback(state: State, _: str) -> PlaybackStore | None:
 
 
 def bookmarks(state: State, _: str) -> BookmarksStore | None:
-    """The bookmarks of this recording."""
+    """Return the bookmarks of this recording."""
     recording = state.playback
     if recording is None:
         return None
@@ -141,7 +141,7 @@ def bookmarks(state: State, _: str) -> BookmarksStore | None:
 
 
 def density(state: State, _: str) -> DensityStore:
-    """Counts of all messages."""
+    """Return counts of all messages."""
     counts = list(state.recorded.values())
     first_s, last_s = _counted(state.playback)
     total = np.sum(counts, axis=0).tolist() if counts else []
@@ -156,7 +156,7 @@ def _counted(recording: PlaybackState | None) -> tuple[float, float]:
 
 
 def recorded(state: State, _: str) -> RecordedStore:
-    """Counts of messages by topic."""
+    """Return counts of messages by topic."""
     return RecordedStore(state.recorded)
 
 

@@ -134,13 +134,13 @@ def properties(state: State, id_: str) -> PropertiesStore | None:
 
 
 def statuses(state: State, id_: str) -> StatusesStore | None:
-    """The statuses of the display with this id; None if it is gone."""
+    """Return the statuses of the display with this id; None if it is gone."""
     row = _row(state, id_)
     return lines(row.statuses, row.id, causes(state)) if row else None
 
 
 def topics_of(state: State, types: str) -> TopicOffersStore:
-    """The live topics of message types, each with its rate and who has to do with it.
+    """Return the live topics of message types, each with its rate and who has to do with it.
 
     Args:
         state: of the viewer.

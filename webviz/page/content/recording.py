@@ -52,7 +52,7 @@ class RecordingStore(PageStore, frozen=True):
 
 
 def recording(state: State, _: str) -> RecordingStore | None:
-    """The memory and the recording, None for a bag."""
+    """Return the memory and the recording, None for a bag."""
     memory, recording = state.memory, state.recording
     if memory is None:
         return None
@@ -86,7 +86,7 @@ class BlackBoxStore(PageStore, frozen=True):
 
 
 def black_box(state: State, _: str) -> BlackBoxStore | None:
-    """Recordings that rules made, None without any rule or recording."""
+    """Return recordings that rules made, None without any rule or recording."""
     box = state.black_box
     if box is None or not (box.saved or state.settings.watch):
         return None

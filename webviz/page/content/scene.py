@@ -38,7 +38,7 @@ class WatchersStore(PageStore, frozen=True):
 
 
 def legend(state: State, _: str) -> LegendStore:
-    """The colour scales of displays."""
+    """Return the colour scales of displays."""
     titled = titles(row for row in state.rows if row.color_scale is not None)
     return LegendStore(
         {

@@ -136,7 +136,7 @@ class ReportedStore(PageStore, frozen=True):
 
 
 def reported(state: State, _: str) -> ReportedStore | None:
-    """The selection of the bug report that is shown, None without one."""
+    """Return the selection of the bug report that is shown, None without one."""
     rows = state.rows
     things = [
         ReportedThing(rows[each.display].id, each.key, each.number, each.at)

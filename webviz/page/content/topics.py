@@ -76,7 +76,7 @@ class MessageStore(PageStore, frozen=True):
 
 
 def topics(state: State, _: str) -> TopicsStore:
-    """The topics of the graph."""
+    """Return the topics of the graph."""
     return TopicsStore(_topics(state.offers, display_types()))
 
 
@@ -95,7 +95,7 @@ def traffic(state: State, _: str) -> TrafficStore:
 
 
 def message(state: State, topic: str) -> MessageStore | None:
-    """The last message on a topic; None if it is not inspected."""
+    """Return the last message on a topic; None if it is not inspected."""
     inspected = state.inspected.get(topic)
     if inspected is None:
         return None

@@ -82,7 +82,7 @@ class BetweenStore(PageStore, frozen=True):
 
 
 def transforms(state: State, _: str) -> TransformsStore | None:
-    """The tree of transforms, None while it is not inspected."""
+    """Return the tree of transforms, None while it is not inspected."""
     tree = state.transforms
     if tree is None:
         return None
@@ -95,7 +95,7 @@ def transforms(state: State, _: str) -> TransformsStore | None:
 
 
 def frame_tree(state: State, _: str) -> FrameTreeStore | None:
-    """The layout of the tree of transforms, None while it is not inspected."""
+    """Return the layout of the tree of transforms, None while it is not inspected."""
     if state.transforms is None:
         return None
     layout = lay_out(state.transforms)
@@ -105,7 +105,7 @@ def frame_tree(state: State, _: str) -> FrameTreeStore | None:
 
 
 def between(state: State, pair: str) -> BetweenStore | None:
-    """The transform between two frames, given as JSON: [target, source]."""
+    """Return the transform between two frames, given as JSON: [target, source]."""
     found = state.between.get(pair_of(pair) or ("", ""))
     if found is None:
         return None

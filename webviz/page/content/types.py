@@ -60,7 +60,7 @@ def _about(name: str, cls: type[Display]) -> DisplayType:
 
 
 def _picture(name: str, package: str) -> str:
-    """The picture of a type in the folder `pictures` of its package."""
+    """Return the picture of a type in the folder `pictures` of its package."""
     with contextlib.suppress(ImportError, TypeError, ValueError, OSError):  # of a single file
         data = (resources.files(package) / "pictures" / f"{name}.webp").read_bytes()
         return f"data:image/webp;base64,{base64.b64encode(data).decode()}"

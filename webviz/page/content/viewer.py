@@ -81,7 +81,7 @@ class ViewTypeStore(PageStore, frozen=True):
 
 
 def settings(state: State, _: str) -> SettingsStore:
-    """Settings of the viewer as a whole."""
+    """Return settings of the viewer as a whole."""
     settings = state.settings
     told = lines(state.statuses)
     return SettingsStore(
@@ -102,19 +102,19 @@ def frames(state: State, _: str) -> FramesStore:
 
 
 def file(state: State, _: str) -> FileStore:
-    """The config file."""
+    """Return the config file."""
     file = state.file
     return FileStore(file.path, file.is_changed, file.folder, file.others)
 
 
 def graph(state: State, _: str) -> GraphStore:
-    """The ROS graph."""
+    """Return the ROS graph."""
     published = (offer for topic, offer in state.offers.items() if topic not in OF_EVERY_NODE)
     nodes = {publisher.node for offer in published for publisher in offer.publishers}
     return GraphStore(is_empty=not nodes - {OWN_NODE})
 
 
 def view_type(state: State, browser: str) -> ViewTypeStore:
-    """The type of view of the browser with this id."""
+    """Return the type of view of the browser with this id."""
     view = next((view for id_, view in state.views.items() if str(id_) == browser), None)
     return ViewTypeStore() if view is None else ViewTypeStore(type_of(view), view.target_frame)

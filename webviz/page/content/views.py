@@ -56,7 +56,7 @@ def view(state: State, browser: str) -> ViewStore | None:
 
 
 def views(state: State, _: str) -> ViewsStore:
-    """The saved views."""
+    """Return the saved views."""
     settings = state.settings
     return ViewsStore(
         [

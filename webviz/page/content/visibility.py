@@ -31,13 +31,13 @@ def enabled(rows: Iterable[Row]) -> Iterator[Row]:
 
 
 def names(rows: tuple[Row, ...], own: Row) -> Mapping[str, str]:
-    """The names of switches, and the type of each display; its own display has none."""
+    """Return the names of switches, and the type of each display; its own display has none."""
     found = {path: row.type for row, path in paths(rows) if row is not own}
     return dict(list(found.items())[:MAX_NAMES])
 
 
 def switches_of(row: Row) -> list[Property]:
-    """The properties of a display with switches of the others."""
+    """Return the properties of a display with switches of the others."""
     if row.display is None:
         return []
     return [each for each in properties_of(type(row.display)) if each.widget == "displays"]

@@ -30,7 +30,7 @@ class WhatIfStore(PageStore, frozen=True):
 
 
 def what_if(state: State, _: str) -> WhatIfStore | None:
-    """The frame that is tried, None without one."""
+    """Return the frame that is tried, None without one."""
     tried = state.what_if
     if tried is None:
         return None
@@ -48,13 +48,13 @@ def what_if(state: State, _: str) -> WhatIfStore | None:
 
 
 def urdf_origin(tried: WhatIf) -> str:
-    """The origin of the joint of a frame, for a URDF or xacro file."""
+    """Return the origin of the joint of a frame, for a URDF or xacro file."""
     xyz, rpy = (quoteattr(" ".join(map(_text, each))) for each in (tried.position, tried.rpy))
     return f"<origin xyz={xyz} rpy={rpy}/>"
 
 
 def static_transform_publisher(tried: WhatIf) -> str:
-    """The command that publishes the transform of a frame."""
+    """Return the command that publishes the transform of a frame."""
     names = "x", "y", "z", "roll", "pitch", "yaw"
     values = zip(names, (*tried.position, *tried.rpy), strict=True)
     numbers = " ".join(f"--{name} {_text(value)}" for name, value in values)

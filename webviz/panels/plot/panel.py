@@ -52,7 +52,7 @@ class Plot(Panel):
         self.active_s = 0.0
 
     def build(self, ui: Ui, send: Send) -> None:
-        """The chart, and two lists that add a curve."""
+        """Show the chart, and two lists that add a curve."""
         self.send = send
         self.chart = ui.chart(self._remove)
         self.topics = ui.choice(
@@ -64,12 +64,12 @@ class Plot(Panel):
         self.note = ui.area()
 
     def subscriptions(self) -> Mapping[str, str]:
-        """The topics of the curves, and the one whose fields are offered."""
+        """Return the topics of the curves, and the one whose fields are offered."""
         wanted = {each.topic for each in self.series.values()} | {self.topic}
         return {topic: self.types[topic] for topic in wanted if topic in self.types}
 
     def lookback(self, topic: str) -> Lookback:
-        """The messages of the window."""
+        """Return the messages of the window."""
         return Lookback(seconds=self.window)
 
     def receive(self, topic: str, message: Any, received_ns: int) -> None:

@@ -24,7 +24,7 @@ class MessageTypeError(Exception):
 
 
 def message_class(type_name: str) -> type:
-    """The message class for publishers and subscriptions.
+    """Return the message class for publishers and subscriptions.
 
     A composed class works with `create_subscription(..., raw=True)` and `publish(bytes)` only.
     Repeated calls return the same class.
@@ -51,7 +51,7 @@ def message_class(type_name: str) -> type:
 
 
 def service_class(type_name: str) -> Any:
-    """The service class for clients, including the services of an action.
+    """Return the service class for clients, including the services of an action.
 
     Convert its requests and responses with `to_cdr` and `from_cdr`.
 
@@ -76,17 +76,17 @@ def service_class(type_name: str) -> Any:
 
 
 def from_cdr(cdr: bytes, cls: Any) -> Any:
-    """A request or response of a class from its serialised bytes."""
+    """Return a request or response of a class from its serialised bytes."""
     return cls(cdr) if issubclass(cls, RawPayload) else deserialize_message(cdr, cls)
 
 
 def to_cdr(message: Any) -> bytes:
-    """The serialised bytes of a request or response."""
+    """Return the serialised bytes of a request or response."""
     return message.cdr if isinstance(message, RawPayload) else serialize_message(message)
 
 
 def _installed(package: str, kind: str, name: str) -> Any:
-    """The generated class, or None; a source folder named like the package has none."""
+    """Return the generated class, or None; a source folder named like the package has none."""
     try:
         return getattr(importlib.import_module(f"{package}.{kind}"), name, None)
     except ModuleNotFoundError as error:

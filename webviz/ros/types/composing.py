@@ -53,7 +53,7 @@ class _ComposedMessage(_ComposedType):
 
 @functools.cache
 def composed_message(type_name: str) -> type:
-    """The class of a message type, composed from its definition."""
+    """Return the class of a message type, composed from its definition."""
     # Called by a subscription without raw=True: null makes rclpy raise.
     no_message = capsule(function(lambda: None, _pointer))
     attributes = dict.fromkeys(wire.conversions(), no_message)
@@ -63,7 +63,10 @@ def composed_message(type_name: str) -> type:
 
 @functools.cache
 def composed_service(type_name: str) -> type:
-    """The class of a service type, composed from its definition; requests are `RawPayload`."""
+    """Return the class of a service type, composed from its definition.
+
+    Requests are `RawPayload`.
+    """
     parts = interfaces.service(type_name)
     cls = _class(type_name, _ComposedType, (), {"_TYPE_SUPPORT": capsule(_service(type_name))})
     for name, part in (("Request", parts.request), ("Response", parts.response)):
@@ -81,7 +84,7 @@ def _class(type_name: str, base: type, bases: tuple[type, ...], attributes: dict
 def _handle(
     type_name: str, identifier: str, data: int, others: dict[str, int], messages: Sequence[int] = ()
 ) -> int:
-    """A `rosidl_message_type_support_t`, or with `messages` a `rosidl_service_type_support_t`."""
+    """Return a `rosidl_message_type_support_t`, or that of a service with `messages`."""
     support: Any
     if messages:
         more = (*messages, 0, 0, *getters(type_name))
@@ -95,7 +98,7 @@ def _handle(
 
 @functools.cache
 def _introspection(type_name: str) -> int:
-    """The handle from which Fast DDS reads the members to announce them as an XTypes object.
+    """Return the handle from which Fast DDS reads the members to announce them as an XTypes object.
 
     Sizes, offsets and functions stay zero, since they describe a C struct that does not exist.
     """
@@ -119,7 +122,7 @@ def _introspection(type_name: str) -> int:
 
 @functools.cache
 def _message_support(type_name: str) -> int:
-    """The handle for rclpy, through which rmw_fastrtps_cpp finds the two that it uses."""
+    """Return the handle for rclpy, through which rmw_fastrtps_cpp finds the two that it uses."""
     package, kind, name = type_name.split("/")
 
     def max_serialized_size(bounds: Any) -> int:
@@ -143,7 +146,7 @@ def _message_support(type_name: str) -> int:
 
 
 def _service(type_name: str) -> int:
-    """A `rosidl_service_type_support_t`; the counterpart of `_message_support`."""
+    """Return a `rosidl_service_type_support_t`; the counterpart of `_message_support`."""
     package, kind, name = type_name.split("/")
     parts = interfaces.service(type_name)
     supports = [_message_support(part) for part in (*parts, f"{type_name}_Event")]

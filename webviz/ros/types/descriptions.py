@@ -47,7 +47,7 @@ class Member(NamedTuple):
 
 
 def fields(type_name: str) -> list[Member]:
-    """The members of a type in order of serialisation.
+    """Return the members of a type in order of serialisation.
 
     Raises:
         UnknownTypeError: the type is unknown.
@@ -67,7 +67,7 @@ def fields(type_name: str) -> list[Member]:
 
 
 def describe(type_name: str) -> dict[str, Any]:
-    """The description of a type as JSON data, with its keys in the order of the hash.
+    """Return the description of a type as JSON data, with its keys in the order of the hash.
 
     Raises:
         UnknownTypeError: the type, or one of its nested types, is unknown.
@@ -93,7 +93,7 @@ def describe(type_name: str) -> dict[str, Any]:
 
 
 def type_hash(type_name: str) -> str:
-    """The `RIHS01_…` hash of a type, computed from its definition.
+    """Return the `RIHS01_…` hash of a type, computed from its definition.
 
     The function of rosbags disagrees with rosidl about `char`, as in std_msgs/msg/Char.
 

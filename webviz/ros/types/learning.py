@@ -41,7 +41,7 @@ def learn(type_name: str) -> None:
 
 
 def _joined(*parts: Any) -> str:
-    """The definition of a service or an action; its nested messages are registered."""
+    """Return the definition of a service or an action; its nested messages are registered."""
     for part in parts:
         for nested in _nested(part):
             learn(nested)
@@ -49,7 +49,7 @@ def _joined(*parts: Any) -> str:
 
 
 def _with_nested(cls: Any) -> str:
-    """The definitions of a message and its nested messages, in the format of bags."""
+    """Return the definitions of a message and its nested messages, in the format of bags."""
     texts = {"": _text(cls)}
     waiting = _nested(cls)
     while waiting:
@@ -86,7 +86,7 @@ def _item(kind: str) -> str:
 
 
 def _type(kind: str) -> str:
-    """A type name of rosidl's Python classes in the syntax of .msg files."""
+    """Return a type name of rosidl's Python classes in the syntax of .msg files."""
     if found := _REPEATED.fullmatch(kind):
         if found["item"]:
             return f"{_type(found['item'])}[{found['size']}]"

@@ -21,7 +21,7 @@ ctypes.pythonapi.Py_IncRef(ctypes.py_object(_immortal))
 
 
 def struct(layout: str, **structs: type) -> type[ctypes.Structure]:
-    """A C struct of `name:type` words, where a bare `name` is a pointer."""
+    """Return a C struct of `name:type` words, where a bare `name` is a pointer."""
     members = []
     for word in layout.split():
         name, _, kind = word.partition(":")
@@ -54,25 +54,25 @@ _Description = struct("main:main referenced:list", main=_Individual, list=_Seque
 
 
 def address(value: Any) -> int:
-    """The address of a ctypes value, which is kept alive forever."""
+    """Return the address of a ctypes value, which is kept alive forever."""
     _immortal.append(value)
     return ctypes.addressof(value)
 
 
 def text(text: str) -> int:
-    """The address of a C string."""
+    """Return the address of a C string."""
     return address(ctypes.create_string_buffer(text.encode()))
 
 
 def function(call: Callable, result: Any, *arguments: Any) -> int:
-    """The address of a C function that calls a Python one."""
+    """Return the address of a C function that calls a Python one."""
     callback = ctypes.CFUNCTYPE(result, *arguments)(call)
     _immortal.append(callback)
     return ctypes.cast(callback, ctypes.c_void_p).value or 0
 
 
 def capsule(address: int) -> object:
-    """A Python capsule of a pointer, as rclpy reads it from classes."""
+    """Return a Python capsule of a pointer, as rclpy reads it from classes."""
     new = ctypes.pythonapi.PyCapsule_New
     new.restype = ctypes.py_object
     new.argtypes = [ctypes.c_void_p, ctypes.c_char_p, ctypes.c_void_p]
@@ -97,7 +97,7 @@ def getters(type_name: str) -> list[int]:
 
 
 def finder(handles: dict[str, int]) -> int:
-    """The `func` of a handle: returns the handle of an identifier, or null."""
+    """Return the `func` of a handle: returns the handle of an identifier, or null."""
     named = {name.encode(): each for name, each in handles.items()}
     return function(
         lambda _, wanted: named.get(wanted), ctypes.c_void_p, ctypes.c_void_p, ctypes.c_char_p

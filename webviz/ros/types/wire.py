@@ -102,7 +102,7 @@ def _to_python(blob: int) -> RawPayload:
 
 @functools.cache
 def conversions() -> dict[str, object]:
-    """The capsules with which rclpy converts a `RawPayload` for the middleware, and back."""
+    """Return the capsules with which rclpy converts a `RawPayload` for the middleware, and back."""
     return {
         "_CREATE_ROS_MESSAGE": capsule(function(_create, _pointer)),
         "_DESTROY_ROS_MESSAGE": capsule(function(_destroy, None, _pointer)),

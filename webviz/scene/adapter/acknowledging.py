@@ -41,7 +41,7 @@ class Acknowledgements:
         server.channel.on(Answer, self._receive)
 
     def wait(self, timeout: float, browser: int | None = None) -> None:
-        """Waits until one connected browser, or all of them, have applied everything queued so far.
+        """Wait until one connected browser, or all of them, have applied everything queued so far.
 
         There are three queues: the shared one, that of each browser, and the channel. Applied means
         handled in order; the next frame shows it. Must not be called on viser's event loop.

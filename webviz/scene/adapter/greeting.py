@@ -25,13 +25,13 @@ BEAT_PERIOD = 1.0
 
 
 def pace_of(connection: ServerConnection) -> CongestionControl:
-    """The pace of a browser, by its connection for viser."""
+    """Return the pace of a browser, by its connection for viser."""
     assert isinstance(connection, Connection)
     return connection.window.congestion
 
 
 def greet(server: viser.ViserServer, channel: Channel, modules: Modules) -> None:
-    """Makes every page that connects open the channel, and sends heartbeats.
+    """Make every page that connects open the channel, and send heartbeats.
 
     Pages that came before, such as those of a server that ran here, are sent away: they come again
     by themselves.

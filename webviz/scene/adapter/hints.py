@@ -11,7 +11,7 @@ _hints = functools.cache(get_type_hints)
 
 
 def evaluate_hints_once() -> None:
-    """Makes a new node cheaper: viser evaluates the annotations of its class anew for each."""
+    """Make a new node cheaper: viser evaluates the annotations of its class anew for each."""
 
     def hints(handle: AssignablePropsBase[Any]) -> dict[str, Any]:
         return _hints(type(handle._impl.props))

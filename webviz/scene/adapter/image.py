@@ -13,7 +13,7 @@ _BLANK = encode_png(np.zeros((1, 1, 4), np.uint8))
 
 
 def add_blank_image(server: viser.ViserServer, name: str) -> ImageHandle:
-    """Adds an image of one metre that shows nothing yet.
+    """Add an image of one metre that shows nothing yet.
 
     viser's way to do it imports all plug-ins of imageio and Pillow, and takes the frame loop a
     millisecond or two for each tile of a map.

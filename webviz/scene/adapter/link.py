@@ -64,7 +64,7 @@ class Adapter:
         self._queue(PositionMessage(name, position))
 
     def set_orientation(self, name: str, wxyz: Wxyz) -> None:
-        """Turns a node relative to its parent."""
+        """Turn a node relative to its parent."""
         self._queue(OrientationMessage(name, wxyz))
 
     def place(self, moves: Iterable[Move]) -> None:
@@ -72,7 +72,7 @@ class Adapter:
         queue_moves(self._buffer, moves)
 
     def update(self, name: str, props: dict[str, Any]) -> None:
-        """Assigns several properties in one message; arrays must not change afterwards.
+        """Assign several properties in one message; arrays must not change afterwards.
 
         The message replaces an unsent one with the same property names. Hence always send the
         properties of a node in the same disjoint sets.
@@ -81,7 +81,7 @@ class Adapter:
 
     @contextlib.contextmanager
     def atomic(self) -> Iterator[None]:
-        """Sends what is queued inside in one piece at its end, before viser's 16 ms are over."""
+        """Send what is queued inside in one piece at its end, before viser's 16 ms are over."""
         buffer, sender = self._buffer, self._sender
         before = buffer.message_counter
         buffer.atomic_start()
@@ -96,11 +96,11 @@ class Adapter:
                 self.flush()
 
     def flush(self) -> None:
-        """Sends what is queued now instead of at the end of viser's 16 ms window."""
+        """Send what is queued now instead of at the end of viser's 16 ms window."""
         self.server.flush()
 
     def acknowledge(self, timeout: float = 10.0, client_id: int | None = None) -> None:
-        """Waits until one browser, or all of them, have applied everything queued so far.
+        """Wait until one browser, or all of them, have applied everything queued so far.
 
         Raises:
             TimeoutError: see `Acknowledgements.wait`.
@@ -108,14 +108,14 @@ class Adapter:
         self._acknowledgements.wait(timeout, client_id)
 
     def count_removals(self, count: int) -> None:
-        """Counts removed nodes, and sometimes drops removal messages that all browsers have."""
+        """Count removed nodes, and sometimes drop removal messages that all browsers have."""
         self._removed += count
         if self._removed >= _PRUNE_EVERY:
             self._removed = 0
             self.server.get_event_loop().call_soon_threadsafe(self._prune)
 
     def camera(self, client: viser.ClientHandle) -> tuple[NDArray[np.float64], ...]:
-        """A consistent snapshot of a browser's camera.
+        """Return a consistent snapshot of a browser's camera.
 
         Returns:
             float64 (3,) position, (4,) orientation as a quaternion with w first (z looks forward,
@@ -140,7 +140,7 @@ class Adapter:
         return len(self._buffer.message_from_id)
 
     def _prune(self) -> None:
-        """Drops removal messages, and browsers that stopped reading (on the event loop).
+        """Drop removal messages, and browsers that stopped reading (on the event loop).
 
         A sleeping browser has to receive the removal of every node, so each of these messages is
         kept. Once disconnected, the browser reconnects and receives the scene anew.

@@ -25,7 +25,7 @@ class Packer:
         self._zstd = zstandard.ZstdCompressor(level=1)
 
     def frame(self, messages: Sequence[Message | Piece]) -> bytes:
-        """A websocket frame without mask, which is the same for all browsers.
+        """Return a websocket frame without mask, which is the same for all browsers.
 
         It contains the size of the msgpack before and after compression, the msgpack, and the
         arrays, each at a multiple of `ALIGNMENT`.

@@ -56,7 +56,7 @@ class SceneSender:
     async def _windows(
         self, client_id: int, backlog_last_id: int, backlog_done_message: Message | None
     ) -> AsyncGenerator[Sequence[Message], None]:
-        """Serves a browser until it is gone, and leaves nothing for viser to send."""
+        """Serve a browser until it is gone, and leave nothing for viser to send."""
         self._thread = threading.get_ident()
         connection = self._connections[client_id]
         assert isinstance(connection, Connection)
@@ -84,7 +84,7 @@ class SceneSender:
             self._due = loop.call_later(self._buffer.window_duration_sec, self._send)
 
     def _send(self) -> None:
-        """Sends a frame to each browser that can take it."""
+        """Send a frame to each browser that can take it."""
         if self._due is not None:
             self._due.cancel()
             self._due = None
@@ -99,7 +99,7 @@ class SceneSender:
             self._due = self._buffer.event_loop.call_soon(self._send)
 
     def _serve(self, browser: _Browser, shared: dict[tuple[Progress, bool], _Step]) -> bool:
-        """Sends a frame to a browser; whether there is another one that it can take now."""
+        """Send a frame to a browser; return whether there is another one that it can take now."""
         if browser.congestion.room(URGENT) < 1:
             self._rest(browser)
             return False
@@ -126,7 +126,7 @@ class SceneSender:
         return not is_held and (not is_live or outbox.is_waiting())
 
     def _rest(self, browser: _Browser) -> None:
-        """Serves a browser again when there may be room on its link."""
+        """Serve a browser again when there may be room on its link."""
         if browser.resting is None:
             browser.resting = asyncio.ensure_future(self._resume(browser))
 
@@ -140,7 +140,7 @@ class SceneSender:
             self._due = self._buffer.event_loop.call_soon(self._send)
 
     def _window(self, browser: _Browser) -> list[Message | Piece]:
-        """The next messages for a browser."""
+        """Return the next messages for a browser."""
         buffer, outbox = self._buffer, browser.outbox
         with buffer.buffer_lock:
             live = buffer.message_from_id
@@ -211,7 +211,7 @@ class _Step:
         self._frame: bytes | None = None
 
     def frame(self, packer: Packer, browser_id: int) -> bytes | None:
-        """The frame for a browser, None if it lacks nothing."""
+        """Return the frame for a browser, None if it lacks nothing."""
         if browser_id in self._excluded:
             window = [m for m in self.window if m.excluded_self_client != browser_id]
             return packer.frame(window) if window else None
@@ -221,7 +221,7 @@ class _Step:
 
 
 def _follow(event: asyncio.Event, then: Callable[[], None]) -> None:
-    """Calls `then` whenever an event of viser is set."""
+    """Call `then` whenever an event of viser is set."""
     original = event.set
 
     def set_and_then() -> None:

@@ -60,7 +60,7 @@ class SceneTape:
         self._buffer.generator_cursors[TAPE] = self._cursor
 
     def take(self) -> SceneChange:
-        """The changes since the last call."""
+        """Return the changes since the last call."""
         with self._buffer.buffer_lock:
             live = dict(self._buffer.message_from_id)
             self._cursor = self._buffer.message_counter - 1

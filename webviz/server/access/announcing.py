@@ -51,14 +51,14 @@ class Announcement:
 
 
 def announced(folder: Path | None = None) -> list[str]:
-    """The addresses of viewers that run, sorted."""
+    """Return the addresses of viewers that run, sorted."""
     with contextlib.suppress(OSError):
         return sorted(filter(None, map(_read, (folder or _folder()).iterdir())))
     return []
 
 
 def _read(path: Path) -> str:
-    """The address in a file, "" if its viewer has ended, upon which it is removed."""
+    """Return the address in a file, "" if its viewer has ended, upon which it is removed."""
     try:
         with path.open("rb") as file:
             try:
@@ -76,7 +76,7 @@ def _folder() -> Path:
 
 
 def reachable(url: str, host: str, names: Sequence[str]) -> str:
-    """The address of the page for other machines, if they reach it; else `url`.
+    """Return the address of the page for other machines, if they reach it; else `url`.
 
     Args:
         url: of the page for this machine.
@@ -94,7 +94,7 @@ def reachable(url: str, host: str, names: Sequence[str]) -> str:
 
 
 def _own_addresses() -> list[str]:
-    """The IPv4 addresses of this machine in networks."""
+    """Return the IPv4 addresses of this machine in networks."""
     import psutil  # here, as it would slow down the start
 
     return [

@@ -54,7 +54,7 @@ class Welcome:
 
 
 def cookie_name(port: int) -> str:
-    """The name of the cookie, which all ports of a host share."""
+    """Return the name of the cookie, which all ports of a host share."""
     return f"webviz_{port}"
 
 
@@ -74,7 +74,7 @@ def token_in(path: str) -> bool:
 def welcome(
     access: Access, path: str, headers: Headers, port: int, is_secure: bool
 ) -> Welcome | None:
-    """The response to a link with a token: a cookie, and the address without it.
+    """Return the response to a link with a token: a cookie, and the address without it.
 
     A link of a lower role replaces the cookie of a higher one only if its user has entered it, or
     any page could take an owner's rights away. Browsers keep cookies back from requests that
@@ -125,7 +125,7 @@ def _cookie(name: str, value: str, seconds: float, is_secure: bool) -> str:
 
 
 def page(sentence: str) -> bytes:
-    """A page for people who may not see the viewer."""
+    """Return a page for people who may not see the viewer."""
     text = "".join(
         f"<code>{part}</code>" if number % 2 else part
         for number, part in enumerate(html.escape(sentence).split("`"))
@@ -140,7 +140,7 @@ def page(sentence: str) -> bytes:
 
 
 def _fields(path: str) -> list[tuple[str, str]] | None:
-    """The parameters of an address, None if there are too many."""
+    """Return the parameters of an address, None if there are too many."""
     try:
         return parse_qsl(path.partition("?")[2], keep_blank_values=True, max_num_fields=MAX_FIELDS)
     except ValueError:
@@ -148,7 +148,7 @@ def _fields(path: str) -> list[tuple[str, str]] | None:
 
 
 def _cookies(headers: Headers, name: str) -> Iterator[str]:
-    """The values of a cookie, of which other sites of the same host may have set more."""
+    """Yield the values of a cookie, of which other sites of the same host may have set more."""
     pairs = "; ".join(headers.get_all("Cookie")).split(";", MAX_COOKIES)[:MAX_COOKIES]
     for pair in pairs:
         key, _, value = pair.partition("=")

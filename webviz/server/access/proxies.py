@@ -41,7 +41,7 @@ class Proxies:
         self._networks = [_network(address) for address in addresses]
 
     def caller(self, peer: str, headers: Headers, *, is_secure: bool) -> Caller:
-        """The caller of a request.
+        """Return the caller of a request.
 
         Args:
             peer: IP address of the other end of the connection.
@@ -77,7 +77,7 @@ def _network(text: str) -> ipaddress.IPv4Network | ipaddress.IPv6Network:
 
 
 def _address(text: str) -> Address | None:
-    """An IP address, which some proxies send with a port."""
+    """Return an IP address, which some proxies send with a port."""
     name, _, port = text.rpartition(":")
     if text.startswith("["):
         text = text.partition("]")[0][1:]

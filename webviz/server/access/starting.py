@@ -65,7 +65,7 @@ def make_missing(access: Access) -> None:
 
 
 def link(url: str, token: Token) -> str:
-    """The link with a token.
+    """Return the link with a token.
 
     Args:
         url: of the page, such as http://robot.local:8080.

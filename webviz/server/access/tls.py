@@ -24,7 +24,7 @@ class _Encrypted(Exception):
 
 
 def server_context(certfile: Path, keyfile: Path | None = None) -> ssl.SSLContext:
-    """Reads a certificate and its key.
+    """Read a certificate and its key.
 
     Args:
         certfile: PEM file with the certificate, followed by those of intermediate authorities.
@@ -83,7 +83,7 @@ def doubts(context: ssl.SSLContext, certfile: Path, now_s: float | None = None) 
 
 
 def _certificate(context: ssl.SSLContext) -> bytes:
-    """The certificate of a server, DER."""
+    """Return the certificate of a server, DER."""
     trusting = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
     trusting.check_hostname = False
     trusting.verify_mode = ssl.CERT_NONE
@@ -91,7 +91,7 @@ def _certificate(context: ssl.SSLContext) -> bytes:
 
 
 def _handshake(server: ssl.SSLContext, client: ssl.SSLContext) -> ssl.SSLObject:
-    """A client that has shaken hands with a server, in memory."""
+    """Return a client that has shaken hands with a server, in memory."""
     up, down = ssl.MemoryBIO(), ssl.MemoryBIO()
     asking = client.wrap_bio(down, up)
     answering = server.wrap_bio(up, down, server_side=True)

@@ -35,13 +35,13 @@ class _File(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def standard_path() -> Path:
-    """The file of this user, according to the XDG base directory specification."""
+    """Return the file of this user, according to the XDG base directory specification."""
     home = os.environ.get("XDG_CONFIG_HOME") or Path.home() / ".config"
     return Path(home) / "webviz" / "tokens.json"
 
 
 def read(path: Path) -> Tokens:
-    """The tokens of a file, () if there is none.
+    """Return the tokens of a file, () if there is none.
 
     Raises:
         TokenError: others may read or write the file, or it is invalid.

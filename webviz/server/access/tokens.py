@@ -64,7 +64,7 @@ class Token(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def make(name: str, role: Role, now: datetime, days: float | None = None) -> Token:
-    """A new token with a random secret.
+    """Return a new token with a random secret.
 
     Args:
         name: of the person or group that gets it.
@@ -90,12 +90,12 @@ def make(name: str, role: Role, now: datetime, days: float | None = None) -> Tok
 
 
 def role_name(role: Role) -> RoleName:
-    """The role as tokens have it."""
+    """Return the role as tokens have it."""
     return cast(RoleName, role.label)
 
 
 def role_of(token: Token) -> Role:
-    """The role that a token gives."""
+    """Return the role that a token gives."""
     return Role[token.role.upper()]
 
 
@@ -112,11 +112,11 @@ class TokenIndex:
         self._by_cookie = {_digest(token.cookie): token for token in tokens}
 
     def by_secret(self, secret: str) -> Token | None:
-        """The token with a secret."""
+        """Return the token with a secret."""
         return self._by_secret.get(_digest(secret))
 
     def by_cookie(self, cookie: str) -> Token | None:
-        """The token with a cookie."""
+        """Return the token with a cookie."""
         return self._by_cookie.get(_digest(cookie))
 
 

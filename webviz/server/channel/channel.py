@@ -72,19 +72,19 @@ class Websocket(Protocol):
         ...
 
     async def recv(self) -> Any:
-        """The next message."""
+        """Return the next message."""
         ...
 
     async def send(self, message: str | bytes, /) -> None:
-        """Sends a message, and waits while the page does not read."""
+        """Send a message, and wait while the page does not read."""
         ...
 
     async def send_in_time(self, message: bytes, /) -> None:
-        """Sends a message when there is room for it on the link."""
+        """Send a message when there is room for it on the link."""
         ...
 
     async def close(self, code: int = 1000, reason: str = "") -> None:
-        """Ends the connection."""
+        """End the connection."""
         ...
 
 
@@ -119,7 +119,7 @@ class Channel:
         self.on(Ping, lambda browser, _: self.send(Pong(), browser))
 
     def send(self, message: ToPage, browser: int | None = None) -> None:
-        """Sends to one page, or to all; from any thread, without waiting.
+        """Send to one page, or to all; from any thread, without waiting.
 
         Without `browser`, pages that join later receive the newest of each kind that is `kept`.
         """
@@ -133,7 +133,7 @@ class Channel:
         self._wake_soon(filled)
 
     def send_bytes(self, data: bytes, key: str, browser: int) -> None:
-        """Sends bytes to one page after its messages; they replace those of the same key that wait.
+        """Send bytes to one page after its messages; they replace those of the same key that wait.
 
         From any thread, without waiting. The sender limits the number of keys.
         """
@@ -144,7 +144,7 @@ class Channel:
         self._wake_soon([outbox])
 
     def call_soon(self, call: Callable[[], object]) -> None:
-        """Calls something on the event loop, once a page has joined; from any thread."""
+        """Call something on the event loop, once a page has joined; from any thread."""
         if (loop := self._loop) is not None:
             with contextlib.suppress(RuntimeError):  # the server has stopped
                 loop.call_soon_threadsafe(call)
@@ -156,12 +156,12 @@ class Channel:
         return None if outbox is None else outbox.congestion
 
     def browsers(self) -> set[int]:
-        """The ids of all pages."""
+        """Return the ids of all pages."""
         with self._lock:
             return set(self._outboxes)
 
     def show(self, store: str, values: Mapping[str, Any]) -> None:
-        """Makes these the values of a store, and sends pages that watch it what is new.
+        """Make these the values of a store, and send pages that watch it what is new.
 
         Args:
             store: its name, one of `watched`.
@@ -173,7 +173,7 @@ class Channel:
         self._wake_soon(filled)
 
     def watched(self) -> set[str]:
-        """The names of all stores that pages watch; the values of others are forgotten."""
+        """Return the names of all stores that pages watch; the values of others are forgotten."""
         with self._lock:
             watched = {store for outbox in self._outboxes.values() for store in outbox.watched}
             self._stores.forget(watched)
@@ -195,7 +195,7 @@ class Channel:
         return None if known is None else known[1].grant
 
     async def dismiss(self, browser: int) -> None:
-        """Ends the visit of a browser; what it has sent counts no more. On the event loop."""
+        """End the visit of a browser; what it has sent counts no more. On the event loop."""
         with self._lock:
             known = self._visitors.get(browser)
         if known is not None:
@@ -206,7 +206,7 @@ class Channel:
             known[1].transport.abort()
 
     def on(self, kind: type[M], listener: Callable[[int, M], object]) -> None:
-        """Calls `listener` with a browser, by viser's id of it, and each message of a kind.
+        """Call `listener` with a browser, by viser's id of it, and each message of a kind.
 
         It runs on the event loop of the server, so it must do no more than note what it heard.
         """
@@ -218,7 +218,7 @@ class Channel:
     # Called on the event loop
 
     def join(self, browser: int, congestion: CongestionControl) -> str:
-        """Expects the page of a browser, and returns the key that it has to name.
+        """Expect the page of a browser, and return the key that it has to name.
 
         Args:
             browser: viser's id of it.

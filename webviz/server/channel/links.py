@@ -32,7 +32,7 @@ class Links:
         self._told: dict[int, str] = {}
 
     def tell(self) -> None:
-        """Sends each page what has changed for it."""
+        """Send each page what has changed for it."""
         told: dict[int, str] = {}
         for browser in self._channel.browsers():
             congestion = self._channel.congestion(browser)

@@ -43,7 +43,7 @@ class Modules:
         self.head = head.replace(_MODULES, json.dumps(modules).replace("<", r"\u003c")).encode()
 
     def connect(self, browser: int, key: str) -> str:
-        """A script that makes a page open the channel.
+        """Return a script that makes a page open the channel.
 
         Args:
             browser: viser's id of the page.
@@ -53,13 +53,13 @@ class Modules:
         return f"window.webviz?.connect({told});"
 
     def answer(self, token: str) -> str:
-        """A script that makes a page send an `Answer` with this token."""
+        """Return a script that makes a page send an `Answer` with this token."""
         return f"window.webviz?.answer({json.dumps(token)});"
 
 
 @functools.cache
 def _files() -> dict[str, str]:
-    """The texts of all files of the page, by their paths below its folder."""
+    """Return the texts of all files of the page, by their paths below its folder."""
     return {
         file.relative_to(_FOLDER).as_posix(): file.read_text("utf-8")
         for file in _FOLDER.rglob("*")

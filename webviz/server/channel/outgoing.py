@@ -41,11 +41,11 @@ class PageQueue:
         self._numbers = itertools.count()
 
     def put_first(self, message: ToPage) -> None:
-        """Sends a message before all that waits."""
+        """Send a message before all that waits."""
         self.waiting = {type(message): msgspec.json.encode(message), **self.waiting}
 
     def put(self, message: ToPage, data: bytes) -> None:
-        """Sends a message after those that wait, in place of one of its kind if that is `kept`.
+        """Send a message after those that wait, in place of one of its kind if that is `kept`.
 
         Args:
             message: what it says.

@@ -14,7 +14,7 @@ _ESCAPE = re.compile(r"(\\\\)|\\u[dD][89a-fA-F][0-9a-fA-F]{2}")
 
 
 def answer(message: FromPage, reason: str) -> ToPage | None:
-    """The answer to a refused message, None if it is one without answers.
+    """Return the answer to a refused message, None if it is one without answers.
 
     Args:
         message: of the page.
@@ -30,7 +30,7 @@ def answer(message: FromPage, reason: str) -> ToPage | None:
 
 
 def answer_to_halves(decoder: msgspec.json.Decoder[FromPage], text: str) -> ToPage | None:
-    """The answer to a message with halves of surrogate pairs, which texts of JavaScript may have.
+    """Return the answer to a message with lone surrogates, which texts of JavaScript may have.
 
     Args:
         decoder: of messages, which has refused this one.

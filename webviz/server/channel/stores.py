@@ -26,7 +26,7 @@ class Stores:
         self._made_of: dict[str, Mapping[str, Any]] = {}
 
     def replace(self, store: str, values: Mapping[str, Any]) -> list[str]:
-        """Makes these the values of a store, and returns the keys that are new, changed or gone.
+        """Make these the values of a store, and return the keys that are new, changed or gone.
 
         Values are not changed once they are here: the same object is the same value.
         """
@@ -50,7 +50,7 @@ class Stores:
         return self._content.get(store)
 
     def forget(self, watched: set[str]) -> None:
-        """Drops the stores that no page watches any more."""
+        """Drop the stores that no page watches any more."""
         for store in self._content.keys() - watched:
             del self._content[store], self._made_of[store]
 
@@ -77,12 +77,12 @@ class Watched:
         return True
 
     def discard(self, store: str) -> None:
-        """Ends it."""
+        """End it."""
         self._dirty.pop(store, None)
         self._fresh.discard(store)
 
     def mark(self, store: str, keys: list[str]) -> bool:
-        """Notes keys that are new, changed or gone; whether the page has yet to be sent any."""
+        """Note new, changed or gone keys; return whether the page has yet to be sent any."""
         if (dirty := self._dirty.get(store)) is None:
             return False
         dirty.update(dict.fromkeys(keys))

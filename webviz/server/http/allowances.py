@@ -23,11 +23,11 @@ class Allowance:
         self._in_time = -float("inf")
 
     def resume(self, paid_until: float, now: float) -> None:
-        """Goes on from what an earlier connection has spent."""
+        """Continue with what an earlier connection has spent."""
         self.paid_until, self._in_time = max(self.paid_until, paid_until), now
 
     def spend(self, messages: float, now: float) -> float:
-        """Counts messages at a time in seconds; returns how many seconds to wait."""
+        """Count messages at a time in seconds; return how many seconds to wait."""
         if now - self.paid_until >= self._credit / 2.0:
             self._in_time = now
         self.paid_until = max(self.paid_until, now - self._credit) + messages / self._rate

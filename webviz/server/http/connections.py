@@ -94,7 +94,7 @@ class ConnectionLimits:
         return ""
 
     def enter(self, connection: Connection) -> None:
-        """Adds an opening connection; of too many, one of the most crowded network is aborted."""
+        """Add an opening connection; of too many, one of the most crowded network is aborted."""
         if self._handshakes is not None:
             self._handshakes.end(connection.transport.get_extra_info("socket").fileno())
         self._opening[connection] = network_of((connection.remote_address or ("",))[0])
@@ -104,12 +104,12 @@ class ConnectionLimits:
             crowding.transport.abort()
 
     def leave(self, connection: Connection) -> None:
-        """Removes a connection that is open or lost."""
+        """Remove a connection that is open or lost."""
         self._opening.pop(connection, None)
 
     @contextlib.contextmanager
     def opened(self, connection: Connection) -> Iterator[None]:
-        """Counts a connection as open during the block."""
+        """Count a connection as open during the block."""
         self.leave(connection)
         self._open.add(connection)
         try:
@@ -118,13 +118,13 @@ class ConnectionLimits:
             self._open.discard(connection)
 
     def expel(self, is_over: Callable[[Connection], bool]) -> None:
-        """Ends open connections at once, and ignores what they have sent."""
+        """End open connections at once, and ignore what they have sent."""
         for connection in filter(is_over, tuple(self._open)):
             connection.is_expelled = True
             connection.transport.abort()
 
     def close(self) -> None:
-        """Closes all connections, within a second also those that do not respond."""
+        """Close all connections, within a second also those that do not respond."""
         if self._handshakes is not None:
             self._handshakes.close()
         for connection in (*self._opening, *self._open):
@@ -188,7 +188,7 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
         return network_of(self.address), self._grant.cookie
 
     def admit(self, address: str, grant: Grant) -> None:
-        """Notes whose connection it is, which goes on from what this browser has spent before.
+        """Note whose connection it is, which goes on from what this browser has spent before.
 
         Args:
             address: IP address of the browser.
@@ -198,12 +198,12 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
         self._gate.spent.resume(self._sender, self._allowance, self.loop.time())
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        """Adds the connection to the gate."""
+        """Add the connection to the gate."""
         super().connection_made(transport)
         self._gate.enter(self)
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """Removes the connection from the gate."""
+        """Remove the connection from the gate."""
         self._gate.leave(self)
         self._gate.spent.note(self._sender, self._allowance)
         self.window.drop()
@@ -214,11 +214,11 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
         return self._read
 
     def buffer_updated(self, nbytes: int) -> None:
-        """Handles what was read."""
+        """Handle what was read."""
         self.data_received(bytes(self._read[:nbytes]))
 
     def data_received(self, data: bytes) -> None:
-        """Collects and checks the request; websockets handles the rest."""
+        """Collect and check the request; websockets handles the rest."""
         if self._is_refused:
             return  # keep reading, or closing the connection would discard the response
         if self._head is None:
@@ -247,7 +247,7 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
         super().data_received(as_get(head))
 
     def eof_received(self) -> Any:  # True keeps the connection open
-        """Handles the end of a request after its answer, in between which websockets fails."""
+        """Handle the end of a request after its answer, in between which websockets fails."""
         is_asking = self._head is None and not self._is_refused and self.state is State.CONNECTING
         if not is_asking or self.is_secure:  # with TLS, there is no way to wait
             return super().eof_received()
@@ -259,7 +259,7 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
             self.transport.close()
 
     def process_event(self, event: Any) -> None:
-        """Handles the request, or a frame on arrival."""
+        """Handle the request, or a frame on arrival."""
         # Whole messages wait in `recv`; other frames take effect, or memory, at once.
         is_whole = isinstance(event, Frame) and event.opcode in WHOLE and event.fin
         is_request = not isinstance(event, Frame)
@@ -271,14 +271,14 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
         super().process_event(event)
 
     async def send(self, message: Any, text: bool | None = None) -> None:
-        """Sends a message, or fragments of one as they come, and measures when it arrives."""
+        """Send a message, or fragments of one as they come, and measure when it arrives."""
         if isinstance(message, str | bytes):
             self.window.send(len(message))
         await super().send(message, text)
         await self._ping()
 
     def write(self, frame: bytes) -> None:
-        """Sends a whole frame without waiting, unless the connection is being closed."""
+        """Send a whole frame without waiting, unless the connection is being closed."""
         if self.state is not State.OPEN:
             return
         self.transport.write(frame)
@@ -292,7 +292,7 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
         self._asking = None
 
     async def send_in_time(self, message: bytes) -> None:
-        """Sends a message in fragments, each when there is room for it on the link."""
+        """Send a message in fragments, each when there is room for it on the link."""
         piece = self.window.congestion.piece()
         if len(message) <= piece and self.window.congestion.room() > 0:
             # A third of what `send` takes, which copies the message twice.
@@ -333,7 +333,7 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
             congestion.acknowledge(marker)
 
     async def recv(self, decode: bool | None = None) -> Any:
-        """The next valid message, at the allowed rate."""
+        """Return the next valid message, at the allowed rate."""
         while True:
             data = await super().recv(decode)
             cost = 1.0 + len(data) / self._bytes_per_message
@@ -352,7 +352,7 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
             self.logger.warning("Ignored a message of a browser: %s.", objection)
 
     async def _end_flood(self) -> None:
-        """Ends the connection if it sends too much for long, or has closed its end."""
+        """End the connection if it sends too much for long, or has closed its end."""
         if self._is_gone:
             self.is_expelled = True
             self.transport.abort()

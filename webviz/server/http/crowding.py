@@ -16,7 +16,7 @@ T = TypeVar("T")
 
 @functools.lru_cache(maxsize=1024)
 def network_of(address: str) -> str:
-    """The network by which connections are counted: an IPv4 address, or an IPv6 prefix.
+    """Return the network by which connections are counted: an IPv4 address, or an IPv6 prefix.
 
     Args:
         address: of a browser; what is no IP address is returned as it is.
@@ -33,7 +33,7 @@ def network_of(address: str) -> str:
 
 
 def oldest_of_most_crowded(networks: Mapping[T, str]) -> T:
-    """The first connection of the network that has the most of them.
+    """Return the first connection of the network that has the most of them.
 
     Args:
         networks: of each connection, at least one, the oldest first.

@@ -37,7 +37,7 @@ class HostList:
         self._any_address = bound in ("", "0.0.0.0", "::")
 
     def refusal(self, hosts: Sequence[str]) -> str | None:
-        """The reason to refuse a request, as a sentence, or None.
+        """Return the reason to refuse a request, as a sentence, or None.
 
         Args:
             hosts: values of its Host header, of which there should be one.
@@ -53,7 +53,7 @@ class HostList:
 
 
 def origin_refusal(host: str, origins: Iterable[str]) -> str | None:
-    """The reason to refuse a request of a page of another site, as a sentence, or None.
+    """Return the reason to refuse a request of a page of another site, as a sentence, or None.
 
     Args:
         host: of the request, in lower case.

@@ -44,7 +44,7 @@ class Handshakes:
         """With the network of each."""
 
     def begin(self, accepted: socket.socket, address: str) -> None:
-        """Adds a connection; if there are too many, one of the most crowded network ends."""
+        """Add a connection; if there are too many, one of the most crowded network ends."""
         self._sockets = {
             number: other for number, other in self._sockets.items() if other[0].fileno() == number
         }
@@ -54,11 +54,11 @@ class Handshakes:
             self._shut(oldest_of_most_crowded(networks))
 
     def end(self, number: int) -> None:
-        """Removes a connection, by its file descriptor."""
+        """Remove a connection, by its file descriptor."""
         self._sockets.pop(number, None)
 
     def close(self) -> None:
-        """Closes all."""
+        """Close all."""
         for number in tuple(self._sockets):
             self._shut(number)
 
@@ -81,7 +81,7 @@ class Listener(socket.socket):
     """With TLS, the connections that have not become one of websockets yet."""
 
     def accept(self) -> tuple[socket.socket, tuple[Any, ...]]:
-        """Accepts a connection; raises BlockingIOError if there is none, or no descriptor left."""
+        """Accept a connection; raises BlockingIOError if there is none, or no descriptor left."""
         self._keep_spare()
         try:
             accepted = super().accept()
@@ -97,7 +97,7 @@ class Listener(socket.socket):
         return accepted
 
     def close(self) -> None:
-        """Closes the socket."""
+        """Close the socket."""
         self._close_spare()
         super().close()
 

@@ -53,7 +53,7 @@ def is_complete(head: bytes) -> bool:
 
 
 def refusal(head: bytes) -> Refusal | None:
-    """The reason to refuse a request, or None.
+    """Return the reason to refuse a request, or None.
 
     Args:
         head: request line and headers, possibly followed by a body.
@@ -85,7 +85,7 @@ def is_head(head: bytes) -> bool:
 
 
 def as_get(head: bytes) -> bytes:
-    """The same request with the method GET."""
+    """Return the same request with the method GET."""
     return b"GET" + head[4:] if is_head(head) else head
 
 

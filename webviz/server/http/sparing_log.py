@@ -9,7 +9,7 @@ INTERVAL = 60.0
 
 
 def sparing_log(name: str) -> logging.Logger:
-    """A child of webviz's logger that is not shared by name."""
+    """Return a child of webviz's logger that is not shared by name."""
     log = logging.Logger(name)
     log.parent = logging.getLogger("webviz")
     log.addFilter(_Sparing())

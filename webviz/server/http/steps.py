@@ -82,7 +82,7 @@ class Room(Protocol):
 
 
 def answer_of(steps: Iterable[Step], visit: Visit) -> Reply | None:
-    """The answer of the first step that has one, None to let viser open a websocket."""
+    """Return the answer of the first step that has one, None to let viser open a websocket."""
     return next((reply for step in steps if (reply := step(visit)) is not None), None)
 
 

@@ -23,7 +23,7 @@ _names = {kind: {"type", *(f.name for f in fields(message_type(kind)))} for kind
 
 
 def objection(data: str | bytes, role: Role) -> str | None:
-    """The reason to keep a message of a browser with this role from viser, or None."""
+    """Return the reason to keep a message of a browser with this role from viser, or None."""
     if not isinstance(data, bytes):
         return "text instead of bytes"
     if len(data) > MAX_VISER_BYTES:

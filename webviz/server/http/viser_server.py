@@ -33,7 +33,7 @@ class Server(viser.ViserServer):
             super().__init__(**options)
 
     def stop(self) -> None:
-        """Ends the server's threads and frees the port."""
+        """End the server's threads and free the port."""
         with contextlib.suppress(RuntimeError):  # stopped already
             self.get_event_loop().call_soon_threadsafe(self._close)
         with replaced(rich.get_console(), "quiet", True):
@@ -42,7 +42,7 @@ class Server(viser.ViserServer):
 
 @contextlib.contextmanager
 def replaced(target: Any, name: str, value: Any) -> Iterator[None]:
-    """Replaces an attribute during the block."""
+    """Replace an attribute during the block."""
     original = getattr(target, name)
     setattr(target, name, value)
     try:

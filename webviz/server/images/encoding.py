@@ -41,7 +41,7 @@ def factor_for(picture: Picture, width: int) -> int:
 
 
 def file_of(picture: Pixels | Encoded | Readout, factor: int) -> File:
-    """The file of a picture, smaller by a factor; what is encoded is not touched with 1."""
+    """Return the file of a picture, smaller by a factor; what is encoded is not touched with 1."""
     if isinstance(picture, Readout):
         return File("application/json", msgspec.json.encode(picture.tree()))
     if isinstance(picture, Pixels):
@@ -50,7 +50,10 @@ def file_of(picture: Pixels | Encoded | Readout, factor: int) -> File:
 
 
 def _smaller(picture: Encoded, factor: int) -> File:
-    """A file as JPEG with 1 / `factor` of its edges; as it is with 1, or if it is damaged."""
+    """Return a file as JPEG with 1 / `factor` of its edges.
+
+    As it is with 1, or if it is damaged.
+    """
     file = File(picture.mime, np.ascontiguousarray(picture.data).data)
     if factor == 1:
         return file

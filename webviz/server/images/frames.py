@@ -104,7 +104,7 @@ class Sent:
 def frame(
     display: str, number: int, pane: Pane, file: File | None, sent: Sent
 ) -> tuple[bytes, Sent]:
-    """A message with a picture.
+    """Return a message with a picture.
 
     Args:
         display: id of the display.

@@ -174,7 +174,7 @@ class Pictures:
     # Internal
 
     def _looks_at(self, display: str) -> list[tuple[int, _Look]]:
-        """The pages that show a display."""
+        """Return the pages that show a display."""
         return [(page, looks[display]) for page, looks in self._looks.items() if display in looks]
 
     def _continue(self, browser: int, display: str, look: _Look) -> bool:

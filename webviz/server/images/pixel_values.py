@@ -9,7 +9,7 @@ from webviz.data.images import decoding, values
 
 
 def pixel_text(picture: Picture, x: int, y: int) -> str:
-    """The value of a pixel: depths in metres, colours as red, green and blue; "" if unknown.
+    """Return the value of a pixel: depths in metres, colours as red, green and blue; "" if unknown.
 
     Args:
         picture: of a display.

@@ -118,7 +118,7 @@ class CongestionControl:
         return int(room)
 
     async def wait(self) -> None:
-        """Waits until there may be room again, at most a moment."""
+        """Wait until there may be room again, at most a moment."""
         self._freed.clear()
         patience = QUEUE_S / 4 if self._limit is not None else QUEUE_S
         with contextlib.suppress(TimeoutError):
@@ -131,7 +131,7 @@ class CongestionControl:
         return max(MIN_WINDOW, int(self.rate * QUEUE_S / 2))
 
     def send(self, size: int) -> None:
-        """Counts bytes that are being sent."""
+        """Count bytes that are being sent."""
         self.in_flight += size
         if self._limit is not None:
             self._paid_until = max(self._paid_until, self.clock()) + size / self._limit
@@ -145,7 +145,7 @@ class CongestionControl:
         )
 
     def marker(self, size: int, began: float) -> SentMarker:
-        """Notes a ping that is being sent; see `SentMarker`."""
+        """Note a ping that is being sent; see `SentMarker`."""
         now = self._pinged = self.clock()
         marker = SentMarker(
             size, began, now, self.in_flight, self._delivered, self._acknowledged, self._is_limited
@@ -188,7 +188,10 @@ class CongestionControl:
             self.rate = rate if rate < FAST else None
 
     def _learn(self, rate: float, queue_s: float, marker: SentMarker) -> float:
-        """The rate of late; `queue_s` is by how much longer a pong took than the shortest."""
+        """Return the rate of late.
+
+        `queue_s` is by how much longer a pong took than the shortest.
+        """
         known = self._known()
         if marker.is_limited:
             self._limited_at = self._acknowledged
@@ -222,12 +225,12 @@ class InFlightWindow:
         self._began = 0.0
 
     def join(self, congestion: CongestionControl) -> None:
-        """Counts for another pace from now on: that of all connections of its browser."""
+        """Count for another pace from now on: that of all connections of its browser."""
         congestion.send(self._size)
         self.congestion = congestion
 
     def send(self, size: int) -> None:
-        """Counts bytes that are being sent."""
+        """Count bytes that are being sent."""
         if not self._size:
             self._began = self.congestion.clock()
         self._size += size
@@ -239,7 +242,7 @@ class InFlightWindow:
         return self.congestion.wants_ping(self._size)
 
     def end(self) -> SentMarker | None:
-        """Ends it if a ping should follow: what is to be heard with the pong."""
+        """End it if a ping should follow; return what the pong acknowledges."""
         if not self.is_due:
             return None
         marker = self.congestion.marker(self._size, self._began)

@@ -9,7 +9,7 @@ _BINARY = 0x82
 
 
 def header(size: int) -> bytes:
-    """The header of a websocket frame with a binary message of a size in bytes, without mask."""
+    """Return the header of an unmasked websocket frame with a binary message of some bytes."""
     if size < 126:
         return struct.pack("!BB", _BINARY, size)
     if size < 1 << 16:

@@ -40,7 +40,7 @@ class Message(Protocol):
     """The part of viser's messages that is used here."""
 
     def redundancy_key(self) -> str:
-        """A newer message with the same key replaces this one."""
+        """Return a newer message with the same key replaces this one."""
         ...
 
 
@@ -121,7 +121,7 @@ class Outbox:
         return bool(self._line or self._pieces or self._thin)
 
     def small(self, live: Mapping[int, M], newest: int, limit: int | None) -> list[M]:
-        """The next small messages; large ones are put in the line.
+        """Return the next small messages; large ones are put in the line.
 
         Args:
             live: the existing messages, in order of their numbers.
@@ -156,7 +156,7 @@ class Outbox:
         return window
 
     def large(self, live: Mapping[int, M]) -> list[M | Piece]:
-        """The next messages of the line that still exist: as many as there is room for."""
+        """Return the next messages of the line that still exist: as many as there is room for."""
         if self._thin and not self._line and not self._pieces:
             if self._congestion.clock() - self._rested > REST_S:
                 self._make_whole(live)
@@ -211,7 +211,7 @@ class Outbox:
         return True
 
     def _order(self, live: Mapping[int, Message]) -> list[tuple[object, int]]:
-        """The line; mostly with scans first, but not so that others never have their turn."""
+        """Return the line, mostly with scans first, but so that others have their turn."""
         line = list(self._line.items())
         if self._turn:
             line.sort(key=lambda each: not self._is_scan(live.get(each[1])))
@@ -255,7 +255,7 @@ class Outbox:
         }
 
     def _unfinished(self, key: object, number: int, live: Mapping[int, M]) -> M | None:
-        """A part of a cloud that was begun, unless the cloud is gone."""
+        """Return a part of a cloud that was begun, unless the cloud is gone."""
         is_replaced = self._line.get((key, "next"), -1) in live
         return self._begun.get(number) if is_replaced else None
 
@@ -270,7 +270,7 @@ class Outbox:
             self._thin.pop(key, None)
 
     def _make_whole(self, live: Mapping[int, Message]) -> None:
-        """Puts the clouds that were thinned in the line once more."""
+        """Put the clouds that were thinned in the line once more."""
         thin = {key: number for key, number in self._thin.items() if number in live}
         clouds = {_cloud(live[number]) for number in thin.values()} - {None}
         if clouds:  # small parts as well, as pages wait for all of them
@@ -283,7 +283,7 @@ class Outbox:
         self._congestion.every = self._thinning.every if self._thin else 1
 
     def _piece(self, live: Mapping[int, Message]) -> list[Any]:
-        """A piece of a message that was begun and whose node is not gone, each in turn."""
+        """Return a piece of a message that was begun and whose node is not gone, each in turn."""
         while self._pieces:
             key, begun = next(iter(self._pieces.items()))
             del self._pieces[key]

@@ -100,7 +100,7 @@ class Pieces:
         return self._start >= len(self._data)
 
     def take(self, size: int) -> Piece:
-        """The next piece, of at most `size` bytes."""
+        """Return the next piece, of at most `size` bytes."""
         start, self._start = self._start, self._start + size
         update = self._update if self.is_over else None
         return Piece(self.slot, start, len(self._data), self._data[start : self._start], update)

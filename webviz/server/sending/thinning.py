@@ -25,7 +25,7 @@ def is_cloud(updates: dict[str, Any]) -> bool:
 
 
 def thinned(message: Any, every: int) -> Any:
-    """A message of a cloud with one of `every` points.
+    """Return a message of a cloud with one of `every` points.
 
     They are drawn by lot, always the same ones: of a lidar whose points come ring by ring, each
     8th would be points of a single ring.
@@ -59,7 +59,7 @@ class Thinning:
         self.every = 1
 
     def note(self, key: object, size: int) -> None:
-        """Notes the size in bytes of a new version of a cloud."""
+        """Note the size in bytes of a new version of a cloud."""
         self._sizes[key] = self._clock(), size
 
     def choose(self, rate: float | None) -> int:

@@ -29,11 +29,11 @@ class AgentCaller:
     address: str = "stdio"
 
     def visitor(self) -> Visitor:
-        """The caller as the journal knows people."""
+        """Return the caller as the journal knows people."""
         return Visitor(self.name, self.role, self.address, time.time())
 
     def sender(self) -> Sender:
-        """The caller as commands know it: like a page, and unlike a program."""
+        """Return the caller as commands know it: like a page, and unlike a program."""
         return Sender(BROWSER, priority=self.role)
 
     def refusal(self, command: type[Command]) -> str:

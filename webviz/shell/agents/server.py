@@ -95,7 +95,7 @@ class HttpServer:
         await self._app(scope, receive, send)
 
     def _known(self, scope: Scope) -> AgentCaller | None:
-        """The caller that a request's token belongs to."""
+        """Return the caller that a request's token belongs to."""
         headers = dict(scope["headers"])
         kind, _, secret = headers.get(b"authorization", b"").decode("latin-1").partition(" ")
         grants = (self._access.by_secret(secret.strip(), role) for role in Role)
@@ -114,7 +114,7 @@ async def _refuse(send: Send) -> None:
 
 
 def made(tools: AgentTools, caller: Callable[[], AgentCaller]) -> MCPServer[Any]:
-    """A server of tools.
+    """Return a server of tools.
 
     Args:
         tools: what they do.
@@ -166,12 +166,12 @@ def made(tools: AgentTools, caller: Callable[[], AgentCaller]) -> MCPServer[Any]
 
     @server.tool(annotations=READS)
     async def read(topic: str) -> str:
-        """The newest message of a topic, a field a line; long arrays are shortened."""
+        """Return the newest message of a topic, a field a line; long arrays are shortened."""
         return await called(tools.read, topic)
 
     @server.tool(annotations=READS)
     async def transform(target: str, source: str) -> str:
-        """The newest pose of the frame `source` in the frame `target`, or why there is none."""
+        """Return the newest pose of frame `source` in frame `target`, or why it is unknown."""
         return await called(tools.transform, target, source)
 
     async def act(command: str, fields: dict[str, Any] | None = None) -> str:

@@ -30,7 +30,7 @@ def bounded(lines: Iterable[str]) -> str:
 
 
 def explanation(state: State, display: str = "") -> Iterator[str]:
-    """Findings, the one to repair first at the beginning, and the statuses of displays.
+    """Yield findings, the one to repair first at the beginning, and the statuses of displays.
 
     Args:
         state: of the viewer.
@@ -80,7 +80,7 @@ def topics(state: State) -> Iterator[str]:
 
 
 def message(topic: str, inspected: Inspected) -> Iterator[str]:
-    """The newest message of a topic, a field a line."""
+    """Yield the newest message of a topic, a field a line."""
     if inspected.message is None:
         yield inspected.problem or f"No message on {topic} has arrived yet."
         return
@@ -89,7 +89,7 @@ def message(topic: str, inspected: Inspected) -> Iterator[str]:
 
 
 def selection(things: Mapping[str, Any]) -> Iterator[str]:
-    """A selection, see `webviz.shell.app.running.Running.select`."""
+    """Yield a selection, see `webviz.shell.app.running.Running.select`."""
     for number, each in things.items():
         if number != "/info":
             yield f"{each['title']} of {each['name']}. {each['note']}".rstrip()
@@ -97,7 +97,7 @@ def selection(things: Mapping[str, Any]) -> Iterator[str]:
 
 
 def _fields(tree: Tree, path: str) -> Iterator[str]:
-    """The values of a message with their paths; see `webviz.data.messages.to_tree`."""
+    """Yield the values of a message with their paths; see `webviz.data.messages.to_tree`."""
     match tree:
         case {"fields": fields}:
             for name, value in fields.items():

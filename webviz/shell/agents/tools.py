@@ -47,7 +47,7 @@ class AgentTools:
         self._began_s = time.monotonic()
 
     def explain(self, caller: AgentCaller, display: str = "") -> str:
-        """Findings of the doctor and statuses.
+        """Return findings of the doctor and statuses.
 
         Args:
             caller: for the journal.
@@ -104,7 +104,7 @@ class AgentTools:
         return texts.bounded(texts.topics(self._viewer.state))
 
     def read(self, caller: AgentCaller, topic: str) -> str:
-        """The newest message of a topic, or why there is none."""
+        """Return the newest message of a topic, or why there is none."""
         self._begin(caller, f"read {topic}")
         self._viewer.do(InspectTopic(topic))
         try:
@@ -117,7 +117,7 @@ class AgentTools:
         return texts.bounded((*texts.message(topic, found), *([hint] if hint else ())))
 
     def transform(self, caller: AgentCaller, target: str, source: str) -> str:
-        """The newest pose of a frame in another.
+        """Return the newest pose of a frame in another.
 
         Raises:
             Error: there is none, and why.
@@ -172,7 +172,7 @@ class AgentTools:
         self._viewer.attend(ATTENTION_S)
 
     def _received(self, topic: str) -> Inspected | None:
-        """The topic once it has a message, or as it is after some seconds."""
+        """Return the topic once it has a message, or as it is after some seconds."""
         deadline = time.monotonic() + MESSAGE_S
         while True:
             self._viewer.do(Refresh())
@@ -186,5 +186,5 @@ class AgentTools:
 
 
 def known() -> set[str]:
-    """The names of the commands that agents may give, as far as their role allows."""
+    """Return the names of the commands that agents may give, as far as their role allows."""
     return {each.__name__ for each in COMMANDS if issubclass(each, Command)}

@@ -20,7 +20,7 @@ class NoSuchProperty(Error, AttributeError):
 
 
 def no_property(type: str, name: str, valid: Iterable[str]) -> str:
-    """The error for an unknown property, with a suggestion."""
+    """Return the error for an unknown property, with a suggestion."""
     return f"{type} has no property `{name}`, {nearest(name, valid)}"
 
 
@@ -49,7 +49,7 @@ def check_properties(type: str, properties: Mapping[str, Any]) -> None:
 def by_topic(
     properties: Mapping[str, Any], topics: Mapping[str, tuple[str, ...]]
 ) -> tuple[str, dict[str, Any]]:
-    """The display type that shows a topic, and its properties with the topic in its input.
+    """Return the display type that shows a topic, and its properties with the topic in its input.
 
     Args:
         properties: with the name of the topic as `topic`.

@@ -30,7 +30,7 @@ FRAMES = ("map", "odom", "world")
 
 
 def config_of(bag: BagSource) -> Config:
-    """The displays that fit the topics of a bag, in a frame that it has."""
+    """Return the displays that fit the topics of a bag, in a frame that it has."""
     offers = {
         topic: offer
         for topic, offer in bag.offers().items()
@@ -44,7 +44,7 @@ def config_of(bag: BagSource) -> Config:
 
 
 def displays_of(offers: Mapping[str, Offer]) -> tuple[Config, set[str]]:
-    """The displays that fit published topics, and the topics that they show."""
+    """Return the displays that fit published topics, and the topics that they show."""
     types = display_types()
     topics = {
         topic: tuple(dict.fromkeys(publisher.type for publisher in offer.publishers))
@@ -79,7 +79,7 @@ def _rank(pick: Pick) -> int:
 
 
 def _place(pick: Pick) -> tuple[int, str, str]:
-    """The usual displays come first."""
+    """Return the usual displays come first."""
     place = STANDARD.index(pick.display) if pick.display in STANDARD else len(STANDARD)
     return place, pick.display, pick.topic
 
@@ -96,7 +96,7 @@ def _displays(found: Sequence[Pick], types: Mapping[str, type[Display]]) -> Iter
 
 
 def fixed_frame_of(links: Sequence[tuple[str, str]]) -> str:
-    """The frame in which most can be drawn, "" without any.
+    """Return the frame in which most can be drawn, "" without any.
 
     Args:
         links: parents and children.

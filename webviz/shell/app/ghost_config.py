@@ -26,7 +26,7 @@ COVERING = {"Map", "Costmap", "OccupancyGrid", "OccupancyMap", "GridMap"}
 
 
 def with_ghost(config: Config, bag: BagSource) -> Config:
-    """A config that shows the second run of a bag, too.
+    """Return a config that shows the second run of a bag, too.
 
     Args:
         config: for the first run; changed.
@@ -53,7 +53,7 @@ def _displays(items: Sequence[Item]) -> Iterator[Display]:
 
 
 def _copy(display: Display) -> Display | None:
-    """A display of the same topics of the second run, None for one without topics."""
+    """Return a display of the same topics of the second run, None for one without topics."""
     cls = type(display)
     values: dict[str, Any] = msgspec.to_builtins(display)
     topics = {
@@ -91,7 +91,7 @@ def _tinted(value: Any, key: str = "") -> Any:
 
 
 def _root(frame: str, links: Sequence[tuple[str, str]]) -> str:
-    """The frame at the root of the transforms above a frame."""
+    """Return the frame at the root of the transforms above a frame."""
     parents = {child: parent for parent, child in links}
     seen = {frame}
     while (parent := parents.get(frame)) is not None and parent not in seen:

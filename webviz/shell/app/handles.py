@@ -216,7 +216,7 @@ class DisplayHandle:
         return next((row for row in self._viewer.state.rows if row.id == self.id), None)
 
     def _around(self) -> tuple[Sequence[Row], Sequence[Row]]:
-        """The rows before the display, and those from it on."""
+        """Return the rows before the display, and those from it on."""
         rows = self._viewer.state.rows
         for number, row in enumerate(rows):
             if row.id == self.id:
@@ -227,7 +227,7 @@ class DisplayHandle:
         return self._around()[1][0]
 
     def _parent(self) -> DisplayHandle | None:
-        """The group that contains the display."""
+        """Return the group that contains the display."""
         before, behind = self._around()
         outer = [row for row in before if row.depth == behind[0].depth - 1]
         return DisplayHandle(self._viewer, outer[-1].id) if outer else None

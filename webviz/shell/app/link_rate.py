@@ -13,7 +13,7 @@ _RATE = re.compile(r"(\d+(?:\.\d*)?)\s*([kMG]?)bit/s")
 
 
 def bytes_per_second(text: str) -> float:
-    """The rate of a link in bytes a second, of a text such as "5Mbit/s".
+    """Return the rate of a link in bytes a second, of a text such as "5Mbit/s".
 
     Raises:
         Error: the text is not such a rate, or the rate is below 100 kbit/s.

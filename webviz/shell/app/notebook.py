@@ -22,7 +22,7 @@ HEIGHT = 600
 
 
 def embedders(wanted: Sequence[str] | None) -> Sequence[str]:
-    """The origins of pages that may embed a viewer.
+    """Return the origins of pages that may embed a viewer.
 
     Args:
         wanted: as given; None for notebooks of this machine, if this program is one.
@@ -39,7 +39,7 @@ def embedders(wanted: Sequence[str] | None) -> Sequence[str]:
 
 
 def html(page: str, access: Access, is_embeddable: bool) -> str:
-    """A page of a viewer on this machine, or a link to it if it may not be embedded.
+    """Return a page of a viewer on this machine, or a link to it if it may not be embedded.
 
     Args:
         page: its address.

@@ -114,7 +114,7 @@ class PictureControls(ABC):
 
 
 def checked_view(view: View | Mapping[str, Any]) -> View:
-    """A validated view.
+    """Return a validated view.
 
     Raises:
         Error: a value is invalid.

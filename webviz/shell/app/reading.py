@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def read_config(path: Path | None, source: Source | None = None) -> Config:
-    """The config of a file, or the default one: of a bag that of its topics.
+    """Return the config of a file, or the default one: of a bag that of its topics.
 
     Raises:
         ConfigError: the file cannot be read.

@@ -298,12 +298,12 @@ class Running(PictureControls):
         return list(self.state.findings)
 
     def last_findings(self) -> list[Finding]:
-        """The findings of the last round; rounds go on for some seconds after a call."""
+        """Return the findings of the last round; rounds go on for some seconds after a call."""
         self._loop.doctor.ask()
         return list(self.state.findings)
 
     def _cookie(self) -> tuple[str, str] | None:
-        """The cookie of the browser that takes pictures, None if none is asked for."""
+        """Return the cookie of the browser that takes pictures, None if none is asked for."""
         return (cookie_name(self.port), self.access.own.cookie) if self.access.asks else None
 
     def _drawn(self) -> State:

@@ -39,7 +39,7 @@ def journal(
 def given_source(
     bag: BagPaths | None, source: Source | None, ros_args: Sequence[str], closing: Closing
 ) -> Source | None:
-    """The bag or other source that was asked for, None for the ROS graph."""
+    """Return the bag or other source that was asked for, None for the ROS graph."""
     if bag is not None:
         if source is not None:
             raise Error("Give either `bag` or `source`.")
@@ -59,7 +59,7 @@ def loaded_plugins(files: Sequence[str | os.PathLike[str]]) -> plugins.Watcher:
 
 
 def _paths(bag: BagPaths) -> list[Path]:
-    """The files and folders of a bag, or of several."""
+    """Return the files and folders of a bag, or of several."""
     several = [bag] if isinstance(bag, str | os.PathLike) else bag
     if not several:
         raise Error("`bag` is empty. Give a file or folder, or None for the ROS graph.")
@@ -69,7 +69,10 @@ def _paths(bag: BagPaths) -> list[Path]:
 def tls_context(
     certfile: str | os.PathLike[str] | None, keyfile: str | os.PathLike[str] | None
 ) -> ssl.SSLContext | None:
-    """The context of a server with TLS, if there is a certificate; doubts about it are logged."""
+    """Return the context of a server with TLS, if there is a certificate.
+
+    Doubts about it are logged.
+    """
     if certfile is None:
         if keyfile is not None:
             raise Error("`keyfile` needs `certfile`.")

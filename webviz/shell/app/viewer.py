@@ -96,7 +96,7 @@ class Viewer(Running, TimeControls):
         return f"<webviz.Viewer at {self.url}>"
 
     def _repr_html_(self) -> str:
-        """The page, for notebooks whose cell ends with the viewer."""
+        """Return the page, for notebooks whose cell ends with the viewer."""
         return notebook.html(self.url, self.access, self.is_embeddable)
 
     # State
@@ -112,7 +112,7 @@ class Viewer(Running, TimeControls):
         return [display for display in self.displays if display.type == "Group"]
 
     def __getitem__(self, key: str | int) -> DisplayHandle:
-        """A display by its name or its number in the list.
+        """Return a display by its name or its number in the list.
 
         Raises:
             NoSuchDisplay: it does not exist, or the name is ambiguous.
@@ -169,7 +169,7 @@ class Viewer(Running, TimeControls):
     # Changes
 
     def tool(self, name: str) -> ToolHandle:
-        """A tool by its name in the toolbar: `viewer.tool("2D Goal Pose").send(1.0, 2.0)`."""
+        """Return a tool by its name in the toolbar: `viewer.tool("2D Goal Pose").send(1, 2)`."""
         return ToolHandle(self, name)
 
     def add(

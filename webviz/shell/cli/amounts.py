@@ -9,7 +9,7 @@ DURATIONS = {"min": 60.0, "s": 1.0}
 
 
 def bytes_of(text: str) -> int:
-    """A number of bytes, such as 500MB.
+    """Return a number of bytes, such as 500MB.
 
     Raises:
         ValueError: it is none; one sentence with a remedy.
@@ -39,7 +39,7 @@ def memory_of(text: str) -> dict[str, float]:
 
 
 def _number(text: str, unit: str) -> float | None:
-    """A finite number before a unit, None if it is something else."""
+    """Return a finite number before a unit, None if it is something else."""
     try:
         number = float(text.removesuffix(unit)) if text.endswith(unit) else math.nan
     except ValueError:

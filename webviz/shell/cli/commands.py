@@ -112,7 +112,7 @@ def _is_report(word: str) -> bool:
 
 
 def _mistake(error: CycloptsError) -> str:
-    """The error in the arguments, as a sentence."""
+    """Return the error in the arguments, as a sentence."""
     match error:
         case UnusedCliTokensError() if error.unused_tokens:
             return _unused(error.unused_tokens[0], error.command_chain)
@@ -131,7 +131,7 @@ def _mistake(error: CycloptsError) -> str:
 
 
 def _unused(word: str, command_chain: Sequence[str] | None) -> str:
-    """The error for an argument that no option or command takes."""
+    """Return the error for an argument that no option or command takes."""
     from webviz.files.config import nearest
 
     if command_chain:

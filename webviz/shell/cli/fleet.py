@@ -13,7 +13,7 @@ MAX_WITH_TOOLS = 8
 
 @contextlib.contextmanager
 def standard_config(robots: int) -> Iterator[Path]:
-    """The file of a config for so many robots, during the block."""
+    """Provide the file of a config for so many robots, during the block."""
     if robots == 1:
         yield DEMO
         return

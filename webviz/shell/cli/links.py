@@ -39,7 +39,7 @@ def show_links(tokens: Sequence[Token], url: str, host: str, names: Sequence[str
 
 
 def lines_of(token: Token, addresses: Sequence[str]) -> list[str]:
-    """A token in words, and its links to the pages of these addresses."""
+    """Return a token in words, and its links to the pages of these addresses."""
     until = "" if token.expires is None else f" until {token.expires.astimezone():%Y-%m-%d %H:%M}"
     over = "" if token.is_valid(datetime.now(UTC)) else " (expired)"
     links = [f"  {link(address, token)}" for address in addresses]
@@ -47,7 +47,7 @@ def lines_of(token: Token, addresses: Sequence[str]) -> list[str]:
 
 
 def qr_code(text: str) -> str:
-    """A QR code for terminals with dark or light background."""
+    """Return a QR code for terminals with dark or light background."""
     import segno  # here, as it would slow down the start
 
     lines = io.StringIO()

@@ -62,7 +62,7 @@ class ConfigOptions:
     """Also load meshes and textures from this folder (default: ROS packages; repeatable)."""
 
     def read(self, path: Path | None, source: "Source | None" = None) -> "Config":
-        """The config of a file, or the default one of a source, with the overrides of --set.
+        """Return the config of a file, or the default one of a source, with the overrides of --set.
 
         Raises:
             Error: the file cannot be read, or an override is invalid.

@@ -56,6 +56,6 @@ def schema(
 
 
 def text() -> str:
-    """The text of the schema of all installed displays and tools."""
+    """Return the text of the schema of all installed displays and tools."""
     schema = json_schema(display_types(), plugin_types(Tool), plugin_types(Panel))
     return json.dumps(schema, indent=1, ensure_ascii=False) + "\n"

@@ -192,7 +192,7 @@ def _table(statuses: dict[str, Status]) -> Iterator[str]:
 
 
 def _topics(bag: BagSource) -> str:
-    """The topics of a bag that displays can show, as a sentence."""
+    """Return the topics of a bag that displays can show, as a sentence."""
     topics = sorted(topic for topic, offer in bag.offers().items() if not offer.problem)
     more = f" and {len(topics) - MAX_TOPICS} more" if len(topics) > MAX_TOPICS else ""
     return f"The topics are {', '.join(topics[:MAX_TOPICS])}{more}."
@@ -204,7 +204,7 @@ def _caption(picture: Picture) -> str:
 
 
 def _clock(order: Order) -> Callable[[Picture], str]:
-    """Returns the line of a picture's time: seconds of a bag, and the local date and time."""
+    """Return the line of a picture's time: seconds of a bag, and the local date and time."""
     from webviz.sources.bag.source import BagSource
 
     source = order.source

@@ -150,7 +150,7 @@ def _announce(options: ViewingOptions, viewer: Viewer, note: str) -> None:
 
 
 def _with_ghost(bag: BagOptions, ros: Sequence[str]) -> BagSource | None:
-    """The bag with a second run beside it, None without one."""
+    """Return the bag with a second run beside it, None without one."""
     if bag.ghost is None:
         return None
     ghost = Ghost(bag.ghost, align_of(bag.ghost_align), bag.ghost_difference)

@@ -134,7 +134,7 @@ def _examined(options: RuleOptions, ros: "Sequence[str]") -> "RuleResults":
 
 
 def _rules(options: RuleOptions, config: "Config | None") -> "RuleResults":
-    """The rules of the config and of the command line, without results yet."""
+    """Return the rules of the config and of the command line, without results yet."""
     from webviz.api.errors import Error
     from webviz.files.config import WatchRule
     from webviz.shell.doctor.rule_results import RuleResults

@@ -129,7 +129,7 @@ def _print(token: Token, url: str) -> None:
 
 
 def _addresses(url: str) -> list[str]:
-    """The addresses of the viewers that links are for, at least one."""
+    """Return the addresses of the viewers that links are for, at least one."""
     if found := [url] if url else announced():
         return found
     guess = f"http://{socket.gethostname()}:8080"

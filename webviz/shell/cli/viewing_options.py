@@ -21,7 +21,7 @@ BAG = Parameter(group=Group("A bag instead of live topics", sort_key=2))
 
 
 def align_of(text: str) -> "Align | float":
-    """The alignment of a second bag that an option names.
+    """Return the alignment of a second bag that an option names.
 
     Raises:
         ValueError: it is not one.
@@ -115,7 +115,7 @@ class ViewingOptions(ConfigOptions):
     """Show viser's own panel beside the page."""
 
     def read(self, path: Path | None, source: "Source | None" = None) -> "Config":
-        """The config, with the overrides of --set and --memory; see `ConfigOptions.read`."""
+        """Return the config, with the overrides of --set and --memory; see `ConfigOptions.read`."""
         config = super().read(path, source)
         if self.memory:
             memory = msgspec.structs.replace(config.settings.memory, **memory_of(self.memory))

@@ -203,7 +203,7 @@ def examine_machine(environment: Environment, ends: TwoEnds | None = None) -> Do
 
 
 def live_config(offers: Mapping[str, Offer]) -> Config:
-    """Displays for published topics, without those of panes, whose messages are large."""
+    """Return displays for published topics, without those of panes, whose messages are large."""
     config, _ = displays_of(offers)
     config.displays = [each for each in config.displays if not getattr(each, "has_pane", False)]
     return config

@@ -155,7 +155,7 @@ class _There:
 
 @contextlib.contextmanager
 def connected(host: str, ssh: str) -> Iterator[_There]:
-    """The agent of another machine, which ends with the block.
+    """Provide the agent of another machine, which ends with the block.
 
     Args:
         host: as ssh takes it, such as user@robot.
@@ -278,7 +278,7 @@ def _end(looked: Any, host: str) -> End:
 
 
 def _read_as(kind: type[T], value: Any) -> T:
-    """An answer of a kind.
+    """Return an answer of a kind.
 
     Raises:
         PeerError: it is something else.
@@ -290,7 +290,7 @@ def _read_as(kind: type[T], value: Any) -> T:
 
 
 def _printable(value: Any) -> Any:
-    """A value of another machine without what a terminal would take for commands."""
+    """Return a value of another machine without what a terminal would take for commands."""
     match value:
         case str():
             return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in value)
@@ -302,7 +302,7 @@ def _printable(value: Any) -> Any:
 
 
 def _clocks(there: _Machine) -> tuple[float, float]:
-    """The offset of the other clock and its uncertainty in seconds, by the shortest round trip.
+    """Return the other clock's offset and its uncertainty in seconds, by the shortest round trip.
 
     As NTP (RFC 5905): the answer was made at some time between request and reception.
     """

@@ -45,7 +45,7 @@ class Agent:
         self._lock = threading.Lock()
 
     def look(self) -> dict[str, Any]:
-        """This machine: its name, versions, interfaces, and the variables of ROS."""
+        """Return this machine: its name, versions, interfaces, and the variables of ROS."""
         return {
             "host": socket.gethostname(),
             "python": platform.python_version(),
@@ -116,7 +116,7 @@ class Agent:
         return sorted(set(refused))
 
     def heard(self) -> dict[str, Any]:
-        """The senders and the sizes of the packets that arrived, by their token."""
+        """Return the senders and the sizes of the packets that arrived, by their token."""
         with self._lock:
             return {
                 token: {"senders": sorted(each["senders"]), "sizes": sorted(each["sizes"])}
@@ -147,12 +147,12 @@ class Agent:
 
 
 def _relevant(variables: dict[str, str]) -> dict[str, str]:
-    """The variables that say how ROS communicates; no others leave the machine."""
+    """Return the variables that say how ROS communicates; no others leave the machine."""
     return {k: v[:MAX_TEXT] for k, v in sorted(variables.items()) if k.startswith(PREFIXES)}
 
 
 def _nodes() -> list[dict[str, Any]]:
-    """The variables of the running programs that use a middleware of ROS, as far as readable.
+    """Return the variables of running programs with a middleware of ROS, if readable.
 
     A shell that ssh starts often does not have those that a terminal or a service has.
     """
@@ -180,7 +180,7 @@ def _is_same(kind: str, pid: str) -> bool:
 
 
 def _interfaces() -> list[dict[str, Any]]:
-    """The interfaces that are up, with their IPv4 addresses."""
+    """Return the interfaces that are up, with their IPv4 addresses."""
     addresses: dict[str, list[tuple[str, str]]] = {}
     for name, address, mask in _addresses():
         addresses.setdefault(name.split(":")[0], []).append((address, mask))
@@ -230,7 +230,7 @@ def _addresses() -> list[tuple[str, str, str]]:
 
 
 def _senders() -> list[str]:
-    """The addresses of the interfaces that packets leave the machine by."""
+    """Return the addresses of the interfaces that packets leave the machine by."""
     return [
         address
         for each in _interfaces()

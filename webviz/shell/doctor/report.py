@@ -131,18 +131,18 @@ def report_of(
 
 
 def schema_text() -> str:
-    """The JSON Schema of reports."""
+    """Return the JSON Schema of reports."""
     schema = msgspec.json.schema(DoctorReport)
     return msgspec.json.format(msgspec.json.encode(schema), indent=2).decode() + "\n"
 
 
 def to_json(report: DoctorReport) -> str:
-    """The report as JSON."""
+    """Return the report as JSON."""
     return msgspec.json.format(msgspec.json.encode(report), indent=2).decode()
 
 
 def to_text(report: DoctorReport, is_colored: bool) -> str:
-    """The report for a person.
+    """Return the report for a person.
 
     Args:
         report: the report.

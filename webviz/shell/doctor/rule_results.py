@@ -87,7 +87,7 @@ class RuleResults:
             self.all[verdict.rule.text].note(verdict, at_s)
 
     def to_text(self) -> str:
-        """The results for a person."""
+        """Return the results for a person."""
         lines = [
             f"FAILED {each.rule.text}\n       {each.problem}"
             if each.problem
@@ -98,7 +98,7 @@ class RuleResults:
         return "\n".join([*lines, f"{held} of {counted(len(self.all), 'rule')} hold."])
 
     def to_junit(self) -> str:
-        """The results as JUnit XML: a test case for each rule."""
+        """Return the results as JUnit XML: a test case for each rule."""
         counts = {"tests": str(len(self.all)), "failures": str(len(self.failed))}
         root = ElementTree.Element("testsuites", counts)
         suite = ElementTree.SubElement(root, "testsuite", {"name": "webviz test", **counts})

@@ -87,7 +87,7 @@ def _recorded(channel: RecordingChannel, first_s: float, last_s: float) -> Mappi
 
 
 def _buckets(count: int, low: float, high: float, first_s: float, last_s: float) -> tuple[int, int]:
-    """The first of equal parts of a span that has seconds of another one, and after the last."""
+    """Return the first part of a span that has seconds of another one, and the one after it."""
     if high <= low:
         return 0, count
     share = count / (high - low)

@@ -40,7 +40,7 @@ class _Buffer:
     rows: int = 0
 
     def packed(self, every: int) -> bytes:
-        """The bytes as they are compressed, of a cloud with one of `every` points."""
+        """Return the bytes as they are compressed, of a cloud with one of `every` points."""
         flat = np.frombuffer(self.data, np.uint8)
         if self.rows and every > 1:
             flat = flat.reshape(self.rows, -1)[chosen(self.rows, every)].ravel()
@@ -127,7 +127,7 @@ class TapeChunk:
         self.pictures.append(self.buffers.add(data))
 
     def packed(self, every: int = 1) -> bytes:
-        """The chunk as the page reads it: gzip of the length of the JSON, of it and the arrays.
+        """Return the chunk as the page reads it: gzip of JSON's length, the JSON and the arrays.
 
         Args:
             every: of how many points of large clouds one is kept.
@@ -150,7 +150,7 @@ class TapeChunk:
 
 
 def _points_of(message: SceneMessage) -> int:
-    """The number of points of a message of a large cloud, 0 of others."""
+    """Return the number of points of a message of a large cloud, 0 of others."""
     updates = message.content.get("updates")
     points = updates.get("points") if isinstance(updates, Mapping) else None
     if not isinstance(points, Mapping) or "__binary_index" not in points:
@@ -160,7 +160,7 @@ def _points_of(message: SceneMessage) -> int:
 
 
 def _dtypes(value: Any) -> list[str]:
-    """The types of the arrays of a message, in the order of their numbers."""
+    """Return the types of the arrays of a message, in the order of their numbers."""
     found: dict[int, str] = {}
 
     def walk(each: Any) -> None:
@@ -179,7 +179,7 @@ def _dtypes(value: Any) -> list[str]:
 
 
 def _plain(value: Any, numbers: Sequence[int], buffers: Buffers) -> Any:
-    """A value for JSON: arrays and bytes by their number in the chunk, and floats that are none."""
+    """Return a value for JSON: arrays and bytes by their number, non-finite floats as texts."""
     if isinstance(value, Mapping):
         if "__binary_index" in value:
             return {"__array": numbers[value["__binary_index"]], "dtype": value["dtype"]}

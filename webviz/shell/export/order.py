@@ -39,7 +39,7 @@ class ExportOrder:
     max_bytes: int = MAX_BYTES
 
     def span(self) -> ExportSpan:
-        """The part of the bag to record.
+        """Return the part of the bag to record.
 
         Raises:
             Error: it is outside of the bag, or empty.

@@ -22,7 +22,10 @@ class PaneTape:
         self._number = 0
 
     def take(self, panes: Mapping[str, Pane]) -> Mapping[str, tuple[bytes, bool] | None]:
-        """New pictures, and whether each can be shown without those before; None if one is gone."""
+        """Return new pictures, and whether each can be shown without those before.
+
+        None if one is gone.
+        """
         made: dict[str, tuple[bytes, bool] | None] = {}
         for gone in self._shown.keys() - panes.keys():
             del self._shown[gone]

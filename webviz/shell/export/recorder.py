@@ -44,7 +44,7 @@ class RecordedCameras(ViserCameras):
     """Frames whose poses are recorded."""
 
     def target_frames(self) -> set[str]:
-        """The frames that somebody may choose, and that of the view to start with."""
+        """Return the frames that somebody may choose, and that of the view to start with."""
         return super().target_frames().union(self.followed)
 
 
@@ -56,11 +56,11 @@ class RecordedScene(ViserScene):
         self.cameras: RecordedCameras = RecordedCameras(self.link)
 
     def has_watchers(self) -> bool:
-        """True."""
+        """Return True: a recording reads everything."""
         return True
 
     def is_unseen(self, display: str) -> bool:
-        """False: whoever opens the file may look at each pane."""
+        """Return False: whoever opens the file may look at each pane."""
         return False
 
 
@@ -78,7 +78,7 @@ class ExportSpan:
     rate_hz: float
 
     def times_ns(self) -> Sequence[int]:
-        """The times of the frames; the last one is that of the end."""
+        """Return the times of the frames; the last one is that of the end."""
         count = math.ceil((self.last_ns - self.first_ns) / 1e9 * self.rate_hz - 1e-6)
         steps = [self.first_ns + round(number * 1e9 / self.rate_hz) for number in range(count)]
         return [*steps, self.last_ns]

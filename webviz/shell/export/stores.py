@@ -53,7 +53,7 @@ class RecordingChannel(Channel):
         self._names = names
 
     def watched(self) -> set[str]:
-        """The names of the stores to make."""
+        """Return the names of the stores to make."""
         return {*self._names, *SLOW}
 
     def send(self, message: ToPage, browser: int | None = None) -> None:
@@ -74,12 +74,12 @@ class RecordingChannel(Channel):
             self._changes[store, key] = content.get(key)
 
     def content(self, store: str) -> Mapping[str, Any]:
-        """The values of a store now."""
+        """Return the values of a store now."""
         content = self._made.get(store) or {}
         return {key: msgspec.json.decode(value) for key, value in content.items()}
 
     def take(self, is_slow_due: bool) -> Changes:
-        """The changes since the last call.
+        """Return the changes since the last call.
 
         Args:
             is_slow_due: whether stores that change all the time are wanted, too.

@@ -42,7 +42,7 @@ class TreeRead:
         ]
 
     def text(self) -> str:
-        """The tree for a terminal, with its faults and publishers."""
+        """Return the tree for a terminal, with its faults and publishers."""
         tree = self.tree or "No transforms arrived on /tf or /tf_static."
         return "\n".join([tree, *self.diagnosis.problems, *self.notes()])
 

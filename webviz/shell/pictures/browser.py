@@ -92,7 +92,7 @@ def check_size(size: tuple[int, int]) -> None:
 
 @contextmanager
 def launched() -> Iterator[playwright.Browser]:
-    """A headless Chromium or Chrome, closed at the end of the block.
+    """Provide a headless Chromium or Chrome, closed at the end of the block.
 
     It must be used in the thread that launches it, which must not run an asyncio loop.
 
@@ -118,7 +118,7 @@ def launched() -> Iterator[playwright.Browser]:
 
 
 def _executable(driver: playwright.Playwright) -> str:
-    """The installed browser, or else playwright's own."""
+    """Return the installed browser, or else playwright's own."""
     chosen = os.environ.get(VARIABLE)
     if chosen:
         found = shutil.which(chosen)
@@ -235,7 +235,7 @@ class Page:
             raise TimeoutError(f"The browser did not finish drawing within {seconds:g} s.")
 
     def pixels(self, transparent: bool = False) -> Pixels:
-        """The picture as drawn last, or drawn now after `hold`.
+        """Return the picture as drawn last, or drawn now after `hold`.
 
         Args:
             transparent: omit the background.
@@ -254,7 +254,7 @@ class Page:
         size: tuple[int, int],
         hidden: Sequence[str],
     ) -> PIL.Image.Image:
-        """A picture with the scene over and under it.
+        """Return a picture with the scene over and under it.
 
         Args:
             picture: as the camera took it.
@@ -275,7 +275,7 @@ class Page:
         return tuple(self.evaluate(PIXEL, [x, y, z]))
 
     def text(self) -> str:
-        """The visible text of the page."""
+        """Return the visible text of the page."""
         return self._alive(lambda: self.tab.inner_text("body"))
 
     def _alive(self, call: Callable[[], T]) -> T:

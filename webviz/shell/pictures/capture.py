@@ -100,7 +100,7 @@ class Order:
     is_image: bool = False
 
     def positions(self) -> Sequence[int | None]:
-        """Times of recording in ns, sorted; None for now.
+        """Return times of recording in ns, sorted; None for now.
 
         Raises:
             Error: a time is outside of the bag.
@@ -110,7 +110,7 @@ class Order:
         return sorted({position_ns(at, self.source, self.name) for at in self.at})
 
     def looks(self) -> list[tuple[str, View]]:
-        """Views with their names.
+        """Return views with their names.
 
         Raises:
             Error: the name of a view is unknown.
@@ -203,7 +203,7 @@ def capture(
 
 
 def pictures(order: Order, renderer: HeadlessRenderer | None = None) -> Generator[Picture]:
-    """Makes the pictures of an order one by one, in order of time.
+    """Make the pictures of an order one by one, in order of time.
 
     Args:
         order: what to make.
@@ -242,7 +242,7 @@ def pictures(order: Order, renderer: HeadlessRenderer | None = None) -> Generato
 
 
 def image_alone(topic: str) -> Config:
-    """A config that shows the images of a topic."""
+    """Return a config that shows the images of a topic."""
     display = make(plugin_types(Display)["Image"], {"name": topic, "topic": topic})
     return Config(Settings(), [display])
 
@@ -251,7 +251,7 @@ def image_alone(topic: str) -> Config:
 def opened(
     bag: str | Path | None, extras: Sequence[Extra] = (), ros_args: Sequence[str] = ()
 ) -> Iterator[Source]:
-    """A bag, or the ROS graph.
+    """Provide a bag, or the ROS graph.
 
     Raises:
         Error: the bag cannot be read, or ROS is missing.

@@ -26,7 +26,7 @@ def with_panes(
     panes: Mapping[str, Pane],
     hidden: Mapping[str, Sequence[str]],
 ) -> browser.Pixels:
-    """A picture of a scene with panes at its right, one below the other.
+    """Return a picture of a scene with panes at its right, one below the other.
 
     The scene loses its sides, as in a narrower window: its vertical field of view stays.
 
@@ -65,7 +65,7 @@ def with_panes(
 
 
 def _fitting(picture: Image.Image, room: tuple[int, int]) -> Image.Image:
-    """A picture as large as there is room."""
+    """Return a picture as large as there is room."""
     scale = min(room[0] / picture.width, room[1] / picture.height)
     size = max(1, round(picture.width * scale)), max(1, round(picture.height * scale))
     return picture.convert("RGB").resize(size, Image.Resampling.BOX)

@@ -83,7 +83,7 @@ def save_animation(images: Iterable[PIL.Image.Image], path: Path, fps: float) ->
 
 
 def with_clock(image: PIL.Image.Image, text: str) -> PIL.Image.Image:
-    """A picture with a line of text in its lower left corner, on a dark ground."""
+    """Return a picture with a line of text in its lower left corner, on a dark ground."""
     image = image.copy()
     draw = PIL.ImageDraw.Draw(image)
     font = PIL.ImageFont.load_default(max(12, image.height // 36))
@@ -135,7 +135,7 @@ def sheet_size(size: tuple[int, int], count: int, columns: int) -> tuple[int, in
 
 
 def numbered(path: Path, view: str, index: int | None, count: int) -> Path:
-    """The name of one of several pictures, such as out-Front-03.png."""
+    """Return the name of one of several pictures, such as out-Front-03.png."""
     parts = [path.stem, re.sub(r"[^\w.-]+", "_", view)]
     if index is not None:
         parts.append(str(index).zfill(len(str(count - 1))))
@@ -144,7 +144,7 @@ def numbered(path: Path, view: str, index: int | None, count: int) -> Path:
 
 @contextlib.contextmanager
 def writing(path: Path) -> Iterator[IO[bytes]]:
-    """A file that replaces the one at `path` at the end of the block, if there is no error.
+    """Provide a file that replaces the one at `path` at the end of the block, if there is no error.
 
     Raises:
         OutputError: it cannot be written.

@@ -36,7 +36,7 @@ class RenderedScene(ViserScene):
         return self.is_watched and super().has_watchers()
 
     def is_unseen(self, display: str) -> bool:
-        """False: its page has no panes, which pictures have nevertheless."""
+        """Return False: its page has no panes, which pictures have nevertheless."""
         return False
 
 
@@ -96,7 +96,10 @@ class HeadlessRenderer:
         self.page.settle(PATIENCE_S)
 
     def image(self) -> Pixels | None:
-        """The picture of a pane at its own size, uint8 (H, W, 3); None without a still one."""
+        """Return the picture of a pane at its own size, uint8 (H, W, 3).
+
+        None without a still one.
+        """
         for pane in self.scene.link.pictures.panes().values():
             if isinstance(pane.picture, pictures.Pixels | pictures.Encoded):
                 return np.asarray(opened(pane.picture).convert("RGB"))
@@ -105,7 +108,7 @@ class HeadlessRenderer:
     def capture(
         self, transparent: bool = False, hidden: Mapping[str, Sequence[str]] = MappingProxyType({})
     ) -> Pixels:
-        """The picture of everything that was flushed.
+        """Return the picture of everything that was flushed.
 
         Args:
             transparent: omit the background.

@@ -154,7 +154,7 @@ class OfflineViewer:
         return hidden_in(rows, rows)
 
     def focused(self, view: View, frame: str) -> View:
-        """A view of the current position of a frame, from the same direction and distance.
+        """Return a view of the current position of a frame, from the same direction and distance.
 
         Raises:
             Error: the frame is unknown, or the view has no focal point.
@@ -185,7 +185,7 @@ class OfflineViewer:
 
 
 def summary(statuses: Mapping[str, Status]) -> Status:
-    """The worst level, with the texts of all statuses of that level."""
+    """Return the worst level, with the texts of all statuses of that level."""
     level = max((status.level for status in statuses.values()), default=Level.OK)
     texts = [status.text for status in statuses.values() if status.level is level]
     return Status(level, "\n".join(texts))

@@ -20,7 +20,7 @@ TEXT = (230, 233, 237)
 
 
 def written(readout: Readout, size: tuple[int, int]) -> Image.Image:
-    """A readout as a picture; what does not fit is cut off.
+    """Return a readout as a picture; what does not fit is cut off.
 
     Args:
         readout: of a pane.

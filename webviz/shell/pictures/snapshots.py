@@ -55,7 +55,7 @@ class Snapshots:
         self._pool = ThreadPoolExecutor(1, thread_name_prefix="webviz-snapshot")
 
     def take(self, url: str, size: tuple[int, int], view: View | None = None) -> Pixels:
-        """The picture of a new browser.
+        """Return the picture of a new browser.
 
         Args:
             url: of the page.
@@ -116,7 +116,7 @@ class Snapshots:
     def _shown(
         self, url: str, size: tuple[int, int], view: View | None
     ) -> Iterator[tuple[Page, int]]:
-        """A new page that shows all, and the id of its browser."""
+        """Provide a new page that shows all, and the id of its browser."""
         check_size(size)
         try:
             with launched() as browser, self._open(browser, url, size) as page:

@@ -50,7 +50,7 @@ def read_at(text: str) -> At:
 
 
 def position_ns(at: At, span: Span, name: str) -> int:
-    """A time of a bag in nanoseconds since 1970.
+    """Return a time of a bag in nanoseconds since 1970.
 
     Args:
         at: the time.
@@ -84,12 +84,12 @@ def position_ns(at: At, span: Span, name: str) -> int:
 
 
 def seconds_from_start(position_ns: int, span: Span) -> float:
-    """The inverse of `position_ns`."""
+    """Return the inverse of `position_ns`."""
     return (position_ns - span.start_ns) / 1e9
 
 
 def every(first: At, last: At, step_s: float, span: Span, name: str) -> Sequence[float]:
-    """Times in equal steps, in seconds from the start of a bag, including `last`.
+    """Return times in equal steps, in seconds from the start of a bag, including `last`.
 
     Raises:
         TimeError: a time is outside of the bag, or there are none or too many.

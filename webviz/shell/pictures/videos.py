@@ -28,7 +28,7 @@ MAX_REASON = 300
 
 
 def encoder() -> tuple[str, str]:
-    """The encoder to use, and why there is none: one of both is ""."""
+    """Return the encoder to use, and why there is none: one of both is ""."""
     program = shutil.which("ffmpeg")
     if program is None:
         return "", "ffmpeg is not installed"
@@ -72,7 +72,7 @@ def save_video(images: Iterable[PIL.Image.Image], path: Path, fps: float, name: 
 
 @contextlib.contextmanager
 def _ffmpeg(size: tuple[int, int], part: Path, fps: float, name: str) -> Iterator[IO[bytes]]:
-    """The input of ffmpeg; the file is complete at the end of the block.
+    """Provide the input of ffmpeg; the file is complete at the end of the block.
 
     Raises:
         OutputError: it fails.

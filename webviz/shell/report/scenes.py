@@ -25,7 +25,7 @@ class Pictured:
         self.scene: Scene = NoScene() if renderer is None else renderer.scene
 
     def png(self) -> bytes:
-        """The picture as PNG, b"" if none is made."""
+        """Return the picture as PNG, b"" if none is made."""
         import io
 
         import PIL.Image
@@ -39,7 +39,7 @@ class Pictured:
 
 @contextlib.contextmanager
 def reported_scene(config: Config, wants_picture: bool) -> Iterator[tuple[Pictured, str]]:
-    """A scene for a report, and why there will be no picture although one is wanted."""
+    """Provide a scene for a report, and why there will be no picture although one is wanted."""
     problem = ""
     if wants_picture:
         with contextlib.ExitStack() as stack:

@@ -158,13 +158,13 @@ class DisplayBench:
         return {key: (status.level.name, status.text) for key, status in self._statuses().items()}
 
     def remedy(self, key: str) -> Remedy | None:
-        """The property that would help, according to a status."""
+        """Return the property that would help, according to a status."""
         found = self._statuses()[key].remedy
         assert found is None or isinstance(found, Remedy)
         return found
 
     def fixed_frame_remedy(self, key: str) -> OtherFixedFrame | None:
-        """The fixed frame that would help, according to a status."""
+        """Return the fixed frame that would help, according to a status."""
         found = self._statuses()[key].remedy
         assert found is None or isinstance(found, OtherFixedFrame)
         return found

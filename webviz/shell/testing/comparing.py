@@ -31,7 +31,7 @@ PixelBox = tuple[int, int, int, int]
 
 
 def share_of_difference(actual: Pixels, reference: Pixels) -> float:
-    """The share of visibly different pixels, in which clear differences count thrice.
+    """Return the share of visibly different pixels, in which clear differences count thrice.
 
     Args:
         actual: uint8 (height, width, 3).
@@ -42,14 +42,14 @@ def share_of_difference(actual: Pixels, reference: Pixels) -> float:
 
 
 def difference_image(actual: Pixels, reference: Pixels) -> Pixels:
-    """The actual picture, darkened, with differences in red."""
+    """Return the actual picture, darkened, with differences in red."""
     marked = actual // 3
     marked[_steps(actual, reference) > NOTICEABLE] = (255, 0, 0)
     return marked
 
 
 def _steps(actual: Pixels, reference: Pixels) -> NDArray[np.int16]:
-    """The difference of each pixel after blurring, ignoring the few colours of the reference."""
+    """Return the blurred difference of each pixel, ignoring the few colours of the reference."""
     stored = np.asarray(_of_few_colors(actual).convert("RGB"))
     return np.minimum(_difference(actual, reference), _difference(stored, reference))
 
@@ -68,7 +68,7 @@ def _of_few_colors(pixels: Pixels) -> PIL.Image.Image:
 
 
 def masked(pixels: Pixels, boxes: Iterable[PixelBox]) -> Pixels:
-    """A picture with the boxes filled in grey."""
+    """Return a picture with the boxes filled in grey."""
     result = pixels.copy()
     for left, top, right, bottom in boxes:
         result[max(top, 0) : max(bottom, 0), max(left, 0) : max(right, 0)] = GREY

@@ -129,7 +129,7 @@ class DisplayChecks:
 
     @classmethod
     def at_work(cls, benches: Benches, made: Callable[[], Display], name: str) -> DisplayBench:
-        """A display that has what it needs before a message for an input arrives."""
+        """Return a display that has what it needs before a message for an input arrives."""
         bench = benches(made())
         bench.transform("map", "sensor", (1.0, 2.0, 0.0), (0.0, 0.0, 0.6, 0.8))
         for number, (other, spec) in enumerate(inputs_of(type(bench.display)).items()):

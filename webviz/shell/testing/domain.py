@@ -20,7 +20,7 @@ UNUSED = 249
 
 @contextmanager
 def isolated_domain() -> Iterator[int]:
-    """An unused domain, also for processes that are started during the block.
+    """Provide an unused domain, also for processes that are started during the block.
 
     Raises:
         RuntimeError: all domains are in use.
@@ -60,7 +60,7 @@ def _is_free(port: int) -> bool:
 
 
 def _bound(port: int) -> socket.socket | None:
-    """A UDP socket bound to a port, or None if the port is in use."""
+    """Return a UDP socket bound to a port, or None if the port is in use."""
     candidate = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     try:
         candidate.bind(("", port))

@@ -50,7 +50,7 @@ def extremes(field: MessageField) -> list[Any]:
 
 
 def cases(type_name: str, values: Values, path: tuple[str | int, ...] = ()) -> Iterator[Case]:
-    """An extreme value for each field of a message, those of its parts included."""
+    """Yield an extreme value for each field of a message, those of its parts included."""
     for field in fields(type_name):
         here, value = (*path, field.name), values.get(field.name)
         if not field.is_message:

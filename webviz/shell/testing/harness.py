@@ -127,7 +127,7 @@ class Harness(Shown):
     def findings(
         self, seconds: float = 1.1, publish: Callable[[], object] = lambda: None
     ) -> Sequence[Finding]:
-        """The findings of the doctor after some rounds.
+        """Return the findings of the doctor after some rounds.
 
         Args:
             seconds: that pass between two turns, also in ROS time.

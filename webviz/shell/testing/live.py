@@ -48,7 +48,7 @@ class _WatchedInbox(Inbox):
             expected.remove(raw.cdr)
 
     def missing(self) -> list[str]:
-        """The topics with expected messages that have not arrived."""
+        """Return the topics with expected messages that have not arrived."""
         return [topic for topic, expected in self._expected.items() if expected]
 
 
@@ -223,7 +223,7 @@ class LiveViewer(Shown):
 
 @contextlib.contextmanager
 def _simulator(parameters: Mapping[str, Any], domain: int) -> Iterator[None]:
-    """A simulated robot in its own process."""
+    """Provide a simulated robot in its own process."""
     command = [sys.executable, "-m", "webviz_sim", "--ros-args"]
     for name, value in parameters.items():
         text = str(value).lower() if isinstance(value, bool) else str(value)

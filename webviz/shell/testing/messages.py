@@ -9,11 +9,11 @@ from webviz.shell.testing.source import SECOND
 
 
 def header(frame: str, stamp_ns: int) -> dict[str, Any]:
-    """A std_msgs/Header as nested mappings."""
+    """Return a std_msgs/Header as nested mappings."""
     sec, nanosec = divmod(stamp_ns, SECOND)
     return {"frame_id": frame, "stamp": {"sec": sec, "nanosec": nanosec}}
 
 
 def turned(roll: float = 0.0, pitch: float = 0.0, yaw: float = 0.0) -> Quaternion:
-    """A quaternion (x, y, z, w) of rotations about the fixed axes x, y, z in order, in radians."""
+    """Return a quaternion (x, y, z, w) of rotations about fixed x, y, z in order, in rad."""
     return w_last(from_rpy(roll, pitch, yaw))

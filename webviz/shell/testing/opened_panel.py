@@ -47,7 +47,7 @@ class OpenedPanel:
         self.panel.show(self._state())
 
     def widget(self, label: str) -> Any:
-        """The widget with a label."""
+        """Return the widget with a label."""
         return next(w for w in self.ui.widgets.values() if w.values.get("label") == label)
 
     def use(self, label: str, value: Any = None, browser: int | None = None) -> None:

@@ -88,7 +88,7 @@ class ReferenceImages:
         return expected
 
     def shown(self, path: Path) -> str:
-        """A path relative to the root, if it is inside."""
+        """Return a path relative to the root, if it is inside."""
         return str(path.relative_to(self.root) if path.is_relative_to(self.root) else path)
 
     def _complaint(
@@ -129,7 +129,7 @@ class SnapshotFixture:
     view: View
 
     def capture(self, transparent: bool = False) -> Pixels:
-        """A picture of the scene."""
+        """Return a picture of the scene."""
         return self.shared_renderer.capture(self.scene, self.view, self.album.size, transparent)
 
     def check(

@@ -62,7 +62,7 @@ class RecordingScene:
             self._targets = []
 
     def bounds(self, prefix: str) -> Box | None:
-        """The bounding box of all visible groups with a prefix."""
+        """Return the bounding box of all visible groups with a prefix."""
         return union(
             box.moved(pose).moved(self.poses.get(name, Pose()))
             for name, nodes in self.groups.items()

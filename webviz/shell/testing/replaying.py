@@ -29,7 +29,7 @@ class Replayed:
     findings: Mapping[str, str]
 
     def problem(self, display: str, status: str) -> str:
-        """The text of a status if it is a warning or an error, "" if it is not.
+        """Return the text of a status if it is a warning or an error, "" if it is not.
 
         A display without messages has no other statuses, so its topic counts as well.
 

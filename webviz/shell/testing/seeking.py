@@ -89,7 +89,7 @@ class BagViewer:
         raise AssertionError("The viewer did not get there.")
 
     def shown(self) -> dict[str, Any]:
-        """The nodes that are seen of each display, with their poses in the fixed frame."""
+        """Return the nodes that are seen of each display, with their poses in the fixed frame."""
         found: dict[str, Any] = {}
         for row in self.loop.state().rows:
             nodes = [(pose, node) for _, pose, node in self.scene.visible(f"{row.id}/")]

@@ -54,7 +54,7 @@ class Seen:
     # Statuses
 
     def state(self) -> State:
-        """The state for panels."""
+        """Return the state for panels."""
         return self.viewer.snapshot()
 
     def statuses(self, display: str | None = None) -> Mapping[str, Status]:
@@ -62,7 +62,7 @@ class Seen:
         return self._row(display).statuses
 
     def status(self, display: str | None = None) -> Status:
-        """The worst level of a display, with the texts of all statuses of that level."""
+        """Return the worst level of a display, with the texts of all statuses of that level."""
         row = self._row(display)
         texts = [f"{key}: {s.text}" for key, s in row.statuses.items() if s.level is row.level]
         return Status(row.level, "\n".join(texts))
@@ -96,11 +96,11 @@ class Seen:
         return self._joined((0, 3), self._moved(display, Instances))
 
     def meshes(self, display: str | None = None) -> list[F64]:
-        """The vertices (N, 3) of each mesh of a display, except those with textures."""
+        """Return the vertices (N, 3) of each mesh of a display, except those with textures."""
         return list(self._moved(display, Mesh))
 
     def labels(self, display: str | None = None) -> dict[str, Vector]:
-        """The positions of the labels of a display by text."""
+        """Return the positions of the labels of a display by text."""
         return {
             text: tuple(position)
             for pose, node in self._of(display, Labels)
@@ -110,11 +110,11 @@ class Seen:
         }
 
     def images(self, display: str | None = None) -> list[tuple[Pose, Image]]:
-        """The images of a display, such as a map, with their poses."""
+        """Return the images of a display, such as a map, with their poses."""
         return self._of(display, Image)
 
     def poses(self, display: str | None = None) -> dict[str, Pose]:
-        """The poses of the nodes of a display by key, such as the links of a robot."""
+        """Return the poses of the nodes of a display by key, such as the links of a robot."""
         return {key: pose for key, (pose, _) in self.nodes(display).items()}
 
     def is_drawn(self, display: str | None = None) -> bool:
@@ -169,7 +169,7 @@ class Seen:
 
 
 def _name(row: Row) -> str:
-    """The name in the list of displays."""
+    """Return the name in the list of displays."""
     return row.name or row.type
 
 

@@ -47,7 +47,7 @@ class SharedRenderer:
         transparent: bool = False,
         hidden: str | None = None,
     ) -> Pixels:
-        """The picture of a scene.
+        """Return the picture of a scene.
 
         Args:
             scene: to draw, instead of the previous one.

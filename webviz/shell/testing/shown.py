@@ -132,7 +132,7 @@ class Shown(Seen, ABC):
     # Pictures
 
     def picture(self, transparent: bool = False) -> Pixels:
-        """A picture of the scene.
+        """Return a picture of the scene.
 
         Args:
             transparent: omit the background.

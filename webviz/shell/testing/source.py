@@ -56,7 +56,7 @@ class HandFedSource:
         return self.clock_count
 
     def resolve(self, topic: str) -> str:
-        """The full name of a topic."""
+        """Return the full name of a topic."""
         if " " in topic:
             raise ValueError(f"{topic!r} is not a valid topic name: it has a space")
         return f"/{topic.removeprefix('/')}"

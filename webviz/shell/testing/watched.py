@@ -43,7 +43,7 @@ class WatchedViewer(FrameLoop):
             super()._keep_up(commanded)
 
     def snapshot(self) -> State:
-        """The state after the last turn."""
+        """Return the state after the last turn."""
         with self._lock:
             return self.state()
 

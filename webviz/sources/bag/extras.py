@@ -41,7 +41,7 @@ class Extra:
 
 
 def map_of_file(path: Path) -> Extra:
-    """The map of a YAML file and its image, as map_server publishes it.
+    """Return the map of a YAML file and its image, as map_server publishes it.
 
     Raises:
         ExtraError: a file is missing or invalid.
@@ -71,7 +71,7 @@ def map_of_file(path: Path) -> Extra:
 def static_transform(
     parent: str, child: str, x: float, y: float, yaw: float = 0.0, z: float = 0.0
 ) -> Extra:
-    """A static transform from a frame to its child, in metres and radians.
+    """Return a static transform from a frame to its child, in metres and radians.
 
     Raises:
         ExtraError: a frame name is empty, both are equal, or a number is not finite.

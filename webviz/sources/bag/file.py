@@ -102,7 +102,7 @@ class BagFile:
     def messages(
         self, channels: Collection[BagChannel], start_ns: int, end_ns: int | None = None
     ) -> Iterator[Recorded]:
-        """The messages of channels by time of recording, both ends included.
+        """Yield the messages of channels by time of recording, both ends included.
 
         What is damaged is skipped, and `remarks` report it.
 
@@ -119,7 +119,7 @@ class BagFile:
             raise BagError(self._unreadable(error)) from error
 
     def newest(self, channels: Collection[BagChannel], end_ns: int) -> Iterator[Recorded]:
-        """The messages of channels until a time of recording, the newest first.
+        """Yield the messages of channels until a time of recording, the newest first.
 
         Raises:
             BagError: the file can no longer be read.

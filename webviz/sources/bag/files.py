@@ -100,7 +100,7 @@ class BagFiles:
     def messages(
         self, channels: Collection[BagChannel], start_ns: int, end_ns: int | None = None
     ) -> Iterator[Recorded]:
-        """The messages of channels by time of recording, both ends included.
+        """Return the messages of channels by time of recording, both ends included.
 
         Raises:
             BagError: a file can no longer be read.
@@ -110,7 +110,7 @@ class BagFiles:
         return found[0] if len(found) == 1 else heapq.merge(*found, key=_stamp)
 
     def newest(self, channels: Collection[BagChannel], end_ns: int) -> Iterator[Recorded]:
-        """The messages of channels until a time of recording, the newest first.
+        """Return the messages of channels until a time of recording, the newest first.
 
         Raises:
             BagError: a file can no longer be read.
@@ -121,7 +121,7 @@ class BagFiles:
     def _by_file(
         self, channels: Collection[BagChannel]
     ) -> Iterator[tuple[MergedFile, Sequence[BagChannel]]]:
-        """The files that have some of the channels, and which."""
+        """Yield the files that have some of the channels, and which."""
         wanted = frozenset(channels)
         for file in self._files:
             if own := [channel for channel in file.channels if channel in wanted]:
@@ -145,7 +145,7 @@ class BagFiles:
         self._stack.close()
 
     def _agreeing(self) -> Iterator[BagChannel]:
-        """The channels but for those whose type another bag before defined differently.
+        """Yield the channels but for those whose type another bag before defined differently.
 
         A type has one definition at a time; with the wrong one, messages may turn into nonsense.
         """

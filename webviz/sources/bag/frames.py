@@ -33,7 +33,7 @@ def links_of(file: BagFiles) -> Sequence[tuple[str, str]]:
 
 
 def frames_of(file: BagFiles, channels: Collection[BagChannel]) -> Sequence[str]:
-    """The frames of the first messages of some channels, each once."""
+    """Return the frames of the first messages of some channels, each once."""
     found: dict[str, None] = {}
     for recorded in _first(file, channels):
         try:
@@ -46,7 +46,7 @@ def frames_of(file: BagFiles, channels: Collection[BagChannel]) -> Sequence[str]
 
 
 def _first(file: BagFiles, channels: Collection[BagChannel]) -> Iterator[Recorded]:
-    """The first messages of some channels."""
+    """Yield the first messages of some channels."""
     early = file.messages(channels, file.start_ns, file.start_ns + READ_NS)
     first = next(early, None) or next(file.messages(channels, file.start_ns), None)
     if first is not None:

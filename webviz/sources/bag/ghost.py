@@ -155,7 +155,7 @@ class NumbersFile:
     def _of_topic(
         self, topic: str, start_ns: int, end_ns: int, step: int = 1
     ) -> Iterator[Recorded]:
-        """The numbers of a topic in a span of time, both ends included."""
+        """Yield the numbers of a topic in a span of time, both ends included."""
         times, values = self._found[topic]
         first, last = np.searchsorted(times, start_ns), np.searchsorted(times, end_ns, "right")
         for number in range(first, last)[::step]:
@@ -168,7 +168,7 @@ def _stamp(recorded: Recorded) -> int:
 
 
 def ghost_files(paths: Sequence[Path], ghost: Ghost) -> list[GhostFile | NumbersFile]:
-    """The second run as files to merge with a bag, and numbers that compare both.
+    """Return the second run as files to merge with a bag, and numbers that compare both.
 
     Args:
         paths: of the bag.
@@ -214,7 +214,7 @@ class Track:
 
     @staticmethod
     def of(files: BagFiles) -> Track | None:
-        """The path in a bag, None if there is no frame of a robot."""
+        """Return the path in a bag, None if there is no frame of a robot."""
         channels = [c for c in files.channels if c.type == TF and c.topic in ("/tf", "/tf_static")]
         links: dict[str, tuple[str, PoseTuple]] = {}
         times: list[int] = []
@@ -252,7 +252,7 @@ def _learn(links: dict[str, tuple[str, PoseTuple]], recorded: Recorded) -> None:
 
 
 def _place(links: dict[str, tuple[str, PoseTuple]]) -> tuple[str, str, float, float] | None:
-    """The root, the frame of the robot, and its position in the root."""
+    """Return the root, the frame of the robot, and its position in the root."""
     frame = next((name for name in BASES if name in links), None)
     if frame is None:
         return None
@@ -302,7 +302,7 @@ def _closest(here: Track, there: Track) -> float:
 def _best(
     offsets: Floats, times: Floats, xy: Floats, ghost_times: Floats, ghost_xy: Floats, least: float
 ) -> float:
-    """The offset with the least mean distance, of those with enough overlap."""
+    """Return the offset with the least mean distance, of those with enough overlap."""
     best, least_m = 0.0, math.inf
     needed = max(2, round(OVERLAP * least / max(1e-9, times[-1]) * len(times)))
     for offset in offsets:
@@ -326,7 +326,7 @@ def _ros_offset_ns(files: BagFiles) -> int:
 
 
 def _numbers(files: BagFiles, path: str) -> tuple[npt.NDArray[np.int64], Floats]:
-    """Times of recording and values of a number.
+    """Return times of recording and values of a number.
 
     Raises:
         Error: it has no values.

@@ -128,7 +128,7 @@ def _read(files: BagFiles) -> BagLog:
 
 
 def event_of(type_name: str, cdr: bytes, at_ns: int) -> tuple[int, Event] | None:
-    """The level and the event of a message, None if it is neither a warning nor an error."""
+    """Return the level and the event of a message, None if it is neither a warning nor an error."""
     try:
         message = decode(type_name, cdr)
     except MessageError:
@@ -149,5 +149,5 @@ def _is_read(reading: Future[BagLog]) -> bool:
 
 
 def _first_line(text: str) -> str:
-    """The first line of a text that is not empty, shortened."""
+    """Return the first line of a text that is not empty, shortened."""
     return shortened(text.lstrip().partition("\n")[0].rstrip(), MAX_TEXT)

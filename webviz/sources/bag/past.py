@@ -74,11 +74,11 @@ class PastMessages(Protocol[C_contra, M]):
     def messages(
         self, channels: Collection[C_contra], start_ns: int, end_ns: int | None = None
     ) -> Iterator[M]:
-        """The messages of some channels by time, both ends included."""
+        """Return the messages of some channels by time, both ends included."""
         ...
 
     def newest(self, channels: Collection[C_contra], end_ns: int) -> Iterator[M]:
-        """The messages of some channels until a time, the newest first."""
+        """Return the messages of some channels until a time, the newest first."""
         ...
 
 
@@ -112,7 +112,7 @@ class BagPast(Generic[C, M]):
         """Stamps by topic."""
 
     def messages(self) -> Iterator[M]:
-        """The messages by time of recording, those at the time included."""
+        """Return the messages by time of recording, those at the time included."""
         recent_ns = max(self._at_ns - RECENT_NS, self._file.start_ns)
         follow: list[C] = []
         together: list[C] = []
@@ -148,13 +148,13 @@ class BagPast(Generic[C, M]):
         return wish is not None and Lookback() in wish.lookbacks
 
     def _young(self, channels: Sequence[C], recent_ns: int) -> Iterator[M]:
-        """The messages of several topics, each from its start on."""
+        """Yield the messages of several topics, each from its start on."""
         for recorded in self._file.messages(channels, recent_ns, self._at_ns):
             if self._is_needed(recorded):
                 yield recorded
 
     def _read(self, channels: Sequence[C], start_ns: int, end_ns: int) -> Iterator[M]:
-        """The messages of a topic that are needed."""
+        """Return the messages of a topic that are needed."""
         return filter(self._is_needed, self._file.messages(channels, start_ns, end_ns))
 
     def _is_needed(self, recorded: PastMessage) -> bool:
@@ -162,7 +162,7 @@ class BagPast(Generic[C, M]):
         return stamp_ns >= self._whole_from[topic] or stamp_ns in self._chosen[topic]
 
     def _within(self, channels: Sequence[C], spans: Sequence[tuple[int, int]]) -> Iterator[M]:
-        """The messages of channels within some spans of time, each once."""
+        """Yield the messages of channels within some spans of time, each once."""
         until_ns = self._file.start_ns - 1
         for start_ns, end_ns in sorted(spans) if channels else ():
             if end_ns > until_ns:
@@ -206,7 +206,7 @@ class BagPast(Generic[C, M]):
     def _chosen_by(
         self, channels: Sequence[C], lookback: Lookback, wish: Subscription
     ) -> Iterator[int]:
-        """The stamps of the messages that a lookback chooses."""
+        """Yield the stamps of the messages that a lookback chooses."""
         if lookback.chooses is None:
             return
         stamps: list[int] = []
@@ -228,7 +228,7 @@ class BagPast(Generic[C, M]):
     def _newest(
         self, channels: Collection[C], lookback: Lookback, wish: Subscription, limit_ns: int
     ) -> Iterator[M]:
-        """The messages that a lookback leaves, the newest first."""
+        """Yield the messages that a lookback leaves, the newest first."""
         for number, recorded in enumerate(self._file.newest(channels, self._at_ns), 1):
             if recorded.stamp_ns < limit_ns:
                 return

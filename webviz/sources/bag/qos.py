@@ -26,7 +26,7 @@ class BagProfile(NamedTuple):
 
 
 def profiles_of(text: str) -> list[BagProfile]:
-    """The profiles of a topic.
+    """Return the profiles of a topic.
 
     Args:
         text: as recorded, in YAML: policies are numbers of rmw before version 9, then words.
@@ -54,7 +54,10 @@ def _profile(given: dict[str, Any]) -> BagProfile:
 
 
 def text_of(publishers: Iterable[Publisher]) -> str:
-    """The profiles that publishers offer, as YAML for a bag; what is not known is as rosbag2's."""
+    """Return the profiles that publishers offer, as YAML for a bag.
+
+    What is not known is as rosbag2's.
+    """
     forever = {"sec": 9223372036, "nsec": 854775807}
     profiles = [
         {

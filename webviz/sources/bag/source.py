@@ -181,7 +181,7 @@ class BagSource:
         return self._log.read.events
 
     def slice(self, first_ns: int, last_ns: int, shown_ns: int) -> BagSlice:
-        """The subscribed topics in a span of time, and what displays need of the time before."""
+        """Return the subscribed topics in a span, and what displays need of the time before."""
         renamed = {ours: theirs for theirs, ours in self._remappings.items()}
         span_ns = max(first_ns, self.start_ns), min(last_ns, self.end_ns)
         return BagSlice(self._paths, dict(self._wanted), renamed, span_ns, shown_ns)
@@ -195,7 +195,7 @@ class BagSource:
         return self._file.is_used(topic) or any(extra.topic == topic for extra in self._extras)
 
     def frames(self, topics: Collection[str]) -> Sequence[str]:
-        """The frames of the first messages on some topics, each once."""
+        """Return the frames of the first messages on some topics, each once."""
         return frames_of(self._file, [c for c in self._file.channels if c.topic in topics])
 
     # The interface of webviz.sources.Source
@@ -228,7 +228,7 @@ class BagSource:
         self._offers = self._all_offers()
 
     def offers(self) -> Mapping[str, Offer]:
-        """The topics of the bag, with the QoS that publishers offered."""
+        """Return the topics of the bag, with the QoS that publishers offered."""
         return self._offers
 
     def now_ns(self) -> int:
@@ -240,7 +240,7 @@ class BagSource:
         return 0
 
     def resolve(self, topic: str) -> str:
-        """The full name of a topic, remapped.
+        """Return the full name of a topic, remapped.
 
         Raises:
             ValueError: it is not a valid topic name.
@@ -266,7 +266,7 @@ class BagSource:
         return channel.topic in self._wanted and channel.type not in (TF, CLOCK)
 
     def _channels(self) -> list[BagChannel]:
-        """The subscribed channels that can be read."""
+        """Return the subscribed channels that can be read."""
         return [
             channel
             for channel in self._file.channels
@@ -276,7 +276,7 @@ class BagSource:
         ]
 
     def _channels_to_read(self) -> list[BagChannel]:
-        """The channels to read, always including the clock."""
+        """Return the channels to read, always including the clock."""
         wanted = self._channels()
         return wanted + [c for c in self._time.clocks if c not in wanted]
 
@@ -322,7 +322,7 @@ class BagSource:
             self._put(recorded)
 
     def _latched(self, topic: str, wish: Subscription) -> Sequence[BagChannel]:
-        """The channels of a topic whose publishers repeat their last messages."""
+        """Return the channels of a topic whose publishers repeat their last messages."""
         return [
             channel
             for channel in self._channels()
@@ -381,7 +381,7 @@ def _types(wishes: Mapping[str, Subscription]) -> dict[str, str]:
 
 
 def _weakest(publishers: Sequence[Publisher]) -> tuple[Reliability, Durability]:
-    """The QoS that all of them offer."""
+    """Return the QoS that all of them offer."""
     reliable = all(p.reliability == "reliable" for p in publishers)
     latched = all(p.durability == "transient_local" for p in publishers)
     return (

@@ -13,14 +13,14 @@ from webviz.sources.bag.qos import text_of
 
 
 def library() -> str:
-    """The name of the program, for the header of its recordings."""
+    """Return the name of the program, for the header of its recordings."""
     import importlib.metadata  # here, as it is slow
 
     return f"webviz {importlib.metadata.version('webviz')}"
 
 
 def new_name() -> str:
-    """The name of a recording that begins now."""
+    """Return the name of a recording that begins now."""
     return f"webviz_{datetime.now():%Y_%m_%d-%H_%M_%S}"
 
 
@@ -41,7 +41,7 @@ class Channels:
         return len(self._known)
 
     def find(self, topic: str) -> RecordedChannel | None:
-        """The channel of a topic, None if nobody knows the type of its messages yet."""
+        """Return the channel of a topic, None if nobody knows the type of its messages yet."""
         channel = self._known.get(topic)
         if channel is None:
             offer = self._offers().get(topic)
@@ -66,13 +66,13 @@ class Channels:
         self._seen = offers
 
     def latched(self, topic: str) -> int:
-        """The number of publishers of a topic whose newest message late subscribers receive."""
+        """Return the number of publishers of a topic that late subscribers hear from."""
         self.look()
         return self._latched.get(topic, 0)
 
 
 def _type_of(publishers: Sequence[Publisher]) -> str:
-    """The type that all publishers agree on, "" if they do not."""
+    """Return the type that all publishers agree on, "" if they do not."""
     types = {publisher.type for publisher in publishers}
     return types.pop() if len(types) == 1 else ""
 

@@ -118,12 +118,12 @@ class RecentMessages:
         return full_s is not None and time.monotonic() - full_s < self.seconds
 
     def pinned(self) -> tuple[str, ...]:
-        """The topics whose latched messages are kept although they are old."""
+        """Return the topics whose latched messages are kept although they are old."""
         with self._lock:
             return self._latched.topics()
 
     def last(self, seconds: float) -> Remembered:
-        """The messages of the last seconds, as far as they are remembered."""
+        """Return the messages of the last seconds, as far as they are remembered."""
         begin_s = time.monotonic() - seconds
         with self._lock:
             messages = list(self._messages)
@@ -134,7 +134,7 @@ class RecentMessages:
         return Remembered(_flat(latched), messages[first:])
 
     def after(self, arrived_s: float) -> list[Entry]:
-        """The messages that arrived later than a time in monotonic seconds.
+        """Return the messages that arrived later than a time in monotonic seconds.
 
         Latched ones that were forgotten since are among them.
         """

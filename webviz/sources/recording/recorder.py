@@ -143,7 +143,7 @@ class ForwardClock:
         self._arrived_s = 0.0
 
     def at(self, raw: Raw) -> int:
-        """The time of recording of the next message."""
+        """Return the time of recording of the next message."""
         stamp_ns = raw.received_ns + self._shift_ns
         if self._last_ns is not None and stamp_ns < self._last_ns:
             passed_ns = max(0, round((raw.arrived_s - self._arrived_s) * 1e9))
