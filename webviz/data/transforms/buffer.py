@@ -19,12 +19,7 @@ from webviz.data.transforms.many_frames import FramesIn
 from webviz.data.transforms.many_inserts import ManyInserts
 from webviz.data.transforms.many_stamps import lookup_many
 from webviz.data.transforms.publishers import Claim, Publishers
-from webviz.data.transforms.records import (
-    NewestTransform,
-    Transform,
-    fault_of,
-    too_old,
-)
+from webviz.data.transforms.records import NewestTransform, Transform, fault_of, too_old
 from webviz.data.transforms.refusals import Refusals
 from webviz.data.transforms.topology import Topology
 from webviz.data.transforms.tree import FrameTree, roots
@@ -312,9 +307,7 @@ class TransformBuffer:
         return NewestTransform(parent, _transform(pose, cache.newest_stamp), cache.is_static)
 
     def rigid_root(self, frame: str) -> str:
-        """Return the uppermost frame that static transforms join with this one.
-
-        Itself if there is none.
+        """Return the uppermost frame that static transforms join with this one, at least itself.
 
         Frames of one rigid root never move relative to each other. Valid until
         `structure_version` changes.
@@ -328,10 +321,7 @@ class TransformBuffer:
         return [self.nodes.get(name, name) for name in names if name]
 
     def largest_tree(self) -> tuple[str, int]:
-        """Return the root of the tree with the most frames, and how many it has.
-
-        "" and 0 without any.
-        """
+        """Return the root and the number of frames of the largest tree, "" and 0 without any."""
         if self._largest is None or self._largest[0] != self.structure_version:
             sizes = Counter(roots(self._tree).values())
             (largest,) = sizes.most_common(1) or [("", 0)]
