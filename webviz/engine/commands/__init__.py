@@ -20,6 +20,7 @@ from webviz.engine.commands.files import (
     Save,
     WriteDisplays,
 )
+from webviz.engine.commands.layouts import RemoveLayout, SaveLayout, SetLayout
 from webviz.engine.commands.panel import (
     AddPanel,
     OpenPanels,
@@ -128,6 +129,7 @@ __all__ = [
     "ReloadPlugin",
     "RemoveBookmark",
     "RemoveDisplay",
+    "RemoveLayout",
     "RemovePanel",
     "RemoveView",
     "RenameView",
@@ -140,6 +142,7 @@ __all__ = [
     "Save",
     "SaveBookmark",
     "SaveImage",
+    "SaveLayout",
     "SaveMemory",
     "SaveReport",
     "SaveView",
@@ -151,6 +154,7 @@ __all__ = [
     "SetBackground",
     "SetFixedFrame",
     "SetFrameRate",
+    "SetLayout",
     "SetLoop",
     "SetPanelProperty",
     "SetProperty",

@@ -30,6 +30,7 @@ from webviz.engine.parts.goals import GoalsPart
 from webviz.engine.parts.handles import HandlesPart
 from webviz.engine.parts.history import HistoryPart
 from webviz.engine.parts.latency import LatencyPart
+from webviz.engine.parts.layouts import LayoutsPart
 from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.playback import REWOUND, PlaybackPart
 from webviz.engine.parts.plugins import PluginsPart
@@ -148,7 +149,9 @@ class FrameLoop:
         )
         self._black_box = BlackBoxPart(core, self._settings, memory, lambda: control.is_live)
         views = ViewsPart(core, self._settings, self._displays)
+        layouts = LayoutsPart(core, self._settings)
         first = [transforms, self._time, self._playback, self._displays, self._settings, views]
+        first.append(layouts)
         others, history, kept = self._other_parts(config, path, views, memory, autosave, session)
         reports = ReportsPart(core, self._files, control, self._examined, lambda: self._shown)
         last = [

@@ -29,8 +29,9 @@ def _settings(now: Settings, old: Settings, new: Settings) -> Settings:
         for name in now.__struct_fields__
         if getattr(old, name) != getattr(new, name)
     }
-    if "views" in changed:
-        changed["views"] = _values(now.views, old.views, new.views)
+    for key in ("views", "layouts"):
+        if key in changed:
+            changed[key] = _values(getattr(now, key), getattr(old, key), getattr(new, key))
     return msgspec.structs.replace(now, **changed)
 
 

@@ -11,7 +11,6 @@ import msgspec
 
 from webviz.api.declared import Declared, make
 from webviz.api.properties import properties_of
-from webviz.api.views import View
 from webviz.files.config import Settings, Template, Unreadable
 
 
@@ -185,17 +184,24 @@ def _of_settings(old: Settings, new: Settings) -> Difference:
     if old.fixed_frame != new.fixed_frame:
         return Difference(f"Fixed frame {new.fixed_frame}")
     if old.views != new.views:
-        return Difference(_of_views(old.views, new.views))
-    labels = {"background": "background", "frame_rate": "frame rate", "view": "the view to start"}
+        return Difference(_of_saved("view", old.views, new.views))
+    if old.layouts != new.layouts:
+        return Difference(_of_saved("layout", old.layouts, new.layouts))
+    labels = {
+        "background": "background",
+        "frame_rate": "frame rate",
+        "layout": "layout",
+        "view": "the view to start",
+    }
     for name, label in labels.items():
         if getattr(old, name) != getattr(new, name):
             return Difference(f"Change {label}", ("", name))
     return Difference("" if old == new else "Change settings")
 
 
-def _of_views(old: Mapping[str, View], new: Mapping[str, View]) -> str:
+def _of_saved(kind: str, old: Mapping[str, object], new: Mapping[str, object]) -> str:
     gone, come = old.keys() - new.keys(), new.keys() - old.keys()
     if gone:
-        return f"{'Rename' if come else 'Remove'} view {min(gone)}"
+        return f"{'Rename' if come else 'Remove'} {kind} {min(gone)}"
     changed = come or {name for name in new if new[name] != old[name]}
-    return f"Save view {min(changed)}"
+    return f"Save {kind} {min(changed)}"

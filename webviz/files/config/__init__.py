@@ -4,6 +4,7 @@ from webviz.files.config.atomic import write_text
 from webviz.files.config.errors import ConfigError, nearest
 from webviz.files.config.explain import explain, mistakes, sentences
 from webviz.files.config.files import is_rviz, read_text
+from webviz.files.config.layout import DockedPanel, FloatingPanel, Layout
 from webviz.files.config.model import (
     STANDARD,
     VERSION,
@@ -33,7 +34,10 @@ __all__ = [
     "Branch",
     "Config",
     "ConfigError",
+    "DockedPanel",
+    "FloatingPanel",
     "Item",
+    "Layout",
     "Location",
     "PanelItem",
     "Settings",

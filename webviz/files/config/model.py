@@ -16,6 +16,7 @@ from webviz.api.registry import display_types, plugin_types
 from webviz.api.robots import Namespace, NamespacedRobot
 from webviz.api.tool import Tool
 from webviz.api.views import Orbit, View
+from webviz.files.config.layout import Layout
 from webviz.files.config.robots import Template
 from webviz.files.config.watch import WatchLimits, WatchRule
 
@@ -67,6 +68,12 @@ class Settings(msgspec.Struct, forbid_unknown_fields=True):
     ] = ()
     view: Annotated[View, Prop(help="The view new browsers start with.")] = Orbit()
     views: Annotated[dict[str, View], Prop(help="Saved views by name.")] = {}
+    layout: Annotated[Layout, Prop(help="Panels beside, below and over the scene.")] = Layout()
+    layouts: Annotated[
+        dict[str, Layout],
+        msgspec.Meta(max_length=100),
+        Prop(help="Saved layouts by name."),
+    ] = {}
     memory: Annotated[
         MemorySettings, Prop(help="What can be rewound and saved of the last minutes.")
     ] = MemorySettings()

@@ -24,7 +24,7 @@ from webviz.files.rviz.values import Unfit
 BASE_LINK, RVIZ_FRAME_RATE = "base_link", 30
 """RViz's defaults for missing keys."""
 
-NOT_WRITTEN = ("publish", "robots")
+NOT_WRITTEN = ("layout", "layouts", "publish", "robots")
 """Settings that .rviz files do not have."""
 
 NEW_FILE: Tree = {

@@ -17,6 +17,7 @@ from webviz.page.content.goals import goals, routes
 from webviz.page.content.handles import handles
 from webviz.page.content.history import history
 from webviz.page.content.latency import latency
+from webviz.page.content.layouts import layout
 from webviz.page.content.panes import panes
 from webviz.page.content.playback import bookmarks, density, events, playback, recorded
 from webviz.page.content.properties import properties, statuses, topics_of
@@ -50,6 +51,7 @@ MAKERS: Mapping[str, Callable[[State, str], PageStore | None]] = {
     "handles": handles,
     "history": history,
     "latency": latency,
+    "layout": layout,
     "legend": legend,
     "message": message,
     "panes": panes,

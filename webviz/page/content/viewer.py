@@ -17,7 +17,7 @@ from webviz.page.content.store import PageStore
 
 NO_CONTROL = (
     *("version", "view", "views", "memory", "watch", "watch_limits", "bookmarks", "rviz"),
-    "publish",
+    *("layout", "layouts", "publish"),
 )
 """Settings that have another place on the page, or none."""
 

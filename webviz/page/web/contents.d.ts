@@ -46,10 +46,23 @@ export interface DisplayType {
   picture: string;
 }
 
+export interface DockedOnPage {
+  panel: string;
+  weight: number;
+}
+
 export interface ExplainedStatus {
   display: string;
   status: string;
   name: string;
+}
+
+export interface FloatingOnPage {
+  panel: string;
+  left: number;
+  top: number;
+  width: number;
+  height: number;
 }
 
 export interface Frame {
@@ -158,6 +171,11 @@ export interface RunningRecording {
   seconds: number;
   megabytes: number;
   dropped: number;
+}
+
+export interface SavedLayout {
+  name: string;
+  is_shown: boolean;
 }
 
 export interface SavedView {
@@ -295,6 +313,7 @@ export interface Stores {
   history: { own: { undo: Array<HistoryStep>; redo: Array<HistoryStep> }; items: never };
   journal: { own: { entries: Array<JournalLine> }; items: never };
   latency: { own: { all: Array<ShownLatency> }; items: never };
+  layout: { own: { saved: Array<SavedLayout>; beside: Array<DockedOnPage>; below: Array<DockedOnPage>; over: Array<FloatingOnPage>; width: number; height: number }; items: never };
   legend: { own: {  }; items: Scale };
   links: { own: {  }; items: ValidLink };
   message: { own: { message?: string | Record<string, unknown> | null; problem?: string; size?: number; received?: number }; items: never };

@@ -208,6 +208,7 @@ export interface Commands {
   Redo: { steps?: number; own?: boolean };
   RemoveBookmark: { name: string };
   RemoveDisplay: { display: string };
+  RemoveLayout: { name: string };
   RemovePanel: { panel: string };
   RemoveView: { name: string };
   RenameView: { name: string; new_name: string };
@@ -219,6 +220,7 @@ export interface Commands {
   Save: { path?: string };
   SaveBookmark: { name: string; at_s?: number | null };
   SaveImage: { name?: string };
+  SaveLayout: { name: string };
   SaveMemory: { seconds?: number | null; path?: string };
   SaveReport: { picture?: string; selection?: Array<{ group: string; key: string; items: Array<[number, number | null, [number, number, number], [number, number, number] | null]> }>; with_names?: boolean; path?: string };
   SaveView: { name: string; view?: { type: "Orbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "XYOrbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "ThirdPersonFollower"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "FPS"; target_frame?: string; yaw?: number; pitch?: number; position?: [number, number, number] } | { type: "TopDownOrtho"; target_frame?: string; scale?: number; angle?: number; x?: number; y?: number } | null };
@@ -228,6 +230,7 @@ export interface Commands {
   SetBackground: { color: [number, number, number] | null };
   SetFixedFrame: { frame: string };
   SetFrameRate: { hz: number };
+  SetLayout: { layout: { beside?: Array<{ panel: string; weight?: number }>; below?: Array<{ panel: string; weight?: number }>; over?: Array<{ panel: string; left?: number; top?: number; width?: number; height?: number }>; width?: number; height?: number } | string; name?: string };
   SetLoop: { loop?: boolean };
   SetPanelProperty: { panel: string; path: string; value: unknown };
   SetProperty: { display: string; path: string; value: unknown };

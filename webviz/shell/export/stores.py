@@ -14,7 +14,18 @@ from webviz.server.channel.stores import Stores
 
 SHARED = (
     *("bookmarks", "commands", "density", "displays", "events", "findings", "frames", "goals"),
-    *("graph", "legend", "modules", "panels", "panes", "picking", "recorded", "routes", "settings"),
+    *(
+        "graph",
+        "layout",
+        "legend",
+        "modules",
+        "panels",
+        "panes",
+        "picking",
+        "recorded",
+        "routes",
+        "settings",
+    ),
     *("views", "watchers"),
 )
 """Stores that pages watch all the time."""

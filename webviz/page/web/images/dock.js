@@ -70,11 +70,13 @@ export function install(page) {
   narrow.addEventListener("change", layOut);
   window.addEventListener("resize", layOut);
   new ResizeObserver(frames.refresh).observe(list);
-  new ResizeObserver(layOut).observe(side);
+  const beside = /** @type {HTMLElement} */ (page.querySelector(".wv-beside"));
+  for (const each of [side, beside]) new ResizeObserver(layOut).observe(each);
 
   // What the panels leave; on a phone they lie over it.
-  const isBelow = () => narrow.matches || innerWidth - side.offsetWidth < LEAST_ROOM;
-  const room = () => (isBelow() ? innerHeight : innerWidth - side.offsetWidth);
+  const width = () => innerWidth - side.offsetWidth - beside.offsetWidth;
+  const isBelow = () => narrow.matches || width() < LEAST_ROOM;
+  const room = () => (isBelow() ? innerHeight : width());
   const wanted = () =>
     Math.max(
       MIN_SIZE,

@@ -1,6 +1,7 @@
 // The head of the side: the config file, and what is done with it.
 
 import { needs, why } from "../access.js";
+import { layoutMenu } from "../docks/layout_menu.js";
 import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
 import { actions, item } from "./actions.js";
@@ -163,6 +164,7 @@ function menu(owner) {
     item(actions.image),
     item(actions.video),
     item(actions.fullscreen, { checked: document.fullscreenElement ? true : undefined }),
+    { label: "Layout", icon: "sidebar", items: layoutMenu() },
     item(actions.people),
     item(actions.doctor),
     item(actions.report),

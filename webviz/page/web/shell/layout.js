@@ -1,5 +1,6 @@
 // Layout of the side: its width, and whether it is folded away.
 
+import { reveal } from "../docks/docks.js";
 import { el } from "../dom.js";
 import { recall, remember } from "../remember.js";
 import * as viser from "../viser_page.js";
@@ -56,6 +57,7 @@ export function fold(wanted = !isFolded()) {
  * @param {string} name
  */
 export function openPanel(name) {
+  if (reveal(name)) return;
   fold(false);
   document.getElementById(`wv-tab-${name}`)?.click();
 }

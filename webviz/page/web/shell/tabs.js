@@ -2,6 +2,7 @@
 
 import { needs } from "../access.js";
 import { act } from "../act.js";
+import * as docks from "../docks/docks.js";
 import { el, set, setChildren, setText } from "../dom.js";
 import { onPanel, panels } from "../panels/panels.js";
 import { followPlugins } from "../panels/plugin.js";
@@ -72,9 +73,10 @@ export function tabs() {
   list.addEventListener("wheel", ({ deltaY }) => (list.scrollLeft += deltaY), { passive: true });
 
   /** @param {Panel} panel */
-  function button({ name }) {
+  function button(panel) {
+    const { name } = panel;
     const id = `wv-tab-${name}`;
-    return el("button", {
+    const made = el("button", {
       type: "button",
       role: "tab",
       id,
@@ -83,16 +85,24 @@ export function tabs() {
         const panel = all.find((one) => one.name === name);
         if (panel) show(panel);
       },
+      oncontextmenu: (/** @type {PointerEvent} */ event) => {
+        event.preventDefault();
+        openMenu(event.clientX, event.clientY, docks.menuOf(panel));
+      },
     });
+    docks.dragTab(made, panel);
+    return made;
   }
 
-  /** @param {Panel} panel */
+  /** @param {Panel} [panel] none if all stand outside of the tabs */
   function show(panel) {
     close();
+    close = () => {};
     content.replaceChildren();
-    shown = panel;
+    shown = panel ?? null;
     mark();
     fit();
+    if (!panel) return;
     set(content, { "aria-labelledby": `wv-tab-${panel.name}` });
     remember("tab", panel.name);
     close = panel.open(content) ?? (() => {});
@@ -134,8 +144,10 @@ export function tabs() {
   function offer(plugins) {
     additional = plugins;
     const wanted = recall("tab", "");
-    const come = isAdding && plugins.find(({ name }) => !buttons.has(name));
-    all = [...panels, ...plugins];
+    const there = [...panels, ...plugins];
+    docks.offer(there);
+    all = there.filter((panel) => !docks.isPlaced(panel));
+    const come = isAdding && all.find((panel) => !own.has(panel) && !buttons.has(panel.name));
     for (const panel of all) {
       const known = buttons.get(panel.name) ?? button(panel);
       buttons.set(panel.name, known);
@@ -158,8 +170,7 @@ export function tabs() {
     const isWaited = all
       .filter((panel) => !own.has(panel))
       .find(({ name }) => name === wanted && name !== shown?.name);
-    if (isGone || isWaited)
-      show(isWaited ?? panels.find(({ name }) => name === wanted) ?? panels[0]);
+    if (isGone || isWaited) show(isWaited ?? all.find(({ name }) => name === wanted) ?? all[0]);
     if (isGone && wanted) remember("tab", wanted); // it may come again, after a save
   }
 
@@ -192,6 +203,7 @@ export function tabs() {
 
   offer([]);
   onPanel(() => offer(additional));
+  docks.onPlaced(() => offer(additional));
   followPlugins(offer, (known) => {
     types = known;
     fit();

@@ -1,0 +1,81 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import {
+  EMPTY,
+  floated,
+  moved,
+  namesOf,
+  shared,
+  targetAt,
+  without,
+} from "../../webviz/page/web/docks/places.js";
+
+const at = (place, at = 0, left = 0, top = 0) => ({ place, at, left, top });
+const place = (layout, panel, ...where) => moved(layout, panel, at(...where));
+
+test("a panel stands in one place", () => {
+  let layout = place(EMPTY, "Log", "beside");
+  layout = place(layout, "Plot", "beside", 0);
+  assert.deepEqual(namesOf(layout), ["Plot", "Log"]);
+  layout = place(layout, "Log", "below");
+  assert.deepEqual([layout.beside.length, layout.below.length], [1, 1]);
+  assert.deepEqual(namesOf(place(layout, "Log", "tabs")), ["Plot"]);
+  assert.deepEqual(without(without(layout, "Log"), "Plot"), EMPTY);
+});
+
+test("a floating panel keeps its size, and stays over the scene", () => {
+  let layout = place(EMPTY, "Log", "over", 0, 5, -3);
+  const [{ left, top, width }] = layout.over;
+  assert.deepEqual([left, top], [1 - width, 0]);
+  layout = floated(layout, "Log", { width: 9, height: NaN > 0 ? 1 : 0 });
+  assert.deepEqual([layout.over[0].width, layout.over[0].height], [1, 0.05]);
+  layout = place(layout, "Log", "over", 0, 0.5, 0.2);
+  assert.deepEqual(layout.over[0], { panel: "Log", width: 1, height: 0.05, left: 0, top: 0.2 });
+});
+
+test("neighbours share what they have", () => {
+  let layout = place(place(EMPTY, "a", "below"), "b", "below", 1);
+  layout = shared(layout, "below", "a", "b", 0.25);
+  assert.deepEqual(
+    layout.below.map(({ weight }) => weight),
+    [0.5, 1.5],
+  );
+  layout = shared(layout, "below", "a", "b", -4);
+  assert.equal(layout.below[0].weight, 0.05);
+});
+
+const NONE = { left: 0, top: 0, width: 0, height: 0 };
+const boxes = {
+  side: { left: 0, top: 0, width: 300, height: 800 },
+  scene: { left: 300, top: 0, width: 1000, height: 800 },
+  beside: NONE,
+  below: NONE,
+  besideBoxes: [],
+  belowBoxes: [],
+};
+
+test("the edges of the scene are the places beside and below it", () => {
+  const target = (x, y, more = {}) => targetAt(x, y, { ...boxes, ...more });
+  assert.equal(target(100, 400).place, "tabs");
+  assert.equal(target(1290, 400).place, "beside");
+  assert.equal(target(600, 790).place, "below");
+  assert.equal(target(1295, 790).place, "beside");
+  const over = target(800, 400);
+  assert.deepEqual([over.place, over.left, over.top], ["over", 0.5, 0.5]);
+  assert.equal(target(2000, 400), null);
+});
+
+test("a row is entered between its panels", () => {
+  const beside = { left: 1000, top: 0, width: 300, height: 800 };
+  const half = { left: 1000, width: 300, height: 400 };
+  const besideBoxes = [
+    { ...half, top: 0 },
+    { ...half, top: 400 },
+  ];
+  const scene = { ...boxes.scene, width: 700 };
+  const numbers = [100, 300, 790].map(
+    (y) => targetAt(1100, y, { ...boxes, scene, beside, besideBoxes }).at,
+  );
+  assert.deepEqual(numbers, [0, 1, 2]);
+});

@@ -1,0 +1,195 @@
+"""Panels beside, below and over the scene: dragged with a mouse, whole, and in windows."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import playwright.sync_api as playwright
+import pytest
+
+from tests.page.conftest import Loop, Tab
+from webviz.engine.commands import RemoveLayout, SaveLayout, SetLayout
+from webviz.files.config import DockedPanel, FloatingPanel, Layout, Settings
+from webviz.page.content.layouts import layout
+
+HOSTILE = "<img src=x onerror=alert(1)>"
+BESIDE = Layout(beside=(DockedPanel(panel="doctor"),))
+
+
+@pytest.fixture(autouse=True)
+def _close(loop: Loop, tab: Tab) -> Iterator[None]:
+    yield
+    tab.page.keyboard.press("Escape")
+    loop.show(settings=Settings(layout=BESIDE))
+    tab.wait_for(lambda: docked(tab) == {"doctor": "wv-beside"})
+    loop.show(settings=Settings())
+    tab.wait_for(lambda: docked(tab) == {})
+
+
+def docked(tab: Tab) -> dict[str, str]:
+    """The place of each panel that is not in the tabs."""
+    return tab.page.evaluate(
+        "Object.fromEntries([...document.querySelectorAll('.wv-docked')]"
+        ".map(e => [e.dataset.panel, e.parentElement.className]))"
+    )
+
+
+def middle(element: playwright.Locator) -> tuple[float, float]:
+    box = element.bounding_box()
+    assert box is not None
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+def drag(tab: Tab, element: playwright.Locator, x: float, y: float) -> None:
+    mouse = tab.page.mouse
+    mouse.move(*middle(element))
+    mouse.down()
+    mouse.move(x, y, steps=4)
+    mouse.up()
+
+
+def scene(tab: Tab) -> dict[str, float]:
+    box = tab.page.locator("#root").bounding_box()
+    assert box is not None
+    return {key: float(value) for key, value in box.items() if isinstance(value, int | float)}
+
+
+def test_a_tab_is_dragged_to_each_place_and_back(loop: Loop, tab: Tab) -> None:
+    topics = tab.page.locator("#wv-tab-topics")
+    room = scene(tab)
+    drag(tab, topics, room["x"] + room["width"] - 20, room["y"] + room["height"] / 2)
+    tab.wait_for_command(SetLayout(Layout(beside=(DockedPanel(panel="topics"),))))
+    assert docked(tab) == {"topics": "wv-beside"}
+    assert topics.count() == 0
+    tab.wait_for(lambda: scene(tab)["width"] <= room["width"] - 300)
+
+    head = tab.page.locator(".wv-docked-head b")
+    drag(tab, head, room["x"] + 200, room["y"] + room["height"] - 20)
+    tab.wait_for(lambda: docked(tab) == {"topics": "wv-below"})
+    tab.wait_for(lambda: scene(tab)["height"] <= room["height"] - 200)
+
+    drag(tab, head, room["x"] + 300, room["y"] + 200)
+    tab.wait_for(lambda: docked(tab) == {"topics": "wv-floats"})
+    tab.wait_for(lambda: scene(tab) == room)
+    floating = loop.commands[-1]
+    assert isinstance(floating, SetLayout)
+    assert isinstance(floating.layout, Layout)
+    (over,) = floating.layout.over
+    assert over.panel == "topics"
+    assert 0 < over.left < 0.3
+    assert 0 < over.top < 0.4
+
+    drag(tab, head, 100, 400)
+    tab.wait_for_command(SetLayout(Layout()))
+    assert docked(tab) == {}
+    assert topics.is_visible()
+
+
+def test_an_arrangement_of_others_is_shown_and_sizes_can_be_changed(loop: Loop, tab: Tab) -> None:
+    arranged = Layout(
+        beside=(DockedPanel(panel="doctor"), DockedPanel(panel="views", weight=3)),
+        over=(FloatingPanel(panel=HOSTILE), FloatingPanel(panel="topics", left=0.1)),
+        width=300,
+    )
+    loop.show(settings=Settings(layout=arranged))
+    tab.wait_for(lambda: len(docked(tab)) == 3)
+    heights = tab.page.locator(".wv-beside .wv-docked").evaluate_all(
+        "each => each.map(e => e.offsetHeight)"
+    )
+    assert 2.5 < heights[1] / heights[0] < 3.5
+
+    border = tab.page.get_by_role("separator", name="Width of the panels beside the scene")
+    border.focus()
+    tab.page.keyboard.press("ArrowLeft")
+    tab.wait_for(lambda: bool(loop.commands))
+    wider = loop.commands[-1]
+    assert isinstance(wider, SetLayout)
+    assert isinstance(wider.layout, Layout)
+    assert wider.layout.width == 316
+    corner = tab.page.locator("[data-panel=topics] .wv-docked-corner")
+    x, y = middle(corner)
+    drag(tab, corner, x + 60, y + 40)
+    tab.wait_for(lambda: loop.commands[-1] is not wider)
+    larger = loop.commands[-1]
+    assert isinstance(larger, SetLayout)
+    assert isinstance(larger.layout, Layout)
+    assert larger.layout.over[1].width > arranged.over[1].width
+
+
+def test_a_refused_arrangement_is_taken_back(loop: Loop, tab: Tab) -> None:
+    loop.answer = RuntimeError("not now")
+    drag(tab, tab.page.locator("#wv-tab-topics"), 700, 300)
+    tab.wait_for(lambda: bool(loop.commands))
+    tab.wait_for(lambda: docked(tab) == {})
+    assert "not now" in tab.text()
+
+
+def test_escape_leaves_full_screen_and_cancels_a_drag(loop: Loop, tab: Tab) -> None:
+    loop.show(settings=Settings(layout=BESIDE))
+    tab.wait_for(lambda: docked(tab) == {"doctor": "wv-beside"})
+    tab.button("Full screen").click()
+    frame = tab.page.locator(".wv-docked")
+    tab.wait_for(lambda: (frame.bounding_box() or {}).get("x") == 0)
+    tab.page.keyboard.press("Escape")
+    tab.wait_for(lambda: (frame.bounding_box() or {})["x"] > 500)
+
+    tab.page.mouse.move(*middle(tab.page.locator(".wv-docked-head b")))
+    tab.page.mouse.down()
+    tab.page.mouse.move(500, 300, steps=4)
+    tab.wait_for(lambda: "Over the scene" in tab.text())
+    tab.page.keyboard.press("Escape")
+    tab.page.mouse.up()
+    tab.turn()
+    assert not loop.commands
+    assert docked(tab) == {"doctor": "wv-beside"}
+
+
+def test_layouts_are_saved_shown_and_removed_by_the_menu(loop: Loop, tab: Tab) -> None:
+    loop.show(settings=Settings(layouts={"driving": BESIDE, HOSTILE: Layout()}))
+
+    def choose(*names: str) -> None:
+        tab.button("Menu").click()
+        for name in ("Layout", *names):
+            tab.page.get_by_role("menuitem", name=name).or_(
+                tab.page.get_by_role("menuitemradio", name=name)
+            ).last.click()
+
+    choose("driving")
+    tab.wait_for_command(SetLayout("driving"))
+    choose("Remove", HOSTILE)
+    tab.wait_for_command(RemoveLayout(HOSTILE))
+    choose("Save this layout")
+    tab.page.get_by_label("Name of the layout").fill("lab")
+    tab.page.keyboard.press("Enter")
+    tab.wait_for_command(SaveLayout("lab"))
+
+
+def test_a_window_shows_one_panel_or_a_layout(
+    loop: Loop, tab: Tab, open_tab: Callable[..., Tab]
+) -> None:
+    loop.show(settings=Settings(layouts={"driving": BESIDE}))
+    other = open_tab()
+    here = other.page.url
+    other.page.goto(f"{here}&panel=topics")
+    other.wait_for(lambda: docked(other) == {"topics": "wv-floats"})
+    other.wait_for(lambda: not other.page.locator("#root").is_visible())
+    other.page.goto(f"{here}&layout=driving")
+    other.wait_for(lambda: docked(other) == {"doctor": "wv-beside"})
+    assert docked(tab) == {}
+
+
+def test_a_phone_keeps_its_collapsed_panel(
+    loop: Loop, tab: Tab, open_tab: Callable[..., Tab]
+) -> None:
+    phone = open_tab()
+    loop.show(settings=Settings(layout=BESIDE))
+    phone.wait_for(lambda: docked(phone) == {"doctor": "wv-beside"})
+    phone.page.set_viewport_size({"width": 390, "height": 780})
+    phone.wait_for(lambda: docked(phone) == {})
+    assert scene(phone)["width"] == 390
+
+
+def test_a_store_has_the_saved_layout_of_a_window(loop: Loop) -> None:
+    loop.show(settings=Settings(layouts={"driving": BESIDE}))
+    assert [each.panel for each in layout(loop.state, "driving").beside] == ["doctor"]
+    assert not layout(loop.state, "unknown").beside

@@ -1,0 +1,103 @@
+"""Layouts of panels: in the config, saved by name, and undone."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from webviz.engine.commands import Load, Redo, RemoveLayout, SaveLayout, SetLayout, Undo
+from webviz.files import rviz
+from webviz.files.config import ConfigError, DockedPanel, FloatingPanel, Layout, dump, read
+
+CONFIG = """\
+version: 1
+layout:
+  beside: [{panel: doctor}]
+  over: [{panel: Plot 2, left: 0.1}]
+  height: 200.0
+layouts:
+  lab: {below: [{panel: Log, weight: 2.0}]}
+displays: []
+"""
+SHOWN = Layout(
+    beside=(DockedPanel(panel="doctor"),),
+    over=(FloatingPanel(panel="Plot 2", left=0.1),),
+    height=200.0,
+)
+LAB = Layout(below=(DockedPanel(panel="Log", weight=2.0),))
+
+
+@pytest.fixture
+def b(bench: Callable[..., Any]) -> Any:
+    b = bench()
+    b.do(Load(CONFIG, "x.yaml"))
+    return b
+
+
+def layouts(b: Any) -> tuple[Layout, dict[str, Layout]]:
+    settings = b.states[-1].settings
+    return settings.layout, settings.layouts
+
+
+def test_a_file_keeps_layouts() -> None:
+    config = read(CONFIG, "x.yaml")
+    assert config.settings.layout == SHOWN
+    assert config.settings.layouts == {"lab": LAB}
+    assert read(dump(config), "x.yaml").settings == config.settings
+    assert "weight" not in dump(read("version: 1\nlayout: {below: [{panel: Log}]}", "x.yaml"))
+
+
+def test_a_rviz_file_says_that_it_has_none() -> None:
+    text, report = rviz.write(read(CONFIG, "x.yaml"))
+    assert "doctor" not in text
+    assert [each for each in report.sentences() if "layout" in each]
+
+
+@pytest.mark.parametrize(
+    ("layout", "reason"),
+    [
+        ("{beside: [{panel: Log}], over: [{panel: Log}]}", "Log is placed twice"),
+        ("{besides: []}", "besides"),
+        ("{below: [{panel: Log, weight: .nan}]}", "weight"),
+        ("{below: [{panel: Log, weight: 1.0e+308}]}", "weight"),
+        ("{over: [{panel: Log, left: -1}]}", "left"),
+        ("{beside: [{panel: ''}]}", "panel"),
+        ("{width: 0}", "width"),
+        ("[doctor]", "layout"),
+        (f"{{below: [{', '.join(f'{{panel: P{i}}}' for i in range(21))}]}}", "below"),
+    ],
+)
+def test_a_mistake_is_named(layout: str, reason: str) -> None:
+    with pytest.raises(ConfigError, match=reason):
+        read(f"version: 1\nlayout: {layout}\n", "x.yaml")
+
+
+def test_layouts_are_changed_saved_and_undone(b: Any) -> None:
+    b.do(SetLayout("lab"))
+    assert layouts(b) == (LAB, {"lab": LAB})
+    b.do(SaveLayout("second"))
+    assert layouts(b) == (LAB, {"lab": LAB, "second": LAB})
+    b.do(SetLayout(SHOWN, "second"))
+    assert layouts(b) == (LAB, {"lab": LAB, "second": SHOWN})
+    b.do(RemoveLayout("lab"))
+    assert layouts(b) == (LAB, {"second": SHOWN})
+    steps = [step.label for step in b.states[-1].history.undo]
+    assert steps[:4] == [
+        "Remove layout lab",
+        "Save layout second",
+        "Save layout second",
+        "Change layout",
+    ]
+    b.do(Undo(steps=4))
+    assert layouts(b) == (SHOWN, {"lab": LAB})
+    b.do(Redo(steps=2))
+    assert layouts(b) == (LAB, {"lab": LAB, "second": LAB})
+
+
+def test_what_cannot_be_is_refused(b: Any) -> None:
+    for command in (SetLayout("nowhere"), SetLayout(LAB, "nowhere"), RemoveLayout("nowhere")):
+        assert "Unknown saved layout `nowhere`" in b.refused(command)
+    assert "name" in b.refused(SaveLayout(""))
+    assert layouts(b) == (SHOWN, {"lab": LAB})

@@ -1,0 +1,60 @@
+// The frame of a panel that is not in the tabs: its head, and what it shows.
+
+import { el, set, setText } from "../dom.js";
+import { icon } from "../icons.js";
+
+/** @import {Panel} from "../types.js" */
+
+/**
+ * @param {Panel} panel
+ * @param {{menu(button: HTMLElement): void, full(): void, close(): void}} acts
+ */
+export function makeFrame(panel, { menu, full, close }) {
+  const title = el("b", {}, panel.title);
+  /** @param {string} name @param {string} label @param {(event: MouseEvent) => void} run */
+  const button = (name, label, run) =>
+    el(
+      "button",
+      { type: "button", class: "wv-icon", "aria-label": label, "data-tip": label, onclick: run },
+      icon(name),
+    );
+  const more = button("dots", "More for this panel", () => menu(more));
+  const whole = button("fullscreen", "Full screen", full);
+  const back = button("close", "Back to the tabs", close);
+  const head = el(
+    "header",
+    { class: "wv-docked-head", ondblclick: full },
+    title,
+    whole,
+    more,
+    back,
+  );
+  const body = el("div", { class: "wv-panel" });
+  const element = el(
+    "section",
+    { class: "wv-docked", "aria-label": panel.title, "data-panel": panel.name },
+    head,
+    body,
+  );
+  const end = panel.open(body) ?? (() => {});
+  return {
+    element,
+    head,
+    close() {
+      end();
+      element.remove();
+    },
+    /** @param {string} text */
+    setTitle(text) {
+      setText(title, text);
+      set(element, { "aria-label": text });
+    },
+    /** @param {boolean} isFull @param {boolean} isAlone */
+    setFull(isFull, isAlone) {
+      element.classList.toggle("wv-docked-full", isFull);
+      const label = isFull ? "Leave full screen (Escape)" : "Full screen";
+      set(whole, { "aria-pressed": String(isFull), "aria-label": label, "data-tip": label });
+      for (const each of [whole, more, back]) set(each, { hidden: isAlone });
+    },
+  };
+}

@@ -1,0 +1,201 @@
+// Places of panels: beside, below and over the scene. Without a document.
+
+/**
+ * As in the config, but complete.
+ *
+ * @typedef {{panel: string, weight: number}} Docked
+ * @typedef {{panel: string, left: number, top: number, width: number, height: number}} Floating
+ * @typedef {{beside: Docked[], below: Docked[], over: Floating[], width: number, height: number}} Layout
+ * @typedef {{left: number, top: number, width: number, height: number}} Box
+ * @typedef {{
+ *   place: "beside" | "below" | "over" | "tabs", at: number, left: number, top: number, box: Box,
+ * }} Target where a panel is dropped: in the row of a place before number `at`, or over the scene
+ *   with a corner; `box` is what it covers, in pixels
+ * @typedef {{side: Box, scene: Box, beside: Box, below: Box, besideBoxes: Box[], belowBoxes: Box[]}} Boxes
+ *   of what is on the page, those of docked panels without the one that is dragged
+ */
+
+/** @type {Layout} */
+export const EMPTY = { beside: [], below: [], over: [], width: 340, height: 240 };
+
+const EDGE = 0.22; // of the scene, where a panel is dropped beside or below it
+const FLOATING = { width: 0.35, height: 0.4 };
+
+/** @param {Layout} layout */
+export const namesOf = ({ beside, below, over }) =>
+  [...beside, ...below, ...over].map(({ panel }) => panel);
+
+/**
+ * The layout without a panel.
+ *
+ * @param {Layout} layout
+ * @param {string} panel
+ * @returns {Layout}
+ */
+export function without(layout, panel) {
+  /** @param {{panel: string}} each */
+  const others = (each) => each.panel !== panel;
+  return {
+    ...layout,
+    beside: layout.beside.filter(others),
+    below: layout.below.filter(others),
+    over: layout.over.filter(others),
+  };
+}
+
+/**
+ * The layout with a panel at another place.
+ *
+ * @param {Layout} layout
+ * @param {string} panel
+ * @param {Pick<Target, "place" | "at" | "left" | "top">} target
+ * @returns {Layout}
+ */
+export function moved(layout, panel, { place, at, left, top }) {
+  const size = layout.over.find((each) => each.panel === panel) ?? FLOATING;
+  const next = without(layout, panel);
+  if (place === "tabs") return next;
+  if (place === "over") {
+    const { width, height } = size;
+    const corner = { left: within(left, 1 - width), top: within(top, 1 - height) };
+    return { ...next, over: [...next.over, { panel, width, height, ...corner }] };
+  }
+  const row = [...next[place]];
+  row.splice(at, 0, { panel, weight: 1 });
+  return { ...next, [place]: row };
+}
+
+/**
+ * The layout with two neighbours of a row at other shares of what they have together.
+ *
+ * @param {Layout} layout
+ * @param {"beside" | "below"} place
+ * @param {string} panel the first of them
+ * @param {string} next
+ * @param {number} share of the first
+ * @returns {Layout}
+ */
+export function shared(layout, place, panel, next, share) {
+  const row = layout[place];
+  const both = row.filter((each) => each.panel === panel || each.panel === next);
+  const sum = both.reduce((sum, { weight }) => sum + weight, 0);
+  /** @param {number} part */
+  const weight = (part) => round(Math.max(0.05, Math.min(part * sum, 20)));
+  const weights = { [panel]: weight(share), [next]: weight(1 - share) };
+  return {
+    ...layout,
+    [place]: row.map((each) => ({ ...each, weight: weights[each.panel] ?? each.weight })),
+  };
+}
+
+/**
+ * The layout with another box of a floating panel, in shares of the scene.
+ *
+ * @param {Layout} layout
+ * @param {string} panel
+ * @param {Partial<Box>} box
+ * @returns {Layout}
+ */
+export function floated(layout, panel, box) {
+  const over = layout.over.map((each) => {
+    if (each.panel !== panel) return each;
+    const { left, top, width, height } = { ...each, ...box };
+    return {
+      panel,
+      left: round(within(left, 0.95)),
+      top: round(within(top, 0.95)),
+      width: round(Math.max(0.05, Math.min(width, 1))),
+      height: round(Math.max(0.05, Math.min(height, 1))),
+    };
+  });
+  return { ...layout, over };
+}
+
+/**
+ * The place that a panel would be dropped at, null for none.
+ *
+ * @param {number} x
+ * @param {number} y
+ * @param {Boxes} boxes
+ * @returns {Target | null}
+ */
+export function targetAt(x, y, boxes) {
+  const { side, scene, beside, below, besideBoxes, belowBoxes } = boxes;
+  /**
+   * @param {Target["place"]} place
+   * @param {number} at
+   * @param {Box} box
+   * @returns {Target}
+   */
+  const target = (place, at, box) => ({
+    place,
+    at,
+    box,
+    left: (x - scene.left) / scene.width,
+    top: (y - scene.top) / scene.height,
+  });
+  if (isIn(x, y, side)) return target("tabs", 0, side);
+  const isBeside = isIn(x, y, beside);
+  const isBelow = isIn(x, y, below);
+  if (!isBeside && !isBelow && !isIn(x, y, scene)) return null;
+  const right = scene.left + scene.width - x;
+  const bottom = scene.top + scene.height - y;
+  if (isBeside || (!isBelow && right < EDGE * scene.width && right <= bottom)) {
+    const at = besideBoxes.filter((box) => y > box.top + box.height / 2).length;
+    const all = {
+      ...scene,
+      left: scene.left + scene.width * (1 - EDGE),
+      width: scene.width * EDGE,
+    };
+    return target("beside", at, part(beside.width ? beside : all, at, besideBoxes.length, "top"));
+  }
+  if (isBelow || bottom < EDGE * scene.height) {
+    const at = belowBoxes.filter((box) => x > box.left + box.width / 2).length;
+    const all = {
+      ...scene,
+      top: scene.top + scene.height * (1 - EDGE),
+      height: scene.height * EDGE,
+    };
+    return target("below", at, part(below.height ? below : all, at, belowBoxes.length, "left"));
+  }
+  const size = {
+    width: FLOATING.width * scene.width,
+    height: FLOATING.height * scene.height,
+  };
+  return target("over", 0, { left: x, top: y, ...size });
+}
+
+/**
+ * The box of number `at` in a row with one more panel.
+ *
+ * @param {Box} box
+ * @param {number} at
+ * @param {number} count
+ * @param {"left" | "top"} along
+ * @returns {Box}
+ */
+function part(box, at, count, along) {
+  if (along === "top") {
+    const height = box.height / (count + 1);
+    return { ...box, top: box.top + at * height, height };
+  }
+  const width = box.width / (count + 1);
+  return { ...box, left: box.left + at * width, width };
+}
+
+/**
+ * @param {number} x
+ * @param {number} y
+ * @param {Box} box
+ */
+const isIn = (x, y, { left, top, width, height }) =>
+  x >= left && x < left + width && y >= top && y < top + height;
+
+/**
+ * @param {number} value
+ * @param {number} high
+ */
+const within = (value, high) => Math.max(0, Math.min(value, high));
+
+/** @param {number} value */
+const round = (value) => Math.round(value * 1000) / 1000;

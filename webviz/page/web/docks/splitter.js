@@ -1,0 +1,44 @@
+// A border between two things, to be dragged or moved by arrow keys.
+
+import { el } from "../dom.js";
+
+const STEP = 16;
+
+/**
+ * `move(pixels)` is called with the distance from where the drag began, `end()` after it.
+ *
+ * @param {{label: string, along: "x" | "y", move(pixels: number): void, end(): void}} options
+ * @returns {HTMLElement}
+ */
+export function splitter({ label, along, move, end }) {
+  const isAcross = along === "x";
+  let start = 0;
+  /** @param {PointerEvent} event */
+  const at = (event) => (isAcross ? event.clientX : event.clientY);
+  /** @param {KeyboardEvent} event */
+  const step = (event) => {
+    const keys = isAcross ? ["ArrowLeft", "ArrowRight"] : ["ArrowUp", "ArrowDown"];
+    const change = { [keys[0]]: -STEP, [keys[1]]: STEP }[event.key];
+    if (!change) return;
+    event.preventDefault();
+    event.stopPropagation(); // viser's camera turns by them
+    move(change);
+    end();
+  };
+  /** @type {HTMLElement} */
+  const bar = el("div", {
+    class: `wv-splitter wv-splitter-${along}`,
+    role: "separator",
+    tabindex: 0,
+    "aria-orientation": isAcross ? "vertical" : "horizontal",
+    "aria-label": label,
+    onkeydown: step,
+    onpointerdown: (event) => {
+      bar.setPointerCapture(event.pointerId);
+      start = at(event);
+    },
+    onpointermove: (event) => bar.hasPointerCapture(event.pointerId) && move(at(event) - start),
+    onpointerup: end,
+  });
+  return bar;
+}
