@@ -46,7 +46,7 @@ $(PYTEST) $(1) --cache-clear $(2) || { [ $$? = 1 ] && \
 	$(PYTEST) -n 0 --last-failed --maxfail 3 $(2); }
 endef
 
-.PHONY: install test quick check bench soak attack mutants browser docs site
+.PHONY: install test quick check bench soak attack mutants browser docs site release
 
 install: $(VENV)/ready
 
@@ -95,6 +95,10 @@ docs: $(VENV)/ready
 site: $(VENV)/ready-to-test
 	@$(VENV)/bin/python -m tests.site
 
+# Wheel and source distribution of what is committed, in dist/; tried with each Python there is.
+release: $(VENV)/ready-to-release
+	@PYTHONPATH=tests/support $(VENV)/bin/python -m tests.release
+
 browser:
 	@for b in chromium-headless-shell chromium chromium-browser google-chrome; do \
 		command -v $$b >/dev/null && exit 0; done; \
@@ -139,6 +143,11 @@ $(VENV)/ready-to-check: $(VENV)/ready-to-test tests/javascript/package-lock.json
 
 $(VENV)/ready-to-mutate: $(VENV)/ready-to-test
 	@$(VENV)/bin/python -m pip install --editable ".[test,mutants$(if $(ROS),$(comma)ros$(comma)ros-test)]" $(NUMPY) || { \
+		echo "The installation failed: read pip's last lines above." >&2; exit 1; }
+	@touch $@
+
+$(VENV)/ready-to-release: $(VENV)/ready-to-test
+	@$(VENV)/bin/python -m pip install --editable ".[test,release$(if $(ROS),$(comma)ros$(comma)ros-test)]" $(NUMPY) || { \
 		echo "The installation failed: read pip's last lines above." >&2; exit 1; }
 	@touch $@
 
