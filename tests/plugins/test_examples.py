@@ -12,7 +12,7 @@ import pytest
 from webviz.api import registry
 from webviz.api.display import Display
 from webviz.api.status import Status
-from webviz.data.messages import decode, encode
+from webviz.data.messages import decode, encode, register
 from webviz.engine.commands import Load, Refresh, UseTool
 from webviz.engine.pipeline.plugins import load
 from webviz.shell.testing.messages import header
@@ -70,6 +70,43 @@ def test_camera_view_says_that_a_camera_is_not_calibrated(
     b.turn()
     text = "The CameraInfo has no focal length. Calibrate the camera."
     assert b.statuses()["Camera"] == ("ERROR", text)
+
+
+POINT = """\
+std_msgs/Header header
+float64 x
+float64 y
+"""
+
+
+@pytest.mark.parametrize(
+    ("x", "expected"),
+    [
+        (1.5, ("OK", "Showing (1.5, 2).")),
+        (-1.0, ("WARN", "x is negative: -1.")),
+        (np.inf, ("ERROR", "The coordinates are not finite numbers. Fix the publisher.")),
+    ],
+)
+def test_the_display_of_rviz_tutorial_shows_a_point_in_its_frame(
+    bench: Callable[..., Any], x: float, expected: tuple[str, str]
+) -> None:
+    path = EXAMPLES / "point_2d.py"
+    cls = load(path)["PointDisplay"]
+    assert issubclass(cls, Display)
+    try:
+        register("rviz_plugin_tutorial_msgs/msg/Point2D", POINT)
+        b = bench(cls(name="Point"))
+        b.transform("map", "robot", T, static=True)
+        point = {"header": header("robot", T), "x": x, "y": 2.0}
+        b.publish("/point", "rviz_plugin_tutorial_msgs/msg/Point2D", point)
+        b.turn()
+        assert b.statuses()["Point"] == expected
+        drawn = {key: node for key, _, node in b.scene.visible()}
+        assert drawn.keys() == (set() if expected[0] == "ERROR" else {"point"})
+        if drawn:
+            np.testing.assert_array_equal(drawn["point"].positions, [(x, 2.0, 0.0)])
+    finally:
+        registry.register(str(path), {})
 
 
 def test_spawn_turtle_is_a_tool_that_calls_a_service_with_the_clicked_point(

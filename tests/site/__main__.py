@@ -39,6 +39,7 @@ TASKS = {
     "Tools and panels": {"Tools": "tools.md", "Panels": "page/panels.md"},
     "Python": {
         "From Python": "python/README.md",
+        "From an RViz plug-in": "python/from_rviz.md",
         "API": "api.md",
         "Examples": "examples/README.md",
         "Agents": "python/agents.md",
