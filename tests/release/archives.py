@@ -64,6 +64,7 @@ def _without_times(path: Path, epoch: int) -> None:
     with tarfile.open(path) as old, tarfile.open(fileobj=packed, mode="w") as new:
         for member in sorted(old.getmembers(), key=lambda each: each.name):
             member.mtime = epoch
+            member.pax_headers = {}  # they may have the time, too
             member.uid = member.gid = 0
             member.uname = member.gname = ""
             member.mode = 0o755 if member.isdir() or member.mode & 0o100 else 0o644
