@@ -53,6 +53,7 @@ setup(
         "pytest11": ["webviz = webviz.shell.pytest_plugin"],
         "webviz.displays": [
             "AccelStamped = webviz_displays.vectors:AccelStamped",
+            "AerialMap = webviz_displays.outdoors:AerialMap",
             "AutowarePath = webviz_displays.autoware:AutowarePath",
             "AutowareTrajectory = webviz_displays.autoware:AutowareTrajectory",
             "Axes = webviz_displays.axes:Axes",
@@ -64,6 +65,7 @@ setup(
             "DetectedObjects = webviz_displays.autoware:DetectedObjects",
             "Effort = webviz_displays.vectors:Effort",
             "FluidPressure = webviz_displays.sensors:FluidPressure",
+            "GeoPath = webviz_displays.outdoors:GeoPath",
             "Grid = webviz_displays.grid:Grid",
             "GridCells = webviz_displays.areas:GridCells",
             "GridMap = webviz_displays.grid_map:GridMap",
@@ -83,6 +85,7 @@ setup(
             "MarkerArray = webviz_displays.markers:MarkerArray",
             "MotionPlanning = webviz_displays.moveit:MotionPlanning",
             "MotionPlanningTasks = webviz_displays.moveit:MotionPlanningTasks",
+            "NavSatFix = webviz_displays.outdoors:NavSatFix",
             "NvbloxMesh = webviz_displays.nvblox:NvbloxMesh",
             "NvbloxVoxelBlockLayer = webviz_displays.nvblox:NvbloxVoxelBlockLayer",
             "OccupancyGrid = webviz_displays.octomap:OccupancyGrid",

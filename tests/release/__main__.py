@@ -27,7 +27,9 @@ def main() -> None:
         ["git", "status", "--porcelain"], cwd=ROOT, capture_output=True, text=True, check=True
     ).stdout
     if changed:
-        sys.exit("A release has what is committed only: commit or stash these changes first.\n" + changed)
+        sys.exit(
+            "A release has what is committed only: commit or stash these changes first.\n" + changed
+        )
     dist = ROOT / "dist"
     shutil.rmtree(dist, ignore_errors=True)
     dist.mkdir()
@@ -41,7 +43,9 @@ def main() -> None:
     tried = [version for version in PYTHONS if _is_tried(version, made)]
     for path in made:
         print(f"{digest(path)}  {path.relative_to(ROOT)}")
-    print(f"Tried with Python {', '.join(tried)}." if tried else "No Python to try it with was found.")
+    print(
+        f"Tried with Python {', '.join(tried)}." if tried else "No Python to try it with was found."
+    )
 
 
 def _reproducible(folder: Path) -> list[Path]:

@@ -32,6 +32,7 @@ TASKS = {
         "Several robots": "ros/robots.md",
         "Far away": "ros/far_away.md",
         "A course": "ros/course.md",
+        "Outdoors": "outdoors/README.md",
         "Serving": "serving/README.md",
         "Pictures": "pictures/README.md",
         "Visual tests": "testing/README.md",

@@ -257,6 +257,8 @@ class Context(Group):
         self.statuses: dict[str, Status] = {}
         self.color_scale: ColorScale | None = None
         """For the legend in the scene; set it to say which values colours stand for."""
+        self.attribution = ""
+        """Whom to credit for what is drawn, such as the makers of a map; shown over the scene."""
         self.is_unfinished = False
         """Set it if the rest is drawn in later turns of the frame loop; the next comes soon."""
         self.offered: dict[str, Mapping[str, int]] = {}

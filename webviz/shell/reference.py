@@ -26,12 +26,14 @@ ENVIRONMENT = {
     VARIABLE: "Chromium or Chrome for pictures; otherwise one is searched for.",
     MESH_ROOT: "Folders of meshes besides ROS packages, separated by colons: `--mesh-root`.",
     ALLOWED_BY: "`1` lets RobotModel expand xacro files, which can run any Python as this user.",
+    "WEBVIZ_TILE_SERVERS": "Addresses whose map tiles may be loaded, by their beginnings.",
     "WEBVIZ_BAG": "Recording for tests of bug reports, instead of the one beside them.",
     **{
         f"WEBVIZ_TOKEN_{parameter.upper()}": f"Token of a link with the role {role_name(role)}."
         for parameter, role in LINKS.items()
     },
     "XDG_CONFIG_HOME": "Folder of `webviz/tokens.json`, by default `~/.config`.",
+    "XDG_CACHE_HOME": "Folder of map tiles from servers in `webviz/`, by default `~/.cache`.",
     "XDG_STATE_HOME": "Folder of the last session in `webviz/`, by default `~/.local/state`.",
     "ROS_DOMAIN_ID": "As for any ROS 2 node, like all other variables of ROS; "
     "`webviz demo` sets `ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST` unless it is set.",

@@ -304,6 +304,19 @@ DEFINITIONS = {
         uint32 LINK_PADDING_AND_SCALING=256
         uint32 OBJECT_COLORS=512
         uint32 components""",
+    "geographic_msgs/msg/GeoPoint": """
+        float64 latitude
+        float64 longitude
+        float64 altitude""",
+    "geographic_msgs/msg/GeoPose": """
+        geographic_msgs/GeoPoint position
+        geometry_msgs/Quaternion orientation""",
+    "geographic_msgs/msg/GeoPoseStamped": """
+        std_msgs/Header header
+        geographic_msgs/GeoPose pose""",
+    "geographic_msgs/msg/GeoPath": """
+        std_msgs/Header header
+        geographic_msgs/GeoPoseStamped[] poses""",
     "grid_map_msgs/msg/GridMapInfo": """
         float64 resolution
         float64 length_x

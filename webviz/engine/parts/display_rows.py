@@ -38,12 +38,12 @@ def _row(entry: Entry, statuses_of: Callable[[Runner], Mapping[str, Status]]) ->
     kind = type_name(type(own))
     statuses: Mapping[str, Status] = {}
     offered: Mapping[str, Mapping[str, int]] = {}
-    scale = None
+    scale, attribution = None, ""
     if isinstance(content, Runner) and entry.is_enabled:
         statuses, scale = statuses_of(content), content.color_scale()
-        offered = content.offered()
+        offered, attribution = content.offered(), content.attribution()
     common = (entry.id, kind, own, own.name, statuses, entry.depth, own.enabled, scale)
-    return Row(*common, entry.revision, offered)
+    return Row(*common, entry.revision, offered, attribution)
 
 
 def _summary(rows: Iterable[Row]) -> dict[str, Status]:

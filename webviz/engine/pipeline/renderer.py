@@ -70,6 +70,7 @@ class Renderer:
         self._state: Any = _NO_STATE
         self._statuses: dict[str, dict[str, Status]] = {}
         self._scales: dict[str, ColorScale | None] = {}
+        self._attributions: dict[str, str] = {}
         self._offered: dict[str, Mapping[str, Mapping[str, int]]] = {}
         self._drawn: dict[str, dict[int, Look | None]] = {}
         """By input and slot; None for what is outdated."""
@@ -136,6 +137,7 @@ class Renderer:
         self._state = _NO_STATE
         self._statuses.clear()
         self._scales.clear()
+        self._attributions.clear()
         self._offered.clear()
         samples = [_scope(name, slot) for name, drawn in self._drawn.items() for slot in drawn]
         for hook, scopes in (("draw", samples), ("draw_all", ["all"]), ("tick", ["tick"])):
@@ -196,6 +198,10 @@ class Renderer:
         """Return the colour scale that the hooks reported when they were last called."""
         return next((scale for scale in self._scales.values() if scale is not None), None)
 
+    def attribution(self) -> str:
+        """Return the credit that the hooks gave when they were last called, "" if none."""
+        return next(filter(None, self._attributions.values()), "")
+
     def offered(self) -> dict[str, Mapping[str, int]]:
         """Names for switches by property, as the hooks said when they were last called."""
         return {path: names for said in self._offered.values() for path, names in said.items()}
@@ -250,6 +256,7 @@ class Renderer:
         if not samples:
             self._statuses.pop(_status_source(name), None)
             self._scales.pop(_status_source(name), None)
+            self._attributions.pop(_status_source(name), None)
             self._offered.pop(_status_source(name), None)
 
     def _send(self, name: str, display: Display, held: Held, look: Look, frames: Frames) -> None:
@@ -313,6 +320,7 @@ class Renderer:
         self._diff.replace(scope, context, samples)
         self._statuses[source or scope] = context.statuses
         self._scales[source or scope] = context.color_scale
+        self._attributions[source or scope] = context.attribution
         self._offered[source or scope] = context.offered
 
 

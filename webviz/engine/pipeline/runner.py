@@ -172,6 +172,10 @@ class Runner:
         """Return the range of values that colours stand for, None if none is visible."""
         return None if self._renderer.is_empty() else self._renderer.color_scale()
 
+    def attribution(self) -> str:
+        """Return whom to credit for what is visible, "" if nobody."""
+        return "" if self._renderer.is_empty() else self._renderer.attribution()
+
     def consistency_input(self, frames: Frames) -> ConsistencyInput | None:
         """Return the inputs of the consistency check; None if nothing of it can be seen."""
         if self._comparable is None or self._renderer.is_empty():

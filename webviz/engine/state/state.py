@@ -44,6 +44,7 @@ class Row:
         color_scale: the meaning of its colours.
         revision: how often the display was changed, which is the same object then.
         offered: names for switches, see `Context.offered`.
+        attribution: whom to credit for what it draws.
     """
 
     id: str
@@ -56,6 +57,7 @@ class Row:
     color_scale: ColorScale | None = None
     revision: int = 0
     offered: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
+    attribution: str = ""
 
     @property
     def level(self) -> Level:

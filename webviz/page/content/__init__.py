@@ -22,7 +22,7 @@ from webviz.page.content.panes import panes
 from webviz.page.content.playback import bookmarks, density, events, playback, recorded
 from webviz.page.content.properties import properties, statuses, topics_of
 from webviz.page.content.recording import black_box, recording
-from webviz.page.content.scene import legend, watchers
+from webviz.page.content.scene import attributions, legend, watchers
 from webviz.page.content.selection import picking, reported, selected, selection
 from webviz.page.content.store import PageStore
 from webviz.page.content.tools import driving, tool
@@ -34,6 +34,7 @@ from webviz.page.content.views import view, views
 from webviz.page.content.what_if import what_if
 
 MAKERS: Mapping[str, Callable[[State, str], PageStore | None]] = {
+    "attributions": attributions,
     "between": between,
     "black_box": black_box,
     "bookmarks": bookmarks,

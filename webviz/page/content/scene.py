@@ -31,6 +31,12 @@ class LegendStore(PageStore, frozen=True):
     scales: Mapping[str, Scale]
 
 
+class AttributionsStore(PageStore, frozen=True):
+    """Whom to credit for what displays draw."""
+
+    texts: Sequence[str]
+
+
 class WatchersStore(PageStore, frozen=True):
     """Number of browsers that watch the scene."""
 
@@ -52,6 +58,13 @@ def legend(state: State, _: str) -> LegendStore:
             for row in state.rows
             if (scale := row.color_scale) is not None
         }
+    )
+
+
+def attributions(state: State, _: str) -> AttributionsStore:
+    """Each credit once, in the order of the displays."""
+    return AttributionsStore(
+        tuple(dict.fromkeys(filter(None, (r.attribution for r in state.rows))))
     )
 
 

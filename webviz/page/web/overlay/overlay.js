@@ -2,6 +2,7 @@
 
 import { places } from "../shell/shell.js";
 import { videoButton } from "../shell/video.js";
+import * as attribution from "./attribution.js";
 import * as gizmo from "./gizmo.js";
 import * as legend from "./legend.js";
 import * as pointer from "./pointer.js";
@@ -32,4 +33,5 @@ export function install() {
   overlay("pointer", "pointer", pointer.build());
   overlay("legend", "legend", legend.build());
   overlay("legend", "scale bar", scaleBar.build());
+  overlay("legend", "attribution", attribution.build());
 }

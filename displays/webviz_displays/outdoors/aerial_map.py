@@ -1,0 +1,182 @@
+"""The AerialMap display."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Annotated
+
+import numpy as np
+
+from webviz import Context, Details, Display, Hit, Image, Lookback, Pose, Prop, Sample, Topic
+from webviz.data.geo import MAX_LATITUDE, MAX_ZOOM, Geodetic, TilePlane, to_utm
+from webviz.data.tiles import Cells, TileError
+from webviz.data.words import counted
+from webviz_displays.map.display import BEHIND
+from webviz_displays.outdoors.fixes import FIX, fault_of, place_of
+from webviz_displays.outdoors.loading import Tile, TileLoading
+from webviz_displays.shared.colors import Alpha
+from webviz_displays.shared.opaque import opaque
+
+MAX_BLOCKS = 8
+"""17 x 17 tiles, 76 MB of pixels (the limit of rviz_satellite)."""
+
+
+@dataclass
+class _State:
+    """Kept between fixes.
+
+    Args:
+        loading: of the chosen tiles.
+        drawn: nodes of tiles by number, with the opacity and size for which they were made.
+        look: those.
+    """
+
+    loading: TileLoading | None = None
+    drawn: dict[Tile, Image] = field(default_factory=dict)
+    look: tuple[object, ...] = ()
+
+
+class AerialMap(Display):
+    """Map tiles, such as aerial pictures, around a satellite receiver."""
+
+    rviz = "rviz_satellite/AerialMap"
+    icon = "map"
+
+    topic: Annotated[Topic, FIX, Prop(help="Topic of the receiver's fixes.")] = Topic("/gps/fix")
+    alpha: Annotated[Alpha, Prop(help="Opacity of the map; 0 is invisible.")] = 0.7
+    draw_behind: Annotated[bool, Prop(help="Draw below all maps, whatever the order.")] = False
+    object_uri: Annotated[
+        str,
+        Prop(
+            rviz="Object URI",
+            help="Tiles: an .mbtiles or .pmtiles file, a folder, or an address with {z}, {x} and "
+            "{y}. Servers must be allowed: WEBVIZ_TILE_SERVERS=https://tiles.example/",
+        ),
+    ] = ""
+    zoom: Annotated[
+        int, Prop(ge=0, le=MAX_ZOOM, help="Level of detail; a tile of level 16 is 611 m wide.")
+    ] = 16
+    blocks: Annotated[
+        int, Prop(ge=0, le=MAX_BLOCKS, help="Number of tiles to each side of the receiver.")
+    ] = 3
+    timeout: Annotated[
+        float, Prop(gt=0, le=60, unit="s", help="Time that a server has for each tile.")
+    ] = 3.0
+
+    def new_state(self) -> _State:
+        """Without tiles."""
+        return _State()
+
+    def lookback(self, name: str) -> Lookback:
+        """The newest fix."""
+        return Lookback(count=1)
+
+    def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
+        """Draw the tiles around the newest fix; x of the fixed frame is east, y is north."""
+        if not samples:
+            return
+        fault = fault_of(samples[-1].message)
+        if fault:
+            ctx.error("Fix", fault)
+            return
+        place = place_of(samples[-1].message)
+        if abs(place.latitude) > MAX_LATITUDE:
+            ctx.error("Fix", f"Map tiles end at a latitude of {MAX_LATITUDE:.2f}°.")
+            return
+        if not self.object_uri:
+            ctx.warn("Tiles", "No tiles are chosen. Enter a file, folder or address in Object URI.")
+            return
+        if self.alpha == 0:
+            ctx.warn("Tiles", "Invisible: alpha is 0. Increase it to show the map.", opaque())
+            return
+        # Places of tiles depend on the tile around the fix only: a new fix moves one group.
+        here = TilePlane(place, self.zoom)
+        column, row = (int(each) for each in here.center)
+        plane = TilePlane(_middle(column, row, here), self.zoom)
+        wanted = {(self.zoom, x % plane.count, y): (x, y) for x, y in plane.around(self.blocks)}
+        state: _State = ctx.state
+        loading = state.loading
+        if loading is None or (loading.address, loading.timeout_s) != (
+            self.object_uri,
+            self.timeout,
+        ):
+            loading = state.loading = TileLoading(self.object_uri, self.timeout)
+        try:
+            is_complete = loading.load(list(wanted), ctx)
+        except TileError as error:
+            ctx.error("Tiles", str(error))
+            return
+        self._draw(wanted, plane, here, samples[-1].pose, ctx)
+        self._report(loading, is_complete, len(wanted), ctx)
+
+    def _draw(
+        self,
+        wanted: dict[Tile, tuple[int, int]],
+        plane: TilePlane,
+        here: TilePlane,
+        pose: Pose,
+        ctx: Context,
+    ) -> None:
+        """Draw the tiles that are loaded, so that the fix lies where its frame is."""
+        state: _State = ctx.state
+        assert state.loading is not None
+        width, height = plane.size
+        (x, y), (middle_x, middle_y) = here.center, plane.center
+        east, north, up = pose.position
+        offset = (east - (x - middle_x) * width, north - (middle_y - y) * height, up)
+        group = ctx.follow(None, offset=Pose(offset), key="tiles")
+        layer = ctx.order - (BEHIND if self.draw_behind else 0)
+        look = (self.object_uri, self.alpha, width, height, layer)
+        if state.look != look:
+            state.look, state.drawn = look, {}
+        tiles = state.loading.tiles
+        state.drawn = {tile: node for tile, node in state.drawn.items() if tile in tiles}
+        for tile, at in wanted.items():
+            cells = tiles.get(tile)
+            if cells is None:
+                continue
+            if tile not in state.drawn:
+                state.drawn[tile] = Image(_faded(cells, self.alpha), width, height, layer)
+            key = "/".join(map(str, tile))
+            group.add(key, state.drawn[tile], Pose((*plane.corner(*at), 0.0)))
+
+    def _report(self, loading: TileLoading, is_complete: bool, count: int, ctx: Context) -> None:
+        shown = sum(cells is not None for cells in loading.tiles.values())
+        credit = loading.source.attribution if loading.source else ""
+        ctx.attribution = credit if shown else ""
+        if not is_complete:
+            ctx.warn("Tiles", f"Loading: {len(loading.tiles)} of {counted(count, 'tile')}.")
+        elif loading.failures:
+            reason = next(iter(loading.failures.values()))
+            ctx.warn("Tiles", f"Showing {shown} of {counted(count, 'tile')}. {reason}")
+        elif not shown:
+            ctx.warn(
+                "Tiles",
+                f"The map has no tiles of level {self.zoom} here. Choose another zoom or map.",
+            )
+        else:
+            ctx.ok("Tiles", f"Showing {counted(shown, 'tile')}.")
+
+    def inspect(self, hit: Hit, ctx: Context) -> Details:
+        """The tile, and the newest fix."""
+        fix = place_of(hit.samples[-1].message)
+        values = {"Latitude": f"{fix.latitude:.7f}°", "Longitude": f"{fix.longitude:.7f}°"}
+        if (utm := to_utm(*fix[:2])) is not None:
+            values["UTM"] = str(utm)
+        return Details(f"Tile {hit.key}", values)
+
+
+def _middle(column: int, row: int, plane: TilePlane) -> Geodetic:
+    """The middle of a tile."""
+    y = np.pi * (1.0 - 2.0 * (row + 0.5) / plane.count)
+    latitude = float(np.degrees(np.arctan(np.sinh(y))))
+    return Geodetic(latitude, (column + 0.5) / plane.count * 360.0 - 180.0)
+
+
+def _faded(cells: Cells, alpha: float) -> Cells:
+    if alpha >= 1.0:
+        return cells
+    faded = cells.copy()
+    faded[..., 3] = np.round(cells[..., 3] * np.float32(alpha))
+    return faded

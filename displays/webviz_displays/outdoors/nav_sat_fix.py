@@ -1,0 +1,83 @@
+"""The NavSatFix display."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Annotated
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz import Color, Context, Details, Display, Hit, Pose, Prop, Sample, Topic
+from webviz.data.geo import to_enu, to_utm
+from webviz.data.words import counted
+from webviz_displays.outdoors.fixes import FIX, fault_of, place_of
+from webviz_displays.shared.geometry import LONGEST, Length, is_drawable
+from webviz_displays.shared.history import HistoryLength
+
+UNKNOWN = 0
+"""`position_covariance_type` without a covariance."""
+CIRCLE = np.linspace(0.0, math.tau, 49)
+
+
+class NavSatFix(Display):
+    """Where a satellite receiver says it is, and was."""
+
+    icon = "target"
+
+    topic: Annotated[Topic, FIX, Prop(help="Topic of the fixes.")] = Topic("/gps/fix")
+    color: Annotated[Color, Prop(help="Colour of the fixes.")] = (255, 140, 0)
+    radius: Annotated[Length, Prop(help="Radius of each fix.")] = 0.2
+    show_covariance: Annotated[
+        bool, Prop(help="Draw the standard deviation of the newest fix as an ellipse.")
+    ] = True
+    history_length: HistoryLength = 100
+
+    def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
+        """Draw fixes relative to the newest, which lies where its frame is."""
+        if not samples:
+            return
+        newest = samples[-1]
+        if fault := fault_of(newest.message):
+            ctx.error("Fix", fault)
+            return
+        known = [each for each in samples if not fault_of(each.message)]
+        origin = place_of(newest.message)
+        xyz = to_enu([place_of(each.message) for each in known], origin)
+        rows = np.flatnonzero(is_drawable(xyz))
+        group = ctx.follow(None, offset=Pose(newest.pose.position), key="fixes")
+        ids = np.array([each.number for each in known])[rows]
+        group.instances("fixes", "sphere", xyz[rows], 2 * self.radius, self.color, ids=ids)
+        if self.show_covariance and newest.message.position_covariance_type != UNKNOWN:
+            ellipse = _ellipse(np.asarray(newest.message.position_covariance, float))
+            if ellipse is None:
+                ctx.warn("Covariance", "The covariance is invalid. Fix the publisher.")
+            else:
+                group.strip("deviation", ellipse, self.color)
+        ctx.ok("Fix", f"Showing {counted(len(rows), 'position')}.")
+
+    def inspect(self, hit: Hit, ctx: Context) -> Details | None:
+        """Latitude, longitude and UTM coordinates."""
+        sample = next((each for each in hit.samples if each.number == hit.id), hit.samples[-1])
+        place = place_of(sample.message)
+        values: dict[str, object] = {
+            "Latitude": f"{place.latitude:.7f}°",
+            "Longitude": f"{place.longitude:.7f}°",
+            "Altitude": f"{place.altitude:.2f} m",
+        }
+        if (utm := to_utm(*place[:2])) is not None:
+            values["UTM"] = str(utm)
+        return Details("Fix", values)
+
+
+def _ellipse(covariance: NDArray[np.float64]) -> NDArray[np.float64] | None:
+    """The standard deviations in the plane, (N, 3) in metres; None if the covariance is invalid."""
+    plane = covariance.reshape(3, 3)[:2, :2]
+    if not np.isfinite(plane).all() or not np.allclose(plane, plane.T):
+        return None
+    squares, axes = np.linalg.eigh(plane)
+    if squares.min() < 0 or squares.max() > LONGEST**2:
+        return None
+    flat = axes @ (np.sqrt(squares)[:, None] * [np.cos(CIRCLE), np.sin(CIRCLE)])
+    return np.column_stack([flat.T, np.zeros(len(CIRCLE))])

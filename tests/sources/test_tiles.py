@@ -1,0 +1,271 @@
+"""Map tiles of files, folders and a server."""
+
+from __future__ import annotations
+
+import contextlib
+import http.server
+import io
+import os
+import sqlite3
+import threading
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import PIL.Image
+import pytest
+from pmtiles.tile import Compression, TileType, zxy_to_tileid
+from pmtiles.writer import Writer
+
+from webviz.data.tiles import TileError, decoded, open_tiles
+from webviz.data.tiles.pmtiles_file import PMTiles
+from webviz.data.tiles.server import VARIABLE, TileCache, TileServer, is_allowed
+
+TIMEOUT_S = 1.0
+
+
+def picture(level: int = 0, kind: str = "PNG", size: int = 4) -> bytes:
+    """A tile whose first row, in the north, is brighter than the others."""
+    cells = np.full((size, size, 3), level, np.uint8)
+    cells[0] += 100
+    file = io.BytesIO()
+    PIL.Image.fromarray(cells).save(file, kind)
+    return file.getvalue()
+
+
+def mbtiles(path: Path, **about: str) -> Path:
+    db = sqlite3.connect(path)
+    db.execute("CREATE TABLE metadata (name text, value text)")
+    db.execute("CREATE TABLE tiles (zoom_level int, tile_column int, tile_row int, tile_data blob)")
+    db.executemany("INSERT INTO metadata VALUES (?, ?)", about.items())
+    db.execute("INSERT INTO tiles VALUES (2, 1, 3, ?)", (picture(),))
+    db.commit()
+    db.close()
+    return path
+
+
+def pmtiles(path: Path, kind: TileType = TileType.PNG) -> Path:
+    with path.open("wb") as file:
+        writer = Writer(file)
+        writer.write_tile(zxy_to_tileid(2, 1, 0), picture())
+        header = {"tile_type": kind, "tile_compression": Compression.NONE}
+        bounds = dict.fromkeys(("min_lon_e7", "min_lat_e7", "max_lon_e7", "max_lat_e7"), 0)
+        writer.finalize(header | bounds, {"attribution": '<a href="x">&copy; Surveyors</a>'})
+    return path
+
+
+def test_rows_of_mbtiles_count_from_the_south(tmp_path: Path) -> None:
+    path = mbtiles(tmp_path / "map.mbtiles", attribution="&copy; <b>Surveyors</b>")
+    tiles = open_tiles(str(path), TIMEOUT_S)
+    assert tiles.read(2, 1, 0) == picture()
+    assert tiles.read(2, 1, 3) is None
+    assert tiles.attribution == "© Surveyors"
+
+
+def test_tiles_of_pmtiles_are_found_by_their_directories(tmp_path: Path) -> None:
+    tiles = open_tiles(str(pmtiles(tmp_path / "map.pmtiles")), TIMEOUT_S)
+    assert tiles.read(2, 1, 0) == picture()
+    assert tiles.read(2, 1, 1) is None
+    assert tiles.attribution == "© Surveyors"
+
+
+def test_folders_and_patterns_of_paths_hold_files(tmp_path: Path) -> None:
+    (tmp_path / "2/1").mkdir(parents=True)
+    (tmp_path / "2/1/0.jpg").write_bytes(picture(kind="JPEG"))
+    for address in (f"{tmp_path}", f"{tmp_path}/{{z}}/{{x}}/{{y}}.jpg", f"file://{tmp_path}"):
+        tiles = open_tiles(address, TIMEOUT_S)
+        assert tiles.read(2, 1, 0) == picture(kind="JPEG")
+        assert tiles.read(2, 0, 0) is None
+
+
+def test_pixels_begin_in_the_south() -> None:
+    cells = decoded(picture())
+    assert cells[:, 0, 0].tolist() == [0, 0, 0, 100]
+    assert (cells[..., 3] == 255).all()
+
+
+@pytest.mark.parametrize(
+    ("content", "reason"),
+    [
+        (b"", "The compressed image is empty"),
+        (b"\x1f\x8b vectors", "A tile cannot be shown."),
+        (picture()[:48], "damaged"),
+        (picture(size=1025), "1025 x 1025 pixels; the limit is 1024."),
+    ],
+    ids=["empty", "vectors", "cut off", "too large"],
+)
+def test_what_is_no_picture_is_refused(content: bytes, reason: str) -> None:
+    with pytest.raises(TileError, match=reason):
+        decoded(content)
+
+
+@pytest.mark.parametrize(
+    ("address", "reason"),
+    [
+        ("nowhere.mbtiles", "does not exist"),
+        ("ftp://maps/{z}/{x}/{y}", "ftp:// are not supported"),
+        ("https://maps.example/tiles", "needs {z}, {x} and {y}"),
+        ("a\0b", "not valid"),
+        ("x" * 5000, "cannot be read"),
+    ],
+)
+def test_what_is_no_source_is_refused(address: str, reason: str) -> None:
+    with pytest.raises(TileError, match=reason):
+        open_tiles(address, TIMEOUT_S)
+
+
+def test_damaged_and_hostile_files_are_refused_soon(tmp_path: Path) -> None:
+    path = tmp_path / "map.mbtiles"
+    path.write_bytes(b"SQLite format 3\0" + os.urandom(2000))
+    with pytest.raises(TileError):
+        open_tiles(str(path), TIMEOUT_S)
+    endless = tmp_path / "endless.mbtiles"
+    db = sqlite3.connect(endless)
+    db.execute(
+        "CREATE VIEW metadata AS WITH RECURSIVE n(name) AS (SELECT 1 UNION ALL SELECT name + 1 "
+        "FROM n) SELECT name, 1 AS value FROM n WHERE name < 0"
+    )
+    db.close()
+    start = time.monotonic()
+    with pytest.raises(TileError, match=r"endless\.mbtiles"):
+        open_tiles(str(endless), TIMEOUT_S)
+    assert time.monotonic() - start < 60.0
+    with pytest.raises(TileError, match="vector tiles"):
+        open_tiles(str(mbtiles(tmp_path / "vector.mbtiles", format="pbf")), TIMEOUT_S)
+    with pytest.raises(TileError, match="vector tiles"):
+        open_tiles(str(pmtiles(tmp_path / "vector.pmtiles", TileType.MVT)), TIMEOUT_S)
+
+
+def test_a_pmtiles_file_that_is_cut_or_changed_anywhere_is_a_sentence(tmp_path: Path) -> None:
+    whole = pmtiles(tmp_path / "map.pmtiles").read_bytes()
+    path = tmp_path / "bad.pmtiles"
+    random = np.random.default_rng(0)
+    for _ in range(300):
+        data = bytearray(whole)
+        for at in random.integers(0, min(len(data), 400), 3):
+            data[at] = random.integers(256)
+        path.write_bytes(data[: random.integers(len(data))] if random.random() < 0.3 else data)
+        with contextlib.suppress(TileError):
+            PMTiles(path).read(2, 1, 0)
+
+
+class Answers(http.server.BaseHTTPRequestHandler):
+    """A server of tiles, some of which are traps."""
+
+    asked: list[str]
+
+    def do_GET(self) -> None:
+        self.asked.append(self.path)
+        if self.path.startswith("/away/"):
+            self.send_response(302)
+            self.send_header("Location", "/tiles/2/1/0")
+            self.end_headers()
+        elif self.path.startswith("/tiles/2/1/"):
+            self.send_response(200)
+            self.end_headers()
+            self.wfile.write(picture())
+        elif self.path.startswith("/slow/"):
+            self.send_response(200)
+            self.end_headers()
+            for _ in range(100):
+                self.wfile.write(b"x")
+                self.wfile.flush()
+                time.sleep(0.05)
+        elif self.path.startswith("/endless/"):
+            self.send_response(200)
+            self.end_headers()
+            for _ in range(10_000):
+                self.wfile.write(bytes(1 << 16))
+        else:
+            self.send_error(404 if self.path.startswith("/tiles/") else 500)
+
+    def log_message(self, format: str, *args: object) -> None:
+        """Nothing."""
+
+
+class Serving(http.server.ThreadingHTTPServer):
+    """Clients that have enough hang up, which is no error."""
+
+    def handle_error(self, request: object, client_address: object) -> None:
+        """Nothing."""
+
+
+@pytest.fixture
+def server(monkeypatch: pytest.MonkeyPatch) -> Iterator[tuple[str, list[str]]]:
+    asked: list[str] = []
+    handler = type("Own", (Answers,), {"asked": asked})
+    with Serving(("127.0.0.1", 0), handler) as served:
+        threading.Thread(target=served.serve_forever, daemon=True).start()
+        address = f"http://127.0.0.1:{served.server_port}"
+        monkeypatch.setenv(VARIABLE, f"https://other.example {address}/")
+        yield address, asked
+        served.shutdown()
+
+
+def test_a_server_is_asked_once_for_each_tile(
+    server: tuple[str, list[str]], tmp_path: Path
+) -> None:
+    address, asked = server
+    tiles = TileServer(f"{address}/tiles/{{z}}/{{x}}/{{y}}", TIMEOUT_S, tmp_path)
+    assert [tiles.read(2, 1, 0), tiles.read(2, 1, 0)] == [picture()] * 2
+    assert asked == ["/tiles/2/1/0"]
+    assert tiles.read(9, 9, 9) is None
+    again = TileServer(f"{address}/tiles/{{z}}/{{x}}/{{y}}", TIMEOUT_S, tmp_path)
+    assert again.read(2, 1, 0) == picture()
+    assert len(asked) == 2
+    assert tiles.attribution == "127.0.0.1"
+
+
+@pytest.mark.parametrize(
+    ("path", "reason"),
+    [
+        ("away", "HTTP status 302"),
+        ("broken", "HTTP status 500"),
+        ("slow", "does not answer: timed out"),
+        ("endless", "more than 4194304 bytes"),
+    ],
+)
+def test_what_a_server_does_wrong_is_a_sentence(
+    server: tuple[str, list[str]], tmp_path: Path, path: str, reason: str
+) -> None:
+    tiles = TileServer(f"{server[0]}/{path}/{{z}}/{{x}}/{{y}}", 0.3, tmp_path)
+    with pytest.raises(TileError, match=reason):
+        tiles.read(2, 1, 0)
+    assert len(server[1]) == 1, "a redirect is not followed"
+
+
+def test_nothing_is_loaded_from_a_server_that_nobody_allowed(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.delenv(VARIABLE, raising=False)
+    with pytest.raises(TileError, match=rf"Restart with {VARIABLE}=https://maps\.example/"):
+        open_tiles("https://maps.example/{z}/{x}/{y}.png", TIMEOUT_S)
+
+
+@pytest.mark.parametrize(
+    ("address", "is_so"),
+    [
+        ("https://maps.example/a/{z}", True),
+        ("https://maps.example/b/{z}", False),
+        ("http://maps.example/a/{z}", False),
+        ("https://maps.example.evil/a/{z}", False),
+        ("https://maps.example:444/a/{z}", False),
+        ("https://user@maps.example/a/{z}", False),
+        ("https://{x}.maps.example/a/{z}", False),
+        ("file:///etc/passwd", False),
+    ],
+)
+def test_an_allowed_server_allows_no_other(address: str, is_so: bool) -> None:
+    assert is_allowed(address, ["https://maps.example/a/"]) == is_so
+
+
+def test_the_oldest_tiles_go_when_the_cache_is_full(tmp_path: Path) -> None:
+    cache = TileCache(tmp_path, "https://maps.example", limit=250)
+    for number in range(4):
+        cache.write(1, number, 0, bytes(100))
+        path = next(tmp_path.rglob(f"1/{number}/0"))
+        at = time.time() + number - 10
+        os.utime(path, (at, at))
+    cache.prune()
+    assert [cache.read(1, number, 0) is not None for number in range(4)] == [0, 0, 1, 1]

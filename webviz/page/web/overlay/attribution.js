@@ -1,0 +1,15 @@
+// Whom to credit for what the scene shows, such as the makers of a map.
+
+import { el, setText } from "../dom.js";
+import { watch } from "../stores.js";
+
+export function build() {
+  const line = el("div", { class: "wv-card wv-attribution" });
+  line.hidden = true;
+  watch("attributions", (values) => {
+    const texts = values.get("texts") ?? [];
+    line.hidden = !texts.length;
+    setText(line, texts.join(" · "));
+  });
+  return line;
+}
