@@ -18,7 +18,7 @@ from webviz.engine.commands import Refresh
 from webviz.engine.parts import black_box
 from webviz.engine.state import State
 from webviz.engine.watch import RuleWatcher, TopicObserver, WatchedMoment
-from webviz.engine.watch.observation import DIAGNOSTICS, LOG
+from webviz.engine.watch.observation import DIAGNOSTICS, LOG, SPAN_S
 from webviz.engine.watch.rules import REARM_S
 from webviz.files.config import ConfigError, WatchLimits, WatchRule, dump
 from webviz.files.opening import parse
@@ -200,6 +200,22 @@ def test_no_more_is_saved_than_the_limits_allow(make: Callable[..., Bench]) -> N
         "watch_limits.per_day."
     )
     assert not Path("webviz_black_box").exists()
+
+
+def test_a_driver_that_crashes_fires_a_rule_about_its_rate(make: Callable[..., Bench]) -> None:
+    bench = make(WatchRule(topic="/path", rate="<5"))
+    bench.do(Refresh())
+    began_s = time.monotonic() - SPAN_S
+    for tenths in range(round(SPAN_S * 10)):
+        bench.source.inbox.put("/path", Raw(b"", 0, began_s + tenths / 10))
+    bench.turn()
+    del bench.source.known["/path"]
+    (path,) = saved(bench)
+    assert path.name.endswith("_path_rate_5")
+    recording = open_recording(path)
+    assert recording.span_ns
+    assert len(list(recording.messages(recording.channels, *recording.span_ns))) == 30
+    recording.close()
 
 
 def test_a_recording_that_was_cut_off_is_listed(make: Callable[..., Bench]) -> None:

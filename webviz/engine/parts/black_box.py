@@ -80,6 +80,8 @@ class BlackBoxPart(Part):
         self._observer = TopicObserver()
         self._watcher = RuleWatcher(())
         self._subscriber = Subscriber()
+        self._types: dict[str, list[str]] = {}
+        """The last type of each topic of the rules, in a list."""
         self._rows: Sequence[Row] = ()
         self._verdicts: Sequence[Verdict] = ()
         self._saving: _Saving | None = None
@@ -97,7 +99,9 @@ class BlackBoxPart(Part):
             offer = self.core.offers.get(name)
             types = [publisher.type for publisher in offer.publishers] if offer else []
             types = [each for each in types if not rule.level or each in LEVEL_TYPES]
-            if types:
+            # A driver that crashes takes its topic along: that is what a rule is to notice.
+            if types := types or self._types.get(name, []):
+                self._types[name] = types[:1]
                 wanted[name] = Subscription(types[0], Topic(name))
         return self._subscriber.subscribe(wanted)
 
@@ -113,6 +117,7 @@ class BlackBoxPart(Part):
             return
         if self._watcher.rules != settings.watch:
             self._watcher = RuleWatcher(settings.watch)
+            self._types.clear()
             self._problem = ""
             self._list()
         if not self._watcher.rules:

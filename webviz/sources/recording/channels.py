@@ -36,6 +36,8 @@ class Channels:
         self._known: dict[str, RecordedChannel] = {}
         self._seen: Mapping[str, Offer] = {}
         self._latched: dict[str, int] = {}
+        self._last: dict[str, Offer] = {}
+        """Of topics that had publishers."""
 
     def __len__(self) -> int:
         return len(self._known)
@@ -45,6 +47,8 @@ class Channels:
         channel = self._known.get(topic)
         if channel is None:
             offer = self._offers().get(topic)
+            if offer is None or not offer.publishers:  # they ended, but their messages are here
+                offer = self._last.get(topic, offer)
             publishers = offer.publishers if offer else ()
             type_ = (offer.type if offer else "") or _type_of(publishers)
             if not type_:
@@ -53,11 +57,13 @@ class Channels:
         return channel
 
     def look(self) -> None:
-        """Note which topics are latched; to be called now and then, since publishers may end."""
+        """Note what topics are; to be called now and then, since publishers may end."""
         offers = self._offers()
         if offers is self._seen:
             return
         for topic, offer in offers.items():
+            if offer.publishers:
+                self._last[topic] = offer
             if topic == ROSOUT:
                 continue  # latched by every node, but nothing that is still so
             count = sum(each.durability == "transient_local" for each in offer.publishers)
