@@ -181,7 +181,6 @@ def test_buttons_and_keys_step_play_and_loop(loop: Loop, timeline: Tab) -> None:
     timeline.wait_for_command(SetRate(0))
     timeline.button("Loop").click()
     timeline.wait_for_command(SetLoop(True))
-    page.evaluate("document.activeElement.blur()")
     page.keyboard.press("ArrowLeft")
     timeline.wait_for_command(StepMessage("", False))
     page.keyboard.press("Shift+ArrowRight")

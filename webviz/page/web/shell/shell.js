@@ -6,6 +6,7 @@ import * as docks from "../docks/docks.js";
 import * as layoutMenu from "../docks/layout_menu.js";
 import * as dock from "../images/dock.js";
 import * as actions from "./actions.js";
+import { keepKeysFree } from "./click_focus.js";
 import * as commands from "./commands.js";
 import * as displayCommands from "./display_commands.js";
 import * as drop from "./drop.js";
@@ -49,6 +50,8 @@ function build() {
   scene.append(banner(), whatIf());
   toasts.install(scene);
   timeBar.build(places.time);
+  keepKeysFree(places.time);
+  keepKeysFree(places.toolbar);
   side.append(header.build(), ...tabs(), layout.border(side));
   const shade = el("div", { class: "wv-shade", onclick: () => layout.fold(true) });
   const page = el("div", { id: "webviz" }, scene, shade, side, places.time);
