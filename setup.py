@@ -138,6 +138,7 @@ setup(
             "MessageTable = webviz.panels.table:MessageTable",
             "MotionPlanningTasks = webviz.panels.planning_tasks:MotionPlanningTasks",
             "Nav2 = webviz.panels.nav2:Nav2",
+            "NodeGraph = webviz.panels.graph:NodeGraph",
             "Parameters = webviz.panels.parameters:Parameters",
             "Plot = webviz.panels.plot:Plot",
             "PublishMessage = webviz.panels.publish:PublishMessage",

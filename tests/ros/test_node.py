@@ -103,6 +103,13 @@ def test_auto_asks_for_what_the_publisher_offers(
 
     until(heard_it, "a message arrives")
     until(lambda: source.offers()["/words"].subscribers == 1, "our subscription counts")
+    ours = ("/webviz", "std_msgs/msg/String", reliability, durability)
+
+    def readers() -> list[tuple[str, ...]]:
+        found = source.offers()["/words"].readers
+        return [(each.node, each.type, each.reliability, each.durability) for each in found]
+
+    until(lambda: readers() == [ours], "our subscription is known")
     assert source.clock_messages() is None
 
 

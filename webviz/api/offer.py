@@ -10,13 +10,13 @@ Durability = Literal["volatile", "transient_local"]
 
 
 @dataclass(frozen=True)
-class Publisher:
-    """A publisher of a topic.
+class Endpoint:
+    """A publisher or a subscription of a topic.
 
     Args:
         node: full node name, "" for a DDS program without a ROS node.
         type: message type.
-        reliability, durability: offered QoS.
+        reliability, durability: offered or requested QoS.
         endpoint: its identity, which changes when its node is started again; b"" if unknown.
     """
 
@@ -33,6 +33,11 @@ class Publisher:
 
 
 @dataclass(frozen=True)
+class Publisher(Endpoint):
+    """A publisher of a topic."""
+
+
+@dataclass(frozen=True)
 class Offer:
     """Publishers and QoS of one topic.
 
@@ -43,6 +48,8 @@ class Offer:
         type: of our subscription, "" without one; a topic can be read as one type only.
         subscribers: their number, webviz included; None if unknown.
         is_recorded: whether it is of a bag, whose messages match any QoS.
+        readers: the subscriptions, with the QoS that they request, webviz's among them; empty if
+            unknown.
         begins: when the first message of a bag comes, such as "the bag's first is at 0.8 s"; "" for
             live topics.
     """
@@ -54,3 +61,4 @@ class Offer:
     subscribers: int | None = None
     is_recorded: bool = False
     begins: str = ""
+    readers: tuple[Endpoint, ...] = ()

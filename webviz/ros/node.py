@@ -29,7 +29,7 @@ from webviz.ros.guard_condition import GuardCondition
 from webviz.ros.heap import Heap
 from webviz.ros.shared_memory import remove_abandoned
 from webviz.ros.types import learn, message_class
-from webviz.sources import Inbox, Offer, Publisher, Raw, Subscription
+from webviz.sources import Endpoint, Inbox, Offer, Publisher, Raw, Subscription
 from webviz.sources.inbox import MAX_TOTAL
 
 REST_S = 0.5
@@ -38,6 +38,8 @@ events executor of rclpy 7.1.6 spins at full load in an unlimited wait."""
 PENDING_S = 0.05
 """The same while calls are pending."""
 GRAPH_POLL_S = 2.0
+READERS_EVERY = 5
+"""Polls between readings of subscriptions whose number has not changed."""
 INBOX_LIMIT = 1000
 MAX_MESSAGE = MAX_TOTAL
 """Bytes, the same as of a bag."""
@@ -92,6 +94,7 @@ class RosSource:
         self._held: dict[str, _Held] = {}
         self._offers: dict[str, Offer] = {}
         self._problems: dict[str, str] = {}
+        self._looks = 0
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run, name="webviz-ros", daemon=True)
         self._thread.start()
@@ -176,6 +179,8 @@ class RosSource:
             Whether any of them has changed.
         """
         offers = {}
+        self._looks += only is None
+        is_due = only is None and self._looks % READERS_EVERY == 0
         for topic in topics:
             known = self._offers.get(topic)
             if only is not None and known is not None and topic not in only:
@@ -187,10 +192,16 @@ class RosSource:
             else:
                 infos = self._node.get_publishers_info_by_topic(topic)
                 publishers = tuple(sorted(map(_publisher, infos), key=lambda p: (p.node, p.type)))
+            readers = known.readers if known else ()
+            if len(readers) != subscribers or topic in self._held or is_due:
+                found = self._node.get_subscriptions_info_by_topic(topic)
+                readers = tuple(sorted(map(_endpoint, found), key=lambda each: each.node))
             held = self._held.get(topic)
             problem = self._problems.get(topic, "")
             policies, type_ = (held.policies, held.wish.type) if held else (None, "")
-            offers[topic] = Offer(publishers, policies, problem, type_, subscribers)
+            offers[topic] = Offer(
+                publishers, policies, problem, type_, subscribers, readers=readers
+            )
         if offers == self._offers:
             return False
         self._offers = offers
@@ -294,12 +305,16 @@ def _executor(context: Context) -> Executor:
 
 
 def _publisher(info: TopicEndpointInfo) -> Publisher:
+    return Publisher(**vars(_endpoint(info)))
+
+
+def _endpoint(info: TopicEndpointInfo) -> Endpoint:
     # A publisher outside of ROS has a placeholder as its node name.
     name = "" if info.node_name.startswith("_") else info.node_name
     policies = info.qos_profile
     is_reliable = policies.reliability == ReliabilityPolicy.RELIABLE
     is_latched = policies.durability == DurabilityPolicy.TRANSIENT_LOCAL
-    return Publisher(
+    return Endpoint(
         node=f"{info.node_namespace.rstrip('/')}/{name}" if name else "",
         type=info.topic_type,
         reliability="reliable" if is_reliable else "best_effort",

@@ -1,6 +1,6 @@
 """Sources of messages: a live ROS graph or a bag, behind one interface."""
 
-from webviz.api.offer import Offer, Publisher
+from webviz.api.offer import Endpoint, Offer, Publisher
 from webviz.sources.gate import AllowList, Gate, Rights
 from webviz.sources.graph import Advertisement, Goal, Graph, Missing, NotConnected, ReadOnly
 from webviz.sources.inbox import Inbox, Raw
@@ -10,6 +10,7 @@ from webviz.sources.subscriber import Subscriber
 __all__ = [
     "Advertisement",
     "AllowList",
+    "Endpoint",
     "Gate",
     "Goal",
     "Graph",

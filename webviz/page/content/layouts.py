@@ -53,7 +53,7 @@ class LayoutStore(PageStore, frozen=True):
 
 
 def layout(state: State, name: str) -> LayoutStore:
-    """The layout that browsers show, or the saved one of this name if there is one."""
+    """Return the layout that browsers show, or the saved one of this name if there is one."""
     settings = state.settings
     shown = settings.layouts.get(name, settings.layout)
     saved = [

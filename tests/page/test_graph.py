@@ -1,0 +1,117 @@
+"""The panel Graph in a real browser: what is drawn, folded, searched and saved."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ElementTree
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from tests.page.conftest import Loop, Tab
+from tests.page.test_daily_panels import open_panel
+from webviz.engine.state import Traffic
+from webviz.panels.graph import MAX_TOPICS, NodeGraph, mismatch
+from webviz.sources import Endpoint, Offer, Publisher
+
+HOSTILE = "/<img src=x onerror=alert(1)>"
+TYPE = "std_msgs/msg/String"
+
+
+@pytest.fixture(autouse=True)
+def _close(loop: Loop, tab: Tab) -> Iterator[None]:
+    yield
+    loop.show(panels=(), offers={}, traffic={})
+    tab.show_tab("Displays")
+
+
+def publisher(node: str, reliability: str = "best_effort") -> Publisher:
+    return Publisher(node, TYPE, reliability, "volatile")  # pyright: ignore[reportArgumentType]
+
+
+def reader(node: str, reliability: str = "best_effort", durability: str = "volatile") -> Endpoint:
+    return Endpoint(node, TYPE, reliability, durability)  # pyright: ignore[reportArgumentType]
+
+
+def offer(*publishers: str, to: tuple[Endpoint, ...] = ()) -> Offer:
+    return Offer(tuple(map(publisher, publishers)), readers=to)
+
+
+def label(tab: Tab) -> str:
+    return tab.page.locator(".wv-graph-canvas").get_attribute("aria-label") or ""
+
+
+def test_a_mismatch_is_told_in_a_sentence() -> None:
+    asking = reader("/map", "reliable")
+    assert mismatch(asking, [publisher("/a", "reliable")]) == ""
+    assert mismatch(asking, [publisher("/a", "reliable"), publisher("/b")]) == (
+        "/map asks for reliable, but /b offers best effort."
+    )
+    late = reader("/map", "best_effort", "transient_local")
+    assert "asks for transient local, but /b offers volatile." in mismatch(late, [publisher("/b")])
+    assert mismatch(late, []) == ""
+
+
+def test_the_graph_is_searched_and_a_topic_says_what_does_not_arrive(loop: Loop, tab: Tab) -> None:
+    offers = {
+        "/scan": offer("/driver", to=(reader("/amcl"), reader("/map", "reliable"))),
+        HOSTILE: offer("", to=(reader(HOSTILE),)),
+        "/rosout": offer("/driver", to=(reader("/webviz"),)),
+        "/dock/_action/status": offer("/dock"),
+    }
+    traffic = {"/scan": Traffic(9.98, 100.0, None)}
+    open_panel(loop, tab, NodeGraph(), offers=offers, traffic=traffic)
+    tab.wait_for(lambda: label(tab) == "Graph: 7 boxes, 1 QoS mismatches")
+    search = tab.page.get_by_label("Find nodes and topics")
+    search.fill("SCAN")
+    tab.wait_for(lambda: label(tab) == "Graph: 1 of 7")
+    search.press("Enter")
+    detail = tab.page.locator(".wv-graph-detail")
+    tab.wait_for(detail.is_visible)
+    assert detail.inner_text().split("\n") == [
+        *("/scan", TYPE, "Does not arrive"),
+        "/map asks for reliable, but /driver offers best effort.",
+        *("Published by", "/driver", "Read by", "/amcl", "/map"),
+    ]
+
+
+def test_the_drawing_is_saved_as_svg_with_texts_as_texts(
+    loop: Loop, tab: Tab, tmp_path: Path
+) -> None:
+    offers = {HOSTILE: offer("/driver", to=(reader("/map", "reliable"),))}
+    open_panel(loop, tab, NodeGraph(), offers=offers, traffic={HOSTILE: Traffic(2.5, 1.0, None)})
+    tab.wait_for(lambda: label(tab).startswith("Graph: 3 boxes"))
+    with tab.page.expect_download() as download:
+        tab.button("Download as SVG").click()
+    file = tmp_path / "graph.svg"
+    download.value.save_as(file)
+    root = ElementTree.parse(file).getroot()
+    assert {element.tag.rpartition("}")[2] for element in root.iter()} == {
+        *("svg", "rect", "path", "text", "title")
+    }
+    texts = [text.strip() for text in root.itertext()]
+    assert HOSTILE in texts
+    assert texts.count("2.5 Hz") == 2
+    assert "/map asks for reliable, but /driver offers best effort." in texts
+
+
+def test_a_large_graph_begins_folded_and_is_drawn_quickly(loop: Loop, tab: Tab) -> None:
+    offers = {
+        f"/robot{i % 20}/part{i % 7}/topic{i}": offer(
+            f"/robot{i % 20}/node{i // 20 % 10}",
+            to=(reader(f"/robot{(i + 1) % 20}/node{i // 20 % 10}"),),
+        )
+        for i in range(2000)
+    }
+    open_panel(loop, tab, NodeGraph(), offers=offers)
+    tab.wait_for(lambda: label(tab) == "Graph: 20 boxes")
+    tab.button("Fold or unfold all namespaces").click()
+    tab.wait_for(lambda: label(tab) == "Graph: 2200 boxes")
+    tab.button("Fold or unfold all namespaces").click()
+    tab.wait_for(lambda: label(tab) == "Graph: 20 boxes")
+
+
+def test_more_topics_than_the_limit_are_counted(loop: Loop, tab: Tab) -> None:
+    offers = {f"/t{i}": offer("/node") for i in range(MAX_TOPICS + 3)}
+    open_panel(loop, tab, NodeGraph(), offers=offers)
+    tab.wait_for(lambda: f"3 topics not shown; the limit is {MAX_TOPICS}." in tab.text())
