@@ -405,6 +405,11 @@ def test_a_page_that_keeps_sending_too_much_is_ended_with_the_reason(
     assert ended.value.rcvd is not None
     assert (ended.value.rcvd.code, ended.value.rcvd.reason) == (1008, FLOODED)
     assert house.reached.count("ResetView") < 300
+    refused = house.ask("/", Cookie=house.cookie(Role.WATCHER))  # neither the page nor a channel
+    assert (refused.status, house.body) == (429, f"{FLOODED} Try again in 10 s.\n".encode())
+    with pytest.raises(websockets.exceptions.InvalidStatus, match="429"):
+        house.enter(Role.WATCHER)
+    assert house.enter(Role.OPERATOR).do("ResetView") == ""
 
 
 def test_a_page_that_connects_again_has_no_new_burst(

@@ -33,6 +33,9 @@ def fetched(request: Request) -> Response | None:
 class Full:
     """No room for anybody."""
 
+    def absence(self, newcomer: Visit, /) -> str:
+        return "Wait." if newcomer.address == "192.0.2.1" else ""
+
     def refusal(self, newcomer: Visit, /) -> str:
         return "No room."
 
@@ -75,6 +78,15 @@ def test_a_channel_needs_no_room_besides_that_of_its_page() -> None:
         assert reply is not None
         assert (reply.status, reply.body) == (HTTPStatus.SERVICE_UNAVAILABLE, b"No room.\n")
     assert step(visit(CHANNEL, **SOCKET)) is None
+
+
+def test_who_has_to_stay_away_is_refused_pages_and_channels() -> None:
+    step = within(Full())
+    for asked in (visit(), visit(**SOCKET), visit(CHANNEL, **SOCKET)):
+        asked.address = "192.0.2.1"
+        reply = step(asked)
+        assert reply is not None
+        assert (reply.status, reply.body) == (HTTPStatus.TOO_MANY_REQUESTS, b"Wait.\n")
 
 
 def test_the_page_is_the_only_file_and_packed_for_those_that_unpack_it() -> None:

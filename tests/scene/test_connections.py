@@ -14,8 +14,9 @@ import viser
 import websockets.exceptions
 from websockets.frames import Frame, Opcode
 
-from webviz.server.http import connections
+from webviz.server.http import backoff, connections
 from webviz.server.http.allowances import MAX_REMEMBERED, Allowance, SpentAllowances
+from webviz.server.http.backoff import FIRST_S, FORGIVEN_S, MAX_S, BackOff
 from webviz.server.http.connections import MAX_BROWSERS, READ_BYTES, Connection
 from webviz.server.http.crowding import network_of
 
@@ -155,6 +156,29 @@ def test_of_too_many_browsers_those_with_most_left_are_forgotten() -> None:
     assert [number for number, wait in enumerate(waits) if wait == 0.0] == [1]
 
 
+def test_who_floods_again_stays_away_twice_as_long_and_is_forgiven_later() -> None:
+    back_off, now, waits = BackOff(), 100.0, []
+    for _ in range(7):
+        back_off.send_away("a", now)
+        back_off.send_away("a", now + 1.0)  # its other connection
+        waits.append(back_off.wait_s("a", now))
+        now += waits[-1]
+    assert waits == [10.0, 20.0, 40.0, 80.0, 160.0, MAX_S, MAX_S]
+    assert (back_off.wait_s("a", now), back_off.wait_s("b", now)) == (0.0, 0.0)
+    back_off.send_away("a", now + FORGIVEN_S + 1.0)
+    assert back_off.wait_s("a", now + FORGIVEN_S + 1.0) == FIRST_S
+
+
+def test_of_too_many_that_stay_away_the_first_may_come_back() -> None:
+    back_off = BackOff()
+    back_off.send_away(0, 0.0)
+    back_off.send_away(0, FIRST_S)  # for 20 s
+    for number in range(1, backoff.MAX_REMEMBERED + 1):
+        back_off.send_away(number, 15.0)
+    waits = [back_off.wait_s(number, 15.0) for number in range(backoff.MAX_REMEMBERED + 1)]
+    assert waits == [0.0, *backoff.MAX_REMEMBERED * [FIRST_S]]
+
+
 def test_a_browser_that_sends_too_much_waits_and_others_do_not(
     server: viser.ViserServer,
     call: Callable[..., Any],
@@ -192,6 +216,7 @@ def test_who_floods_with_what_cannot_wait_is_let_go(
         for _ in range(1000):
             raw.sendall(flood)
         pytest.fail("the server took a million frames")
+    call().replay()  # an owner need not stay away
 
 
 def test_a_turn_of_the_event_loop_reads_little_from_each_browser(

@@ -20,6 +20,7 @@ from rosbags.rosbag2 import CompressionMode, StoragePlugin
 from webviz.data.messages import DecodeError, decode
 from webviz.data.recordings import open_recording
 from webviz.data.recordings.recording import END_MISSING, Losses
+from webviz.data.recordings.sqlite_times import damaged
 from webviz.sources.bag.source import BagError, BagSource
 
 ZSTD = b"\x28\xb5\x2f\xfd"
@@ -429,6 +430,23 @@ def test_a_database_that_is_still_written_shows_what_it_had(tmp_path, opened, jo
         (remark,) = bag.source.remarks
         assert remark.startswith(f"{file.name} has no end: it is still being recorded, or ")
         recorder.rollback()
+
+
+def test_a_topic_whose_qos_is_no_text_is_read_all_the_same(tmp_path, opened):
+    (file,) = files(strings(0, 1).write(tmp_path / "bag", StoragePlugin.SQLITE3), ".db3")
+    with contextlib.closing(sqlite3.connect(file)) as db, db:
+        db.execute("UPDATE topics SET offered_qos_profiles = CAST(x'2d0a20ff0a' AS TEXT)")
+    bag = opened(file)
+    bag.want("/words")
+    bag.play(1)
+    assert bag.heard() == ["0", "1"]
+
+
+def test_what_a_database_cites_of_itself_stays_short_and_on_one_line(tmp_path):
+    error = damaged(tmp_path / "bag.db3", f"malformed database schema (a\n\nb{500 * ' c'})")
+    assert str(error).splitlines() == [str(error)]
+    assert " (malformed database schema (a b c c" in str(error)
+    assert len(str(error)) < 600
 
 
 def test_several_losses_name_the_reason_of_the_first():

@@ -6,6 +6,7 @@ import contextlib
 import itertools
 import math
 import sqlite3
+import textwrap
 import threading
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
@@ -18,6 +19,8 @@ from webviz.data.recordings.recording import Counts, RecordingError, TimeParts
 from webviz.data.recordings.set_back import LEAST_NS, SetBack
 from webviz.data.recordings.unpacking import MAX_BYTES
 
+MAX_REASON = 200
+"""Characters of what SQLite says about a file."""
 PARTS = 500
 """Of the span of the file: the next message of a topic is searched within one of them."""
 SLICES = 100
@@ -189,6 +192,7 @@ def connected(path: Path) -> sqlite3.Connection:
     """
     uri = f"{path.absolute().as_uri()}?immutable=1&mode=ro"
     db = sqlite3.connect(uri, uri=True, check_same_thread=False)
+    db.text_factory = lambda text: text.decode(errors="replace")
     try:
         db.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, MAX_BYTES)
         db.execute("PRAGMA trusted_schema = OFF")
@@ -202,7 +206,8 @@ def connected(path: Path) -> sqlite3.Connection:
 
 def damaged(path: Path, reason: str) -> RecordingError:
     """Return the error for a database that cannot be read, with the remedy."""
+    line = " ".join(reason.split())  # SQLite may cite a name or text of the file
     return RecordingError(
-        f"{path} is damaged ({reason}): recover it with "
+        f"{path} is damaged ({textwrap.shorten(line, MAX_REASON)}): recover it with "
         f"`sqlite3 {path} .recover | sqlite3 recovered.db3`."
     )

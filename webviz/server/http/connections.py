@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import functools
+import math
 import resource
 import select
 from collections.abc import AsyncIterator, Callable, Iterator
@@ -18,6 +19,7 @@ from websockets.protocol import State
 from webviz.server.access.access import EVERYBODY, Grant
 from webviz.server.access.roles import LIMITS, Role
 from webviz.server.http.allowances import Allowance, SpentAllowances
+from webviz.server.http.backoff import BackOff
 from webviz.server.http.crowding import network_of, oldest_of_most_crowded
 from webviz.server.http.listener import Handshakes
 from webviz.server.http.requests import add_policy, as_get, is_complete, is_head, refusal
@@ -58,6 +60,11 @@ class Newcomer(Protocol):
         ...
 
 
+def sender_of(browser: Newcomer) -> tuple[str, str]:
+    """Return by what the connections of one browser are known: its network and its cookie."""
+    return network_of(browser.address), browser.grant.cookie
+
+
 class ConnectionLimits:
     """Limits the connections of a server: opening ones, those of browsers, and their channels.
 
@@ -75,6 +82,13 @@ class ConnectionLimits:
         self._open: set[Connection] = set()
         self.spent = SpentAllowances()
         """By the network and cookie of lost connections."""
+        self.back_off = BackOff()
+        """Of those whose connections were ended for what they sent, likewise."""
+
+    def absence(self, newcomer: Newcomer) -> str:
+        """Why a browser has to stay away for a while: a sentence, "" if it may connect."""
+        wait_s = self.back_off.wait_s(sender_of(newcomer), asyncio.get_running_loop().time())
+        return f"{FLOODED} Try again in {math.ceil(wait_s)} s." if wait_s > 0.0 else ""
 
     def refusal(self, newcomer: Newcomer) -> str:
         """Why one more browser may not connect: a sentence, "" if it may."""
@@ -183,10 +197,6 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
         self._allowance = Allowance(rate, BURST_S * rate)
         self._bytes_per_message = limits.bytes_per_message
 
-    @property
-    def _sender(self) -> tuple[str, str]:
-        return network_of(self.address), self._grant.cookie
-
     def admit(self, address: str, grant: Grant) -> None:
         """Note whose connection it is, which goes on from what this browser has spent before.
 
@@ -195,7 +205,7 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
             grant: what it may do.
         """
         self.address, self.grant = address, grant
-        self._gate.spent.resume(self._sender, self._allowance, self.loop.time())
+        self._gate.spent.resume(sender_of(self), self._allowance, self.loop.time())
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Add the connection to the gate."""
@@ -205,7 +215,7 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
     def connection_lost(self, exc: Exception | None) -> None:
         """Remove the connection from the gate."""
         self._gate.leave(self)
-        self._gate.spent.note(self._sender, self._allowance)
+        self._gate.spent.note(sender_of(self), self._allowance)
         self.window.drop()
         super().connection_lost(exc)
 
@@ -267,6 +277,7 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
         is_answer = is_pong and bytes(event.data) in self.pending_pings
         is_instant = not (is_whole or is_request or is_answer)
         if is_instant and self._allowance.spend(1.0, self.loop.time()) > MAX_WAIT:
+            self._expel_for_flood()
             self.transport.abort()
         super().process_event(event)
 
@@ -357,11 +368,16 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
             self.is_expelled = True
             self.transport.abort()
         elif self._allowance.exhausted_s(self.loop.time()) > FLOOD_S:
-            self.is_expelled = True
+            self._expel_for_flood()
             self.logger.warning("Ended a connection that sent too many messages.")
             with contextlib.suppress(TimeoutError):
                 await asyncio.wait_for(self.close(CloseCode.POLICY_VIOLATION, FLOODED), FAREWELL)
             self.transport.abort()
+
+    def _expel_for_flood(self) -> None:
+        self.is_expelled = True
+        if self.grant.role < Role.OWNER:  # whose robot it is; a page of theirs may go wrong
+            self._gate.back_off.send_away(sender_of(self), self.loop.time())
 
     @property
     def _is_gone(self) -> bool:

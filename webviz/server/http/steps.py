@@ -76,6 +76,10 @@ Step = Callable[[Visit], Reply | None]
 class Room(Protocol):
     """Room for browsers."""
 
+    def absence(self, newcomer: Visit, /) -> str:
+        """Return why a browser has to stay away for a while: a sentence, or ""."""
+        ...
+
     def refusal(self, newcomer: Visit, /) -> str:
         """Return why one more may not connect: a sentence, or ""."""
         ...
@@ -139,9 +143,14 @@ def with_link(access: Access, port: int) -> Step:
 
 
 def within(limits: Room) -> Step:
-    """Refuse one browser more than there may be; each has a channel besides."""
+    """Refuse those that have to stay away, and one browser more than there may be.
+
+    Each browser has a channel besides.
+    """
 
     def step(visit: Visit) -> Reply | None:
+        if reason := limits.absence(visit):
+            return _sentence(http.HTTPStatus.TOO_MANY_REQUESTS, reason)
         reason = "" if visit.is_channel else limits.refusal(visit)
         return _sentence(http.HTTPStatus.SERVICE_UNAVAILABLE, reason) if reason else None
 
