@@ -42,8 +42,9 @@ class BackOff:
         before = self._absences.get(sender)
         if before is not None and now < before.until:
             return
-        is_first = before is None or now > before.until + FORGIVEN_S
-        seconds = FIRST_S if is_first else min(2.0 * before.seconds, MAX_S)
+        seconds = FIRST_S
+        if before is not None and now <= before.until + FORGIVEN_S:
+            seconds = min(2.0 * before.seconds, MAX_S)
         self._absences.pop(sender, None)  # the last in the order of the others
         self._absences[sender] = _Absence(seconds, now + seconds)
         if len(self._absences) > MAX_REMEMBERED:
