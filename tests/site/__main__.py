@@ -31,6 +31,7 @@ TASKS = {
         "ROS": "ros/README.md",
         "Several robots": "ros/robots.md",
         "Far away": "ros/far_away.md",
+        "Bridges": "ros/bridge.md",
         "A course": "ros/course.md",
         "Outdoors": "outdoors/README.md",
         "Serving": "serving/README.md",

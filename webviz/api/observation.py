@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from webviz.api.bridge import Bridge
 from webviz.api.consistency import MapFit
 from webviz.api.declared import Topic
 from webviz.api.display import Display
@@ -104,7 +105,8 @@ class Observation:
         clock_hz: messages per second on /clock.
         is_paused: whether a person has paused time.
         is_recorded: whether messages come from a bag.
-        environment: of this machine, None with a bag or until it is known.
+        environment: of this machine, None with a bag or bridge, or until it is known.
+        bridges: to bridges.
         findings: of the round before, without violated rules.
         verdicts: of the rules of the config.
         ends: this machine and its peer, None unless they are compared.
@@ -122,6 +124,7 @@ class Observation:
     is_paused: bool = False
     is_recorded: bool = False
     environment: Environment | None = None
+    bridges: Sequence[Bridge] = ()
     findings: Sequence[Finding] = ()
     verdicts: Sequence[Verdict] = ()
     ends: TwoEnds | None = None

@@ -17,6 +17,7 @@ class Endpoint:
         node: full node name, "" for a DDS program without a ROS node.
         type: message type.
         reliability, durability: offered or requested QoS.
+        is_qos_known: whether that is certain; a bridge does not tell it.
         endpoint: its identity, which changes when its node is started again; b"" if unknown.
     """
 
@@ -25,11 +26,12 @@ class Endpoint:
     reliability: Reliability
     durability: Durability
     endpoint: bytes = b""
+    is_qos_known: bool = True
 
     @property
     def label(self) -> str:
         """Its node, for sentences."""
-        return self.node or "a DDS program"
+        return self.node or ("a DDS program" if self.is_qos_known else "the bridge")
 
 
 @dataclass(frozen=True)

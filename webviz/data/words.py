@@ -42,3 +42,9 @@ def joined(*texts: str) -> str:
 def shortened(text: str, most: int) -> str:
     """Return a text of at most `most` characters; "…" ends one that was longer."""
     return text if len(text) <= most else f"{text[: most - 1]}…"
+
+
+def plain(text: str, most: int) -> str:
+    """Return a text from elsewhere in one line of printable characters, at most `most` of them."""
+    line = " ".join(text[: 4 * most].split())
+    return shortened("".join(c if c.isprintable() else "?" for c in line), most)

@@ -99,6 +99,9 @@ class RosSource:
         self._thread = threading.Thread(target=self._run, name="webviz-ros", daemon=True)
         self._thread.start()
 
+    bridges = ()
+    """None: it is in the graph itself."""
+
     def want(self, subscriptions: Mapping[str, Subscription]) -> None:
         """Replace all subscriptions; takes effect soon."""
         if subscriptions != self._wanted:

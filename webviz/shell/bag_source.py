@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from webviz.api.errors import Error
+from webviz.shell.remappings import remappings
 from webviz.sources.bag.extras import Extra
 from webviz.sources.bag.ghost import Ghost
 from webviz.sources.bag.source import BagSource
@@ -28,19 +28,4 @@ def bag_source(
     Raises:
         Error: a bag cannot be read, or an argument is unsupported.
     """
-    return BagSource(paths, extras, _remappings(ros_args), ghost)
-
-
-def _remappings(ros_args: Sequence[str]) -> dict[str, str]:
-    """Topics by the names that displays use; other ROS arguments make no sense for a bag."""
-    result = {}
-    rest = [a for a in ros_args if a not in ("--ros-args", "--", "-r", "--remap")]
-    for argument in rest:
-        theirs, mark, ours = argument.partition(":=")
-        if not mark or not theirs.startswith("/"):
-            raise Error(
-                f"{argument!r} is not supported with a bag. The only ROS argument is "
-                "`-r /topic:=/other`."
-            )
-        result[theirs] = ours
-    return result
+    return BagSource(paths, extras, remappings(ros_args, "a bag"), ghost)

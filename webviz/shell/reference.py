@@ -23,6 +23,7 @@ from webviz_urdf.expand import ALLOWED_BY
 
 COMMAND = "make docs"
 ENVIRONMENT = {
+    "WEBVIZ_CONNECT_HEADERS": "Headers for the bridge of `--connect`, with tokens, one a line.",
     VARIABLE: "Chromium or Chrome for pictures; otherwise one is searched for.",
     MESH_ROOT: "Folders of meshes besides ROS packages, separated by colons: `--mesh-root`.",
     ALLOWED_BY: "`1` lets RobotModel expand xacro files, which can run any Python as this user.",

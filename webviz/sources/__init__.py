@@ -1,4 +1,4 @@
-"""Sources of messages: a live ROS graph or a bag, behind one interface."""
+"""Sources of messages: a live ROS graph, a bridge or a bag, behind one interface."""
 
 from webviz.api.offer import Endpoint, Offer, Publisher
 from webviz.sources.gate import AllowList, Gate, Rights

@@ -11,6 +11,9 @@ from webviz.api.errors import Error
 from webviz.api.offer import Durability, Reliability
 from webviz.data.words import joined
 
+UNKNOWN = -1
+"""The number of matched subscriptions, if the other side does not tell it."""
+
 
 class NotConnected(Error):
     """A source cannot send, or the other side is missing; one sentence with a remedy."""
@@ -78,7 +81,7 @@ class Graph(Protocol):
         ...
 
     def publish(self, advertisement: Advertisement, cdr: bytes) -> Future[int]:
-        """Publish a message; the number of matched subscriptions."""
+        """Publish a message; the number of matched subscriptions, or `UNKNOWN`."""
         ...
 
     def call(self, service: str, type: str, request: bytes, timeout_s: float) -> Future[bytes]:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from webviz.api.bridge import Bridge
 from webviz.api.declared import Topic
 from webviz.api.lookback import Lookback
 from webviz.sources.bag.log import LOG, ROSOUT
@@ -221,6 +222,11 @@ class Rewindable:
                 self._repeat(topic, wish, is_new=asked < 0)
         if _types(before) != _types(self._wanted):
             self._replay.read_on(self._channels_to_read())
+
+    @property
+    def bridges(self) -> Sequence[Bridge]:
+        """Those of the live source."""
+        return self.live.bridges
 
     def offers(self) -> Mapping[str, Offer]:
         """Those of the live source; while rewound, they say why a topic may have no message."""

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 import msgspec
 
+from webviz.api.bridge import Bridge
 from webviz.api.declared import Topic
 from webviz.api.lookback import Lookback
 from webviz.api.offer import Offer
@@ -74,7 +75,7 @@ def _shared(first: Subscription, other: Subscription) -> Subscription:
 
 
 class Source(Protocol):
-    """A live ROS graph or a bag."""
+    """A live ROS graph, a bridge or a bag."""
 
     @property
     def inbox(self) -> Inbox:
@@ -84,6 +85,11 @@ class Source(Protocol):
     @property
     def graph(self) -> Graph:
         """For output."""
+        ...
+
+    @property
+    def bridges(self) -> Sequence[Bridge]:
+        """The links to bridges that it needs; none of a bag or of the ROS graph itself."""
         ...
 
     def want(self, subscriptions: Mapping[str, Subscription]) -> None:

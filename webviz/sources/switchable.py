@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from webviz.api.bridge import Bridge
 from webviz.sources.bag.source import BagSource
 from webviz.sources.graph import Graph
 from webviz.sources.inbox import Inbox
@@ -157,6 +158,11 @@ class Switchable:
             self.bag.want(subscriptions)
             subscriptions = {topic: self._kept(topic, w) for topic, w in subscriptions.items()}
         self.live.want(subscriptions)
+
+    @property
+    def bridges(self) -> Sequence[Bridge]:
+        """Those of the live source."""
+        return self.live.bridges
 
     def offers(self) -> Mapping[str, Offer]:
         """Return publishers and QoS by topic, of what is shown."""

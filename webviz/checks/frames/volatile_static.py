@@ -30,7 +30,7 @@ class VolatileStatic(Check):
         if offer is None or offer.is_recorded:
             return
         for publisher in offer.publishers:
-            if publisher.durability == "volatile":
+            if publisher.durability == "volatile" and publisher.is_qos_known:
                 yield self.found(
                     f"{publisher.label} publishes /tf_static as volatile, so nodes that start "
                     "later miss its transforms.",

@@ -29,7 +29,9 @@ class DurabilityMismatch(Check):
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each topic that is requested as latched and offered as volatile."""
         for display, each, offer in seen.starved():
-            offered = {p.durability for p in offer.publishers if p.type in each.types}
+            offered = {
+                p.durability for p in offer.publishers if p.type in each.types and p.is_qos_known
+            }
             is_asked = each.latched or each.qos.durability == "transient_local"
             if offer.is_recorded or offered != {"volatile"} or not is_asked:
                 continue

@@ -28,7 +28,9 @@ class ReliabilityMismatch(Check):
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each topic that is requested as reliable and offered best effort."""
         for display, each, offer in seen.starved():
-            offered = {p.reliability for p in offer.publishers if p.type in each.types}
+            offered = {
+                p.reliability for p in offer.publishers if p.type in each.types and p.is_qos_known
+            }
             if (
                 offer.is_recorded
                 or offered != {"best_effort"}

@@ -58,7 +58,8 @@ def register(type_name: str, text: str) -> None:
     Args:
         type_name: The type that `text` defines.
         text: Its .msg text. Nested types follow, each after a line of "=" and "MSG: pkg/Type", as
-            `definition` returns them and bags store them.
+            `definition` returns them and bags store them. Or IDL files, each after a line of "="
+            and "IDL: pkg/msg/Type".
 
     Raises:
         DefinitionError: The text is invalid, a nested type is missing or contains itself, or it

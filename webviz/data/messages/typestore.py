@@ -12,11 +12,21 @@ from functools import cache
 from typing import Any, NamedTuple
 
 from rosbags.interfaces import Nodetype
-from rosbags.typesys import Stores, TypesysError, get_types_from_msg, get_typestore
+from rosbags.typesys import (
+    Stores,
+    TypesysError,
+    get_types_from_idl,
+    get_types_from_msg,
+    get_typestore,
+)
 
 from webviz.data.messages.definitions import DEFINITIONS
 from webviz.data.messages.errors import DefinitionError, MessageError, UnknownTypeError
 
+_IDL = re.compile(r"^={80}\nIDL: \S+$", re.MULTILINE)
+"""Precedes each IDL file of a definition."""
+_PREPROCESSOR = re.compile(r"^[ \t]*#.*$", re.MULTILINE)
+"""Lines that rosbags does not read; what they include follows in the definition."""
 _TYPE_NAME = re.compile(r"[A-Za-z]\w*/(?:msg|srv|action)/[A-Za-z]\w*", re.ASCII)
 
 
@@ -119,15 +129,17 @@ def are_same(type_name: str, text: str, other: str) -> bool:
 
 
 def add(type_name: str, text: str, fixed: Container[str]) -> None:
-    """Register a type from its .msg text, but never change those in `fixed`.
+    """Register a type from its .msg text or IDL, but never change those in `fixed`.
 
     See `webviz.data.messages.register`.
     """
     name = full_name(type_name)
+    is_idl = bool(_IDL.search(text))
     try:
-        learnt = get_types_from_msg(text, name)
+        learnt = _types_from_idl(text) if is_idl else get_types_from_msg(text, name)
     except TypesysError as error:  # its text quotes the whole definition
-        raise DefinitionError(f"The definition of {name} is not valid .msg text.") from error
+        language = "IDL" if is_idl else ".msg text"
+        raise DefinitionError(f"The definition of {name} is not valid {language}.") from error
     if name not in learnt:  # such as that of a service
         raise DefinitionError(f"The definition of {name} does not define it.")
     known = _store().fielddefs
@@ -145,6 +157,14 @@ def add(type_name: str, text: str, fixed: Container[str]) -> None:
             del known[key]
         known.update(before)
         raise
+
+
+def _types_from_idl(text: str) -> dict[str, Any]:
+    """Return the types in IDL files, each after a line of "=" and "IDL: pkg/msg/Type"."""
+    found: dict[str, Any] = {}
+    for file in filter(str.strip, _IDL.split(_PREPROCESSOR.sub("", text))):
+        found |= get_types_from_idl(file)
+    return found
 
 
 def declare(type_name: str, described: list[Any]) -> None:

@@ -105,8 +105,12 @@ class Doctor:
         return self.findings
 
     def _environment(self, state: State) -> Environment | None:
-        """Return this machine as it was some seconds ago, None with a bag; a thread looks at it."""
-        if state.playback is not None and state.playback.is_live is None:
+        """Return this machine as it was some seconds ago; a thread looks at it.
+
+        None with a bag or bridge, for which neither DDS nor ROS of this machine matters.
+        """
+        is_recorded = state.playback is not None and state.playback.is_live is None
+        if is_recorded or state.bridges:
             return None
         looking = self._looking
         if looking is not None and looking.done():

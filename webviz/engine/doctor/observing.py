@@ -50,6 +50,7 @@ def observe(
         is_paused=state.clock.is_paused,
         is_recorded=state.playback is not None and state.playback.is_live is None,
         environment=environment,
+        bridges=state.bridges,
     )
 
 

@@ -23,6 +23,7 @@ from webviz.engine.loop.showing import Showing
 from webviz.engine.parts import Core, Part, Parts
 from webviz.engine.parts.autosave import AutosavePart
 from webviz.engine.parts.black_box import BlackBoxPart
+from webviz.engine.parts.bridges import BridgesPart
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.driving import DrivingPart
 from webviz.engine.parts.files import FilesPart
@@ -226,6 +227,7 @@ class FrameLoop:
             DrivingPart(core, self.controllers, tools.odometry),
             files,
             history,
+            BridgesPart(core),
             TopicsPart(core),
             LatencyPart(core, self._tracer, displays.list.active),
             RecordingPart(core, settings, memory),

@@ -10,6 +10,7 @@ from webviz.api.errors import Error
 from webviz.api.status import Level, Status
 from webviz.engine.parts.part import Core
 from webviz.sources import Advertisement
+from webviz.sources.graph import UNKNOWN
 
 DEPTH = 5
 """Queue depth of a publisher, RViz's."""
@@ -55,4 +56,7 @@ def _outcome(topic: str, sent: Future[int]) -> Status:
     if count == 0:
         text = f"No subscription to {topic}. Start the node that uses it or choose another topic."
         return Status(Level.WARN, text)
+    if count == UNKNOWN:
+        text = f"Sent to {topic} through the bridge, which does not tell who subscribes to it."
+        return Status(Level.OK, text)
     return Status(Level.OK, f"Published to {topic}, {count} subscription{'s' * (count > 1)}.")

@@ -96,9 +96,7 @@ class TopicStatistics:
             return self._no_publisher(offers, clock)
         if refusal := self._refusal(offer, matching):
             return Status(Level.ERROR, refusal, self._automatic())
-        who = ", ".join(
-            sorted({f"{p.label} ({_words(p.reliability, p.durability)})" for p in matching})
-        )
+        who = ", ".join(sorted(map(_described, matching)))
         if not self.count:
             when = f": {offer.begins}" if offer and offer.begins else f" from {who}"
             return Status(Level.WARN, f"No message yet on {self._name}{when}.")
@@ -191,10 +189,22 @@ class TopicStatistics:
 
 
 def _is_match(reliability: str, durability: str, publisher: Publisher) -> bool:
-    """Return whether DDS connects a request with an offer; "auto" follows the publisher."""
+    """Return whether DDS connects a request with an offer; "auto" follows the publisher.
+
+    A bridge subscribes by itself, with a QoS that matches.
+    """
+    if not publisher.is_qos_known:
+        return True
     unreliable = reliability == "reliable" and publisher.reliability == "best_effort"
     forgetful = durability == "transient_local" and publisher.durability == "volatile"
     return not unreliable and not forgetful
+
+
+def _described(publisher: Publisher) -> str:
+    """Return a publisher with its QoS, in words."""
+    if not publisher.is_qos_known:
+        return f"{publisher.label} (QoS unknown)" if publisher.node else publisher.label
+    return f"{publisher.label} ({_words(publisher.reliability, publisher.durability)})"
 
 
 def _age(seconds: float) -> str:

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
+from webviz.api.bridge import Bridge
 from webviz.api.context import ColorScale
 from webviz.api.display import Display
 from webviz.api.finding import Finding
@@ -325,6 +326,7 @@ class State:
         file: of the config.
         clock: the time.
         offers: publishers and QoS by topic name.
+        bridges: to bridges; none without.
         traffic: by topic name, of the topics that are subscribed to.
         inspected: the inspected topics, by name.
         transforms: the tree of transforms, None while no page shows it.
@@ -364,6 +366,7 @@ class State:
     file: ConfigFile = ConfigFile()
     clock: PanelTimes = PanelTimes()
     offers: Mapping[str, Offer] = field(default_factory=dict)
+    bridges: tuple[Bridge, ...] = ()
     traffic: Mapping[str, Traffic] = field(default_factory=dict)
     inspected: Mapping[str, Inspected] = field(default_factory=dict)
     transforms: Diagnosis | None = None

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from webviz.engine.state import State
+from webviz.page.content.bridges import bridges
 from webviz.page.content.clock import clock
 from webviz.page.content.displays import displays, rate
 from webviz.page.content.doctor import findings
@@ -54,6 +55,7 @@ MAKERS: Mapping[str, Callable[[State, str], PageStore | None]] = {
     "latency": latency,
     "layout": layout,
     "legend": legend,
+    "bridges": bridges,
     "message": message,
     "panes": panes,
     "picking": picking,

@@ -124,7 +124,7 @@ def _topic(offer: Offer, types: Sequence[str], fits: Sequence[Pick]) -> GraphTop
     publishers = offer.publishers
     return GraphTopic(
         types=types,
-        nodes=[publisher.node or "a DDS program" for publisher in publishers],
+        nodes=[publisher.label for publisher in publishers],
         subscribers=offer.subscribers,
         qos=_qos(publishers),
         show=[(pick.display, pick.values) for pick in fits],
@@ -133,7 +133,9 @@ def _topic(offer: Offer, types: Sequence[str], fits: Sequence[Pick]) -> GraphTop
 
 
 def _qos(publishers: Sequence[Publisher]) -> str:
-    """Return the QoS of publishers, "mixed" where they differ."""
+    """Return the QoS of publishers, "mixed" where they differ, "unknown" behind a bridge."""
+    if not all(publisher.is_qos_known for publisher in publishers):
+        return "unknown"
     reliabilities = {publisher.reliability for publisher in publishers}
     durabilities = {publisher.durability for publisher in publishers}
     words = [each.pop() if len(each) == 1 else "mixed" for each in (reliabilities, durabilities)]

@@ -29,6 +29,7 @@ from webviz.shell.app.link_rate import bytes_per_second
 from webviz.shell.app.picture_controls import PictureControls
 from webviz.shell.app.reading import read_config
 from webviz.shell.app.starting import BagPaths
+from webviz.shell.live_source import bridge_source
 from webviz.shell.ros_source import ros_source
 
 if TYPE_CHECKING:
@@ -59,6 +60,8 @@ class Running(PictureControls):
         fixed_frame: str = "",
         source: Source | None = None,
         bag: BagPaths | None = None,
+        connect: str = "",
+        connect_headers: str | os.PathLike[str] | None = None,
         autoplay: bool = False,
         ros_args: Sequence[str] = (),
         plugins: Sequence[str | os.PathLike[str]] = (),
@@ -82,6 +85,10 @@ class Running(PictureControls):
             check_names(allow_publish)
             link_rate = bytes_per_second(link) if link else None
             keep = starting.journal(journal, closing)
+            if connect:
+                if bag is not None or source is not None:
+                    raise Error("Give only one of `bag`, `connect` and `source`.")
+                source = bridge_source(connect, connect_headers, ros_args)
             source = starting.given_source(bag, source, ros_args, closing)
             watcher = starting.loaded_plugins(plugins)
             path = None if config is None else Path(config)

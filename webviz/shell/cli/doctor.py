@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import App, Parameter, validators
 
 from webviz.shell.cli.ending import Stop, until_signal
-from webviz.shell.cli.options import ROS_ARGS_HELP, File, Flag, Plugins, RosArgs
+from webviz.shell.cli.options import ROS_ARGS_HELP, ConnectOptions, File, Flag, Plugins, RosArgs
 from webviz.shell.cli.progress import progress
 
 if TYPE_CHECKING:
@@ -21,6 +21,7 @@ Examples:
   webviz doctor                      examine the ROS graph for some seconds
   webviz doctor --bag run.mcap       examine a bag
   webviz doctor -d nav2.rviz --json  examine the displays of a config, for a program
+  webviz doctor --connect ws://robot:8765
   webviz doctor --peer user@robot    compare this machine with another, over ssh
   webviz doctor --explain TF003      explain a finding
 
@@ -57,8 +58,23 @@ class DoctorOptions:
     """Explain a finding: what it is, why it matters, how to repair it; `all` lists all checks."""
 
 
-@app.default
-def doctor(*, options: DoctorOptions = DoctorOptions(), ros: RosArgs) -> int:
+def _check(
+    *,
+    options: DoctorOptions = DoctorOptions(),
+    connect: ConnectOptions = ConnectOptions(),
+    **_: object,
+) -> None:
+    """Raise ValueError for an invalid combination of arguments."""
+    connect.check(options.bag is not None)
+
+
+@app.default(validator=_check)
+def doctor(
+    *,
+    options: DoctorOptions = DoctorOptions(),
+    connect: ConnectOptions = ConnectOptions(),
+    ros: RosArgs,
+) -> int:
     """Examine the ROS graph or a bag, and print the causes of what is wrong."""
     from webviz.engine.pipeline import plugins
 
@@ -70,7 +86,7 @@ def doctor(*, options: DoctorOptions = DoctorOptions(), ros: RosArgs) -> int:
     def work(stop: Stop) -> int:
         from webviz.shell.doctor.report import to_json, to_text
 
-        report = _examine(options, ros)
+        report = _examine(options, connect, ros)
         is_colored = sys.stdout.isatty() and not os.environ.get("NO_COLOR")
         print(to_json(report) if options.json else to_text(report, is_colored), flush=True)
         return 0 if report.is_well else FOUND
@@ -78,7 +94,7 @@ def doctor(*, options: DoctorOptions = DoctorOptions(), ros: RosArgs) -> int:
     return until_signal(work)
 
 
-def _examine(options: DoctorOptions, ros: Sequence[str]) -> "DoctorReport":
+def _examine(options: DoctorOptions, connect: ConnectOptions, ros: Sequence[str]) -> "DoctorReport":
     from webviz.api.errors import Error
     from webviz.engine.doctor.environment import look_around
     from webviz.shell.app.reading import read_config
@@ -97,6 +113,9 @@ def _examine(options: DoctorOptions, ros: Sequence[str]) -> "DoctorReport":
             config = read_config(path, bag)
             return examine_bag(bag, config, str(options.bag), progress)
     config = read_config(path) if path else None
+    if connect.connect:
+        with contextlib.closing(connect.source(ros)) as bridge:
+            return examine_live(bridge, config, options.seconds, progress)
     # Some faults end the program when ROS starts.
     machine = examine_machine(look_around())
     if any(finding.severity == "error" for finding in machine.findings):

@@ -11,7 +11,7 @@ from cyclopts import App, Parameter, validators
 
 from webviz.api.errors import Error
 from webviz.shell.cli.ending import Stop, until_signal
-from webviz.shell.cli.options import ROS_ARGS_HELP, File, RosArgs
+from webviz.shell.cli.options import ROS_ARGS_HELP, ConnectOptions, File, RosArgs
 from webviz.shell.cli.progress import progress
 from webviz.shell.cli.screenshot_options import Time
 
@@ -51,8 +51,23 @@ class FramesOptions:
     """Time to listen to live transforms."""
 
 
-@app.default
-def frames(*, options: FramesOptions = FramesOptions(), ros: RosArgs) -> int:
+def _check(
+    *,
+    options: FramesOptions = FramesOptions(),
+    connect: ConnectOptions = ConnectOptions(),
+    **_: object,
+) -> None:
+    """Raise ValueError for an invalid combination of arguments."""
+    connect.check(options.bag is not None)
+
+
+@app.default(validator=_check)
+def frames(
+    *,
+    options: FramesOptions = FramesOptions(),
+    connect: ConnectOptions = ConnectOptions(),
+    ros: RosArgs,
+) -> int:
     """Print or draw the frames with their rates, ages, publishers and faults."""
     output = options.output
     if output is not None and output.suffix.lower() not in SUFFIXES:
@@ -61,7 +76,7 @@ def frames(*, options: FramesOptions = FramesOptions(), ros: RosArgs) -> int:
         raise Error("--at is a time of a bag. Add --bag.")
 
     def work(stop: Stop) -> int:
-        tree, title = _read(options, ros)
+        tree, title = _read(options, connect, ros)
         if output is None:
             print(tree.text(), flush=True)
         else:
@@ -71,16 +86,17 @@ def frames(*, options: FramesOptions = FramesOptions(), ros: RosArgs) -> int:
     return until_signal(work)
 
 
-def _read(options: FramesOptions, ros: Sequence[str]) -> "tuple[TreeRead, str]":
+def _read(
+    options: FramesOptions, connect: ConnectOptions, ros: Sequence[str]
+) -> "tuple[TreeRead, str]":
     from webviz.shell.bag_source import bag_source
     from webviz.shell.frames.reading import read_bag, read_live
     from webviz.shell.pictures.times import position_ns, seconds_from_start
-    from webviz.shell.ros_source import ros_source
 
     if options.bag is None:
-        progress("starting ROS", 0.0)
-        with contextlib.closing(ros_source(ros)) as source:
-            return read_live(source, options.seconds, progress), "Frames of the ROS graph"
+        title = f"Frames of {connect.connect or 'the ROS graph'}"
+        with contextlib.closing(connect.source(ros)) as source:
+            return read_live(source, options.seconds, progress), title
     with contextlib.closing(bag_source(options.bag, ros_args=ros)) as bag:
         at_ns = position_ns(options.at, bag, str(options.bag))
         title = f"Frames of {options.bag.name} at {seconds_from_start(at_ns, bag):.1f} s"

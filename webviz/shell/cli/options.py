@@ -89,6 +89,40 @@ class ConfigOptions:
         os.environ[MESH_ROOT] = os.pathsep.join([*roots, *filter(None, [known])])
 
 
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class ConnectOptions:
+    """The bridge whose topics are live, instead of the ROS graph."""
+
+    connect: Annotated[str, Parameter(metavar="URL", show_default=False)] = ""
+    """Connect to a bridge, such as ws://robot:8765 of foxglove_bridge, without ROS here."""
+    connect_headers: File | None = None
+    """File with headers for the bridge, such as `Authorization: Bearer TOKEN`, one a line."""
+
+    def check(self, has_bag: bool) -> None:
+        """Raise ValueError for an invalid combination of arguments.
+
+        Args:
+            has_bag: whether a bag is given.
+        """
+        if self.connect and has_bag:
+            raise ValueError("Give either --bag or --connect.")
+        if self.connect_headers and not self.connect:
+            raise ValueError("--connect-headers needs --connect.")
+
+    def source(self, ros: Sequence[str]) -> "Source":
+        """Return the topics of the bridge, or of the ROS graph if none is given.
+
+        Raises:
+            Error: the connection is invalid, or ROS is missing or does not start.
+        """
+        from webviz.shell.cli.progress import progress
+        from webviz.shell.live_source import live_source
+
+        progress(f"connecting to {self.connect}" if self.connect else "starting ROS", 0.0)
+        return live_source(self.connect, self.connect_headers, ros)
+
+
 def report_unsupported(path: Path, sentences: Sequence[str]) -> None:
     """Print to standard error which parts of a file are unsupported."""
     if sentences:

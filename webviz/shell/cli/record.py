@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import App, Parameter, validators
 
 from webviz.shell.cli.ending import Stop, say_end, until_signal
-from webviz.shell.cli.options import ROS_ARGS_HELP, RosArgs, Size
+from webviz.shell.cli.options import ROS_ARGS_HELP, ConnectOptions, RosArgs, Size
 
 if TYPE_CHECKING:
     from webviz.shell.recording import TopicRecorder
@@ -54,8 +54,14 @@ class RecordOptions:
     """Delete the oldest files beyond this size in all; files are a tenth of it unless --split."""
 
 
-def _check(*, options: RecordOptions = RecordOptions(), **_: object) -> None:
+def _check(
+    *,
+    options: RecordOptions = RecordOptions(),
+    connect: ConnectOptions = ConnectOptions(),
+    **_: object,
+) -> None:
     """Raise ValueError for an invalid combination of arguments."""
+    connect.check(has_bag=False)
     if sum(map(bool, (options.topics, options.shown, options.all))) > 1:
         raise ValueError("Give only one of --topics, --shown and --all.")
     if options.keep and options.split > options.keep:
@@ -63,7 +69,12 @@ def _check(*, options: RecordOptions = RecordOptions(), **_: object) -> None:
 
 
 @app.default(validator=_check)
-def record(*, options: RecordOptions = RecordOptions(), ros: RosArgs) -> int:
+def record(
+    *,
+    options: RecordOptions = RecordOptions(),
+    connect: ConnectOptions = ConnectOptions(),
+    ros: RosArgs,
+) -> int:
     """Record until Ctrl-C or SIGTERM."""
 
     def work(stop: Stop) -> int:
@@ -72,7 +83,6 @@ def record(*, options: RecordOptions = RecordOptions(), ros: RosArgs) -> int:
         from webviz.data.recordings.folder_writing import RecordingFolder, RecordingLimits
         from webviz.files.opening import load
         from webviz.shell.recording import TopicRecorder, topics_of
-        from webviz.shell.ros_source import ros_source
         from webviz.sources.recording import library, new_name
 
         limits = RecordingLimits(
@@ -80,7 +90,7 @@ def record(*, options: RecordOptions = RecordOptions(), ros: RosArgs) -> int:
         )
         config = load(options.shown) if options.shown else None
         try:
-            with contextlib.closing(ros_source(ros)) as source:
+            with contextlib.closing(connect.source(ros)) as source:
                 patterns = ("*",) if options.all else options.topics
                 if config is not None:
                     patterns = topics_of(config, source.resolve)

@@ -9,7 +9,14 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import App, Parameter, validators
 
 from webviz.shell.cli.ending import Stop, until_signal
-from webviz.shell.cli.options import ROS_ARGS_HELP, ConfigOptions, File, Flag, RosArgs
+from webviz.shell.cli.options import (
+    ROS_ARGS_HELP,
+    ConfigOptions,
+    ConnectOptions,
+    File,
+    Flag,
+    RosArgs,
+)
 from webviz.shell.cli.progress import progress
 from webviz.shell.cli.screenshot_options import Time
 
@@ -58,8 +65,14 @@ class ReportOptions(ConfigOptions):
     """Make no picture, which takes a browser on this machine."""
 
 
-def _check(*, options: ReportOptions = ReportOptions(), **_: object) -> None:
+def _check(
+    *,
+    options: ReportOptions = ReportOptions(),
+    connect: ConnectOptions = ConnectOptions(),
+    **_: object,
+) -> None:
     """Raise ValueError for an invalid combination of arguments."""
+    connect.check(options.bag is not None)
     if options.bag is None:
         given = {"from": options.first != "start", "to": options.last != "end", "at": options.at}
         for flag, value in given.items():
@@ -72,7 +85,12 @@ def _check(*, options: ReportOptions = ReportOptions(), **_: object) -> None:
 
 
 @app.default(validator=_check)
-def report(*, options: ReportOptions = ReportOptions(), ros: RosArgs) -> int:
+def report(
+    *,
+    options: ReportOptions = ReportOptions(),
+    connect: ConnectOptions = ConnectOptions(),
+    ros: RosArgs,
+) -> int:
     """Write a bug report, which `webviz FILE.zip` opens as it was."""
 
     def work(stop: Stop) -> int:
@@ -83,7 +101,7 @@ def report(*, options: ReportOptions = ReportOptions(), ros: RosArgs) -> int:
         for path in options.plugin:
             plugins.load(path)
         options.allow_meshes()
-        with contextlib.closing(_source(options, ros)) as source:
+        with contextlib.closing(_source(options, connect, ros)) as source:
             config = options.read(options.display_config, source)
             if options.fixed_frame:
                 config.set_fixed_frame(options.fixed_frame)
@@ -109,11 +127,9 @@ def report(*, options: ReportOptions = ReportOptions(), ros: RosArgs) -> int:
     return until_signal(work)
 
 
-def _source(options: ReportOptions, ros: Sequence[str]) -> "Source":
+def _source(options: ReportOptions, connect: ConnectOptions, ros: Sequence[str]) -> "Source":
     from webviz.shell.bag_source import bag_source
-    from webviz.shell.ros_source import ros_source
 
     if options.bag is not None:
         return bag_source(options.bag, ros_args=ros)
-    progress("starting ROS", 0.0)
-    return ros_source(ros)
+    return connect.source(ros)

@@ -18,7 +18,7 @@ from cyclopts import App
 from webviz.api.status import Level, Status
 from webviz.engine.pipeline import plugins
 from webviz.shell.cli.ending import INTERRUPTED, end_children, end_in_time, on_signal, say_end
-from webviz.shell.cli.options import ROS_ARGS_HELP, RosArgs
+from webviz.shell.cli.options import ROS_ARGS_HELP, ConnectOptions, RosArgs
 from webviz.shell.cli.screenshot_options import EXAMPLES, FPS, ScreenshotOptions, check
 from webviz.shell.pictures import files as picture_files
 from webviz.shell.pictures.files import OutputError
@@ -39,7 +39,12 @@ app = App("screenshot", help_epilogue=EXAMPLES + ROS_ARGS_HELP)
 
 
 @app.default(validator=check)
-def screenshot(*, options: ScreenshotOptions, ros: RosArgs) -> int:
+def screenshot(
+    *,
+    options: ScreenshotOptions,
+    connect: ConnectOptions = ConnectOptions(),
+    ros: RosArgs,
+) -> int:
     """Make pictures and write them; the exit status as in --help."""
     # Importing viser is slow, and --help does not need it.
     from webviz.shell.pictures.capture import one_sentence
@@ -47,13 +52,13 @@ def screenshot(*, options: ScreenshotOptions, ros: RosArgs) -> int:
     on_signal(_interrupt)
     try:
         with one_sentence():
-            return _make(options, ros)
+            return _make(options, connect, ros)
     except KeyboardInterrupt:
         say_end("webviz: interrupted.")
         return INTERRUPTED
 
 
-def _make(options: ScreenshotOptions, ros: Sequence[str]) -> int:
+def _make(options: ScreenshotOptions, connect: ConnectOptions, ros: Sequence[str]) -> int:
     from webviz.shell.pictures.capture import SIZE, Order, image_alone, opened
     from webviz.sources.bag.extras import map_of_file, static_transform
     from webviz.sources.bag.source import BagSource
@@ -69,7 +74,7 @@ def _make(options: ScreenshotOptions, ros: Sequence[str]) -> int:
         config.set_fixed_frame(options.fixed_frame)
     extras = [map_of_file(each) for each in options.map]
     extras += [static_transform(*each) for each in options.transform]
-    with opened(options.bag, extras, ros) as source:
+    with opened(options.bag, extras, ros, connect.source) as source:
         at: Sequence[At] = ("end",)
         if isinstance(source, BagSource):
             at = _times(options, source)

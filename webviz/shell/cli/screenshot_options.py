@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 from cyclopts import Group, Parameter, Token
 
-from webviz.shell.cli.options import ConfigOptions, File, Flag, Repeatable
+from webviz.shell.cli.options import ConfigOptions, ConnectOptions, File, Flag, Repeatable
 from webviz.shell.pictures import files as picture_files
 from webviz.shell.pictures.times import At, TimeError, read_at
 
@@ -121,8 +121,9 @@ class ScreenshotOptions(ConfigOptions):
         )
 
 
-def check(options: ScreenshotOptions, **_: Any) -> None:
+def check(options: ScreenshotOptions, connect: ConnectOptions = ConnectOptions(), **_: Any) -> None:
     """Raise ValueError for an invalid combination of arguments."""
+    connect.check(options.bag is not None)
     if options.bag is None:
         for flag, value in (
             ("at", options.at),

@@ -20,6 +20,7 @@ from webviz.shell.app.viewer import Viewer
 from webviz.shell.bag_source import bag_source
 from webviz.shell.cli.ending import INTERRUPTED, Stop, say_end
 from webviz.shell.cli.links import show_links
+from webviz.shell.cli.options import ConnectOptions
 from webviz.shell.cli.viewing_options import BagOptions, ViewingOptions, align_of
 from webviz.sources import Source
 from webviz.sources.bag.ghost import Ghost
@@ -36,6 +37,7 @@ def serve(
     standard: Path | None = None,
     note: str = "",
     bag: BagOptions = BagOptions(),
+    connect: ConnectOptions = ConnectOptions(),
     work: Callable[[Viewer], object] | None = None,
     then: Callable[[Viewer], object] = lambda viewer: None,
 ) -> int:
@@ -48,6 +50,7 @@ def serve(
         standard: config to use if none is given.
         note: printed below the address of the page.
         bag: to play instead of live topics.
+        connect: the bridge of live topics.
         work: called once the page is served, instead of printing its address.
         then: called with the viewer before its address is printed.
 
@@ -80,7 +83,7 @@ def serve(
             allow_hosts=options.allow_host,
             fixed_frame=options.fixed_frame,
             bag=None if beside else bag.bag or None,
-            source=beside,
+            source=beside or (connect.source(ros) if connect.connect else None),
             autoplay=not bag.paused,
             ros_args=ros,
             plugins=options.plugin,

@@ -8,7 +8,14 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from cyclopts import App, Parameter, validators
 
 from webviz.shell.cli.ending import Stop, until_signal
-from webviz.shell.cli.options import ROS_ARGS_HELP, File, Plugins, Repeatable, RosArgs
+from webviz.shell.cli.options import (
+    ROS_ARGS_HELP,
+    ConnectOptions,
+    File,
+    Plugins,
+    Repeatable,
+    RosArgs,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -62,9 +69,14 @@ class RuleOptions:
 
 
 def _check(
-    report: Path | None = None, *, options: RuleOptions = RuleOptions(), **_: object
+    report: Path | None = None,
+    *,
+    options: RuleOptions = RuleOptions(),
+    connect: ConnectOptions = ConnectOptions(),
+    **_: object,
 ) -> None:
     """Raise ValueError for an invalid combination of arguments."""
+    connect.check(options.bag is not None)
     if report is None:
         if options.output or options.check:
             raise ValueError("-o and --check need a bug report: webviz test bug.zip -o test_bug.py")
@@ -81,6 +93,7 @@ def check_rules(
     /,
     *,
     options: RuleOptions = RuleOptions(),
+    connect: ConnectOptions = ConnectOptions(),
     ros: RosArgs,
 ) -> int:
     """Check that rules hold, over a bag or live topics; or write a test of a bug report.
@@ -88,6 +101,7 @@ def check_rules(
     Args:
         report: Zip file of a bug report, to write a test of it.
         options: What to check.
+        connect: Bridge of live topics.
         ros: Arguments for ROS.
     """
 
@@ -99,7 +113,7 @@ def check_rules(
             return 0
         from webviz.files.config.atomic import write_text
 
-        results = _examined(options, ros)
+        results = _examined(options, connect, ros)
         print(results.to_text(), flush=True)
         if options.junit is not None:
             write_text(results.to_junit(), options.junit)
@@ -108,13 +122,12 @@ def check_rules(
     return until_signal(work)
 
 
-def _examined(options: RuleOptions, ros: "Sequence[str]") -> "RuleResults":
+def _examined(options: RuleOptions, connect: ConnectOptions, ros: "Sequence[str]") -> "RuleResults":
     from webviz.engine.pipeline import plugins
     from webviz.shell.app.reading import read_config
     from webviz.shell.bag_source import bag_source
     from webviz.shell.cli.doctor import progress
     from webviz.shell.doctor.examination import examine_bag, examine_live
-    from webviz.shell.ros_source import ros_source
 
     for path in options.plugin:
         plugins.load(path)
@@ -128,7 +141,7 @@ def _examined(options: RuleOptions, ros: "Sequence[str]") -> "RuleResults":
             return results
     given = read_config(path) if path else None
     results = _rules(options, given)
-    with contextlib.closing(ros_source(ros)) as source:
+    with contextlib.closing(connect.source(ros)) as source:
         examine_live(source, given, options.seconds, progress, results)
     return results
 

@@ -5,7 +5,7 @@ from typing import Annotated
 from cyclopts import Parameter, validators
 
 from webviz.shell.cli.ending import Stop, until_signal
-from webviz.shell.cli.options import Repeatable, RosArgs
+from webviz.shell.cli.options import ConnectOptions, Repeatable, RosArgs
 from webviz.shell.cli.viewing_options import BagOptions, ViewingOptions
 from webviz_sim.options import fault_parameter
 
@@ -16,6 +16,8 @@ Examples:
   webviz -d nav2.rviz             open a config of RViz
   webviz --bag run.mcap           play a bag, without ROS
   webviz --bag today.mcap --ghost yesterday.mcap
+  webviz --connect ws://robot:8765
+                                  show a robot through its bridge, without ROS
   webviz --plugin my_display.py   load your own display, see the README
   webviz demo                     show a simulated robot
   webviz demo --robots 3          show several, each in a namespace of its own
@@ -27,12 +29,18 @@ Run `webviz COMMAND --help` for the options of a command.
 """
 
 
-def check(*, bag: BagOptions = BagOptions(), **_: object) -> None:
+def check(
+    *,
+    bag: BagOptions = BagOptions(),
+    connect: ConnectOptions = ConnectOptions(),
+    **_: object,
+) -> None:
     """Raise ValueError for an invalid combination of arguments."""
     if bag.paused and not bag.bag:
         raise ValueError("--paused needs --bag.")
     if bag.ghost is None and (bag.ghost_align != "start" or bag.ghost_difference):
         raise ValueError("--ghost-align and --ghost-difference need --ghost.")
+    connect.check(bool(bag.bag))
     if bag.ghost is not None and not bag.bag:
         raise ValueError("--ghost needs --bag.")
 
@@ -40,6 +48,7 @@ def check(*, bag: BagOptions = BagOptions(), **_: object) -> None:
 def view(
     *,
     bag: BagOptions = BagOptions(),
+    connect: ConnectOptions = ConnectOptions(),
     options: ViewingOptions = ViewingOptions(),
     ros: RosArgs,
 ) -> int:
@@ -48,7 +57,7 @@ def view(
     def work(stop: Stop) -> int:
         from webviz.shell.cli.serving import serve
 
-        return serve(options, ros, stop, bag=bag)
+        return serve(options, ros, stop, bag=bag, connect=connect)
 
     return until_signal(work)
 

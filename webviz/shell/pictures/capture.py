@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import time
-from collections.abc import Generator, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -249,9 +249,18 @@ def image_alone(topic: str) -> Config:
 
 @contextlib.contextmanager
 def opened(
-    bag: str | Path | None, extras: Sequence[Extra] = (), ros_args: Sequence[str] = ()
+    bag: str | Path | None,
+    extras: Sequence[Extra] = (),
+    ros_args: Sequence[str] = (),
+    live: Callable[[Sequence[str]], Source] = ros_source,
 ) -> Iterator[Source]:
-    """Provide a bag, or the ROS graph.
+    """Provide a bag, or live topics.
+
+    Args:
+        bag: None for live topics.
+        extras: for the bag.
+        ros_args: for ROS.
+        live: opens the source of live topics.
 
     Raises:
         Error: the bag cannot be read, or ROS is missing.
@@ -261,7 +270,7 @@ def opened(
     elif extras:
         raise Error("Maps and transforms can only be added to a bag. Give a bag.")
     else:
-        source = ros_source(ros_args)
+        source = live(ros_args)
     with contextlib.closing(source):
         yield source
 

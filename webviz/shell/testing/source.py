@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from webviz.api.bridge import Bridge
 from webviz.sources import Graph, Inbox, Offer, Publisher, Raw, ReadOnly, Subscription
 
 SECOND = 1_000_000_000
@@ -22,6 +23,8 @@ class HandFedSource:
     known: dict[str, Offer] = field(default_factory=dict)
     now: int = 100 * SECOND
     """ROS time in ns."""
+    bridges: Sequence[Bridge] = ()
+    """To bridges."""
     clock_count: int | None = None
     """Of messages on /clock; None is wall time."""
     _told: dict[str, Offer] = field(default_factory=dict)

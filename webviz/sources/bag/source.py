@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import re
 from collections.abc import Collection, Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import replace
@@ -23,19 +22,17 @@ from webviz.sources.bag.past import BagPast
 from webviz.sources.bag.time import CLOCK, TF, BagTime
 from webviz.sources.graph import ReadOnly
 from webviz.sources.inbox import MAX_BYTES, Inbox, Raw
+from webviz.sources.names import resolved
 from webviz.sources.past_state import Event
 from webviz.sources.replay import Replay
 from webviz.sources.slices import BagSlice
 from webviz.sources.source import Subscription
 
-NODE = "webviz"
-"""The node name of private topics (~/...), as in the live viewer."""
 INBOX_LIMIT = 20_000
 """Messages per topic; all latched messages arrive at once."""
 NONE = "the bag has none"
 """When the first message of a topic comes."""
 NOT_COUNTED: Mapping[str, Sequence[int]] = {}
-TOPIC = re.compile(r"(/[A-Za-z_]\w*)+", re.ASCII)
 
 
 class BagSource:
@@ -82,8 +79,10 @@ class BagSource:
         """Types by topic, of subscriptions that get their past from the seek before."""
         self._counting: Future[Mapping[str, Sequence[int]]] | None = None
 
+    bridges = ()
+    """A bag needs no bridge,"""
     absence = ""
-    """A bag has a past,"""
+    """has a past,"""
     is_live = False
     """and nothing else,"""
     gap_ns = counted_ns = None
@@ -245,15 +244,7 @@ class BagSource:
         Raises:
             ValueError: it is not a valid topic name.
         """
-        name = topic if topic.startswith("/") else f"/{topic}"
-        if topic.startswith("~"):
-            name = f"/{NODE}/{topic.removeprefix('~').removeprefix('/')}"
-        if not TOPIC.fullmatch(name):
-            raise ValueError(
-                f"{topic!r} is not a valid topic name: it must be words of letters, digits and "
-                "underscores, separated by slashes, that do not start with a digit"
-            )
-        return self._remappings.get(name, name)
+        return resolved(topic, self._remappings)
 
     def close(self) -> None:
         """Close the file."""

@@ -1,0 +1,318 @@
+"""Servers that break the Foxglove protocol, refuse, or send more than a viewer can hold."""
+
+from __future__ import annotations
+
+import http
+import json
+import socket
+import struct
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from bridges import SCAN, STRING, Reader, reading
+from websockets.exceptions import ConnectionClosed
+from websockets.http11 import Request, Response
+from websockets.sync.server import ServerConnection, serve
+
+from webviz.data.messages import definition, encode, type_exists
+from webviz.sources.bridge import foxglove, foxglove_channels, foxglove_wire, source
+
+INFO = {"op": "serverInfo", "name": "liar", "capabilities": ["services", "assets"]}
+SDK = "foxglove.sdk.v1"
+Script = Callable[[ServerConnection], None]
+
+
+@pytest.fixture
+def liar() -> Iterator[Callable[..., Reader]]:
+    """Run a script for each connection, and read from it; a second fresh line proves it lives."""
+    opened: list[Any] = []
+
+    def liar(script: Script, protocol: str = SDK, **options: Any) -> Reader:
+        def talk(connection: ServerConnection) -> None:
+            try:
+                connection.send(json.dumps(INFO))
+                script(connection)
+                for _ in connection:
+                    pass
+            except ConnectionClosed:
+                return
+
+        options = {"subprotocols": [protocol] if protocol else None, "max_size": None, **options}
+        server = serve(talk, "127.0.0.1", 0, compression=None, **options)
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        port = server.socket.getsockname()[1]
+        reader = reading(f"ws://127.0.0.1:{port}")
+        opened.append((reader, server))
+        return reader.__enter__()
+
+    yield liar
+    for reader, server in opened:
+        reader.__exit__(None, None, None)
+        server.shutdown()
+
+
+def channel(id: int, topic: str, type: str = STRING, **fields: Any) -> dict[str, Any]:
+    text = definition(type) if type_exists(type) else ""
+    known = {"encoding": "cdr", "schemaEncoding": "ros2msg", "schema": text}
+    return {"id": id, "topic": topic, "schemaName": type, **known, **fields}
+
+
+def advertise(*channels: dict[str, Any]) -> str:
+    return json.dumps({"op": "advertise", "channels": channels})
+
+
+def next_subscription(connection: ServerConnection) -> int:
+    """The id of the next subscription."""
+    while True:
+        text = json.loads(connection.recv())
+        if text["op"] == "subscribe":
+            return text["subscriptions"][0]["id"]
+
+
+def message(subscription: int, text: str) -> bytes:
+    return struct.pack("<BIQ", 1, subscription, 5) + encode(STRING, {"data": text})
+
+
+MALFORMED = {
+    "no message": b"\x01\x00",
+    "no time": b"\x02\x00\x00",
+    "no response": b"\x03" + b"\x00" * 5,
+    "a response with a long encoding": struct.pack("<BIII", 3, 1, 1, 0xFFFFFFFF),
+    "an asset with a long error": struct.pack("<BIBI", 4, 1, 1, 1000) + b"short",
+    "nothing": b"",
+    "no JSON": "{",
+    "an array": "[]",
+    "no op": "{}",
+    "a number as op": '{"op": 5}',
+    "deep nesting": '{"op": "advertise", "channels": ' + "[" * 100_000,
+    "channels of another type": '{"op": "advertise", "channels": 5}',
+    "an id that is a text": advertise(channel(1, "/x") | {"id": "one"}),
+}
+
+
+def test_malformed_frames_are_counted_and_the_rest_is_read(liar: Callable[..., Reader]) -> None:
+    def script(connection: ServerConnection) -> None:
+        for frame in MALFORMED.values():
+            connection.send(frame)
+        connection.send(b"\xc8future opcode")
+        connection.send('{"op": "playbackState", "status": 3}')
+        connection.send(struct.pack("<BIQ", 1, 77, 5) + b"of no subscription")
+        connection.send(struct.pack("<BIII", 3, 1, 1, 3) + b"cdr of no call")
+        connection.send(advertise(channel(1, "/words")))
+        connection.send(message(next_subscription(connection), "still here"))
+
+    reader = liar(script)
+    reader.want(words=STRING)
+    assert reader.decoded("/words", STRING).data == "still here"
+    ignored = f"{len(MALFORMED)} frames of the bridge ignored."
+    reader.until(lambda: any(remark.startswith(ignored) for remark in reader.bridge.remarks))
+
+
+def test_a_hundred_thousand_channels_are_cut_and_said(liar: Callable[..., Reader]) -> None:
+    def script(connection: ServerConnection) -> None:
+        channels = [channel(i, f"/topic{i}") for i in range(100_000)]
+        connection.send(advertise(channel(100_001, "/words"), *channels))
+        connection.send(message(next_subscription(connection), "first"))
+
+    reader = liar(script)
+    reader.want(words=STRING)
+    assert reader.decoded("/words", STRING).data == "first"
+    reader.until(lambda: len(reader.source.offers()) == foxglove_channels.MAX_TOPICS)
+    reader.until(lambda: any("90001 topics are left out" in r for r in reader.bridge.remarks))
+
+
+def test_definitions_of_all_channels_are_bounded(
+    liar: Callable[..., Reader], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(foxglove_channels, "MAX_SCHEMAS", 10_000)
+    texts = [f"string data # {'x' * 3000} {i}" for i in range(5)]
+    reader = liar(
+        lambda connection: connection.send(
+            advertise(*(channel(i, f"/t{i}", schema=text) for i, text in enumerate(texts)))
+        )
+    )
+    reader.until(lambda: len(reader.source.offers()) == 3)
+
+
+@pytest.mark.parametrize(
+    ("schema", "problem"),
+    [
+        ("string data\n===\nwhat", "not valid .msg text"),
+        ("=" * 80 + "\nIDL: bad_msgs/msg/Bad\nmodule {", "not valid IDL"),
+        ("bad_msgs/Bad[] again", "cannot contain itself"),
+        ("other_msgs/Missing x", "whose definition is missing"),
+        ("", "does not send the definition"),
+        ("# " + "x" * (1 << 20), "longer than 1 MB"),
+        ("(" * 50_000, "not valid .msg text"),
+        (
+            f"std_msgs/Header header\n{'=' * 80}\nMSG: std_msgs/Header\nuint8 x",
+            "differs from ROS 2's",
+        ),
+    ],
+)
+def test_hostile_definitions_are_problems_of_their_topic(
+    liar: Callable[..., Reader], schema: str, problem: str
+) -> None:
+    bad = "bad_msgs/msg/Bad"
+    reader = liar(lambda c: c.send(advertise(channel(1, "/bad", bad, schema=schema))))
+    reader.want(bad=bad)
+    reader.until(lambda: "/bad" in reader.source.offers())
+    reader.until(lambda: problem in reader.source.offers()["/bad"].problem)
+
+
+@pytest.mark.parametrize(
+    ("fields", "problem"),
+    [
+        ({"encoding": "ros1"}, "is a message of ROS 1"),
+        ({"encoding": "flatbuffer"}, "comes as 'flatbuffer', no display reads that"),
+        ({"schemaEncoding": "omgidl"}, "is defined as 'omgidl'"),
+    ],
+)
+def test_unread_encodings_are_listed_with_the_reason(
+    liar: Callable[..., Reader], fields: dict[str, str], problem: str
+) -> None:
+    reader = liar(lambda c: c.send(advertise(channel(1, "/words", **fields))))
+    reader.want(words=STRING)
+    reader.until(lambda: "/words" in reader.source.offers())
+    assert problem in reader.source.offers()["/words"].problem
+
+
+def test_names_that_ros_does_not_allow_are_left_out(liar: Callable[..., Reader]) -> None:
+    names = ["no slash", "/a b", "/" + "x" * 10_000, "/evil\x1b[2J\n", ""]
+    channels = [channel(i, name) for i, name in enumerate(names)]
+    reader = liar(lambda c: c.send(advertise(channel(9, "/good"), *channels)))
+    reader.until(lambda: set(reader.source.offers()) == {"/good"})
+    reader.until(lambda: any("no slash" in remark for remark in reader.bridge.remarks))
+    assert all("\x1b" not in r and len(r) < 400 for r in reader.bridge.remarks)
+
+
+def test_a_flood_of_statuses_keeps_the_newest(liar: Callable[..., Reader]) -> None:
+    def script(connection: ServerConnection) -> None:
+        for i in range(5000):
+            connection.send(
+                json.dumps({"op": "status", "level": 2, "message": f"{i} " + "x" * 999})
+            )
+
+    reader = liar(script)
+    reader.until(lambda: any("4999 x" in remark for remark in reader.bridge.remarks))
+    assert len(reader.bridge.remarks) == foxglove.MAX_STATUSES
+
+
+def test_a_message_above_the_limit_is_a_problem_of_its_topic(
+    liar: Callable[..., Reader], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(source, "MAX_TOTAL", 1000)
+
+    def script(connection: ServerConnection) -> None:
+        connection.send(advertise(channel(1, "/words")))
+        connection.send(message(next_subscription(connection), "x" * 2000))
+
+    reader = liar(script)
+    reader.want(words=STRING)
+    reader.until(lambda: "/words" in reader.source.offers())
+    reader.until(lambda: "is above the limit" in reader.source.offers()["/words"].problem)
+
+
+def test_a_frame_above_all_limits_ends_the_connection(
+    liar: Callable[..., Reader], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(source, "MAX_TOTAL", 1000)
+    begun: list[float] = []
+
+    def script(connection: ServerConnection) -> None:
+        begun.append(time.monotonic())
+        connection.send(iter(lambda: "[" * 100_000, None))  # an endless text
+
+    reader = liar(script)
+    reader.until(lambda: "sent a frame above the limit" in reader.bridge.problem)
+    reader.until(lambda: len(begun) >= 2)  # it is tried again
+
+
+def test_a_text_above_its_limit_is_ignored(
+    liar: Callable[..., Reader], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(foxglove_wire, "MAX_TEXT", 1000)
+    reader = liar(lambda connection: connection.send(advertise(channel(1, "/" + "x" * 2000))))
+    reader.until(lambda: any("above the limit" in remark for remark in reader.bridge.remarks))
+
+
+def test_calls_that_are_never_answered_end_and_are_bounded(
+    liar: Callable[..., Reader], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(foxglove, "MAX_PENDING", 3)
+    offer = {"id": 1, "name": "/sleep", "type": "std_srvs/srv/Empty"}
+    reader = liar(lambda c: c.send(json.dumps({"op": "advertiseServices", "services": [offer]})))
+    reader.until(lambda: reader.bridge.is_up and reader.bridge.limits)
+    reader.until(lambda: "no service" not in str(_call(reader, 0.0).exception(20)))
+    answers = [_call(reader, 0.5) for _ in range(4)]
+    assert "does not answer within 0.5 s" in str(answers[0].exception(20))
+    assert "owes 3 answers" in str(answers[3].exception(20))
+    assert "does not answer" in str(_call(reader, 0.1).exception(20))
+
+
+def _call(reader: Reader, timeout_s: float) -> Any:
+    return reader.source.graph.call("/sleep", "std_srvs/srv/Empty", b"\0\1\0\0\0", timeout_s)
+
+
+def refuse(status: int, body: str) -> Callable[[ServerConnection, Request], Response]:
+    return lambda connection, request: connection.respond(http.HTTPStatus(status), body)
+
+
+@pytest.mark.parametrize(
+    ("status", "body", "said"),
+    [
+        (400, "Missing expected sec-websocket-protocol header", "refuses the protocols"),
+        (401, "", "asks for credentials (HTTP 401)"),
+        (404, "", "answers with HTTP 404"),
+    ],
+)
+def test_refusals_are_explained(
+    liar: Callable[..., Reader], status: int, body: str, said: str
+) -> None:
+    reader = liar(lambda connection: None, process_request=refuse(status, body))
+    reader.until(lambda: said in reader.bridge.problem)
+    assert reader.bridge.remedy
+    assert body in reader.bridge.problem
+
+
+def test_tokens_are_sent_in_headers(liar: Callable[..., Reader], tmp_path: Path) -> None:
+    got: list[str] = []
+
+    def check(connection: ServerConnection, request: Request) -> None:
+        got.append(request.headers.get("Authorization", ""))
+
+    first = liar(lambda connection: None, process_request=check)
+    first.until(lambda: first.bridge.is_up)
+    file = tmp_path / "headers"
+    file.write_text("Authorization: Bearer secret\n")
+    with reading(first.bridge.name, headers=file) as reader:
+        reader.until(lambda: reader.bridge.is_up)
+    assert got[-1] == "Bearer secret"
+
+
+def test_old_bridges_are_spoken_to(liar: Callable[..., Reader]) -> None:
+    reader = liar(lambda c: c.send(advertise(channel(1, "/scan", SCAN))), "foxglove.websocket.v1")
+    reader.until(lambda: "/scan" in reader.source.offers())
+
+
+def test_what_is_no_websocket_is_said() -> None:
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        port = listener.getsockname()[1]
+
+        def answer() -> None:
+            connection, _ = listener.accept()
+            with connection:
+                connection.recv(1 << 16)
+                connection.sendall(b"SSH-2.0-OpenSSH_9.6\r\n")
+
+        threading.Thread(target=answer, daemon=True).start()
+        with reading(f"ws://127.0.0.1:{port}") as reader:
+            reader.until(lambda: "is not a websocket server" in reader.bridge.problem)
+    with reading(f"ws://127.0.0.1:{port}") as reader:
+        reader.until(lambda: reader.bridge.problem == f"Nothing listens on 127.0.0.1:{port}.")
+    with reading("ws://no-such-robot.invalid:8765") as reader:
+        reader.until(lambda: "is unknown" in reader.bridge.problem)

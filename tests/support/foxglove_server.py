@@ -1,0 +1,225 @@
+"""A real Foxglove server with a small robot, as a process of its own.
+
+    python foxglove_server.py PORT [SCENE]
+
+It prints its address, and then what clients do, one line of JSON each: subscriptions, messages,
+calls. Lines on its standard input are commands: `time SECONDS`, `status TEXT`, `stop TOPIC`,
+`burst TOPIC COUNT SIZE`.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+import sys
+import threading
+import time
+from typing import Any
+
+import foxglove  # pyright: ignore[reportMissingImports]
+import numpy as np
+from foxglove.websocket import (  # pyright: ignore[reportMissingImports]
+    Capability,
+    ConnectionGraph,
+    MessageSchema,
+    Service,
+    ServiceSchema,
+    StatusLevel,
+)
+
+from webviz.data.messages import definition, encode, interfaces, register
+
+PERIOD_S = 0.05
+TF = "tf2_msgs/msg/TFMessage"
+SCAN = "sensor_msgs/msg/LaserScan"
+STRING = "std_msgs/msg/String"
+MAP = "nav_msgs/msg/OccupancyGrid"
+CUSTOM = "my_robot_msgs/msg/Battery"
+TYPES = {
+    "/tf": TF,
+    "/tf_static": TF,
+    "/scan": SCAN,
+    "/robot_description": STRING,
+    "/map": MAP,
+    "/battery": CUSTOM,
+    "/odd": CUSTOM,
+}
+BATTERY_IDL = """\
+================================================================================
+IDL: my_robot_msgs/msg/Battery
+// generated from rosidl_adapter/resource/msg.idl.em
+#include "builtin_interfaces/msg/Time.idl"
+#include "std_msgs/msg/Header.idl"
+
+module my_robot_msgs {
+  module msg {
+    module Battery_Constants {
+      const uint8 FULL = 1;
+    };
+    @verbatim (language="comment", text=
+      "A battery.")
+    struct Battery {
+      std_msgs::msg::Header header;
+      float voltage;
+      sequence<float> cells;
+      string name;
+    };
+  };
+};
+================================================================================
+IDL: std_msgs/msg/Header
+#include "builtin_interfaces/msg/Time.idl"
+module std_msgs { module msg { struct Header {
+  builtin_interfaces::msg::Time stamp;
+  string frame_id;
+}; }; };
+================================================================================
+IDL: builtin_interfaces/msg/Time
+module builtin_interfaces { module msg { struct Time { int32 sec; uint32 nanosec; }; }; };
+"""
+SET_BOOL = "std_srvs/srv/SetBool"
+
+
+def say(**fact: Any) -> None:
+    print(json.dumps(fact), flush=True)
+
+
+class Robot(foxglove.websocket.ServerListener):
+    """Channels, and what clients do with them."""
+
+    def __init__(self) -> None:
+        self.channels: dict[str, Any] = {}
+        self.latched: dict[str, bytes] = {}
+
+    def on_subscribe(self, client: Any, channel: Any) -> None:
+        say(subscribed=channel.topic)
+        if (last := self.latched.get(channel.topic)) is not None:
+            self.channels[channel.topic].log(last)
+
+    def on_unsubscribe(self, client: Any, channel: Any) -> None:
+        say(unsubscribed=channel.topic)
+
+    def on_client_advertise(self, client: Any, channel: Any) -> None:
+        say(advertised=channel.topic, type=channel.schema_name, encoding=channel.encoding)
+
+    def on_client_unadvertise(self, client: Any, client_channel_id: Any) -> None:
+        say(unadvertised=True)
+
+    def on_message_data(self, client: Any, client_channel_id: Any, data: bytes) -> None:
+        say(message=base64.b64encode(data).decode())
+
+    def add(self, topic: str, type: str) -> None:
+        if type == CUSTOM:
+            schema = foxglove.Schema(name=type, encoding="ros2idl", data=BATTERY_IDL.encode())
+        else:
+            schema = foxglove.Schema(name=type, encoding="ros2msg", data=definition(type).encode())
+        self.channels[topic] = foxglove.Channel(topic, message_encoding="cdr", schema=schema)
+
+    def publish(self, topic: str, values: Any, at_ns: int | None = None) -> None:
+        self.channels[topic].log(encode(TYPES[topic], values), log_time=at_ns)
+
+
+def header(frame: str) -> dict[str, Any]:
+    sec, nanosec = divmod(time.time_ns(), 1_000_000_000)
+    return {"stamp": {"sec": sec, "nanosec": nanosec}, "frame_id": frame}
+
+
+def transform(parent: str, child: str, x: float) -> dict[str, Any]:
+    pose = {"translation": {"x": x}, "rotation": {"w": 1.0}}
+    return {"header": header(parent), "child_frame_id": child, "transform": pose}
+
+
+def handle(request: Any) -> bytes:
+    say(called=request.service_name, request=base64.b64encode(request.payload).decode())
+    if request.payload[4]:
+        return encode(f"{SET_BOOL}_Response", {"success": True, "message": "on"})
+    raise RuntimeError("the motor is locked")
+
+
+def main(port: int, *options: str) -> None:
+    register(CUSTOM, BATTERY_IDL)
+    robot = Robot()
+    for topic, type in TYPES.items():
+        robot.add(topic, type)
+    schema = ServiceSchema(
+        SET_BOOL,
+        request=MessageSchema(
+            encoding="cdr",
+            schema=foxglove.Schema(
+                name=f"{SET_BOOL}_Request", encoding="ros2msg", data=b"bool data"
+            ),
+        ),
+        response=MessageSchema(
+            encoding="cdr",
+            schema=foxglove.Schema(
+                name=f"{SET_BOOL}_Response",
+                encoding="ros2msg",
+                data=b"bool success\nstring message",
+            ),
+        ),
+    )
+
+    interfaces.service(SET_BOOL)
+    # Without capabilities, it is a server that only shows.
+    is_able = "plain" not in options
+    able = [Capability.ClientPublish, Capability.Services, Capability.ConnectionGraph]
+    server = foxglove.start_server(
+        name="test",
+        host="127.0.0.1",
+        port=port,
+        server_listener=robot,
+        supported_encodings=["cdr"],
+        capabilities=[*(able if is_able else []), Capability.Time],
+        services=[Service("/motor", schema=schema, handler=handle)] if is_able else None,
+        asset_handler=(lambda uri: b"solid" if uri == "package://arm/a.stl" else None)
+        if is_able
+        else None,
+        message_backlog_size=200 if "short" in options else None,
+    )
+    if is_able:
+        graph = ConnectionGraph()
+        graph.set_published_topic("/scan", ["/laser"])
+        graph.set_published_topic("/tf", ["/robot_state_publisher", "/odometry"])
+        graph.set_subscribed_topic("/cmd_vel", ["/base"])
+        graph.set_advertised_service("/motor", ["/base"])
+        server.publish_connection_graph(graph)
+    robot.latched = {
+        "/robot_description": encode(
+            STRING, {"data": "<robot name='r'><link name='base'/></robot>"}
+        ),
+        "/tf_static": encode(TF, {"transforms": [transform("base", "laser", 0.2)]}),
+    }
+    say(url=f"ws://127.0.0.1:{server.port}")
+    threading.Thread(target=follow, args=(robot, server), daemon=True).start()
+    ranges = np.full(360, 2.0, np.float32)
+    begun = time.monotonic()
+    while True:
+        now = time.monotonic() - begun
+        robot.publish("/tf", {"transforms": [transform("odom", "base", now)]})
+        scan = {"angle_max": 3.1, "angle_increment": 0.01, "range_max": 9.0, "ranges": ranges}
+        robot.publish("/scan", {"header": header("laser"), **scan})
+        robot.publish("/battery", {"header": header("base"), "voltage": 12.5, "name": "main"})
+        time.sleep(PERIOD_S)
+
+
+def follow(robot: Robot, server: Any) -> None:
+    """Carry out the commands of the test."""
+    for line in sys.stdin:
+        command, _, rest = line.strip().partition(" ")
+        if command == "time":
+            server.broadcast_time(round(float(rest) * 1e9))
+        elif command == "status":
+            server.publish_status(rest, StatusLevel.Warning, "1")
+        elif command == "stop":
+            robot.channels.pop(rest).close()
+        elif command == "burst":
+            topic, count, size = rest.split()
+            cdr = encode(STRING, {"data": "x" * int(size)})
+            for _ in range(int(count)):
+                robot.channels[topic].log(cdr)
+                time.sleep(0.01)
+        say(done=line.strip())
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]), *sys.argv[2:])

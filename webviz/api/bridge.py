@@ -1,0 +1,32 @@
+"""Bridges, which carry the topics of robots over a network."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Bridge:
+    """A bridge and the link to it, as they are now.
+
+    Args:
+        name: address of the bridge without credentials, such as ws://robot:8765.
+        protocol: that it speaks, such as "Foxglove"; "" until it was connected.
+        is_up: whether it is connected and answers.
+        was_up: whether it ever was.
+        problem: why it is down, a sentence; "" if it is up.
+        remedy: what to do about the problem, a sentence.
+        remarks: sentences about an open link: warnings of the bridge, lost messages.
+        limits: sentences on what the bridge does not pass on.
+        round_trip_s: of the last answer, None before one.
+    """
+
+    name: str
+    protocol: str = ""
+    is_up: bool = False
+    was_up: bool = False
+    problem: str = ""
+    remedy: str = ""
+    remarks: tuple[str, ...] = ()
+    limits: tuple[str, ...] = ()
+    round_trip_s: float | None = None

@@ -1,0 +1,52 @@
+"""Bridges that are not connected."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from webviz.api.check import Check
+from webviz.api.finding import Finding, Severity
+from webviz.api.observation import Observation
+from webviz.data.words import joined
+
+
+class BrokenLink(Check):
+    """Bridge that is not connected.
+
+    The bridge that webviz was started with by `--connect` cannot be reached, refuses the
+    connection, or has ended.
+
+    Why:
+        All topics come over this one connection. What is shown is from before it broke; webviz
+        tries again until the bridge is back.
+
+    Repair:
+        Start the bridge on the robot, and let the port through its firewall:
+
+            ros2 launch foxglove_bridge foxglove_bridge_launch.xml
+    """
+
+    id = "NET007"
+
+    def find(self, seen: Observation) -> Iterator[Finding]:
+        """Yield a finding for each link that is down."""
+        for bridge in seen.bridges:
+            if bridge.is_up:
+                continue
+            explains = [
+                symptom
+                for display, each, _ in seen.starved()
+                for symptom in display.symptom(each.status)
+            ]
+            keys = ("Connection", f"Connection to {bridge.name}")
+            of_viewer = [symptom for key in keys for symptom in seen.symptom(key)]
+            is_alone = len(seen.bridges) == 1
+            yield self.found(
+                joined(f"{bridge.name} is not connected. {bridge.problem}"),
+                bridge.remedy or "Check the network.",
+                subject=bridge.name,
+                severity=Severity.ERROR,
+                evidence={"bridge": bridge.name, "was_connected": bridge.was_up},
+                command="ros2 launch foxglove_bridge foxglove_bridge_launch.xml",
+                explains=(*of_viewer, *(explains if is_alone else ())),
+            )

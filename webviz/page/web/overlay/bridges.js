@@ -1,0 +1,26 @@
+// The bridges over which live topics come, and which of them are not live.
+
+import { el, set, setChildren, setText } from "../dom.js";
+import { plain } from "../plain.js";
+import { watch } from "../stores.js";
+
+export function build() {
+  const list = el("output", { class: "wv-bridges", hidden: true });
+  watch("bridges", (values) => {
+    const all = values.get("all") ?? [];
+    list.hidden = all.length === 0;
+    setChildren(list, all.map(card));
+  });
+  return list;
+}
+
+/** @param {[string, string]} bridge */
+function card([name, problem]) {
+  const element = el("div", { class: "wv-card wv-bridge" });
+  setText(element, problem ? `${plain(name)} · not live` : plain(name));
+  set(element, {
+    "data-state": problem ? "down" : "up",
+    "data-tip": problem ? plain(problem) : "Connected over a bridge",
+  });
+  return element;
+}

@@ -1,0 +1,1 @@
+"""Live topics through a bridge: one TCP connection, without ROS on this machine."""

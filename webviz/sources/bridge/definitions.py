@@ -1,0 +1,48 @@
+"""Definitions of message types that bridges send."""
+
+from __future__ import annotations
+
+from webviz.data.messages import MessageError, register, type_exists
+
+MAX_TEXT = 1 << 20
+"""Characters of a definition with all its nested types; the longest of ROS have a tenth of it."""
+
+
+class Definitions:
+    """The types that were learned from a bridge; each definition is read once."""
+
+    def __init__(self) -> None:
+        self._learned: dict[str, tuple[str, str]] = {}
+
+    def learn(self, type: str, text: str) -> str:
+        """Register a type.
+
+        Args:
+            type: its name, such as "nav_msgs/msg/Path".
+            text: its definition, see `webviz.data.messages.register`; "" if the bridge has none.
+
+        Returns:
+            Why its messages cannot be read, "" if they can.
+        """
+        known, problem = self._learned.get(type, ("", ""))
+        if text and known == text:
+            return problem
+        problem = self._problem(type, text)
+        self._learned[type] = text, problem
+        return problem
+
+    def _problem(self, type: str, text: str) -> str:
+        if not text:
+            if type_exists(type):
+                return ""
+            return (
+                f"the bridge does not send the definition of {type}. Source the workspace that "
+                "has its package before starting the bridge"
+            )
+        if len(text) > MAX_TEXT:
+            return f"the definition of {type} is longer than {MAX_TEXT >> 20} MB"
+        try:
+            register(type, text)
+        except (MessageError, RecursionError) as error:
+            return str(error).rstrip(".")
+        return ""

@@ -1,0 +1,365 @@
+"""One connection to a server of the Foxglove protocol, such as foxglove_bridge."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Collection, Mapping, Sequence
+from concurrent.futures import Future
+from typing import Any
+
+from webviz.api.offer import Durability, Publisher
+from webviz.data.messages import UnknownTypeError, definition
+from webviz.data.words import plain
+from webviz.sources.bridge import foxglove_wire as wire
+from webviz.sources.bridge.foxglove_channels import FoxgloveChannels
+from webviz.sources.bridge.foxglove_graph import ConnectionGraph
+from webviz.sources.bridge.session import CarriedTopic, Host
+from webviz.sources.graph import UNKNOWN, Advertisement, Missing, NotConnected
+from webviz.sources.source import Subscription
+
+MAX_SERVICES = 10_000
+MAX_STATUSES = 8
+"""Warnings of the bridge that are kept, the newest."""
+MAX_PENDING = 1000
+"""Calls and files whose answers are outstanding."""
+NO_PUBLISHING = (
+    "The bridge takes no messages. Add clientPublish to the parameter capabilities of "
+    "foxglove_bridge."
+)
+NO_SERVICES = (
+    "The bridge calls no services. Add services to the parameter capabilities of foxglove_bridge."
+)
+NO_ASSETS = (
+    "The bridge sends no files. Add assets to the parameter capabilities of foxglove_bridge."
+)
+LIMITS = (
+    "The bridge does not tell the QoS of publishers; it subscribes with one that matches them.",
+    "Actions do not pass the bridge, so no goal can be sent to one.",
+)
+NO_GRAPH = "The bridge does not tell which nodes publish and subscribe."
+
+
+class FoxgloveSession:
+    """Topics, services and files of a Foxglove server; see `BridgeSession`.
+
+    Args:
+        host: of the connection.
+    """
+
+    protocol = "Foxglove"
+
+    def __init__(self, host: Host) -> None:
+        self._host = host
+        self._info: wire.ServerInfo | None = None
+        """Its first text, None before."""
+        self._graph = ConnectionGraph()
+        self._channels = FoxgloveChannels()
+        self._services: dict[str, wire.ServiceOffer] = {}
+        self._wishes: Mapping[str, Subscription] = {}
+        self._lines: dict[str, tuple[int, int, int]] = {}
+        """By topic: id of our subscription, that of the channel, and `asked` of the wish."""
+        self._topic_of: dict[int, str] = {}
+        """By id of our subscription."""
+        self._problems: dict[str, str] = {}
+        self._to_advertise: frozenset[Advertisement] = frozenset()
+        self._advertised: dict[Advertisement, int] = {}
+        self._pending: dict[int, Future[bytes]] = {}
+        self._assets: dict[int, Future[bytes]] = {}
+        self._statuses: dict[str, str] = {}
+        self._next_id = 1
+
+    # For the source
+
+    @property
+    def topics(self) -> Mapping[str, CarriedTopic]:
+        """All topics, by name."""
+        return {
+            topic: self._carried(topic, each) for topic, each in self._channels.by_topic.items()
+        }
+
+    @property
+    def nodes(self) -> tuple[str, ...]:
+        """Full names of the nodes, as far as the bridge tells them."""
+        return self._graph.nodes
+
+    @property
+    def remarks(self) -> Sequence[str]:
+        """Warnings of the bridge, and what is left out of what it offers."""
+        return [*self._channels.remarks(), *self._statuses.values()]
+
+    @property
+    def limits(self) -> Sequence[str]:
+        """Limits of the bridge, by its capabilities."""
+        if self._info is None:
+            return LIMITS
+        able = self._info.capabilities
+        return [
+            *LIMITS,
+            *([] if "connectionGraph" in able else [NO_GRAPH]),
+            *([] if "clientPublish" in able else [NO_PUBLISHING]),
+            *([] if "services" in able else [NO_SERVICES]),
+            *([] if "assets" in able else [NO_ASSETS]),
+        ]
+
+    def start(self) -> None:
+        """Do nothing: the server speaks first."""
+
+    def receive(self, frame: str | bytes) -> None:
+        """Take a frame; raises WireError."""
+        if isinstance(frame, bytes):
+            self._take_binary(wire.read_binary(frame))
+        else:
+            self._take_text(wire.read_text(frame))
+
+    def want(self, wishes: Mapping[str, Subscription]) -> None:
+        """Make the subscriptions exactly these, as far as they are offered."""
+        self._wishes = wishes
+        ended: list[int] = []
+        for topic, line in list(self._lines.items()):
+            channel = self._channel(topic)
+            if channel is None or (channel.id, wishes[topic].asked) != line[1:]:
+                ended.append(self._end(topic))
+        begun: list[tuple[int, int]] = []
+        for topic in wishes:
+            if topic not in self._lines and (channel := self._channel(topic)) is not None:
+                begun.append(self._begin(topic, channel))
+        if ended:
+            self._host.send(wire.unsubscribe(ended))
+        if begun:
+            self._host.send(wire.subscribe(begun))
+
+    def advertise(self, advertisements: Collection[Advertisement]) -> None:
+        """Make the advertised publishers exactly these; raises NotConnected."""
+        self._to_advertise = frozenset(advertisements)
+        if self._info is None:
+            return  # they follow once it is known what the server can do
+        gone = [each for each in self._advertised if each not in advertisements]
+        if gone:
+            self._host.send(wire.unadvertise([self._advertised.pop(each) for each in gone]))
+        for each in advertisements:
+            self._advertise(each)
+
+    def publish(self, advertisement: Advertisement, cdr: bytes) -> int:
+        """Publish a message; raises NotConnected."""
+        self._host.send(wire.publish(self._advertise(advertisement), cdr))
+        return self._graph.subscribers(advertisement.topic, UNKNOWN)
+
+    def call(self, service: str, type: str, request: bytes, answer: Future[bytes]) -> None:
+        """Call a service; raises NotConnected."""
+        self._require("services", NO_SERVICES)
+        offered = self._services.get(service)
+        if offered is None:
+            raise Missing(f"The bridge offers no service {service}.")
+        if offered.type != type:
+            raise NotConnected(
+                f"{service} has the type {offered.type}, not {type}. Choose another service."
+            )
+        self._host.send(wire.call(offered.id, self._pend(self._pending, answer), request))
+
+    def forget(self, answer: Future[bytes]) -> None:
+        """Expect the response of a call no longer."""
+        for pending in (self._pending, self._assets):
+            for id, each in list(pending.items()):
+                if each is answer:
+                    del pending[id]
+
+    def fetch(self, uri: str, answer: Future[bytes]) -> None:
+        """Fetch a file of the robot; raises NotConnected."""
+        self._require("assets", NO_ASSETS)
+        self._host.send(wire.fetch_asset(self._pend(self._assets, answer), uri))
+
+    def close(self, problem: str) -> None:
+        """Fail everything that is pending."""
+        for answer in (*self._pending.values(), *self._assets.values()):
+            _fail(answer, problem)
+        self._pending.clear()
+        self._assets.clear()
+
+    # Frames
+
+    def _take_binary(self, message: Any) -> None:
+        match message:
+            case wire.MessageData():
+                # What was on its way when a subscription ended has no topic any more.
+                if topic := self._topic_of.get(message.subscription):
+                    self._host.arrive(topic, message.payload, message.stamp_ns)
+            case wire.TimeNow():
+                self._host.set_time(message.stamp_ns)
+            case wire.ServiceResponse():
+                self._answer(message)
+            case wire.Asset():
+                answer = self._assets.pop(message.request, None)
+                if answer is not None and message.problem:
+                    _fail(answer, f"The bridge has no such file: {message.problem}.")
+                elif answer is not None:
+                    _succeed(answer, message.data)
+
+    def _take_text(self, message: Any) -> None:
+        match message:
+            case wire.ServerInfo():
+                self._begin_session(message)
+            case wire.Advertise():
+                for channel in message.channels:
+                    self._channels.add(channel)
+                self.want(self._wishes)
+            case wire.Unadvertise():
+                for id in message.channel_ids:
+                    self._channels.remove(id)
+                self.want(self._wishes)
+            case wire.AdvertiseServices():
+                for service in message.services[: MAX_SERVICES - len(self._services)]:
+                    self._services[service.name] = service
+            case wire.UnadvertiseServices():
+                gone = set(message.service_ids)
+                self._services = {n: s for n, s in self._services.items() if s.id not in gone}
+            case wire.ServiceCallFailure():
+                if answer := self._pending.pop(message.call_id, None):
+                    reason = plain(message.message, 300) or "the bridge gives no reason"
+                    _fail(answer, f"The call has failed: {reason}")
+                return
+            case wire.ConnectionGraphUpdate():
+                self._graph.update(message)
+            case wire.ServerStatus():
+                self._note(message)
+            case wire.RemoveStatus():
+                for id in message.status_ids:
+                    self._statuses.pop(id, None)
+            case _:
+                return
+        self._host.look()
+
+    def _begin_session(self, info: wire.ServerInfo) -> None:
+        """Take what a server says first; it may begin anew on the same connection."""
+        self._info = info
+        if "connectionGraph" in info.capabilities:
+            self._host.send(wire.subscribe_connection_graph())
+        if "clientPublish" in info.capabilities:
+            self.advertise(self._to_advertise)
+
+    def _answer(self, response: wire.ServiceResponse) -> None:
+        answer = self._pending.pop(response.call, None)
+        if answer is None:
+            return
+        if response.encoding != "cdr":
+            said = plain(response.encoding, 40)
+            _fail(answer, f"The bridge answers in the encoding {said!r}, webviz reads cdr only.")
+        else:
+            _succeed(answer, response.payload)
+
+    def _note(self, status: wire.ServerStatus) -> None:
+        if status.level <= 0:
+            return
+        text = plain(status.message, 300)
+        self._statuses.pop(status.id or text, None)
+        self._statuses[status.id or text] = f"The bridge reports: {text}"
+        while len(self._statuses) > MAX_STATUSES:
+            del self._statuses[next(iter(self._statuses))]
+
+    # FoxgloveChannels
+
+    def _channel(self, topic: str) -> wire.ServerChannel | None:
+        """Return the channel to subscribe to, None if none is wanted or can be read."""
+        wish = self._wishes.get(topic)
+        for channel in self._channels.by_topic.get(topic, ()) if wish else ():
+            if wish and channel.schema_name == wish.type and not _unread(channel):
+                if topic in self._lines and self._lines[topic][1] == channel.id:
+                    return channel
+                problem = self._host.learn(channel.schema_name, channel.schema)
+                self._problems[topic] = problem
+                if not problem:
+                    return channel
+        return None
+
+    def _begin(self, topic: str, channel: wire.ServerChannel) -> tuple[int, int]:
+        id = self._new_id()
+        self._lines[topic] = id, channel.id, self._wishes[topic].asked
+        self._topic_of[id] = topic
+        return id, channel.id
+
+    def _end(self, topic: str) -> int:
+        id, _, _ = self._lines.pop(topic)
+        del self._topic_of[id]
+        return id
+
+    def _carried(self, topic: str, channels: Sequence[wire.ServerChannel]) -> CarriedTopic:
+        publishers: list[Publisher] = []
+        for channel in channels:
+            type = channel.schema_name
+            make = functools.partial(
+                Publisher, type=type, reliability="reliable", is_qos_known=False
+            )
+            durability = _durability(topic, type)
+            nodes = self._graph.publishers(topic) or ("",)
+            publishers += [make(node=node, durability=durability) for node in nodes]
+        reasons = [_unread(channel) for channel in channels]
+        problem = self._problems.get(topic, "")
+        if all(reasons):
+            problem = reasons[0]
+        subscribers = self._graph.subscribers(topic, UNKNOWN)
+        return CarriedTopic(
+            tuple(publishers), problem, None if subscribers == UNKNOWN else subscribers
+        )
+
+    # Output
+
+    def _advertise(self, advertisement: Advertisement) -> int:
+        self._require("clientPublish", NO_PUBLISHING)
+        known = self._advertised.get(advertisement)
+        if known is not None:
+            return known
+        try:
+            text = definition(advertisement.type)
+        except UnknownTypeError:
+            text = ""
+        id = self._advertised[advertisement] = self._new_id()
+        self._host.send(wire.advertise(id, advertisement.topic, advertisement.type, text))
+        return id
+
+    def _require(self, capability: str, problem: str) -> None:
+        """Raise NotConnected if the server lacks a capability."""
+        if self._info is None:
+            raise NotConnected("The bridge has not said yet what it can do. Try again.")
+        if capability not in self._info.capabilities:
+            raise NotConnected(problem)
+
+    def _pend(self, pending: dict[int, Future[bytes]], answer: Future[bytes]) -> int:
+        if len(pending) >= MAX_PENDING:
+            raise NotConnected(f"The bridge owes {MAX_PENDING} answers. Try again later.")
+        id = self._new_id()
+        pending[id] = answer
+        return id
+
+    def _new_id(self) -> int:
+        id, self._next_id = self._next_id, self._next_id % 0xFFFFFFFF + 1
+        return id
+
+
+def _unread(channel: wire.ServerChannel) -> str:
+    """Why the messages of a channel cannot be read, "" if they can."""
+    name = plain(channel.schema_name, 60)
+    if channel.encoding == "cdr":
+        schema = channel.schema_encoding or "ros2msg"
+        if schema in ("ros2msg", "ros2idl"):
+            return ""
+        return f"{name} is defined as {plain(schema, 20)!r}, webviz reads ros2msg and ros2idl"
+    if channel.encoding == "ros1":
+        return f"{name} is a message of ROS 1, webviz shows ROS 2"
+    return f"{name} comes as {plain(channel.encoding, 20)!r}, no display reads that"
+
+
+def _durability(topic: str, type: str) -> Durability:
+    """Return what publishers of such a topic usually offer, as the bridge does not tell it."""
+    is_latched = (
+        topic.endswith(("/tf_static", "/robot_description")) or type == "nav_msgs/msg/OccupancyGrid"
+    )
+    return "transient_local" if is_latched else "volatile"
+
+
+def _fail(answer: Future[bytes], problem: str) -> None:
+    if not answer.done():
+        answer.set_exception(NotConnected(problem))
+
+
+def _succeed(answer: Future[bytes], data: bytes) -> None:
+    if not answer.done():
+        answer.set_result(data)

@@ -1,0 +1,134 @@
+"""The interface of one connection to a bridge, in the protocol of its server."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from concurrent.futures import Future
+from dataclasses import dataclass
+from typing import Protocol
+
+from webviz.api.offer import Publisher
+from webviz.sources.graph import Advertisement
+from webviz.sources.source import Subscription
+
+
+@dataclass(frozen=True)
+class CarriedTopic:
+    """A topic that the bridge offers.
+
+    Args:
+        publishers: of any type.
+        problem: why none of its messages can be read, "" if they can.
+        subscribers: their number, None if unknown.
+    """
+
+    publishers: tuple[Publisher, ...]
+    problem: str = ""
+    subscribers: int | None = None
+
+
+class Host(Protocol):
+    """The part of the source that a session uses, in the thread of the connection."""
+
+    def send(self, frame: str | bytes) -> None:
+        """Send a frame soon, after those before it."""
+        ...
+
+    def arrive(self, topic: str, cdr: bytes, stamp_ns: int) -> None:
+        """Take a message, with the time at which the bridge received it; 0 if unknown."""
+        ...
+
+    def set_time(self, stamp_ns: int) -> None:
+        """Take the simulated time."""
+        ...
+
+    def learn(self, type: str, definition: str) -> str:
+        """Register a message type; the problem of its definition, "" if it is known then."""
+        ...
+
+    def look(self) -> None:
+        """Read the topics, nodes and remarks again, as they have changed."""
+        ...
+
+
+class BridgeSession(Protocol):
+    """One connection; all methods are called in its thread and return at once."""
+
+    protocol: str
+    """Its name, for sentences."""
+
+    @property
+    def topics(self) -> Mapping[str, CarriedTopic]:
+        """All topics, by name."""
+        ...
+
+    @property
+    def nodes(self) -> tuple[str, ...]:
+        """Full names of the nodes of the graph, sorted."""
+        ...
+
+    @property
+    def remarks(self) -> Sequence[str]:
+        """Sentences: what is wrong with the connection, and what the bridge says."""
+        ...
+
+    @property
+    def limits(self) -> Sequence[str]:
+        """Sentences: what the bridge does not pass on."""
+        ...
+
+    def start(self) -> None:
+        """Send what the server has to know first."""
+        ...
+
+    def receive(self, frame: str | bytes) -> None:
+        """Take a frame.
+
+        Raises:
+            WireError: it is not of the protocol.
+        """
+        ...
+
+    def want(self, wishes: Mapping[str, Subscription]) -> None:
+        """Make the subscriptions exactly these, as far as they are offered."""
+        ...
+
+    def advertise(self, advertisements: Collection[Advertisement]) -> None:
+        """Make the advertised publishers exactly these.
+
+        Raises:
+            NotConnected: the server takes no messages.
+        """
+        ...
+
+    def publish(self, advertisement: Advertisement, cdr: bytes) -> int:
+        """Publish a message; the number of subscriptions, `UNKNOWN` if the bridge does not tell.
+
+        Raises:
+            NotConnected: the server takes no messages.
+        """
+        ...
+
+    def call(self, service: str, type: str, request: bytes, answer: Future[bytes]) -> None:
+        """Call a service.
+
+        Raises:
+            NotConnected: the server does not offer it.
+        """
+        ...
+
+    def forget(self, answer: Future[bytes]) -> None:
+        """Expect the response of a call no longer."""
+        ...
+
+    def fetch(self, uri: str, answer: Future[bytes]) -> None:
+        """Fetch a file of the robot, such as package://robot/meshes/arm.stl.
+
+        Raises:
+            NotConnected: the server has none.
+        """
+        ...
+
+    def close(self, problem: str) -> None:
+        """Fail everything that is pending."""
+        ...

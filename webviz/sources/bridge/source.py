@@ -1,0 +1,399 @@
+"""Live topics through a bridge as a source."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import random
+import ssl
+import threading
+import time
+from collections.abc import Callable, Mapping, Sequence
+
+from websockets.asyncio.client import connect
+
+from webviz.api.bridge import Bridge
+from webviz.api.offer import Offer
+from webviz.data.words import Problem
+from webviz.sources.bridge.address import Address
+from webviz.sources.bridge.connection import BridgeConnection, Silent
+from webviz.sources.bridge.definitions import Definitions
+from webviz.sources.bridge.foxglove import FoxgloveSession
+from webviz.sources.bridge.foxglove_wire import SUBPROTOCOLS, WireError
+from webviz.sources.bridge.graph import BridgeGraph
+from webviz.sources.bridge.health import LinkHealth
+from webviz.sources.bridge.refusals import OPEN_TIMEOUT_S, explain
+from webviz.sources.bridge.session import BridgeSession, CarriedTopic
+from webviz.sources.graph import NotConnected
+from webviz.sources.inbox import MAX_TOTAL, Inbox, Raw
+from webviz.sources.names import resolved
+from webviz.sources.source import Subscription
+
+log = logging.getLogger("webviz")
+
+PING_S = 0.4
+STALLED_S = 1.0
+"""Without any byte from the bridge, after which nothing is sent: it would arrive late."""
+BROKEN_S = 10.0
+"""Without any byte, after which the connection is opened anew."""
+FIRST_RETRY_S = 0.5
+LAST_RETRY_S = 10.0
+LOOK_S = 0.1
+"""Between two readings of what a bridge offers, which may change for each of many topics."""
+REMARK_S = 1.0
+MAX_UNSENT = 64 << 10
+"""Bytes that may wait to be sent, beyond which nothing is."""
+CLOSE_S = 1.0
+INBOX_LIMIT = 1000
+TF_TYPE = "tf2_msgs/msg/TFMessage"
+TF_LIMIT = 20_000
+"""Every transform counts: room for the 10 s that the buffer keeps, at 2 kHz."""
+NEVER = Problem("The bridge is not connected yet.", "Wait a moment.")
+
+
+class BridgeSource:
+    """Messages through a bridge, as raw bytes in an inbox.
+
+    One thread has the connection, and opens it anew whenever it breaks. Subscriptions and
+    advertised topics are made again then; until then, topics stay known. The methods are
+    thread-safe.
+
+    Args:
+        address: of the bridge.
+        remappings: full topic names by the full names that displays use.
+    """
+
+    def __init__(self, address: Address, remappings: Mapping[str, str] | None = None) -> None:
+        self.inbox = Inbox()
+        self.graph = BridgeGraph(self)
+        self._address = address
+        self._remappings = dict(remappings or {})
+        self._definitions = Definitions()
+        self._wanted: Mapping[str, Subscription] = {}
+        self._opened: dict[str, str] = {}
+        """Types by topic, of the topics that are open in the inbox."""
+        self._topics: Mapping[str, CarriedTopic] = {}
+        self._nodes: tuple[str, ...] = ()
+        self._offers: Mapping[str, Offer] = {}
+        self._bridges = (Bridge(address.name, problem=NEVER.cause, remedy=NEVER.remedy),)
+        self._session: BridgeSession | None = None
+        self._socket: BridgeConnection | None = None
+        self._problem: Problem | None = NEVER
+        self._clock_ns: int | None = None
+        self._clock_messages = 0
+        self._round_trip_s: float | None = None
+        self._health = LinkHealth()
+        self._too_large: dict[str, str] = {}
+        self._is_look_due = False
+        self._outbox: asyncio.Queue[str | bytes] = asyncio.Queue()
+        self._is_closed = False
+        self._loop = asyncio.new_event_loop()
+        self._stop = asyncio.Event()
+        self._thread = threading.Thread(target=self._run, name="webviz-bridge", daemon=True)
+        self._thread.start()
+
+    # The interface of webviz.sources.Source
+
+    def want(self, subscriptions: Mapping[str, Subscription]) -> None:
+        """Replace all subscriptions; takes effect soon."""
+        if subscriptions != self._wanted:
+            self._wanted = dict(subscriptions)
+            self.soon(self._reconcile)
+
+    def offers(self) -> Mapping[str, Offer]:
+        """All topics of the bridge; while the link is broken, those of before."""
+        return self._offers
+
+    @property
+    def bridges(self) -> Sequence[Bridge]:
+        """The link to the bridge."""
+        return self._bridges
+
+    def now_ns(self) -> int:
+        """ROS time: that of the bridge if it is simulated, else of this machine."""
+        return time.time_ns() if self._clock_ns is None else self._clock_ns
+
+    def clock_messages(self) -> int | None:
+        """Return how often the bridge has sent its simulated time; None while it is wall time."""
+        return None if self._clock_ns is None else self._clock_messages
+
+    def resolve(self, topic: str) -> str:
+        """Return the full name of a topic, remapped; raises ValueError."""
+        return resolved(topic, self._remappings)
+
+    def close(self) -> None:
+        """Close the connection and end the thread."""
+        self.soon(self._stop.set)
+        self._is_closed = True
+        self._thread.join()
+
+    # The interface of webviz.sources.bridge.graph.Line
+
+    @property
+    def session(self) -> BridgeSession:
+        """The open session; raises NotConnected."""
+        if self._session is None:
+            assert self._problem is not None
+            raise NotConnected(str(self._problem))
+        return self._session
+
+    def require_fresh(self) -> None:
+        """Raise NotConnected if what is sent now would arrive late."""
+        socket = self._socket
+        if socket is None or self._session is None:
+            return  # `session` says why
+        silent_s = socket.silent_s
+        if silent_s > STALLED_S:
+            raise NotConnected(
+                f"The link to the bridge stalls: nothing came for {silent_s:.1f} s, so nothing is "
+                "sent that would arrive late."
+            )
+        if socket.transport.get_write_buffer_size() > MAX_UNSENT:
+            raise NotConnected(
+                "The link to the bridge is too slow for what is sent. Send less, or use a faster "
+                "link."
+            )
+
+    def soon(self, do: Callable[[], None]) -> bool:
+        """Call `do` in the thread of the connection; whether there still is one."""
+        if self._is_closed:
+            return False
+        try:
+            self._loop.call_soon_threadsafe(do)
+        except RuntimeError:  # it was closed meanwhile
+            return False
+        return True
+
+    @property
+    def nodes(self) -> tuple[str, ...]:
+        """Full names of the nodes, sorted."""
+        return self._nodes
+
+    # The interface of webviz.sources.bridge.session.Host, in the thread of the connection
+
+    def send(self, frame: str | bytes) -> None:
+        """Send a frame soon, after those before it."""
+        self._outbox.put_nowait(frame)
+
+    def arrive(self, topic: str, cdr: bytes, stamp_ns: int) -> None:
+        """Take a message."""
+        if len(cdr) > MAX_TOTAL:
+            self._too_large[topic] = (
+                f"a message of {len(cdr) >> 20} MB is above the limit of {MAX_TOTAL >> 20} MB; "
+                "publish smaller ones"
+            )
+            self.look()
+            return
+        if stamp_ns and self._clock_ns is None:  # simulated time has a pace of its own
+            self._health.note_message(topic, stamp_ns)
+        self.inbox.put(topic, Raw(cdr, self.now_ns()))
+
+    def set_time(self, stamp_ns: int) -> None:
+        """Take the simulated time."""
+        self._clock_ns = stamp_ns
+        self._clock_messages += 1
+        self.inbox.arrived.set()
+
+    def learn(self, type: str, definition: str) -> str:
+        """Register a message type; the problem of its definition, "" if it is known then."""
+        return self._definitions.learn(type, definition)
+
+    def look(self) -> None:
+        """Read topics, nodes and remarks soon."""
+        if not self._is_look_due:
+            self._is_look_due = True
+            self._loop.call_later(LOOK_S, self._look)
+
+    # The thread
+
+    def _run(self) -> None:
+        asyncio.set_event_loop(self._loop)
+        try:
+            self._loop.run_until_complete(self._connect())
+        finally:
+            self._is_closed = True
+            self._loop.run_until_complete(self._loop.shutdown_asyncgens())
+            self._loop.close()
+
+    async def _connect(self) -> None:
+        """Open the connection, again and again, until the source is closed."""
+        wait_s = FIRST_RETRY_S
+        stopped = asyncio.ensure_future(self._stop.wait())
+        while not self._stop.is_set():
+            began_s = time.monotonic()
+            talking = asyncio.ensure_future(self._talk())
+            await asyncio.wait({talking, stopped}, return_when=asyncio.FIRST_COMPLETED)
+            if not talking.done():
+                talking.cancel()
+            (outcome,) = await asyncio.gather(talking, return_exceptions=True)
+            if self._stop.is_set():
+                break
+            if time.monotonic() - began_s > LAST_RETRY_S:
+                wait_s = FIRST_RETRY_S
+            self._lost(outcome)
+            # Not all viewers of a robot at the same moment.
+            await asyncio.wait({stopped}, timeout=wait_s * random.uniform(0.8, 1.2))
+            wait_s = min(LAST_RETRY_S, wait_s * 2)
+        self._lost(NotConnected("The viewer has ended."))
+
+    async def _talk(self) -> None:
+        """Open the connection once, and talk until it breaks."""
+        async with connect(
+            self._address.url,
+            subprotocols=SUBPROTOCOLS,  # pyright: ignore[reportArgumentType]
+            additional_headers=self._address.headers,
+            create_connection=BridgeConnection,
+            open_timeout=OPEN_TIMEOUT_S,
+            close_timeout=CLOSE_S,
+            ping_interval=None,  # `_watch` does it: an answer may wait behind a large message
+            max_size=MAX_TOTAL + (1 << 20),
+            compression=None,
+            ssl=ssl.create_default_context() if self._address.url.startswith("wss") else None,
+        ) as socket:
+            assert isinstance(socket, BridgeConnection)
+            self._socket = socket
+            self._outbox = asyncio.Queue()
+            self._session = session = FoxgloveSession(self)
+            self._joined(session)
+            tasks = [
+                asyncio.ensure_future(each)
+                for each in (self._read(socket, session), self._write(socket), self._watch(socket))
+            ]
+            try:
+                await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+            finally:
+                for task in tasks:
+                    task.cancel()
+                outcomes = await asyncio.gather(*tasks, return_exceptions=True)
+            for outcome in outcomes:
+                if isinstance(outcome, Exception):
+                    raise outcome
+
+    async def _read(self, socket: BridgeConnection, session: BridgeSession) -> None:
+        while True:
+            frame = await socket.recv()
+            try:
+                session.receive(frame)
+            except WireError as error:
+                self._health.note_malformed(str(error))
+                self.look()
+
+    async def _write(self, socket: BridgeConnection) -> None:
+        while True:
+            await socket.send(await self._outbox.get())
+
+    async def _watch(self, socket: BridgeConnection) -> None:
+        """Measure the link, and end it if it is silent for too long."""
+        next_remark_s = 0.0
+        while True:
+            pinged_s = time.monotonic()
+            pong = asyncio.ensure_future(await socket.ping())
+            await asyncio.wait({pong}, timeout=PING_S)
+            if pong.done():
+                self._round_trip_s = time.monotonic() - pinged_s
+                await asyncio.sleep(PING_S)
+            silent_s = socket.silent_s
+            if silent_s > BROKEN_S:
+                socket.transport.abort()
+                raise Silent(f"Nothing came from the bridge for {silent_s:.0f} s.")
+            if time.monotonic() >= next_remark_s:
+                next_remark_s = time.monotonic() + REMARK_S
+                self._tell()
+
+    def _joined(self, session: BridgeSession) -> None:
+        """Begin a session with what the last one had."""
+        if self._problem is not None and self._problem is not NEVER:
+            log.warning("%s: connected.", self._address.name)
+        self._problem = None
+        self._health = LinkHealth()
+        session.start()
+        self._reconcile()
+        self.graph.readvertise(session)
+        self._look()
+
+    def _lost(self, outcome: object) -> None:
+        """Note why there is no connection, and fail what is pending."""
+        session, self._session, self._socket = self._session, None, None
+        error = outcome if isinstance(outcome, BaseException) else ConnectionError("it has ended")
+        problem = (
+            Problem(str(error), "Check the network.")
+            if isinstance(error, (Silent, NotConnected))
+            else explain(error, self._address)
+        )
+        if session is not None:
+            session.close(str(problem))
+        if problem != self._problem and not self._stop.is_set():
+            log.warning("%s: %s", self._address.name, problem)
+        self._problem = problem
+        self._round_trip_s = None
+        self._look()
+
+    def _reconcile(self) -> None:
+        """Subscribe to what is wanted."""
+        types = {topic: wish.type for topic, wish in self._wanted.items()}
+        for topic in [t for t in self._opened if t not in types]:
+            del self._opened[topic]
+            self.inbox.close(topic)
+            self._health.forget(topic)
+            self._too_large.pop(topic, None)
+        for topic, type in types.items():
+            if self._opened.get(topic) != type:
+                self._opened[topic] = type
+                self.inbox.open(topic, TF_LIMIT if type == TF_TYPE else INBOX_LIMIT)
+        if self._session is not None:
+            self._session.want(self._wanted)
+        self._look()
+
+    def _look(self) -> None:
+        """Read topics, nodes and remarks."""
+        self._is_look_due = False
+        if (session := self._session) is not None:
+            topics = session.topics
+            # A new connection begins without topics; those of before hold until it has some.
+            if topics or not self._topics or self._bridges[0].is_up:
+                self._topics = topics
+            self._nodes = session.nodes
+        offers = {topic: self._offer(topic, carried) for topic, carried in self._topics.items()}
+        if offers != self._offers:
+            self._offers = offers
+        self._tell()
+        self.inbox.arrived.set()
+
+    def _offer(self, topic: str, carried: CarriedTopic) -> Offer:
+        problem = carried.problem or self._too_large.get(topic, "")
+        wish = self._wanted.get(topic)
+        if wish is not None and self._problem is not None:
+            problem = f"the link is broken. {self._problem.cause}"
+        matching = [p for p in carried.publishers if wish is not None and p.type == wish.type]
+        if wish is None or not matching:
+            return Offer(carried.publishers, None, problem, "", carried.subscribers)
+        is_latched = all(p.durability == "transient_local" for p in matching)
+        policies = "reliable", "transient_local" if is_latched else "volatile"
+        return Offer(carried.publishers, policies, problem, wish.type, carried.subscribers)
+
+    # The state of the link
+
+    def _tell(self) -> None:
+        """Describe the link as it is now."""
+        before, session, problem = self._bridges[0], self._session, self._problem
+        is_up = session is not None and problem is None
+        link = Bridge(
+            self._address.name,
+            session.protocol if session else before.protocol,
+            is_up,
+            before.was_up or is_up,
+            "" if problem is None else problem.cause,
+            "" if problem is None else problem.remedy,
+            tuple(self._remarks(session)) if session and is_up else (),
+            tuple(session.limits) if session else before.limits,
+            self._round_trip_s,
+        )
+        if link != before:
+            self._bridges = (link,)
+
+    def _remarks(self, session: BridgeSession) -> list[str]:
+        socket = self._socket
+        silent_s = socket.silent_s if socket else 0.0
+        stall = f"Nothing came from the bridge for {silent_s:.0f} s. Check the network."
+        stalls = [stall] if silent_s > STALLED_S else []
+        return [*stalls, *self._health.remarks(), *session.remarks]
