@@ -69,7 +69,7 @@ class AerialMap(Display):
         return _State()
 
     def lookback(self, name: str) -> Lookback:
-        """The newest fix."""
+        """Return the newest fix."""
         return Lookback(count=1)
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
@@ -159,7 +159,7 @@ class AerialMap(Display):
             ctx.ok("Tiles", f"Showing {counted(shown, 'tile')}.")
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
-        """The tile, and the newest fix."""
+        """Return the tile, and the newest fix."""
         fix = place_of(hit.samples[-1].message)
         values = {"Latitude": f"{fix.latitude:.7f}°", "Longitude": f"{fix.longitude:.7f}°"}
         if (utm := to_utm(*fix[:2])) is not None:
@@ -168,7 +168,7 @@ class AerialMap(Display):
 
 
 def _middle(column: int, row: int, plane: TilePlane) -> Geodetic:
-    """The middle of a tile."""
+    """Return the middle of a tile."""
     y = np.pi * (1.0 - 2.0 * (row + 0.5) / plane.count)
     latitude = float(np.degrees(np.arctan(np.sinh(y))))
     return Geodetic(latitude, (column + 0.5) / plane.count * 360.0 - 180.0)

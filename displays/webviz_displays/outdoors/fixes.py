@@ -14,13 +14,13 @@ NO_FIX = -1
 
 
 def place_of(message: Any) -> Geodetic:
-    """The place of a sensor_msgs/NavSatFix; its altitude is 0 if the receiver does not know it."""
+    """Return the place of a sensor_msgs/NavSatFix; an altitude that is not known is 0."""
     altitude = message.altitude if math.isfinite(message.altitude) else 0.0
     return Geodetic(message.latitude, message.longitude, altitude)
 
 
 def fault_of(message: Any) -> str:
-    """A sentence why a sensor_msgs/NavSatFix names no place, "" if it does."""
+    """Return a sentence why a sensor_msgs/NavSatFix names no place, "" if it does."""
     if message.status.status <= NO_FIX:
         return "The receiver has no fix. Check its antenna and the view of the sky."
     latitude, longitude = message.latitude, message.longitude

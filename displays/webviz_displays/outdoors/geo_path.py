@@ -41,7 +41,7 @@ class GeoPath(Display):
         return name == "fix_topic"
 
     def lookback(self, name: str) -> Lookback:
-        """The newest of each."""
+        """Return the newest of each."""
         return Lookback(count=1)
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
@@ -87,6 +87,6 @@ class GeoPath(Display):
             ctx.ok("Path", f"Showing {counted(count, 'pose')}.")
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
-        """The number of poses."""
+        """Return the number of poses."""
         newest = {each.input: each for each in hit.samples}
         return Details("Path", {"Poses": len(newest["topic"].message.poses)})

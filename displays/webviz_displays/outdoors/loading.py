@@ -85,13 +85,13 @@ def _open(address: str, timeout_s: float) -> TileSource:
 
 
 def _load(source: TileSource, tile: Tile, timeout_s: float) -> tuple[Cells | None]:
-    """The pixels of a tile in a tuple, as None means that it is still being loaded."""
+    """Return the pixels of a tile in a tuple, as None means that it is still being loaded."""
     content = _within(timeout_s, "The map", lambda: source.read(*tile))
     return (None if content is None else decoded(content),)
 
 
 def _within(timeout_s: float, name: str, work: Callable[[], T]) -> T:
-    """The result of work that a disk or server may never answer."""
+    """Return the result of work that a disk or server may never answer."""
     try:
         return _disk.within(timeout_s + MARGIN_S, work)
     except (OSError, RuntimeError) as error:

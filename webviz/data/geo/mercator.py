@@ -50,7 +50,7 @@ class TilePlane:
         return tile * across / EQUATORIAL_RADIUS, tile * along / EQUATORIAL_RADIUS
 
     def corner(self, x: int, y: int) -> tuple[float, float]:
-        """The south-western corner of a tile, in metres east and north of the origin.
+        """Return the south-western corner of a tile, in metres east and north of the origin.
 
         Args:
             x: column; may be outside 0 to `count`, beyond the date line.
@@ -61,7 +61,7 @@ class TilePlane:
         return (x - center_x) * width, (center_y - y - 1) * height
 
     def around(self, blocks: int) -> list[tuple[int, int]]:
-        """The tile of the origin and `blocks` tiles to each side, nearest first: column and row."""
+        """Return the tile of the origin and `blocks` to each side, nearest first: column and row."""
         x, y = map(int, self.center)
         last = self.count - 1
         rows = range(max(0, y - blocks), min(last, y + blocks) + 1)

@@ -47,7 +47,7 @@ class UtmPoint(NamedTuple):
 
 
 def to_utm(latitude: float, longitude: float) -> UtmPoint | None:
-    """The UTM coordinates of a place in degrees; None near the poles, where there are none."""
+    """Return UTM coordinates of a place in degrees; None near the poles, where there are none."""
     if not LIMIT[0] <= latitude <= LIMIT[1]:
         return None
     longitude = (longitude + 180.0) % 360.0 - 180.0

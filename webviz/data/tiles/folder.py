@@ -25,7 +25,7 @@ class Folder:
         self._pattern = pattern if self._has_fields else f"{pattern}/{LAYOUT}"
 
     def read(self, zoom: int, x: int, y: int) -> bytes | None:
-        """The content of a file, None if there is none."""
+        """Return the content of a file, None if there is none."""
         name = filled(self._pattern, zoom, x, y)
         for suffix in ("",) if self._has_fields else SUFFIXES:
             path = Path(name + suffix)
@@ -42,7 +42,7 @@ class Folder:
 
 
 def filled(pattern: str, zoom: int, x: int, y: int) -> str:
-    """A pattern with its fields replaced, and nothing else of it."""
+    """Return a pattern with its fields replaced, and nothing else of it."""
     values = {"{z}": zoom, "{x}": x, "{y}": y}
     for field, value in values.items():
         pattern = pattern.replace(field, str(value))

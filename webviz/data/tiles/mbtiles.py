@@ -38,7 +38,7 @@ class MBTiles:
         self.attribution = plain(about.get("attribution"))
 
     def read(self, zoom: int, x: int, y: int) -> bytes | None:
-        """A tile; rows of the file count from the south."""
+        """Return a tile; rows of the file count from the south."""
         with self._database() as db:
             row = db.execute(
                 "SELECT tile_data FROM tiles "

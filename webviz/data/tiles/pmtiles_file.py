@@ -52,7 +52,7 @@ class PMTiles:
         self.attribution = plain(self._metadata().get("attribution"))
 
     def read(self, zoom: int, x: int, y: int) -> bytes | None:
-        """A tile, by way of at most four directories."""
+        """Return a tile, by way of at most four directories."""
         header, number = self._header, pm.zxy_to_tileid(zoom, x, y)
         offset, length = header["root_offset"], header["root_length"]
         for _ in range(MAX_DEPTH):

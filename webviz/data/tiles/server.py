@@ -71,7 +71,7 @@ class TileServer:
         self._opener = urllib.request.build_opener(_NoRedirects)
 
     def read(self, zoom: int, x: int, y: int) -> bytes | None:
-        """A tile of the cache, or else of the server; None if it answers that there is none."""
+        """Return a tile of the cache, or else of the server; None if that has none."""
         if (kept := self._cache.read(zoom, x, y)) is not None:
             return kept
         address = filled(self._pattern, zoom, x, y)
@@ -125,7 +125,7 @@ def is_allowed(address: str, allowed: Sequence[str]) -> bool:
 
 
 def user_cache() -> Path:
-    """The folder for tiles of the user who runs the viewer."""
+    """Return the folder for tiles of the user who runs the viewer."""
     base = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
     return Path(base) / "webviz" / "tiles"
 
@@ -147,7 +147,7 @@ class TileCache:
         self._stored = 0
 
     def read(self, zoom: int, x: int, y: int) -> bytes | None:
-        """A tile that is there and fresh."""
+        """Return a tile that is there and fresh."""
         path = self._path(zoom, x, y)
         try:
             is_fresh = time.time() - path.stat().st_mtime < FRESH_S

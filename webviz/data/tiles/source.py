@@ -50,14 +50,14 @@ class TileSource(Protocol):
 
 
 def plain(text: object) -> str:
-    """An attribution without the markup that maps have in it."""
+    """Return an attribution without the markup that maps have in it."""
     words = _TAG.sub("", text) if isinstance(text, str) and len(text) < 100 * MAX_TEXT else ""
     words = words.replace("&copy;", "©").replace("&amp;", "&")
     return " ".join(words.split())[:MAX_TEXT]
 
 
 def decoded(tile: bytes) -> Cells:
-    """The pixels of a tile.
+    """Return the pixels of a tile.
 
     Raises:
         TileError: it is not an image, such as a tile with vectors, or it is too large.
