@@ -72,7 +72,7 @@ class NavSatFix(Display):
 
 
 def _ellipse(covariance: NDArray[np.float64]) -> NDArray[np.float64] | None:
-    """Return standard deviations in the plane, (N, 3) in metres; None if the covariance is invalid."""
+    """Return deviations in the plane, (N, 3) in metres; None if the covariance is invalid."""
     plane = covariance.reshape(3, 3)[:2, :2]
     if not np.isfinite(plane).all() or not np.allclose(plane, plane.T):
         return None

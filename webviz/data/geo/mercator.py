@@ -61,7 +61,7 @@ class TilePlane:
         return (x - center_x) * width, (center_y - y - 1) * height
 
     def around(self, blocks: int) -> list[tuple[int, int]]:
-        """Return the tile of the origin and `blocks` to each side, nearest first: column and row."""
+        """Return the tile of the origin and `blocks` to each side, nearest first: column, row."""
         x, y = map(int, self.center)
         last = self.count - 1
         rows = range(max(0, y - blocks), min(last, y + blocks) + 1)

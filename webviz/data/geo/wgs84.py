@@ -31,7 +31,7 @@ def is_valid(latitude: float, longitude: float) -> bool:
 
 
 def radii(latitude: float) -> tuple[float, float]:
-    """Return the radii of curvature at a latitude in degrees: along the meridian, across, in metres."""
+    """Return radii of curvature at a latitude in degrees: along the meridian, across, in metres."""
     sine2 = math.sin(math.radians(latitude)) ** 2
     across = EQUATORIAL_RADIUS / math.sqrt(1.0 - ECCENTRICITY2 * sine2)
     return across * (1.0 - ECCENTRICITY2) / (1.0 - ECCENTRICITY2 * sine2), across
