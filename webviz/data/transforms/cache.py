@@ -82,9 +82,10 @@ class TimeCache:
 
     Attributes:
         mixed_ns: the samples newer than this have one parent.
+        twin_ns: the newest stamp that more than one sample has had.
     """
 
-    __slots__ = ("_cache_time_ns", "mixed_ns", "parents", "poses", "stamps")
+    __slots__ = ("_cache_time_ns", "mixed_ns", "parents", "poses", "stamps", "twin_ns")
     is_static = False
 
     def __init__(self, cache_time_ns: int) -> None:
@@ -92,7 +93,7 @@ class TimeCache:
         self.poses: deque[bytes] = deque()
         """As `PACKED`."""
         self.parents: deque[str] = deque()
-        self.mixed_ns = NEVER_NS
+        self.mixed_ns = self.twin_ns = NEVER_NS
         self._cache_time_ns = cache_time_ns
 
     def __len__(self) -> int:
@@ -144,6 +145,8 @@ class TimeCache:
             i -= 1
         if parent != self.parents[-1]:
             self.mixed_ns = max(self.mixed_ns, stamp_ns)
+        if place and stamps[place - 1] == stamp_ns:
+            self.twin_ns = max(self.twin_ns, stamp_ns)
         stamps.insert(place, stamp_ns)
         self.poses.insert(place, PACKED.pack(*pose))
         self.parents.insert(place, parent)
@@ -230,7 +233,7 @@ class TimeCache:
         self.stamps.clear()
         self.poses.clear()
         self.parents.clear()
-        self.mixed_ns = NEVER_NS
+        self.mixed_ns = self.twin_ns = NEVER_NS
 
 
 Cache = StaticCache | TimeCache
