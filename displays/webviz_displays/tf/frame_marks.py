@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Group, Solid
+from webviz import Group, Rgb, Solid
 from webviz.data.rotations import matrices
 from webviz_displays.shared.rods import Rods, from_z, rods
 from webviz_displays.tf.fading import faded
@@ -28,6 +28,8 @@ LEAST_DISTANCE = 0.001
 _AXES = np.array(((255.0, 0.0, 0.0), (0.0, 255.0, 0.0), (0.0, 0.0, 255.0)))
 _ARROW = np.array(((204.0, 204.0, 76.5), (255.0, 25.5, 153.0)))
 """Shaft and head."""
+_FRESH_ARROW: tuple[Rgb, Rgb] = ((204, 204, 76), (255, 26, 153))
+"""The same as they are drawn."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,6 +49,8 @@ class Marks:
 
     def only(self, rows: NDArray[np.bool_]) -> Marks:
         """Return a subset of the frames."""
+        if rows.all():
+            return self
         return Marks(
             self.positions[rows], self.greyness[rows], self.opacity[rows], self.names[rows]
         )
@@ -85,9 +89,17 @@ def add_arrows(group: Group, marks: Marks, tips: F64, scale: float) -> None:
     turns = from_z(ways / distances[:, None])
     shafts = rods(marks.positions, necks, SHAFT_DIAMETER * scale, turns)
     heads = rods(necks, tips, HEAD_DIAMETER * scale, turns)
-    shaft_colors, head_colors = np.moveaxis(faded(_ARROW, marks.greyness), 1, 0)
+    shaft_colors, head_colors = _arrow_colors(marks.greyness)
     _add(group, "cylinder", "shafts", shafts, shaft_colors, marks.opacity, marks.names)
     _add(group, "cone", "heads", heads, head_colors, marks.opacity, marks.names)
+
+
+def _arrow_colors(greyness: F64) -> tuple[U8 | Rgb, U8 | Rgb]:
+    """Return the colours of shafts and heads: one for all if they are fresh, which is less to send."""
+    if not greyness.any():
+        return _FRESH_ARROW
+    shafts, heads = np.moveaxis(faded(_ARROW, greyness), 1, 0)
+    return shafts, heads
 
 
 def add_names(group: Group, marks: Marks, scale: float) -> None:
@@ -102,18 +114,21 @@ def _add(
     shape: Solid,
     key: str,
     solids: Rods,
-    colors: U8,
+    colors: U8 | Rgb,
     opacity: F64,
     names: NDArray[np.object_],
 ) -> None:
-    """Draw opaque solids as `key`, transparent ones separately."""
+    """Draw opaque solids as `key`, transparent ones separately; one colour is of opaque ones."""
     faint = opacity < 1.0
+    if not faint.any():
+        group.instances(key, shape, *solids[:2], colors, solids.wxyzs, ids=names)
+        return
+    colors = np.asarray(colors, np.uint8)
     if not faint.all():
         positions, scales, wxyzs = (array[~faint] for array in solids)
         group.instances(key, shape, positions, scales, colors[~faint], wxyzs, ids=names[~faint])
-    if faint.any():
-        positions, scales, wxyzs = (array[faint] for array in solids)
-        each = opacity[faint].astype(np.float32)
-        group.instances(
-            f"faint {key}", shape, positions, scales, colors[faint], wxyzs, each, ids=names[faint]
-        )
+    positions, scales, wxyzs = (array[faint] for array in solids)
+    each = opacity[faint].astype(np.float32)
+    group.instances(
+        f"faint {key}", shape, positions, scales, colors[faint], wxyzs, each, ids=names[faint]
+    )
