@@ -90,7 +90,7 @@ class Frames:
             missing = [name for name in missing if name in places]
         else:
             some = self.buffer.poses_in(self.fixed_frame, missing)
-            positions, wxyzs, ok = some.translations, np.roll(some.rotations, 1, axis=1), _ok(some)
+            positions, wxyzs, ok = some.translations, w_first(some.rotations), _ok(some)
         rows = zip(missing, positions.tolist(), wxyzs.tolist(), ok.tolist(), strict=True)
         for name, position, wxyz, is_ok in rows:
             self._poses[name, 0] = Pose(tuple(position), tuple(wxyz)) if is_ok else None
@@ -164,7 +164,7 @@ class Frames:
             self._all = FramePoses(
                 poses.frames,
                 poses.translations,
-                np.roll(poses.rotations, 1, axis=1),
+                w_first(poses.rotations),
                 poses.stamps_ns,
                 _ok(poses),
             )

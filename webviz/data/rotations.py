@@ -17,6 +17,8 @@ Quaternion = tuple[float, float, float, float]
 Vector = tuple[float, float, float]
 F64 = NDArray[np.float64]
 
+_W_FIRST = np.array((3, 0, 1, 2))
+
 
 def multiply(a: Any, b: Any) -> Quaternion:
     """Return the rotation `b` followed by the rotation `a`: the Hamilton product."""
@@ -75,7 +77,8 @@ def angle_between(a: Quaternion, b: Quaternion) -> float:
 
 def w_first(xyzw: ArrayLike) -> F64:
     """Quaternions (..., 4) converted from the order of ROS messages: x, y, z, w."""
-    return np.roll(np.asarray(xyzw, dtype=np.float64), 1, axis=-1)
+    # `np.roll` takes five times as long for 200 of them.
+    return np.asarray(xyzw, dtype=np.float64).take(_W_FIRST, axis=-1)
 
 
 def w_last(wxyz: Quaternion) -> Quaternion:

@@ -97,11 +97,11 @@ def finite(*arrays: NDArray[np.floating[Any]], along: Sequence[Any] = ()) -> lis
             all rows (a tuple or a number) stays as it is.
     """
     whole = [np.ascontiguousarray(array, dtype=np.float32) for array in arrays]
+    if all(np.isfinite(array).all() for array in whole):  # nearly always, and sooner known
+        return [*whole, *along]
     rows = np.ones(len(whole[0]), dtype=bool)
     for array in whole:
         rows &= finite_rows(array)
-    if rows.all():
-        return [*whole, *along]
     return [array[rows] for array in whole] + [
         each[rows] if isinstance(each, np.ndarray) and len(each) == len(rows) else each
         for each in along

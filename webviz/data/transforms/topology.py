@@ -157,11 +157,12 @@ class Topology:
     def _in_roots(self, time: int, newest: I64, asked: I64) -> C128 | None:
         """Pairs (4, nodes): the poses of requested nodes and the target in their roots."""
         poses = self._links.copy()
-        if time:
+        is_ahead = newest[self._moving_nodes] != time
+        if time and is_ahead.any():  # not if one message has all of them
             is_needed = np.zeros(len(newest), np.bool_)
             is_needed[asked] = is_needed[self._base] = True
             self._mark_ancestors(is_needed)
-            needed = is_needed[self._moving_nodes] & (newest[self._moving_nodes] != time)
+            needed = is_needed[self._moving_nodes] & is_ahead
             starts: list[PoseTuple] = []
             ends: list[PoseTuple] = []
             ratios: list[float] = []
