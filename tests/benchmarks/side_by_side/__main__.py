@@ -69,6 +69,7 @@ def _case(scene: str, system: str, options: argparse.Namespace) -> CaseResult:
 def _facts(options: argparse.Namespace) -> Report:
     return {
         **table.machine(),
+        "commit": table.commit(),
         "versions": table.versions(options.systems),
         "date": time.strftime("%Y-%m-%d"),
         "seconds of each load": options.seconds,

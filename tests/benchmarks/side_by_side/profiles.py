@@ -47,7 +47,8 @@ def profile(scene: str, seconds: float, folder: Path, functions: int) -> None:
             case.wait_until_steady()
             time.sleep(2 * SETTLE_S)
             cpu, file = case.cpu(), folder / "stacks.txt"
-            command = ["py-spy", "record", "--gil", "--format", "raw", "--output", str(file)]
+            spy = str(Path(sys.executable).with_name("py-spy"))
+            command = [spy, "record", "--gil", "--format", "raw", "--output", str(file)]
             command += ["--pid", str(case.process.pid), "--rate", str(RATE)]
             command += ["--duration", f"{seconds:g}"]
             done = subprocess.run(command, capture_output=True, text=True)

@@ -1,9 +1,9 @@
 """Writes figures into the READMEs.
 
-    python -m side_by_side.report FILE.json   # of `make bench ARGS="--json FILE.json"`
+    python -m side_by_side.report FILE.json ...   # of `make bench ARGS="--json FILE.json"`
 
-The table in `tests/benchmarks/README.md` is made from the file, the one in `README.md` from that
-table, which a test holds.
+The table in `tests/benchmarks/README.md` is made from the files, of which each has other scenes,
+the one in `README.md` from that table, which a test holds.
 """
 
 from __future__ import annotations
@@ -11,8 +11,9 @@ from __future__ import annotations
 import argparse
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from statistics import median
 from typing import Any
 
 ROOT = Path(__file__).parents[3]
@@ -33,14 +34,14 @@ CELL = re.compile(
 )
 
 
-def table(report: Mapping[str, Any], titles: Mapping[str, str]) -> str:
-    """The table of a report of `side_by_side`: a row for each scene, a column for each system.
+def table(reports: Sequence[Mapping[str, Any]], titles: Mapping[str, str]) -> str:
+    """The table of reports of `side_by_side`: a row for each scene, a column for each system.
 
     Args:
-        report: as written with `--json`.
+        reports: as written with `--json`.
         titles: of the systems by name.
     """
-    rows = {(row["scene"], row["system"]): row for row in report["rows"]}
+    rows = {(row["scene"], row["system"]): row for each in reports for row in each["rows"]}
     scenes = dict.fromkeys(scene for scene, _ in rows)
     systems = [name for name in titles if any(name == system for _, system in rows)]
     lines = [_line("scene", *(titles[name] for name in systems)), "| --- |" * (len(systems) + 1)]
@@ -50,9 +51,25 @@ def table(report: Mapping[str, Any], titles: Mapping[str, str]) -> str:
     return "\n".join(lines)
 
 
+def facts(report: Mapping[str, Any]) -> str:
+    """What was measured where, and what else ran there; one sentence each."""
+    others = [row["figures"]["others_percent"] for row in report["rows"]]
+    usual, most = median(each["median"] for each in others), max(each["most"] for each in others)
+    versions = [
+        f"{name} {version}" for name, version in report["versions"].items() if name != "webviz"
+    ]
+    machine = [report[name] for name in ("processor", "memory", "system")]
+    return (
+        f"{report['date']}, webviz {report['commit']}, {', '.join([*machine, *versions])}; "
+        f"{report['rounds']} rounds of {report['seconds of each load']:g} s a load. Other programs "
+        f"took {usual:.0f} % of a core in the median, {most:.0f} % at most."
+    )
+
+
 def summary(benchmarks: str) -> str:
     """The table of `README.md`, from the text of `tests/benchmarks/README.md`."""
-    head, _, *lines = [_cells(line) for line in _between(benchmarks).strip().splitlines()]
+    lines = _between(benchmarks).splitlines()
+    head, _, *lines = [_cells(line) for line in lines if line.startswith("|")]
     rows = {line[0]: dict(zip(head, line, strict=True)) for line in lines}
     chosen = [
         _line(title, *(_in_words(rows[scene][system]) for system in SHOWN))
@@ -95,7 +112,7 @@ def _cell(row: Mapping[str, Any] | None) -> str:
 
 def _in_words(cell: str) -> str:
     found = CELL.match(cell)
-    assert found, cell
+    assert found, f"no figures of a chosen scene: {cell!r}"
     words = f"{found['cpu']}, {found['ms']} ms"
     if found["shown"] is None:
         return words
@@ -116,10 +133,12 @@ def main() -> None:
     from side_by_side.systems.registry import SYSTEMS
 
     parser = argparse.ArgumentParser(prog="side_by_side.report", description=__doc__)
-    parser.add_argument("file", type=Path)
-    report = json.loads(parser.parse_args().file.read_text())
+    parser.add_argument("files", nargs="+", type=Path)
+    reports = [json.loads(file.read_text()) for file in parser.parse_args().files]
     titles = {name: system.title for name, system in SYSTEMS.items()}
-    BENCHMARKS.write_text(replaced(BENCHMARKS.read_text(), table(report, titles)))
+    told = dict.fromkeys(map(facts, reports))
+    figures = "\n\n".join([*told, table(reports, titles)])
+    BENCHMARKS.write_text(replaced(BENCHMARKS.read_text(), figures))
     README.write_text(replaced(README.read_text(), summary(BENCHMARKS.read_text())))
 
 
