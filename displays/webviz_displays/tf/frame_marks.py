@@ -95,7 +95,7 @@ def add_arrows(group: Group, marks: Marks, tips: F64, scale: float) -> None:
 
 
 def _arrow_colors(greyness: F64) -> tuple[U8 | Rgb, U8 | Rgb]:
-    """Return the colours of shafts and heads: one for all if they are fresh, which is less to send."""
+    """Return the colours of shafts and heads, one for all if they are fresh."""
     if not greyness.any():
         return _FRESH_ARROW
     shafts, heads = np.moveaxis(faded(_ARROW, greyness), 1, 0)
