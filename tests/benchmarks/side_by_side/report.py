@@ -52,7 +52,7 @@ def table(reports: Sequence[Mapping[str, Any]], titles: Mapping[str, str]) -> st
 
 
 def facts(report: Mapping[str, Any]) -> str:
-    """What was measured where, and what else ran there; one sentence each."""
+    """Say when and where it was measured, and what else ran there."""
     others = [row["figures"]["others_percent"] for row in report["rows"]]
     usual, most = median(each["median"] for each in others), max(each["most"] for each in others)
     versions = [
