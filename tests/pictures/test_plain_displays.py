@@ -31,6 +31,11 @@ from webviz_displays.autoware import (
 )
 from webviz_displays.autoware.look import FootprintView, LaneView, TextView
 from webviz_displays.autoware.objects_look import ClassColors, ShapeView
+from webviz_displays.detections import (
+    BoundingBox3DArray,
+    Detection3D,
+    Detection3DArray,
+)
 from webviz_displays.grid import Grid
 from webviz_displays.grid_map import GridMap
 from webviz_displays.imu import Imu, Mag
@@ -254,6 +259,19 @@ TILTED = {
 }
 BIG: Values = {"style": "Spheres", "size": 0.8}
 
+
+def detection(x: float, y: float, size: tuple[float, ...], kind: str, score: float) -> Values:
+    """A box that stands on the ground, with what is in it."""
+    box = {"center": pose(x, y, size[2] / 2, 0.3), "size": vector(*size)}
+    return {"bbox": box, "results": [{"hypothesis": {"class_id": kind, "score": score}}]}
+
+
+FOUND = [
+    detection(-0.3, 0.6, (1.6, 0.7, 0.5), "car", 0.93),
+    detection(0.7, -0.6, (0.3, 0.3, 0.8), "person", 0.71),
+    detection(-0.8, -0.7, (0.4, 0.6, 0.4), "box", 0.4),
+]
+
 CASES = [
     Case("pose", Pose(shaft_length=0.8), ({"pose": pose(-0.5, 0.0, yaw=0.5)},)),
     Case(
@@ -342,6 +360,17 @@ CASES = [
         "pose_history",
         PoseHistory(),
         tuple({"pose": each["pose"]} for each in curve()["points"]),
+    ),
+    Case(
+        "bounding_box_3d_array",
+        BoundingBox3DArray(only_edge=True),
+        ({"boxes": [each["bbox"] for each in FOUND]},),
+    ),
+    Case("detection_3d", Detection3D(show_class=True), (FOUND[1],)),
+    Case(
+        "detection_3d_array",
+        Detection3DArray(alpha=0.7, show_class=True, show_score=True),
+        ({"detections": FOUND},),
     ),
     Case("zed_od_display", ZedOdDisplay(), (ZED_SCENE,)),
     Case("imu", Imu(box_properties=BOX, acceleration_properties=ACCELERATION), (TILTED,)),
