@@ -32,6 +32,7 @@ from webviz_displays.autoware import (
 from webviz_displays.autoware.look import FootprintView, LaneView, TextView
 from webviz_displays.autoware.objects_look import ClassColors, ShapeView
 from webviz_displays.detections import (
+    BoundingBox3D,
     BoundingBox3DArray,
     Detection3D,
     Detection3DArray,
@@ -362,13 +363,13 @@ CASES = [
         tuple({"pose": each["pose"]} for each in curve()["points"]),
     ),
     Case(
-        "bounding_box_3d_array",
+        "bounding_box3darray",
         BoundingBox3DArray(only_edge=True),
         ({"boxes": [each["bbox"] for each in FOUND]},),
     ),
-    Case("detection_3d", Detection3D(show_class=True), (FOUND[1],)),
+    Case("detection3d", Detection3D(show_class=True), (FOUND[1],)),
     Case(
-        "detection_3d_array",
+        "detection3darray",
         Detection3DArray(alpha=0.7, show_class=True, show_score=True),
         ({"detections": FOUND},),
     ),
@@ -393,7 +394,7 @@ def test_each_display_has_a_picture_of_its_own(webviz_harness: Callable[..., Har
         topic = case.display.topic.name  # pyright: ignore[reportAttributeAccessIssue]
         spec = inputs_of(type(case.display))["topic"]
         for values in case.messages:
-            frame = None if case.picture == "twist" else "sensor"
+            frame = None if case.picture in ("bounding_box3d", "twist") else "sensor"
             seen.publish(topic, spec.type, values, frame=frame)
             seen.turn()
         seen.wait_until_drawn(name)

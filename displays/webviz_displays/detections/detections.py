@@ -57,7 +57,7 @@ class _Detections(BoxesDisplay):
 
 
 class Detection3DArray(_Detections):
-    """What was detected: boxes in the colours of their classes."""
+    """Detections of a camera or lidar: boxes in the colours of their classes."""
 
     rviz = "vision_msgs_rviz_plugins/Detection3DArray"
 
@@ -67,7 +67,7 @@ class Detection3DArray(_Detections):
 
 
 class Detection3D(_Detections):
-    """One thing that was detected: a box in the colour of its class."""
+    """One detection: a box in the colour of its class."""
 
     rviz = "vision_msgs_rviz_plugins/Detection3D"
 
