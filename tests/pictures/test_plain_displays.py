@@ -362,6 +362,7 @@ CASES = [
         PoseHistory(),
         tuple({"pose": each["pose"]} for each in curve()["points"]),
     ),
+    Case("bounding_box3d", BoundingBox3D(color=(90, 200, 255), alpha=0.8), (FOUND[0]["bbox"],)),
     Case(
         "bounding_box3darray",
         BoundingBox3DArray(only_edge=True),
