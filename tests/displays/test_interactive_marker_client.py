@@ -327,6 +327,9 @@ def test_markers_names_and_remarks_of_a_server_are_bounded() -> None:
     far = [{"name": "1", "pose": {"position": {"x": math.nan}}}]
     known.take([news_of(erases=list(known.ignored)), news_of(poses=far)])
     assert known.ignored == {"1": "Its new pose is not finite, or too large. Correct the server."}
+    known.take([news_of(poses=[{"name": "1"}])])
+    assert not known.ignored  # once a pose is good
+    known.take([news_of(poses=far)])
     known.take([News(is_all=True)])
     assert (known.markers, known.ignored, known.left_out) == ({}, {}, 0)
     known.take([news_of(markers=[{"name": "n" * 100_000}], poses=[{"name": "p" * 100_000}])])
