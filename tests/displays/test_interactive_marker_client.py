@@ -640,6 +640,16 @@ def test_a_fixed_control_turns_about_its_own_axis(server: Server) -> None:
         assert shown.groups()["m1.0"].placement.offset.wxyz == pytest.approx(wanted)
 
 
+def test_a_marker_has_a_handle_once_its_transform_has_come() -> None:
+    known, around = InteractiveMarkerServer("/arm", "webviz"), frames("map")
+    header = {"frame_id": "tool", "stamp": {"sec": 1}}
+    known.take([news_of(markers=[{"name": "a", "header": header}])])
+    assert known.handles(around, aids=True, refusal="") == {}
+    around.buffer.set_transform("map", "tool", 0, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), True)
+    found = known.handles(Frames(around.buffer, "map", 0), aids=True, refusal="")
+    assert [(each.name, each.frame) for each in found.values()] == [("a", "map")]
+
+
 def test_handles_are_made_anew_only_if_something_changes(server: Server) -> None:
     shown = Shown(server, controls=[{"interaction_mode": MOVE_AXIS}])
     shown.known.markers["a"].put(Place("hand", 5, Pose()))
