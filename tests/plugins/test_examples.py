@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import json
+import runpy
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from bags import strings
 
+import webviz
 from webviz.api import registry
+from webviz.api.check_registry import register_checks
 from webviz.api.display import Display
 from webviz.api.status import Status
 from webviz.data.messages import decode, encode, register
@@ -17,6 +22,7 @@ from webviz.engine.commands import Load, Refresh, UseTool
 from webviz.engine.pipeline.plugins import load
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.remembering_graph import RememberingGraph
+from webviz_displays.odometry import Odometry
 
 EXAMPLES = Path(__file__).parents[2] / "displays/docs/examples"
 T = 100_000_000_000
@@ -142,3 +148,43 @@ def test_spawn_turtle_is_a_tool_that_calls_a_service_with_the_clicked_point(
 def test_every_example_is_listed() -> None:
     listed = (EXAMPLES / "README.md").read_text()
     assert all(f"[{path.name}]({path.name})" in listed for path in EXAMPLES.glob("*.py"))
+
+
+def test_speeding_is_a_check_of_odometry(webviz_harness: Callable[..., Any]) -> None:
+    path = EXAMPLES / "speeding.py"
+    try:
+        load(path)
+        harness = webviz_harness(Odometry(), fixed_frame="odom")
+        harness.transform("map", "odom")
+
+        def drive(speed: float) -> None:
+            twist = {"twist": {"linear": {"x": speed}}}
+            harness.publish("/odom", "nav_msgs/msg/Odometry", {"twist": twist}, frame="odom")
+
+        assert "DATA901" not in {each.id for each in harness.findings(publish=lambda: drive(1.0))}
+        found = {each.id: each.cause for each in harness.findings(publish=lambda: drive(1.8))}
+        assert found["DATA901"] == "The robot drives at 1.8 m/s; the limit is 1.5 m/s."
+    finally:
+        register_checks(str(path), [])
+
+
+def test_the_test_for_ci_passes(webviz_harness: Callable[..., Any]) -> None:
+    namespace = runpy.run_path(str(EXAMPLES / "test_lidar.py"))
+    namespace["test_a_scan_is_drawn_where_the_laser_is"](webviz_harness)
+
+
+def test_the_notebook_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder = strings(*range(10)).write(tmp_path / "bag")
+    next(folder.glob("*.mcap")).rename(tmp_path / "run.mcap")
+    monkeypatch.chdir(tmp_path)
+    cells = json.loads((EXAMPLES / "bag.ipynb").read_text())["cells"]
+    scope: dict[str, Any] = {}
+    for cell in cells:
+        if cell["cell_type"] == "code":
+            exec("".join(cell["source"]), scope)
+    assert isinstance(scope["viewer"], webviz.Viewer)
+
+
+def test_examples_are_short() -> None:
+    for path in EXAMPLES.glob("*.*"):
+        assert path.suffix in (".md", ".js") or len(path.read_text().splitlines()) < 60, path.name
