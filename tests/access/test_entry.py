@@ -29,8 +29,8 @@ from webviz.server.access.roles import LIMITS, LINKS, Limits, Role
 from webviz.server.access.tokens import make
 from webviz.server.channel.refusals import HALF
 from webviz.server.http import connections
-from webviz.server.http.allowances import Allowance
 from webviz.server.http.connections import BURST_S, FLOODED
+from webviz.server.http.rate_limits import RateLimit
 
 PARAMETERS = {role: name for name, role in LINKS.items()}
 
@@ -366,7 +366,7 @@ def test_a_role_has_a_rate_of_messages(
 def test_watchers_who_flood_with_long_messages_are_not_read(
     house: House, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(connections, "Allowance", lambda rate, burst: Allowance(1e-9, burst))
+    monkeypatch.setattr(connections, "RateLimit", lambda rate, burst: RateLimit(1e-9, burst))
     watcher, owner = house.enter(Role.WATCHER), house.enter(Role.OWNER)
     lasting = int(BURST_S * LIMITS[Role.WATCHER].messages_per_second) << 10  # bytes
     for _ in range(2):
@@ -381,7 +381,7 @@ def test_watchers_who_flood_with_long_messages_are_not_read(
 def test_messages_that_a_page_leaves_behind_beyond_its_rate_do_nothing(
     house: House, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(connections, "Allowance", lambda rate, burst: Allowance(20.0, 5.0))
+    monkeypatch.setattr(connections, "RateLimit", lambda rate, burst: RateLimit(20.0, 5.0))
     watcher = house.enter(Role.WATCHER)
     for number in range(300):  # 15 s
         watcher.send("Do", number=number, command="ResetView", arguments={})
@@ -395,7 +395,7 @@ def test_messages_that_a_page_leaves_behind_beyond_its_rate_do_nothing(
 def test_a_page_that_keeps_sending_too_much_is_ended_with_the_reason(
     house: House, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(connections, "Allowance", lambda rate, burst: Allowance(20.0, 5.0))
+    monkeypatch.setattr(connections, "RateLimit", lambda rate, burst: RateLimit(20.0, 5.0))
     monkeypatch.setattr(connections, "FLOOD_S", 0.2)
     watcher = house.enter(Role.WATCHER)
     for number in range(300):
@@ -415,7 +415,7 @@ def test_a_page_that_keeps_sending_too_much_is_ended_with_the_reason(
 def test_a_page_that_connects_again_has_no_new_burst(
     house: House, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(connections, "Allowance", lambda rate, burst: Allowance(1e-9, burst))
+    monkeypatch.setattr(connections, "RateLimit", lambda rate, burst: RateLimit(1e-9, burst))
     lasting = int(BURST_S * LIMITS[Role.WATCHER].messages_per_second) << 10  # bytes
     much = {"frame": 2 * lasting // 3 * "x"}
     watcher = house.enter(Role.WATCHER)

@@ -70,7 +70,7 @@ def page(browser: playwright.Browser, viewer: webviz.Viewer) -> Iterator[Page]:
 
 
 @pytest.fixture
-def album(request: pytest.FixtureRequest) -> ReferenceImages:
+def references(request: pytest.FixtureRequest) -> ReferenceImages:
     root = request.config.rootpath
     update = bool(request.config.getoption("--update-pictures"))
     return ReferenceImages(Path(__file__).parent / "pictures", root / "tests/output", root, update)
@@ -116,20 +116,20 @@ def leave(page: Page) -> None:
 
 
 def test_the_preview_of_a_pose_is_where_the_pose_will_be(
-    page: Page, album: ReferenceImages
+    page: Page, references: ReferenceImages
 ) -> None:
     press(page, "g", (-60.0, 60.0), (40.0, 90.0))
-    album.check("pose", capture(page), tolerance=TOLERANCE)
+    references.check("pose", capture(page), tolerance=TOLERANCE)
     page.tab.keyboard.down("Control")
     x, y = middle(page)
     page.tab.mouse.move(x + 40.0, y + 20.0, steps=3)
     page.tab.keyboard.up("Control")
-    album.check("pose_lifted", capture(page), tolerance=TOLERANCE)
+    references.check("pose_lifted", capture(page), tolerance=TOLERANCE)
     leave(page)
 
 
 def test_a_pose_that_waits_can_be_sent_or_cancelled(
-    page: Page, viewer: webviz.Viewer, album: ReferenceImages
+    page: Page, viewer: webviz.Viewer, references: ReferenceImages
 ) -> None:
     viewer.do(SetToolProperty("2D Pose Estimate", "confirm", True))
     knows = "async () => (await import('/webviz/tools/registry.js')).all().some((one) => one.asks)"
@@ -138,22 +138,22 @@ def test_a_pose_that_waits_can_be_sent_or_cancelled(
     page.tab.mouse.up()
     x, y = middle(page)
     page.tab.mouse.move(x + 300.0, y)
-    album.check("pose_waiting", capture(page), tolerance=TOLERANCE)
+    references.check("pose_waiting", capture(page), tolerance=TOLERANCE)
     leave(page)
 
 
 def test_a_point_is_on_the_surface_and_lines_measure_between_surfaces(
-    page: Page, album: ReferenceImages
+    page: Page, references: ReferenceImages
 ) -> None:
     press(page, "u", (60.0, 5.0))
-    album.check("point", capture(page), tolerance=TOLERANCE)
+    references.check("point", capture(page), tolerance=TOLERANCE)
     leave(page)
     (x, y), mouse = middle(page), page.tab.mouse
     page.tab.keyboard.press("n")
     for dx, dy in ((-150.0, 80.0), (60.0, 5.0), (-20.0, 130.0), (170.0, 90.0)):
         mouse.click(x + dx, y + dy)
     mouse.move(x + 300.0, y)
-    album.check("measure", capture(page), tolerance=TOLERANCE)
+    references.check("measure", capture(page), tolerance=TOLERANCE)
     mouse.click(x, y, button="right")
     leave(page)
 

@@ -44,24 +44,24 @@ def test_the_camera_sees_from_where_it_was_at_the_stamp(bench: Benches) -> None:
     at.transform("map", "camera", (1.0, 2.0, 3.0))
     send(at)
     at.turn()
-    assert at.nodes()["pane"].sight is None
+    assert at.nodes()["pane"].camera is None
     assert "No camera info yet" in at.statuses()["Camera Info"][1]
     p = photos.info(16, 12)["p"]
     send_info(at, p=[*p[:3], -1.6, *p[4:]])
     at.turn()
-    sight = at.nodes()["pane"].sight
-    assert sight.position == pytest.approx((1.1, 2.0, 3.0))  # of the right camera of a pair
-    assert (sight.size, sight.focal, sight.principal) == ((16, 12), (16, 16), (7.5, 5.5))
-    assert (sight.part, sight.far, sight.zoom, sight.overlay) == ((0, 0, 1, 1), 30.0, 2.0, 0.25)
-    assert sight.is_background
-    assert sight.warp is None
+    camera = at.nodes()["pane"].camera
+    assert camera.position == pytest.approx((1.1, 2.0, 3.0))  # of the right camera of a pair
+    assert (camera.size, camera.focal, camera.principal) == ((16, 12), (16, 16), (7.5, 5.5))
+    assert (camera.part, camera.far, camera.zoom, camera.overlay) == ((0, 0, 1, 1), 30.0, 2.0, 0.25)
+    assert camera.is_background
+    assert camera.warp is None
     assert at.statuses()["Camera Info"] == ("OK", "16 x 12, focal length 16 px.")
     at.set("image_rendering", "background")
     at.turn()
-    assert at.nodes()["pane"].sight.overlay == 0.0
+    assert at.nodes()["pane"].camera.overlay == 0.0
     at.set("image_rendering", "overlay")
     at.turn()
-    assert not at.nodes()["pane"].sight.is_background
+    assert not at.nodes()["pane"].camera.is_background
 
 
 def test_a_region_of_interest_is_a_part_of_what_the_camera_sees(bench: Benches) -> None:
@@ -72,9 +72,9 @@ def test_a_region_of_interest_is_a_part_of_what_the_camera_sees(bench: Benches) 
     values = photos.info(64, 48, roi=roi, binning_x=2, binning_y=2)
     at.send(photos.INFO, values, frame="camera", topic=INFO)
     at.turn()
-    sight = at.nodes()["pane"].sight
-    assert (sight.size, sight.focal) == ((64, 48), (64, 64))
-    assert sight.part == (0.125, 0.125, 0.625, 0.625)
+    camera = at.nodes()["pane"].camera
+    assert (camera.size, camera.focal) == ((64, 48), (64, 64))
+    assert camera.part == (0.125, 0.125, 0.625, 0.625)
     assert at.statuses()["Camera Info"][0] == "OK"
 
 
@@ -93,14 +93,14 @@ def test_raw_images_are_undistorted_and_rectified_ones_are_not(bench: Benches) -
         at.send(photos.RAW, photos.raw(big, "mono8"), frame="camera", topic=topic)
         at.send(photos.INFO, lenses.info("plumb_bob"), frame="camera", topic=INFO)
         at.turn()
-        warp = at.nodes()["pane"].sight.warp
+        warp = at.nodes()["pane"].camera.warp
         assert (warp is not None) == is_bent, topic
         level, told = at.statuses()["Camera Info"]
         assert level == "OK"
         assert ("undistorted by plumb_bob" in told) == is_bent
         at.send(photos.RAW, photos.raw(big + 1, "mono8"), frame="camera", topic=topic)
         at.turn()
-        assert at.nodes()["pane"].sight.warp is warp
+        assert at.nodes()["pane"].camera.warp is warp
 
 
 @pytest.mark.parametrize(
@@ -148,7 +148,7 @@ def test_an_image_has_the_camera_info_of_its_stamp(bench: Benches) -> None:
     for second, focal in ((2, 20), (3, 24)):
         send(at, second * SECOND)
         at.turn()
-        assert at.nodes()["pane"].sight.focal[0] == focal
+        assert at.nodes()["pane"].camera.focal[0] == focal
         assert at.statuses()["Camera Info"][0] == "OK"
     send(at, 4 * SECOND)
     at.turn()
@@ -172,7 +172,7 @@ def test_an_image_that_is_decompressed_keeps_the_pose_of_its_stamp(bench: Benche
         at.turn()
         if pane := at.nodes().get("pane"):
             value = int(values_of(pane.picture.image)[0, 0])
-            seen.add((value, pane.sight.position[0]))
+            seen.add((value, pane.camera.position[0]))
     assert seen <= {(1, 1.0), (2, 2.0)}
     assert (2, 2.0) in seen
 

@@ -250,10 +250,10 @@ def test_a_laser_that_is_moved_on_the_page_alone_is_found_again(
         page.draw()
         return page.evaluate(
             """async (point) => {
-              const { frameNode, sightOf } = await import("/webviz/handles/sight.js");
+              const { frameNode, projectionOf } = await import("/webviz/handles/projection.js");
               const { all } = await import("/webviz/handles/known.js");
               const [handle] = all().values();
-              return sightOf(frameNode(handle.frame)).project(point);
+              return projectionOf(frameNode(handle.frame)).project(point);
             }""",
             [0.05, y, 0.2],
         )

@@ -98,8 +98,8 @@ def on_screen(page: Page, point: Sequence[float]) -> tuple[float, float]:
     """Where a point of the fixed frame is in the window."""
     x, y = page.tab.evaluate(
         """async (point) => {
-          const { frameNode, sightOf } = await import("/webviz/handles/sight.js");
-          return sightOf(frameNode("")).project(point);
+          const { frameNode, projectionOf } = await import("/webviz/handles/projection.js");
+          return projectionOf(frameNode("")).project(point);
         }""",
         list(point),
     )

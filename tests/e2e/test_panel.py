@@ -19,7 +19,7 @@ from webviz.shell.pictures.browser import Page, Pixels
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
 
-from webviz.ros.talker import Talker
+from webviz.ros.publisher_node import PublisherNode
 
 BRICK = np.array((200, 60, 20))
 
@@ -112,7 +112,7 @@ MIDDLE = """(canvas) => {
 @contextlib.contextmanager
 def camera(pixels: NDArray[np.uint8]) -> Iterator[None]:
     """An image over DDS."""
-    talker = Talker("camera", int(os.environ["ROS_DOMAIN_ID"]))
+    talker = PublisherNode("camera", int(os.environ["ROS_DOMAIN_ID"]))
     try:
         cdr = encode(photos.RAW, photos.raw(pixels, "rgb8"))
         talker.open("/camera/image_raw", photos.RAW, latched=True).publish(cdr)

@@ -11,7 +11,7 @@ import {
 } from "../../webviz/page/web/charts/curves.js";
 import { changed, numberText, roomy, share, ticks } from "../../webviz/page/web/charts/scale.js";
 
-const MOST = Number.MAX_VALUE;
+const LARGEST = Number.MAX_VALUE;
 const piece = (times, values) => ({ times, values });
 const TWO = { name: "x", pieces: [piece([], []), piece([0, 1], [5, 6]), piece([2, 3], [7, NaN])] };
 
@@ -24,10 +24,10 @@ function visited(curve, range) {
 test("statistics are of the finite values within a range, and do not overflow", () => {
   assert.deepEqual(statistics(TWO, [0.5, 3]), { count: 2, low: 6, high: 7, mean: 6.5 });
   assert.equal(statistics(TWO, [8, 9]).count, 0);
-  const large = { name: "x", pieces: [piece([0, 1, 2], [MOST, MOST, -MOST])] };
+  const large = { name: "x", pieces: [piece([0, 1, 2], [LARGEST, LARGEST, -LARGEST])] };
   const { low, high, mean } = statistics(large, [0, 2]);
-  assert.deepEqual([low, high], [-MOST, MOST]);
-  assert.ok(Math.abs(mean / MOST - 1 / 3) < 1e-9);
+  assert.deepEqual([low, high], [-LARGEST, LARGEST]);
+  assert.ok(Math.abs(mean / LARGEST - 1 / 3) < 1e-9);
 });
 
 test("ticks are round numbers within their range", () => {
@@ -47,7 +47,7 @@ test("a round number at an end has a tick, however the end was rounded", () => {
 });
 
 test("ticks of extreme ranges are few, and an empty range has none", () => {
-  const widest = ticks(-MOST, MOST, 5);
+  const widest = ticks(-LARGEST, LARGEST, 5);
   assert.ok(widest.length > 2 && widest.every(Number.isFinite), String(widest));
   assert.ok(ticks(1e17, 1e17 + 16, 4).length <= 50);
   for (const [low, high] of [
@@ -64,12 +64,12 @@ test("a range of values has room around it and is never empty", () => {
   assert.deepEqual(roomy(100, 100), [95, 105]);
   assert.deepEqual(roomy(0, 0), [-1, 1]);
   assert.deepEqual(roomy(Infinity, -Infinity), [-1, 1], "of no values");
-  assert.deepEqual(roomy(-MOST, MOST), [-MOST, MOST]);
+  assert.deepEqual(roomy(-LARGEST, LARGEST), [-LARGEST, LARGEST]);
 });
 
 test("shares of a range are right where its span overflows", () => {
   assert.equal(share(2.5, [0, 10]), 0.25);
-  assert.equal(share(0, [-MOST, MOST]), 0.5);
+  assert.equal(share(0, [-LARGEST, LARGEST]), 0.5);
 });
 
 test("a range is scaled around a share of it and moved by another", () => {

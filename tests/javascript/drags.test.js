@@ -10,7 +10,7 @@ const QUARTER = Math.PI / 2;
 
 // The camera is 10 m above and sees 100 pixels a metre, without perspective.
 const place = ([x, y]) => [100 * x, -100 * y];
-const sight = {
+const projection = {
   rayAt: ([x, y]) => ({ origin: [x / 100, -y / 100, 10], direction: [0, 0, -1] }),
   project: place,
   perPixel: () => 0.01,
@@ -24,11 +24,21 @@ const sight = {
 function dragged({ mode, wxyz = IDENTITY, facing = "inherit" }, position, grab, ...pointers) {
   let before = place(grab);
   const pose = { position, wxyz: IDENTITY };
-  const step = begin({ control: { mode, wxyz, facing }, pose, turned: 0, grab, sight, at: before });
+  const step = begin({
+    control: { mode, wxyz, facing },
+    pose,
+    turned: 0,
+    grab,
+    projection,
+    at: before,
+  });
   let moved = null;
   for (const { to, wheel = 0, shift = false, ctrl = false } of pointers) {
     const at = place(to);
-    moved = step({ at, by: [at[0] - before[0], at[1] - before[1]], wheel, shift, ctrl }, sight);
+    moved = step(
+      { at, by: [at[0] - before[0], at[1] - before[1]], wheel, shift, ctrl },
+      projection,
+    );
     before = at;
   }
   return moved;

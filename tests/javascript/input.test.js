@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { afterEach, test } from "node:test";
 
-import { straight } from "../../webviz/page/web/images/bend.js";
+import { straight } from "../../webviz/page/web/images/undistort.js";
 import { clicks } from "../../webviz/page/web/tools/clicks.js";
 import { disarm, share } from "../../webviz/page/web/tools/teleop_gamepad.js";
 
@@ -73,14 +73,14 @@ const MIDDLE = {
 /** The left half of an image, of which the lens does not see a corner. */
 const HALF = { rows: 2, columns: 3, places: [0, 0, 0.25, 0, 0.5, 0, 0, 1, 0.25, 1, null, null] };
 
-test("a place of a bent image is between the corners of its cell", () => {
+test("a place of an undistorted image is between the corners of its cell", () => {
   assert.deepEqual(straight(HALF, [0.25, 0.5]), [0.125, 0.5]);
   assert.deepEqual(straight(HALF, [0, 0]), [0, 0]);
   assert.deepEqual(straight(MIDDLE, [1, 0.5]), [0.75, 0.5]);
   assert.deepEqual(straight(MIDDLE, [0.5, 1]), [0.5, 0.75]);
 });
 
-test("places outside a bent image, or of a cell that the lens does not see, show nothing", () => {
+test("places outside an undistorted image, or of a cell that the lens does not see, show nothing", () => {
   for (const place of [
     [-0.1, 0.6],
     [1.1, 0.6],

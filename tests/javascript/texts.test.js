@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { bytesText, rateText, sizeText, spanText } from "../../webviz/page/web/panels/units.js";
-import { plain } from "../../webviz/page/web/plain.js";
+import { sanitized } from "../../webviz/page/web/sanitize.js";
 import { duration, timeOfDay } from "../../webviz/page/web/shell/time_text.js";
 import { fixed } from "../../webviz/page/web/tools/numbers.js";
 import { yaml } from "../../webviz/page/web/tools/yaml.js";
@@ -26,17 +26,17 @@ test("a time of day is a date here, and of a simulation the time since its start
 });
 
 test("untrusted text is one line that reads from left to right", () => {
-  assert.equal(plain("a\nb\u202ec\u0000d\u2028e"), "a b c d e");
-  assert.equal(plain("Grüße, 世界 🤖"), "Grüße, 世界 🤖");
-  assert.equal(plain("half \ud83e"), "half  ");
-  assert.equal(plain(""), "");
+  assert.equal(sanitized("a\nb\u202ec\u0000d\u2028e"), "a b c d e");
+  assert.equal(sanitized("Grüße, 世界 🤖"), "Grüße, 世界 🤖");
+  assert.equal(sanitized("half \ud83e"), "half  ");
+  assert.equal(sanitized(""), "");
 });
 
 test("a long text is cut, and half a pair at the cut is left out", () => {
-  assert.equal(plain("abcdef", 6), "abcdef");
-  assert.equal(plain("abcdefg", 6), "abcde…");
-  assert.equal(plain("abcd🤖fg", 6), "abcd …");
-  assert.equal(plain("x".repeat(1e6)).length, 300);
+  assert.equal(sanitized("abcdef", 6), "abcdef");
+  assert.equal(sanitized("abcdefg", 6), "abcde…");
+  assert.equal(sanitized("abcd🤖fg", 6), "abcd …");
+  assert.equal(sanitized("x".repeat(1e6)).length, 300);
 });
 
 test("words of a search are in lower case and never empty", () => {

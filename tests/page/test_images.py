@@ -344,7 +344,7 @@ def test_the_scene_is_over_the_image_where_the_camera_sees_it(
     camera = CameraModel.whole(info)
     grid = Lens.of(info).grid(camera)
     assert grid is not None
-    sight = OverlayCamera(
+    overlay_camera = OverlayCamera(
         position=(5.0, 6.0, 7.0),
         wxyz=(1.0, 0.0, 0.0, 0.0),
         size=(camera.width, camera.height),
@@ -384,7 +384,7 @@ def test_the_scene_is_over_the_image_where_the_camera_sees_it(
     rows = [Row(name.title(), "Grid", Grid(name=name.title()), name.title(), {}) for name in chosen]
     other.loop.show(Row("Camera", "Camera", Camera(name="Camera"), "Camera", {}), *rows)
     try:
-        pictures.show("Camera", replace(pixels(image, "rgb8"), sight=sight))
+        pictures.show("Camera", replace(pixels(image, "rgb8"), camera=overlay_camera))
         other.wait_for(lambda: are_right({"red", "green", "blue"}, has_text=True))  # of the scene
         hiding = Camera(name="Camera", visibility={"Red": False})
         other.loop.show(Row("Camera", "Camera", hiding, "Camera", {}), *rows)
@@ -394,7 +394,9 @@ def test_the_scene_is_over_the_image_where_the_camera_sees_it(
         scene.flush()
         other.wait_for(lambda: are_right(set()))
         # Of the image alone, undistorted: it fits the scene.
-        pictures.show("Camera", replace(pixels(image, "rgb8"), sight=replace(sight, overlay=1.0)))
+        pictures.show(
+            "Camera", replace(pixels(image, "rgb8"), camera=replace(overlay_camera, overlay=1.0))
+        )
         other.wait_for(lambda: are_right({"red", "green", "blue"}))
         found = dots()
         x, y = (found["blue"][i] / found["size"][i] for i in range(2))

@@ -241,7 +241,7 @@ def still(tab: Tab) -> Tab:
 
 
 @pytest.fixture
-def album(request: pytest.FixtureRequest) -> ReferenceImages:
+def references(request: pytest.FixtureRequest) -> ReferenceImages:
     """The reference pictures beside this module."""
     root = request.config.rootpath
     update = bool(request.config.getoption("--update-pictures"))
@@ -263,11 +263,11 @@ def capture(tab: Tab) -> Pixels:
 
 
 def test_the_page_is_as_in_its_pictures_and_a_missing_row_or_another_color_shows(
-    open_still: Callable[..., Tab], album: ReferenceImages
+    open_still: Callable[..., Tab], references: ReferenceImages
 ) -> None:
     tab = open_still(DESK, color_scheme="dark")
     tab.wait_for(lambda: tab.page.get_by_role("treeitem").count() == 7)
-    dark = album.check("dark", capture(tab), tolerance=TOLERANCE)
+    dark = references.check("dark", capture(tab), tolerance=TOLERANCE)
 
     tab.page.evaluate("document.querySelector('#webviz').style.setProperty('--wv-warn', '#45b078')")
     assert share_of_difference(capture(tab), dark) > TOLERANCE
@@ -279,7 +279,7 @@ def test_the_page_is_as_in_its_pictures_and_a_missing_row_or_another_color_shows
     show(tab)
     tab.page.emulate_media(color_scheme="light")
     tab.wait_for(lambda: tab.page.get_by_role("treeitem").count() == 7)
-    album.check("light", capture(tab), tolerance=TOLERANCE)
+    references.check("light", capture(tab), tolerance=TOLERANCE)
 
     tab.page.emulate_media(color_scheme="dark")
     show(tab, LOST)
@@ -287,7 +287,7 @@ def test_the_page_is_as_in_its_pictures_and_a_missing_row_or_another_color_shows
     tab.wait_for(lambda: "No publisher on /scan" in tab.text())
     tab.page.mouse.move(900, 300)
     tab.page.mouse.move(5, 795)
-    album.check("error", capture(tab), tolerance=TOLERANCE)
+    references.check("error", capture(tab), tolerance=TOLERANCE)
 
     show(tab)
     tab.loop.state = replace(tab.loop.state, **BAG)
@@ -295,36 +295,36 @@ def test_the_page_is_as_in_its_pictures_and_a_missing_row_or_another_color_shows
     tab.button("Topics").click()
     tab.wait_for(lambda: tab.page.get_by_role("option", name="/scan").count() == 1)
     tab.page.mouse.move(5, 5)
-    album.check("timeline", capture(tab), tolerance=TOLERANCE)
+    references.check("timeline", capture(tab), tolerance=TOLERANCE)
 
 
 def test_live_topics_that_are_recorded_and_rewound(
-    open_still: Callable[..., Tab], album: ReferenceImages, still_server: None
+    open_still: Callable[..., Tab], references: ReferenceImages, still_server: None
 ) -> None:
     tab = open_still(DESK, color_scheme="dark")
     tab.page.evaluate(HEARD)
     tab.loop.state = replace(tab.loop.state, **LIVE)
     tab.wait_for(lambda: tab.page.get_by_role("button", name="Stop recording").count() == 1)
-    album.check("recording", capture(tab), tolerance=TOLERANCE)
+    references.check("recording", capture(tab), tolerance=TOLERANCE)
     tab.loop.state = replace(tab.loop.state, **PAST)
     tab.wait_for(tab.page.locator(".wv-rewound-banner").is_visible)
-    album.check("rewound", capture(tab), tolerance=TOLERANCE)
+    references.check("rewound", capture(tab), tolerance=TOLERANCE)
 
     phone = open_still(PHONE, has_touch=True, is_mobile=True, color_scheme="dark")
     phone.page.evaluate(HEARD)
     phone.loop.state = replace(phone.loop.state, **PAST)
     phone.wait_for(phone.page.locator(".wv-rewound-banner").is_visible)
-    album.check("phone_rewound", capture(phone), tolerance=TOLERANCE)
+    references.check("phone_rewound", capture(phone), tolerance=TOLERANCE)
 
 
 def test_on_a_phone_the_scene_is_free_until_the_side_lies_over_it(
-    open_still: Callable[..., Tab], album: ReferenceImages
+    open_still: Callable[..., Tab], references: ReferenceImages
 ) -> None:
     phone = open_still(PHONE, has_touch=True, is_mobile=True, color_scheme="dark")
-    album.check("phone", capture(phone), tolerance=TOLERANCE)
+    references.check("phone", capture(phone), tolerance=TOLERANCE)
     phone.button("Show the panels").tap()
     phone.wait_for(lambda: phone.page.get_by_role("treeitem").count() == 7)
-    album.check("phone_with_panels", capture(phone), tolerance=TOLERANCE)
+    references.check("phone_with_panels", capture(phone), tolerance=TOLERANCE)
 
 
 HEARD = """async () => {
@@ -335,7 +335,7 @@ HEARD = """async () => {
 
 
 def test_a_lost_connection_greys_the_page_and_says_so(
-    browser: playwright.Browser, album: ReferenceImages
+    browser: playwright.Browser, references: ReferenceImages
 ) -> None:
     server = open_server(port=0)
     draw(server)
@@ -347,5 +347,5 @@ def test_a_lost_connection_greys_the_page_and_says_so(
     server.stop()
     tab.page.evaluate("setTime(1_764_000_012_000)")
     tab.page.locator(".wv-contact").wait_for()
-    album.check("connection_lost", capture(tab), tolerance=TOLERANCE)
+    references.check("connection_lost", capture(tab), tolerance=TOLERANCE)
     tab.page.context.close()

@@ -2,11 +2,11 @@
 
 import pytest
 
-from webviz.engine.loop.pacing import Pace
+from webviz.engine.loop.pacing import FramePacing
 
 
 def test_after_a_rest_two_turns_may_follow_at_once_and_the_next_one_waits() -> None:
-    pace = Pace()
+    pace = FramePacing()
     pace.begin(100.0, 0.02)
     assert pace.rest(100.001) == 0.0
     pace.begin(100.001, 0.02)
@@ -14,7 +14,7 @@ def test_after_a_rest_two_turns_may_follow_at_once_and_the_next_one_waits() -> N
 
 
 def test_without_a_rest_there_is_one_turn_per_period() -> None:
-    pace, now, turns = Pace(), 100.0, 0
+    pace, now, turns = FramePacing(), 100.0, 0
     while now < 101.0:
         pace.begin(now, 0.02)
         now += 0.001 + pace.rest(now + 0.001)

@@ -182,10 +182,10 @@ def test_after_a_reset_what_is_latched_is_asked_for_again_and_welcome(
     b.transform("map", "base", T, static=True)
     b.pose("/pose", "base", T, 1.0)
     b.turn()
-    asked = {topic: wish.asked for topic, wish in b.source.wanted.items()}
+    asked = {topic: subscription.asked for topic, subscription in b.source.wanted.items()}
     b.source.now -= 50 * SECOND
     b.turn()
-    again = {topic: wish.asked for topic, wish in b.source.wanted.items()}
+    again = {topic: subscription.asked for topic, subscription in b.source.wanted.items()}
     assert again["/pose"] > asked["/pose"]
     assert again["/tf_static"] > asked["/tf_static"]
     b.pose("/pose", "base", T, 1.0)

@@ -24,7 +24,7 @@ AHEAD = Velocity(linear=1.0)
 LIMITS = Velocity(0.5, 0.0, 1.0)
 
 
-def make_helm(deceleration: float = 2.0, holding: int | None = None) -> VelocityController:
+def make_controller(deceleration: float = 2.0, holding: int | None = None) -> VelocityController:
     vehicle = Teleop(deceleration=deceleration).vehicle
     return VelocityController(
         vehicle, Advertisement("/cmd_vel", "geometry_msgs/msg/Twist"), holding
@@ -46,7 +46,7 @@ def drive(
 
 @pytest.mark.parametrize("way", [1.0, -1.0], ids=["ahead", "back"])
 def test_a_drive_ramps_up_brakes_and_ends_with_some_zeros(way: float) -> None:
-    controller = make_helm()
+    controller = make_controller()
     assert controller.is_at_rest
     # 1 m/s² to 0.5 m/s, and 2 m/s² back: in steps of 0.05 s.
     up = [way * step.linear for step in drive(controller, 0.0, 0.6, Velocity(way)) if step]
@@ -60,7 +60,7 @@ def test_a_drive_ramps_up_brakes_and_ends_with_some_zeros(way: float) -> None:
 
 
 def test_a_drive_that_ends_within_one_step_ends_with_some_zeros() -> None:
-    controller = make_helm(deceleration=10.0)
+    controller = make_controller(deceleration=10.0)
     drive(controller, 0.0, 1.0, Velocity(linear=0.5))
     steps = drive(controller, 1.0, 1.0, STILL)
     assert steps == [STILL] * TAIL + [None] * (len(steps) - TAIL)
@@ -68,7 +68,7 @@ def test_a_drive_that_ends_within_one_step_ends_with_some_zeros() -> None:
 
 @pytest.mark.parametrize("way", [1.0, -1.0], ids=["ahead", "back"])
 def test_who_slows_down_brakes_and_who_reverses_stands_still_in_between(way: float) -> None:
-    controller = make_helm()
+    controller = make_controller()
     drive(controller, 0.0, 1.0, Velocity(way))
 
     def speeds(start: float, share: float) -> list[float]:
@@ -83,25 +83,25 @@ def test_who_slows_down_brakes_and_who_reverses_stands_still_in_between(way: flo
 
 @pytest.mark.parametrize("way", [1.0, -1.0], ids=["ahead", "back"])
 def test_a_driver_who_falls_silent_before_the_first_command_moves_nothing(way: float) -> None:
-    controller = make_helm()
+    controller = make_controller()
     controller.steer(1, Velocity(way), 0.0, 0.0)
     assert [controller.step(BEAT_S + 0.05 * n) for n in range(TAIL + 1)] == [STILL] * TAIL + [None]
 
 
 def test_an_axis_that_is_off_has_no_negative_zero() -> None:
-    steps = drive(make_helm(), 0.0, 0.2, Velocity(1.0, -1.0, -0.0))
+    steps = drive(make_controller(), 0.0, 0.2, Velocity(1.0, -1.0, -0.0))
     assert {math.copysign(1.0, value) for step in steps if step for value in step} == {1.0}
 
 
 def test_only_another_set_point_asks_for_a_command_before_its_time() -> None:
-    controller = make_helm()
+    controller = make_controller()
     shares = (1.0, 1.0, 0.5, 0.5, 1.0, 0.0, 0.0)
     asks = [controller.steer(1, Velocity(share), 0.0, 0.01 * n) for n, share in enumerate(shares)]
     assert asks == [True, False, True, False, True, True, False]
 
 
 def test_halting_what_rests_publishes_nothing() -> None:
-    controller = make_helm()
+    controller = make_controller()
     controller.halt()
     assert controller.is_at_rest
     assert controller.step(0.0) is None
@@ -109,7 +109,7 @@ def test_halting_what_rests_publishes_nothing() -> None:
 
 @pytest.mark.parametrize("way", [1.0, -1.0], ids=["ahead", "back"])
 def test_a_driver_who_falls_silent_stops_the_vehicle_at_once(way: float) -> None:
-    controller = make_helm()
+    controller = make_controller()
     drive(controller, 0.0, 1.0, Velocity(way))
     steps = drive(controller, 1.0, 1.0, None)
     moving = [step for step in steps if step and step != STILL]
@@ -123,7 +123,7 @@ def test_a_driver_who_falls_silent_stops_the_vehicle_at_once(way: float) -> None
 
 @pytest.mark.parametrize("held", [AHEAD, Velocity(linear=-0.5)], ids=["the same", "another"])
 def test_a_driver_who_sends_but_receives_nothing_new_loses_control(held: Velocity) -> None:
-    controller = make_helm()
+    controller = make_controller()
     drive(controller, 0.0, 1.0, AHEAD)
     seen = 19 * PERIOD_S
     steps: list[Velocity | None] = []
@@ -143,7 +143,7 @@ def test_a_driver_who_sends_but_receives_nothing_new_loses_control(held: Velocit
 
 
 def test_what_was_received_before_counts_no_more() -> None:
-    controller = make_helm()
+    controller = make_controller()
     controller.steer(1, AHEAD, 1.0, 1.0)
     for index in range(1, 5):
         controller.steer(1, AHEAD, 1.0 - 0.1 * index, 1.0 + PERIOD_S * index)
@@ -151,7 +151,7 @@ def test_what_was_received_before_counts_no_more() -> None:
 
 
 def test_another_driver_begins_with_what_the_first_had_not_received() -> None:
-    controller = make_helm()
+    controller = make_controller()
     drive(controller, 0.0, 1.0, AHEAD)
     drive(controller, 1.0, 2.0, None)
     controller.steer(2, AHEAD, 0.9, 3.0)
@@ -161,7 +161,7 @@ def test_another_driver_begins_with_what_the_first_had_not_received() -> None:
 
 @pytest.mark.parametrize("way", [1.0, -1.0], ids=["ahead", "back"])
 def test_who_brakes_for_longer_than_the_release_keeps_control(way: float) -> None:
-    controller = make_helm(deceleration=0.1)
+    controller = make_controller(deceleration=0.1)
     drive(controller, 0.0, 1.0, Velocity(way))
     drive(controller, 1.0, 2.0, STILL)
     controller.steer(2, AHEAD, 3.0, 3.0)
@@ -170,7 +170,7 @@ def test_who_brakes_for_longer_than_the_release_keeps_control(way: float) -> Non
 
 
 def test_a_browser_that_only_looks_takes_no_beats_from_the_next_driver() -> None:
-    controller = make_helm()
+    controller = make_controller()
     drive(controller, 0.0, 1.0, AHEAD)
     drive(controller, 1.0, 2.0, STILL)
     controller.steer(2, STILL, 5.0, 5.0)
@@ -180,19 +180,19 @@ def test_a_browser_that_only_looks_takes_no_beats_from_the_next_driver() -> None
 
 
 def test_what_is_held_while_the_vehicle_changes_has_to_be_let_go_first() -> None:
-    controller = make_helm(holding=1)
+    controller = make_controller(holding=1)
     for now in (0.0, 0.05):
         assert not controller.steer(1, AHEAD, now, now)
     assert controller.is_at_rest
     assert controller.driver(0.05) is None
     assert not controller.steer(1, STILL, 0.1, 0.1)
     assert controller.steer(1, AHEAD, 0.15, 0.15)
-    assert make_helm(holding=1).steer(2, AHEAD, 0.0, 0.0)
+    assert make_controller(holding=1).steer(2, AHEAD, 0.0, 0.0)
 
 
 @pytest.mark.parametrize("share", [math.inf, -math.inf, math.nan])
 def test_a_set_point_that_is_not_finite_counts_as_zero(share: float) -> None:
-    controller = make_helm()
+    controller = make_controller()
     assert not controller.steer(1, Velocity(linear=share), 0.0, 0.0)
     assert controller.driver(0.0) is None
     assert controller.is_at_rest
@@ -200,12 +200,12 @@ def test_a_set_point_that_is_not_finite_counts_as_zero(share: float) -> None:
 
 @pytest.mark.parametrize("share", [1.5, -1.5, 1e308])
 def test_a_set_point_beyond_a_limit_counts_as_the_limit(share: float) -> None:
-    steps = drive(make_helm(), 0.0, 1.0, Velocity(linear=share))
+    steps = drive(make_controller(), 0.0, 1.0, Velocity(linear=share))
     assert steps[-1] == Velocity(linear=math.copysign(LIMITS.linear, share))
 
 
 def test_the_first_driver_keeps_control_until_a_second_after_letting_go() -> None:
-    controller = make_helm()
+    controller = make_controller()
     controller.steer(1, STILL, 0.0, 0.0)
     assert controller.driver(0.0) is None
     drive(controller, 0.0, 1.0, AHEAD)
@@ -230,7 +230,7 @@ numbers = st.floats() | st.sampled_from([0.0, 1.0, -1.0, 1e308, math.nan, math.i
 def test_whatever_is_held_a_vehicle_keeps_its_limits_and_ramps(
     held: list[tuple[tuple[float, float, float], float]],
 ) -> None:
-    controller, now = make_helm(), 0.0
+    controller, now = make_controller(), 0.0
     ramps = controller.vehicle.acceleration, controller.vehicle.deceleration
     velocities = [STILL]
     for share, wait in held:

@@ -59,7 +59,7 @@ def test_of_many_the_most_severe_stay_and_a_sample_of_the_others(tmp_path: Path)
     assert [e.text for e in found.events if e.level is Level.ERROR] == ["first", "last"]
     late = [e for e in found.events if e.at_ns > START_NS + ns(5)]
     assert len(late) == pytest.approx(MAX_EVENTS / 2, rel=0.2)
-    assert not found.remark
+    assert not found.warning
 
 
 def test_any_bytes_on_rosout_are_bounded_and_skipped(tmp_path: Path) -> None:

@@ -18,7 +18,7 @@ from webviz.files.config import Config, Settings
 from webviz.page.recorded_ui import RecordedUi
 from webviz.panels.joints import Joints
 from webviz.ros.node import RosSource
-from webviz.ros.talker import Talker
+from webviz.ros.publisher_node import PublisherNode
 from webviz.shell.testing.recording import RecordingScene
 from webviz_displays.robot_model import RobotModel
 
@@ -31,7 +31,7 @@ class Looking:
 
     def __init__(self, domain: int) -> None:
         self.states: list[State] = []
-        self.talker = Talker("robot_state_publisher", domain)
+        self.talker = PublisherNode("robot_state_publisher", domain)
         self.publisher = self.talker.open(TOPIC, STRING, latched=True)
         self.describe("box")
         self.source = RosSource(domain_id=domain)

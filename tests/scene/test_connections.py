@@ -15,10 +15,10 @@ import websockets.exceptions
 from websockets.frames import Frame, Opcode
 
 from webviz.server.http import backoff, connections
-from webviz.server.http.allowances import MAX_REMEMBERED, Allowance, SpentAllowances
 from webviz.server.http.backoff import FIRST_S, FORGIVEN_S, MAX_S, BackOff
 from webviz.server.http.connections import MAX_BROWSERS, READ_BYTES, Connection
-from webviz.server.http.crowding import network_of
+from webviz.server.http.eviction import network_of
+from webviz.server.http.rate_limits import MAX_REMEMBERED, RateLimit, SpentRates
 
 PAGE = b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"
 
@@ -118,19 +118,19 @@ def test_without_file_descriptors_browsers_are_refused_and_served_again_later() 
 
 
 def test_a_browser_may_send_a_burst_and_then_a_steady_rate() -> None:
-    allowance = Allowance(rate=10.0, burst=5.0)
-    waits = [allowance.spend(1.0, now=100.0) for _ in range(7)]
+    rate_limit = RateLimit(rate=10.0, burst=5.0)
+    waits = [rate_limit.spend(1.0, now=100.0) for _ in range(7)]
     assert waits == pytest.approx([0, 0, 0, 0, 0, 0.1, 0.2])
-    assert allowance.spend(1.0, now=101.0) == 0.0
-    assert allowance.spend(10.0, now=200.0) == pytest.approx(0.5)
+    assert rate_limit.spend(1.0, now=101.0) == 0.0
+    assert rate_limit.spend(10.0, now=200.0) == pytest.approx(0.5)
 
 
 def test_a_browser_that_connects_again_has_no_new_burst() -> None:
-    spent, before = SpentAllowances(), Allowance(rate=10.0, burst=5.0)
+    spent, before = SpentRates(), RateLimit(rate=10.0, burst=5.0)
     before.spend(8.0, now=100.0)
     spent.note("a", before)
-    spent.note("a", Allowance(rate=10.0, burst=5.0))
-    again, other, later = (Allowance(rate=10.0, burst=5.0) for _ in range(3))
+    spent.note("a", RateLimit(rate=10.0, burst=5.0))
+    again, other, later = (RateLimit(rate=10.0, burst=5.0) for _ in range(3))
     spent.resume("a", again, now=100.1)
     assert again.spend(1.0, now=100.1) == pytest.approx(0.3)
     assert again.exhausted_s(now=100.4) == pytest.approx(0.3)
@@ -141,14 +141,14 @@ def test_a_browser_that_connects_again_has_no_new_burst() -> None:
 
 
 def test_of_too_many_browsers_those_with_most_left_are_forgotten() -> None:
-    spent = SpentAllowances()
+    spent = SpentRates()
     for number in range(MAX_REMEMBERED + 1):
-        before = Allowance(rate=10.0, burst=5.0)
+        before = RateLimit(rate=10.0, burst=5.0)
         before.spend(5.0 if number == 1 else 6.0, now=100.0)
         spent.note(number, before)
 
     def wait_s(sender: int) -> float:
-        again = Allowance(rate=10.0, burst=5.0)
+        again = RateLimit(rate=10.0, burst=5.0)
         spent.resume(sender, again, now=100.0)
         return again.spend(1.0, now=100.0)
 
@@ -185,7 +185,7 @@ def test_a_browser_that_sends_too_much_waits_and_others_do_not(
     wait_until: Callable[[Callable[[], bool]], None],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(connections, "Allowance", lambda *_: Allowance(rate=1e-9, burst=3.5))
+    monkeypatch.setattr(connections, "RateLimit", lambda *_: RateLimit(rate=1e-9, burst=3.5))
     eager, other = call(), call()
     for number in range(1, 6):
         eager.look(float(number))
@@ -279,7 +279,7 @@ def test_a_server_that_stops_waits_for_no_browser(
     wait_until: Callable[[Callable[[], bool]], None],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(connections, "Allowance", lambda *_: Allowance(rate=1e-9, burst=1.5))
+    monkeypatch.setattr(connections, "RateLimit", lambda *_: RateLimit(rate=1e-9, burst=1.5))
     eager = call()  # must wait for ages, and does not read, so that it never answers a farewell
     eager.look(1.0)
     eager.look(2.0)

@@ -31,7 +31,7 @@ def settle(scene: ViserScene) -> None:
 
 def test_many_texts_are_added_over_several_flushes(scene: Any) -> None:
     woken: list[bool] = []
-    scene.link.late.wake = lambda: woken.append(True)
+    scene.link.deferred.wake = lambda: woken.append(True)
     texts = [f"{number:04}" for number in range(2 * AT_ONCE + 1)]
     scene.upsert("m", "texts", labels(texts))
     scene.flush()

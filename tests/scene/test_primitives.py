@@ -32,7 +32,7 @@ from webviz.api.nodes import (
     Rgb,
 )
 from webviz.scene import set_background
-from webviz.scene.holding import FEWEST_POINTS
+from webviz.scene.capacity import FEWEST_POINTS
 from webviz.scene.points import PART
 from webviz.scene.schemes import BACKGROUND
 from webviz_urdf.glb import MeshPart, Surface, write_glb

@@ -14,7 +14,7 @@ import viser
 import websockets.sync.server
 
 from webviz.scene import ViserScene
-from webviz.server.http.sparing_log import sparing_log
+from webviz.server.http.rate_limited_log import rate_limited_log
 
 Ask = Callable[[bytes], tuple[int, bytes, bytes]]
 HOST = b"Host: localhost\r\n"
@@ -150,8 +150,8 @@ def test_clients_that_only_connect_do_not_fill_the_log(
     assert not any(record.exc_info for record in caplog.records)
 
 
-def test_a_sparing_log_counts_what_it_leaves_out(caplog: pytest.LogCaptureFixture) -> None:
-    log = sparing_log("webviz.server")
+def test_a_rate_limited_log_counts_what_it_leaves_out(caplog: pytest.LogCaptureFixture) -> None:
+    log = rate_limited_log("webviz.server")
 
     def at(seconds: float, message: str) -> None:
         record = log.makeRecord(log.name, logging.WARNING, "", 0, message, (), None)

@@ -49,7 +49,7 @@ def sent(scene: ViserScene) -> Callable[[], int]:
     def sent() -> int:
         before = scene.link.queued_messages
         scene.flush()
-        scene.link.late.finish(10.0)
+        scene.link.deferred.finish(10.0)
         return scene.link.queued_messages - before
 
     return sent

@@ -197,7 +197,7 @@ def test_a_type_that_nobody_knows_is_learnt_from_the_bag(tmp_path, opened):
     (raw,) = bag.source.inbox.drain()["/own"]
     message = decode("learnt_msgs/msg/Own", raw.cdr)
     assert (message.data, message.number) == ("hi", 7)
-    assert bag.source.remarks == []
+    assert bag.source.warnings == []
 
 
 def test_a_type_that_was_known_before_is_read_as_the_bag_defines_it(tmp_path, opened):
@@ -217,11 +217,11 @@ def test_a_type_without_a_definition_is_skipped_and_told_if_it_is_wanted(tmp_pat
     recorded.add("/odd", "odd_msgs/msg/Odd", definition=text)
     recorded.put(0, "/odd", b"\x00\x01\x00\x00")
     bag = opened(recorded.write(tmp_path / "bag"))
-    assert bag.source.remarks == []
+    assert bag.source.warnings == []
     bag.want("/words", "/odd")
-    (remark,) = bag.source.remarks
-    assert remark.startswith("/odd is skipped: ")
-    assert "odd_msgs/msg/Odd" in remark
+    (warning,) = bag.source.warnings
+    assert warning.startswith("/odd is skipped: ")
+    assert "odd_msgs/msg/Odd" in warning
     assert bag.source.offers()["/odd"].problem
     bag.play(1)
     assert bag.heard() == ["0", "1"]
@@ -262,8 +262,8 @@ def test_transforms_of_another_time_set_the_time(tmp_path, opened, offset_s):
     bag = opened(recorded.write(tmp_path / "bag"))
     bag.play(0.5)
     assert bag.source.now_ns() == ns(offset_s) + ns(1.5)
-    (remark,) = bag.source.remarks
-    assert f"The transforms begin at {offset_s + 1}.0 s" in remark
+    (warning,) = bag.source.warnings
+    assert f"The transforms begin at {offset_s + 1}.0 s" in warning
 
 
 def test_transforms_that_come_late_do_not_set_the_time(tmp_path, opened):
@@ -272,7 +272,7 @@ def test_transforms_that_come_late_do_not_set_the_time(tmp_path, opened):
     recorded.messages = [(600, *message[1:]) for message in recorded.messages]
     bag = opened(recorded.write(tmp_path / "bag"))
     assert bag.source.now_ns() == bag.source.position_ns
-    assert bag.source.remarks == []
+    assert bag.source.warnings == []
 
 
 def test_topics_are_named_and_remapped_as_for_a_node(tmp_path, opened):

@@ -48,7 +48,7 @@ def read_in_little_memory(path) -> str:
         "bag = BagSource(Path(sys.argv[1]))\n"
         "bag.want({'/words': Subscription('std_msgs/msg/String', Topic('/words'))})\n"
         "while bag.position_ns < bag.end_ns: bag.play(bag.end_ns)\n"
-        "print(len(bag.inbox.drain().get('/words', ())), *bag.remarks)\n"
+        "print(len(bag.inbox.drain().get('/words', ())), *bag.warnings)\n"
     )
     done = subprocess.run(
         [sys.executable, "-c", code, str(path)], capture_output=True, text=True, timeout=60
@@ -72,10 +72,10 @@ def test_a_chunk_that_unfolds_to_more_than_memory(
     bag.want("/words")
     bag.source.play(9)
     assert bag.heard() == ["0", "1", "7", "9"]
-    (remark,) = bag.source.remarks
-    assert remark.startswith("bomb.mcap is damaged: 1 chunk is incomplete (it ")
-    assert remark.endswith("; everything else is shown.")
-    assert "  " not in remark
+    (warning,) = bag.source.warnings
+    assert warning.startswith("bomb.mcap is damaged: 1 chunk is incomplete (it ")
+    assert warning.endswith("; everything else is shown.")
+    assert "  " not in warning
 
 
 @pytest.mark.parametrize("claimed", [300, MAX_BYTES])
@@ -119,7 +119,7 @@ def test_honest_chunks_open_however_they_are_packed(
     bag.want("/words")
     bag.source.play(99)
     assert bag.heard() == [str(number) for number in range(100)]
-    assert bag.source.remarks == []
+    assert bag.source.warnings == []
 
 
 def test_a_large_chunk_opens(tmp_path, opened):
@@ -131,7 +131,7 @@ def test_a_large_chunk_opens(tmp_path, opened):
     bag.source.play(3)
     (large,) = bag.source.inbox.drain()["/words"]  # by its bytes the only one that is kept
     assert len(large.cdr) == 96 << 20
-    assert bag.source.remarks == []
+    assert bag.source.warnings == []
 
 
 @pytest.mark.parametrize("storage", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
@@ -156,8 +156,8 @@ def test_a_message_that_unfolds_to_more_than_memory(tmp_path, opened, monkeypatc
     bag.play(2)
     heard = bag.heard()
     assert heard == (["0", "2"] if storage is StoragePlugin.SQLITE3 else [])
-    (remark,) = bag.source.remarks
-    assert re.search(r"skipped \((the first because )?it", remark)
+    (warning,) = bag.source.warnings
+    assert re.search(r"skipped \((the first because )?it", warning)
 
 
 def test_a_file_that_unfolds_to_more_than_the_limit(tmp_path, opened, monkeypatch):
@@ -169,7 +169,7 @@ def test_a_file_that_unfolds_to_more_than_the_limit(tmp_path, opened, monkeypatc
     bag.want("/words")
     bag.play(1)
     assert bag.heard() == ["0", "1"]
-    assert "it unfolds to more than 1 048 576 bytes" in bag.source.remarks[0]
+    assert "it unfolds to more than 1 048 576 bytes" in bag.source.warnings[0]
 
 
 def test_unpacking_leaves_room_on_the_disk(tmp_path, monkeypatch):
@@ -196,8 +196,8 @@ def test_a_database_that_computes_its_messages(tmp_path, opened):
     bag.want("/words")
     bag.play(1)
     assert bag.heard() == ["0", "1"]
-    (remark,) = bag.source.remarks
-    assert remark == (
+    (warning,) = bag.source.warnings
+    assert warning == (
         "bag.db3 is damaged: 1 message is skipped (the database is damaged); everything else is "
         "shown."
     )

@@ -50,7 +50,7 @@ def test_a_folder_without_metadata_is_read_as_one_that_is_still_recorded(tmp_pat
     bag.want("/words")
     bag.play(1)
     assert bag.heard() == ["0", "1"]
-    assert bag.source.remarks == [
+    assert bag.source.warnings == [
         "bag has no metadata.yaml: it is still being recorded, or its recorder was interrupted. "
         f"Reading {file.name}."
     ]
@@ -87,7 +87,7 @@ def test_a_folder_whose_only_file_was_renamed_is_read(tmp_path, opened, storage)
     file = next(each for each in folder.iterdir() if each.suffix != ".yaml")
     file.rename(file.with_stem("renamed"))
     bag = opened(folder)
-    assert bag.source.remarks == [
+    assert bag.source.warnings == [
         f"{file.name}, named by metadata.yaml, is missing. Reading renamed{file.suffix}."
     ]
     bag.want("/words")
@@ -146,7 +146,7 @@ def test_of_an_mcap_file_that_was_cut_off_everything_before_is_shown(tmp_path, o
     for share in (0.3, 0.6, 0.9, 0.999):
         file.write_bytes(data[: int(share * len(data))])
         bag = opened(file)
-        assert bag.source.remarks == [
+        assert bag.source.warnings == [
             f"{file.name} has no end: it is still being recorded or was cut off. What it "
             "contained when it was opened is shown."
         ]
@@ -172,8 +172,8 @@ def test_of_a_database_that_was_cut_off_everything_before_is_shown(tmp_path, ope
         # Pages of a later message may come before those of an earlier one.
         assert heard == [text for text in _texts(recorded) if text in set(heard)]
         counts.append(len(heard))
-        (remark,) = bag.source.remarks
-        assert remark.startswith((f"{file.name} is damaged: ", f"{file.name} has no end: "))
+        (warning,) = bag.source.warnings
+        assert warning.startswith((f"{file.name} is damaged: ", f"{file.name} has no end: "))
     assert counts == sorted(counts)
     assert counts[0] > 60
 
@@ -227,7 +227,7 @@ def test_one_flipped_bit_loses_little(tmp_path, opened, kind):
                 heard.append("wrong")
         assert len(set(heard) - set(expected)) <= wrong, place
         if len(heard) < 60 - wrong:
-            assert "is damaged" in bag.source.remarks[0], place
+            assert "is damaged" in bag.source.warnings[0], place
         least = min(least, len(heard))
         bag.source.close()
     assert least >= 50  # one of six chunks
@@ -300,7 +300,7 @@ def test_a_compressed_file_is_read(tmp_path, opened, name):
     bag.want("/words")
     bag.play(1)
     assert bag.heard() == ["0", "1"]
-    assert bag.source.remarks == []
+    assert bag.source.warnings == []
 
 
 def test_a_folder_of_several_files_is_read_without_those_that_are_missing_or_broken(
@@ -318,7 +318,7 @@ def test_a_folder_of_several_files_is_read_without_those_that_are_missing_or_bro
     bag.want("/words")
     bag.play(3)
     assert bag.heard() == ["0", "1", "2", "3"]
-    assert bag.source.remarks == [
+    assert bag.source.warnings == [
         "bag_3.mcap, named by metadata.yaml, is missing. Reading "
         f"{first.name}, bag_1.mcap, bag_2.mcap.",
         "bag_1.mcap is empty (0 bytes). Copy it again, or choose another bag.",
@@ -333,9 +333,9 @@ def test_losses_within_the_files_of_a_folder_are_reported(tmp_path, opened):
     bag = opened(folder)
     bag.want("/words")
     bag.play(400)
-    (remark,) = bag.source.remarks
-    assert remark.startswith(f"bag is damaged: in {file.name} ")
-    assert remark.endswith("its end is missing; everything else is shown.")
+    (warning,) = bag.source.warnings
+    assert warning.startswith(f"bag is damaged: in {file.name} ")
+    assert warning.endswith("its end is missing; everything else is shown.")
 
 
 def test_a_folder_without_any_bag_file(tmp_path):
@@ -372,8 +372,8 @@ def test_damage_in_the_middle_is_reported_and_the_rest_is_shown(tmp_path, opened
     heard = bag.heard("/noise")
     expected = _texts(recorded)
     assert heard == expected[:26] + expected[52:]
-    (remark,) = bag.source.remarks
-    assert remark == (
+    (warning,) = bag.source.warnings
+    assert warning == (
         f"{file.name} is damaged: 1 chunk is incomplete (its zstd data is damaged); everything "
         "else is shown."
     )
@@ -391,7 +391,7 @@ def test_of_a_real_damaged_bag_the_beginning_is_shown(opened, name, why):
         heard.append([raw.cdr for raw in each.source.inbox.drain()["/tf"]])
     assert 1000 < len(heard[1]) < len(heard[0])
     assert heard[1] == heard[0][: len(heard[1])]
-    assert why in bag.source.remarks[0]
+    assert why in bag.source.warnings[0]
 
 
 def test_an_mcap_file_that_grows_while_it_is_played_shows_what_it_had(tmp_path, opened):
@@ -427,8 +427,8 @@ def test_a_database_that_is_still_written_shows_what_it_had(tmp_path, opened, jo
         bag.want("/words")
         bag.play(1)
         assert bag.heard() == ["0", "1"]
-        (remark,) = bag.source.remarks
-        assert remark.startswith(f"{file.name} has no end: it is still being recorded, or ")
+        (warning,) = bag.source.warnings
+        assert warning.startswith(f"{file.name} has no end: it is still being recorded, or ")
         recorder.rollback()
 
 

@@ -109,7 +109,7 @@ def test_its_messages_are_those_of_ros_2(
         bag.play(10)
         arrived = bag.source.inbox.drain().get(topic, ())
         found[topic] = [decode(name, raw.cdr) for raw in arrived]
-    assert bag.source.remarks == []
+    assert bag.source.warnings == []
     newest = found["/scan"][-1]
     assert (newest.header.frame_id, newest.header.stamp_ns) == ("laser", 1009_900_000_000)
     assert newest.ranges.tolist() == pytest.approx([1, 2, 12.9])

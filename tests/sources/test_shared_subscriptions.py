@@ -13,9 +13,9 @@ from webviz.sources.source import merged
 TYPE, OTHER = "std_msgs/msg/String", "std_msgs/msg/Bool"
 
 
-def shared(*wishes: Subscription) -> Subscription:
+def shared(*subscriptions: Subscription) -> Subscription:
     """The subscription of readers, in this order."""
-    return merged({"/a": wish} for wish in wishes)["/a"]
+    return merged({"/a": subscription} for subscription in subscriptions)["/a"]
 
 
 @pytest.mark.parametrize(
@@ -32,8 +32,8 @@ def shared(*wishes: Subscription) -> Subscription:
 def test_readers_share_a_reliability_that_serves_all(
     first: Any, second: Any, expected: str
 ) -> None:
-    wishes = [Subscription(TYPE, Topic("/a", reliability=each)) for each in (first, second)]
-    for order in (wishes, wishes[::-1]):
+    subscriptions = [Subscription(TYPE, Topic("/a", reliability=each)) for each in (first, second)]
+    for order in (subscriptions, subscriptions[::-1]):
         assert shared(*order).topic.reliability == expected
 
 
@@ -50,11 +50,11 @@ def test_readers_share_a_reliability_that_serves_all(
 def test_readers_that_disagree_on_durability_follow_the_publishers(
     first: Any, second: Any, expected: tuple[str, bool]
 ) -> None:
-    wishes = [
+    subscriptions = [
         Subscription(TYPE, Topic("/a", durability=durability), latched=latched)
         for durability, latched in (first, second)
     ]
-    for order in (wishes, wishes[::-1]):
+    for order in (subscriptions, subscriptions[::-1]):
         found = shared(*order)
         assert (found.topic.durability, found.latched) == expected
 
@@ -64,9 +64,9 @@ def test_the_first_reader_decides_on_the_type_and_whoever_asks_last_counts(
     type_: str, other: str
 ) -> None:
     strict = Topic("/a", reliability="reliable")
-    wishes = (
+    subscriptions = (
         Subscription(type_, strict, asked=1),
         Subscription(other, Topic("/a", reliability="best_effort"), latched=True, asked=3),
     )
-    assert shared(*wishes) == Subscription(type_, strict, asked=3)
-    assert shared(*wishes, Subscription(type_, strict, asked=2)).asked == 3
+    assert shared(*subscriptions) == Subscription(type_, strict, asked=3)
+    assert shared(*subscriptions, Subscription(type_, strict, asked=2)).asked == 3

@@ -24,19 +24,19 @@ from webviz.shell.testing.shared_renderer import SharedRenderer
 VIEW = Orbit(distance=7.0)
 
 
-def with_album(stage: Harness, folder: Path, *, update: bool = False) -> ReferenceImages:
+def with_references(stage: Harness, folder: Path, *, update: bool = False) -> ReferenceImages:
     """Let a stage compare with pictures in a folder of the test."""
-    album = ReferenceImages(folder / "pictures", folder / "output", folder, update)
-    stage._photographer = dataclasses.replace(stage._photographer, album=album, view=VIEW)
-    return album
+    references = ReferenceImages(folder / "pictures", folder / "output", folder, update)
+    stage._snapshots = dataclasses.replace(stage._snapshots, references=references, view=VIEW)
+    return references
 
 
 @pytest.fixture
-def album(filled: Harness, tmp_path: Path) -> ReferenceImages:
+def references(filled: Harness, tmp_path: Path) -> ReferenceImages:
     """Hold the picture `scan` of `filled`."""
-    with_album(filled, tmp_path, update=True)
+    with_references(filled, tmp_path, update=True)
     filled.check_picture("scan")
-    return with_album(filled, tmp_path)
+    return with_references(filled, tmp_path)
 
 
 def test_the_same_input_gives_the_same_picture_to_the_bit(filled: Harness) -> None:
@@ -62,7 +62,7 @@ def test_another_browser_gives_the_same_picture(filled: Harness) -> None:
     once = filled.picture()
     other = SharedRenderer()
     try:
-        again = other.capture(filled.scene, filled._photographer.view, (400, 300))
+        again = other.capture(filled.scene, filled._snapshots.view, (400, 300))
     finally:
         other.close()
     assert (again == once).all()
@@ -85,25 +85,27 @@ def test_pictures_have_the_size_that_is_asked_for(filled: Harness) -> None:
 
 
 def test_a_missing_picture_says_how_to_make_it(filled: Harness, tmp_path: Path) -> None:
-    with_album(filled, tmp_path)
+    with_references(filled, tmp_path)
     with pytest.raises(
         AssertionError, match=r"pictures/scan\.png is missing\. Run pytest with --up"
     ):
         filled.check_picture("scan")
 
 
-def test_a_wrong_picture_leaves_the_difference(filled: Harness, album: ReferenceImages) -> None:
+def test_a_wrong_picture_leaves_the_difference(
+    filled: Harness, references: ReferenceImages
+) -> None:
     filled.check_picture("scan")
     filled.set("size", 0.5, "Scan")
     with pytest.raises(AssertionError, match=r"See output/scan\.png and output/scan\.diff"):
         filled.check_picture("scan")
-    red = load(album.output / "scan.difference.png") == (255, 0, 0)
+    red = load(references.output / "scan.difference.png") == (255, 0, 0)
     assert 0.001 < red.all(axis=2).mean() < 0.4
-    assert load(album.output / "scan.png").shape == (300, 400, 3)
+    assert load(references.output / "scan.png").shape == (300, 400, 3)
 
 
-def test_what_is_masked_does_not_matter(filled: Harness, album: ReferenceImages) -> None:
-    reference = load(album.folder / "scan.png")
+def test_what_is_masked_does_not_matter(filled: Harness, references: ReferenceImages) -> None:
+    reference = load(references.folder / "scan.png")
     filled.set("size", 0.25, "Scan")
     actual = filled.picture()
     rows, columns = np.nonzero(np.abs(actual.astype(int) - reference).max(axis=2) > 12)
@@ -120,8 +122,8 @@ def test_a_mask_is_grey_and_may_reach_over_the_edge() -> None:
     assert (masked(picture, [(-5, -5, -1, -1)]) == 0).all()
 
 
-def test_a_picture_of_another_size_says_so(filled: Harness, album: ReferenceImages) -> None:
-    filled._photographer.album = dataclasses.replace(album, size=(320, 240))
+def test_a_picture_of_another_size_says_so(filled: Harness, references: ReferenceImages) -> None:
+    filled._snapshots.references = dataclasses.replace(references, size=(320, 240))
     with pytest.raises(
         AssertionError, match=r"has 320 x 240 pixels, pictures/scan.png has 400 x 3"
     ):
@@ -129,11 +131,11 @@ def test_a_picture_of_another_size_says_so(filled: Harness, album: ReferenceImag
 
 
 def test_an_update_leaves_what_still_passes(
-    filled: Harness, tmp_path: Path, album: ReferenceImages
+    filled: Harness, tmp_path: Path, references: ReferenceImages
 ) -> None:
-    path = album.folder / "scan.png"
+    path = references.folder / "scan.png"
     before = path.stat().st_ino
-    with_album(filled, tmp_path, update=True)
+    with_references(filled, tmp_path, update=True)
     filled.check_picture("scan")
     assert path.stat().st_ino == before
     filled.set("size", 0.5, "Scan")
@@ -143,12 +145,12 @@ def test_an_update_leaves_what_still_passes(
 
 
 def test_a_display_that_makes_no_difference_is_named(
-    filled: Harness, album: ReferenceImages
+    filled: Harness, references: ReferenceImages
 ) -> None:
     filled.check_picture("scan", each_display=True)
     filled.set("style", "Points", "Scan")
     filled.set("size_pixels", 1.0, "Scan")
-    with_album(filled, album.root, update=True)
+    with_references(filled, references.root, update=True)
     with pytest.raises(AssertionError, match="The picture small would be the same without Scan"):
         filled.check_picture("small", each_display=True)
 
@@ -189,12 +191,12 @@ def test_a_browser_that_dies_is_reported_and_replaced(
     filled: Harness, shared_renderer: SharedRenderer, tmp_path: Path
 ) -> None:
     before = browsers()
-    filled._photographer.shared_renderer = shared_renderer
+    filled._snapshots.shared_renderer = shared_renderer
     picture = filled.picture()
     (ours,) = set(browsers()) - set(before)
     helpers = ours.children(recursive=True)
     ours.send_signal(signal.SIGKILL)
-    with_album(filled, tmp_path, update=True)
+    with_references(filled, tmp_path, update=True)
     with pytest.raises(BrowserDied, match="The browser crashed while drawing"):
         filled.check_picture("scan")
     assert list(tmp_path.rglob("*.png")) == []
@@ -212,7 +214,7 @@ def test_without_a_browser_one_sentence_says_how_to_get_one(
     monkeypatch: pytest.MonkeyPatch,
     tmp_path: Path,
 ) -> None:
-    filled._photographer.shared_renderer = shared_renderer
+    filled._snapshots.shared_renderer = shared_renderer
     monkeypatch.setenv("PATH", "")
     monkeypatch.setenv("PLAYWRIGHT_BROWSERS_PATH", str(tmp_path))
     with pytest.raises(NoBrowser, match=r"No browser found\. Install Chromium"):

@@ -8,7 +8,8 @@ Arrays must not be changed once they are part of a node.
 from __future__ import annotations
 
 import functools
-from dataclasses import dataclass, field, fields
+import warnings
+from dataclasses import InitVar, dataclass, field, fields
 from typing import Any, Literal
 
 import numpy as np
@@ -300,13 +301,20 @@ class Pane(_Node):
         picture: of one message.
         stamp_ns: of its message, 0 if it has none.
         order: see `Context.order`.
-        sight: of the camera that took the picture, if the scene is drawn with it.
+        camera: that took the picture, if the scene is drawn with it.
+        sight: former name of `camera`, which works for one more version.
     """
 
     picture: Picture
     stamp_ns: int = 0
     order: int = 0
-    sight: OverlayCamera | None = None
+    camera: OverlayCamera | None = None
+    sight: InitVar[OverlayCamera | None] = None
+
+    def __post_init__(self, sight: OverlayCamera | None) -> None:
+        if sight is not None:
+            warnings.warn("Pane.sight is Pane.camera now.", DeprecationWarning, stacklevel=3)
+            object.__setattr__(self, "camera", sight)
 
 
 Node = Points | Lines | Arrows | Axes | Labels | Mesh | Instances | Models | Glb | Image | Pane

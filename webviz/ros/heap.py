@@ -12,7 +12,7 @@ PERIOD_S = 10.0
 LOOK_S = 0.5
 LARGE = 1 << 20
 """Message size in bytes above which reusing freed memory is cheaper than fresh pages."""
-MOST_UNUSED = 192 << 20
+MAX_UNUSED = 192 << 20
 """Bytes of freed memory that are kept. To return so many takes 14 ms."""
 
 _LIBC = ctypes.CDLL(None)
@@ -32,7 +32,7 @@ class Heap:
     With nothing to return this takes 2 ms.
 
     While large messages of different sizes arrive, the free memory between others fits none of
-    them, and grows (measured: 1300 MB beside 800 MB in use). Hence more than `MOST_UNUSED` is
+    them, and grows (measured: 1300 MB beside 800 MB in use). Hence more than `MAX_UNUSED` is
     returned at once. Without glibc nothing happens.
 
     Args:
@@ -72,7 +72,7 @@ class Heap:
     def _look(self) -> None:
         """Return free memory if there is much more than cannot be returned."""
         unused = _unused()
-        if unused > self._least_unused + MOST_UNUSED:
+        if unused > self._least_unused + MAX_UNUSED:
             _trim()
             unused = self._least_unused = _unused()
         self._least_unused = min(self._least_unused, unused)

@@ -201,7 +201,7 @@ class RosSource:
                 readers = tuple(sorted(map(_endpoint, found), key=lambda each: each.node))
             held = self._held.get(topic)
             problem = self._problems.get(topic, "")
-            policies, type_ = (held.policies, held.wish.type) if held else (None, "")
+            policies, type_ = (held.policies, held.subscription.type) if held else (None, "")
             offers[topic] = Offer(
                 publishers, policies, problem, type_, subscribers, readers=readers
             )
@@ -220,35 +220,40 @@ class RosSource:
         for topic in [t for t in self._held if t not in wanted]:
             self._release(topic)
             self.inbox.close(topic)
-        for topic, wish in wanted.items():
+        for topic, subscription in wanted.items():
             if self._stop.is_set():  # the first subscriptions take longest
                 return
             publishers = self._offers[topic].publishers if topic in self._offers else ()
-            if publishers and all(p.type != wish.type for p in publishers):
+            if publishers and all(p.type != subscription.type for p in publishers):
                 self._release(topic)  # rclpy allows one type per topic, and none matches
                 continue
-            policies, is_mixed = qos.adapt(wish, publishers), qos.is_mixed(wish, publishers)
+            policies, is_mixed = (
+                qos.adapt(subscription, publishers),
+                qos.is_mixed(subscription, publishers),
+            )
             if policies[1] == "volatile" and not is_mixed:
-                wish = replace(wish, asked=0)  # no latched message could be sent again
-            fitting = _Held(wish, policies, is_mixed)
+                subscription = replace(
+                    subscription, asked=0
+                )  # no latched message could be sent again
+            fitting = _Held(subscription, policies, is_mixed)
             if self._held.get(topic) != fitting:
                 self._release(topic)
                 self._subscribe(topic, fitting)
 
     def _subscribe(self, topic: str, held: _Held) -> None:
-        self.inbox.open(topic, TF_LIMIT if held.wish.type == TF_TYPE else INBOX_LIMIT)
+        self.inbox.open(topic, TF_LIMIT if held.subscription.type == TF_TYPE else INBOX_LIMIT)
         reliability, durability = held.policies
         durabilities: list[qos.Durability] = [durability]
         if held.is_mixed:
             durabilities = ["transient_local", "volatile"]
         try:
-            learn(held.wish.type)
+            learn(held.subscription.type)
             held.subscriptions = [
                 self._node.create_subscription(
-                    message_class(held.wish.type),
+                    message_class(held.subscription.type),
                     topic,
                     functools.partial(self._arrive, topic),
-                    qos.profile(held.wish, reliability, each),
+                    qos.profile(held.subscription, reliability, each),
                     raw=True,
                     event_callbacks=qos.NO_EVENTS_OF_SUBSCRIPTIONS,
                 )
@@ -289,7 +294,7 @@ class RosSource:
 class _Held:
     """A subscription; equal to another if it can be kept instead."""
 
-    wish: Subscription
+    subscription: Subscription
     policies: tuple[qos.Reliability, qos.Durability]
     is_mixed: bool
     subscriptions: list[RclpySubscription] = field(default_factory=list, compare=False)

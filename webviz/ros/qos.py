@@ -33,19 +33,21 @@ incompatible publisher, ends `spin_once` with an InvalidHandle. The statuses of 
 the default events would log."""
 
 
-def adapt(wish: Subscription, publishers: Sequence[Publisher]) -> tuple[Reliability, Durability]:
+def adapt(
+    subscription: Subscription, publishers: Sequence[Publisher]
+) -> tuple[Reliability, Durability]:
     """Return the QoS that matches the most publishers.
 
     As in rosbag2: reliable only if all publishers are, and transient local only if all are. Without
     publishers it is best effort and volatile, which matches any.
     """
-    matching = [p for p in publishers if p.type == wish.type]
-    reliability = wish.topic.reliability
+    matching = [p for p in publishers if p.type == subscription.type]
+    reliability = subscription.topic.reliability
     if reliability == "auto":
         all_reliable = matching and all(p.reliability == "reliable" for p in matching)
         reliability = "reliable" if all_reliable else "best_effort"
-    durability = wish.topic.durability
-    if wish.latched:
+    durability = subscription.topic.durability
+    if subscription.latched:
         durability = "transient_local"
     elif durability == "auto":
         all_latched = matching and all(p.durability == "transient_local" for p in matching)
@@ -53,21 +55,23 @@ def adapt(wish: Subscription, publishers: Sequence[Publisher]) -> tuple[Reliabil
     return reliability, durability
 
 
-def is_mixed(wish: Subscription, publishers: Sequence[Publisher]) -> bool:
+def is_mixed(subscription: Subscription, publishers: Sequence[Publisher]) -> bool:
     """Return whether only some publishers are transient local, so that it takes two subscriptions.
 
     A volatile one misses latched messages, a transient local one does not match the others.
     """
-    if wish.topic.durability != "auto" and not wish.latched:
+    if subscription.topic.durability != "auto" and not subscription.latched:
         return False
-    offered = {p.durability for p in publishers if p.type == wish.type}
+    offered = {p.durability for p in publishers if p.type == subscription.type}
     return len(offered) == 2
 
 
-def profile(wish: Subscription, reliability: Reliability, durability: Durability) -> QoSProfile:
-    """Return the rclpy profile for a wish and its adapted policies."""
+def profile(
+    subscription: Subscription, reliability: Reliability, durability: Durability
+) -> QoSProfile:
+    """Return the rclpy profile for a subscription and its adapted policies."""
     return QoSProfile(
-        depth=wish.topic.depth or DEPTHS.get(wish.type, SENSOR_DEPTH),
+        depth=subscription.topic.depth or DEPTHS.get(subscription.type, SENSOR_DEPTH),
         history=HistoryPolicy.KEEP_LAST,
         reliability=ReliabilityPolicy[reliability.upper()],
         durability=DurabilityPolicy[durability.upper()],

@@ -76,7 +76,7 @@ class ImageDrawn:
     def _draw_tile(self, tile: Tile, node: Image) -> None:
         encode = functools.partial(encode_png, _cells(node, tile), node.palette)
         send = functools.partial(self._send, tile, _extent(node, tile))
-        self._link.late.put(self._path(tile), encode, send)
+        self._link.deferred.put(self._path(tile), encode, send)
 
     def _send(self, tile: Tile, extent: Extent, png: bytes) -> None:
         name = self._path(tile)
@@ -91,7 +91,7 @@ class ImageDrawn:
                 self._link.set_position(name, (x, y, 0.0))
 
     def _drop(self, tile: Tile) -> None:
-        self._link.late.drop(self._path(tile))
+        self._link.deferred.drop(self._path(tile))
         handle = self._handles.pop(tile, None)
         if handle is not None:
             handle.remove()

@@ -30,8 +30,8 @@ from webviz.scene.adapter import Adapter, Move, Position, Wxyz
 from webviz.scene.adapter.background import set_background
 from webviz.scene.axes import AxesDrawn
 from webviz.scene.cameras import ViserCameras
+from webviz.scene.capacity import PointCapacities
 from webviz.scene.drawn import Drawn
-from webviz.scene.holding import Holding
 from webviz.scene.images import ImageDrawn
 from webviz.scene.instances import InstancesDrawn
 from webviz.scene.labels import LabelsDrawn
@@ -75,7 +75,7 @@ class ViserScene:
         self._gone: list[_Group] = []
         keep_shaders(server.scene, ROOT)
         self.cameras = ViserCameras(self.link)
-        self._holding = Holding(self.link)
+        self._capacities = PointCapacities(self.link)
         self.attended_until_s = 0.0
         """Monotonic time until which a program looks, without a browser."""
 
@@ -89,7 +89,7 @@ class ViserScene:
 
     def points_held(self) -> int:
         """Return the number of points every connected browser draws fast enough."""
-        return self._holding.points()
+        return self._capacities.points()
 
     def set_background(self, rgb: Rgb | None) -> None:
         """Set the background to one colour; None is that of each page, which follows its theme."""
@@ -153,7 +153,7 @@ class ViserScene:
             Exception: a node is malformed. It is dropped and named in a note; the rest follows in
                 the next flush.
         """
-        self.link.late.deliver()
+        self.link.deferred.deliver()
         texts = self.link.label_budget
         if not self._dirty and not self._gone and not texts.is_waiting:
             return
@@ -169,7 +169,7 @@ class ViserScene:
             finally:
                 self.link.place(moves)
         if texts.is_unfinished:
-            self.link.late.wake()
+            self.link.deferred.wake()
 
     def acknowledge(self, timeout: float) -> None:
         """Wait until every browser has applied everything that was flushed.
@@ -186,7 +186,7 @@ class ViserScene:
         Raises:
             TimeoutError: it takes longer than `timeout` seconds.
         """
-        self.link.late.finish(timeout)
+        self.link.deferred.finish(timeout)
         while self.link.label_budget.is_unfinished:
             self.flush()
 
@@ -261,7 +261,7 @@ class _Group:
         return [drawn for _, _, drawn in self._drawn.values() if isinstance(drawn, PaneDrawn)]
 
     def remove(self, link: Adapter) -> None:
-        link.late.drop(self._path)
+        link.deferred.drop(self._path)
         for _, _, drawn in self._drawn.values():  # all others are below the frame of the group
             if isinstance(drawn, PaneDrawn):
                 drawn.remove()

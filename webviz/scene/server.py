@@ -19,10 +19,10 @@ from webviz.server.access.proxies import Proxies
 from webviz.server.channel.channel import Channel
 from webviz.server.channel.modules import Modules
 from webviz.server.http.connections import ConnectionLimits
-from webviz.server.http.expelling import Expelling
 from webviz.server.http.guard import RequestGuard
 from webviz.server.http.hosts import HostList
 from webviz.server.http.listener import Handshakes, listen
+from webviz.server.http.revocation import Revocation
 from webviz.server.http.steps import at, behind, page, with_link, within
 from webviz.server.http.viser_server import Server, replaced
 
@@ -74,7 +74,7 @@ def open_server(
         within(limits),
         page(modules.head),
     )
-    begin = Expelling(access, limits).begin
+    begin = Revocation(access, limits).begin
     guard = RequestGuard(listener, steps, limits, tls, channel, begin, link_rate, embedders)
     with _opening, replaced(websocket, "serve", functools.partial(guard.serve, websocket.serve)):
         server = Server(channel, modules, limits.close, host=host, port=port, verbose=False)

@@ -151,7 +151,7 @@ def _set_up(
     fixed_frame: str | None = None,
     size: Size = SIZE,
 ) -> tuple[Config, RecordingScene, SnapshotFixture]:
-    """Return the config, scene and photographer of a viewer."""
+    """Return the config, scene and snapshots of a viewer."""
     from webviz.shell.testing.pictures import ReferenceImages, SnapshotFixture
     from webviz.shell.testing.recording import RecordingScene
 
@@ -160,7 +160,7 @@ def _set_up(
         config.settings.fixed_frame = fixed_frame
     options, root = request.config, request.config.rootpath
     pictures = str(options.getini("webviz_pictures"))
-    album = ReferenceImages(
+    references = ReferenceImages(
         root / pictures if pictures else request.path.parent / "pictures",
         root / str(options.getini("webviz_output")),
         root,
@@ -172,7 +172,7 @@ def _set_up(
     return (
         config,
         scene,
-        SnapshotFixture(scene, shared_renderer, album, view or config.settings.view),
+        SnapshotFixture(scene, shared_renderer, references, view or config.settings.view),
     )
 
 

@@ -57,7 +57,7 @@ class Playable(Protocol):
         ...
 
     @property
-    def remarks(self) -> Sequence[str]:
+    def warnings(self) -> Sequence[str]:
         """Sentences on what is missing, unusual or damaged, for people."""
         ...
 

@@ -60,7 +60,7 @@ class Rewindable:
         self._told: dict[str, Subscription] = {}
         """As the live source knows them."""
         self._asked: dict[str, tuple[int, int]] = {}
-        """By topic: `asked` of the wish, and of what the live source was told."""
+        """By topic: `asked` of the subscription, and of what the live source was told."""
         self._served: dict[str, str] = {}
         """Types by topic, of subscriptions that get their past from the seek before."""
         self._offers: tuple[object, object, Mapping[str, Offer]] = None, None, {}
@@ -115,7 +115,7 @@ class Rewindable:
         return ()
 
     @property
-    def remarks(self) -> Sequence[str]:
+    def warnings(self) -> Sequence[str]:
         """None."""
         return ()
 
@@ -149,7 +149,7 @@ class Rewindable:
         self._replay.past = past
         at_ns = min(at_ns, self.end_ns - NEARLY_NS)
         self._replay.seek(at_ns, self._channels_to_read(), self._wanted)
-        self._served = {topic: wish.type for topic, wish in self._wanted.items()}
+        self._served = {topic: subscription.type for topic, subscription in self._wanted.items()}
 
     def rejoin(self) -> bool:
         """`Playable.rejoin`."""
@@ -215,11 +215,11 @@ class Rewindable:
         if self._replay is None or is_same:
             return
         served, self._served = self._served, {}
-        for topic, wish in self._wanted.items():
+        for topic, subscription in self._wanted.items():
             known = before.get(topic)
-            asked = known.asked if known is not None and known.type == wish.type else -1
-            if asked < wish.asked and served.get(topic) != wish.type:
-                self._repeat(topic, wish, is_new=asked < 0)
+            asked = known.asked if known is not None and known.type == subscription.type else -1
+            if asked < subscription.asked and served.get(topic) != subscription.type:
+                self._repeat(topic, subscription, is_new=asked < 0)
         if _types(before) != _types(self._wanted):
             self._replay.read_on(self._channels_to_read())
 
@@ -289,21 +289,24 @@ class Rewindable:
     def _channels_to_read(self) -> list[MemoryChannel]:
         """Return the subscribed channels that are remembered as this type."""
         return [
-            MemoryChannel(topic, wish.type)
-            for topic, wish in self._wanted.items()
-            if (channel := self.channels.find(topic)) and channel.type == wish.type
+            MemoryChannel(topic, subscription.type)
+            for topic, subscription in self._wanted.items()
+            if (channel := self.channels.find(topic)) and channel.type == subscription.type
         ]
 
-    def _repeat(self, topic: str, wish: Subscription, is_new: bool) -> None:
+    def _repeat(self, topic: str, subscription: Subscription, is_new: bool) -> None:
         """Deliver what a new subscription would hold, or what is latched for one made anew."""
         replay, latched = self._replay, self.channels.latched(topic)
         channels = [channel for channel in self._channels_to_read() if channel.topic == topic]
-        lookbacks = wish.lookbacks if is_new else ()
+        lookbacks = subscription.lookbacks if is_new else ()
         if latched:
-            lookbacks = (*lookbacks, Lookback() if wish.latched else Lookback(count=latched))
+            lookbacks = (
+                *lookbacks,
+                Lookback() if subscription.latched else Lookback(count=latched),
+            )
         if replay is None or not channels or not lookbacks:
             return
-        wanted = {**self._wanted, topic: replace(wish, lookbacks=lookbacks)}
+        wanted = {**self._wanted, topic: replace(subscription, lookbacks=lookbacks)}
         for message in BagPast(replay.past, channels, wanted, replay.position_ns).messages():
             self._deliver(message)
 
@@ -316,17 +319,17 @@ class Rewindable:
         # What was logged before is not of the time at which it would be received.
         return {**told, ROSOUT: Subscription(LOG, Topic(ROSOUT, durability="volatile"))}
 
-    def _passed_on(self, topic: str, wish: Subscription) -> Subscription:
-        """Return the wish for the live source: nothing is repeated while the past is shown."""
+    def _passed_on(self, topic: str, subscription: Subscription) -> Subscription:
+        """Return a subscription for the live source, which repeats nothing during the past."""
         asked, told = self._asked.get(topic, (-1, -1))
-        is_repeated = asked >= 0 and (wish.asked == asked or self._replay is not None)
-        told = told if is_repeated else wish.asked
-        self._asked[topic] = wish.asked, told
-        return replace(wish, asked=told)
+        is_repeated = asked >= 0 and (subscription.asked == asked or self._replay is not None)
+        told = told if is_repeated else subscription.asked
+        self._asked[topic] = subscription.asked, told
+        return replace(subscription, asked=told)
 
     def _deliver(self, message: MemoryMessage) -> None:
         self.inbox.replay(message.topic, Raw(message.cdr, message.received_ns))
 
 
-def _types(wishes: Mapping[str, Subscription]) -> dict[str, str]:
-    return {topic: wish.type for topic, wish in wishes.items()}
+def _types(subscriptions: Mapping[str, Subscription]) -> dict[str, str]:
+    return {topic: subscription.type for topic, subscription in subscriptions.items()}

@@ -152,21 +152,21 @@ class BagSlice:
     def _is_chosen(self, channel: BagChannel) -> bool:
         if channel.topic in (CLOCK_TOPIC, ROSOUT):
             return True
-        wish = self.wanted.get(channel.topic)
-        return wish is not None and wish.type == channel.type
+        subscription = self.wanted.get(channel.topic)
+        return subscription is not None and subscription.type == channel.type
 
     def _wish(self, channel: BagChannel, chosen: Sequence[BagChannel]) -> Subscription:
         """Return the subscription of a channel, with the lookback of latched messages."""
-        wish = self.wanted.get(channel.topic)
-        if wish is None:
-            wish = Subscription(channel.type, Topic(channel.topic), lookbacks=())
+        subscription = self.wanted.get(channel.topic)
+        if subscription is None:
+            subscription = Subscription(channel.type, Topic(channel.topic), lookbacks=())
         publishers = channel.publishers
         if channel.topic != ROSOUT and any(p.durability == "transient_local" for p in publishers):
             depth = sum(each.depth for each in chosen if each.topic == channel.topic)
             is_tf = channel.type == "tf2_msgs/msg/TFMessage"
             latched = Lookback() if is_tf else Lookback(count=depth)
-            wish = replace(wish, lookbacks=(*wish.lookbacks, latched))
-        return wish
+            subscription = replace(subscription, lookbacks=(*subscription.lookbacks, latched))
+        return subscription
 
     def _message(
         self, channels: Mapping[tuple[str, str], BagChannel], recorded: Recorded, stamp_ns: int

@@ -38,7 +38,7 @@ class Subscription:
     is_placed: bool = field(default=False, compare=False)
 
 
-def merged(wishes: Iterable[Mapping[str, Subscription]]) -> dict[str, Subscription]:
+def merged(subscriptions: Iterable[Mapping[str, Subscription]]) -> dict[str, Subscription]:
     """All subscriptions by topic. The first decides on the type of a topic.
 
     A topic has one subscription. It follows the publishers if its readers do not agree on the QoS,
@@ -46,8 +46,8 @@ def merged(wishes: Iterable[Mapping[str, Subscription]]) -> dict[str, Subscripti
     publishers, so it holds beside readers that chose nothing.
     """
     wanted: dict[str, Subscription] = {}
-    for wish in wishes:
-        for topic, other in wish.items():
+    for subscription in subscriptions:
+        for topic, other in subscription.items():
             first = wanted.setdefault(topic, other)
             if first is not other:
                 wanted[topic] = _shared(first, other)

@@ -98,9 +98,9 @@ class Switchable:
         return self.shown.names
 
     @property
-    def remarks(self) -> Sequence[str]:
-        """`Playable.remarks`."""
-        return self.shown.remarks
+    def warnings(self) -> Sequence[str]:
+        """`Playable.warnings`."""
+        return self.shown.warnings
 
     def play(self, until_ns: int) -> None:
         """`Playable.play`."""
@@ -186,6 +186,6 @@ class Switchable:
             self.bag.close()
         self.live.close()
 
-    def _kept(self, topic: str, wish: Subscription) -> Subscription:
+    def _kept(self, topic: str, subscription: Subscription) -> Subscription:
         told = self._told.get(topic)
-        return wish if told is None else replace(wish, asked=told.asked)
+        return subscription if told is None else replace(subscription, asked=told.asked)

@@ -107,20 +107,20 @@ class Camera(ImageDisplay):
             if picture is None:
                 return
             number = state.number if state.number in state.poses else image.number
-            sight = self._sight(picture, image, state.poses[number], ctx)
+            camera = self._camera(picture, image, state.poses[number], ctx)
         except ImageError as error:
             ctx.error("Image", str(error))
             state.poses.clear()
             return
         state.poses = {n: pose for n, pose in state.poses.items() if n >= number}
-        pane = Pane(picture, image.stamp_ns, ctx.order, sight)
+        pane = Pane(picture, image.stamp_ns, ctx.order, camera)
         before = state.pane
-        if before is not None and (before.picture, before.sight) == (picture, sight):
+        if before is not None and (before.picture, before.camera) == (picture, camera):
             pane = before  # with the stamp of its own image
         state.pane = pane
         ctx.add("pane", pane)
 
-    def _sight(
+    def _camera(
         self, picture: Pixels | Encoded, image: Sample, pose: Pose, ctx: Context
     ) -> OverlayCamera | None:
         """Return the overlay camera for the scene, None without a camera info."""

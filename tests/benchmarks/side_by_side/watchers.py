@@ -128,8 +128,10 @@ class FoxgloveWatcher(SocketWatcher):
         if message["op"] == "advertise":
             channels = message["channels"]
             self._stamps |= {c["id"]: self._stamp_at.get(c["topic"]) for c in channels}
-            wishes = [{"id": c["id"], "channelId": c["id"]} for c in channels]
-            self._socket.send(json.dumps({"op": "subscribe", "subscriptions": wishes}).encode())
+            subscriptions = [{"id": c["id"], "channelId": c["id"]} for c in channels]
+            self._socket.send(
+                json.dumps({"op": "subscribe", "subscriptions": subscriptions}).encode()
+            )
 
     def recognise(self, scene: Scene, data: memoryview, now_ns: int) -> Sequence[Sighting]:
         """The stamp in the message that the server passes on."""

@@ -12,9 +12,9 @@ from webviz.api.finding import Finding
 from webviz.api.observation import Observation
 
 ODOMETRY = "nav_msgs/msg/Odometry"
-LEAST_M, LEAST_RAD = 0.05, 0.05
+LEAST_M, MIN_RAD = 0.05, 0.05
 """Movements between two rounds that show a direction."""
-MOST_RAD = 2.0
+MAX_RAD = 2.0
 """Turn between two rounds whose direction is not ambiguous."""
 LONGEST_S = 5.0
 ROUNDS = 3
@@ -69,7 +69,7 @@ class OdometrySign(Check):
         turned = math.remainder(now.yaw - before.yaw, math.tau)
         for axis, moved, speeds, least, most in (
             ("linear.x", ahead, (before.speed, now.speed), LEAST_M, math.inf),
-            ("angular.z", turned, (before.turn, now.turn), LEAST_RAD, MOST_RAD),
+            ("angular.z", turned, (before.turn, now.turn), MIN_RAD, MAX_RAD),
         ):
             told = sum(speeds) / 2 * seconds
             is_steady = speeds[0] * speeds[1] > 0.0

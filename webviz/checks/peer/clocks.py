@@ -8,7 +8,7 @@ from webviz.api.check import Check
 from webviz.api.finding import Finding
 from webviz.api.observation import Observation
 
-MOST_S = 0.05
+MAX_OFFSET_S = 0.05
 """Transforms at 20 Hz are as far apart."""
 
 
@@ -33,7 +33,7 @@ class PeerClock(Check):
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding if so, beyond the uncertainty of the measurement."""
         ends = seen.ends
-        if ends is None or abs(ends.offset_s) - ends.uncertainty_s <= MOST_S:
+        if ends is None or abs(ends.offset_s) - ends.uncertainty_s <= MAX_OFFSET_S:
             return
         direction = "ahead of" if ends.offset_s > 0 else "behind"
         yield self.found(

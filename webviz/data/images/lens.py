@@ -20,7 +20,7 @@ CELLS = (48, 36)
 """Of a grid, along columns and rows: straight lines in them are off by 0.1 px."""
 NEGLIGIBLE_PX = 0.25
 _SAMPLES = 1024
-_MOST = {"plumb_bob": 5, "rational_polynomial": 12, "equidistant": 4}
+_MAX_COEFFICIENTS = {"plumb_bob": 5, "rational_polynomial": 12, "equidistant": 4}
 """Coefficients; those behind, which tilt the sensor, have to be zero."""
 _LENGTHS = (4, 5, 8, 12, 14)
 """Of D, as OpenCV takes it."""
@@ -66,7 +66,7 @@ class Lens:
         few = info.d[: _LENGTHS[-1] + 1]
         d, k, r = (tuple(float(each) for each in values) for values in (few, info.k, info.r))
         model = str(info.distortion_model) if any(d) else "plumb_bob"
-        is_known = model in MODELS and not any(d[_MOST[model] :])
+        is_known = model in MODELS and not any(d[_MAX_COEFFICIENTS[model] :])
         if not is_known or (any(d) and len(d) not in _LENGTHS):
             more = f" with {len(info.d)} coefficients" if model in MODELS else ""
             raise ImageError(

@@ -18,7 +18,7 @@ from webviz.engine.commands.requests import Requests
 from webviz.engine.doctor import Doctor
 from webviz.engine.driving import VelocityControllers
 from webviz.engine.loop.arrivals import Arrivals
-from webviz.engine.loop.pacing import Pace
+from webviz.engine.loop.pacing import FramePacing
 from webviz.engine.loop.showing import Showing
 from webviz.engine.parts import Core, Part, Parts
 from webviz.engine.parts.autosave import AutosavePart
@@ -269,7 +269,7 @@ class FrameLoop:
 
     def run(self) -> None:
         """Run until `stop`: a turn whenever something arrives, at most `frame_rate` per second."""
-        arrived, pace = self._source.inbox.arrived, Pace()
+        arrived, pace = self._source.inbox.arrived, FramePacing()
         try:
             while not self._stop.is_set():
                 pace.begin(time.monotonic(), 1.0 / self.settings.frame_rate)

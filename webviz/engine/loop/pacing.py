@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 
-class Pace:
+class FramePacing:
     """Spaces turns, so that there is one per period on average.
 
     After a rest two may follow at once: what arrives right after a turn does not wait.

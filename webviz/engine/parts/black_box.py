@@ -163,7 +163,7 @@ class BlackBoxPart(Part):
             self._saving.recorder.close()
 
     def _subscriber_types(self) -> dict[str, str]:
-        return {topic: wish.type for topic, wish in self.subscriptions().items()}
+        return {topic: subscription.type for topic, subscription in self.subscriptions().items()}
 
     def _resolved(self, rule: WatchRule) -> str:
         try:

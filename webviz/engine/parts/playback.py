@@ -135,8 +135,8 @@ class PlaybackPart(Part):
 
     def statuses(self) -> Mapping[str, Status]:
         """Return what is missing, unusual or damaged in the recording."""
-        remarks = self._control.playback.remarks
-        return {"Bag": Status(Level.WARN, joined(*remarks))} if remarks else {}
+        warnings = self._control.playback.warnings
+        return {"Bag": Status(Level.WARN, joined(*warnings))} if warnings else {}
 
     def close(self) -> None:
         """Close the recording that is shown in the place of live topics."""

@@ -309,9 +309,9 @@ def input_subscriptions_of(
     for name, spec, topic in inputs(display):
         full, problem = "", ""
         first = next(iter(result.values()), None)
-        wish = topic.name or (spec.named_after(first.name) if first else "")
+        written = topic.name or (spec.named_after(first.name) if first else "")
         try:
-            full = resolve(wish) if wish else ""
+            full = resolve(written) if written else ""
             problem = "" if full else "No topic. Choose one."
         except ValueError as error:
             problem = str(error)

@@ -8,11 +8,11 @@ import { about } from "./recorded/chunks.js";
 import { connection, refusal } from "./recorded/connection.js";
 import * as colors from "./scene/colors.js";
 import constants from "./constants.js";
-import * as contact from "./contact.js";
+import * as liveness from "./liveness.js";
 import * as extensions from "./extensions.js";
 import * as flat from "./scene/flat.js";
 import * as handles from "./handles/handles.js";
-import * as holding from "./scene/holding.js";
+import * as capacity from "./scene/capacity.js";
 import * as inStep from "./scene/in_step.js";
 import * as labels from "./scene/labels.js";
 import * as lines from "./scene/lines.js";
@@ -53,9 +53,9 @@ async function install() {
     pieces,
   ];
   for (const part of [shell, page, inStep, ...ofScene]) part.install();
-  if (!run) contact.install();
+  if (!run) liveness.install();
   await viser.until(() => viser.hasCamera() && viser.node(constants.ROOT));
-  for (const part of [view, mouse, handles, saveImage, overlay, holding, blocks]) part.install();
+  for (const part of [view, mouse, handles, saveImage, overlay, capacity, blocks]) part.install();
   toolbar.install(shell.places);
   extensions.install();
 }

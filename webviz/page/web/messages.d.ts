@@ -140,13 +140,13 @@ export interface Hello {
   key: string;
 }
 
-export interface Holds {
-  type: "Holds";
-  points: number;
-}
-
 export interface Ping {
   type: "Ping";
+}
+
+export interface PointCapacity {
+  type: "PointCapacity";
+  points: number;
 }
 
 export interface ReadPixel {
@@ -287,7 +287,7 @@ export interface PictureHeader {
   legend?: ColorRange;
   readable?: boolean;
   swaps?: boolean;
-  sight?: PictureCamera;
+  camera?: PictureCamera;
   warp?: PictureWarp | null;
 }
 
@@ -322,8 +322,8 @@ export type FromPage =
   | Drive
   | FramesShown
   | Hello
-  | Holds
   | Ping
+  | PointCapacity
   | ReadPixel
   | ShowPictures
   | Unwatch

@@ -8,7 +8,7 @@ import uuid
 
 from viser import _messages as wire
 
-from webviz.scene.late import Late
+from webviz.scene.deferred import DeferredMessages
 from webviz.server.channel.messages import Answer, Ask
 from webviz.server.http.viser_server import Server
 
@@ -33,9 +33,9 @@ class Acknowledgements:
         late: messages that are still being made.
     """
 
-    def __init__(self, server: Server, late: Late) -> None:
+    def __init__(self, server: Server, late: DeferredMessages) -> None:
         self._server = server
-        self._late = late
+        self._deferred = late
         self._answered: dict[str, set[int]] = {}
         self._changed = threading.Condition()
         server.channel.on(Answer, self._receive)
@@ -62,7 +62,7 @@ class Acknowledgements:
             asked = {id_: client for id_, client in asked.items() if id_ == browser}
         deadline = time.monotonic() + timeout
         try:
-            if not self._late.wait(timeout):
+            if not self._deferred.wait(timeout):
                 raise TimeoutError(f"Pictures were not encoded within {timeout:g} s.")
             socket.queue_message(shared)
             self._server.flush()

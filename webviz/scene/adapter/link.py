@@ -22,8 +22,8 @@ from webviz.scene.adapter.poses import (
 )
 from webviz.scene.adapter.sender import SceneSender
 from webviz.scene.adapter.updates import UpdateMessage
+from webviz.scene.deferred import DeferredMessages
 from webviz.scene.label_budget import LabelBudget
-from webviz.scene.late import Late
 from webviz.server.http.viser_server import Server
 from webviz.server.images.pictures import Pictures
 
@@ -46,13 +46,13 @@ class Adapter:
         """To the modules of the pages."""
         self.pictures = Pictures(server.channel)
         """In panes beside the scene."""
-        self.late = Late()
+        self.deferred = DeferredMessages()
         """Messages that are slow to make, and are sent later."""
         self.label_budget = LabelBudget()
         self._socket = server._websock_server
         self._buffer = self._socket.get_message_buffer()
         self._queue = self._socket.queue_message
-        self._acknowledgements = Acknowledgements(server, self.late)
+        self._acknowledgements = Acknowledgements(server, self.deferred)
         self._removed = 0
         self._sender = SceneSender(
             self._buffer, self._socket._live_connections, last=AcknowledgementRequest

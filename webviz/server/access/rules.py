@@ -87,7 +87,7 @@ MESSAGES: Mapping[str, Role | None] = {
     "Drive": Role.OPERATOR,
     "FramesShown": Role.WATCHER,
     "Hello": Role.WATCHER,
-    "Holds": Role.OPERATOR,
+    "PointCapacity": Role.OPERATOR,
     "Ping": Role.WATCHER,
     "ReadPixel": Role.WATCHER,
     "ShowPictures": Role.WATCHER,

@@ -18,10 +18,10 @@ from websockets.protocol import State
 
 from webviz.server.access.access import EVERYBODY, Grant
 from webviz.server.access.roles import LIMITS, Role
-from webviz.server.http.allowances import Allowance, SpentAllowances
 from webviz.server.http.backoff import BackOff
-from webviz.server.http.crowding import network_of, oldest_of_most_crowded
+from webviz.server.http.eviction import network_of, oldest_of_most_crowded
 from webviz.server.http.listener import Handshakes
+from webviz.server.http.rate_limits import RateLimit, SpentRates
 from webviz.server.http.requests import add_policy, as_get, is_complete, is_head, refusal
 from webviz.server.http.viser_messages import objection
 from webviz.server.sending.congestion import CongestionControl, InFlightWindow, SentMarker
@@ -80,7 +80,7 @@ class ConnectionLimits:
         self._opening: dict[Connection, str] = {}
         """With the network of each."""
         self._open: set[Connection] = set()
-        self.spent = SpentAllowances()
+        self.spent = SpentRates()
         """By the network and cookie of lost connections."""
         self.back_off = BackOff()
         """Of those whose connections were ended for what they sent, likewise."""
@@ -194,7 +194,7 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
         self._grant = grant
         limits = LIMITS[grant.role]
         rate = limits.messages_per_second
-        self._allowance = Allowance(rate, BURST_S * rate)
+        self._rate_limit = RateLimit(rate, BURST_S * rate)
         self._bytes_per_message = limits.bytes_per_message
 
     def admit(self, address: str, grant: Grant) -> None:
@@ -205,7 +205,7 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
             grant: what it may do.
         """
         self.address, self.grant = address, grant
-        self._gate.spent.resume(sender_of(self), self._allowance, self.loop.time())
+        self._gate.spent.resume(sender_of(self), self._rate_limit, self.loop.time())
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Add the connection to the gate."""
@@ -215,7 +215,7 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
     def connection_lost(self, exc: Exception | None) -> None:
         """Remove the connection from the gate."""
         self._gate.leave(self)
-        self._gate.spent.note(sender_of(self), self._allowance)
+        self._gate.spent.note(sender_of(self), self._rate_limit)
         self.window.drop()
         super().connection_lost(exc)
 
@@ -276,7 +276,7 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
         is_pong = isinstance(event, Frame) and event.opcode is Opcode.PONG
         is_answer = is_pong and bytes(event.data) in self.pending_pings
         is_instant = not (is_whole or is_request or is_answer)
-        if is_instant and self._allowance.spend(1.0, self.loop.time()) > MAX_WAIT:
+        if is_instant and self._rate_limit.spend(1.0, self.loop.time()) > MAX_WAIT:
             self._expel_for_flood()
             self.transport.abort()
         super().process_event(event)
@@ -348,7 +348,7 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
         while True:
             data = await super().recv(decode)
             cost = 1.0 + len(data) / self._bytes_per_message
-            wait = 0.0 if self.is_expelled else self._allowance.spend(cost, self.loop.time())
+            wait = 0.0 if self.is_expelled else self._rate_limit.spend(cost, self.loop.time())
             if wait > 0.0:
                 # A server that stops does not wait for this, either.
                 await asyncio.wait([self.connection_lost_waiter], timeout=wait)
@@ -367,7 +367,7 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
         if self._is_gone:
             self.is_expelled = True
             self.transport.abort()
-        elif self._allowance.exhausted_s(self.loop.time()) > FLOOD_S:
+        elif self._rate_limit.exhausted_s(self.loop.time()) > FLOOD_S:
             self._expel_for_flood()
             self.logger.warning("Ended a connection that sent too many messages.")
             with contextlib.suppress(TimeoutError):

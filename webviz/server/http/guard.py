@@ -22,8 +22,8 @@ from websockets.http11 import Request, Response
 from webviz.server.channel.channel import Channel, objection
 from webviz.server.http.connections import Connection, ConnectionLimits
 from webviz.server.http.listener import Listener
+from webviz.server.http.rate_limited_log import rate_limited_log
 from webviz.server.http.requests import add_policy
-from webviz.server.http.sparing_log import sparing_log
 from webviz.server.http.steps import Reply, Step, Visit, answer_of
 from webviz.server.http.viser_messages import MAX_BYTES
 
@@ -73,7 +73,7 @@ class RequestGuard:
         """
         if not handler.__module__.startswith("viser."):
             return serve(handler, host, port, **options)
-        log = self.listener.log = sparing_log("webviz.server")
+        log = self.listener.log = rate_limited_log("webviz.server")
         loop = asyncio.get_running_loop()
         loop.set_exception_handler(
             lambda _, context: log.error(

@@ -11,7 +11,7 @@ import socket
 from typing import Any
 
 from webviz.api.errors import Error
-from webviz.server.http.crowding import network_of, oldest_of_most_crowded
+from webviz.server.http.eviction import network_of, oldest_of_most_crowded
 
 MAX_PORT = 65535
 

@@ -66,7 +66,7 @@ class PictureHeader(msgspec.Struct, frozen=True, kw_only=True):
         legend: of a measurement.
         readable: whether pixels can be read with `ReadPixel`.
         swaps: whether red and blue are in each other's place.
-        sight: the camera through which the page draws the scene.
+        camera: the camera through which the page draws the scene.
         warp: a new distortion of the picture, None for none.
     """
 
@@ -84,7 +84,7 @@ class PictureHeader(msgspec.Struct, frozen=True, kw_only=True):
     legend: ColorRange | UnsetType = UNSET
     readable: bool | UnsetType = UNSET
     swaps: bool | UnsetType = UNSET
-    sight: PictureCamera | UnsetType = UNSET
+    camera: PictureCamera | UnsetType = UNSET
     warp: PictureWarp | UnsetType | None = UNSET
 
 
@@ -141,9 +141,9 @@ def frame(
     else:
         head = replace(head, swaps=picture.swaps_red_and_blue)
     warp = None
-    if pane.sight is not None:
-        warp = pane.sight.warp
-        head = replace(head, sight=camera_of(pane.sight))
+    if pane.camera is not None:
+        warp = pane.camera.warp
+        head = replace(head, camera=camera_of(pane.camera))
         if warp is not sent.warp:
             head = replace(head, warp=warp_of(warp))
     return _joined(head, [file.data]), Sent(sent.packet, warp)
@@ -169,9 +169,9 @@ def _legend(picture: Pixels) -> ColorRange | UnsetType:
     )
 
 
-def camera_of(sight: OverlayCamera) -> PictureCamera:
+def camera_of(camera: OverlayCamera) -> PictureCamera:
     """Return an overlay camera as pages read it."""
-    return msgspec.convert(sight, PictureCamera, from_attributes=True)
+    return msgspec.convert(camera, PictureCamera, from_attributes=True)
 
 
 def warp_of(warp: Warp | None) -> PictureWarp | None:

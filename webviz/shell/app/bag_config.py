@@ -22,9 +22,9 @@ ON_REQUEST = {"CameraInfo", "Effort", "Text"}
 """Displays that repeat what others show, or that fit everything."""
 JOINTS = "RobotModel", "joint_states_topic"
 """Only moves the links of a model, which comes from the description."""
-MOST_ENABLED = 4
+MAX_ENABLED = 4
 """Of each type; further ones are in the list, switched off."""
-MOST_DISPLAYS = 100
+MAX_DISPLAYS = 100
 FRAMES = ("map", "odom", "world")
 """Fixed frames by preference; without them, the root of the largest tree."""
 
@@ -50,7 +50,7 @@ def displays_of(offers: Mapping[str, Offer]) -> tuple[Config, set[str]]:
         topic: tuple(dict.fromkeys(publisher.type for publisher in offer.publishers))
         for topic, offer in offers.items()
     }
-    found = sorted(_chosen(picks(topics, types)), key=_place)[:MOST_DISPLAYS]
+    found = sorted(_chosen(picks(topics, types)), key=_place)[:MAX_DISPLAYS]
     names = ["Grid"]
     if any(TF in messages for messages in topics.values()):
         names.append("TF")
@@ -89,7 +89,7 @@ def _displays(found: Sequence[Pick], types: Mapping[str, type[Display]]) -> Iter
     made = Counter[str]()
     for pick in found:
         made[pick.display] += 1
-        values = {**pick.values, "enabled": made[pick.display] <= MOST_ENABLED}
+        values = {**pick.values, "enabled": made[pick.display] <= MAX_ENABLED}
         if counts[pick.display] > 1:
             values["name"] = pick.topic
         yield make(types[pick.display], values)

@@ -202,7 +202,7 @@ class Running(PictureControls):
         thread.start()
         self._closing.add("The frame loop", thread.join)
         self._closing.before(self._loop.stop)
-        self._scene.link.late.wake = source.inbox.arrived.set
+        self._scene.link.deferred.wake = source.inbox.arrived.set
         self._snapshots = Snapshots(self._scene, self._drawn, self._look, self._cookie())
         self._closing.add("The browser of pictures", self._snapshots.close)
 

@@ -82,8 +82,8 @@ def _make(bag: Path, options: ExportOptions) -> int:
             options.max_size,
         )
         made = write(order, options.output, lambda share: progress("webviz: exporting", share))
-        for remark in source.remarks:
-            print(f"webviz: {bag}: {remark}", file=sys.stderr)
+        for warning in source.warnings:
+            print(f"webviz: {bag}: {warning}", file=sys.stderr)
     for note in made.notes:
         print(f"webviz: to keep --max-size: {note}", file=sys.stderr)
     if made.bytes > options.max_size:

@@ -101,8 +101,8 @@ def _read(
         at_ns = position_ns(options.at, bag, str(options.bag))
         title = f"Frames of {options.bag.name} at {seconds_from_start(at_ns, bag):.1f} s"
         tree = read_bag(bag, at_ns, progress)
-        for remark in bag.remarks:
-            print(f"webviz: {options.bag}: {remark}", file=sys.stderr)
+        for warning in bag.warnings:
+            print(f"webviz: {options.bag}: {warning}", file=sys.stderr)
         return tree, title
 
 

@@ -93,8 +93,8 @@ def _make(options: ScreenshotOptions, connect: ConnectOptions, ros: Sequence[str
         )
         status = _write(options, order)
         if isinstance(source, BagSource):
-            for remark in [*source.remarks, *([_topics(source)] if status else [])]:
-                print(f"webviz: {options.bag}: {remark}", file=sys.stderr)
+            for warning in [*source.warnings, *([_topics(source)] if status else [])]:
+                print(f"webviz: {options.bag}: {warning}", file=sys.stderr)
         return status
 
 

@@ -250,7 +250,7 @@ class Page:
     def pane(
         self,
         picture: PIL.Image.Image,
-        sight: OverlayCamera,
+        camera: OverlayCamera,
         size: tuple[int, int],
         hidden: Sequence[str],
     ) -> PIL.Image.Image:
@@ -258,15 +258,15 @@ class Page:
 
         Args:
             picture: as the camera took it.
-            sight: of the camera.
+            camera: through which the scene is seen.
             size: width and height of the result in pixels.
             hidden: ids of displays to leave out.
         """
         file = io.BytesIO()
         picture.save(file, "PNG")
         url = f"data:image/png;base64,{base64.b64encode(file.getvalue()).decode()}"
-        camera, warp = camera_of(sight), warp_of(sight.warp)
-        found = msgspec.to_builtins([*size, camera, warp, [*hidden], url])
+        how = camera_of(camera), warp_of(camera.warp)
+        found = msgspec.to_builtins([*size, *how, [*hidden], url])
         png = base64.b64decode(self.evaluate(PANE, found).split(",")[1])
         return PIL.Image.open(io.BytesIO(png)).convert("RGB")
 

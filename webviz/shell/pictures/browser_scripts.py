@@ -94,10 +94,10 @@ TRANSPARENT = f"""async () => {{ {VISER}
 
 # A picture with the scene over and under it, drawn by the modules of the page.
 PANE = """
-async ([width, height, sight, warp, hidden, url]) => {
+async ([width, height, camera, warp, hidden, url]) => {
   const viser = await import(new URL("webviz/viser_page.js", location.href));
   const load = (name) => import(new URL(`webviz/images/${name}.js`, location.href));
-  const [{ paint }, { bend }] = [await load("over"), await load("bend")];
+  const [{ paint }, { undistort }] = [await load("camera_overlay"), await load("undistort")];
   const picture = new Image();
   picture.src = url;
   await picture.decode();
@@ -106,15 +106,15 @@ async ([width, height, sight, warp, hidden, url]) => {
     return Object.assign(canvas, { width, height }).getContext("2d");
   };
   const size = [picture.naturalWidth, picture.naturalHeight];
-  const bent = warp && make(...size);
-  if (bent) bend(picture, warp, bent);
-  const image = bent ? bent.canvas : picture;
+  const undistorted = warp && make(...size);
+  if (undistorted) undistort(picture, warp, undistorted);
+  const image = undistorted ? undistorted.canvas : picture;
   const context = make(width, height);
   const gl = viser.gl();
   const {render} = gl;
   if (window.webvizRender) gl.render = window.webvizRender;
   try {
-    paint(context, { image, size, sight, hidden });
+    paint(context, { image, size, camera, hidden });
   } finally {
     gl.render = render;
   }

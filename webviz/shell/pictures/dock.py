@@ -51,8 +51,8 @@ def with_panes(
             continue
         assert isinstance(pane.picture, Pixels | Encoded)
         own = opened(pane.picture)
-        if pane.sight:
-            shown = page.pane(own, pane.sight, room, hidden.get(display, ()))
+        if pane.camera:
+            shown = page.pane(own, pane.camera, room, hidden.get(display, ()))
         else:
             shown = _fitting(own, room)
         place = GAP + (room[0] - shown.width) // 2, top + (room[1] - shown.height) // 2

@@ -35,7 +35,7 @@ class Harness(Shown):
     Args:
         config: to show.
         scene: to draw in.
-        photographer: of the scene.
+        snapshots: of the scene.
     """
 
     def __init__(self, config: Config, scene: RecordingScene, snapshot: SnapshotFixture) -> None:

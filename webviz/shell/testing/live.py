@@ -58,7 +58,7 @@ class LiveViewer(Shown):
     Args:
         config: to show.
         scene: to draw in.
-        photographer: of the scene.
+        snapshots: of the scene.
         domain: ROS domain.
         simulator: parameters of a simulated robot; None for no robot.
     """
@@ -72,15 +72,15 @@ class LiveViewer(Shown):
         simulator: Mapping[str, Any] | None = None,
     ) -> None:
         from webviz.ros.node import RosSource
-        from webviz.ros.talker import Talker
+        from webviz.ros.publisher_node import PublisherNode
 
         self._inbox = _WatchedInbox()
         self._crash: BaseException | None = None
         with contextlib.ExitStack() as stack:
             if simulator is not None:
                 stack.enter_context(_simulator(simulator, domain))
-            self._talker = Talker("webviz_test", domain)
-            stack.callback(self._talker.close)
+            self._publisher_node = PublisherNode("webviz_test", domain)
+            stack.callback(self._publisher_node.close)
             self.source: RosSource = RosSource(domain_id=domain)
             stack.callback(self.source.close)
             self.source.inbox = self._inbox
@@ -111,9 +111,9 @@ class LiveViewer(Shown):
             latched: publish with transient local durability; None for /tf_static only.
         """
         is_latched = topic == "/tf_static" if latched is None else latched
-        publisher = self._talker.open(topic, type_name, is_latched)
-        wish = self.viewer.wanted().get(topic)
-        if wish is not None and wish.type == type_name:
+        publisher = self._publisher_node.open(topic, type_name, is_latched)
+        subscription = self.viewer.wanted().get(topic)
+        if subscription is not None and subscription.type == type_name:
             self.wait_for(
                 lambda: self._is_connected(topic, type_name) and publisher.get_subscription_count(),
                 lambda: f"The viewer does not receive {topic}: {self._offer_text(topic)}",
@@ -210,11 +210,13 @@ class LiveViewer(Shown):
         """Return whether the subscription knows all its publishers, including the test's."""
         from webviz.ros.qos import adapt
 
-        wish, offer = self.viewer.wanted().get(topic), self.source.offers().get(topic)
-        if wish is None or offer is None:
+        subscription, offer = self.viewer.wanted().get(topic), self.source.offers().get(topic)
+        if subscription is None or offer is None:
             return False
         names = [publisher.node for publisher in offer.publishers if publisher.type == type_name]
-        return self._talker.name in names and offer.requested == adapt(wish, offer.publishers)
+        return self._publisher_node.name in names and offer.requested == adapt(
+            subscription, offer.publishers
+        )
 
     def _offer_text(self, topic: str) -> str:
         offer = self.source.offers().get(topic)

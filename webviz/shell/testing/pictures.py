@@ -55,7 +55,7 @@ class ReferenceImages:
         """Compare a picture with its reference picture, or update that.
 
         Args:
-            name: of the picture in the album, without suffix.
+            name: of the picture in the references, without suffix.
             pixels: uint8 (height, width, 3).
             mask: boxes to ignore.
             tolerance: share of pixels that may differ.
@@ -119,18 +119,20 @@ class SnapshotFixture:
     Args:
         scene: to draw.
         shared_renderer: makes the pictures.
-        album: has the reference pictures.
+        references: has the reference pictures.
         view: of the camera.
     """
 
     scene: RecordingScene
     shared_renderer: SharedRenderer
-    album: ReferenceImages
+    references: ReferenceImages
     view: View
 
     def capture(self, transparent: bool = False) -> Pixels:
         """Return a picture of the scene."""
-        return self.shared_renderer.capture(self.scene, self.view, self.album.size, transparent)
+        return self.shared_renderer.capture(
+            self.scene, self.view, self.references.size, transparent
+        )
 
     def check(
         self,
@@ -142,7 +144,7 @@ class SnapshotFixture:
         """Compare the scene with a reference picture, or update that.
 
         Args:
-            name: of the picture in the album, without suffix.
+            name: of the picture in the references, without suffix.
             displays: that must be visible: their names by the prefix of their groups.
             mask: boxes to ignore.
             tolerance: share of pixels that may differ.
@@ -150,7 +152,7 @@ class SnapshotFixture:
         Raises:
             AssertionError: there is a visible difference; the message names the files.
         """
-        expected = self.album.check(name, self.capture(), mask, tolerance)
+        expected = self.references.check(name, self.capture(), mask, tolerance)
         self._check_each(name, displays, mask, tolerance, expected)
 
     def _check_each(
@@ -165,7 +167,7 @@ class SnapshotFixture:
         unseen: list[str] = []
         for prefix, display in displays.items():
             rest = self.shared_renderer.capture(
-                self.scene, self.view, self.album.size, hidden=prefix
+                self.scene, self.view, self.references.size, hidden=prefix
             )
             if share_of_difference(masked(rest, mask), whole) <= tolerance:
                 unseen.append(display)

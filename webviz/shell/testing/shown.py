@@ -29,14 +29,14 @@ class Shown(Seen, ABC):
     Args:
         viewer: draws in `scene`.
         scene: of the viewer.
-        photographer: of the scene.
+        snapshots: of the scene.
     """
 
     def __init__(
         self, viewer: WatchedViewer, scene: RecordingScene, snapshot: SnapshotFixture
     ) -> None:
         super().__init__(viewer, scene)
-        self._photographer = snapshot
+        self._snapshots = snapshot
 
     # Changes
 
@@ -69,7 +69,7 @@ class Shown(Seen, ABC):
             frame: adds a header with this frame id and the current time to `values`.
         """
         if not isinstance(message, str):
-            from webviz.ros.talker import serialize  # requires rclpy
+            from webviz.ros.publisher_node import serialize  # requires rclpy
 
             self.publish_bytes(topic, *serialize(message))
             return
@@ -118,12 +118,12 @@ class Shown(Seen, ABC):
 
     def look(self, view: View) -> None:
         """Change the view of pictures."""
-        self._photographer.view = view
+        self._snapshots.view = view
 
     def resize(self, width: int, height: int) -> None:
         """Change the size of pictures, in pixels."""
-        album = self._photographer.album
-        self._photographer.album = replace(album, size=(width, height))
+        references = self._snapshots.references
+        self._snapshots.references = replace(references, size=(width, height))
 
     @abstractmethod
     def settle(self) -> None:
@@ -141,7 +141,7 @@ class Shown(Seen, ABC):
             uint8 (height, width, 3), or (height, width, 4) if transparent.
         """
         self.settle()
-        return self._photographer.capture(transparent)
+        return self._snapshots.capture(transparent)
 
     def check_picture(
         self,
@@ -165,6 +165,6 @@ class Shown(Seen, ABC):
         """
         self.settle()
         if each_display is None:
-            each_display = self._photographer.album.each_display
+            each_display = self._snapshots.references.each_display
         must_be_seen = self._drawn() if each_display else {}
-        self._photographer.check(name, must_be_seen, mask, tolerance)
+        self._snapshots.check(name, must_be_seen, mask, tolerance)

@@ -86,7 +86,7 @@ class BagFile:
         self._look()
 
     @property
-    def remarks(self) -> list[str]:
+    def warnings(self) -> list[str]:
         """Return sentences on what is missing, unusual or damaged so far."""
         losses = self._recording.losses
         if losses.is_unfinished:
@@ -104,7 +104,7 @@ class BagFile:
     ) -> Iterator[Recorded]:
         """Yield the messages of channels by time of recording, both ends included.
 
-        What is damaged is skipped, and `remarks` report it.
+        What is damaged is skipped, and `warnings` report it.
 
         Raises:
             BagError: the file can no longer be read.

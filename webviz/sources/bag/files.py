@@ -27,7 +27,7 @@ class MergedFile(Protocol):
     skipped: dict[str, str]
 
     @property
-    def remarks(self) -> list[str]:
+    def warnings(self) -> list[str]:
         """Sentences on damage."""
         ...
 
@@ -92,9 +92,9 @@ class BagFiles:
         return within | self._redefined
 
     @property
-    def remarks(self) -> list[str]:
+    def warnings(self) -> list[str]:
         """Return sentences on what is missing, unusual or damaged so far."""
-        own = [remark for file in self._files for remark in file.remarks]
+        own = [warning for file in self._files for warning in file.warnings]
         return [*own, *filter(None, [self._conflict, self._gap])]
 
     def messages(

@@ -134,7 +134,7 @@ class NumbersFile:
         return heapq.merge(*found, key=_stamp, reverse=True)
 
     @property
-    def remarks(self) -> list[str]:
+    def warnings(self) -> list[str]:
         """None."""
         return []
 

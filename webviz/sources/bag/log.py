@@ -41,11 +41,11 @@ class BagLog:
 
     Args:
         events: at most `MAX_EVENTS` by time.
-        remark: a sentence on what is missing of them, "" if nothing is.
+        warning: a sentence on what is missing of them, "" if nothing is.
     """
 
     events: Sequence[Event] = ()
-    remark: str = ""
+    warning: str = ""
 
 
 NOT_READ = BagLog()
@@ -101,12 +101,12 @@ def _read(files: BagFiles) -> BagLog:
     kept: list[tuple[int, float, int, Event]] = []
     chance = random.Random(0)  # the same sample each time
     count = size = 0
-    remark = ""
+    warning = ""
     for recorded in files.messages(_channels(files), files.start_ns):
         size += len(recorded.cdr)
         if size > MAX_BYTES or time.monotonic() > until_s:
             at_s = (recorded.stamp_ns - files.start_ns) / 1e9
-            remark = (
+            warning = (
                 f"The timeline shows warnings of {ROSOUT} only up to {at_s:.1f} s, since reading "
                 "all takes too long. Split the bag to see the rest."
             )
@@ -124,7 +124,7 @@ def _read(files: BagFiles) -> BagLog:
         else:
             heapq.heappushpop(kept, entry)
     events = tuple(event for *_, event in sorted(kept, key=lambda entry: entry[2]))
-    return BagLog(events, remark)
+    return BagLog(events, warning)
 
 
 def event_of(type_name: str, cdr: bytes, at_ns: int) -> tuple[int, Event] | None:

@@ -130,7 +130,7 @@ class BagPast(Generic[C, M]):
             alone.append(self._read(channels, start_ns, self._at_ns))
             spans = self._spans(channels, start_ns, recent_ns)
             timed += spans
-            if (wish := self._wanted.get(topic)) and wish.is_placed:
+            if (subscription := self._wanted.get(topic)) and subscription.is_placed:
                 placed += spans
         clocks = [channel for channel in follow if channel.type == CLOCK]
         moving = [channel for channel in follow if channel.type != CLOCK]
@@ -144,8 +144,8 @@ class BagPast(Generic[C, M]):
         )
 
     def _is_whole(self, topic: str) -> bool:
-        wish = self._wanted.get(topic)
-        return wish is not None and Lookback() in wish.lookbacks
+        subscription = self._wanted.get(topic)
+        return subscription is not None and Lookback() in subscription.lookbacks
 
     def _young(self, channels: Sequence[C], recent_ns: int) -> Iterator[M]:
         """Yield the messages of several topics, each from its start on."""
@@ -184,34 +184,36 @@ class BagPast(Generic[C, M]):
         """From when on a topic is needed."""
         if topic not in self._starts:
             self._starts[topic] = self._file.start_ns  # if inputs refer to each other
-            wish, channels = self._wanted[topic], self._channels[topic]
-            plain = [each for each in wish.lookbacks if each.chooses is None]
-            starts = [self._start_of(channels, lookback, wish) for lookback in plain]
+            subscription, channels = self._wanted[topic], self._channels[topic]
+            plain = [each for each in subscription.lookbacks if each.chooses is None]
+            starts = [self._start_of(channels, lookback, subscription) for lookback in plain]
             self._whole_from[topic] = min(starts, default=self._at_ns + 1)
             chosen = self._chosen[topic] = {
                 stamp_ns
-                for lookback in wish.lookbacks
-                for stamp_ns in self._chosen_by(channels, lookback, wish)
+                for lookback in subscription.lookbacks
+                for stamp_ns in self._chosen_by(channels, lookback, subscription)
             }
             self._starts[topic] = min([self._whole_from[topic], *chosen])
         return self._starts[topic]
 
-    def _start_of(self, channels: Sequence[C], lookback: Lookback, wish: Subscription) -> int:
+    def _start_of(
+        self, channels: Sequence[C], lookback: Lookback, subscription: Subscription
+    ) -> int:
         limit_ns = self._limit_ns(lookback)
         if not (lookback.count or lookback.starts_over):
             return limit_ns
-        newest = self._newest(channels, lookback, wish, limit_ns)
+        newest = self._newest(channels, lookback, subscription, limit_ns)
         return min((recorded.stamp_ns for recorded in newest), default=self._at_ns + 1)
 
     def _chosen_by(
-        self, channels: Sequence[C], lookback: Lookback, wish: Subscription
+        self, channels: Sequence[C], lookback: Lookback, subscription: Subscription
     ) -> Iterator[int]:
         """Yield the stamps of the messages that a lookback chooses."""
         if lookback.chooses is None:
             return
         stamps: list[int] = []
-        newest = self._newest(channels, lookback, wish, self._limit_ns(lookback))
-        for number in lookback.chooses(_decoded(newest, wish.type, stamps)):
+        newest = self._newest(channels, lookback, subscription, self._limit_ns(lookback))
+        for number in lookback.chooses(_decoded(newest, subscription.type, stamps)):
             yield stamps[number]
 
     def _limit_ns(self, lookback: Lookback) -> int:
@@ -226,14 +228,14 @@ class BagPast(Generic[C, M]):
         return limit_ns
 
     def _newest(
-        self, channels: Collection[C], lookback: Lookback, wish: Subscription, limit_ns: int
+        self, channels: Collection[C], lookback: Lookback, subscription: Subscription, limit_ns: int
     ) -> Iterator[M]:
         """Yield the messages that a lookback leaves, the newest first."""
         for number, recorded in enumerate(self._file.newest(channels, self._at_ns), 1):
             if recorded.stamp_ns < limit_ns:
                 return
             yield recorded
-            if number == lookback.count or _starts_over(lookback, recorded, wish):
+            if number == lookback.count or _starts_over(lookback, recorded, subscription):
                 return
 
 
@@ -248,10 +250,10 @@ def _decoded(newest: Iterator[PastMessage], type_name: str, stamps: list[int]) -
         yield message
 
 
-def _starts_over(lookback: Lookback, recorded: PastMessage, wish: Subscription) -> bool:
+def _starts_over(lookback: Lookback, recorded: PastMessage, subscription: Subscription) -> bool:
     if lookback.starts_over is None:
         return False
     try:
-        return lookback.starts_over(decode(wish.type, recorded.cdr), wish.type)
+        return lookback.starts_over(decode(subscription.type, recorded.cdr), subscription.type)
     except MessageError:
         return False

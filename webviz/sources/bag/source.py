@@ -109,15 +109,15 @@ class BagSource:
         return self._replay.position_ns
 
     @property
-    def remarks(self) -> list[str]:
+    def warnings(self) -> list[str]:
         """Warnings: subscribed topics that cannot be read, missing files, damage, unusual time."""
         skipped = [
             f"{topic} is skipped: {why}."
             for topic, why in self._file.skipped.items()
             if topic in self._wanted
         ]
-        others = filter(None, [self._time.remark, self._log.read.remark])
-        return [*skipped, *self._file.remarks, *others]
+        others = filter(None, [self._time.warning, self._log.read.warning])
+        return [*skipped, *self._file.warnings, *others]
 
     def play(self, until_ns: int) -> None:
         """Deliver everything recorded until a time of recording.
@@ -210,18 +210,22 @@ class BagSource:
         for topic in fresh.keys() - before.keys():
             self.inbox.open(topic, INBOX_LIMIT)
         types = _types(before)
-        new = {topic: wish for topic, wish in fresh.items() if types.get(topic) != wish.type}
+        new = {
+            topic: subscription
+            for topic, subscription in fresh.items()
+            if types.get(topic) != subscription.type
+        }
         self._learn(new)
         self._begins |= {topic: self._beginning(topic) for topic in new}
         served, self._served = self._served, {}
-        for topic, wish in fresh.items():
-            if served.get(topic) == wish.type:
+        for topic, subscription in fresh.items():
+            if served.get(topic) == subscription.type:
                 continue
             self._put_extras(topic)
             if topic in new:
-                self._catch_up(topic, wish)
+                self._catch_up(topic, subscription)
             else:
-                self._repeat(topic, wish)
+                self._repeat(topic, subscription)
         if types != _types(self._wanted):
             self._replay.read_on(self._channels_to_read())
         self._offers = self._all_offers()
@@ -261,8 +265,8 @@ class BagSource:
         return [
             channel
             for channel in self._file.channels
-            if (wish := self._wanted.get(channel.topic))
-            and wish.type == channel.type
+            if (subscription := self._wanted.get(channel.topic))
+            and subscription.type == channel.type
             and channel.topic not in self._problems
         ]
 
@@ -271,23 +275,25 @@ class BagSource:
         wanted = self._channels()
         return wanted + [c for c in self._time.clocks if c not in wanted]
 
-    def _learn(self, wishes: Mapping[str, Subscription]) -> None:
+    def _learn(self, subscriptions: Mapping[str, Subscription]) -> None:
         """Register the message definitions of the bag."""
         for channel in self._file.channels:
-            wish = wishes.get(channel.topic)
-            if wish and wish.type == channel.type and channel.recorded.definition:
+            subscription = subscriptions.get(channel.topic)
+            if subscription and subscription.type == channel.type and channel.recorded.definition:
                 try:
                     register(channel.type, channel.recorded.definition)
                 except MessageError as error:
                     self._problems[channel.topic] = str(error)
 
-    def _catch_up(self, topic: str, wish: Subscription) -> None:
+    def _catch_up(self, topic: str, subscription: Subscription) -> None:
         """Deliver what a new subscription would hold if it had been there from the start."""
         channels = [channel for channel in self._channels() if channel.topic == topic]
         if channels and self.position_ns >= self._file.start_ns:
-            latched = Lookback(count=sum(channel.depth for channel in self._latched(topic, wish)))
-            lookbacks = (*wish.lookbacks, *([latched] if latched.count else []))
-            wanted = self._wanted | {topic: replace(wish, lookbacks=lookbacks)}
+            latched = Lookback(
+                count=sum(channel.depth for channel in self._latched(topic, subscription))
+            )
+            lookbacks = (*subscription.lookbacks, *([latched] if latched.count else []))
+            wanted = self._wanted | {topic: replace(subscription, lookbacks=lookbacks)}
             for recorded in BagPast(self._file, channels, wanted, self.position_ns).messages():
                 self._put(recorded)
 
@@ -296,11 +302,11 @@ class BagSource:
             if extra.topic == topic:
                 self._put(Recorded(topic, extra.type, extra.cdr, self._file.start_ns))
 
-    def _repeat(self, topic: str, wish: Subscription) -> None:
+    def _repeat(self, topic: str, subscription: Subscription) -> None:
         """Deliver what publishers repeat for a subscription that is made anew."""
-        latched = self._latched(topic, wish)
+        latched = self._latched(topic, subscription)
         # Which publishers of transforms were still running is unknown, so all of them count.
-        is_tf = wish.type == TF
+        is_tf = subscription.type == TF
         depth = INBOX_LIMIT if is_tf else sum(channel.depth for channel in latched)
         past: list[Recorded] = []
         size = 0
@@ -312,13 +318,13 @@ class BagSource:
         for recorded in reversed(past):
             self._put(recorded)
 
-    def _latched(self, topic: str, wish: Subscription) -> Sequence[BagChannel]:
+    def _latched(self, topic: str, subscription: Subscription) -> Sequence[BagChannel]:
         """Return the channels of a topic whose publishers repeat their last messages."""
         return [
             channel
             for channel in self._channels()
             if channel.topic == topic
-            and (wish.latched or _weakest(channel.publishers)[1] == "transient_local")
+            and (subscription.latched or _weakest(channel.publishers)[1] == "transient_local")
         ]
 
     def _arrive(self, recorded: Recorded) -> None:
@@ -341,13 +347,13 @@ class BagSource:
         return offers
 
     def _offer(self, topic: str, publishers: tuple[Publisher, ...]) -> Offer:
-        wish, problem = self._wanted.get(topic), self._problems.get(topic, "")
-        matching = [p for p in publishers if wish and p.type == wish.type]
-        if wish is None or not matching:
+        subscription, problem = self._wanted.get(topic), self._problems.get(topic, "")
+        matching = [p for p in publishers if subscription and p.type == subscription.type]
+        if subscription is None or not matching:
             return Offer(publishers, None, problem, is_recorded=True)
         begins = self._begins.get(topic, "")
         qos = _weakest(matching)
-        return Offer(publishers, qos, problem, wish.type, is_recorded=True, begins=begins)
+        return Offer(publishers, qos, problem, subscription.type, is_recorded=True, begins=begins)
 
     def _beginning(self, topic: str) -> str:
         """When a topic begins, in words."""
@@ -362,13 +368,13 @@ class BagSource:
         return f"the bag's first is at {(first.stamp_ns - self.start_ns) / 1e9:.1f} s"
 
 
-def _is_new(wish: Subscription, before: Subscription | None) -> bool:
+def _is_new(subscription: Subscription, before: Subscription | None) -> bool:
     """Return whether a subscription asks for latched messages."""
-    return before is None or before.type != wish.type or wish.asked > before.asked
+    return before is None or before.type != subscription.type or subscription.asked > before.asked
 
 
-def _types(wishes: Mapping[str, Subscription]) -> dict[str, str]:
-    return {topic: wish.type for topic, wish in wishes.items()}
+def _types(subscriptions: Mapping[str, Subscription]) -> dict[str, str]:
+    return {topic: subscription.type for topic, subscription in subscriptions.items()}
 
 
 def _weakest(publishers: Sequence[Publisher]) -> tuple[Reliability, Durability]:

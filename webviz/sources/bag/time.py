@@ -27,7 +27,7 @@ class BagTime:
 
     def __init__(self, file: BagFiles) -> None:
         self._file = file
-        self.remark = ""
+        self.warning = ""
         """A warning, "" for none."""
         self.clocks: list[BagChannel] = [
             c for c in file.channels if (c.topic, c.type) == ("/clock", CLOCK)
@@ -70,7 +70,7 @@ class BagTime:
             offset_ns = recorded.stamp_ns - stamps[0]
             if abs(offset_ns) > FOREIGN_NS:
                 self._offset_ns = offset_ns
-                self.remark = (
+                self.warning = (
                     f"The transforms begin at {stamps[0] / 1e9:.1f} s, which is not the time of "
                     "recording, and there is no /clock: time follows the transforms."
                 )

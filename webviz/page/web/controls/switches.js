@@ -3,7 +3,7 @@
 
 import { el, set, setChildren, setText } from "../dom.js";
 import { icon } from "../icons.js";
-import { plain } from "../plain.js";
+import { sanitized } from "../sanitize.js";
 import { watch } from "../stores.js";
 import { wordsOf } from "../words.js";
 import { rowList, touchable } from "./rows.js";
@@ -118,11 +118,11 @@ export function switches({ offered }, { label, change, refused }) {
    */
   function update(row, { key }) {
     const { box, name, count, mark } = row.wvParts;
-    setText(name, key === "" ? "(no name)" : plain(key));
+    setText(name, key === "" ? "(no name)" : sanitized(key));
     setText(count, Object.hasOwn(counts, key) ? String(counts[key]) : "");
     set(row, {
       "aria-checked": String(isOn(key)),
-      title: key.length > 30 ? plain(key, 1000) : null,
+      title: key.length > 30 ? sanitized(key, 1000) : null,
     });
     setChildren(box, isOn(key) ? [mark] : []);
   }

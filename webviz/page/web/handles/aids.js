@@ -3,11 +3,11 @@
 import { set, svgElement } from "../dom.js";
 import { makeLayer } from "../tools/layer.js";
 import { beforeRender } from "../viser_page.js";
-import { sightOf } from "./sight.js";
+import { projectionOf } from "./projection.js";
 import { add, scaled } from "./vectors.js";
 
 /** @import {HandleControl} from "../contents.js" */
-/** @import {Sight} from "./sight.js" */
+/** @import {Projection} from "./projection.js" */
 /** @import {Three, Vec2, Vec3} from "../types.js" */
 
 /** @typedef {{object: Three, point: Vec3, axis: Vec3}} Line */
@@ -50,8 +50,8 @@ function draw() {
   drawing ??= svgElement("line", { class: "wv-handle-axis" });
   layer ??= makeLayer("axis", svgElement("svg", {}, drawing));
   layer.place();
-  const sight = sightOf(shown.object);
-  const [from, to] = [end(sight, shown, -1), end(sight, shown, 1)];
+  const projection = projectionOf(shown.object);
+  const [from, to] = [end(projection, shown, -1), end(projection, shown, 1)];
   const { left, top } = layer.element.getBoundingClientRect();
   if (!from || !to) return set(drawing, { visibility: "hidden" });
   const [start, stop] = [from, to].map(([x, y]) => [x - left, y - top]);
@@ -62,15 +62,15 @@ function draw() {
 /**
  * As far as it goes on this side, and is in front of the camera.
  *
- * @param {Sight} sight
+ * @param {Projection} projection
  * @param {Line} line
  * @param {number} side
  * @returns {Vec2 | null}
  */
-function end(sight, { point, axis }, side) {
-  const whole = (REACH_PX / 100) * sight.unit(point);
+function end(projection, { point, axis }, side) {
+  const whole = (REACH_PX / 100) * projection.unit(point);
   for (let step = STEPS; step >= 0; step--) {
-    const at = sight.project(add(point, scaled(axis, (side * whole * step) / STEPS)));
+    const at = projection.project(add(point, scaled(axis, (side * whole * step) / STEPS)));
     if (at) return at;
   }
   return null;

@@ -1,7 +1,7 @@
 // Drags of the pose of a handle: RViz's rules, in the coordinates of its frame.
 //
 // `begin` takes where the drag begins, and returns what takes each step of it. Both get how the
-// camera sees the frame, see `sight.js`; a step also gets the pointer: `{at, by, wheel, shift,
+// camera sees the frame, see `projection.js`; a step also gets the pointer: `{at, by, wheel, shift,
 // ctrl}`, where it is in the window, by how many pixels it has moved and by how many notches the
 // wheel. A step returns `{position, wxyz, turned}`, or null where the pointer means nothing.
 
@@ -22,19 +22,19 @@ import {
 
 /** @import {HandleControl} from "../contents.js" */
 /** @import {Pose} from "./vectors.js" */
-/** @import {Sight} from "./sight.js" */
+/** @import {Projection} from "./projection.js" */
 /** @import {Vec2, Vec3} from "../types.js" */
 
 /**
  * @typedef {Pose & {turned: number}} Moved
  * @typedef {Pick<HandleControl, "mode" | "facing" | "wxyz">} Control
- * @typedef {Pick<Sight, "rayAt" | "project" | "perPixel" | "unit" | "right" | "up" | "forward">} View
+ * @typedef {Pick<Projection, "rayAt" | "project" | "perPixel" | "unit" | "right" | "up" | "forward">} View
  * @typedef {{
- *   control: Control, pose: Pose, turned: number, grab: Vec3, sight: View, at: Vec2,
+ *   control: Control, pose: Pose, turned: number, grab: Vec3, projection: View, at: Vec2,
  * }} Start
  * @typedef {Start & {axis: Vec3}} Axial
  * @typedef {{at: Vec2, by: Vec2, wheel: number, shift: boolean, ctrl: boolean}} Pointer
- * @typedef {(pointer: Pointer, sight: View) => Partial<Moved> | null} Step
+ * @typedef {(pointer: Pointer, projection: View) => Partial<Moved> | null} Step
  */
 
 /** @type {Vec3} */
@@ -45,11 +45,11 @@ const WHEEL_PX = 20; // that a notch of the wheel stands for
 /**
  * Begins a drag of a control.
  *
- * `start`: `{control, pose, turned, grab, sight, at}`; `pose` is that of the handle, `turned` the
+ * `start`: `{control, pose, turned, grab, projection, at}`; `pose` is that of the handle, `turned` the
  * angle by which the control has been turned so far, `grab` the point that is dragged.
  *
  * @param {Start} start
- * @returns {(pointer: Pointer, sight: View) => Moved | null}
+ * @returns {(pointer: Pointer, projection: View) => Moved | null}
  */
 export function begin(start) {
   const axis = axisOf(start);
@@ -64,8 +64,8 @@ export function begin(start) {
     move_rotate_3d: freely,
   };
   const step = makers[start.control.mode]?.({ ...start, axis });
-  return (pointer, sight) => {
-    const moved = step?.(pointer, sight);
+  return (pointer, projection) => {
+    const moved = step?.(pointer, projection);
     return moved ? { ...start.pose, turned: start.turned, ...moved } : null;
   };
 }
@@ -73,10 +73,10 @@ export function begin(start) {
 /**
  * The x axis of a control, along which it moves, or about which it turns.
  *
- * @param {Pick<Start, "control" | "pose" | "sight">} start
+ * @param {Pick<Start, "control" | "pose" | "projection">} start
  */
-export function axisOf({ control, pose, sight }) {
-  if (control.facing === "view_facing") return sight.forward;
+export function axisOf({ control, pose, projection }) {
+  if (control.facing === "view_facing") return projection.forward;
   const own = rotate(control.wxyz, X);
   return control.facing === "fixed" ? own : rotate(pose.wxyz, own);
 }
@@ -88,16 +88,16 @@ export function axisOf({ control, pose, sight }) {
  * @returns {Step}
  */
 function alongAxis({ pose, grab, axis }) {
-  return ({ at }, sight) => {
-    const from = sight.project(grab);
-    const to = sight.project(add(grab, scaled(axis, sight.unit(grab))));
+  return ({ at }, projection) => {
+    const from = projection.project(grab);
+    const to = projection.project(add(grab, scaled(axis, projection.unit(grab))));
     if (!from || !to) return null;
     const [x, y] = from;
     const [dx, dy] = [to[0] - x, to[1] - y];
     const square = dx * dx + dy * dy;
     if (square < 1e-6) return null; // it points to the camera
     const along = ((at[0] - x) * dx + (at[1] - y) * dy) / square;
-    const found = onLine(sight.rayAt([x + along * dx, y + along * dy]), grab, axis);
+    const found = onLine(projection.rayAt([x + along * dx, y + along * dy]), grab, axis);
     return found && { position: add(pose.position, sub(found, grab)) };
   };
 }
@@ -107,8 +107,8 @@ function alongAxis({ pose, grab, axis }) {
  * @returns {Step}
  */
 function inPlane({ pose, grab, axis }) {
-  return ({ at }, sight) => {
-    const hit = onPlane(sight.rayAt(at), grab, axis);
+  return ({ at }, projection) => {
+    const hit = onPlane(projection.rayAt(at), grab, axis);
     return hit && { position: add(pose.position, sub(hit, grab)) };
   };
 }
@@ -120,8 +120,8 @@ function inPlane({ pose, grab, axis }) {
 function aroundAxis({ pose, turned, grab, axis }) {
   const out = sub(grab, pose.position);
   const middle = add(pose.position, scaled(axis, dot(out, axis)));
-  return ({ at }, sight) => {
-    const hit = onPlane(sight.rayAt(at), middle, axis);
+  return ({ at }, projection) => {
+    const hit = onPlane(projection.rayAt(at), middle, axis);
     if (!hit) return null;
     const angle = angleAbout(axis, sub(grab, middle), sub(hit, middle));
     return { wxyz: unit(turnedBy(about(axis, angle), pose.wxyz)), turned: turned + angle };
@@ -136,10 +136,10 @@ function aroundAxis({ pose, turned, grab, axis }) {
  */
 function towed({ pose, turned, grab, axis }) {
   let [{ position, wxyz }, handle, angle] = [pose, grab, turned];
-  return ({ at }, sight) => {
+  return ({ at }, projection) => {
     const out = sub(handle, position);
     const middle = add(position, scaled(axis, dot(out, axis)));
-    const hit = onPlane(sight.rayAt(at), middle, axis);
+    const hit = onPlane(projection.rayAt(at), middle, axis);
     if (!hit) return null;
     const [before, now] = [sub(handle, middle), sub(hit, middle)];
     if (norm(now) < 1e-9) return null;
@@ -158,25 +158,25 @@ function towed({ pose, turned, grab, axis }) {
  * @param {Axial} start
  * @returns {Step}
  */
-function freely({ control, pose, grab, sight, at }) {
+function freely({ control, pose, grab, projection, at }) {
   let { position, wxyz } = pose;
-  const away = sight.rayAt(at).direction;
+  const away = projection.rayAt(at).direction;
   /** @type {{from: Vec3 | null, base: Vec3, point: Vec3} | null} */
   let slide = null; // in the plane of the screen, since the keys mean that
-  return ({ at, by, wheel, shift, ctrl }, sight) => {
+  return ({ at, by, wheel, shift, ctrl }, projection) => {
     const dragged = add(grab, sub(position, pose.position));
     if (control.mode === "rotate_3d" || (control.mode === "move_rotate_3d" && ctrl)) {
-      wxyz = unit(turnedBy(spin(by, shift, sight), wxyz));
+      wxyz = unit(turnedBy(spin(by, shift, projection), wxyz));
     } else if (shift || wheel) {
       const [dx, dy] = shift ? by : [0, 0];
       const up = Math.abs(dx) > Math.abs(dy) ? dx : -dy;
       const pixels = up - wheel * WHEEL_PX;
-      position = add(position, scaled(away, pixels * sight.perPixel(dragged)));
+      position = add(position, scaled(away, pixels * projection.perPixel(dragged)));
     } else {
       /** @param {Vec2} xy */
-      const on = (xy) => onPlane(sight.rayAt(xy), dragged, sight.forward);
+      const on = (xy) => onPlane(projection.rayAt(xy), dragged, projection.forward);
       slide ??= { from: on([at[0] - by[0], at[1] - by[1]]), base: position, point: dragged };
-      const hit = onPlane(sight.rayAt(at), slide.point, sight.forward);
+      const hit = onPlane(projection.rayAt(at), slide.point, projection.forward);
       if (!hit || !slide.from) return null;
       position = add(slide.base, sub(hit, slide.from));
       return { position, wxyz };
@@ -189,7 +189,7 @@ function freely({ control, pose, grab, sight, at }) {
 /**
  * @param {Vec2} by
  * @param {boolean} shift
- * @param {View} sight
+ * @param {View} projection
  */
 function spin([dx, dy], shift, { up, right, forward }) {
   if (shift) return about(forward, dx * TURN);

@@ -12,7 +12,7 @@ import * as glow from "./glow.js";
 import * as known from "./known.js";
 import * as menu from "./menu.js";
 import * as poses from "./poses.js";
-import { frameNode, sightOf } from "./sight.js";
+import { frameNode, projectionOf } from "./projection.js";
 
 /** @import {Commands} from "../messages.js" */
 /** @import {HandleControl} from "../contents.js" */
@@ -140,13 +140,13 @@ function press(part, event) {
   if (!pose || !node) return false;
   /** @type {Vec2} */
   const at = [event.clientX, event.clientY];
-  const sight = sightOf(node);
+  const projection = projectionOf(node);
   const start = {
     control,
     pose,
     turned: control.turned,
-    grab: sight.toFrame(part.point),
-    sight,
+    grab: projection.toFrame(part.point),
+    projection,
     at,
   };
   drag = {
@@ -239,7 +239,7 @@ function step(drag) {
   if (!node) return;
   /** @type {Vec2} */
   const by = [at[0] - before[0], at[1] - before[1]];
-  const now = drag.step({ at, by, wheel, shift, ctrl }, sightOf(node));
+  const now = drag.step({ at, by, wheel, shift, ctrl }, projectionOf(node));
   if (!now || !isSane(now)) return;
   drag.now = now;
   poses.put(drag.id, drag.control, now);
@@ -334,7 +334,7 @@ function show({ id, control, at, point }) {
 function pointAt(at, id) {
   const node = frameNode(known.all().get(id)?.frame);
   const found = node && pickAt(at);
-  return found ? sightOf(node).toFrame(found.point) : null;
+  return found ? projectionOf(node).toFrame(found.point) : null;
 }
 
 /** @param {Place | null} part */

@@ -3,8 +3,8 @@
 
 import * as viser from "../viser_page.js";
 import { contextOf } from "../dom.js";
-import { bend, straight } from "./bend.js";
-import { boxIn, paint } from "./over.js";
+import { undistort, straight } from "./undistort.js";
+import { boxIn, paint } from "./camera_overlay.js";
 import { makePicture } from "./picture.js";
 
 /** @import {Picture, PictureListener} from "./picture.js" */
@@ -27,10 +27,10 @@ let isInstalled = false;
 export function makeCamera(canvas, { drawn, fail }) {
   const context = contextOf(canvas);
   const sheet = document.createElement("canvas");
-  const bent = contextOf(document.createElement("canvas"));
+  const undistorted = contextOf(document.createElement("canvas"));
   const picture = makePicture(sheet, { drawn: take, fail });
   /** @type {PictureCamera | null} */
-  let sight = null;
+  let camera = null;
   /** @type {PictureWarp | null} */
   let warp = null;
   /** @type {string[]} */
@@ -41,8 +41,8 @@ export function makeCamera(canvas, { drawn, fail }) {
 
   function take() {
     if (warp) {
-      Object.assign(bent.canvas, { width: sheet.width, height: sheet.height });
-      bend(sheet, warp, bent);
+      Object.assign(undistorted.canvas, { width: sheet.width, height: sheet.height });
+      undistort(sheet, warp, undistorted);
     }
     ask();
     drawn();
@@ -70,7 +70,12 @@ export function makeCamera(canvas, { drawn, fail }) {
     painted = performance.now();
     if (canvas.width !== width || canvas.height !== height)
       Object.assign(canvas, { width, height });
-    paint(context, { image: warp ? bent.canvas : sheet, size: picture.size(), sight, hidden });
+    paint(context, {
+      image: warp ? undistorted.canvas : sheet,
+      size: picture.size(),
+      camera,
+      hidden,
+    });
   }
 
   if (!isInstalled) viser.eachFrame(0, () => open.forEach((each) => each()));
@@ -86,9 +91,9 @@ export function makeCamera(canvas, { drawn, fail }) {
      * @param {Uint8Array<ArrayBuffer>} data
      */
     async take(header, data) {
-      sight = header.sight ?? null;
+      camera = header.camera ?? null;
       if (header.warp !== undefined) warp = header.warp;
-      if (!sight) warp = null;
+      if (!camera) warp = null;
       return picture.take(header, data);
     },
     /**
@@ -105,7 +110,7 @@ export function makeCamera(canvas, { drawn, fail }) {
       if (!picture.size()[0]) return clientWidth * devicePixelRatio;
       return Math.max(
         1,
-        boxIn(sight, picture.size(), clientWidth, clientHeight).width * devicePixelRatio,
+        boxIn(camera, picture.size(), clientWidth, clientHeight).width * devicePixelRatio,
       );
     },
     /**
@@ -116,7 +121,7 @@ export function makeCamera(canvas, { drawn, fail }) {
       const [wide, tall] = picture.size();
       const pane = canvas.getBoundingClientRect();
       if (!wide || !pane.width) return null;
-      const box = boxIn(sight, picture.size(), pane.width, pane.height);
+      const box = boxIn(camera, picture.size(), pane.width, pane.height);
       /** @type {Vec2} */
       const place = [
         (clientX - pane.left - box.left) / box.width,

@@ -3,7 +3,7 @@
 import * as channel from "../channel.js";
 import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
-import { plain } from "../plain.js";
+import { sanitized } from "../sanitize.js";
 import { recall, remember } from "../remember.js";
 import { makeCamera } from "./camera.js";
 import * as frames from "./frames.js";
@@ -269,12 +269,12 @@ export function makePane(id, changed, withScene) {
     isFolded: () => isFolded,
     /** @param {PaneCaption} row */
     update(row) {
-      const wanted = plain(row.title, 200);
+      const wanted = sanitized(row.title, 200);
       if (wanted !== title)
         isFolded = recall(`pane.${wanted}`, { isFolded: false }).isFolded ?? false;
       title = wanted;
-      about = [plain(row.name, 100), wanted].join("\n");
-      said = plain(row.problem);
+      about = [sanitized(row.name, 100), wanted].join("\n");
+      said = sanitized(row.problem);
       picture.hide?.(row.hidden ?? []);
       element.classList.toggle("wv-pane-empty", !row.has_picture);
       mark();

@@ -1,7 +1,7 @@
 // The bridges over which live topics come, and which of them are not live.
 
 import { el, set, setChildren, setText } from "../dom.js";
-import { plain } from "../plain.js";
+import { sanitized } from "../sanitize.js";
 import { watch } from "../stores.js";
 
 export function build() {
@@ -17,10 +17,10 @@ export function build() {
 /** @param {[string, string]} bridge */
 function card([name, problem]) {
   const element = el("div", { class: "wv-card wv-bridge" });
-  setText(element, problem ? `${plain(name)} · not live` : plain(name));
+  setText(element, problem ? `${sanitized(name)} · not live` : sanitized(name));
   set(element, {
     "data-state": problem ? "down" : "up",
-    "data-tip": problem ? plain(problem) : "Connected over a bridge",
+    "data-tip": problem ? sanitized(problem) : "Connected over a bridge",
   });
   return element;
 }

@@ -2,7 +2,7 @@
 
 import * as channel from "../channel.js";
 import { el, set, setChildren, setText } from "../dom.js";
-import { points } from "../scene/holding.js";
+import { points } from "../scene/capacity.js";
 import { watch } from "../stores.js";
 import * as viser from "../viser_page.js";
 

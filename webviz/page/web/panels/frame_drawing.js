@@ -168,7 +168,7 @@ export function boxAt(drawing, x, y) {
   return null;
 }
 
-const MOST = 40;
+const MAX_CHARACTERS = 40;
 
 /**
  * A text without its middle if it is long: names differ in their ends.
@@ -176,6 +176,6 @@ const MOST = 40;
  * @param {string} text
  */
 function short(text) {
-  if (text.length <= MOST) return text;
-  return `${text.slice(0, MOST / 2)}…${text.slice(1 - MOST / 2)}`;
+  if (text.length <= MAX_CHARACTERS) return text;
+  return `${text.slice(0, MAX_CHARACTERS / 2)}…${text.slice(1 - MAX_CHARACTERS / 2)}`;
 }

@@ -13,7 +13,7 @@ import { switches } from "./switches.js";
  *   scene(messages: ViserMessage[]): void,
  *   store(name: string, all: boolean, set: Record<string, unknown>, gone: string[]): void,
  *   pictures(display: string, make: (() => ArrayBuffer)[]): void,
- * }} Outlets
+ * }} Sinks
  */
 
 const ROWS = "displays";
@@ -35,9 +35,9 @@ const made = (chunk, number) =>
  * Returns `{show(at), ros(), watch(store), unwatch(store), enable(display, enabled), repeat(display)}`.
  *
  * @param {About} about
- * @param {Outlets} outlets
+ * @param {Sinks} sinks
  */
-export function player(about, outlets) {
+export function player(about, sinks) {
   const { index } = about;
   const { load, at: unpacked } = chunks();
   let shown = NOTHING;
@@ -142,12 +142,12 @@ export function player(about, outlets) {
       const before = values.get(name);
       values.set(name, content);
       if (!before) {
-        outlets.store(name, true, Object.fromEntries(content), []);
+        sinks.store(name, true, Object.fromEntries(content), []);
         continue;
       }
       const set = [...content].filter(([key, value]) => before.get(key) !== value);
       const gone = [...before.keys()].filter((key) => !content.has(key));
-      if (set.length || gone.length) outlets.store(name, false, Object.fromEntries(set), gone);
+      if (set.length || gone.length) sinks.store(name, false, Object.fromEntries(set), gone);
     }
   }
 
@@ -162,7 +162,7 @@ export function player(about, outlets) {
       const chunk = of(number);
       return bufferOf(chunk, chunk.pictures.items[number - chunk.pictures.first]);
     });
-    outlets.pictures(display, makers);
+    sinks.pictures(display, makers);
   }
 
   /**
@@ -178,7 +178,7 @@ export function player(about, outlets) {
     const stores = await storeValues(next, watched);
     const before = shown;
     [shown, place, known] = [next, `${number}.${frame}`, all];
-    outlets.scene(switched.messages(messages));
+    sinks.scene(switched.messages(messages));
     showStores(stores);
     for (const display of new Set([...before.panes.keys(), ...next.panes.keys()])) {
       const isSame = before.panes.get(display)?.join() === next.panes.get(display)?.join();
@@ -235,7 +235,7 @@ export function player(about, outlets) {
       const { messages, numbers } = switched.difference(known.values());
       const of = await homes("message", numbers);
       const recorded = numbers.map((number) => made(of(number), number));
-      outlets.scene([...messages, ...recorded]);
+      sinks.scene([...messages, ...recorded]);
       showStores(await storeValues(shown, watched));
     },
     /** @param {string} display */

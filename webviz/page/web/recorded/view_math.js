@@ -188,7 +188,7 @@ function fitted(type, frame, [position, lookAt], height) {
   }
   const raised = RAISED * level;
   if (type !== "FPS" && type !== "Orbit" && back[2] > 0.05 - raised) {
-    // Along the line of sight to where the focal point lies on the ground.
+    // Along the line of projection to where the focal point lies on the ground.
     const step = (lookAt[2] - raised * distance) / (back[2] + raised);
     if (NEAREST * distance < distance + step && distance + step < FARTHEST)
       return viewOf(type, frame, [position, minus(lookAt, times(back, step))], height);

@@ -2,7 +2,7 @@
 // far away, none of one out of sight. The first points of a block stand for all of it.
 
 import constants from "../constants.js";
-import * as holding from "./holding.js";
+import * as capacity from "./capacity.js";
 import * as viser from "../viser_page.js";
 
 /** @import {Three} from "../types.js" */
@@ -17,7 +17,7 @@ export function install() {
   let others = 0;
   let thinned = 0;
   viser.beforeEveryRender((gl, scene, camera) => {
-    const held = holding.points();
+    const held = capacity.points();
     thinned = thin(blocks(), camera, Math.max(held - others, LEAST_SHARE * held));
   });
   // three.js may find blocks out of sight that were counted.

@@ -5,7 +5,7 @@ import { why } from "../access.js";
 import { act } from "../act.js";
 import { wallNow } from "../clock.js";
 import { el, set, setText } from "../dom.js";
-import { plain } from "../plain.js";
+import { sanitized } from "../sanitize.js";
 import { command } from "../shell/commands.js";
 import { setTitlePrefix } from "../shell/title.js";
 import { watch } from "../stores.js";
@@ -44,7 +44,7 @@ export function banner() {
     if (isOpened(values)) {
       setText(
         ago,
-        `Recording ${plain((values.get("names") ?? []).map(savedText).join(", "))} · not live`,
+        `Recording ${sanitized((values.get("names") ?? []).map(savedText).join(", "))} · not live`,
       );
       setTitlePrefix("Recording · ");
       return;

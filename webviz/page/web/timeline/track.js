@@ -4,7 +4,7 @@ import { why } from "../access.js";
 import { act } from "../act.js";
 import { at, share } from "../charts/scale.js";
 import { el, set, setText } from "../dom.js";
-import { plain } from "../plain.js";
+import { sanitized } from "../sanitize.js";
 import { toast } from "../shell/toasts.js";
 import { duration } from "../shell/time_text.js";
 import { draw, MARGIN } from "./draw.js";
@@ -248,7 +248,7 @@ export function track(seek, redrawn = () => {}) {
     set(label, { hidden: hover === null });
     if (event && hover !== null) {
       const text = textOf(hover, range[1] - range[0] < 10 ? 3 : 1);
-      setText(label, plain(markAt(event)?.text ?? text));
+      setText(label, sanitized(markAt(event)?.text ?? text));
       const { left, width } = canvas.getBoundingClientRect();
       const half = label.offsetWidth / 2;
       const x = Math.min(Math.max(event.clientX - left, half), width - half);

@@ -2,7 +2,7 @@
 
 import { el, set, setText } from "../../dom.js";
 import { iconButton } from "../../icons.js";
-import { plain } from "../../plain.js";
+import { sanitized } from "../../sanitize.js";
 import { recall, remember } from "../../remember.js";
 import { duplicate, focus } from "./actions.js";
 import { GLOBAL } from "./model.js";
@@ -105,7 +105,7 @@ export function buildDetails(panel) {
       fill(ids);
     }
     if (!ids.length) return;
-    const names = items.map(({ name }) => plain(name));
+    const names = items.map(({ name }) => sanitized(name));
     setText(title, names.length === 1 ? names[0] : `${names.length} displays`);
     set(title, { "data-tip": names.join("\n") });
     for (const tool of tools) set(tool, { hidden: ids[0] === GLOBAL });

@@ -2,7 +2,7 @@
 
 import { why } from "../../access.js";
 import { el } from "../../dom.js";
-import { plain } from "../../plain.js";
+import { sanitized } from "../../sanitize.js";
 import { toast } from "../../shell/toasts.js";
 import { move } from "./actions.js";
 import { createMark } from "./drop_mark.js";
@@ -101,7 +101,7 @@ export function listenToDrags(canvas, tree) {
     selection.activate(item.id); // keeps its row in the page
     canvas.setPointerCapture(press.pointerId);
     canvas.classList.add("wv-tree-dragging");
-    ghost.textContent = moved.length === 1 ? plain(item.name, 60) : `${moved.length} displays`;
+    ghost.textContent = moved.length === 1 ? sanitized(item.name, 60) : `${moved.length} displays`;
     document.getElementById("webviz")?.append(ghost);
     aim(press, drag);
     frame = requestAnimationFrame(turn);

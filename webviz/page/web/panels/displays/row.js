@@ -3,7 +3,7 @@
 import { why } from "../../access.js";
 import { el, set, setText } from "../../dom.js";
 import { icon } from "../../icons.js";
-import { plain } from "../../plain.js";
+import { sanitized } from "../../sanitize.js";
 import { watch } from "../../stores.js";
 import { onFindings } from "../findings.js";
 import { globalOptions, properties } from "./properties.js";
@@ -64,7 +64,7 @@ export function makeRow(first, look) {
       : el("label", { class: "wv-tree-box", "data-part": "box" }, box),
     el(
       "span",
-      { class: "wv-tree-type", "data-tip": isGlobal ? null : plain(type) || null },
+      { class: "wv-tree-type", "data-tip": isGlobal ? null : sanitized(type) || null },
       icon(first.icon),
     ),
     name,
@@ -95,7 +95,7 @@ export function makeRow(first, look) {
       inside.place.remove();
       inside = null;
     } else {
-      const label = `Properties of ${plain(item.name)}`;
+      const label = `Properties of ${sanitized(item.name)}`;
       const place = el("div", { class: "wv-tree-inside", role: "group", "aria-label": label });
       element.append(place);
       inside = { place, end: isGlobal ? globalOptions(place) : properties(place, id) };
@@ -123,9 +123,10 @@ export function makeRow(first, look) {
   /** @param {Item} item */
   function update(item) {
     const { isOpen, isSelected, isTabStop, enabled, hasRate, position, count } = look(item);
-    const text = plain(item.name) || " ";
+    const text = sanitized(item.name) || " ";
     // What a group says is said again by what is in it.
-    const said = item.isActive && !(item.isGroup && isOpen) ? plain(item.line, MAX_TOOLTIP) : "";
+    const said =
+      item.isActive && !(item.isGroup && isOpen) ? sanitized(item.line, MAX_TOOLTIP) : "";
     const level = item.isActive ? item.level : null;
     set(row, {
       "aria-level": item.depth + 1,
@@ -154,7 +155,7 @@ export function makeRow(first, look) {
     set(line, { "data-tip": said || null, hidden: !said });
     shown = { said, remedy: item.remedy ?? null };
     showHelp();
-    if (isGlobal) setText(note, plain(item.note ?? ""));
+    if (isGlobal) setText(note, sanitized(item.note ?? ""));
     else showRate(hasRate && item.topics.length > 0);
     showInside(isOpen && !item.isGroup, item);
   }

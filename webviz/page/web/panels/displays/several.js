@@ -3,7 +3,7 @@
 import { act, newStep } from "../../act.js";
 import { form } from "../../controls/form.js";
 import { el } from "../../dom.js";
-import { plain } from "../../plain.js";
+import { sanitized } from "../../sanitize.js";
 import { watch } from "../../stores.js";
 import { commonOf, filled, valuesOf } from "./common.js";
 import { maker } from "./properties.js";
@@ -61,7 +61,10 @@ export function severalProperties(element, ids) {
     );
     const failed = answers.find(({ level }) => level === "error");
     return failed
-      ? { ...failed, text: `${plain(stores.get(failed.id)?.get("name") ?? "")}: ${failed.text}` }
+      ? {
+          ...failed,
+          text: `${sanitized(stores.get(failed.id)?.get("name") ?? "")}: ${failed.text}`,
+        }
       : answers[0];
   }
 

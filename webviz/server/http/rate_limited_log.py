@@ -8,15 +8,15 @@ INTERVAL = 60.0
 """Seconds in which further lines of the same kind are only counted."""
 
 
-def sparing_log(name: str) -> logging.Logger:
+def rate_limited_log(name: str) -> logging.Logger:
     """Return a child of webviz's logger that is not shared by name."""
     log = logging.Logger(name)
     log.parent = logging.getLogger("webviz")
-    log.addFilter(_Sparing())
+    log.addFilter(_RateLimitFilter())
     return log
 
 
-class _Sparing(logging.Filter):
+class _RateLimitFilter(logging.Filter):
     """Passes one line of each kind per interval; tracebacks are shortened to one line."""
 
     def __init__(self) -> None:

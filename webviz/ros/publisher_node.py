@@ -17,7 +17,7 @@ from webviz.ros.types import message_class
 DEPTH = 100
 
 
-class Talker:
+class PublisherNode:
     """A node with reliable publishers."""
 
     def __init__(self, name: str, domain_id: int) -> None:

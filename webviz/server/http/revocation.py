@@ -9,7 +9,7 @@ from webviz.server.access.access import CHECK_S, Access
 from webviz.server.http.connections import ConnectionLimits
 
 
-class Expelling:
+class Revocation:
     """Looks again and again at who may still be connected.
 
     Args:

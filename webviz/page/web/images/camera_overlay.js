@@ -1,44 +1,44 @@
 // A picture with the scene over and under it, as the camera sees it that took the picture.
 
-import { drawSecond } from "../scene/second.js";
+import { drawSecond } from "../scene/second_camera.js";
 
 /** @import {PictureCamera} from "../messages.js" */
 /** @import {Vec2} from "../types.js" */
 
 /**
  * Fills a 2D context. `image` shows what the camera sees, undistorted; `size` is that of the picture;
- * `sight` is that of the server, null for the picture alone; `hidden` has ids of displays to leave out.
+ * `camera` is that of the server, null for the picture alone; `hidden` has ids of displays to leave out.
  *
  * @param {CanvasRenderingContext2D} context
- * @param {{image: HTMLCanvasElement, size: Vec2, sight: PictureCamera | null, hidden: string[]}} shown
+ * @param {{image: HTMLCanvasElement, size: Vec2, camera: PictureCamera | null, hidden: string[]}} shown
  */
-export function paint(context, { image, size, sight, hidden }) {
+export function paint(context, { image, size, camera, hidden }) {
   const { width, height } = context.canvas;
-  const box = boxIn(sight, size, width, height);
+  const box = boxIn(camera, size, width, height);
   const draw = () => context.drawImage(image, box.left, box.top, box.width, box.height);
   context.globalAlpha = 1;
   context.clearRect(0, 0, width, height);
-  if (!sight) return draw();
-  if (sight.is_background) draw();
-  const { position, wxyz, far } = sight;
-  const edges = edgesOf(sight, width, height);
+  if (!camera) return draw();
+  if (camera.is_background) draw();
+  const { position, wxyz, far } = camera;
+  const edges = edgesOf(camera, width, height);
   drawSecond(context, width, height, { position, wxyz, edges, far, hidden });
-  context.globalAlpha = sight.overlay;
-  if (sight.overlay > 0) draw();
+  context.globalAlpha = camera.overlay;
+  if (camera.overlay > 0) draw();
   context.globalAlpha = 1;
 }
 
 /**
  * Where the picture is, in pixels of a pane so large.
  *
- * @param {PictureCamera | null} sight
+ * @param {PictureCamera | null} camera
  * @param {Vec2} size
  * @param {number} width
  * @param {number} height
  */
-export function boxIn(sight, size, width, height) {
-  const [wide, tall] = sight ? extent(sight, width, height) : fitting(size, width, height);
-  const [left, top, right, bottom] = sight ? sight.part : [0, 0, 1, 1];
+export function boxIn(camera, size, width, height) {
+  const [wide, tall] = camera ? extent(camera, width, height) : fitting(size, width, height);
+  const [left, top, right, bottom] = camera ? camera.part : [0, 0, 1, 1];
   return {
     left: width * ((1 - wide) / 2 + left * wide),
     top: height * ((1 - tall) / 2 + top * tall),
@@ -61,7 +61,7 @@ function fitting([wide, tall], width, height) {
 /**
  * The size of all that the camera sees at a zoom of 1, as shares of the pane; as RViz does it.
  *
- * @param {PictureCamera} sight
+ * @param {PictureCamera} camera
  * @param {number} width
  * @param {number} height
  * @returns {Vec2}
@@ -76,13 +76,13 @@ function extent({ size, focal, zoom }, width, height) {
  * Left, right, top and bottom of what the pane shows 1 m ahead of the camera, y upwards. The corner of
  * the first pixel is at -0.5, -0.5.
  *
- * @param {PictureCamera} sight
+ * @param {PictureCamera} camera
  * @param {number} width
  * @param {number} height
  */
-function edgesOf(sight, width, height) {
-  const { size, focal, principal } = sight;
-  const [wide, tall] = extent(sight, width, height);
+function edgesOf(camera, width, height) {
+  const { size, focal, principal } = camera;
+  const [wide, tall] = extent(camera, width, height);
   /**
    * @param {0 | 1} axis
    * @param {number} share

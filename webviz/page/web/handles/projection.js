@@ -7,7 +7,7 @@ import * as viser from "../viser_page.js";
 /** @import {Ray} from "./vectors.js" */
 /** @import {Three, Vec2, Vec3} from "../types.js" */
 
-/** @typedef {ReturnType<typeof sightOf>} Sight */
+/** @typedef {ReturnType<typeof projectionOf>} Projection */
 
 const { ROOT } = constants;
 
@@ -38,7 +38,7 @@ export const frameNode = (group) => viser.node(group ? pathOf(group) : ROOT);
  *
  * @param {Three} object
  */
-export function sightOf(object) {
+export function projectionOf(object) {
   object.updateWorldMatrix(true, false);
   const camera = viser.camera();
   /**

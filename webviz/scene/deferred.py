@@ -13,7 +13,7 @@ T = TypeVar("T")
 log = logging.getLogger("webviz")
 
 
-class Late:
+class DeferredMessages:
     """A thread that makes messages, which the frame loop then sends.
 
     The queue is bounded by the number of names, since newer work replaces older work of the same

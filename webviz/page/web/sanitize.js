@@ -10,7 +10,7 @@ const UNREADABLE =
  * @param {string} text
  * @param {number} [length]
  */
-export function plain(text, length = 300) {
+export function sanitized(text, length = 300) {
   const short = text.length <= length ? text : `${text.slice(0, length - 1)}…`;
   return short.replace(UNREADABLE, " ");
 }

@@ -10,11 +10,11 @@ import numpy as np
 
 from webviz.api.nodes import Image
 from webviz.scene import ViserScene
-from webviz.scene.late import Late
+from webviz.scene.deferred import DeferredMessages
 
 
 def test_of_one_name_only_the_newest_work_is_sent() -> None:
-    late, begun, go, sent = Late(), threading.Event(), threading.Event(), list[int]()
+    late, begun, go, sent = DeferredMessages(), threading.Event(), threading.Event(), list[int]()
 
     def slow() -> int:
         begun.set()
@@ -32,7 +32,7 @@ def test_of_one_name_only_the_newest_work_is_sent() -> None:
 
 
 def test_dropped_work_is_never_sent_nor_that_of_what_lies_below() -> None:
-    late, begun, go, sent = Late(), threading.Event(), threading.Event(), list[str]()
+    late, begun, go, sent = DeferredMessages(), threading.Event(), threading.Event(), list[str]()
 
     def slow() -> str:
         begun.set()
@@ -50,7 +50,7 @@ def test_dropped_work_is_never_sent_nor_that_of_what_lies_below() -> None:
 
 
 def test_work_that_fails_is_logged_and_does_not_stop_the_rest(caplog: Any) -> None:
-    late, sent = Late(), list[int]()
+    late, sent = DeferredMessages(), list[int]()
     late.put("/bad", lambda: 1 // 0, sent.append)
     late.put("/good", lambda: 1, sent.append)
     late.finish(10)
@@ -62,11 +62,11 @@ def test_a_picture_that_is_removed_while_it_is_encoded_leaves_nothing(
     scene: ViserScene, call: Callable[..., Any]
 ) -> None:
     go = threading.Event()
-    scene.link.late.put("/before", lambda: go.wait(60), lambda _: None)
+    scene.link.deferred.put("/before", lambda: go.wait(60), lambda _: None)
     scene.upsert("map", "it", Image(np.zeros((3, 4, 4), np.uint8), 4.0, 3.0))
     scene.flush()
     scene.remove_group("map")
     scene.flush()
     go.set()
-    scene.link.late.finish(10)
+    scene.link.deferred.finish(10)
     assert not [m for m in call().replay() if m["type"] == "ImageMessage"]

@@ -85,7 +85,7 @@ function stepBelow(count) {
 }
 
 // Reports of watchers would change what others see.
-const report = () => why("Holds") || channel.send({ type: "Holds", points: held });
+const report = () => why("PointCapacity") || channel.send({ type: "PointCapacity", points: held });
 
 // Pages that only take pictures draw on request; those must not depend on how fast that is.
 const isHeld = () => viser.canvas().style.visibility === "hidden";

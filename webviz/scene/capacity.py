@@ -13,7 +13,7 @@ FEWEST_POINTS, MAX_POINTS = 100_000, 6_400_000
 a cloud that moves costs the viewer and the network, too."""
 
 
-class Holds(FromPage, frozen=True):
+class PointCapacity(FromPage, frozen=True):
     """Says how many points a page draws 20 times a second, once it has measured it.
 
     Operators see fewer points for each other's slow browsers, but not for those of watchers.
@@ -22,7 +22,7 @@ class Holds(FromPage, frozen=True):
     points: Number
 
 
-class Holding:
+class PointCapacities:
     """Reports of pages on the number of points they draw fast enough.
 
     Args:
@@ -33,7 +33,7 @@ class Holding:
         self._link = link
         self._lock = threading.Lock()
         self._reports: dict[int, int] = {}
-        link.channel.on(Holds, self._hear)
+        link.channel.on(PointCapacity, self._hear)
 
     def points(self) -> int:
         """Return the number of points every connected page that has reported draws fast enough."""
@@ -43,7 +43,7 @@ class Holding:
                 del self._reports[browser]
             return min(self._reports.values(), default=POINTS_HELD)
 
-    def _hear(self, browser: int, report: Holds) -> None:
+    def _hear(self, browser: int, report: PointCapacity) -> None:
         """Note the report of a page, on viser's event loop."""
         with self._lock:
             self._reports[browser] = min(max(report.points, FEWEST_POINTS), MAX_POINTS)

@@ -7,7 +7,7 @@ from collections.abc import Hashable
 MAX_REMEMBERED = 1024
 
 
-class Allowance:
+class RateLimit:
     """A rate limit with bursts.
 
     Args:
@@ -38,21 +38,21 @@ class Allowance:
         return now - self._in_time
 
 
-class SpentAllowances:
+class SpentRates:
     """Remembers what lost connections have spent, so that connecting again brings no new burst."""
 
     def __init__(self) -> None:
         self._paid_until: dict[Hashable, float] = {}
 
-    def note(self, sender: Hashable, allowance: Allowance) -> None:
+    def note(self, sender: Hashable, rate_limit: RateLimit) -> None:
         """Remember what a sender has spent; of too many, what is paid for first is forgotten."""
-        if allowance.paid_until <= (kept := self._paid_until).get(sender, -float("inf")):
+        if rate_limit.paid_until <= (kept := self._paid_until).get(sender, -float("inf")):
             return
-        kept[sender] = allowance.paid_until
+        kept[sender] = rate_limit.paid_until
         if len(kept) > MAX_REMEMBERED:
             del kept[min(kept, key=kept.__getitem__)]
 
-    def resume(self, sender: Hashable, allowance: Allowance, now: float) -> None:
-        """Let the allowance of a new connection go on from what its sender has spent."""
+    def resume(self, sender: Hashable, rate_limit: RateLimit, now: float) -> None:
+        """Let the rate_limit of a new connection go on from what its sender has spent."""
         if (paid_until := self._paid_until.get(sender)) is not None:
-            allowance.resume(paid_until, now)
+            rate_limit.resume(paid_until, now)

@@ -27,13 +27,13 @@ const FRAGMENT = `
 let bench = null; // one for all images: browsers have few contexts
 
 /**
- * Draws `image` bent by `warp` into a 2D context, over all of its canvas.
+ * Draws `image` undistorted by `warp` into a 2D context, over all of its canvas.
  *
  * @param {HTMLCanvasElement} image
  * @param {PictureWarp} warp
  * @param {CanvasRenderingContext2D} context
  */
-export function bend(image, warp, context) {
+export function undistort(image, warp, context) {
   bench ??= makeBench();
   const { width, height } = context.canvas;
   context.clearRect(0, 0, width, height);
@@ -44,7 +44,7 @@ export function bend(image, warp, context) {
 function makeBench() {
   const canvas = document.createElement("canvas");
   const gl = canvas.getContext("webgl", { premultipliedAlpha: true, antialias: true });
-  if (!gl) throw new Error("This browser cannot bend images: it has no WebGL.");
+  if (!gl) throw new Error("This browser cannot undistort images: it has no WebGL.");
   const program = gl.createProgram();
   const sources = { [gl.VERTEX_SHADER]: VERTEX, [gl.FRAGMENT_SHADER]: FRAGMENT };
   for (const [type, source] of Object.entries(sources)) {
@@ -120,7 +120,7 @@ function trianglesOf({ rows, columns, places }) {
 }
 
 /**
- * The place of the image, as shares of its size, that is shown at a place of the bent one; or null.
+ * The place of the image, as shares of its size, that is shown at a place of the undistorted one; or null.
  *
  * @param {PictureWarp} warp
  * @param {Vec2} place
