@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import lenses
@@ -15,6 +16,8 @@ from display_scenes import cameras
 from webviz import Topic
 from webviz.api.declared import make
 from webviz.api.group import DisplayGroup
+from webviz.api.nodes import Pane
+from webviz.api.pictures import OverlayCamera, Pixels
 from webviz.data.images import values as values_of
 from webviz.engine.state import Row
 from webviz.files.rviz import switch_tree
@@ -37,6 +40,13 @@ def send(at: Any, stamp_ns: int | None = None, frame: str = "camera") -> None:
 def send_info(at: Any, stamp_ns: int | None = None, **changes: Any) -> None:
     values = photos.info(16, 12) | changes
     at.send(photos.INFO, values, frame="camera", topic=INFO, stamp_ns=stamp_ns)
+
+
+def test_the_former_name_of_the_camera_of_a_pane_still_works() -> None:
+    camera = OverlayCamera((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0), (16, 12), (16.0, 16.0), (8.0, 6.0))
+    with pytest.warns(DeprecationWarning, match=r"^Pane\.sight is Pane\.camera now"):
+        pane = Pane(Pixels(np.zeros((1, 1, 3), np.uint8)), sight=camera)
+    assert replace(pane, order=1).camera is camera
 
 
 def test_the_camera_sees_from_where_it_was_at_the_stamp(bench: Benches) -> None:

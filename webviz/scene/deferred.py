@@ -1,4 +1,4 @@
-"""Makes slow messages, such as encoded images, outside of the frame loop."""
+"""Slow messages, such as encoded images, made outside of the frame loop."""
 
 from __future__ import annotations
 

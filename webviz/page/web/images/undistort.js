@@ -1,4 +1,4 @@
-// Bends images, so that they look as if taken without lens distortion: a grid of triangles, whose
+// Images without lens distortion: a grid of triangles, whose
 // corners the server computes.
 
 /** @import {PictureWarp} from "../messages.js" */
