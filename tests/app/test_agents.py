@@ -70,7 +70,7 @@ def test_why_the_scan_is_not_shown_takes_one_call(
     publish(source)
     (answer,) = asked(tools, Role.WATCHER, ("explain", {"display": "Scan"}))
     findings, _, statuses = answer.partition("\nFixed frame: map.\n")
-    first = "Findings, the first to repair first:\nERROR TF001: No node publishes transforms."
+    first = "Findings, in the order of repair:\nERROR TF001: No node publishes transforms."
     assert findings.startswith(first)
     assert " Scan (LaserScan, id display" in statuses
     assert '"laser" has no pose in "map"' in statuses

@@ -17,7 +17,7 @@ from webviz import Topic
 from webviz.api.declared import make
 from webviz.api.group import DisplayGroup
 from webviz.api.nodes import Pane
-from webviz.api.pictures import OverlayCamera, Pixels
+from webviz.api.pictures import OverlayCamera, Readout
 from webviz.data.images import values as values_of
 from webviz.engine.state import Row
 from webviz.files.rviz import switch_tree
@@ -43,9 +43,11 @@ def send_info(at: Any, stamp_ns: int | None = None, **changes: Any) -> None:
 
 
 def test_the_former_name_of_the_camera_of_a_pane_still_works() -> None:
-    camera = OverlayCamera((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0), (16, 12), (16.0, 16.0), (8.0, 6.0))
+    camera = OverlayCamera(
+        (0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0), (16, 12), (16.0, 16.0), (8.0, 6.0)
+    )
     with pytest.warns(DeprecationWarning, match=r"^Pane\.sight is Pane\.camera now"):
-        pane = Pane(Pixels(np.zeros((1, 1, 3), np.uint8)), sight=camera)
+        pane = Pane(Readout("/joints", "std_msgs/msg/String", None), sight=camera)
     assert replace(pane, order=1).camera is camera
 
 

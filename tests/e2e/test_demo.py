@@ -166,18 +166,17 @@ def choose_fixed_frame(page: Page, frame: str) -> None:
 
 
 def settled(page: Page) -> Seen:
-    """Return the positions seen once everything is drawn."""
+    """Return the positions seen once everything is drawn and the robot stands."""
+    before: list[Seen] = []
 
-    def complete() -> Seen | None:
+    def at_rest() -> Seen | None:
         seen = look(page)
-        is_complete = (
-            len(seen.scan) > 50 and len(seen.walls) > 500 and np.isfinite(seen.robot).all()
-        )
-        return seen if is_complete else None
+        is_complete = len(seen.scan) > 50 and len(seen.walls) > 500
+        stands = bool(before) and np.linalg.norm(seen.robot - before.pop().robot) < 0.005
+        before.append(seen)
+        return seen if is_complete and stands else None
 
-    page.wait_for(complete, "robot, scan and map in the picture", 60)
-    page.tab.wait_for_timeout(1500)
-    return look(page)
+    return page.wait_for(at_rest, "robot, scan and map in the picture", 60)
 
 
 def check_drive_in_map(page: Page, driver: Driver) -> None:

@@ -116,6 +116,7 @@ def test_a_closed_terminal_ends_the_demo_cleanly(ros_env: dict[str, str]) -> Non
     command = [sys.executable, "-m", "webviz", "demo", "--port", "0"]
     pid, terminal = pty.fork()
     if pid == 0:
+        signal.signal(signal.SIGHUP, signal.SIG_DFL)  # which nohup ignores for the tests, too
         os.execve(sys.executable, command, ros_env)
     shown = b""
     while b"http" not in shown:

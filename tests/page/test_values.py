@@ -190,7 +190,7 @@ def test_a_field_is_plotted_from_its_row_and_removed_in_the_legend(
 def test_the_statistics_of_a_plot_are_of_what_is_in_sight(plot: Any) -> None:
     sums = plot.page.locator(".wv-chart-sums").last
     assert sums.inner_text() == ""
-    button = plot.button("Statistics of what is drawn")
+    button = plot.button("Statistics of the visible values")
     button.click()
     plot.wait_for(lambda: sums.inner_text().startswith("min 0, max 0.999, mean 0.4"))
     button.click()

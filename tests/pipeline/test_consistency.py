@@ -137,7 +137,7 @@ def test_a_comparison_ends_with_its_displays(bench: Benches) -> None:
     ("goal_x", "age_s", "expected"),
     [
         (4.5, 0.0, "does not know this obstacle. Check that its costmap subscribes to the scan."),
-        (4.5, 8.0, "is 8.0 s old: the planner has not planned again since."),
+        (4.5, 8.0, "is 8.0 s old: the planner has not replanned since."),
         (1.0, 8.0, ""),  # it ends at the box: a robot may dock there
         (-2.0, 8.0, ""),
     ],

@@ -90,7 +90,11 @@ def test_times_may_be_those_of_the_headers() -> None:
     ("curve", "message", "reason"),
     [
         ("/nobody.data", None, "No publisher on /nobody."),
-        ("joints.position[0]", None, "`joints.position[0]` has no topic. Begin with /."),
+        (
+            "joints.position[0]",
+            None,
+            "`joints.position[0]` has no topic. Start it with one, such as /odom.",
+        ),
         ("/joints", None, "`/joints` has no field."),
         ("/joints.position[0]", None, "No message yet."),
         ("/joints.position[7]", JointState(), "No element 7 for `position[7]`; there are 0."),

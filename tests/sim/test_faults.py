@@ -146,7 +146,7 @@ def test_a_path_that_is_not_planned_again_is_named_with_its_age(
     demo: Callable[..., Demo],
 ) -> None:
     seen = demo(stale_path=1.0)
-    seen.run(lambda: "not planned again" in seen.status(Path, "Obstacles"))
+    seen.run(lambda: "not replanned" in seen.status(Path, "Obstacles"))
     assert "points of the laser scan and is" in seen.status(Path, "Obstacles")
 
 

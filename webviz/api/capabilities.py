@@ -110,7 +110,7 @@ def capability(display: object, kind: type[C]) -> C | None:
     name = type(display).__name__
     former = {hook: FORMER_HOOKS[hook] for hook in own if _has(display, FORMER_HOOKS.get(hook))}
     for hook, old in former.items():
-        _warn(f"{name}.{old} is {hook} now, and the next version calls nothing else.")
+        _warn(f"{name}.{old} is {hook} now; the next version calls only that.")
     if isinstance(display, kind):
         return cast("C", _Adapted(display, kind, former)) if former else display
     if not former and not any(_has(display, hook) for hook in own):

@@ -116,9 +116,9 @@ def parse_rule(text: str) -> Rule:
     if value not in VALUES:
         raise ValueError(f"`{text}`: unknown value {value}. Use {', '.join(VALUES)}.")
     if (subject == DOCTOR) != (value in OF_DOCTOR):
-        raise ValueError(f"`{text}`: doctor has {' and '.join(OF_DOCTOR)}, which nothing else has.")
+        raise ValueError(f"`{text}`: {' and '.join(OF_DOCTOR)} are values of doctor only.")
     if limit in LEVELS and value != "status":
-        raise ValueError(f"`{text}`: {limit} is a limit of status; {value} needs a number.")
+        raise ValueError(f"`{text}`: {limit} fits status only; {value} needs a number.")
     return Rule(
         text=text.strip(),
         subject=subject,

@@ -14,9 +14,7 @@ from webviz.engine.commands import CallService, SendGoal
 from webviz.panels.sending import SendingPanel
 
 TIMEOUT_S = 30.0
-Definition = Annotated[
-    str, Prop(help="Text of the definition, for types that webviz does not know.")
-]
+Definition = Annotated[str, Prop(help="Text of the definition, for types unknown to webviz.")]
 
 
 class ServiceCall(SendingPanel):
@@ -59,7 +57,7 @@ class ServiceCall(SendingPanel):
         """Call the service."""
         values = self.values()
         if not self.service:
-            raise Error("There is no service. Enter its name.")
+            raise Error("No service is chosen. Enter its name.")
         self.response = None
         self.say("Waiting ...")
         call = CallService(
@@ -117,7 +115,7 @@ class ActionGoal(SendingPanel):
         """Send the goal."""
         values = self.values()
         if not self.action:
-            raise Error("There is no action. Enter its name.")
+            raise Error("No action is chosen. Enter its name.")
         request = goal_request(self.action, self.action_type, values, definition=self.definition)
         self.send(SendGoal(request, f"panel {self.id}", self.name, self._report), browser)
 

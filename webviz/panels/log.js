@@ -82,7 +82,7 @@ export default function install({
     const nodes = search("Node");
     const text = search("Text");
     const follow = iconButton("follow", "Follow the newest line", () => setFollowing(!isFollowing));
-    const all = iconButton("copy", "Copy the lines that are shown", () =>
+    const all = iconButton("copy", "Copy the visible lines", () =>
       copied(shown.map(textOf).join("\n")),
     );
     const count = el("span", { class: "wv-quiet wv-number" });
@@ -147,7 +147,7 @@ export default function install({
         ),
         el("div", { class: "wv-quiet" }, timeOfDay(line.stamp, true)),
         el("pre", {}, line.text),
-        el("div", { class: "wv-quiet" }, line.place || "Without file and line."),
+        el("div", { class: "wv-quiet" }, line.place || "No file and line."),
       );
       set(detail, { hidden: false });
       mark(false);

@@ -101,7 +101,7 @@ class Parameters(Panel):
             with self.lock:
                 row = self.known.get(name)
             if row is None:
-                raise Error(f"{str(name)[:100]} is not a parameter of this node any more.")
+                raise Error(f"{str(name)[:100]} is no longer a parameter of this node.")
             self.change({name: (row["kind"], parse(text, row["kind"]))}, browser)
         elif "load" in value:
             self.load(str(value["load"]), browser)

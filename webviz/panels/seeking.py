@@ -22,11 +22,11 @@ def seek_to(state: Any, received_ns: int) -> Seek:
     """
     playback = state.playback
     if playback is None:
-        raise Error("There is no recording to go to. Open a bag, or turn on the memory.")
+        raise Error("There is no recording to seek in. Open a bag, or turn on the memory.")
     if playback.is_live is not None and state.clock.is_simulated:
         raise Error("Simulated time cannot be found in the memory. Drag the timeline instead.")
     at_s = (received_ns - playback.start_ns) / NS_PER_S
     end_s = (playback.end_ns - playback.start_ns) / NS_PER_S
     if not playback.first_s <= at_s <= end_s:
-        raise Error("This time is not in the recording any more. Choose a later one.")
+        raise Error("This time is no longer in the recording. Choose a later one.")
     return Seek(at_s)

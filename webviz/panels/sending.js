@@ -75,7 +75,7 @@ export default function install({ el, messageRows, set, setText, style, widget }
     const keep = el("input", {
       class: "wv-field",
       type: "text",
-      placeholder: "Keep as preset",
+      placeholder: "Save as preset",
       "aria-label": "Name of a preset",
       onchange: () => {
         send({ keep: keep.value });

@@ -224,7 +224,7 @@ def _assigned(values: Mapping[str, Any], path: str, text: str) -> dict[str, Any]
     """Values with another one at a path; texts stay texts."""
     key, _, rest = path.partition(".")
     if key not in values:
-        raise Error(f"`{path[:80]}` is not a field any more.")
+        raise Error(f"`{path[:80]}` is no longer a field.")
     before = values[key]
     if rest and isinstance(before, Mapping):
         return {**values, key: _assigned(before, rest, text)}

@@ -56,7 +56,7 @@ def statuses_of(findings: Sequence[Finding]) -> list[DiagnosticStatus]:
     whole = DiagnosticStatus(
         level=LEVELS[max((finding.severity for finding in severe), default=Severity.NOTE)],
         name="webviz: doctor",
-        message=severe[0].cause if severe else "No cause of a warning found.",
+        message=severe[0].cause if severe else "No problems found.",
     )
     return [whole, *map(_status, findings)]
 

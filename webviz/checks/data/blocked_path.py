@@ -16,7 +16,7 @@ class BlockedPath(Check):
 
     Why:
         The planner does not know the obstacle: its costmap does not subscribe to the scan, or it
-        has not planned again.
+        has not replanned.
 
     Repair:
         Check `observation_sources` of the obstacle layer, and that the planner runs.

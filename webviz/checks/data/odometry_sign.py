@@ -55,7 +55,7 @@ class OdometrySign(Check):
                 if self._wrong.get((each.topic, axis), 0) >= ROUNDS:
                     yield self.found(
                         f"The pose on {each.topic} moves against its own twist.twist.{axis}.",
-                        "Correct the sign of the encoders, or of what computes the twist.",
+                        "Correct the sign of the encoders, or in the code that computes the twist.",
                         subject=each.topic,
                         evidence={"topic": each.topic, "field": f"twist.twist.{axis}"},
                         command=f"ros2 topic echo --once --field twist.twist {each.topic}",

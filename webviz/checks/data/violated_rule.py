@@ -33,7 +33,7 @@ class ViolatedRule(Check):
                 yield self.found(
                     f"{rule.subject}.{rule.value} is {rule.shown(verdict.value)}, expected "
                     f"{rule.expectation}.",
-                    "Look at what led to it, or change the rule.",
+                    "Find out what led to it, or change the rule.",
                     subject=rule.text,
                     evidence={"rule": rule.text, "value": verdict.value, "limit": rule.limit},
                 )

@@ -46,7 +46,7 @@ class LateLink(Check):
                 yield self.found(
                     f'The transform from "{link.parent}" to "{link.frame}" comes at '
                     f"{link.rate_hz:.1f} Hz, {each.topic} at {each.rate_hz:.1f} Hz.",
-                    "Raise the rate of its publisher, or let it stamp its transforms ahead.",
+                    "Raise the rate of its publisher, or let it post-date its transforms.",
                     subject=link.frame,
                     evidence={
                         "link": link.frame,

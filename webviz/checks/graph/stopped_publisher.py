@@ -35,9 +35,9 @@ class StoppedPublisher(Check):
             who = seen.nodes_of(each.topic)
             rate = f"{each.rate_hz:.1f} Hz"
             yield self.found(
-                f"{each.topic} falls silent in the bag; it came at {rate}."
+                f"{each.topic} stops in the bag; its rate was {rate}."
                 if seen.is_recorded
-                else f"{who} has stopped sending {each.topic}, which came at {rate}.",
+                else f"{who} has stopped publishing {each.topic}, previously at {rate}.",
                 "Look at the log of the node and at its sensor.",
                 subject=each.topic,
                 severity=Severity.NOTE if each.type in COMMANDS else Severity.WARNING,

@@ -45,8 +45,8 @@ class DiscoveryStaysLocal(Check):
             if any(end.settings("ROS_STATIC_PEERS")):
                 continue
             yield self.found(
-                f"{who} looks for nodes on itself only: {name} is {value}.",
-                "Allow the subnet there, and start the nodes again.",
+                f"{who} discovers only its own nodes: {name} is {value}.",
+                "Allow the subnet there, and restart the nodes.",
                 subject=end.host,
                 severity=Severity.ERROR,
                 evidence={"host": end.host, name: value},

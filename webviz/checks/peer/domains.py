@@ -41,7 +41,7 @@ class DomainsDiffer(Check):
         )
         yield self.found(
             f"This machine uses domain {our}, {ends.there.host} uses domain {their}.",
-            f"Set ROS_DOMAIN_ID to {their} here, or to {our} there, and start the nodes again.",
+            f"Set ROS_DOMAIN_ID to {their} here, or to {our} there, and restart the nodes.",
             subject=ends.there.host,
             severity=Severity.ERROR,
             evidence={

@@ -55,7 +55,7 @@ class MessagePath:
         self.text = text = text.strip()
         topic = _TOPIC.match(text) if len(text) <= MAX_LENGTH else None
         if topic is None or len(topic[0]) < 2:
-            raise PathError(f"`{text[:80]}` has no topic. Begin with /.")
+            raise PathError(f"`{text[:80]}` has no topic. Start it with one, such as /odom.")
         self.topic = topic[0]
         calls = _CALLS.search(text)
         end = calls.start() if calls else len(text)

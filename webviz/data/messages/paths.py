@@ -149,7 +149,7 @@ class FieldPath:
             raise NothingMatches(f"Nothing in the newest message matches `{self.text}`.")
         if len(values) > 1:
             found = counted(len(values), "value")
-            raise PathError(f"{found} match `{self.text}`. Choose one by [0] or a filter.")
+            raise PathError(f"{found} match `{self.text}`. Choose one with [0] or a filter.")
         return values[0]
 
     def number(self, message: Any) -> float:

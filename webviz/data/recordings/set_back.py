@@ -22,8 +22,8 @@ class SetBack(NamedTuple):
         first_s, last_s = ((each - start_ns) / 1e9 for each in self)
         return (
             f"The clock was set back by {last_s - first_s:.0f} s while {name} was recorded: from "
-            f"{first_s:.1f} to {last_s:.1f} s, messages from before and after that are mixed. "
-            "Select a span outside of it."
+            f"{first_s:.1f} to {last_s:.1f} s, messages from before and after are interleaved. "
+            "Select a span outside this range."
         )
 
 

@@ -123,7 +123,7 @@ def _found(frame: str, cache: Cache, contest: Contest | None) -> Iterator[Confli
             ConflictKind.TWO_PUBLISHERS,
             Problem(
                 f'"{frame}" has {twins} pairs of different poses with the same stamp.',
-                "Stop one of the two publishers, or start the clock of the only one.",
+                "Stop one of the two publishers. If there is only one, its clock is not running.",
             ),
         )
     elif _takes_turns(cache.poses):

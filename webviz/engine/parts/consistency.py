@@ -256,7 +256,7 @@ def _blocked(count: int, age_s: float) -> str:
     text = f"The path leads through {count} points of the laser scan"
     if age_s > OLD_S:
         return (
-            f"{text} and is {in_words(round(age_s * 1e9))} old: the planner has not planned again "
+            f"{text} and is {in_words(round(age_s * 1e9))} old: the planner has not replanned "
             "since. Check that it still runs."
         )
     return (

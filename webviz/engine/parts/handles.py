@@ -95,7 +95,9 @@ class HandlesPart(Part):
             raise Error(handle.refusal)
         hold = self._holds.get(place)
         if hold is not None and hold.browser != sender.browser:
-            raise Error(f"{handle.name}: in use by browser {hold.browser}. Wait until it lets go.")
+            raise Error(
+                f"{handle.name}: in use by browser {hold.browser}. Wait until it is released."
+            )
         if drag.kind == "press":
             if hold is not None:  # whose release got lost
                 runner.drag(replace(hold.drag, kind="release", pose=None), self.core.frames)

@@ -135,7 +135,7 @@ class ReportsPart(Part):
 
     def _save(self, command: SaveReport, sender: Sender) -> Job[str]:
         if command.path and sender.browser is not None:
-            raise Error("A page cannot choose the file of a report.")
+            raise Error("Pages cannot choose the file of a report.")
         picture = _picture(command.picture)
         moment = self._moment(sender, command.selection, command.with_names)
 
@@ -205,7 +205,7 @@ def _listing(moment: _Moment) -> list[str]:
         f"{LOG}: the last lines of /rosout",
     ]
     if moment.with_names:
-        return [*lines, "Names of hosts, users and home folders are in it."]
+        return [*lines, "Names of hosts, users and home folders are included."]
     kept = f" except {', '.join(names.kept)}, of topics or frames" if names.kept else ""
     return [*lines, f"Names of hosts, users and home folders are left out{kept}."]
 

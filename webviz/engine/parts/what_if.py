@@ -105,7 +105,7 @@ class WhatIfPart(Part):
     def _find(self, command: FindFrame, sender: Sender) -> None:
         trial = self._trial
         if trial is None:
-            raise Error("No frame is tried. Choose one in the panel TF.")
+            raise Error("No frame is being tried. Choose one in the panel TF.")
         buffer = self.core.buffer
         below = {frame for frame in buffer.frames() if self._carries(frame)}
         found = self._displays.consistency.aligned(below)

@@ -127,7 +127,7 @@ def _members(path: Path, archive: zipfile.ZipFile) -> dict[str, zipfile.ZipInfo]
         found[info.filename] = info
     for name in (REPORT, CONFIG, SLICE):
         if name not in found:
-            raise _no_report(path, f"{name} is missing in it")
+            raise _no_report(path, f"{name} is missing from it")
     return found
 
 

@@ -42,6 +42,6 @@ class AgentCaller:
         if self.role >= needed:
             return ""
         return (
-            f"{command.__name__} needs {needed.phrase}, and this connection is that of "
+            f"{command.__name__} needs {needed.phrase}, but this connection is that of "
             f"{self.role.phrase}. Start `webviz mcp` with --role {needed.label}, or use that token."
         )

@@ -24,13 +24,13 @@ from webviz.shell.agents.tools import AgentTools, known
 from webviz.shell.pictures.browser import Pixels
 
 INSTRUCTIONS = """\
-A viewer of a ROS 2 robot. Call `explain` first: it names the cause of what is wrong and the remedy.
+A viewer of a ROS 2 robot. Call `explain` first: it says what is wrong, why, and how to repair it.
 `see` makes pictures, which takes seconds. `act` changes the viewer, or commands the robot with
 UseTool.
 """
 ACT = """\
-Give a command, as far as the role of this connection allows. Examples:
-SetProperty {"display": "display3", "path": "size", "value": 0.05}; ids are told by `explain`
+Run a command, as far as the role of this connection allows. Examples:
+SetProperty {"display": "display3", "path": "size", "value": 0.05}; `explain` lists the ids
 AddDisplay {"type": "LaserScan", "values": {"topic": "/scan"}}
 SetFixedFrame {"frame": "odom"}
 UseTool {"tool": "2D Goal Pose", "points": [[1.0, 2.0, 0.0]], "yaw": 1.57}

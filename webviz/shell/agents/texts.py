@@ -54,7 +54,7 @@ def explanation(state: State, display: str = "") -> Iterator[str]:
 
 
 def _findings(findings: Sequence[Finding], names: dict[str, str]) -> Iterator[str]:
-    yield "The doctor finds nothing." if not findings else "Findings, the first to repair first:"
+    yield "Findings, in the order of repair:" if findings else "The doctor found no problems."
     for each in findings:
         told = f"{each.severity.name} {each.id}: {joined(each.cause, each.remedy)}"
         command = f" Command: `{each.command}`." if each.command else ""

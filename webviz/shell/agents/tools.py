@@ -95,7 +95,7 @@ class AgentTools:
         self._check_size(width, height)
         self._begin(caller, f"selected at ({x}, {y})")
         found = self._viewer.select(x, y, size=(width, height), view=view or None)
-        return texts.bounded(texts.selection(found)) or "Nothing that can be selected is there."
+        return texts.bounded(texts.selection(found)) or "There is nothing to select there."
 
     def topics(self, caller: AgentCaller) -> str:
         """All topics."""
@@ -112,7 +112,7 @@ class AgentTools:
         finally:
             self._viewer.do(InspectTopic(""))
         if found is None:
-            raise Error(f"The viewer follows other topics just now. Read {topic} again.")
+            raise Error(f"The viewer is reading other topics. Read {topic} again.")
         hint = "" if found.type else nearest(topic, list(self._viewer.topics)).capitalize()
         return texts.bounded((*texts.message(topic, found), *([hint] if hint else ())))
 

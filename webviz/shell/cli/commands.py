@@ -49,7 +49,7 @@ for name, summary in {
     "test": "Check that rules hold, over a bag or live topics, for CI.",
     "convert": "Convert a config between RViz's format (*.rviz) and webviz's (any other name).",
     "token": "List, make, rotate and revoke the links by which others may use a viewer.",
-    "mcp": "Let agents see, ask and act by the Model Context Protocol.",
+    "mcp": "Let agents see, ask and act over the Model Context Protocol.",
     "new": "Write a ROS package with a display, tool, panel or check of your own.",
     "schema": "Write the JSON Schema of config files, for completion and checks in editors.",
 }.items():

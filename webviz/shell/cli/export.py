@@ -85,10 +85,10 @@ def _make(bag: Path, options: ExportOptions) -> int:
         for warning in source.warnings:
             print(f"webviz: {bag}: {warning}", file=sys.stderr)
     for note in made.notes:
-        print(f"webviz: to keep --max-size: {note}", file=sys.stderr)
+        print(f"webviz: to stay below --max-size: {note}", file=sys.stderr)
     if made.bytes > options.max_size:
         print(
-            "webviz: the file is larger than --max-size, although everything large is left out. "
+            "webviz: the file is larger than --max-size, even without everything large. "
             "Choose a shorter span, or fewer displays.",
             file=sys.stderr,
         )

@@ -23,7 +23,7 @@ Examples:
   webviz mcp --http 8765               at http://127.0.0.1:8765/mcp, with tokens
 
 With --http each caller sends a token of `webviz token` as `Authorization: Bearer TOKEN` and has its
-role. Pages ask for tokens then, too.
+role. Pages then require tokens, too.
 
 """
 MISSING = "`webviz mcp` needs the package mcp: pip install 'webviz[mcp]'."

@@ -32,7 +32,7 @@ Examples:
 
 A rule names a display, a topic that a display shows, or the doctor, and a value: status, rate, age,
 delay, walls, blocked; findings and errors of the doctor. Rules of the config (`watch:`) count, too.
-They are judged once a second.
+They are evaluated once per second.
 
 Exit status: 0 if all rules hold, 1 after an error, 2 for invalid arguments, 3 if one does not hold.
 
@@ -84,7 +84,7 @@ def _check(
     if options.output is None:
         raise ValueError("A test of a bug report needs -o FILE.")
     if not options.output.stem.isidentifier() or options.output.suffix != ".py":
-        raise ValueError(f"{options.output.name} is not a name of a Python module.")
+        raise ValueError(f"{options.output.name} is not a valid name of a Python module.")
 
 
 @app.default(validator=_check)

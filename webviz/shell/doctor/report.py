@@ -176,7 +176,7 @@ def _lines(report: DoctorReport, is_colored: bool) -> Iterator[str]:
         first = next(each.id for each in report.findings)
         yield f"{counted(severe, 'finding')} ({scope}). More: webviz doctor --explain {first}"
     elif report.unexplained:
-        yield f"No finding, but {counted(len(report.unexplained), 'warning')} above ({scope})."
+        yield f"No finding explains {counted(len(report.unexplained), 'warning')} above ({scope})."
     else:
         yield f"{paint('All is well', 'ok')} ({scope})."
 

@@ -61,7 +61,7 @@ class SizeLimit:
         when = f"between {first_s:.1f} and {last_s:.1f} s"
         notes = []
         if every > 1:
-            notes.append(f"Clouds have at least one of {every} points {when}.")
+            notes.append(f"Clouds keep at least one of {every} points {when}.")
         if skip > 1:
             notes.append(
                 f"Of clouds, maps and pictures, at least one of {skip} versions is shown {when}."

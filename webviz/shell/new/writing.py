@@ -40,7 +40,7 @@ def write_package(kind: Kind, name: str, folder: Path) -> list[Path]:
         )
     root = folder / name
     if root.exists():
-        raise Error(f"{root} exists. Choose another name, or remove it.")
+        raise Error(f"{root} already exists. Choose another name, or remove it.")
     words = name.split("_")
     values = {
         "name": name,

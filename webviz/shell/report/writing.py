@@ -21,7 +21,7 @@ SIZE = (640, 480)
 """Of the picture, in pixels."""
 MAX_TESTS = 20
 HEAD = '''\
-"""Fails while the fault of a bug report is there; written by `webviz test`.
+"""Fails as long as the fault of a bug report exists; written by `webviz test`.
 
 Once it is repaired, record the robot again and replace {stem}.mcap, or name the new recording in
 the environment variable WEBVIZ_BAG.

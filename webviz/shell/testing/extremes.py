@@ -102,7 +102,7 @@ def faults(at: DisplayBench) -> list[str]:
     silent = all(level == "OK" or text == NOTHING_TO_DRAW.text for level, text in said.values())
     is_blank = not type(at.display).reports_only and not any(map(has_content, nodes.values()))
     if is_blank and silent:
-        found.append(f"nothing is drawn, and only this is said: {said}")
+        found.append(f"nothing is drawn, and the only status is: {said}")
     return found
 
 

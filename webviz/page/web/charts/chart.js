@@ -68,7 +68,7 @@ export function chart(_, send) {
   const pause = iconButton("pause", "Pause", togglePause);
   const back = iconButton("reset", "Reset zoom (double click)", reset);
   const save = iconButton("download", "Download as CSV", () => download("plot.csv", csv(shown())));
-  const sums = iconButton("list", "Statistics of what is drawn", () => {
+  const sums = iconButton("list", "Statistics of the visible values", () => {
     hasSums = !hasSums;
     set(sums, { "aria-pressed": String(hasSums) });
     later();

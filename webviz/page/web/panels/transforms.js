@@ -80,7 +80,7 @@ export const transforms = {
       {
         type: "button",
         class: "wv-button",
-        "data-tip": "Move or turn this frame for yourself; nothing is published",
+        "data-tip": "Try this frame in another pose; nothing is published",
         onclick: () => {
           const row = list.marked();
           if (row) tryFrame(row.name);

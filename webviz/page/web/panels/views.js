@@ -22,7 +22,7 @@ const TYPE = {
   kind: "choice",
   default: "Orbit",
   offered: false,
-  help: "How the camera moves; another type keeps the focal point.",
+  help: "How the camera moves. Changing the type keeps the focal point.",
 };
 /** @type {DeclaredProperty} */
 const TARGET = {

@@ -20,7 +20,7 @@ const NO_VALUES = "This is not in the file. Open the bag in webviz to see it.";
 const NEVER = "There is no other message in this recording. Step in the other direction.";
 
 const REASON =
-  "This page is a recording, which can only be played and looked at. Open the bag in webviz to change it.";
+  "This page is a recording and cannot be changed. Open the bag in webviz to change it.";
 
 /** The commands that are carried out here. */
 const COMMANDS = new Set([

@@ -85,7 +85,7 @@ export function switches() {
       /** @type {DisplayRow | undefined} */
       const row = recorded.get(id);
       if (enabled && row && !row.enabled)
-        return `${row.name} was off when this file was made, so there is nothing of it to show.`;
+        return `${row.name} was off when this file was made, so the file does not contain it.`;
       if (enabled) wanted.delete(id);
       else wanted.set(id, false);
       follow();

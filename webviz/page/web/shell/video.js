@@ -76,7 +76,7 @@ function start() {
     tellAll();
   });
   recorder.addEventListener("error", () =>
-    toast("The browser could not go on recording the video.", { level: "error" }),
+    toast("The browser has stopped recording the video.", { level: "error" }),
   );
   recorder.addEventListener("stop", () => {
     for (const track of stream.getTracks()) track.stop();

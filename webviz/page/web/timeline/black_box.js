@@ -37,7 +37,7 @@ export function blackBox() {
   function open() {
     const { left, top } = button.getBoundingClientRect();
     if (!saved.length) {
-      toast("No rule has saved anything yet.");
+      toast("No rule has saved a recording yet.");
       return;
     }
     /** @param {string} name @param {number} megabytes */
@@ -70,7 +70,7 @@ export function blackBox() {
       set(button, {
         "data-tip": values.get("saving")
           ? `Saves ${values.get("saving")}, until 10 s after it`
-          : "What rules of the config have saved: choose one to play it here",
+          : "Recordings that rules have saved: choose one to play it here",
       });
     });
   });

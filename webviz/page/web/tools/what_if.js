@@ -46,7 +46,7 @@ export function whatIf() {
     {
       type: "button",
       class: "wv-button",
-      "data-tip": "Return it to its transforms (Esc)",
+      "data-tip": "Return it to its published pose (Esc)",
       onclick: end,
     },
     "Done",
