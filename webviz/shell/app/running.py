@@ -35,6 +35,7 @@ from webviz.shell.ros_source import ros_source
 if TYPE_CHECKING:
     import ssl
 
+    from webviz.ros.control import ControlNode
     from webviz.server.http.viser_server import Server
     from webviz.sources import Source
 
@@ -136,12 +137,20 @@ class Running(PictureControls):
             closing.add("The plug-in watcher", watcher.stop)
             self.do(Refresh())  # so that there is a state
             if node_control is not None:
-                if name := node_control.initial["view"]:
-                    self.do(StartWithView(view=name))
-                folders = [Path(folder) for folder in config_folders]
-                node_control.open(self, folders, may_change=control)
+                self._open_control(node_control, config_folders, control)
             self._stack = stack.pop_all()
         atexit.register(self.close)
+
+    def _open_control(
+        self,
+        node: ControlNode,
+        config_folders: Sequence[str | os.PathLike[str]],
+        may_change: bool,
+    ) -> None:
+        """Let ROS nodes command the viewer, and begin with the view of the node's parameters."""
+        if name := node.initial["view"]:
+            self.do(StartWithView(view=name))
+        node.open(self, [Path(folder) for folder in config_folders], may_change=may_change)
 
     def _open_server(
         self,
