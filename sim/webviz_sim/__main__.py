@@ -1,4 +1,4 @@
-"""Runs the simulator: `python -m webviz_sim`."""
+"""Entry point of the simulator: `python -m webviz_sim`."""
 
 import os
 import sys

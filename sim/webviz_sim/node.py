@@ -1,4 +1,4 @@
-"""Starts the simulator: `webviz-sim`, or `python -m webviz_sim`."""
+"""The program of the simulator: `webviz-sim`, or `python -m webviz_sim`."""
 
 import argparse
 import os

@@ -1,4 +1,4 @@
-"""Builds a robot from a parsed description: reads meshes and applies materials."""
+"""A robot from a parsed description, with its meshes and materials."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Loads a robot from its description and the files it names."""
+"""Loading of a robot from its description and the files it names."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Locates the meshes and textures of a robot description on this machine.
+"""Places of the meshes and textures of a robot description on this machine.
 
 A description names its files as `package://` URIs, `file://` URIs or plain paths. Nothing is ever
 fetched from a network: otherwise any publisher could make this machine send requests.

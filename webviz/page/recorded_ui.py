@@ -1,4 +1,4 @@
-"""Records the widgets of a panel."""
+"""A recording of the widgets of a panel."""
 
 from __future__ import annotations
 

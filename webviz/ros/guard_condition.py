@@ -1,4 +1,4 @@
-"""Ends the wait of an executor, from any thread."""
+"""The wake-up of an executor, from any thread."""
 
 from __future__ import annotations
 

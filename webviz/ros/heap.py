@@ -1,4 +1,4 @@
-"""Tunes glibc's heap for large messages."""
+"""Tuning of glibc's heap for large messages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Runs functions of other threads in the thread of the node."""
+"""Functions of other threads that run in the thread of the node."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Removes shared memory of Fast DDS whose process was killed."""
+"""Removal of shared memory of Fast DDS whose process was killed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Encodes images as PNG, three times as fast as Pillow."""
+"""Images as PNG, encoded three times as fast as by Pillow."""
 
 from __future__ import annotations
 

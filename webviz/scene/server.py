@@ -1,4 +1,4 @@
-"""Opens a guarded viser server that looks like RViz."""
+"""A guarded viser server that looks like RViz."""
 
 from __future__ import annotations
 

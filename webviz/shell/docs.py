@@ -1,4 +1,4 @@
-"""Writes the documentation that is generated from declarations: `make docs`.
+"""Documentation that is generated from declarations: `make docs`.
 
 That is: the pages on displays and tools; those on commands, keys and the Python API; the schema of
 config files; the types that Python shares with the page's modules; and, for .rviz files given as

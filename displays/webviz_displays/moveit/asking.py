@@ -1,4 +1,4 @@
-"""Asks the node move_group for the whole of a scene."""
+"""Requests to the node move_group for the whole of a scene."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Draws collision objects: those of one kind and opacity together."""
+"""Drawing of collision objects: those of one kind and opacity together."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Draws the octomap of a scene."""
+"""Drawing of the octomap of a scene."""
 
 from __future__ import annotations
 

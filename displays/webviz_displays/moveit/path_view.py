@@ -1,4 +1,4 @@
-"""Draws a path: the robot on its way, and where it was."""
+"""Drawing of a path: the robot on its way, and where it was."""
 
 from __future__ import annotations
 

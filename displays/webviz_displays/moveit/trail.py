@@ -1,4 +1,4 @@
-"""Draws a robot in many poses at once: each of its shapes is sent once."""
+"""Drawing of a robot in many poses at once: each of its shapes is sent once."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Draws a planning scene: its objects, its robot, and what the robot holds."""
+"""Drawing of a planning scene: its objects, its robot, and what the robot holds."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Reads the octrees of octomap_msgs/Octomap, level by level instead of node by node.
+"""Octrees of octomap_msgs/Octomap, read level by level instead of node by node.
 
 A full tree is a record for each node, depth first: its log-odds (float32), its colour if it has
 one (3 bytes), and a byte with a bit for each child. A binary tree has records of two bytes for

@@ -1,4 +1,4 @@
-"""Keeps the scene true to displays, settings and views."""
+"""Updates of the scene after displays, settings and views."""
 
 from __future__ import annotations
 

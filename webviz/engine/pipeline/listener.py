@@ -1,4 +1,4 @@
-"""Stores /tf and /tf_static in the transform buffer, and reports problems with them."""
+"""Subscription of /tf and /tf_static: fills the transform buffer, and reports problems."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Runs one display: passes it messages, calls its hooks, draws the result."""
+"""The runner of one display: passes it messages, calls its hooks, draws the result."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Synchronizes messages of several inputs by stamp, like message_filters."""
+"""Synchronization of messages of several inputs by stamp, as by message_filters."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Reads /tf messages with the same frames as an earlier one: only stamps and numbers."""
+"""Fast reading of /tf messages with the frames of an earlier one: only stamps and numbers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Plays a recording, or the past of live topics, in step with the clock on the wall."""
+"""Playback of a recording, or of the past of live topics, in step with wall time."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Composes classes for rclpy of types whose package is missing; see `webviz.ros.types`."""
+"""Classes for rclpy of types whose package is missing; see `webviz.ros.types`."""
 
 from __future__ import annotations
 

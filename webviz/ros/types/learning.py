@@ -1,4 +1,4 @@
-"""Reads the definitions of installed types from their classes."""
+"""Definitions of installed types, from their classes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Passes the bytes of requests and responses through the middleware.
+"""Bytes of requests and responses, passed through the middleware.
 
 In rclpy a composed request is a Python object with CDR bytes. In rmw_fastrtps it is an opaque
 pointer, here an id, which is passed to the callbacks of the type support together with the `Cdr` of

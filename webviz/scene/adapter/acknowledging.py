@@ -1,4 +1,4 @@
-"""Waits until browsers have applied what was sent to them."""
+"""Acknowledgements of browsers for what was sent to them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Opens the channel in every page that connects."""
+"""The handshake of the channel with every page that connects."""
 
 from __future__ import annotations
 

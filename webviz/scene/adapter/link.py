@@ -1,4 +1,4 @@
-"""Sends the messages of a scene to the browsers of a server."""
+"""The link of a scene to the browsers of a server."""
 
 from __future__ import annotations
 

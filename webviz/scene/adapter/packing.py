@@ -1,4 +1,4 @@
-"""Packs messages as viser's page reads them, into whole websocket frames."""
+"""Packing of messages as viser's page reads them, into whole websocket frames."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Sends the shared messages to all browsers: replaces the loops of viser's message buffer."""
+"""The sender of shared messages to all browsers, in place of viser's own loops."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Decides who may connect, and as what."""
+"""The decision on who may connect, and in which role."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Says in each page what is reduced because of its link."""
+"""Reports to each page on what is reduced because of its link."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Checks every connection to the server, and every message from browsers.
+"""The guard of the server: checks every connection and every message from browsers.
 
 viser accepts any connection to its port, even from other sites open in the user's browser, and lets
 browsers overwrite the internals of widgets or open a public tunnel. Here connections are checked

@@ -1,4 +1,4 @@
-"""Checks the Host and Origin headers of requests."""
+"""Validation of the Host and Origin headers of requests."""
 
 from __future__ import annotations
 

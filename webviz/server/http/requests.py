@@ -1,4 +1,4 @@
-"""Checks HTTP requests, and sets the security headers of responses.
+"""Validation of HTTP requests, and the security headers of responses.
 
 websockets supports GET only and closes the connection on other requests without a response; viser
 looks up any path on the disk. Hence the head of a request is checked before either sees it.

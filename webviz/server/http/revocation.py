@@ -1,4 +1,4 @@
-"""Ends the connections of browsers whose link was revoked or has expired."""
+"""The end of connections whose link was revoked or has expired."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Checks the messages of browsers: kinds, sizes and fields."""
+"""Validation of the messages of browsers: kinds, sizes and fields."""
 
 from __future__ import annotations
 

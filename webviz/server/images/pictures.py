@@ -1,4 +1,4 @@
-"""Sends pictures to the pages that show them: only those, at their size, and only the newest."""
+"""Pictures for the pages that show them: only those, at their size, and only the newest."""
 
 from __future__ import annotations
 

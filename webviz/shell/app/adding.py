@@ -1,4 +1,4 @@
-"""Checks the displays that Python programs add, and finds a display for a topic."""
+"""Validation of displays that Python programs add, and the choice of a display for a topic."""
 
 from __future__ import annotations
 

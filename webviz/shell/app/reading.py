@@ -1,4 +1,4 @@
-"""Reads configs, and makes one where none is given."""
+"""Reading of configs, and the default one."""
 
 from __future__ import annotations
 

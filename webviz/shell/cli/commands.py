@@ -1,4 +1,4 @@
-"""Runs the command that the arguments name, and turns errors into a message and exit status."""
+"""The commands of webviz: runs one, and turns errors into a message and exit status."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Ends the program on Ctrl-C, SIGTERM and SIGHUP: prints one line and leaves no process behind.
+"""The end of the program on Ctrl-C, SIGTERM and SIGHUP: one line, and no process left.
 
 No signal handler raises, because an exception in the middle of an import may be swallowed or
 printed. Imports are few, because signals are handled only once this module is loaded.

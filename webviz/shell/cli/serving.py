@@ -1,4 +1,4 @@
-"""Serves the page of `webviz` and `webviz demo` until Ctrl-C."""
+"""The program of `webviz` and `webviz demo`: a page that is served until Ctrl-C."""
 
 import contextlib
 import functools

@@ -1,4 +1,4 @@
-"""Exports a part of a bag, as a config shows it, as one HTML file."""
+"""Export of a part of a bag, as a config shows it, as one HTML file."""
 
 from __future__ import annotations
 

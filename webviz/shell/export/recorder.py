@@ -1,4 +1,4 @@
-"""Plays a span of a bag by hand, and records what a page would be sent."""
+"""A span of a bag played by hand, and what a page would be sent of it."""
 
 from __future__ import annotations
 

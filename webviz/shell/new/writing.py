@@ -1,4 +1,4 @@
-"""Writes the package of a new plug-in."""
+"""The package of a new plug-in."""
 
 from __future__ import annotations
 

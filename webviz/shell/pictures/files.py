@@ -1,4 +1,4 @@
-"""Writes pictures, contact sheets and animations, atomically."""
+"""Pictures, contact sheets and animations as files, written atomically."""
 
 from __future__ import annotations
 

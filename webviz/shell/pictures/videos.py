@@ -1,4 +1,4 @@
-"""Writes videos by ffmpeg, where it is installed."""
+"""Videos, encoded by ffmpeg where it is installed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Compares pictures as a person would, and stores them."""
+"""Comparison of pictures as a person would make it, and their files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Finds a ROS domain that is unused on this machine."""
+"""A ROS domain that is unused on this machine."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Compares pictures of scenes with reference pictures."""
+"""Comparison of pictures of scenes with reference pictures."""
 
 from __future__ import annotations
 

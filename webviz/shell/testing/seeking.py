@@ -1,4 +1,4 @@
-"""Checks that a seek in a bag shows what playing from the start shows."""
+"""Comparison of a seek in a bag with playing it from the start."""
 
 from __future__ import annotations
 
