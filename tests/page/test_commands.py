@@ -238,7 +238,8 @@ def test_a_list_of_steps_goes_back_several_at_once(tab: Tab) -> None:
 def test_what_was_removed_here_is_brought_back_by_a_toast(tab: Tab) -> None:
     show_history(tab, UndoHistory())
     browser = tab.page.evaluate("window.webviz.browser")
-    show_history(tab, UndoHistory(steps("Remove Path", browser=browser, first=1001)))
+    step = Step(1001, "Remove Path", browser, removed="Path")
+    show_history(tab, UndoHistory((step,)))
     toast = tab.page.locator(".wv-toast", has_text="Removed Path.")
     toast.get_by_role("button", name="Undo").click()
     tab.wait_for_command(Undo(own=True))

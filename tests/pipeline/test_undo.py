@@ -105,6 +105,8 @@ def test_a_change_is_undone_and_redone(
     after = dump(b.viewer.config())
     assert after != before
     assert labels(b) == [label]
+    removed = label.removeprefix("Remove ") if label.startswith("Remove ") else ""
+    assert b.viewer.state().history.undo[0].removed == removed
     b.do(Undo())
     assert dump(b.viewer.config()) == before
     assert ids(b) == at

@@ -60,7 +60,12 @@ class Restore(Command):
     @property
     def label(self) -> str:
         """Says how much there is."""
-        return f"Restore {counted(len(self.config.displays), 'display')}"
+        return f"Restore {self.amount}"
+
+    @property
+    def amount(self) -> str:
+        """The number of displays, in words."""
+        return counted(len(self.config.displays), "display")
 
 
 @dataclass(frozen=True)

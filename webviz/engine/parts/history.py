@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from webviz.engine.commands import Command, Redo, Sender, Undo
+from webviz.engine.commands import Command, Redo, Restore, Sender, Undo
 from webviz.engine.commands.requests import Job
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.part import Core, Handler, Part
@@ -69,19 +69,19 @@ class HistoryPart(Part):
         def noted(command: Command, sender: Sender) -> str | Job[Any]:
             result = do(command, sender)
             if not isinstance(result, Job):
-                self.core.guard(self.name, self._note, sender, command.label)
+                self.core.guard(self.name, self._note, sender, command)
                 return result
 
             def then(value: Any) -> str:
                 text = result.then(value)
-                self.core.guard(self.name, self._note, sender, command.label)
+                self.core.guard(self.name, self._note, sender, command)
                 return text
 
             return replace(result, then=then)
 
         return noted
 
-    def _note(self, sender: Sender, label: str) -> None:
+    def _note(self, sender: Sender, command: Command) -> None:
         before, self._now = self._now, self._moment()
         done = difference(before, self._now)
         if not done.label:
@@ -93,7 +93,9 @@ class HistoryPart(Part):
         self._redo = deque(others, MAX_STEPS)
         if done.label:  # else it is as it was before
             self._count += 1
-            step = Step(self._count, label or done.label, sender.browser)
+            label, by = command.label or done.label, sender.browser
+            restored = command.amount if isinstance(command, Restore) else ""
+            step = Step(self._count, label, by, done.removed, restored)
             self._undo.append(_Done(step, before, self._now))
 
     def _goes_on(self, done: Difference, sender: Sender) -> bool:
@@ -130,7 +132,7 @@ class HistoryPart(Part):
         for _ in range(max(1, min(command.steps, len(back)))):
             done = _newest(back, sender if command.own else None)
             self._count += 1
-            step = Step(self._count, done.step.label, sender.browser)
+            step = replace(done.step, number=self._count, browser=sender.browser)
             forth.append(_Done(step, done.after, done.before))
             moment = rebased(moment, done.after, done.before)
             labels.append(done.step.label)

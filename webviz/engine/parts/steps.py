@@ -98,10 +98,12 @@ class Difference:
         label: in a few words, "" if nothing was.
         property: (id, name) if one property of one display or tool was changed, and nothing else;
             of a setting the id is "".
+        removed: name of what was removed, "" if nothing was.
     """
 
     label: str
     property: tuple[str, str] | None = None
+    removed: str = ""
 
 
 def difference(before: Moment, after: Moment) -> Difference:
@@ -122,10 +124,11 @@ def difference(before: Moment, after: Moment) -> Difference:
         come = [kept for id, kept in new.items() if id not in old]
         if gone and come:
             return Difference("Open another config")
-        if gone or come:
-            return Difference(
-                f"{'Remove' if gone else 'Add'} {_outer(old if gone else new, gone or come)}"
-            )
+        if gone:
+            name = _outer(old, gone)
+            return Difference(f"Remove {name}", removed=name)
+        if come:
+            return Difference(f"Add {_outer(new, come)}")
         changes = [(id, name) for id in new for name in _changed(old[id], new[id])]
         if changes:
             return _of_changes(new, changes)
@@ -184,9 +187,9 @@ def _of_settings(old: Settings, new: Settings) -> Difference:
     if old.fixed_frame != new.fixed_frame:
         return Difference(f"Fixed frame {new.fixed_frame}")
     if old.views != new.views:
-        return Difference(_of_saved("view", old.views, new.views))
+        return _of_saved("view", old.views, new.views)
     if old.layouts != new.layouts:
-        return Difference(_of_saved("layout", old.layouts, new.layouts))
+        return _of_saved("layout", old.layouts, new.layouts)
     labels = {
         "background": "background",
         "frame_rate": "frame rate",
@@ -199,9 +202,12 @@ def _of_settings(old: Settings, new: Settings) -> Difference:
     return Difference("" if old == new else "Change settings")
 
 
-def _of_saved(kind: str, old: Mapping[str, object], new: Mapping[str, object]) -> str:
+def _of_saved(kind: str, old: Mapping[str, object], new: Mapping[str, object]) -> Difference:
     gone, come = old.keys() - new.keys(), new.keys() - old.keys()
+    if gone and come:
+        return Difference(f"Rename {kind} {min(gone)}")
     if gone:
-        return f"{'Rename' if come else 'Remove'} {kind} {min(gone)}"
+        name = f"{kind} {min(gone)}"
+        return Difference(f"Remove {name}", removed=name)
     changed = come or {name for name in new if new[name] != old[name]}
-    return f"Save {kind} {min(changed)}"
+    return Difference(f"Save {kind} {min(changed)}")

@@ -276,11 +276,15 @@ class Step:
         number: of the change; undo and redo are changes too.
         label: what was done, in a few words.
         browser: that did it, None for a program.
+        removed: name of what was removed, "" for other changes.
+        restored: what was shown again of the last session, "" for other changes.
     """
 
     number: int
     label: str
     browser: int | None
+    removed: str = ""
+    restored: str = ""
 
 
 @dataclass(frozen=True)

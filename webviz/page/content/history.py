@@ -16,6 +16,8 @@ class HistoryStep(msgspec.Struct, frozen=True):
     number: int
     label: str
     browser: int | None
+    removed: str
+    restored: str
 
 
 class HistoryStore(PageStore, frozen=True):
@@ -32,4 +34,4 @@ def history(state: State, _: str) -> HistoryStore:
 
 
 def _step(step: Step) -> HistoryStep:
-    return HistoryStep(step.number, step.label, step.browser)
+    return msgspec.convert(step, HistoryStep, from_attributes=True)

@@ -105,6 +105,8 @@ export interface HistoryStep {
   number: number;
   label: string;
   browser: number | null;
+  removed: string;
+  restored: string;
 }
 
 export interface JournalLine {

@@ -82,9 +82,9 @@ function tell() {
   if (last.browser !== window.webviz.browser) {
     const text = `${isUndone ? "Undone" : "Changed"} ${whereOf(last)}: ${last.label}`;
     toast(text, { topic: "others" }); // dragging a slider makes many steps
-  } else if (!isUndone && last.label.startsWith("Remove ")) {
-    const text = last.label.replace(/^Remove /, "Removed ");
-    toast(`${text}.`, { topic: "removed", action: { label: "Undo", run: () => undo() } });
+  } else if (!isUndone && last.removed) {
+    const action = { label: "Undo", run: () => undo() };
+    toast(`Removed ${last.removed}.`, { topic: "removed", action });
   }
 }
 
@@ -94,10 +94,10 @@ function tell() {
  * @param {HistoryStep} [last]
  */
 function tellRestored(last) {
-  if (!last?.label.startsWith("Restore ")) return;
-  const text = last.label.replace(/^Restore /, "Restored ");
+  if (!last?.restored) return;
   const action = why("Undo") ? null : { label: "Undo", run: () => undo() };
-  toast(`${text} of the last session.`, { level: "warn", topic: "restored", action });
+  const text = `Restored ${last.restored} of the last session.`;
+  toast(text, { level: "warn", topic: "restored", action });
 }
 
 /** @param {HistoryStep} step */
