@@ -113,7 +113,10 @@ function sentRow() {
 async function sendAgain(entry) {
   const tool = registry.all().find(({ id }) => id === entry.tool.id);
   if (!tool)
-    return tell("warn", `Not sent: the tool ${entry.tool.name} no longer exists. Choose another one.`);
+    return tell(
+      "warn",
+      `Not sent: the tool ${entry.tool.name} no longer exists. Choose another one.`,
+    );
   const frame = `this was in ${entry.frame}. Choose it as the fixed frame.`;
   if (entry.frame !== history.fixedFrame()) return tell("warn", `Not sent: ${frame}`);
   if (tool.refusal) return tell("warn", tool.refusal);
