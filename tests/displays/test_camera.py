@@ -44,7 +44,17 @@ def send_info(at: Any, stamp_ns: int | None = None, **changes: Any) -> None:
 
 def test_the_former_name_of_the_camera_of_a_pane_still_works() -> None:
     camera = OverlayCamera(
-        (0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0), (16, 12), (16.0, 16.0), (8.0, 6.0)
+        position=(0.0, 0.0, 0.0),
+        wxyz=(1.0, 0.0, 0.0, 0.0),
+        size=(16, 12),
+        focal=(16.0, 16.0),
+        principal=(8.0, 6.0),
+        part=(0.0, 0.0, 1.0, 1.0),
+        far=100.0,
+        zoom=1.0,
+        overlay=0.5,
+        is_background=True,
+        warp=None,
     )
     with pytest.warns(DeprecationWarning, match=r"^Pane\.sight is Pane\.camera now"):
         pane = Pane(Readout("/joints", "std_msgs/msg/String", None), sight=camera)
