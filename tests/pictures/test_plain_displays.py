@@ -32,6 +32,7 @@ from webviz_displays.autoware import (
 from webviz_displays.autoware.look import FootprintView, LaneView, TextView
 from webviz_displays.autoware.objects_look import ClassColors, ShapeView
 from webviz_displays.detections import (
+    BoundingBox3D,
     BoundingBox3DArray,
     Detection3D,
     Detection3DArray,
