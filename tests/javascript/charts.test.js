@@ -5,6 +5,7 @@ import {
   csv,
   curvesOf,
   extent,
+  pairs,
   statistics,
   valueAt,
   visit,
@@ -28,6 +29,25 @@ test("statistics are of the finite values within a range, and do not overflow", 
   const { low, high, mean } = statistics(large, [0, 2]);
   assert.deepEqual([low, high], [-LARGEST, LARGEST]);
   assert.ok(Math.abs(mean / LARGEST - 1 / 3) < 1e-9);
+});
+
+test("a curve over another has the values of both at the same times", () => {
+  const across = { name: "a", pieces: [piece([0, 1], [10, 11]), piece([2, 3], [12, 13])] };
+  assert.deepEqual(pairs(TWO, across, [0, 3]), [
+    [10, 5],
+    [11, 6],
+    [12, 7],
+    [13, NaN],
+  ]);
+  assert.deepEqual(pairs(TWO, across, [2, 2.5]).slice(-2), [
+    [12, 7],
+    [13, NaN],
+  ]);
+  assert.deepEqual(pairs(TWO, { name: "none", pieces: [] }, [0, 3]), []);
+  assert.deepEqual(pairs(TWO, { name: "late", pieces: [piece([1.5], [9])] }, [0, 3]), [
+    [9, 7],
+    [9, NaN],
+  ]);
 });
 
 test("ticks are round numbers within their range", () => {

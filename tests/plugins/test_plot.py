@@ -11,14 +11,16 @@ from typing import Any
 import numpy as np
 import pytest
 
+from webviz.api.errors import Error
 from webviz.data.messages import Header, JointState, String, Time
-from webviz.engine.commands import AddPanel, OpenPanels, Reset, SetPanelProperty
+from webviz.engine.commands import AddPanel, OpenPanels, Reset, Seek, SetPanelProperty
 from webviz.engine.state import PanelTab, PanelTimes, State
 from webviz.page.chart import ChartWidget
 from webviz.page.recorded_ui import RecordedUi
 from webviz.panels.plot import Plot
 from webviz.panels.plot.history import MAX_POINTS, CurveHistory
 from webviz.sources import Offer, Publisher
+from webviz.sources.past_state import PlaybackState
 
 JOINTS = "sensor_msgs/msg/JointState"
 TWIST = "geometry_msgs/msg/Twist"
@@ -212,6 +214,46 @@ def test_a_curve_is_added_by_topic_and_field_and_removed_in_the_legend() -> None
     assert bench.sent.pop() == SetPanelProperty("id", "curves", [])
     with pytest.raises(ValueError, match="removed already"):
         bench.chart.use("/other.x", 7)
+
+
+def test_a_curve_may_be_on_the_right_or_stand_in_place_of_time() -> None:
+    left, right = "/joints.position[left]", "/joints.position[0]"
+    bench = Bench(left, right=[left, "/other.x"], across=right)
+    assert bench.curve(0)["name"] == right
+    assert [each["right"] for each in bench.chart.values["curves"]] == [False, True]
+    assert bench.chart.values["across"] == bench.curve(0)["key"]
+    bench.chart.use(right, 7)
+    assert bench.sent.pop() == SetPanelProperty("id", "across", "")
+    assert bench.sent == []
+    bench.panel.across = ""
+    bench.show()
+    assert bench.chart.values["across"] == -1
+
+
+def test_a_time_of_a_chart_is_gone_to_within_what_is_recorded() -> None:
+    bench = Bench("/joints.position[0]")
+    with pytest.raises(Error, match="no recording"):
+        bench.chart.use("95", 7)
+    past = PlaybackState(
+        names=("run.mcap",),
+        start_ns=90 * SECOND,
+        end_ns=100 * SECOND,
+        position_s=0.0,
+        rate=1.0,
+        is_playing=False,
+        is_seeking=False,
+        loop=False,
+        selected=None,
+        first_s=2.0,
+    )
+    bench.show(playback=past)
+    for wanted, at_s in (("95.5", 5.5), ("-7", 2.0), ("1e9", 10.0)):
+        bench.chart.use(wanted, 7)
+        assert bench.sent.pop() == Seek(pytest.approx(at_s))
+    for hostile in ("nan", "inf", "-1e308", "", None, True, "9" * 400):
+        with pytest.raises(ValueError, match="removed already|no such time"):
+            bench.chart.use(hostile, 7)
+    assert bench.sent == []
 
 
 def test_topics_are_read_while_the_panel_is_open_and_time_can_start_over(

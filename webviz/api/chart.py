@@ -30,26 +30,33 @@ class Curve:
         name: in the legend, different from all others.
         chunks: oldest first.
         problem: why there is none, or what is wrong; a sentence or "".
+        is_right: whether its values are those of the axis on the right.
     """
 
     name: str
     chunks: Sequence[Chunk] = ()
     problem: str = ""
+    is_right: bool = False
 
 
 Remove = Callable[[str, int | None], object]
 """Called with the name of a curve that a browser removes, and its id."""
+SeekTo = Callable[[float, int | None], object]
+"""Called with a ROS time in seconds that a browser wants to go to, and its id."""
 
 
 class Chart(Protocol):
     """A chart of curves over time."""
 
-    def show(self, curves: Sequence[Curve], window_s: float, now_s: float) -> None:
+    def show(
+        self, curves: Sequence[Curve], window_s: float, now_s: float, across: str = ""
+    ) -> None:
         """Show these curves.
 
         Args:
             curves: in the order of the legend.
             window_s: how much time is shown until a browser zooms.
             now_s: end of that time, in seconds of ROS time.
+            across: name of the curve whose values the others are drawn over, "" for time.
         """
         ...

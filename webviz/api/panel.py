@@ -22,7 +22,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, Protocol, TypeVar
 
-from webviz.api.chart import Chart, Remove
+from webviz.api.chart import Chart, Remove, SeekTo
 from webviz.api.declared import Declared
 from webviz.api.lookback import Lookback
 
@@ -174,8 +174,13 @@ class Ui(Protocol):
         """
         ...
 
-    def chart(self, remove: Remove) -> Chart:
-        """Add a chart of curves over time; `remove` is called when a browser removes one."""
+    def chart(self, remove: Remove, seek: SeekTo | None = None) -> Chart:
+        """Add a chart of curves over time.
+
+        Args:
+            remove: called when a browser removes a curve.
+            seek: called when a browser points at a time to go to; None if that is not possible.
+        """
         ...
 
     def widget(

@@ -7,10 +7,12 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from webviz.api.chart import Chunk, Curve, Remove
+from webviz.api.chart import Chunk, Curve, Remove, SeekTo
 from webviz.page.widgets import Widget, clean
 
 MAX_CURVES = 32
+MAX_TIME_S = 1e11
+"""Of ROS time: beyond what 64 bits of nanoseconds hold."""
 
 
 class ChartWidget(Widget):
@@ -18,16 +20,21 @@ class ChartWidget(Widget):
 
     Args:
         remove: called with the name of a curve that a browser removes.
+        seek: called with a time that a browser wants to go to; None if that is not possible.
     """
 
-    def __init__(self, remove: Remove) -> None:
-        super().__init__(kind="chart", curves=[], window=1.0, now=0.0)
+    def __init__(self, remove: Remove, seek: SeekTo | None = None) -> None:
+        can_seek = seek is not None
+        super().__init__(kind="chart", curves=[], window=1.0, now=0.0, across=-1, seeks=can_seek)
         self._remove = remove
+        self._seek = seek
         self._keys: dict[str, int] = {}
         self._count = itertools.count()
         self._made: dict[str, tuple[Chunk, Mapping[str, Any]]] = {}
 
-    def show(self, curves: Sequence[Curve], window_s: float, now_s: float) -> None:
+    def show(
+        self, curves: Sequence[Curve], window_s: float, now_s: float, across: str = ""
+    ) -> None:
         """Show these curves."""
         shown = curves[:MAX_CURVES]
         self._keys = {
@@ -48,18 +55,28 @@ class ChartWidget(Widget):
                     "key": key,
                     "name": clean(curve.name),
                     "problem": clean(curve.problem),
+                    "right": curve.is_right,
                     "chunks": [numbers[0], numbers[-1] + 1] if numbers else [0, 0],
                 }
             )
         self._made = made
         self.parts = {name: part for name, (_, part) in made.items()}
-        self.set(curves=facts, window=window_s, now=round(now_s, 3))
+        self.set(
+            curves=facts, window=window_s, now=round(now_s, 3), across=self._keys.get(across, -1)
+        )
 
     def use(self, value: Any, browser: int | None) -> None:
-        """Remove a curve."""
-        if value not in self._keys:
-            raise ValueError("This curve has been removed already.")
-        self._remove(value, browser)
+        """Remove a curve, or go to a time."""
+        if value in self._keys:
+            self._remove(value, browser)
+            return
+        try:
+            time_s = float(value if isinstance(value, str) else "")
+        except (TypeError, ValueError):
+            raise ValueError("This curve has been removed already.") from None
+        if self._seek is None or not abs(time_s) < MAX_TIME_S:
+            raise ValueError("This chart has no such time to go to.")
+        self._seek(time_s, browser)
 
 
 def _part(chunk: Chunk) -> Mapping[str, Any]:

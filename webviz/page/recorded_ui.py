@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
-from webviz.api.chart import Remove
+from webviz.api.chart import Remove, SeekTo
 from webviz.api.panel import Act, Edit, Modifier
 from webviz.page.chart import ChartWidget
 from webviz.page.widgets import (
@@ -59,9 +59,9 @@ class RecordedUi:
         """Add a place for sliders."""
         return self._add(SlidersWidget(edit))
 
-    def chart(self, remove: Remove) -> ChartWidget:
+    def chart(self, remove: Remove, seek: SeekTo | None = None) -> ChartWidget:
         """Add a chart."""
-        return self._add(ChartWidget(remove))
+        return self._add(ChartWidget(remove, seek))
 
     def widget(
         self, kind: str, values: Mapping[str, Any], use: Callable[[Any, int | None], object]

@@ -15,6 +15,7 @@ from webviz.api.panel import Panel, Send, Ui
 from webviz.data.messages.paths import numeric_paths
 from webviz.engine.commands import SetPanelProperty
 from webviz.panels.plot.series import Series
+from webviz.panels.seeking import NS_PER_S, seek_to
 
 MAX_CURVES = 16
 MAX_FIELDS = 300
@@ -36,6 +37,16 @@ class Plot(Panel):
             "/joint_states.position[left_wheel] or /odom.pose.pose.orientation.@yaw."
         ),
     ] = msgspec.field(default_factory=list)
+    right: Annotated[
+        list[str], Prop(help="Those of the curves whose values are on the axis at the right.")
+    ] = msgspec.field(default_factory=list)
+    across: Annotated[
+        str,
+        Prop(
+            help="Message path that the curves are drawn over instead of time, such as "
+            "/odom.pose.pose.position.x."
+        ),
+    ] = ""
     window: Annotated[float, Prop(gt=0, le=3600, unit="s", help="Time that is shown.")] = 30.0
     time: Annotated[
         Literal["Received", "Header Stamp"],
@@ -45,6 +56,7 @@ class Plot(Panel):
     def __post_init__(self) -> None:
         """Without values."""
         self.id = ""
+        self.state: Any = None
         self.series: dict[str, Series] = {}
         self.types: Mapping[str, str] = {}
         self.topic = NOTHING
@@ -54,7 +66,7 @@ class Plot(Panel):
     def build(self, ui: Ui, send: Send) -> None:
         """Show the chart, and two lists that add a curve."""
         self.send = send
-        self.chart = ui.chart(self._remove)
+        self.chart = ui.chart(self._remove, self._seek)
         self.topics = ui.choice(
             "Topic", NOTHING, self._choose, "Topic with the values of a new curve."
         )
@@ -99,6 +111,7 @@ class Plot(Panel):
             for each in self.series.values():
                 each.history.gap()
         self.active_s = now
+        self.state = state
         self.id = next((tab.id for tab in state.panels if tab.panel is self), "")
         self.types = {
             topic: offer.type or offer.publishers[0].type
@@ -112,10 +125,10 @@ class Plot(Panel):
         if self.time == "Header Stamp" or not now_s:
             now_s = max(ends, default=now_s)
         shown = [
-            Curve(name, each.history.chunks(), each.explanation(self.types))
+            Curve(name, each.history.chunks(), each.explanation(self.types), name in self.right)
             for name, each in self.series.items()
         ]
-        self.chart.show(shown, self.window, now_s)
+        self.chart.show(shown, self.window, now_s, self.across)
         if not self.curves:
             self.note.text("Choose a topic and one of its fields.")
         else:
@@ -129,8 +142,11 @@ class Plot(Panel):
             text: known
             if (known := self.series.get(text)) and known.how == how
             else Series(text, how, known)
-            for text in list(dict.fromkeys(self.curves))[:MAX_CURVES]
+            for text in list(dict.fromkeys([*self._across(), *self.curves]))[:MAX_CURVES]
         }
+
+    def _across(self) -> list[str]:
+        return [self.across] if self.across else []
 
     def _offer(self) -> None:
         self.topics.offer([NOTHING, *sorted(self.types)], self.topic)
@@ -146,7 +162,17 @@ class Plot(Panel):
             self._set([*self.curves, text], browser)
 
     def _remove(self, name: str, browser: int | None) -> None:
-        self._set([each for each in self.curves if each != name], browser)
+        if name == self.across:
+            self.send(SetPanelProperty(self.id, "across", ""), browser)
+        if name in self.curves:
+            self._set([each for each in self.curves if each != name], browser)
+
+    def _seek(self, time_s: float, browser: int | None) -> None:
+        at_ns = round(time_s * NS_PER_S)
+        if (playback := self.state.playback) is not None:
+            first_ns = playback.start_ns + round(playback.first_s * NS_PER_S)
+            at_ns = max(first_ns, min(at_ns, playback.end_ns))
+        self.send(seek_to(self.state, at_ns), browser)
 
     def _set(self, curves: list[str], browser: int | None) -> None:
         self.send(SetPanelProperty(self.id, "curves", curves), browser)

@@ -9,9 +9,15 @@ import { download } from "../shell/download.js";
 import { timeOfDay } from "../shell/time_text.js";
 import { csv, curvesOf, extent, statistics, valueAt } from "./curves.js";
 import { draw, inside } from "./draw.js";
+import { hover, onHover, seeking } from "./hover.js";
 import { at, changed, numberText, roomy } from "./scale.js";
 
 /** @import {Curve, Facts, Piece, Range, ValuesOf, Vec2} from "../types.js" */
+
+/**
+ * @typedef {{window: number, now: number, across: number, seeks: boolean, curves: Facts[]}} ChartFacts
+ *   `across` is the key of the curve that stands in place of time, -1 for none
+ */
 
 const WHEEL = 1.2;
 const HUES = [210, 28, 140, 0, 270, 180, 60, 320, 100, 240, 15, 160];
@@ -27,10 +33,10 @@ const KEYS = {
 const color = (key) => `hsl(${HUES[key % HUES.length]} 75% 55%)`;
 
 /**
- * See `plugin_widgets.js`; `send(name)` removes a curve.
+ * See `plugin_widgets.js`; `send(name)` removes a curve, `send(String(time))` goes to a time.
  *
  * @param {unknown} _
- * @param {(value: string) => void} send
+ * @param {(value: string) => unknown} send
  */
 export function chart(_, send) {
   /** @type {WeakMap<object, Piece>} */
@@ -39,8 +45,8 @@ export function chart(_, send) {
   let live = []; // the curves as they are
   /** @type {Curve[] | null} */
   let held = null; // and as they were when this page paused
-  /** @type {{window: number, now: number, curves: Facts[]}} */
-  let facts = { window: 1, now: 0, curves: [] };
+  /** @type {ChartFacts} */
+  let facts = { window: 1, now: 0, across: -1, seeks: false, curves: [] };
   let end = 0; // of the window, stands still while paused
   /** @type {{times: Range, values: Range | null} | null} */
   let zoomed = null; // {times, values}; values null for those that fit
@@ -50,6 +56,7 @@ export function chart(_, send) {
   let drag = null;
   let frame = 0;
   let hasSums = false;
+  let isFollowed = false;
 
   const canvas = el("canvas", {
     class: "wv-chart-canvas",
@@ -87,15 +94,39 @@ export function chart(_, send) {
   const observer = new ResizeObserver(later);
   observer.observe(canvas);
 
+  const go = seeking((time) => send(String(time)));
+  const follow = needs(
+    "UseWidget",
+    iconButton("clock", "Move the time with the pointer", () => {
+      isFollowed = !isFollowed;
+      set(follow, { "aria-pressed": String(isFollowed) });
+    }),
+  );
+  follow.hidden = true;
+  sums.after(follow);
+  const unshare = onHover((time) => {
+    cursor = time;
+    later();
+  });
+
   const shown = () => held ?? live;
+  const across = () => shown().find(({ key: one }) => one === facts.across) ?? null;
+  /** @param {boolean} right */
+  const curvesAt = (right) => shown().filter((each) => each.right === right && each !== across());
+  const hasRight = () => curvesAt(true).length > 0;
   const times = () => zoomed?.times ?? [end - facts.window, end];
-  const values = () => zoomed?.values ?? roomy(...extent(shown(), times()));
+  const values = () => zoomed?.values ?? roomy(...extent(curvesAt(false), times()));
 
   function later() {
     frame ||= requestAnimationFrame(() => {
       frame = 0;
       if (!element.isConnected) return;
-      draw(canvas, { curves: shown(), colors: color, times: times(), values: values(), cursor });
+      const over = across();
+      draw(canvas, {
+        ...{ curves: shown(), colors: color, times: times(), values: values(), cursor },
+        right: hasRight() ? roomy(...extent(curvesAt(true), times())) : null,
+        across: over && { curve: over, range: roomy(...extent([over], times())) },
+      });
       readOut();
     });
   }
@@ -120,7 +151,7 @@ export function chart(_, send) {
     later();
   }
 
-  const area = () => inside(canvas.clientWidth, canvas.clientHeight);
+  const area = () => inside(canvas.clientWidth, canvas.clientHeight, hasRight());
 
   // Where in the area of the curves a pointer is, from 0 to 1 each, y upwards.
   /**
@@ -175,7 +206,10 @@ export function chart(_, send) {
    */
   function move(event) {
     const place = shares(event);
-    if (!drag) return point(place[0] >= 0 && place[0] <= 1 ? at(place[0], times()) : null);
+    if (!drag) {
+      const isInside = place[0] >= 0 && place[0] <= 1 && !across();
+      return point(isInside ? at(place[0], times()) : null);
+    }
     const [dx, dy] = [place[0] - drag.from[0], place[1] - drag.from[1]];
     const { width, height } = area();
     drag.isFar ||= Math.hypot(dx * width, dy * height) > 3;
@@ -241,8 +275,8 @@ export function chart(_, send) {
   /** @param {number | null} time */
   function point(time) {
     if (time === cursor) return;
-    cursor = time;
-    later();
+    hover(time);
+    if (isFollowed && time !== null) go(time);
   }
 
   function readOut() {
@@ -318,7 +352,7 @@ export function chart(_, send) {
   }
 
   /**
-   * @param {{window: number, now: number, curves: Facts[]}} next
+   * @param {ChartFacts} next
    * @param {ValuesOf<"panel">} store
    * @param {string} id
    */
@@ -327,11 +361,17 @@ export function chart(_, send) {
     live = curvesOf(facts.curves, store, id, known);
     held &&= held.filter(({ key: one }) => live.some((curve) => curve.key === one));
     if (!held) end = facts.now;
+    follow.hidden = !facts.seeks || facts.across >= 0;
     showLegend();
     set(element, { "data-empty": live.length ? null : "" });
     later();
   }
 
+  function close() {
+    observer.disconnect();
+    unshare();
+  }
+
   mark();
-  return { element, update, close: () => observer.disconnect() };
+  return { element, update, close };
 }

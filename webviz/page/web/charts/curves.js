@@ -12,14 +12,14 @@
  * @returns {Curve[]}
  */
 export function curvesOf(facts, values, id, known) {
-  return facts.map(({ key, name, problem, chunks: [first, end] }) => {
+  return facts.map(({ key, name, problem, right, chunks: [first, end] }) => {
     /** @type {Piece[]} */
     const pieces = [];
     for (let number = first; number < end; number++) {
       const part = values.get(`${id}/${key}.${number}`);
       if (part) pieces.push(pieceOf(/** @type {Parameters<typeof pieceOf>[0]} */ (part), known));
     }
-    return { key, name, problem, pieces };
+    return { key, name, problem, right, pieces };
   });
 }
 
@@ -67,6 +67,28 @@ export function visit({ pieces }, [from, to], take) {
     }
   }
   if (before) take(...before);
+}
+
+/**
+ * A curve whose times are the values that another curve has then, for drawing one over the other.
+ *
+ * @param {Curve} curve
+ * @param {Curve} across
+ * @param {Range} range of time
+ * @returns {[number, number][]} NaN where the line ends
+ */
+export function pairs(curve, across, range) {
+  /** @type {Vec2[]} */
+  const places = [];
+  visit(across, range, (time, value) => places.push([time, value]));
+  /** @type {Vec2[]} */
+  const found = [];
+  let at = 0;
+  visit(curve, range, (time, value) => {
+    while (at + 1 < places.length && places[at + 1][0] <= time) at += 1;
+    if (places.length && places[at][0] <= time) found.push([places[at][1], value]);
+  });
+  return found;
 }
 
 /**

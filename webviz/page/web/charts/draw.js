@@ -2,10 +2,11 @@
 
 import { fitted } from "./canvas.js";
 import { timeOfDay } from "../shell/time_text.js";
-import { visit } from "./curves.js";
+import { pairs, visit } from "./curves.js";
 import { numberText, share, ticks } from "./scale.js";
 
-/** @import {Area, Curve, Range} from "../types.js" */
+/** @import {Area, Curve, Range, Vec2} from "../types.js" */
+/** @typedef {{curve: Curve, range: Range}} Across another curve in place of time, and its values */
 
 export const LEFT = 52;
 export const BOTTOM = 18;
@@ -18,35 +19,59 @@ const PER_TICK = [70, 36];
  *
  * @param {number} width
  * @param {number} height
+ * @param {boolean} [isTwo] with an axis at the right, too
  * @returns {Area}
  */
-export const inside = (width, height) => ({
+export const inside = (width, height, isTwo = false) => ({
   left: LEFT,
   top: TOP,
-  width: Math.max(1, width - LEFT - RIGHT),
+  width: Math.max(1, width - LEFT - (isTwo ? LEFT : RIGHT)),
   height: Math.max(1, height - TOP - BOTTOM),
 });
 
 /**
- * Draws `{curves, colors, times, values, cursor}`: ranges of both axes, and a time or null.
+ * Draws `{curves, colors, times, values, right, across, cursor}`: ranges of the axes, and a time or null.
  *
  * @param {HTMLCanvasElement} canvas
- * @param {{curves: Curve[], colors: (key: number) => string, times: Range, values: Range, cursor: number | null}} shown
+ * @param {{
+ *   curves: Curve[], colors: (key: number) => string, times: Range, values: Range, right: Range | null,
+ *   across: Across | null, cursor: number | null,
+ * }} shown
  */
-export function draw(canvas, { curves, colors, times, values, cursor }) {
+export function draw(canvas, { curves, colors, times, values, right, across, cursor }) {
   const { context, ratio, width, height } = fitted(canvas);
-  const area = inside(width, height);
+  const area = inside(width, height, right !== null);
   /** @param {number} time */
   const x = (time) => area.left + share(time, times) * area.width;
   /** @param {number} value */
   const y = (value) => area.top + (1 - share(value, values)) * area.height;
+  /** @param {number} value */
+  const yRight = (value) => area.top + (1 - share(value, right ?? values)) * area.height;
   const style = getComputedStyle(canvas);
-  grid(context, area, { times, values, x, y }, style);
-  context.save();
-  context.beginPath();
-  context.rect(area.left, area.top, area.width, area.height);
-  context.clip();
-  curves.forEach((curve) => line(context, curve, { times, x, y, color: colors(curve.key), ratio }));
+  if (across) {
+    /** @param {number} value */
+    const along = (value) => area.left + share(value, across.range) * area.width;
+    grid(
+      context,
+      area,
+      { times: across.range, values, right, x: along, y, text: numberText },
+      style,
+    );
+    clip(context, area);
+    for (const curve of curves) {
+      if (curve === across.curve) continue;
+      const places = pairs(curve, across.curve, times);
+      path(context, places, { x: along, y: curve.right ? yRight : y, color: colors(curve.key) });
+    }
+    context.restore();
+    return;
+  }
+  grid(context, area, { times, values, right, x, y, text: tickText }, style);
+  clip(context, area);
+  for (const curve of curves) {
+    const to = { times, x, y: curve.right ? yRight : y, color: colors(curve.key), ratio };
+    line(context, curve, to);
+  }
   if (cursor !== null) {
     context.strokeStyle = style.getPropertyValue("--wv-quiet");
     stroke(context, x(cursor), area.top, x(cursor), area.top + area.height);
@@ -57,10 +82,50 @@ export function draw(canvas, { curves, colors, times, values, cursor }) {
 /**
  * @param {CanvasRenderingContext2D} context
  * @param {Area} area
- * @param {{times: Range, values: Range, x: (time: number) => number, y: (value: number) => number}} axes
+ */
+function clip(context, { left, top, width, height }) {
+  context.save();
+  context.beginPath();
+  context.rect(left, top, width, height);
+  context.clip();
+}
+
+/**
+ * Draws a curve over another one, with a dot at its newest value.
+ *
+ * @param {CanvasRenderingContext2D} context
+ * @param {Vec2[]} places
+ * @param {{x: (value: number) => number, y: (value: number) => number, color: string}} axes
+ */
+function path(context, places, { x, y, color }) {
+  context.strokeStyle = context.fillStyle = color;
+  context.lineWidth = 1.5;
+  context.lineJoin = "round";
+  context.beginPath();
+  let isDown = false;
+  for (const [across, value] of places) {
+    const isFinite = Number.isFinite(across) && Number.isFinite(value);
+    if (isFinite) context[isDown ? "lineTo" : "moveTo"](x(across), y(value));
+    isDown = isFinite;
+  }
+  context.stroke();
+  const newest = places.findLast(([across, value]) => Number.isFinite(across + value));
+  if (!newest) return;
+  context.beginPath();
+  context.arc(x(newest[0]), y(newest[1]), 4, 0, 2 * Math.PI);
+  context.fill();
+}
+
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {Area} area
+ * @param {{
+ *   times: Range, values: Range, right: Range | null, x: (time: number) => number,
+ *   y: (value: number) => number, text: (value: number, span: number) => string,
+ * }} axes
  * @param {CSSStyleDeclaration} style
  */
-function grid(context, area, { times, values, x, y }, style) {
+function grid(context, area, { times, values, right, x, y, text: textOf }, style) {
   context.lineWidth = 1;
   context.font = "11px system-ui, sans-serif";
   context.strokeStyle = style.getPropertyValue("--wv-line");
@@ -71,11 +136,19 @@ function grid(context, area, { times, values, x, y }, style) {
     stroke(context, area.left, y(value), area.left + area.width, y(value));
     context.fillText(numberText(value, values[1] - values[0]), area.left - 4, y(value), LEFT - 6);
   }
+  context.textAlign = "left";
+  const edge = area.left + area.width;
+  for (const value of right ? ticks(...right, Math.max(2, area.height / PER_TICK[1])) : []) {
+    const level = area.top + (1 - share(value, right ?? values)) * area.height;
+    stroke(context, edge, level, edge + 3, level);
+    const text = numberText(value, right ? right[1] - right[0] : 0);
+    context.fillText(text, edge + 5, level, LEFT - 8);
+  }
   context.textBaseline = "top";
   context.textAlign = "center";
   for (const time of ticks(...times, Math.max(2, area.width / PER_TICK[0]))) {
     stroke(context, x(time), area.top, x(time), area.top + area.height);
-    const text = tickText(time, times[1] - times[0]);
+    const text = textOf(time, times[1] - times[0]);
     const last = area.left + area.width + RIGHT - context.measureText(text).width / 2;
     context.fillText(text, Math.min(x(time), last), area.top + area.height + 4);
   }
