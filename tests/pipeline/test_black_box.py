@@ -26,6 +26,7 @@ from webviz.sources import Offer, Publisher, Raw
 from webviz_displays.path import Path as PathDisplay
 
 PATH = "nav_msgs/msg/Path"
+JOINTS = "sensor_msgs/msg/JointState"
 PUBLISHER = Publisher("/planner", PATH, "reliable", "volatile")
 SCAN = WatchRule(display="Scan", status="error", lasting="2s")
 
@@ -61,6 +62,30 @@ def test_what_is_not_known_neither_fires_nor_clears() -> None:
     assert fired(watcher, {0: Level.ERROR, 2: Level.ERROR}) == [2]
     assert fired(watcher, dict.fromkeys(range(3, 90))) == []
     assert fired(watcher, {90: Level.ERROR, 92: Level.ERROR}) == []
+
+
+def test_a_number_of_a_message_path_fires_a_rule() -> None:
+    battery = WatchRule(path="/battery.level[motor].@abs", value="<0.2")
+    joints = WatchRule(path="/joints.position[left].@derivative", value=">= 5")
+    observer, watcher = TopicObserver(), RuleWatcher([battery, joints])
+
+    def send(at_s: float, *values: float, name: str = "left") -> list[str]:
+        for i, value in enumerate(values):
+            message = encode(JOINTS, {"name": [name], "position": [value]})
+            observer.put("/joints", Raw(message, round((at_s + i / 100) * 1e9), at_s))
+        moment = WatchedMoment(at_s, numbers=observer.numbers())
+        return [rule.title for rule in watcher.fired(moment)]
+
+    observer.observe(["/joints"], {}, {joints.path: JOINTS})
+    assert send(0.0) == []
+    assert send(1.0, 1.0, 1.01) == []
+    assert send(2.0, 99.0, name="right") == []
+    observer.put("/joints", Raw(b"\0\1\0\0", 0, 0.0))
+    assert send(3.0, 1.0, 1.5, 1.5) == ["/joints.position[left].@derivative >= 5"]
+    assert send(4.0, *[1.0] * 1000) == []  # of many, the last count
+    assert battery.watched_topic == "/battery"
+    observer.observe([], {}, {})
+    assert observer.numbers() == {}
 
 
 def test_rates_are_known_after_some_seconds_and_fall_with_silence() -> None:
@@ -107,6 +132,11 @@ def test_levels_are_those_of_messages(type_name: str, values: dict[str, Any], le
         ("{rule: Scan.wals > 0.8}", "watch[0]: `Scan.wals > 0.8`: unknown value wals. Use status,"),
         ("{topic: /a, rate: '5'}", "watch[0]: rate `5` is not a condition. Write it like"),
         ("{topic: /a, rate: '<5', for: soon}", "watch[0]: for `soon` is not a duration."),
+        ("{path: /a.x}", "watch[0]: a rule is one condition."),
+        ("{path: /a.x, value: '<1', topic: /a}", "watch[0]: a rule is one condition."),
+        ("{path: /a.x, value: low}", "watch[0]: value `low` is not a condition. Write it like"),
+        ("{path: /a, value: '<1'}", "watch[0]: path `/a` has no field. Add one, such as .data."),
+        ("{path: '/a.x[', value: '<1'}", "watch[0]: path: "),
         ("{display: Scan, status: bad}", "watch[0].status: expected warn or error, got `bad`."),
         ("{display: Scan, state: error}", "watch[0].state: unknown key"),
     ],

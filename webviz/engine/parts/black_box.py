@@ -123,7 +123,13 @@ class BlackBoxPart(Part):
         if not self._watcher.rules:
             return
         wanted = self._subscriber_types()
-        self._observer.observe([*wanted], {t: w for t, w in wanted.items() if w in LEVEL_TYPES})
+        leveled = {t: w for t, w in wanted.items() if w in LEVEL_TYPES}
+        paths = {
+            rule.path: wanted[topic]
+            for rule in self._watcher.rules
+            if rule.path and (topic := rule.watched_topic) in wanted
+        }
+        self._observer.observe([*wanted], leveled, paths)
         for rule in self._watcher.fired(self._observation(self._is_live())):
             self._save(rule, live)
         self._go_on(live)
@@ -167,7 +173,8 @@ class BlackBoxPart(Part):
 
     def _resolved(self, rule: WatchRule) -> str:
         try:
-            return self.core.source.resolve(rule.topic) if rule.topic else ""
+            topic = rule.watched_topic
+            return self.core.source.resolve(topic) if topic else ""
         except ValueError:
             return ""
 
@@ -184,7 +191,8 @@ class BlackBoxPart(Part):
             if name in levels:
                 levels[rule.topic] = levels[name]
         kept = {each.rule.text: each.holds for each in self._verdicts} if is_live else {}
-        return WatchedMoment(now_s, displays, rates, levels, kept)
+        numbers = self._observer.numbers()
+        return WatchedMoment(now_s, displays, rates, levels, numbers, kept)
 
     def _save(self, rule: WatchRule, live: Rewindable) -> None:
         """Begin to save, unless that goes on already or is too much."""

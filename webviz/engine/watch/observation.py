@@ -4,17 +4,22 @@ from __future__ import annotations
 
 import threading
 from collections import deque
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from webviz.api.status import Level
 from webviz.data.messages import MessageError, decode
+from webviz.data.messages.message_paths import MessagePath
+from webviz.data.messages.paths import PathError
 from webviz.sources import Raw
 
 SPAN_S = 3.0
 """Over how long a rate is measured."""
 LEVEL_S = 2.0
 """Duration for which the level of a message counts."""
+MAX_UNREAD = 20
+"""Messages of a topic whose numbers are not read yet; of more, the last count."""
+NS_PER_S = 1e9
 MAX_WAITING = 100
 """Messages of a topic whose level is not read yet."""
 DIAGNOSTICS, LOG = "diagnostic_msgs/msg/DiagnosticArray", "rcl_interfaces/msg/Log"
@@ -31,6 +36,8 @@ class WatchedMoment:
         displays: levels by name; of several displays of a name, the worst.
         rates: messages per second by topic, of those that were received long enough.
         levels: the worst level of the last messages by topic.
+        numbers: those that paths name, by path: of the messages since the last moment, or else of
+            the last ones.
         kept: whether the conditions of rules hold, by their text; None while that is unknown.
     """
 
@@ -38,6 +45,7 @@ class WatchedMoment:
     displays: Mapping[str, Level] = field(default_factory=dict)
     rates: Mapping[str, float] = field(default_factory=dict)
     levels: Mapping[str, Level] = field(default_factory=dict)
+    numbers: Mapping[str, Sequence[float]] = field(default_factory=dict)
     kept: Mapping[str, bool | None] = field(default_factory=dict)
 
 
@@ -52,16 +60,34 @@ class TopicObserver:
         self._first: dict[str, float] = {}
         self._waiting: dict[str, deque[Raw]] = {}
         self._levels: dict[str, tuple[float, Level]] = {}
+        self._typed: Mapping[str, str] = {}
+        self._paths: dict[str, _WatchedPath] = {}
+        self._unread: dict[str, deque[Raw]] = {}
 
-    def observe(self, counted: Collection[str], leveled: Mapping[str, str]) -> None:
+    def observe(
+        self,
+        counted: Collection[str],
+        leveled: Mapping[str, str],
+        paths: Mapping[str, str] | None = None,
+    ) -> None:
         """Observe exactly these topics.
 
         Args:
             counted: those whose rate is measured.
             leveled: types by topic, of those whose levels are read.
+            paths: types by message path, of those whose numbers are read.
         """
+        self._typed = paths or {}
+        if self._paths.keys() != self._typed.keys():
+            known = self._paths
+            self._paths = {text: known.get(text) or _WatchedPath(text) for text in self._typed}
+        topics = {each.path.topic for each in self._paths.values()}
         with self._lock:
             self._counted, self._leveled = counted, leveled
+            for topic in self._unread.keys() - topics:
+                del self._unread[topic]
+            for topic in topics:
+                self._unread.setdefault(topic, deque(maxlen=MAX_UNREAD))
             for table in (self._arrivals, self._first):
                 for gone in table.keys() - set(counted):
                     del table[gone]
@@ -78,6 +104,8 @@ class TopicObserver:
                 arrivals.append(raw.arrived_s)
                 while arrivals[0] < raw.arrived_s - SPAN_S:
                     arrivals.popleft()
+        if (unread := self._unread.get(topic)) is not None:
+            unread.append(raw)
         if topic in self._leveled:
             with self._lock:
                 self._waiting.setdefault(topic, deque(maxlen=MAX_WAITING)).append(raw)
@@ -106,6 +134,37 @@ class TopicObserver:
             topic: level if now_s - at_s <= LEVEL_S else Level.OK
             for topic, (at_s, level) in self._levels.items()
         }
+
+    def numbers(self) -> dict[str, Sequence[float]]:
+        """Return the numbers of paths, of those that were found so far."""
+        batches: dict[str, list[Raw]] = {}
+        for topic, unread in self._unread.items():
+            batches[topic] = [unread.popleft() for _ in range(len(unread))]
+        for text, each in self._paths.items():
+            if batch := batches[each.path.topic]:
+                each.read(self._typed[text], batch)
+        return {text: each.numbers for text, each in self._paths.items() if each.numbers}
+
+
+class _WatchedPath:
+    """The numbers of a path in the last messages that had it."""
+
+    def __init__(self, text: str) -> None:
+        self.path = MessagePath(text)
+        self.numbers: Sequence[float] = ()
+        self._over_time: Callable[[float, float], float] | None = self.path.over_time()
+
+    def read(self, type_name: str, batch: Sequence[Raw]) -> None:
+        """Read messages; those that lack the number count as none."""
+        found: list[float] = []
+        for raw in batch:
+            try:
+                number = self.path.number(decode(type_name, raw.cdr))
+            except (MessageError, PathError):
+                continue
+            time_s = raw.received_ns / NS_PER_S
+            found.append(self._over_time(time_s, number) if self._over_time else number)
+        self.numbers = found
 
 
 def _level(type_name: str, raw: Raw) -> Level:

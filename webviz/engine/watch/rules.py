@@ -39,6 +39,9 @@ def holds(rule: WatchRule, now: WatchedMoment) -> bool | None:
     if condition := rule.condition:
         is_kept = now.kept.get(condition.text)
         return None if is_kept is None else not is_kept
+    if rule.path:
+        numbers = now.numbers.get(rule.path)
+        return None if numbers is None else any(map(rule.holds_for, numbers))
     if rule.display:
         level, least = now.displays.get(rule.display), rule.status
     elif rule.rate_limit is not None:

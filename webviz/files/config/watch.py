@@ -8,14 +8,17 @@ from typing import Annotated, Literal
 import msgspec
 
 from webviz.api.declared import Prop
-from webviz.api.rule import Rule, parse_rule
+from webviz.api.rule import COMPARISONS, Rule, parse_rule
+from webviz.data.messages.message_paths import MessagePath
+from webviz.data.messages.paths import PathError
 
 FORMS = (
     "Write {rule: Scan.walls > 0.8}, {display: NAME, status: error}, {topic: /diagnostics, level: "
-    'error} or {topic: /scan, rate: "<5"}.'
+    'error}, {topic: /scan, rate: "<5"} or {path: /battery_state.percentage, value: "<0.2"}.'
 )
 _NAME = "[A-Za-z_][A-Za-z0-9_]*"
 RATE = re.compile(r"[<>] ?\d+(\.\d+)?")
+VALUE = re.compile(r"(?P<comparison>[<>]=?|[=!]=) ?(?P<limit>-?\d+(\.\d+)?([eE][+-]?\d+)?)")
 DURATION = re.compile(r"\d+(\.\d+)? ?(ms|s|min)")
 _SECONDS = {"ms": 0.001, "s": 1.0, "min": 60.0}
 
@@ -55,6 +58,14 @@ class WatchRule(
     rate: Annotated[
         str, msgspec.Meta(max_length=20), Prop(help='Messages per second, such as "<5".')
     ] = ""
+    path: Annotated[
+        str,
+        msgspec.Meta(max_length=300),
+        Prop(help="Message path of a number that is watched, such as /battery_state.percentage."),
+    ] = ""
+    value: Annotated[
+        str, msgspec.Meta(max_length=30), Prop(help='Condition for that number, such as "<0.2".')
+    ] = ""
     lasting: Annotated[
         str,
         msgspec.Meta(max_length=20),
@@ -70,18 +81,47 @@ class WatchRule(
         of_topic = self.level is not None, bool(self.rate)
         is_display = all(of_display) and not self.topic and not any(of_topic)
         is_topic = bool(self.topic) and sum(of_topic) == 1 and not any(of_display)
+        is_path = bool(self.path) and bool(self.value)
+        if bool(self.path) != bool(self.value) or (
+            is_path and (self.topic or any(of_topic) or any(of_display) or self.rule)
+        ):
+            raise ValueError(f"a rule is one condition. {FORMS}")
         is_rule = bool(self.rule) and not (self.display or self.topic or self.lasting)
         if self.rule and is_rule:
             parse_rule(self.rule)
             is_rule = self.status is None and not any(of_topic)
-        if is_display + is_topic + is_rule != 1 or (self.rule and not is_rule):
+        if is_display + is_topic + is_rule + is_path != 1 or (self.rule and not is_rule):
             raise ValueError(f"a rule is one condition. {FORMS}")
         if self.rate and not RATE.fullmatch(self.rate):
             raise ValueError(
                 f'rate `{self.rate}` is not a condition. Write it like "<5" or ">100".'
             )
+        if is_path:
+            self._check_path()
         if self.lasting and not DURATION.fullmatch(self.lasting):
             raise ValueError(f"for `{self.lasting}` is not a duration. Write it like 2s or 500ms.")
+
+    def _check_path(self) -> None:
+        if not VALUE.fullmatch(self.value):
+            raise ValueError(
+                f'value `{self.value}` is not a condition. Write it like "<0.2" or "==3".'
+            )
+        try:
+            path = MessagePath(self.path)
+        except PathError as error:
+            raise ValueError(f"path: {error}") from error
+        if not path.has_field:
+            raise ValueError(f"path `{self.path}` has no field. Add one, such as .data.")
+
+    @property
+    def watched_topic(self) -> str:
+        """The topic that is read, "" for none."""
+        return MessagePath(self.path).topic if self.path else self.topic
+
+    def holds_for(self, number: float) -> bool:
+        """Return whether the condition `value` holds for a number."""
+        found = VALUE.fullmatch(self.value)
+        return found is not None and COMPARISONS[found["comparison"]](number, float(found["limit"]))
 
     @property
     def condition(self) -> Rule | None:
@@ -104,6 +144,8 @@ class WatchRule(
     @property
     def title(self) -> str:
         """Its name, or what it is about."""
+        if self.path:
+            return self.name or f"{self.path} {self.value}"
         about = self.status or self.level or f"rate {self.rate}"
         return self.name or self.rule or f"{self.display or self.topic} {about}"
 
