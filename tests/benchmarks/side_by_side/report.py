@@ -16,6 +16,8 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
+from webviz.data.words import counted
+
 ROOT = Path(__file__).parents[3]
 BENCHMARKS, README = ROOT / "tests/benchmarks/README.md", ROOT / "README.md"
 BEGIN, END = "<!-- begin figures -->", "<!-- end figures -->"
@@ -59,10 +61,11 @@ def facts(report: Mapping[str, Any]) -> str:
         f"{name} {version}" for name, version in report["versions"].items() if name != "webviz"
     ]
     machine = [report[name] for name in ("processor", "memory", "system")]
+    where = ", ".join([report["date"], f"webviz {report['commit']}", *machine, *versions])
+    rounds, seconds = counted(report["rounds"], "round"), report["seconds of each load"]
     return (
-        f"{report['date']}, webviz {report['commit']}, {', '.join([*machine, *versions])}; "
-        f"{report['rounds']} rounds of {report['seconds of each load']:g} s a load. Other programs "
-        f"took {usual:.0f} % of a core in the median, {most:.0f} % at most."
+        f"{where}; {rounds} of {seconds:g} s a load. Other programs took {usual:.0f} % of a core "
+        f"in the median, {most:.0f} % at most."
     )
 
 

@@ -10,6 +10,7 @@ import webbrowser
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from webviz.api.check_registry import known_checks
 from webviz.api.registry import display_types
 from webviz.data.messages import type_exists
 from webviz.files.config import Config
@@ -110,6 +111,8 @@ def serve(
                 else:
                     with contextlib.suppress(OSError):  # the terminal was closed meanwhile
                         _announce(options, viewer, note)
+                # A hundred modules, which the frame loop would import for the first browser.
+                known_checks()
                 viewer.wait()
     say_end("\nwebviz: stopped." if is_shown else "webviz: interrupted.")
     return 0 if is_shown else INTERRUPTED
