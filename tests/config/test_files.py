@@ -16,6 +16,7 @@ from pathlib import Path
 
 import pytest
 
+from webviz.data import disk
 from webviz.data.disk import MAX_THREADS, DiskThreads, in_thread, within
 from webviz.files.config import Config, ConfigError, write_text
 from webviz.files.opening import load, parse, save
@@ -110,6 +111,22 @@ def test_a_thread_that_cannot_start_leaves_its_place(monkeypatch: pytest.MonkeyP
         with pytest.raises(OSError, match="no thread is left"):
             threads.start(lambda: None)
     assert threads.within(60.0, lambda: "started") == "started"
+
+
+def test_a_thread_takes_more_work_and_ends_when_there_is_none(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    threads = DiskThreads(2)
+    first = threads.within(60.0, threading.current_thread)
+    assert any(threads.within(60.0, threading.current_thread) is first for _ in range(1000))
+    both = threading.Barrier(2)
+    waiting = [threads.start(lambda: both.wait(60.0)) for _ in range(2)]
+    assert sorted(each.result(60.0) for each in waiting) == [0, 1]
+    monkeypatch.setattr(disk, "KEPT_S", 0.01)
+    last = (brief := DiskThreads(1)).within(60.0, threading.current_thread)
+    last.join(60.0)
+    assert not last.is_alive()
+    assert brief.within(60.0, threading.current_thread) is not last
 
 
 def _fail() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import queue
 import threading
 from collections.abc import Callable
 from concurrent.futures import Future
@@ -11,13 +12,17 @@ from typing import TypeVar
 MAX_THREADS = 16
 """Of `in_thread` at once; a thread that waits for a dead mount cannot be ended."""
 
+KEPT_S = 10.0
+"""Seconds for which a thread waits for more work."""
+
 T = TypeVar("T")
 
 
 class DiskThreads:
     """Threads that wait for a disk, of which those that never return leave room for no others.
 
-    Hence each purpose has its own: what operators name must not keep the owner from saving.
+    Hence each purpose has its own: what operators name must not keep the owner from saving. Threads
+    are kept for a while: starting one waits until it runs, which takes long on a busy machine.
 
     Args:
         limit: of threads at once.
@@ -25,6 +30,10 @@ class DiskThreads:
 
     def __init__(self, limit: int) -> None:
         self._free = threading.BoundedSemaphore(limit)
+        self._work: queue.SimpleQueue[Callable[[], object]] = queue.SimpleQueue()
+        self._lock = threading.Lock()
+        self._idle = 0
+        """Threads that wait for work that nobody has promised them."""
 
     def start(self, work: Callable[[], T]) -> Future[T]:
         """Start work in a thread of its own, which does not keep the program from ending.
@@ -47,12 +56,33 @@ class DiskThreads:
             else:
                 done.set_result(result)
 
+        with self._lock:
+            is_waited_for = self._idle > 0
+            self._idle -= is_waited_for
         try:
-            threading.Thread(target=run, name="webviz-disk", daemon=True).start()
+            if not is_waited_for:
+                threading.Thread(target=self._serve, name="webviz-disk", daemon=True).start()
         except RuntimeError as error:
             self._free.release()
             raise OSError(errno.EAGAIN, "no thread is left for a file") from error
+        self._work.put(run)
         return done
+
+    def _serve(self) -> None:
+        """Work until there has been nothing to do for a while."""
+        while True:
+            try:
+                run = self._work.get(timeout=KEPT_S)
+            except queue.Empty:
+                with self._lock:
+                    if self._idle > 0:
+                        self._idle -= 1
+                        return
+                continue  # some is on its way
+            run()
+            del run  # it holds what it was for
+            with self._lock:
+                self._idle += 1
 
     def within(self, seconds: float, work: Callable[[], T]) -> T:
         """Return the result of work on a disk.
