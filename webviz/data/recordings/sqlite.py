@@ -209,6 +209,8 @@ class SqliteRecording:
             raise RecordingError(
                 f"{path} is a database of something else: give a bag of `ros2 bag record`."
             )
+        # Of messages, invalid text is damage; of topics, such as in their QoS, the rest is good.
+        self._db.text_factory = lambda text: text.decode(errors="replace")
         allowance = TextAllowance()
         definitions = self._definitions(allowance)
         names = {row[1] for row in self._db.execute("PRAGMA table_info(topics)")}
@@ -222,6 +224,7 @@ class SqliteRecording:
             if allowance.take(len(topic), len(type_name), len(encoding), len(qos)):
                 definition = definitions.get(type_name, "")
                 found[number] = RecordedChannel(topic, type_name, encoding, definition, qos)
+        self._db.text_factory = str
         return found
 
     def _definitions(self, allowance: TextAllowance) -> dict[str, str]:

@@ -192,7 +192,6 @@ def connected(path: Path) -> sqlite3.Connection:
     """
     uri = f"{path.absolute().as_uri()}?immutable=1&mode=ro"
     db = sqlite3.connect(uri, uri=True, check_same_thread=False)
-    db.text_factory = lambda text: text.decode(errors="replace")
     try:
         db.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, MAX_BYTES)
         db.execute("PRAGMA trusted_schema = OFF")
