@@ -77,6 +77,18 @@ module std_msgs { module msg { struct Header {
 IDL: builtin_interfaces/msg/Time
 module builtin_interfaces { module msg { struct Time { int32 sec; uint32 nanosec; }; }; };
 """
+ASSETS = {
+    "package://arm/a.stl": b"solid",
+    "package://arm/meshes/link.obj": b"""\
+mtllib red.mtl
+usemtl red
+v 0 0 0
+v 1 0 0
+v 0 1 0
+f 1 2 3
+""",
+    "package://arm/meshes/red.mtl": b"newmtl red\nKd 1 0 0\n",
+}
 SET_BOOL = "std_srvs/srv/SetBool"
 
 
@@ -171,9 +183,7 @@ def main(port: int, *options: str) -> None:
         supported_encodings=["cdr"],
         capabilities=[*(able if is_able else []), Capability.Time],
         services=[Service("/motor", schema=schema, handler=handle)] if is_able else None,
-        asset_handler=(lambda uri: b"solid" if uri == "package://arm/a.stl" else None)
-        if is_able
-        else None,
+        asset_handler=ASSETS.get if is_able else None,
         message_backlog_size=200 if "short" in options else None,
     )
     if is_able:

@@ -16,6 +16,7 @@ from typing import Any
 
 from webviz.data.memory import DECODING, OverBudgetError
 from webviz_urdf.glb import MeshContent, PictureFile
+from webviz_urdf.remote import with_remote_files
 from webviz_urdf.resolve import Resolver
 from webviz_urdf.robot import Robot, RobotDescriptionError
 
@@ -95,6 +96,10 @@ class Loading:
             RobotDescriptionError: it cannot be drawn; one sentence says why.
             LoadingStopped: `stop` was called.
         """
+        request = self._request
+        if not request.data:
+            named = request.text or request.mesh or request.picture
+            self._resolver = with_remote_files(named, self._resolver)
         memory = USUAL_MEMORY
         skip: dict[int, str] = {}
         while True:

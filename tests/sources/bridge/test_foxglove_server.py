@@ -14,6 +14,8 @@ from webviz.data.messages import decode, encode, interfaces
 from webviz.sources import Advertisement, NotConnected
 from webviz.sources.bridge import source as bridge_source
 from webviz.sources.graph import UNKNOWN
+from webviz_urdf import remote
+from webviz_urdf.loading import Loading, LoadRequest
 
 BATTERY = "my_robot_msgs/msg/Battery"
 SET_BOOL = "std_srvs/srv/SetBool"
@@ -100,6 +102,17 @@ def test_files_of_the_robot_are_fetched(reader: Reader) -> None:
     assert reader.source.graph.fetch("package://arm/a.stl").result(20) == b"solid"
     with pytest.raises(NotConnected, match="no such file"):
         reader.source.graph.fetch("package://arm/b.stl").result(20)
+
+
+def test_meshes_that_this_machine_lacks_come_from_the_robot(reader: Reader) -> None:
+    reader.until(lambda: reader.source.graph.nodes())  # the server has said what it can do
+    shape = "<visual><geometry><mesh filename='package://{}'/></geometry></visual>"
+    urdf = f"""<robot name="arm"><link name="base">{shape.format("arm/meshes/link.obj")}
+        {shape.format("arm/meshes/../../secret.obj")}{shape.format("arm/none.obj")}</link></robot>"""
+    robot = Loading(LoadRequest(text=urdf)).run()
+    assert [len(each.reason) > 0 for each in robot.missing] == [True, True]
+    folder = remote._folder() / "arm" / "meshes"
+    assert sorted(path.name for path in folder.iterdir()) == ["link.obj", "red.mtl"]
 
 
 def test_actions_are_refused_with_another_way(reader: Reader) -> None:

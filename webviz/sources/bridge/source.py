@@ -14,6 +14,7 @@ from websockets.asyncio.client import connect
 
 from webviz.api.bridge import Bridge
 from webviz.api.offer import Offer
+from webviz.data import assets
 from webviz.data.words import Problem
 from webviz.sources.bridge.address import Address
 from webviz.sources.bridge.connection import BridgeConnection, Silent
@@ -60,7 +61,7 @@ class BridgeSource:
 
     Args:
         address: of the bridge.
-        remappings: full topic names by the full names that displays use.
+        remappings: of full topic names.
     """
 
     def __init__(self, address: Address, remappings: Mapping[str, str] | None = None) -> None:
@@ -91,6 +92,7 @@ class BridgeSource:
         self._stop = asyncio.Event()
         self._thread = threading.Thread(target=self._run, name="webviz-bridge", daemon=True)
         self._thread.start()
+        assets.provide(self.graph.fetch)
 
     # The interface of webviz.sources.Source
 
@@ -123,6 +125,7 @@ class BridgeSource:
 
     def close(self) -> None:
         """Close the connection and end the thread."""
+        assets.withdraw(self.graph.fetch)
         self.soon(self._stop.set)
         self._is_closed = True
         self._thread.join()
@@ -350,8 +353,7 @@ class BridgeSource:
         if (session := self._session) is not None:
             topics = session.topics
             # A new connection begins without topics; those of before hold until it has some.
-            if topics or not self._topics or self._bridges[0].is_up:
-                self._topics = topics
+            self._topics = topics if topics or self._bridges[0].is_up else self._topics
             self._nodes = session.nodes
         offers = {topic: self._offer(topic, carried) for topic, carried in self._topics.items()}
         if offers != self._offers:
@@ -388,8 +390,7 @@ class BridgeSource:
             tuple(session.limits) if session else before.limits,
             self._round_trip_s,
         )
-        if link != before:
-            self._bridges = (link,)
+        self._bridges = (link,) if link != before else self._bridges
 
     def _remarks(self, session: BridgeSession) -> list[str]:
         socket = self._socket
