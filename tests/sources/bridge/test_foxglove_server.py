@@ -9,6 +9,7 @@ from collections.abc import Iterator
 
 import pytest
 from bridges import SCAN, STRING, TF, FoxgloveServer, Reader, foxglove_server, reading
+from slow_link import SlowLink
 
 from webviz.data.messages import decode, encode, interfaces
 from webviz.sources import Advertisement, NotConnected
@@ -194,3 +195,19 @@ def test_a_server_that_hangs_gets_no_late_commands(monkeypatch: pytest.MonkeyPat
         server.signal(signal.SIGCONT)
         reader.until_up()
         assert reader.source.graph.publish(CMD_VEL, cdr).exception(20) is None
+
+
+def test_what_a_slow_link_loses_is_estimated() -> None:
+    with foxglove_server(0, "short") as server:
+        link = SlowLink(server.port, rate=400_000, delay_s=0.0)
+        try:
+            with reading(f"ws://127.0.0.1:{link.get_port()}") as reader:
+                reader.until_up()
+                reader.want(map="nav_msgs/msg/OccupancyGrid", scan=SCAN)
+                reader.receive("/scan", 10)
+                server.do("burst /map 600 40000")
+                reader.until(
+                    lambda: any("the bridge dropped about" in r for r in reader.bridge.remarks)
+                )
+        finally:
+            link.close()

@@ -7,12 +7,13 @@ from collections.abc import Collection, Mapping, Sequence
 from concurrent.futures import Future
 from typing import Any
 
-from webviz.api.offer import Durability, Publisher
+from webviz.api.offer import Durability, Endpoint, Publisher
 from webviz.data.messages import UnknownTypeError, definition
 from webviz.data.words import plain
 from webviz.sources.bridge import foxglove_wire as wire
 from webviz.sources.bridge.foxglove_channels import FoxgloveChannels
 from webviz.sources.bridge.foxglove_graph import ConnectionGraph
+from webviz.sources.bridge.foxglove_schemas import conversion, problem_of
 from webviz.sources.bridge.session import CarriedTopic, Host
 from webviz.sources.graph import UNKNOWN, Advertisement, Missing, NotConnected
 from webviz.sources.source import Subscription
@@ -58,6 +59,8 @@ class FoxgloveSession:
         self._wishes: Mapping[str, Subscription] = {}
         self._lines: dict[str, tuple[int, int, int]] = {}
         """By topic: id of our subscription, that of the channel, and `asked` of the wish."""
+        self._foreign: dict[str, wire.ServerChannel] = {}
+        """By topic: subscribed channels of Foxglove's own schemas."""
         self._topic_of: dict[int, str] = {}
         """By id of our subscription."""
         self._problems: dict[str, str] = {}
@@ -142,7 +145,8 @@ class FoxgloveSession:
     def publish(self, advertisement: Advertisement, cdr: bytes) -> int:
         """Publish a message; raises NotConnected."""
         self._host.send(wire.publish(self._advertise(advertisement), cdr))
-        return self._graph.subscribers(advertisement.topic, UNKNOWN)
+        names = self._graph.subscribers(advertisement.topic)
+        return UNKNOWN if names is None else len(names)
 
     def call(self, service: str, type: str, request: bytes, answer: Future[bytes]) -> None:
         """Call a service; raises NotConnected."""
@@ -182,7 +186,7 @@ class FoxgloveSession:
             case wire.MessageData():
                 # What was on its way when a subscription ended has no topic any more.
                 if topic := self._topic_of.get(message.subscription):
-                    self._host.arrive(topic, message.payload, message.stamp_ns)
+                    self._host.arrive(topic, self._cdr(topic, message.payload), message.stamp_ns)
             case wire.TimeNow():
                 self._host.set_time(message.stamp_ns)
             case wire.ServiceResponse():
@@ -193,6 +197,12 @@ class FoxgloveSession:
                     _fail(answer, f"The bridge has no such file: {message.problem}.")
                 elif answer is not None:
                     _succeed(answer, message.data)
+
+    def _cdr(self, topic: str, payload: bytes) -> bytes:
+        """Return a message in CDR, of which others than Foxglove's own are made already."""
+        channel = self._foreign.get(topic)
+        known = channel and conversion(channel.schema_name)
+        return known.convert(channel.encoding, payload) if channel and known else payload
 
     def _take_text(self, message: Any) -> None:
         match message:
@@ -261,10 +271,11 @@ class FoxgloveSession:
         """Return the channel to subscribe to, None if none is wanted or can be read."""
         wish = self._wishes.get(topic)
         for channel in self._channels.by_topic.get(topic, ()) if wish else ():
-            if wish and channel.schema_name == wish.type and not _unread(channel):
+            if wish and _type_of(channel) == wish.type and not _unread(channel):
                 if topic in self._lines and self._lines[topic][1] == channel.id:
                     return channel
-                problem = self._host.learn(channel.schema_name, channel.schema)
+                text = "" if _is_foreign(channel) else channel.schema
+                problem = self._host.learn(wish.type, text)
                 self._problems[topic] = problem
                 if not problem:
                     return channel
@@ -274,17 +285,20 @@ class FoxgloveSession:
         id = self._new_id()
         self._lines[topic] = id, channel.id, self._wishes[topic].asked
         self._topic_of[id] = topic
+        if _is_foreign(channel):
+            self._foreign[topic] = channel
         return id, channel.id
 
     def _end(self, topic: str) -> int:
         id, _, _ = self._lines.pop(topic)
         del self._topic_of[id]
+        self._foreign.pop(topic, None)
         return id
 
     def _carried(self, topic: str, channels: Sequence[wire.ServerChannel]) -> CarriedTopic:
         publishers: list[Publisher] = []
         for channel in channels:
-            type = channel.schema_name
+            type = _type_of(channel)
             make = functools.partial(
                 Publisher, type=type, reliability="reliable", is_qos_known=False
             )
@@ -295,10 +309,12 @@ class FoxgloveSession:
         problem = self._problems.get(topic, "")
         if all(reasons):
             problem = reasons[0]
-        subscribers = self._graph.subscribers(topic, UNKNOWN)
-        return CarriedTopic(
-            tuple(publishers), problem, None if subscribers == UNKNOWN else subscribers
+        names = self._graph.subscribers(topic)
+        readers = names and tuple(
+            Endpoint(name, publishers[0].type, "reliable", "volatile", is_qos_known=False)
+            for name in names
         )
+        return CarriedTopic(tuple(publishers), problem, readers)
 
     # Output
 
@@ -342,9 +358,23 @@ def _unread(channel: wire.ServerChannel) -> str:
         if schema in ("ros2msg", "ros2idl"):
             return ""
         return f"{name} is defined as {plain(schema, 20)!r}, webviz reads ros2msg and ros2idl"
+    if _is_foreign(channel):
+        return problem_of(channel.schema_name, name)
     if channel.encoding == "ros1":
         return f"{name} is a message of ROS 1, webviz shows ROS 2"
     return f"{name} comes as {plain(channel.encoding, 20)!r}, no display reads that"
+
+
+def _is_foreign(channel: wire.ServerChannel) -> bool:
+    """Return whether messages are in one of Foxglove's own schemas."""
+    is_own = channel.schema_name.startswith("foxglove.")
+    return is_own and channel.encoding in ("protobuf", "json")
+
+
+def _type_of(channel: wire.ServerChannel) -> str:
+    """Return the message type of ROS of what a channel has."""
+    known = conversion(channel.schema_name) if _is_foreign(channel) else None
+    return known.type if known else channel.schema_name
 
 
 def _durability(topic: str, type: str) -> Durability:

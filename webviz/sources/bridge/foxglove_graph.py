@@ -42,9 +42,9 @@ class ConnectionGraph:
         """Return the nodes that publish a topic."""
         return self._publishers.get(topic, ())
 
-    def subscribers(self, topic: str, otherwise: int) -> int:
-        """Return the number of nodes that subscribe to a topic; `otherwise` if it is unknown."""
-        return len(self._subscribers.get(topic, ())) if self._is_known else otherwise
+    def subscribers(self, topic: str) -> tuple[str, ...] | None:
+        """Return the nodes that subscribe to a topic, None if the graph is unknown."""
+        return self._subscribers.get(topic, ()) if self._is_known else None
 
 
 def _names(ids: tuple[str, ...]) -> tuple[str, ...]:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from concurrent.futures import Future
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
-from webviz.api.offer import Publisher
+from webviz.api.offer import Endpoint, Offer, Publisher
 from webviz.sources.graph import Advertisement
 from webviz.sources.source import Subscription
 
@@ -19,12 +19,28 @@ class CarriedTopic:
     Args:
         publishers: of any type.
         problem: why none of its messages can be read, "" if they can.
-        subscribers: their number, None if unknown.
+        readers: the subscriptions, None if they are unknown.
     """
 
     publishers: tuple[Publisher, ...]
     problem: str = ""
-    subscribers: int | None = None
+    readers: tuple[Endpoint, ...] | None = None
+
+    def offer(self, wish: Subscription | None, problem: str) -> Offer:
+        """Return the offer of this topic.
+
+        Args:
+            wish: our subscription, None without one.
+            problem: why no message can arrive, "" if it can.
+        """
+        count = None if self.readers is None else len(self.readers)
+        known = Offer(self.publishers, None, problem, "", count, readers=self.readers or ())
+        matching = [p for p in self.publishers if wish is not None and p.type == wish.type]
+        if wish is None or not matching:
+            return known
+        is_latched = all(p.durability == "transient_local" for p in matching)
+        policies = "reliable", "transient_local" if is_latched else "volatile"
+        return replace(known, requested=policies, type=wish.type)
 
 
 class Host(Protocol):

@@ -366,17 +366,12 @@ class BridgeSource:
         wish = self._wanted.get(topic)
         if wish is not None and self._problem is not None:
             problem = f"the link is broken. {self._problem.cause}"
-        matching = [p for p in carried.publishers if wish is not None and p.type == wish.type]
-        if wish is None or not matching:
-            return Offer(carried.publishers, None, problem, "", carried.subscribers)
-        is_latched = all(p.durability == "transient_local" for p in matching)
-        policies = "reliable", "transient_local" if is_latched else "volatile"
-        return Offer(carried.publishers, policies, problem, wish.type, carried.subscribers)
+        return carried.offer(wish, problem)
 
     # The state of the link
 
     def _tell(self) -> None:
-        """Describe the link as it is now."""
+        """Describe the bridge as it is now."""
         before, session, problem = self._bridges[0], self._session, self._problem
         is_up = session is not None and problem is None
         link = Bridge(
