@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from tests.page.conftest import Loop, Tab
+from webviz.api.bridge import Bridge
 from webviz.api.context import ColorScale
 from webviz.api.nodes import Points, Pose
 from webviz.engine.state import Row
@@ -182,3 +183,16 @@ def test_the_page_says_what_is_reduced_because_of_a_slow_link(tab: Tab, server: 
     assert note.text_content() == text
     congestion.rate, congestion.every, congestion.shrink = None, 1, 1
     tab.wait_for(note.is_hidden)
+
+
+def test_the_page_names_its_bridge_and_says_when_it_is_not_live(tab: Tab, loop: Loop) -> None:
+    card = tab.page.locator(".wv-bridge")
+    assert card.count() == 0
+    up = Bridge("ws://robot:8765", "Foxglove", is_up=True, was_up=True)
+    loop.state = replace(loop.state, bridges=(up,))
+    tab.wait_for(card.is_visible)
+    assert card.text_content() == "ws://robot:8765"
+    problem = "Nothing listens on <b>robot</b>:8765."
+    loop.state = replace(loop.state, bridges=(replace(up, is_up=False, problem=problem),))
+    tab.wait_for(lambda: card.text_content() == "ws://robot:8765 · not live")
+    assert card.get_attribute("data-tip") == problem

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import fcntl
 import hashlib
 import json
 import logging
@@ -17,6 +16,7 @@ from typing import Any
 import msgspec
 
 from webviz.data.disk import within
+from webviz.data.locks import lock
 from webviz.files import opening
 from webviz.files.config import Config, ConfigError, dump, read_text
 from webviz.files.config.atomic import write_private
@@ -168,15 +168,17 @@ def _claim(name: str, folder: Path) -> Claim:
     folder.mkdir(parents=True, exist_ok=True, mode=0o700)
     for number in range(1, MAX_VIEWERS + 1):
         path = folder / (f"{name}.yaml" if number == 1 else f"{name}-{number}.yaml")
-        lock = os.open(path.with_suffix(".lock"), os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
+        descriptor = os.open(
+            path.with_suffix(".lock"), os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600
+        )
         try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            lock(descriptor)
         except BlockingIOError:
-            os.close(lock)
+            os.close(descriptor)
             continue
         except OSError:  # a file system without locks
             pass
-        return Claim(path, lock)
+        return Claim(path, descriptor)
     raise OSError(f"{MAX_VIEWERS} viewers show this config already.")
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import fcntl
 import os
 import secrets
 import shutil
@@ -13,6 +12,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from webviz.data.disk import within
+from webviz.data.locks import lock
 from webviz.files.config.errors import ConfigError
 
 BACKUP = ".bak"
@@ -132,7 +132,8 @@ def _lock(descriptor: int) -> None:
     deadline = time.monotonic() + LOCK_S
     while True:
         try:
-            return fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            lock(descriptor)
+            return
         except BlockingIOError:
             if time.monotonic() > deadline:
                 raise OSError(0, "another program is saving in this folder; try again") from None

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import fcntl
 import logging
 import os
 import socket
@@ -11,6 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from urllib.parse import urlsplit
 
+from webviz.data.locks import lock
 from webviz.server.access import token_file
 from webviz.server.access.starting import is_local
 
@@ -37,7 +37,7 @@ class Announcement:
             self._path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
             flags = os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_NOFOLLOW | os.O_CLOEXEC
             self._lock = os.open(self._path, flags, 0o600)
-            fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            lock(self._lock)
             os.write(self._lock, url.encode())
         except OSError as error:
             log.warning("`webviz token` does not know this viewer: %s.", error.strerror)
@@ -62,8 +62,10 @@ def _read(path: Path) -> str:
     try:
         with path.open("rb") as file:
             try:
-                fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
+                has_ended = lock(file.fileno(), shared=True)
             except BlockingIOError:
+                has_ended = False
+            if not has_ended:
                 return file.read(MAX_BYTES).decode()
             path.unlink(missing_ok=True)
     except (OSError, UnicodeDecodeError):

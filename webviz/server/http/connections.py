@@ -6,7 +6,6 @@ import asyncio
 import contextlib
 import functools
 import math
-import resource
 import select
 from collections.abc import AsyncIterator, Callable, Iterator
 from typing import Any, Protocol
@@ -65,6 +64,15 @@ def sender_of(browser: Newcomer) -> tuple[str, str]:
     return network_of(browser.address), browser.grant.cookie
 
 
+def _descriptors() -> int:
+    """Return the number of files that this program may open; 512 on Windows."""
+    try:
+        import resource
+    except ImportError:
+        return 512
+    return resource.getrlimit(resource.RLIMIT_NOFILE)[0]
+
+
 class ConnectionLimits:
     """Limits the connections of a server: opening ones, those of browsers, and their channels.
 
@@ -74,8 +82,7 @@ class ConnectionLimits:
 
     def __init__(self, handshakes: Handshakes | None = None) -> None:
         self._handshakes = handshakes
-        descriptors, _ = resource.getrlimit(resource.RLIMIT_NOFILE)
-        self.limit = max(4, min(MAX_BROWSERS, descriptors // 4))
+        self.limit = max(4, min(MAX_BROWSERS, _descriptors() // 4))
         """Opening connections and browsers, each."""
         self._opening: dict[Connection, str] = {}
         """With the network of each."""
