@@ -1,4 +1,4 @@
-"""What runs without ROS imports nothing that only Linux has."""
+"""Imports of parts that run without ROS: none is of a module that only Linux has."""
 
 from __future__ import annotations
 
