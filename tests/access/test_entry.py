@@ -15,6 +15,7 @@ import pytest
 import websockets.exceptions
 import websockets.sync.client
 from websockets.exceptions import ConnectionClosed
+from websockets.frames import Frame, Opcode
 
 from tests.access.conftest import PATIENCE_S, House, wait_until
 from tests.scene.conftest import Peer
@@ -410,6 +411,16 @@ def test_a_page_that_keeps_sending_too_much_is_ended_with_the_reason(
     with pytest.raises(websockets.exceptions.InvalidStatus, match="429"):
         house.enter(Role.WATCHER)
     assert house.enter(Role.OPERATOR).do("ResetView") == ""
+
+
+def test_a_page_that_floods_with_pings_is_ended_and_has_to_stay_away(house: House) -> None:
+    flood = 1000 * Frame(Opcode.PING, b"x").serialize(mask=True)
+    raw = house.enter(Role.WATCHER)._socket.socket
+    with contextlib.suppress(OSError):
+        for _ in range(1000):
+            raw.sendall(flood)
+        pytest.fail("the server took a million frames")
+    assert house.ask("/", Cookie=house.cookie(Role.WATCHER)).status == 429
 
 
 def test_a_page_that_connects_again_has_no_new_burst(
