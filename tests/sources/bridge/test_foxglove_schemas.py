@@ -7,6 +7,7 @@ import math
 from typing import Any
 
 import foxglove  # pyright: ignore[reportMissingImports]
+import foxglove.channels as channels  # pyright: ignore[reportMissingImports]
 import foxglove.messages as fox  # pyright: ignore[reportMissingImports]
 import numpy as np
 import pytest
@@ -170,7 +171,7 @@ def test_what_cannot_be_shown_has_a_reason(monkeypatch: pytest.MonkeyPatch) -> N
 
 def test_channels_of_a_server_are_topics_of_ros() -> None:
     context = foxglove.Context()
-    pose = foxglove.channels.PoseInFrameChannel("/pose", context=context)
+    pose = channels.PoseInFrameChannel("/pose", context=context)
     server = foxglove.start_server(host="127.0.0.1", port=0, context=context)
     try:
         with reading(f"ws://127.0.0.1:{server.port}") as reader:

@@ -310,11 +310,11 @@ class FoxgloveSession:
         if all(reasons):
             problem = reasons[0]
         names = self._graph.subscribers(topic)
-        readers = names and tuple(
-            Endpoint(name, publishers[0].type, "reliable", "volatile", is_qos_known=False)
-            for name in names
-        )
-        return CarriedTopic(tuple(publishers), problem, readers)
+        if names is None:
+            return CarriedTopic(tuple(publishers), problem)
+        type = publishers[0].type
+        readers = [Endpoint(n, type, "reliable", "volatile", is_qos_known=False) for n in names]
+        return CarriedTopic(tuple(publishers), problem, tuple(readers))
 
     # Output
 
