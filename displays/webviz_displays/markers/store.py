@@ -145,11 +145,14 @@ class Store:
                 why = f"Its text has {length} characters; the limit is {MAX_TEXT}."
                 self.remarks.refuse(key, why)
                 continue
-            if key not in table.rows and len(table) >= MAX_MARKERS:
-                self.remarks.overflow += 1
-                continue
-            row = table.row_of(key)
-            if not self._put_content(row, content):
+            row = table.rows.get(key)
+            if row is None:
+                if len(table) >= MAX_MARKERS:
+                    self.remarks.overflow += 1
+                    continue
+                row = table.row_of(key)
+            is_kept = content is table.wanted_contents[row]  # most have none
+            if not is_kept and not self._put_content(row, content):
                 self.remarks.refuse(key, "The markers of this display exceed 256 MB.")
                 if not table.is_shown[row]:
                     self._remove(key, "Deleted", received_ns)
@@ -167,10 +170,11 @@ class Store:
         is_new |= new["stamp_ns"] != old["stamp_ns"]
         table.wanted[where] = new
         self._next_expiry = min(self._next_expiry, int(new["expires_ns"].min()))
+        frames, frame_ids = table.frames, markers.frame_ids
         for row, i, changed in zip(rows, taken, is_new.tolist(), strict=True):
-            frame = markers.frame_ids[i].removeprefix("/")
-            if changed or frame != table.frames[row]:
-                table.frames[row] = frame
+            frame = frame_ids[i].removeprefix("/")
+            if changed or frame != frames[row]:
+                frames[row] = frame
                 self._todo.add(row)
             elif table.wanted_contents[row] is not table.shown_contents[row]:
                 self._todo.add(row)
