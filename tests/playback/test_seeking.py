@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 import contextlib
+import random
 from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any
 
 import msgspec
 import pytest
-from bags import START_NS, ns, strings
+from bags import START_NS, Bag, ns, strings
 from drives import CONFIG, recorded
 from rosbags.rosbag2 import StoragePlugin
 
 from webviz import Context, Display, Input, Lookback, Sample, Topic
 from webviz.api.display import inputs
-from webviz.engine.commands import OpenPanels, Play, Seek, SelectSpan, SetRate
+from webviz.engine.commands import OpenPanels, Play, Seek, SelectSpan, SetRate, StepMessage
 from webviz.engine.loop import loop
 from webviz.files.config import Config
 from webviz.page.recorded_ui import RecordedUi
 from webviz.shell.app.bag_config import config_of
 from webviz.shell.testing import BagViewer, check_seeks, header
+from webviz.shell.testing.seeking import plain
 from webviz.sources.bag.file import Recorded
 from webviz.sources.bag.source import BagSource
 
@@ -73,6 +75,52 @@ class Total(Display):
 
     def draw(self, sample: Sample, ctx: Context) -> None:
         ctx.points("sum", [[sample.message, 0, 0]], (0, 0, 0), 0.1)
+
+
+def test_links_are_not_where_they_will_be(tmp_path: Path) -> None:
+    """A robot keeps links without transforms at their last pose, which may not be a later one."""
+    urdf = (
+        "<robot name='r'><link name='base'/><link name='arm'><visual><geometry>"
+        "<sphere radius='0.1'/></geometry></visual></link><joint name='j' type='floating'>"
+        "<parent link='base'/><child link='arm'/></joint></robot>"
+    )
+    bag = strings(0, 4)
+    bag.add("/robot_description", "std_msgs/msg/String", latched=True)
+    bag.put(0, "/robot_description", {"data": urdf})
+    for at_s in (0.1, 2.0, 2.5):
+        bag.transform(at_s, "map", "base")
+    for at_s in (2.0, 2.5):
+        bag.transform(at_s, "base", "arm")
+    config = "fixed_frame: map\ndisplays: [{type: RobotModel}]\n"
+    check_seeks(bag.write(tmp_path / "run"), config, times=[3.0, 1.0, 3.0])
+
+
+def test_frames_whose_transforms_ended_long_before_are_known(tmp_path: Path) -> None:
+    bag = Bag()
+    for at_s in (0.5, 30.0, 31.0):
+        bag.transform(at_s, "map", "odom")
+    for second in range(60):
+        bag.transform(second + 0.1, "odom", "base")
+    config = "fixed_frame: map\ndisplays: [{type: Axes, reference_frame: odom}, {type: TF}]\n"
+    check_seeks(bag.write(tmp_path / "run"), config, times=[20.0, 59.0, 3.0, 29.0, 50.0, 17.0])
+
+
+def test_steps_in_both_directions_show_what_playing_shows(tmp_path: Path) -> None:
+    path = recorded(5).write(tmp_path / "run")
+    chance = random.Random(5)
+    stepped, played = BagViewer(path, CONFIG), BagViewer(path, CONFIG)
+    stepped.do(Seek(4.0))
+    found: dict[float, Any] = {}
+    for _ in range(10):
+        topic = chance.choice(["", "/odom", "/scan"])
+        stepped.do(StepMessage(topic, is_forward=chance.random() < 0.4))
+        found[(stepped.source.position_ns - stepped.source.start_ns) / 1e9] = plain(stepped.shown())
+    assert len(found) > 4
+    for at_s, shown in sorted(found.items()):
+        played.play_to(at_s)
+        assert shown == plain(played.shown()), at_s
+    stepped.close()
+    played.close()
 
 
 BAGS = Path(__file__).parents[3] / "shared/data/bags"

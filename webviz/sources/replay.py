@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from typing import Generic
 
 from webviz.sources.bag.past import BagPast, C, M, PastMessages
@@ -59,9 +59,22 @@ class Replay(Generic[C, M]):
         step_ns = min(max(left_ns // 8, STEP_NS), LONG_STEP_NS)
         self.play(min(until_ns, max(next_ns, self.position_ns + step_ns)))
 
-    def seek(self, at_ns: int, channels: Collection[C], wanted: Mapping[str, Subscription]) -> None:
-        """Go to where playing leads to a time: to the first message that subscriptions need."""
-        needed = BagPast(self.past, channels, wanted, at_ns).messages()
+    def seek(
+        self,
+        at_ns: int,
+        channels: Collection[C],
+        wanted: Mapping[str, Subscription],
+        ended_ns: Sequence[int] = (),
+    ) -> None:
+        """Go to where playing leads to a time: to the first message that subscriptions need.
+
+        Args:
+            at_ns: the time of recording.
+            channels: those to read.
+            wanted: the subscriptions by topic.
+            ended_ns: when frames that have ended had their last transforms.
+        """
+        needed = BagPast(self.past, channels, wanted, at_ns, ended_ns).messages()
         self._upcoming = itertools.chain(needed, self.past.messages(channels, at_ns + 1))
         self._next = next(self._upcoming, None)
         first_ns = at_ns if self._next is None else self._next.stamp_ns

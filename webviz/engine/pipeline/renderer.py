@@ -120,6 +120,7 @@ class Renderer:
     def forget(self) -> None:
         """Discard the state of the display; what is drawn stays until something is drawn anew."""
         self._drop_job()
+        self._diff.forget_poses()
         self._drawn = {name: dict.fromkeys(drawn) for name, drawn in self._drawn.items()}
         self._state = _NO_STATE
         self.is_stale = True

@@ -181,6 +181,13 @@ class SceneDiff:
                 self._follow(name, drawn, frames)
             each.pose, each.fixed_frame = pose, frames.fixed_frame
 
+    def forget_poses(self) -> None:
+        """Keep no pose where frames were, such as after a jump of time back."""
+        for groups in self._scopes.values():
+            for drawn in groups.values():
+                drawn.pose, drawn.fixed_frame = None, ""
+        self._followers = None
+
     def is_empty(self) -> bool:
         """Return whether nothing of the display is visible."""
         return not any(

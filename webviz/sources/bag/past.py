@@ -90,6 +90,7 @@ class BagPast(Generic[C, M]):
         channels: those to read.
         wanted: subscriptions with their lookbacks, by topic.
         at_ns: the time of recording.
+        ended_ns: when frames that have ended before had their last transforms.
     """
 
     def __init__(
@@ -98,10 +99,12 @@ class BagPast(Generic[C, M]):
         channels: Collection[C],
         wanted: Mapping[str, Subscription],
         at_ns: int,
+        ended_ns: Sequence[int] = (),
     ) -> None:
         self._file = file
         self._wanted = wanted
         self._at_ns = at_ns
+        self._ended_ns = ended_ns
         self._channels: dict[str, list[C]] = {}
         for channel in channels:
             self._channels.setdefault(channel.topic, []).append(channel)
@@ -117,7 +120,7 @@ class BagPast(Generic[C, M]):
         follow: list[C] = []
         together: list[C] = []
         alone: list[Iterator[M]] = []
-        placed: list[tuple[int, int]] = []
+        placed = [(stamp_ns, stamp_ns) for stamp_ns in self._ended_ns]
         timed: list[tuple[int, int]] = []
         for topic, channels in self._channels.items():
             if channels[0].type in (TF, CLOCK) and not self._is_whole(topic):

@@ -18,8 +18,9 @@ from webviz.sources.bag.files import BagFiles
 from webviz.sources.bag.frames import frames_of, links_of
 from webviz.sources.bag.ghost import Ghost, ghost_files
 from webviz.sources.bag.log import LogReader
-from webviz.sources.bag.past import BagPast
+from webviz.sources.bag.past import RECENT_NS, BagPast
 from webviz.sources.bag.time import CLOCK, TF, BagTime
+from webviz.sources.bag.transform_runs import TransformRuns
 from webviz.sources.graph import ReadOnly
 from webviz.sources.inbox import MAX_BYTES, Inbox, Raw
 from webviz.sources.names import resolved
@@ -67,6 +68,7 @@ class BagSource:
         self.ghost = ghost
         self._file = BagFiles(paths, ghost_files(paths, ghost) if ghost else ())
         self._log = LogReader(paths, self.inbox.arrived.set)
+        self._runs = TransformRuns(paths)
         self._extras = tuple(extras)
         self._remappings = dict(remappings or {})
         self._time = BagTime(self._file)
@@ -147,7 +149,8 @@ class BagSource:
     def seek(self, at_ns: int) -> None:
         """`Playable.seek`: reads what the subscriptions need of the past, and then on."""
         self.inbox.drain()
-        self._replay.seek(at_ns, self._channels_to_read(), self._wanted)
+        ended_ns = self._runs.ended_ns(at_ns - RECENT_NS)
+        self._replay.seek(at_ns, self._channels_to_read(), self._wanted, ended_ns)
         self._time.seek(self.position_ns)
         for extra in self._extras:
             self._put(Recorded(extra.topic, extra.type, extra.cdr, self._file.start_ns))
@@ -252,6 +255,7 @@ class BagSource:
 
     def close(self) -> None:
         """Close the file."""
+        self._runs.close()
         self._file.close()
 
     # Internal

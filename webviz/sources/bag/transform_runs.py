@@ -1,0 +1,107 @@
+"""When the frames of a bag have transforms: those that ended are needed long after."""
+
+from __future__ import annotations
+
+import bisect
+import concurrent.futures
+import threading
+from collections.abc import Iterator, Sequence
+from concurrent.futures import Future
+from pathlib import Path
+
+from webviz.data.disk import in_thread
+from webviz.data.messages import MessageError, TFMessage, decode
+from webviz.sources.bag.files import BagFiles
+from webviz.sources.bag.time import TF
+
+GAP_NS = 5_000_000_000
+"""Without a transform, after which those of a frame count as ended."""
+MAX_MESSAGES = 1_000_000
+"""Of which the frames are looked at: nine hours at 30 a second."""
+MAX_ENDS = 200
+"""Newest ends that a seek reads."""
+WAIT_S = 1.0
+"""For the first seek; a bag of ten minutes takes some tenths."""
+YIELD_AFTER = 500
+"""Messages between two pauses, so that the frame loop has the interpreter."""
+YIELD_S = 0.002
+
+
+class Runs:
+    """The spans of time in which each frame has transforms."""
+
+    def __init__(self) -> None:
+        self._begins: dict[str, list[int]] = {}
+        self._ends: dict[str, list[int]] = {}
+
+    def add(self, child: str, stamp_ns: int) -> None:
+        """Note a transform; stamps must not decrease."""
+        ends = self._ends.setdefault(child, [])
+        begins = self._begins.setdefault(child, [])
+        if ends and stamp_ns - ends[-1] <= GAP_NS:
+            ends[-1] = stamp_ns
+        else:
+            begins.append(stamp_ns)
+            ends.append(stamp_ns)
+
+    def ended_ns(self, before_ns: int) -> Sequence[int]:
+        """Return when all frames without a transform at a time had their last, in order."""
+        found = set[int]()
+        for child, begins in self._begins.items():
+            number = bisect.bisect_right(begins, before_ns) - 1
+            if number >= 0 and (end_ns := self._ends[child][number]) < before_ns:
+                found.add(end_ns)
+        return sorted(found)[-MAX_ENDS:]
+
+
+class TransformRuns:
+    """Finds the runs in a worker, once they are asked for.
+
+    Args:
+        paths: of the bags, which it opens anew.
+    """
+
+    def __init__(self, paths: Sequence[Path]) -> None:
+        self._paths = paths
+        self._reading: Future[Runs] | None = None
+        self._is_closed = threading.Event()
+
+    def ended_ns(self, before_ns: int) -> Sequence[int]:
+        """`Runs.ended_ns`; none until they are found, for which the first call waits a little."""
+        wait_s = 0.0
+        if self._reading is None:
+            self._reading = in_thread(self._read)
+            wait_s = WAIT_S
+        concurrent.futures.wait([self._reading], wait_s)
+        # That a bag can no longer be read, others report.
+        is_read = self._reading.done() and not self._reading.exception()
+        return self._reading.result().ended_ns(before_ns) if is_read else ()
+
+    def close(self) -> None:
+        """Stop reading."""
+        self._is_closed.set()
+
+    def _read(self) -> Runs:
+        runs = Runs()
+        bags = BagFiles(self._paths)
+        moving = [c for c in bags.channels if c.type == TF and not c.topic.endswith("/tf_static")]
+        try:
+            for number, recorded in enumerate(bags.messages(moving, bags.start_ns), 1):
+                if number > MAX_MESSAGES or self._is_closed.is_set():
+                    break
+                for child in _children(recorded.cdr):
+                    runs.add(child, recorded.stamp_ns)
+                if number % YIELD_AFTER == 0:
+                    self._is_closed.wait(YIELD_S)
+        finally:
+            bags.close()
+        return runs
+
+
+def _children(cdr: bytes) -> Iterator[str]:
+    try:
+        message: TFMessage = decode(TF, cdr)
+    except MessageError:
+        return
+    for each in message.transforms:
+        yield each.child
