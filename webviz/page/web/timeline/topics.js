@@ -61,9 +61,11 @@ export function topics({ range, counted, step, toggled }) {
    * @param {number[]} counts
    */
   function paint(canvas, counts) {
-    const { context, width, height, color } = fitted(canvas);
+    const { context, height, color } = fitted(canvas);
+    // As wide as the track, which has no scroll bar beside it.
+    const width = element.clientWidth - 2 * MARGIN;
     /** @param {number} time */
-    const x = (time) => MARGIN + share(time, range()) * (width - 2 * MARGIN);
+    const x = (time) => MARGIN + share(time, range()) * width;
     bars(context, counts, {
       x,
       counted: counted(),
