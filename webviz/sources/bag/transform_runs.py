@@ -22,9 +22,10 @@ MAX_ENDS = 200
 """Newest ends that a seek reads."""
 WAIT_S = 1.0
 """For the first seek; a bag of ten minutes takes some tenths."""
-YIELD_AFTER = 500
-"""Messages between two pauses, so that the frame loop has the interpreter."""
-YIELD_S = 0.002
+AT_ONCE = 50_000
+"""Messages that are read without a pause."""
+YIELD_AFTER, YIELD_S = 500, 0.02
+"""Of a longer bag: messages between two pauses, so that the frame loop has the interpreter."""
 
 
 class Runs:
@@ -91,7 +92,7 @@ class TransformRuns:
                     break
                 for child in _children(recorded.cdr):
                     runs.add(child, recorded.stamp_ns)
-                if number % YIELD_AFTER == 0:
+                if number > AT_ONCE and number % YIELD_AFTER == 0:
                     self._is_closed.wait(YIELD_S)
         finally:
             bags.close()
