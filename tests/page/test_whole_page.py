@@ -27,7 +27,7 @@ from webviz.api.nodes import Image, Points, Pose
 from webviz.api.status import Level, Status
 from webviz.api.views import Orbit
 from webviz.engine.state import ClockRate, ConfigFile, PanelTimes, Row, State, ToolButton, Traffic
-from webviz.files.config import Settings
+from webviz.files.config import DockedPanel, Layout, Settings
 from webviz.scene import ViserScene, open_server
 from webviz.scene.adapter import greeting
 from webviz.scene.server import Server
@@ -100,6 +100,11 @@ BAG: dict[str, Any] = {
 }
 """A bag that is played."""
 
+ARRANGED = Layout(
+    beside=(DockedPanel(panel="doctor"), DockedPanel(panel="tools", weight=2)),
+    below=(DockedPanel(panel="topics"),),
+    height=200,
+)
 LIVE: dict[str, Any] = {
     "playback": PlaybackState(
         names=(),
@@ -310,6 +315,11 @@ def test_live_topics_that_are_recorded_and_rewound(
     tab.wait_for(tab.page.locator(".wv-rewound-banner").is_visible)
     references.check("rewound", capture(tab), tolerance=TOLERANCE)
 
+    tab.loop.state = replace(tab.loop.state, settings=Settings(layout=ARRANGED))
+    tab.wait_for(lambda: tab.page.locator(".wv-docked").count() == 3)
+    tab.wait_for(lambda: tab.page.locator("canvas[data-engine]").evaluate(FITS))
+    references.check("layout", capture(tab), tolerance=TOLERANCE)
+
     phone = open_still(PHONE, has_touch=True, is_mobile=True, color_scheme="dark")
     phone.page.evaluate(HEARD)
     phone.loop.state = replace(phone.loop.state, **PAST)
@@ -327,6 +337,7 @@ def test_on_a_phone_the_scene_is_free_until_the_side_lies_over_it(
     references.check("phone_with_panels", capture(phone), tolerance=TOLERANCE)
 
 
+FITS = "canvas => canvas.clientWidth === document.getElementById('root').clientWidth"
 HEARD = """async () => {
   const { on } = await import("/webviz/channel.js");
   await new Promise((resolve) => on("Beat", resolve));

@@ -24,6 +24,7 @@ from webviz.panels.calling import ActionGoal, ServiceCall
 from webviz.panels.publish import PublishMessage
 from webviz.panels.sending import HISTORY, MAX_PRESETS, fields_of, template
 from webviz.panels.yaml_text import MAX_CHARACTERS, write_yaml
+from webviz.sources import Endpoint, Offer
 
 POSE, STRING = "geometry_msgs/msg/PoseStamped", "std_msgs/msg/String"
 TOPICS = {"/goal": (POSE,), "/name": (STRING,)}
@@ -41,6 +42,15 @@ class Opened:
         tabs = (PanelTab("id", "Panel", self.panel),)
         self.panel.show(State(topics=TOPICS, panels=tabs))
         return dict(self.ui.widgets["0"].values["values"])
+
+
+def test_a_topic_that_is_only_read_has_the_type_of_its_subscriptions() -> None:
+    opened = Opened(PublishMessage(topic="/goal_pose"))
+    reader = Endpoint("/planner", POSE, "reliable", "volatile")
+    offers = {"/goal_pose": Offer((), readers=(reader,))}
+    opened.panel.show(State(topics={"/goal_pose": ()}, offers=offers))
+    values = opened.ui.widgets["0"].values["values"]
+    assert (values["type"], values["names"]) == (POSE, ["/goal_pose"])
 
 
 def test_a_form_is_made_from_the_definition_and_follows_the_yaml() -> None:

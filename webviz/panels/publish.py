@@ -49,7 +49,13 @@ class PublishMessage(SendingPanel):
 
     def show(self, state: Any) -> None:
         """Show the form, and publish if it is time."""
-        types = state.topics.get(self.topic, ())
+        # Whoever publishes by hand writes to topics that nobody else publishes.
+        read = {
+            topic: tuple(each.type for each in offer.readers)
+            for topic, offer in state.offers.items()
+            if offer.readers
+        }
+        types = state.topics.get(self.topic) or read.get(self.topic, ())
         type_ = self.message_type or (types[0] if types else "")
         now_s = time.monotonic()
         if now_s - self.shown_s > PAUSE_S:
@@ -58,7 +64,8 @@ class PublishMessage(SendingPanel):
         if self.is_repeating and now_s >= self.next_s:
             self.next_s = now_s + (1.0 / self.rate if self.rate > 0 else math.inf)
             self._publish_or_stop()
-        topics = sorted(name for name, found in state.topics.items() if found)[:2000]
+        named = {name for name, found in state.topics.items() if found} | read.keys()
+        topics = sorted(named)[:2000]
         form = {"verb": "Publish", "name": self.topic, "label": "Topic", "names": topics}
         self.show_form(state, type_, {**form, "repeats": self.is_repeating, "rate": self.rate})
 
