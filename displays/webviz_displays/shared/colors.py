@@ -44,7 +44,7 @@ def fractions(values: ArrayLike, low: float, high: float) -> F64:
     if not half_span > 0.0:
         return np.zeros(np.shape(values))
     with np.errstate(over="ignore", invalid="ignore"):  # overflows are clamped below
-        where = np.divide(values, 2.0, dtype=np.float64)
+        where = np.multiply(values, 0.5, dtype=np.float64)  # the same as to divide, but faster
         where -= low / 2
         where /= half_span
     np.fmax(where, 0.0, out=where)  # fmax and fmin ignore NaN

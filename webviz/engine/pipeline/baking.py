@@ -110,7 +110,9 @@ def _moved(xyz: F32, rotation: NDArray[np.float64], shift: NDArray[np.float64]) 
     """
     r, t = rotation.astype(np.float32), shift.astype(np.float32)
     if len(xyz) <= FEW:
-        return xyz @ r.T + t
+        moved = xyz @ r.T
+        moved += t  # in place: a third less time for a scan
+        return moved
     moved = np.empty_like(xyz)
     for start in range(0, len(xyz), PART):
         rows = slice(start, start + PART)
