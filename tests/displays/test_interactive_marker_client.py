@@ -690,6 +690,7 @@ def test_what_hides_a_marker_is_an_error_and_what_it_lacks_a_warning(server: Ser
         {"name": "strange", **there, "controls": [{"markers": [{"type": 99}]}]},
         {"name": "odd", **there, "controls": [{}, {"interaction_mode": 10}]},
         {"name": "bare", **there},
+        {"name": "fixed", "header": {**late, "frame_id": "odom"}, "controls": [{}]},
     ]
     shown.known.take([news_of(markers=markers)])
     shown.groups()
@@ -697,7 +698,10 @@ def test_what_hides_a_marker_is_an_error_and_what_it_lacks_a_warning(server: Ser
     shown.display.tick(ctx)
     levels = {key: status.level for key, status in ctx.statuses.items() if key != "Server"}
     hidden = dict.fromkeys(("refused", "frameless", "late", "lost", "strange"), Level.ERROR)
-    assert levels == {"a": Level.OK, **hidden, "odd": Level.WARN, "bare": Level.WARN}
+    lacking = dict.fromkeys(("odd", "bare"), Level.WARN)
+    assert levels == {"a": Level.OK, "fixed": Level.OK, **hidden, **lacking}
+    assert ctx.statuses["a"].text == "Locked to frame odom."
+    assert ctx.statuses["fixed"].text == "Position is fixed."
 
 
 def test_feedback_has_the_newest_stamp_of_the_frame_of_a_marker(server: Server) -> None:
