@@ -14,6 +14,7 @@ from playwright.sync_api import expect
 from tests.page.conftest import Loop, Tab, open_page
 from webviz.engine import commands
 from webviz.engine.state import Row, ToolButton
+from webviz.files.config import DockedPanel, Layout, Settings
 from webviz.scene import open_server
 from webviz.server.access import token_file
 from webviz.server.access.access import Access
@@ -163,6 +164,22 @@ def test_a_watcher_has_a_view_of_their_own(house: House) -> None:
         "async () => void (await import('/webviz/act.js')).act('ResetView')"
     )
     house.watcher.wait_for_command(commands.ResetView())
+
+
+def test_a_watcher_arranges_panels_for_themselves(house: House) -> None:
+    watcher, owner = house.watcher, house.owner
+    watcher.page.locator("#wv-tab-topics").click(button="right")
+    watcher.page.get_by_role("menuitemradio", name="Beside the scene").click()
+    beside = "section.wv-docked[data-panel=topics]"
+    watcher.wait_for(lambda: watcher.page.locator(beside).count() == 1)
+    assert (owner.page.locator(".wv-docked").count(), watcher.loop.commands) == (0, [])
+    shared = Layout(below=(DockedPanel(panel="doctor"),))
+    owner.loop.show(settings=Settings(layout=shared))
+    for tab in (watcher, owner):
+        tab.wait_for(lambda tab=tab: tab.page.locator(".wv-docked").count() == 1)
+        tab.wait_for(lambda tab=tab: tab.page.locator(".wv-below > .wv-docked").count() == 1)
+    owner.loop.show(settings=Settings())
+    watcher.wait_for(lambda: watcher.page.locator(".wv-docked").count() == 0)
 
 
 def test_a_page_that_asks_all_the_same_is_refused_by_the_server(house: House) -> None:
