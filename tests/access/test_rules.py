@@ -64,6 +64,7 @@ OWNING = {
     "StopRecording",
 }
 OWNING |= {"Dismiss", "Invite", "ListReport", "Revoke", "SaveReport"}
+OWNING |= {"ListMoment", "ShareMoment", "StopSharing"}
 OF_THE_SERVER = (Dismiss, Invite, Revoke, UseWidget)
 """Done by itself, without the frame loop."""
 

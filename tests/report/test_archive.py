@@ -102,7 +102,7 @@ def test_a_full_disk_leaves_the_old_report(tmp_path: Path) -> None:
 
 def test_names_are_replaced_by_as_many_characters() -> None:
     names = PrivateNames(["/scan"], ["labhost", "alice", "root"], "/home/alice")
-    text = "alice@labhost in /home/alice/ws, /home/bob and alices root of 'base_link'"
+    text = "alice@LABHOST in /home/alice/ws, /home/bob and alices root of 'base_link'"
     assert names.text(text) == (
         "xxxxx@xxxxxxx in /home/xxxxx/ws, /home/xxx and alices root of 'base_link'"
     )
@@ -114,6 +114,15 @@ def test_names_of_topics_and_frames_stay() -> None:
     names = PrivateNames(["/turtle7/scan", "/home/scan/points"], ["turtle7"], "/root")
     assert names.kept == ("turtle7",)
     assert names.text("/turtle7/scan /home/scan /root/a") == "/turtle7/scan /home/scan /xxxx/a"
+
+
+def test_a_name_within_that_of_a_frame_stays_only_there() -> None:
+    names = PrivateNames(["/scan", "turtle7_camera", "map"], ["turtle7", "carol"], "/root")
+    assert names.kept == ("turtle7_camera",)
+    text = "carol: no turtle7_camera on turtle7, nor turtle7_camera2 of Turtle7"
+    hidden = "xxxxx: no turtle7_camera on xxxxxxx, nor xxxxxxx_camera2 of xxxxxxx"
+    assert names.text(text) == hidden
+    assert names.message(b"\0" + text.encode()) == b"\0" + hidden.encode()
 
 
 def test_a_report_is_no_directory_of_zip_bombs(tmp_path: Path) -> None:

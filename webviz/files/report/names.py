@@ -21,8 +21,9 @@ HOMES = re.compile(rb"/(?:home|Users)/[A-Za-z0-9._-]+")
 class PrivateNames:
     """Replaces names of hosts, users and home folders.
 
-    Those that are part of the name of a topic or a frame stay, since the report would not show
-    the same without them; `kept` lists them.
+    Names of topics and frames stay, since the report would not show the same without them, and a
+    repaired recording would not fit its test. A name that is a part of a topic between slashes,
+    such as a namespace, stays everywhere; `turtle7` in a frame `turtle7_camera` only there.
 
     Args:
         public: names of topics and frames.
@@ -39,14 +40,18 @@ class PrivateNames:
         self._public = tuple(public)
         found = dict.fromkeys(_own_words() if words is None else words)
         wanted = [word for word in found if len(word) > 1 and word.lower() not in COMMON]
-        self.kept = tuple(word for word in wanted if any(word in name for name in self._public))
-        """Names that stay."""
-        hidden = [word for word in wanted if word not in self.kept]
+        parts = {part for name in self._public for part in name.split("/")}
+        hidden = [word for word in wanted if word not in parts]
+        found_in = [part for part in parts if any(_has(part, word) for word in hidden)]
+        self.kept = (*(word for word in wanted if word in parts), *sorted(found_in))
+        """Names, and names of frames and parts of topics with names in them, that stay."""
+        self._whole = frozenset(part.encode() for part in found_in)
         home = str(Path.home()) if home is None else home
         is_special = len(home) > 1 and not HOMES.fullmatch(home.encode())
-        self._home = _pattern([home]) if is_special else None
-        self._in_texts = _pattern(hidden)
-        self._in_messages = _pattern([word for word in hidden if len(word) >= MIN_BYTES])
+        self._home = _pattern([home], ()) if is_special else None
+        self._in_texts = _pattern(hidden, found_in)
+        long = [word for word in hidden if len(word) >= MIN_BYTES]
+        self._in_messages = _pattern(long, found_in)
 
     def text(self, text: str) -> str:
         """Return a text without the names."""
@@ -61,8 +66,11 @@ class PrivateNames:
         if b"/home/" in data or b"/Users/" in data:
             data = HOMES.sub(self._filled_home, data)
         for pattern in (self._home, words):
-            data = pattern.sub(_filled, data) if pattern is not None else data
+            data = pattern.sub(self._filled, data) if pattern is not None else data
         return data
+
+    def _filled(self, match: re.Match[bytes]) -> bytes:
+        return match[0] if match[0] in self._whole else re.sub(rb"[^/]", FILLER.encode(), match[0])
 
     def _filled_home(self, match: re.Match[bytes]) -> bytes:
         path = match[0].decode("ascii")
@@ -82,13 +90,26 @@ def _own_words() -> list[str]:
     return [host, host.partition(".")[0], user]
 
 
-def _pattern(words: Iterable[str]) -> re.Pattern[bytes] | None:
-    """Return the words where they stand alone, the longest first; None without any."""
-    parts = [re.escape(word.encode()) for word in sorted(words, key=len, reverse=True)]
+def _pattern(words: Iterable[str], whole: Iterable[str]) -> re.Pattern[bytes] | None:
+    """Return the words where they stand alone, in any case, the longest first; None without any.
+
+    Args:
+        words: to find.
+        whole: longer words, which are found as they are instead of the words in them.
+    """
+    parts = _alternatives(words)
     if not parts:
         return None
-    return re.compile(rb"(?<![A-Za-z0-9])(?:" + b"|".join(parts) + rb")(?![A-Za-z0-9])")
+    kept = b"".join(b"%s|" % part for part in _alternatives(whole))
+    alone = rb"(?<![A-Za-z0-9])(?:%s(?i:%s))(?![A-Za-z0-9])"
+    return re.compile(alone % (kept, b"|".join(parts)))
 
 
-def _filled(match: re.Match[bytes]) -> bytes:
-    return re.sub(rb"[^/]", FILLER.encode(), match[0])
+def _alternatives(words: Iterable[str]) -> list[bytes]:
+    return [re.escape(word.encode()) for word in sorted(words, key=len, reverse=True)]
+
+
+def _has(text: str, word: str) -> bool:
+    """Return whether a word stands alone in a text."""
+    pattern = _pattern([word], ())
+    return pattern is not None and pattern.search(text.encode()) is not None
