@@ -105,6 +105,22 @@ class BlackBoxState:
     saving: str = ""
 
 
+@dataclass(frozen=True)
+class SharingState:
+    """What is shown as one file.
+
+    Args:
+        share: that is done of the one that is being made, None for none.
+        number: how many have ended.
+        level, text: how the last one ended.
+    """
+
+    share: float | None = None
+    number: int = 0
+    level: Level = Level.OK
+    text: str = ""
+
+
 @dataclass(frozen=True, kw_only=True)
 class RecordingState:
     """A recording of live topics that goes on.

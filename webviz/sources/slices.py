@@ -223,7 +223,7 @@ def write_slice(
         file.close(is_whole=is_whole)
     _refuse_large(path.stat().st_size, max_bytes)
     if file.span_ns is None:
-        raise Error("There are no messages to report. Show a topic first.")
+        raise Error("There are no messages to save. Show a topic first.")
     first_ns, last_ns = file.span_ns
     at_ns = min(max(part.at_ns(), first_ns), last_ns)
     return WrittenSlice(first_ns, last_ns, at_ns, list(filter(None, map(_line, lines))))
@@ -232,7 +232,7 @@ def write_slice(
 def _refuse_large(size: int, max_bytes: int) -> None:
     if size > max_bytes:
         raise Error(
-            f"The report would be larger than {max_bytes // 1_000_000} MB. Choose a shorter time "
+            f"The messages would be larger than {max_bytes // 1_000_000} MB. Choose a shorter time "
             "span, or hide displays of large messages."
         )
 

@@ -47,6 +47,7 @@ from webviz.engine.commands.recording import (
 )
 from webviz.engine.commands.reports import ListReport, RestoreSelection, SaveReport
 from webviz.engine.commands.selection import Identify, InspectSelections, Pick, Picks, Select
+from webviz.engine.commands.sharing import ListMoment, ShareMoment, StopSharing
 from webviz.engine.commands.tools import (
     CallService,
     CancelGoal,
@@ -112,6 +113,7 @@ __all__ = [
     "InspectTopic",
     "InspectTopics",
     "InspectTransforms",
+    "ListMoment",
     "ListReport",
     "Load",
     "LookUpTransform",
@@ -160,11 +162,13 @@ __all__ = [
     "SetProperty",
     "SetRate",
     "SetToolProperty",
+    "ShareMoment",
     "ShowView",
     "StartRecording",
     "StartWithView",
     "StepMessage",
     "StopRecording",
+    "StopSharing",
     "TraceDisplay",
     "TryFrame",
     "Undo",

@@ -9,6 +9,7 @@ from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
 
+from webviz.api.frames import Frames
 from webviz.api.nodes import POINTS_HELD
 from webviz.api.robots import NamespacedRobot, robots_of
 from webviz.data.transforms import TransformBuffer
@@ -40,13 +41,14 @@ from webviz.engine.parts.reports import ReportsPart
 from webviz.engine.parts.selection import SelectionPart
 from webviz.engine.parts.session import SessionPart
 from webviz.engine.parts.settings import SettingsPart
+from webviz.engine.parts.sharing import Exporter, SharingPart
 from webviz.engine.parts.time import TimePart
 from webviz.engine.parts.tools import ToolsPart
 from webviz.engine.parts.topics import TopicsPart
 from webviz.engine.parts.transforms import TransformsPart
 from webviz.engine.parts.views import ViewsPart
 from webviz.engine.parts.what_if import WhatIfPart
-from webviz.engine.pipeline import Services, Workers
+from webviz.engine.pipeline import Runner, Services, Workers
 from webviz.engine.pipeline.own_names import own_names
 from webviz.engine.pipeline.point_budget import PointBudget
 from webviz.engine.pipeline.scene import Scene
@@ -87,6 +89,7 @@ class FrameLoop:
         session: a file that keeps unsaved changes for the next start, None for none.
         restore: whether to show those of the last one.
         parts: factories of additional parts.
+        export: makes a file of what is shown, for those who share it; None if that is impossible.
         strict: let exceptions of displays through, for tests.
         clock: monotonic time in seconds, for rates and ages; None for that of the source, which
             stands still with a recording and while the past is shown.
@@ -107,6 +110,7 @@ class FrameLoop:
         session: Path | None = None,
         restore: bool = True,
         parts: Sequence[Callable[[Core], Part]] = (),
+        export: Exporter | None = None,
         strict: bool = False,
         clock: Callable[[], float] | None = None,
     ) -> None:
@@ -154,9 +158,9 @@ class FrameLoop:
         first = [transforms, self._time, self._playback, self._displays, self._settings, views]
         first.append(layouts)
         others, history, kept = self._other_parts(config, path, views, memory, autosave, session)
-        reports = ReportsPart(core, self._files, control, self._examined, lambda: self._shown)
         last = [
-            reports,
+            ReportsPart(core, self._files, control, self._examined, lambda: self._shown),
+            SharingPart(core, self._files, control, lambda: self._shown, export),
             WhatIfPart(core, self._displays, services),
             *(make(core) for make in parts),
         ]
@@ -249,6 +253,15 @@ class FrameLoop:
     def settings(self) -> Settings:
         """Everything in the config except its lists."""
         return self._settings.settings
+
+    def runners(self) -> Sequence[Runner]:
+        """The displays that are shown."""
+        return self._displays.list.active()
+
+    @property
+    def frames(self) -> Frames:
+        """The transforms at the time that is shown."""
+        return self._core.frames
 
     def enqueue(self, command: Command, sender: Sender = PROGRAM) -> Future[str]:
         """Enqueue a command from any thread; the next turn of the loop carries it out.

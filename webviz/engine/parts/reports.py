@@ -6,14 +6,12 @@ import base64
 import binascii
 import importlib.metadata
 import io
-import itertools
 import os
 import platform
 import tempfile
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from datetime import datetime
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -35,6 +33,7 @@ from webviz.engine.commands import (
 from webviz.engine.commands.requests import Job
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.parts.shown_moment import as_seen, new_path, slice_around
 from webviz.engine.playback import PlaybackControl
 from webviz.engine.state import State
 from webviz.files import config as config_file
@@ -49,14 +48,9 @@ from webviz.files.report import (
     write_report,
 )
 from webviz.files.report.archive import CONFIG, PICTURES, REPORT, SLICE
-from webviz.sources.bag.source import BagSource
 from webviz.sources.past_state import Event
-from webviz.sources.rewindable import Rewindable
 from webviz.sources.slices import Slice, WrittenSlice, write_slice
-from webviz.sources.switchable import Switchable
 
-BEFORE_NS, AFTER_NS = 30_000_000_000, 5_000_000_000
-"""Of a bag around the moment that is shown, unless a span is selected."""
 MAX_BYTES = 500_000_000
 """Of the slice."""
 MAX_MOMENTS = 500
@@ -143,7 +137,7 @@ class ReportsPart(Part):
             until_s = time.monotonic() + ROUNDS_S
             while self._examined() < ROUNDS and time.monotonic() < until_s:
                 time.sleep(REST_S)
-            path = Path(command.path) if command.path else _new_path()
+            path = Path(command.path) if command.path else new_path("webviz_report", ".zip")
             size = _write(path, moment, self._state(), picture)
             return f"Saved {path.name}, {max(1, round(size / 1e3)) / 1e3:.3g} MB."
 
@@ -151,11 +145,8 @@ class ReportsPart(Part):
 
     def _moment(self, sender: Sender, picks: Sequence[Picks], with_names: bool) -> _Moment:
         state, core = self._state(), self.core
-        config = self._files.config()
-        view = state.views.get(sender.browser) if sender.browser is not None else None
-        if view is not None:
-            config = replace(config, settings=msgspec.structs.replace(config.settings, view=view))
-        part, source = self._slice()
+        config = as_seen(self._files.config(), state, sender)
+        part, source = slice_around(core, self._control)
         tree = tree_text(core.buffer, core.now_ns)
         problems = diagnose(core.buffer, core.now_ns).problems
         public = {*state.offers, *state.frames, *_namespaces(state.offers)}
@@ -169,23 +160,6 @@ class ReportsPart(Part):
             PrivateNames(public, () if with_names else None),
             with_names,
         )
-
-    def _slice(self) -> tuple[Slice, str]:
-        """Return the slice around the moment that is shown, and the name of its source."""
-        source, control = self.core.source, self._control
-        if isinstance(source, Switchable):
-            source = source.shown
-        if isinstance(source, BagSource):
-            at_ns = min(max(control.position_ns, source.start_ns), source.end_ns)
-            first_ns, last_ns = control.selected or (at_ns - BEFORE_NS, at_ns + AFTER_NS)
-            part = source.slice(min(first_ns, at_ns), max(last_ns, at_ns), at_ns)
-            return part, ", ".join(source.names)
-        if not isinstance(source, Rewindable) or (found := source.slice()) is None:
-            raise Error(
-                "No messages are kept in memory. Show a topic, or raise memory.seconds in the "
-                "config."
-            )
-        return found, "live"
 
 
 def _listing(moment: _Moment) -> list[str]:
@@ -371,13 +345,3 @@ def _picture(text: str) -> tuple[str, bytes] | None:
     except (binascii.Error, OSError, ValueError, SyntaxError) as error:
         raise Error("The picture of the report is not a PNG or JPEG image.") from error
     return PICTURES[0 if kind == "PNG" else 1], data
-
-
-def _new_path() -> Path:
-    """Return a new file in the working folder, named by the time."""
-    stem = f"webviz_report_{datetime.now():%Y_%m_%d-%H_%M_%S}"
-    for number in itertools.count(1):
-        path = Path(f"{stem}.zip" if number == 1 else f"{stem}_{number}.zip").absolute()
-        if not path.exists():
-            return path
-    raise AssertionError("unreachable")

@@ -27,6 +27,7 @@ from webviz.sources.past_state import (
     MemoryState,
     PlaybackState,
     RecordingState,
+    SharingState,
 )
 
 
@@ -353,6 +354,7 @@ class State:
         memory: what is remembered of live topics, None for a recording.
         recording: the one that goes on, None for none.
         black_box: recordings that the rules of the config made, None for a bag.
+        sharing: what is shown as one file, None before the first turn.
         what_if: the frame that is tried in another pose, None for none.
         selected: ids of what each browser has selected, each with that of its display, and
             whether it moves.
@@ -392,6 +394,7 @@ class State:
     memory: MemoryState | None = None
     recording: RecordingState | None = None
     black_box: BlackBoxState | None = None
+    sharing: SharingState | None = None
     what_if: WhatIf | None = None
     selected: Mapping[int, Mapping[int, tuple[str, bool]]] = field(default_factory=dict)
     selections: Mapping[int, Mapping[str, Any]] = field(default_factory=dict)

@@ -197,6 +197,7 @@ export interface Commands {
   FocusFrame: { frame: string };
   Identify: { picks: { group: string; key: string; items: Array<[number, number | null, [number, number, number], [number, number, number] | null]> } };
   Invite: { name: string; role: "operator" | "owner" | "watcher"; days: number | null; url: string };
+  ListMoment: Record<string, never>;
   ListReport: { with_names?: boolean };
   Load: { text: string; name: string };
   LookUpTransform: { target: string; source: string };
@@ -236,11 +237,13 @@ export interface Commands {
   SetProperty: { display: string; path: string; value: unknown };
   SetRate: { rate: number };
   SetToolProperty: { tool: string; path: string; value: unknown };
+  ShareMoment: { path?: string };
   ShowView: { view: { type: "Orbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "XYOrbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "ThirdPersonFollower"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "FPS"; target_frame?: string; yaw?: number; pitch?: number; position?: [number, number, number] } | { type: "TopDownOrtho"; target_frame?: string; scale?: number; angle?: number; x?: number; y?: number } | string };
   StartRecording: { path?: string };
   StartWithView: { view?: { type: "Orbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "XYOrbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "ThirdPersonFollower"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "FPS"; target_frame?: string; yaw?: number; pitch?: number; position?: [number, number, number] } | { type: "TopDownOrtho"; target_frame?: string; scale?: number; angle?: number; x?: number; y?: number } | string | null };
   StepMessage: { topic?: string; is_forward?: boolean };
   StopRecording: Record<string, never>;
+  StopSharing: Record<string, never>;
   TryFrame: { frame: string };
   Undo: { steps?: number; own?: boolean };
   UseTool: { tool: string; points: Array<[number, number, number]>; yaw?: number; keys?: Array<string>; yaws?: Array<number>; several?: string };

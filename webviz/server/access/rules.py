@@ -65,6 +65,7 @@ COMMANDS: Mapping[type[Any], Role] = {
     commands.UseTool: Role.OPERATOR,
     requests.UseWidget: Role.OPERATOR,
     # Files of the machine that runs the viewer, and the config as a whole.
+    commands.ListMoment: Role.OWNER,
     commands.ListReport: Role.OWNER,
     commands.Load: Role.OWNER,
     commands.Open: Role.OWNER,
@@ -72,8 +73,10 @@ COMMANDS: Mapping[type[Any], Role] = {
     commands.Save: Role.OWNER,
     commands.SaveMemory: Role.OWNER,
     commands.SaveReport: Role.OWNER,
+    commands.ShareMoment: Role.OWNER,
     commands.StartRecording: Role.OWNER,
     commands.StopRecording: Role.OWNER,
+    commands.StopSharing: Role.OWNER,
     # Who may come.
     requests.Dismiss: Role.OWNER,
     requests.Invite: Role.OWNER,
@@ -102,6 +105,7 @@ STORES: Mapping[str, Role] = {
     "black_box": Role.OWNER,
     "journal": Role.OWNER,
     "links": Role.OWNER,
+    "sharing": Role.OWNER,
 }
 """Of the stores that not everybody may watch; see `webviz.page.content`."""
 

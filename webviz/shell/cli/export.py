@@ -33,6 +33,8 @@ class ExportOptions(ConfigOptions):
     """Where to begin: seconds from the start, a Unix time, `start` or `end`."""
     last: Annotated[Time, Parameter(name="--to")] = "end"
     """Where to end."""
+    at: Time | None = None
+    """Moment that the file shows when it is opened (default: that of --from)."""
     rate: Annotated[Seconds, Parameter(metavar="HZ")] = 10.0
     """Frames per second of the bag."""
     max_size: Annotated[Size, Parameter(metavar="SIZE")] = 50_000_000
@@ -80,6 +82,7 @@ def _make(bag: Path, options: ExportOptions) -> int:
             options.last,
             options.rate,
             options.max_size,
+            options.at,
         )
         made = write(order, options.output, lambda share: progress("webviz: exporting", share))
         for warning in source.warnings:

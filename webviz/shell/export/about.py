@@ -45,6 +45,7 @@ def about(
         "names": source.names,
         "start": span.first_ns / 1e9,
         "duration": last_s - first_s,
+        "at": order.begin_s(span),
         "index": [msgspec.to_builtins(each) for each in index],
         "greeting": [
             *filter(None, greeting),

@@ -47,6 +47,7 @@ def export(
         Error: the file cannot be written, or the bag cannot be read.
     """
     span = order.span()
+    order.begin_s(span)  # an error before the work
     with writing(path) as file:
         made = RunFile(file)
         limit = SizeLimit(order.max_bytes, (span.last_ns - span.first_ns) / 1e9)

@@ -27,6 +27,7 @@ class ExportOrder:
         rate_hz: frames per second of the bag.
         max_bytes: limit of the file; large clouds, and then versions of what is large, are left
             out until it is kept.
+        at: moment that the file begins with, None for the first.
     """
 
     config: Config
@@ -37,6 +38,7 @@ class ExportOrder:
     last: At = "end"
     rate_hz: float = RATE_HZ
     max_bytes: int = MAX_BYTES
+    at: At | None = None
 
     def span(self) -> ExportSpan:
         """Return the part of the bag to record.
@@ -51,3 +53,17 @@ class ExportOrder:
             first_s, last_s = (seconds_from_start(at, self.source) for at in (first_ns, last_ns))
             raise Error(f"--from {first_s:g} s is later than --to {last_s:g} s. Swap them.")
         return ExportSpan(first_ns, last_ns, self.rate_hz)
+
+    def begin_s(self, span: ExportSpan) -> float:
+        """The moment that the file begins with, in seconds from the start of its span.
+
+        Raises:
+            Error: it is outside of the span.
+        """
+        if self.at is None:
+            return 0.0
+        at_ns = position_ns(self.at, self.source, self.bag)
+        if not span.first_ns <= at_ns <= span.last_ns:
+            at_s = seconds_from_start(at_ns, self.source)
+            raise Error(f"--at {at_s:g} s must be between --from and --to.")
+        return (at_ns - span.first_ns) / 1e9

@@ -18,7 +18,8 @@ export type RecordedFrame = [
 /** Some seconds of the run, with the numbers of the first message, value and picture in it. */
 export interface RawChunk {
   messages: { first: number; items: SceneItem[] };
-  values: { first: number; items: unknown[] };
+  /** Items in another order than their numbers, with the place of each number. */
+  values: { first: number; items: unknown[]; places: number[] };
   pictures: { first: number; items: number[] };
   start: {
     scene: number[];
@@ -46,6 +47,8 @@ export interface About {
   names: string[];
   start: number;
   duration: number;
+  /** The moment that it begins with. */
+  at: number;
   index: ChunkIndex[];
   greeting: ToPage[];
   /** The saved views, and the properties of each type. */
@@ -90,3 +93,7 @@ export interface View {
 export type ViewCamera = [position: Vec3, lookAt: Vec3];
 /** Where the coordinates of a view are in the fixed frame. */
 export type ViewRig = { origin: Vec3; yaw: number };
+/** A value of each item of a node, or the one that all have. */
+export type Column = { all: unknown } | { each: unknown[] } | { numbers: number[]; unit: string };
+/** The details of what is drawn as one node; see webviz/engine/pipeline/selectable.py. */
+export type NodeValues = Map<string, any>;

@@ -7,6 +7,7 @@ import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
 import { recall, remember } from "../remember.js";
 import { record } from "../timeline/record.js";
+import { share } from "../timeline/share.js";
 import { timeline } from "../timeline/timeline.js";
 import { command, provide } from "./commands.js";
 import { duration, timeOfDay } from "./time_text.js";
@@ -60,6 +61,7 @@ export function build(place) {
     elapsed.element,
     el("div", { class: "wv-space" }),
     record(),
+    share(),
     wall.element,
     wallElapsed.element,
   );

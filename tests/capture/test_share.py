@@ -1,0 +1,111 @@
+"""What a page shows as one file: of a bag and of live topics."""
+
+from __future__ import annotations
+
+import re
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import playwright.sync_api as playwright
+import pytest
+from drives import CONFIG, recorded
+from playwright.sync_api import expect
+
+import webviz
+from webviz.data.messages import encode
+from webviz.engine.commands import Refresh, ShareMoment, StopSharing
+from webviz.shell.testing import header
+from webviz.shell.testing.source import SECOND, HandFedSource
+from webviz.sources.past_state import SharingState
+
+PATH = "nav_msgs/msg/Path"
+AT_S = 2.0
+PATIENCE_S = 120.0
+"""For another process, which imports everything anew."""
+
+
+@pytest.fixture
+def live() -> Iterator[webviz.Viewer]:
+    """A viewer of live topics that has received some paths."""
+    source = HandFedSource()
+    with webviz.Viewer(port=0, source=source) as viewer:
+        viewer.config = {"fixed_frame": "map", "displays": [{"type": "Path", "topic": "/plan"}]}
+        for _ in range(5):
+            viewer.do(Refresh())  # after the first one, the topic is subscribed to
+            source.now += SECOND
+            source.put("/plan", PATH, encode(PATH, {"header": header("map", source.now)}))
+        viewer.do(Refresh())
+        yield viewer
+
+
+def until(viewer: webviz.Viewer, holds: Callable[[SharingState], bool]) -> SharingState:
+    end_s = time.monotonic() + PATIENCE_S
+    while time.monotonic() < end_s:
+        viewer.do(Refresh())
+        told = viewer.state.sharing
+        if told is not None and holds(told):
+            return told
+        time.sleep(0.05)
+    raise AssertionError(f"still {viewer.state.sharing}")
+
+
+def test_live_topics_are_shared_one_file_at_a_time(live: webviz.Viewer, tmp_path: Path) -> None:
+    path = tmp_path / "run.html"
+    assert "Making run.html" in live.do(ShareMoment(str(path)))
+    with pytest.raises(webviz.Error, match="Another file is being made"):
+        live.do(ShareMoment(str(path)))
+    told = until(live, lambda told: told.number == 1)
+    assert (told.share, told.level) == (None, webviz.Level.OK)
+    assert re.fullmatch(r"Saved run\.html: \d\.\d s, \d\.\d MB\.", told.text)
+    assert path.read_bytes().startswith(b"<!doctype html>")
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_file_that_is_stopped_leaves_nothing(live: webviz.Viewer, tmp_path: Path) -> None:
+    live.do(ShareMoment(str(tmp_path / "run.html")))
+    assert live.do(StopSharing()) == "Stopped; no file was written."
+    assert until(live, lambda told: told.share is None).number == 0
+    assert list(tmp_path.iterdir()) == []
+    with pytest.raises(webviz.Error, match="No file is being made"):
+        live.do(StopSharing())
+
+
+def test_a_file_that_cannot_be_written_is_one_sentence(live: webviz.Viewer, tmp_path: Path) -> None:
+    live.do(ShareMoment(str(tmp_path / "missing" / "run.html")))
+    told = until(live, lambda told: told.number == 1)
+    assert told.level is webviz.Level.ERROR
+    assert "No such file or directory. Choose another place." in told.text
+
+
+def test_without_memory_there_is_nothing_to_share(tmp_path: Path) -> None:
+    with webviz.Viewer(port=0, source=HandFedSource()) as viewer:
+        viewer.config = {"displays": []}
+        with pytest.raises(webviz.Error, match="No messages are kept in memory"):
+            viewer.do(ShareMoment(str(tmp_path / "run.html")))
+
+
+def test_a_click_shares_the_moment_and_the_view(
+    browser: playwright.Browser, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    recorded().write(tmp_path / "run")
+    (tmp_path / "lab.yaml").write_text(CONFIG)
+    (work := tmp_path / "work").mkdir()
+    monkeypatch.chdir(work)
+    context = browser.new_context(viewport={"width": 1000, "height": 600})
+    with webviz.Viewer(tmp_path / "lab.yaml", port=0, bag=tmp_path / "run") as viewer:
+        viewer.seek(AT_S)
+        page = context.new_page()
+        page.goto(viewer.url)
+        page.wait_for_function("window.webviz?.hasView()")
+        page.get_by_role("button", name="Share this moment").click()
+        dialog = page.get_by_role("dialog")
+        expect(dialog.get_by_role("listitem").first).to_contain_text(re.compile(r"6\.0 s of \d"))
+        dialog.get_by_role("button", name="Share", exact=True).click()
+        expect(page.get_by_text("Saved webviz_run_")).to_be_visible(timeout=PATIENCE_S * 1e3)
+    (path,) = work.iterdir()
+    page.goto(path.as_uri())
+    page.wait_for_function("window.webviz?.hasView()")
+    expect(page.get_by_label("Go to time")).to_have_value(f"0:00:0{AT_S:.3f}")
+    expect(page.get_by_role("button", name="Share this moment")).to_be_hidden()
+    context.close()

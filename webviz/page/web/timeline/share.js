@@ -1,0 +1,129 @@
+// "Share this moment": what is shown, and the time around it, as one file that opens without webviz.
+
+import { needs, onRole, why } from "../access.js";
+import { act } from "../act.js";
+import { el, set, setText } from "../dom.js";
+import { icon } from "../icons.js";
+import { provide } from "../shell/commands.js";
+import { openDialog } from "../shell/dialog.js";
+import { toast } from "../shell/toasts.js";
+import { watch } from "../stores.js";
+
+/** @import {ValuesOf} from "../types.js" */
+
+const NAME = "Share this moment";
+const TIP = "Make one file of what you see, which opens in any browser without webviz";
+
+/** The button; hidden where there is nothing to share, and in a file that was shared. */
+export function share() {
+  let isThere = false;
+  let isBag = false; // of which a span can be selected
+  /** @type {number | null} */
+  let share = null; // of the work that is done
+  let known = -1; // how many had ended
+
+  const label = el("span", { class: "wv-number" });
+  const button = el(
+    "button",
+    { type: "button", class: "wv-button wv-share", hidden: true, onclick: () => run() },
+    icon("upload", 14),
+    label,
+  );
+
+  const run = () => (share === null ? openShare(isBag) : act("StopSharing"));
+
+  function show() {
+    const isRunning = share !== null;
+    button.hidden = !isThere || Boolean(window.webvizRun);
+    setText(label, isRunning ? `Sharing… ${Math.round((share ?? 0) * 100)} %` : NAME);
+    set(button, {
+      "aria-label": isRunning ? "Stop making the file to share" : NAME,
+      "data-tip": isRunning ? "Click to stop" : TIP,
+    });
+  }
+
+  watch("playback", (values) => {
+    isThere = values.has("start");
+    isBag = values.get("is_live") === null;
+    show();
+  });
+  /** @param {ValuesOf<"sharing">} values */
+  function follow(values) {
+    const number = values.get("number");
+    if (number === undefined) return;
+    share = values.get("share") ?? null;
+    if (known >= 0 && number > known)
+      toast(values.get("text") ?? "", { level: values.get("level") });
+    known = number;
+    show();
+  }
+
+  onRole(() => {
+    if (!why("ShareMoment")) watch("sharing", follow);
+  });
+  show();
+
+  provide(() =>
+    isThere && !window.webvizRun
+      ? [
+          {
+            name: share === null ? `${NAME}…` : "Stop sharing",
+            icon: "upload",
+            group: "Time",
+            needs: "ShareMoment",
+            run,
+          },
+        ]
+      : [],
+  );
+  return needs("ShareMoment", button);
+}
+
+/**
+ * Shows what a file would contain; begins to make it once that is confirmed.
+ *
+ * @param {boolean} isBag
+ */
+function openShare(isBag) {
+  const list = el("ul", { class: "wv-report" });
+  const problem = el("p", { class: "wv-problem", role: "alert" });
+
+  async function show() {
+    const { level, text } = await act("ListMoment", {}, { quiet: true, errors: "caller" });
+    const isBad = level === "error";
+    setText(problem, isBad ? text : "");
+    list.replaceChildren(...(isBad ? [] : text.split("\n").map((line) => el("li", {}, line))));
+  }
+
+  async function begin() {
+    const { level, text } = await act("ShareMoment", {}, { quiet: true, errors: "caller" });
+    setText(problem, level === "error" ? text : "");
+    if (level !== "error") toast(text, { level });
+    return level !== "error";
+  }
+
+  show();
+  return openDialog({
+    title: NAME,
+    className: "wv-report-dialog",
+    content: [
+      el(
+        "p",
+        { class: "wv-quiet" },
+        "One HTML file of at most 50 MB in the working folder of webviz; nothing is sent anywhere. " +
+          "It opens in any browser, without webviz or a network, and contains:",
+      ),
+      list,
+      el(
+        "p",
+        { class: "wv-quiet" },
+        isBag ? "To share another time span, select it: drag with Shift on the timeline." : "",
+      ),
+      problem,
+    ],
+    buttons: [
+      { label: "Cancel", value: null },
+      { label: "Share", value: true, primary: true, accept: begin },
+    ],
+  });
+}
