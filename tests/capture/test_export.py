@@ -202,6 +202,11 @@ def test_what_is_in_a_box_is_selected_with_its_place_and_display(file: OpenFile)
     page.mouse.up()
     shown = page.locator(".wv-selection")
     expect(shown.get_by_text("Odometry").first).to_be_attached()
+    beam = shown.get_by_role("treeitem", name=re.compile("Beam 1"))
+    beam.click()
+    beam.press("ArrowRight")
+    expect(shown).to_contain_text(re.compile(r"Range\s*2 m"))
+    expect(shown).to_contain_text(re.compile(r"Angle\s*0\.100000 rad, 5\.73°"))
     page.keyboard.press("Escape")
 
 

@@ -121,6 +121,31 @@ def found_in(shot: Shot, group_key: str, key: str, picks: Sequence[Pick]) -> dic
     return {picks[i][0]: found(ids[i], points[i]) for i in np.flatnonzero(same)}
 
 
+def every_item(shot: Shot, group_key: str, key: str, limit: int) -> Sequence[Found]:
+    """All that can be picked of a node, by the numbers that browsers give its items.
+
+    There is nothing of a node with more items than the limit, and of what depends on the point that
+    is clicked, such as the cells of an image.
+    """
+    group = shot.groups[group_key]
+    node, placement = group.nodes[key], group.placement
+    pose = compose(placement.offset, group.poses.get(key, Pose()))
+    frame = placement.frame or (shot.samples[-1].frame if shot.samples else "")
+
+    def found(id: Any, point: Position) -> Found:
+        hit = Hit(key, node, id, point, frame, shot.samples)
+        return Found(hit, pose, placement, shot.fixed_frame)
+
+    if isinstance(node, Mesh) and node.ids is None:
+        return [found(None, (0.0, 0.0, 0.0))]
+    if not isinstance(node, Items) or _count(node) > limit:
+        return []
+    rows = _drawn_rows(node)
+    rows = np.arange(_count(node)) if rows is None else rows
+    points = _positions(_only(node, rows)).astype(np.float64).tolist()
+    return [found(*each) for each in zip(_ids(node, rows), points, strict=True)]
+
+
 def _count(node: Items) -> int:
     return len(getattr(node, fields(node)[0].name))
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 import functools
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass
 from typing import Any
@@ -20,7 +20,7 @@ from webviz.engine.commands.guard import CRASHED, Guard
 from webviz.engine.pipeline.background import Tasks, Workers, is_slow
 from webviz.engine.pipeline.baking import bake
 from webviz.engine.pipeline.history import Held, Histories, History, held_samples
-from webviz.engine.pipeline.picking import Found
+from webviz.engine.pipeline.picking import Found, Shot
 from webviz.engine.pipeline.point_budget import PointBudget
 from webviz.engine.pipeline.scene_diff import SceneDiff, SceneWriter, groups_of
 
@@ -153,6 +153,10 @@ class Renderer:
     def find(self, picks: Picks) -> dict[int, Found]:
         """Return the items browsers picked; see `SceneDiff.find`."""
         return self._diff.find(picks)
+
+    def shots(self) -> Iterator[tuple[str, str, Shot]]:
+        """All groups that are drawn; see `SceneDiff.shots`."""
+        return self._diff.shots()
 
     def inspect(self, display: Display, guard: Guard, hit: Hit, frames: Frames) -> Details | None:
         """Return the details the display reports of a selected item, if it still exists."""

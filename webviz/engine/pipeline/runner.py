@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
 from webviz.api.capabilities import Comparable, capability
@@ -20,7 +20,7 @@ from webviz.engine.commands import Picks
 from webviz.engine.commands.guard import Guard
 from webviz.engine.pipeline.dragging import Dragging
 from webviz.engine.pipeline.history import held_samples
-from webviz.engine.pipeline.picking import Found
+from webviz.engine.pipeline.picking import Found, Shot
 from webviz.engine.pipeline.renderer import Renderer
 from webviz.engine.pipeline.sample_buffer import SampleBuffer
 from webviz.engine.pipeline.services import Services
@@ -216,6 +216,10 @@ class Runner:
     def find(self, picks: Picks) -> dict[int, Found]:
         """Return the items browsers picked, by id; none that was on no recent screen."""
         return self._guard.attempt("selection", {}, self._renderer.find, picks)
+
+    def shots(self) -> Iterator[tuple[str, str, Shot]]:
+        """All groups that are drawn; see `SceneDiff.shots`."""
+        return self._renderer.shots()
 
     def inspect(self, found: Found, frames: Frames) -> Details | None:
         """Return the details the display reports of a selected item, if it still exists."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
@@ -120,6 +120,13 @@ class SceneDiff:
                 break
             found |= found_in(shot, group, picks.key, missing)
         return found
+
+    def shots(self) -> Iterator[tuple[str, str, Shot]]:
+        """The name of each group, its key, and the picture that it is a part of."""
+        for scope in self._scopes:
+            shot = self._shot(scope)
+            for key in shot.groups:
+                yield self._name(scope, key), key, shot
 
     def replace(self, scope: str, context: Context, samples: Sequence[Sample] = ()) -> None:
         """Make the content of a scope exactly what a context collected from samples."""

@@ -92,7 +92,7 @@ class TapeChunk:
     first_picture: int
     start: Mapping[str, Any] = field(default_factory=dict[str, Any])
     messages: list[Any] = field(default_factory=list[Any])
-    values: list[msgspec.Raw] = field(default_factory=list[msgspec.Raw])
+    values: list[tuple[str, msgspec.Raw]] = field(default_factory=list[tuple[str, msgspec.Raw]])
     pictures: list[int] = field(default_factory=list[int])
     frames: list[Any] = field(default_factory=list[Any])
     buffers: Buffers = field(default_factory=Buffers)
@@ -117,10 +117,10 @@ class TapeChunk:
         self.json_bytes += len(encoded)
         self.messages.append(msgspec.Raw(encoded))
 
-    def add_value(self, value: msgspec.Raw) -> None:
-        """Add a value of a store."""
+    def add_value(self, kind: str, value: msgspec.Raw) -> None:
+        """Add a value of a store; those of a kind are alike, and compressed side by side."""
         self.json_bytes += len(bytes(value))
-        self.values.append(value)
+        self.values.append((kind, value))
 
     def add_picture(self, data: bytes) -> None:
         """Add a picture of a pane as pages receive it."""
@@ -133,10 +133,16 @@ class TapeChunk:
             every: of how many points of large clouds one is kept.
         """
         index, arrays = self.buffers.packed(every)
+        order = sorted(range(len(self.values)), key=lambda number: self.values[number][0])
+        places = {number: place for place, number in enumerate(order)}
         text = msgspec.json.encode(
             {
                 "messages": {"first": self.first_message, "items": self.messages},
-                "values": {"first": self.first_value, "items": self.values},
+                "values": {
+                    "first": self.first_value,
+                    "items": [self.values[number][1] for number in order],
+                    "places": [places[number] for number in range(len(order))],
+                },
                 "pictures": {"first": self.first_picture, "items": self.pictures},
                 "start": self.start,
                 "frames": self.frames,

@@ -30,6 +30,11 @@ class SizeLimit:
         default_factory=list[tuple[float, float, int, int]]
     )
 
+    @property
+    def is_exceeded(self) -> bool:
+        """Return whether something has to be left out now."""
+        return self.every > 1 or self.skip > 1
+
     def room(self, used: int, first_s: float, last_s: float) -> float:
         """Return how many packed bytes the seconds between two times may have.
 
@@ -43,7 +48,7 @@ class SizeLimit:
 
     def adapt(self, size: int, room: float, first_s: float, last_s: float) -> None:
         """Note how a part was made, and choose how the next one begins."""
-        if self.every > 1 or self.skip > 1:
+        if self.is_exceeded:
             self._thinned.append((first_s, last_s, self.every, self.skip))
         if size > room:
             self.skip = min(self.skip * 2, MAX_SKIP)
@@ -66,4 +71,4 @@ class SizeLimit:
             notes.append(
                 f"Of clouds, maps and pictures, at least one of {skip} versions is shown {when}."
             )
-        return notes
+        return [*notes, f"Values of selected points are missing {when}."]

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from webviz.api.frames import Frames
 from webviz.api.views import FIXED_FRAME
 from webviz.engine.commands import Refresh
+from webviz.engine.pipeline.selectable import SelectableValues
 from webviz.engine.state import State
 from webviz.files.config import Config
 from webviz.page.pages import Pages
@@ -20,7 +21,7 @@ from webviz.scene.adapter.tape import SceneTape
 from webviz.scene.cameras import ViserCameras
 from webviz.server.http.viser_server import Server
 from webviz.shell.export.panes import PaneTape
-from webviz.shell.export.stores import RecordingChannel
+from webviz.shell.export.stores import VALUES, RecordingChannel
 from webviz.shell.export.tape import TapeFrame
 from webviz.shell.pictures.offline_viewer import OfflineViewer
 from webviz.sources.bag.source import BagSource
@@ -94,6 +95,7 @@ class RunRecorder:
 
     def __init__(self, config: Config, source: BagSource) -> None:
         self._source = source
+        self._values = SelectableValues()
         with contextlib.ExitStack() as stack:
             server = open_server(port=0)
             stack.callback(server.stop)
@@ -143,11 +145,18 @@ class RunRecorder:
             for _ in range(REFRESHES if number == 0 else 1):
                 self.viewer.do(Refresh())
             self._scene.complete(PATIENCE_S)
+            self._show_values()
             pictures = self._panes.take(self._scene.link.pictures.panes())
             ros_s = self._source.now_ns() / 1e9
             stores = self.channel.take(is_slow_due)
             yield TapeFrame(at_s, ros_s, self._tape.take(), stores, pictures)
             tell((number + 1) / len(times))
+
+    def _show_values(self) -> None:
+        """Record the details of what can be selected."""
+        loop = self.viewer.loop
+        for runner in loop.runners():
+            self.channel.show(f"{VALUES}{runner.id}", self._values.of(runner, loop.frames))
 
     def _follow_frames(self) -> None:
         """Record the poses of all frames that have one, as far as there are not too many."""

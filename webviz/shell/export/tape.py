@@ -12,7 +12,7 @@ from webviz.scene.adapter.tape import SceneChange, SceneMessage
 from webviz.server.sending.outbox import BULK_BYTES
 from webviz.shell.export.chunks import TapeChunk
 from webviz.shell.export.limit import MAX_EVERY, SizeLimit
-from webviz.shell.export.stores import Changes
+from webviz.shell.export.stores import VALUES, Changes
 
 KEYFRAME_S = 5.0
 """Seconds of the run in one chunk: what a seek has to unpack."""
@@ -150,16 +150,16 @@ class Tape:
     def _add_values(self, chunk: TapeChunk, changes: Changes) -> list[Any]:
         told: list[Any] = []
         for (store, key), value in changes.items():
-            if value is None:
+            if value is None or (store.startswith(VALUES) and self._limit.is_exceeded):
                 self._stores.pop((store, key), None)
                 told.append([store, key, -1])
                 continue
-            number = self._number(chunk, value)
+            number = self._number(chunk, f"{store} {key}", value)
             self._stores[store, key] = number
             told.append([store, key, number])
         return told
 
-    def _number(self, chunk: TapeChunk, value: msgspec.Raw) -> int:
+    def _number(self, chunk: TapeChunk, kind: str, value: msgspec.Raw) -> int:
         encoded = bytes(value)
         if (known := self._known.get(encoded)) is not None:
             return known
@@ -167,7 +167,7 @@ class Tape:
             self._known.clear()
         number = self._known[encoded] = self._values
         self._values += 1
-        chunk.add_value(value)
+        chunk.add_value(kind, value)
         return number
 
     def _add_pictures(

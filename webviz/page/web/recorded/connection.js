@@ -83,6 +83,7 @@ export function connection(about, feed) {
   const view = views(about, tell, tellView);
   const picked = selection(
     (display) => run.value("displays", display),
+    (display, node) => run.read(`values:${display}`, node),
     () => `${run.ros().toFixed(3)} s`,
   );
 
@@ -192,8 +193,8 @@ export function connection(about, feed) {
     SaveImage: ({ name = "" }) => tell({ type: "SaveCanvas", name }),
     SetProperty: ({ display, value }) => run.enable(display, value),
     Identify: () => {},
-    Select(fields) {
-      picked.select(fields);
+    async Select(fields) {
+      await picked.select(fields);
       tellAll(["selected:0", "selection:0"]);
     },
   };
@@ -246,7 +247,7 @@ export function connection(about, feed) {
     } else if (message.type === "Ping") tell({ type: "Pong" });
   }
 
-  const begun = time.seek(0);
+  const begun = time.seek(about.at);
   return {
     socket,
     /** To be called once the page listens to the socket. */

@@ -32,6 +32,12 @@ const made = (chunk, number) =>
   revived(chunk, chunk.messages.items[number - chunk.messages.first][3]);
 
 /**
+ * @param {Chunk} chunk
+ * @param {number} number
+ */
+const valueIn = ({ values: { first, items, places } }, number) => items[places[number - first]];
+
+/**
  * Returns `{show(at), ros(), watch(store), unwatch(store), enable(display, enabled), repeat(display)}`.
  *
  * @param {About} about
@@ -111,10 +117,7 @@ export function player(about, sinks) {
     ]);
     const of = await homes("value", new Set(numbers));
     /** @param {number} number */
-    const value = (number) => {
-      const { first, items } = of(number).values;
-      return items[number - first];
-    };
+    const value = (number) => valueIn(of(number), number);
     return new Map(
       wanted.map(([name, content]) => [
         /** @type {string} */ (name),
@@ -198,6 +201,22 @@ export function player(about, sinks) {
      * @param {string} key
      */
     value: (store, key) => /** @type {any} */ (values.get(store)?.get(key)),
+    /**
+     * The values of a store whose keys begin with a text, by the rest of their keys.
+     *
+     * @param {string} store
+     * @param {string} start
+     */
+    async read(store, start) {
+      const all = [...(shown.stores.get(store) ?? [])].filter(([key]) => key.startsWith(start));
+      const of = await homes(
+        "value",
+        all.map(([, number]) => number),
+      );
+      return new Map(
+        all.map(([key, number]) => [key.slice(start.length), valueIn(of(number), number)]),
+      );
+    },
     /**
      * The ids of a display and of those in it, if it is a group.
      *

@@ -1,14 +1,30 @@
-// The selection of a page that was exported: what is known without its display.
+// The selection of a page that was exported: the recorded details of things, and what the scene has.
 
 /** @import {DisplayRow} from "../contents.js" */
+/** @import {Column, NodeValues} from "./types.js" */
+
+const MISSING = "not in the file. Open the bag in webviz to see them.";
+
+/**
+ * The value of an item in a column.
+ *
+ * @param {Column | undefined} column
+ * @param {number} number
+ */
+function cell(column, number) {
+  if (!column) return undefined;
+  if ("numbers" in column) return `${column.numbers[number]} ${column.unit}`.trim();
+  return /** @type {any} */ ("all" in column ? column.all : column.each[number]);
+}
 
 /**
  * Returns `{select(fields), selected(), selection()}`: the command, and the stores of these names.
  *
  * @param {(display: string) => DisplayRow | undefined} rowOf
+ * @param {(display: string, node: string) => Promise<NodeValues>} valuesOf of a node now
  * @param {() => string} stamp the time that is shown
  */
-export function selection(rowOf, stamp) {
+export function selection(rowOf, valuesOf, stamp) {
   /** @type {Map<number, {display: string, thing: object}>} */
   let things = new Map(); // by id
   let total = 0;
@@ -16,32 +32,41 @@ export function selection(rowOf, stamp) {
   /**
    * @param {any} picks
    * @param {any} item
+   * @param {NodeValues} values
    */
-  function made({ group, key }, [id, number, at, color]) {
+  function made({ group, key }, [id, number, at, color], values) {
     const display = group.split("/", 1)[0];
     const row = rowOf(display);
     const name = row?.name ?? display;
-    /** @type {Record<string, string>} */
-    const fields = {
-      Position: `${at.map((/** @type {number} */ each) => each.toFixed(4)).join(", ")} m`,
-    };
+    /** @type {Record<string, any>} */
+    const fields = {};
+    for (const [field, column] of values) {
+      const value = field.startsWith(".") ? cell(column, number ?? 0) : null;
+      if (value !== undefined && value !== null) fields[field.slice(1)] = value;
+    }
+    fields.Position = `${at.map((/** @type {number} */ each) => each.toFixed(4)).join(", ")} m`;
+    if (values.get("#frame")) fields.Frame = values.get("#frame");
     if (color) fields.Color = color.join(", ");
     if (row?.topics.length) fields.Topic = row.topics.join(", ");
+    if (values.get("#stamp")) fields.Stamp = values.get("#stamp");
     fields.Time = stamp();
-    const title = number === null ? key || name : `${key || "Item"} ${number}`.trim();
+    if (!values.size) fields.Values = MISSING;
+    const plain = number === null ? key || name : `${key || "Item"} ${number}`.trim();
+    const title = cell(values.get("#titles"), number ?? 0) ?? plain;
     const thing = { display, name, title, tree: { fields }, note: "" };
-    return { id, display, thing };
+    return { display, thing };
   }
 
   return {
     /** @param {any} fields of the command Select */
-    select({ picks, keep, total: count }) {
-      things = new Map([...things].filter(([id]) => keep.includes(id)));
-      for (const each of picks)
-        for (const item of each.items) {
-          const { id, ...rest } = made(each, item);
-          things.set(id, rest);
-        }
+    async select({ picks, keep, total: count }) {
+      const next = new Map([...things].filter(([id]) => keep.includes(id)));
+      for (const each of picks) {
+        const display = each.group.split("/", 1)[0];
+        const values = await valuesOf(display, `${each.group}\n${each.key}\n`);
+        for (const item of each.items) next.set(item[0], made(each, item, values));
+      }
+      things = next;
       total = Math.max(count, things.size);
     },
     selected: () =>
