@@ -107,6 +107,15 @@ def test_the_distance_and_a_difference_over_time(runs: tuple[Path, Path]) -> Non
         assert plot.curves == [f"{DISTANCE}.data", f"{DIFFERENCE}.data"]  # pyright: ignore
 
 
+def test_a_slice_has_both_runs(runs: tuple[Path, Path]) -> None:
+    with viewer(runs, "start") as shown:
+        source = shown.source
+        part = source.slice(source.start_ns, source.end_ns, source.end_ns)
+        topics = [channel.topic for channel, _, _ in part.messages()]
+    for topic in ("/scan", "/tf"):
+        assert topics.count(f"/ghost{topic}") == topics.count(topic) == 61
+
+
 def test_copies_are_tinted_and_read_topics_of_their_own(runs: tuple[Path, Path]) -> None:
     with viewer(runs, "start") as shown:
         rows = {row.name: row.display for row in shown.rows}

@@ -17,6 +17,7 @@ from webviz.data.recordings import RecordedChannel
 from webviz.data.recordings.mcap_writing import McapFile
 from webviz.sources.bag.file import BagChannel, Recorded
 from webviz.sources.bag.files import BagFiles
+from webviz.sources.bag.ghost import Ghost, ghost_files
 from webviz.sources.bag.log import LOG, ROSOUT
 from webviz.sources.bag.past import BagPast
 from webviz.sources.recording import Channels, Entry, ForwardClock, library
@@ -110,6 +111,7 @@ class BagSlice:
         renamed: names of topics that the slice has other names for.
         span_ns: the first and the last time of recording.
         shown_ns: the moment that is shown.
+        ghost: a second run beside them.
     """
 
     paths: Sequence[Path]
@@ -117,6 +119,7 @@ class BagSlice:
     renamed: Mapping[str, str]
     span_ns: tuple[int, int]
     shown_ns: int
+    ghost: Ghost | None = None
 
     @property
     def topics(self) -> int:
@@ -131,7 +134,8 @@ class BagSlice:
     def messages(self) -> Iterator[SliceMessage]:
         """`Slice.messages`; raises BagError."""
         first_ns, last_ns = self.span_ns
-        files = BagFiles(self.paths)
+        ghost = self.ghost
+        files = BagFiles(self.paths, ghost_files(self.paths, ghost) if ghost else ())
         try:
             chosen = [channel for channel in files.channels if self._is_chosen(channel)]
             by_place = {(channel.topic, channel.type): channel for channel in chosen}
@@ -172,9 +176,8 @@ class BagSlice:
         self, channels: Mapping[tuple[str, str], BagChannel], recorded: Recorded, stamp_ns: int
     ) -> SliceMessage:
         channel = channels[recorded.topic, recorded.type].recorded
-        if name := self.renamed.get(recorded.topic):
-            channel = replace(channel, topic=name)
-        return channel, stamp_ns, recorded.cdr
+        name = self.renamed.get(recorded.topic, recorded.topic)
+        return replace(channel, topic=name), stamp_ns, recorded.cdr
 
 
 @dataclass(frozen=True)

@@ -186,7 +186,8 @@ class BagSource:
         """Return the subscribed topics in a span, and what displays need of the time before."""
         renamed = {ours: theirs for theirs, ours in self._remappings.items()}
         span_ns = max(first_ns, self.start_ns), min(last_ns, self.end_ns)
-        return BagSlice(self._paths, dict(self._wanted), renamed, span_ns, shown_ns)
+        wanted = dict(self._wanted)
+        return BagSlice(self._paths, wanted, renamed, span_ns, shown_ns, self.ghost)
 
     def links(self) -> Sequence[tuple[str, str]]:
         """Parents and children of the static transforms and of the first ones that move."""
