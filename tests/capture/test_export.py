@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import io
 import itertools
+import math
 import os
 import random
 import re
@@ -14,6 +15,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+import firefox
 import msgspec
 import numpy as np
 import PIL.Image
@@ -72,7 +74,7 @@ class OpenFile:
         self.requests: list[str] = []
         page.on("request", lambda request: self.requests.append(request.url))
         page.add_init_script(COUNT_UNPACKING)
-        page.goto(path.as_uri())
+        page.goto(f"{path.as_uri()}?fixedDpr=1")  # also if the machine is slow
         page.wait_for_function("window.webviz?.hasView()")
 
     def seek(self, at_s: float) -> None:
@@ -202,10 +204,59 @@ def test_what_is_in_a_box_is_selected_with_its_place_and_display(file: OpenFile)
     page.mouse.up()
     shown = page.locator(".wv-selection")
     expect(shown.get_by_text("Odometry").first).to_be_attached()
-    beam = shown.get_by_role("treeitem", name=re.compile("Beam 1"))
-    beam.click()
-    beam.press("ArrowRight")
-    expect(shown).to_contain_text(re.compile(r"Range\s*2 m"))
+    page.keyboard.press("Escape")
+
+
+SHOW = """
+const [at] = arguments;
+const field = document.querySelector("[aria-label='Go to time']");
+field.value = String(at);
+field.dispatchEvent(new Event("change", { bubbles: true }));
+"""
+IS_SHOWN = "return document.querySelector(\"[aria-label='Go to time']\").value === arguments[0]"
+
+
+def differing(first: np.ndarray, second: np.ndarray) -> int:
+    """The number of pixels that are not the same, apart from rounding."""
+    if first.shape != second.shape:
+        return max(first.size, second.size)
+    return int((abs(first.astype(int) - second) > 4).any(axis=-1).sum())
+
+
+def test_firefox_shows_the_file_in_any_order_without_a_network(
+    folder: Path, tmp_path: Path
+) -> None:
+    with firefox.opened(tmp_path) as tab:
+        tab.open(folder / "run.html")
+        tab.wait_for("return window.webviz?.hasView()")
+        tab.run("document.getElementById('webviz').style.visibility = 'hidden'")
+
+        def shown(at_s: float) -> np.ndarray:
+            tab.run(SHOW, at_s)
+            tab.wait_for(IS_SHOWN, f"0:00:0{at_s:.3f}")
+            before, pixels = np.empty(0), tab.pixels("canvas")
+            while differing(before, pixels):  # it draws on its own
+                before, pixels = pixels, tab.pixels("canvas")
+            return pixels
+
+        first, second = shown(1.0), shown(4.0)
+        assert differing(first, second) > 100
+        assert len(np.unique(first.reshape(-1, 3), axis=0)) > 20
+        assert differing(shown(1.0), first) == 0
+        names = "return performance.getEntriesByType('resource').map(({ name }) => name)"
+        assert [name for name in tab.run(names) if not name.startswith(("blob:", "data:"))] == []
+
+
+def test_a_click_shows_the_values_of_a_point(file: OpenFile) -> None:
+    file.seek(2.0)
+    page = file.page
+    page.keyboard.press("s")
+    # Of the scan before: the transform at the stamp of this one comes later.
+    x, y = page.evaluate(PIXEL, [1.9 + 2.0 * math.cos(0.1), 2.0 * math.sin(0.1), 0.0])
+    (left, top, width, _), (columns, _) = page.evaluate(BOX), page.evaluate(CANVAS)
+    page.mouse.click(left + x * width / columns, top + y * width / columns)
+    shown = page.locator(".wv-selection")
+    expect(shown).to_contain_text(re.compile(r"Beam 1.*Range\s*2 m", re.DOTALL))
     expect(shown).to_contain_text(re.compile(r"Angle\s*0\.100000 rad, 5\.73°"))
     page.keyboard.press("Escape")
 

@@ -1,4 +1,4 @@
-"""What a page shows as one file: of a bag and of live topics."""
+"""The shown moment as one file: of a bag and of live topics."""
 
 from __future__ import annotations
 

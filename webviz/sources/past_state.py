@@ -107,7 +107,7 @@ class BlackBoxState:
 
 @dataclass(frozen=True)
 class SharingState:
-    """What is shown as one file.
+    """Files that share the shown moment.
 
     Args:
         share: that is done of the one that is being made, None for none.

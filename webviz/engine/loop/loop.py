@@ -9,7 +9,6 @@ from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
 
-from webviz.api.frames import Frames
 from webviz.api.nodes import POINTS_HELD
 from webviz.api.robots import NamespacedRobot, robots_of
 from webviz.data.transforms import TransformBuffer
@@ -255,13 +254,8 @@ class FrameLoop:
         return self._settings.settings
 
     def runners(self) -> Sequence[Runner]:
-        """The displays that are shown."""
+        """Return the displays that are shown."""
         return self._displays.list.active()
-
-    @property
-    def frames(self) -> Frames:
-        """The transforms at the time that is shown."""
-        return self._core.frames
 
     def enqueue(self, command: Command, sender: Sender = PROGRAM) -> Future[str]:
         """Enqueue a command from any thread; the next turn of the loop carries it out.

@@ -1,4 +1,4 @@
-"""What is shown as one HTML file, which opens without webviz."""
+"""Sharing the shown moment as one HTML file, which opens without webviz."""
 
 from __future__ import annotations
 
@@ -133,7 +133,7 @@ class SharingPart(Part):
         self._told = SharingState(number=self._told.number + 1, level=level, text=text)
 
     def state(self) -> Mapping[str, Any]:
-        """The export that goes on, and the answer to the last one."""
+        """Return the export that goes on, and the answer to the last one."""
         told, running = self._told, self._running
         share = None if running is None else int(running.share * STEP) / STEP
         return {"sharing": SharingState(share, told.number, told.level, told.text)}

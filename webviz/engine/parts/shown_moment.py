@@ -25,7 +25,7 @@ BEFORE_NS, AFTER_NS = 30_000_000_000, 5_000_000_000
 
 
 def slice_around(core: Core, control: PlaybackControl) -> tuple[Slice, str]:
-    """The slice around the moment that is shown, and the name of its source.
+    """Return the slice around the moment that is shown, and the name of its source.
 
     Raises:
         Error: there are no messages.
@@ -46,7 +46,7 @@ def slice_around(core: Core, control: PlaybackControl) -> tuple[Slice, str]:
 
 
 def as_seen(config: Config, state: State, sender: Sender) -> Config:
-    """A config that begins with the view of the browser that sent a command."""
+    """Return a config that begins with the view of the browser that sent a command."""
     view = state.views.get(sender.browser) if sender.browser is not None else None
     if view is None:
         return config
@@ -54,7 +54,7 @@ def as_seen(config: Config, state: State, sender: Sender) -> Config:
 
 
 def new_path(stem: str, suffix: str) -> Path:
-    """A new file in the working folder, named by the time."""
+    """Return a new file in the working folder, named by the time."""
     name = f"{stem}_{datetime.now():%Y_%m_%d-%H_%M_%S}"
     for number in itertools.count(1):
         path = Path(f"{name}{suffix}" if number == 1 else f"{name}_{number}{suffix}").absolute()

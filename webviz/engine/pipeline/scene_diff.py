@@ -122,7 +122,7 @@ class SceneDiff:
         return found
 
     def shots(self) -> Iterator[tuple[str, str, Shot]]:
-        """The name of each group, its key, and the picture that it is a part of."""
+        """Yield the name of each group, its key, and the picture that it is a part of."""
         for scope in self._scopes:
             shot = self._shot(scope)
             for key in shot.groups:

@@ -35,7 +35,7 @@ class SelectableValues:
         self._made: dict[tuple[str, str], tuple[Node, Sequence[Sample], Values]] = {}
 
     def of(self, runner: Runner, frames: Frames) -> Mapping[str, Any]:
-        """The details of a display, by group and key of its nodes and what it is, in lines.
+        """Return the details of a display, by group and key of its nodes and what it is, in lines.
 
         Args:
             runner: of the display.
@@ -86,7 +86,7 @@ def _titles(details: Iterable[Details | None]) -> list[str | None]:
 
 
 def _values_column(name: str, details: Sequence[Details | None]) -> Mapping[str, Any]:
-    """A value of all items, None of those that do not have it."""
+    """Return a value of all items, None of those that do not have it."""
     values = [_rounded(each.values.get(name)) if each else None for each in details]
     numbers = [each.value if isinstance(each, Quantity) else each for each in values]
     units = {each.unit if isinstance(each, Quantity) else "" for each in values}
@@ -99,7 +99,7 @@ def _values_column(name: str, details: Sequence[Details | None]) -> Mapping[str,
 
 
 def _column(values: Sequence[Any]) -> Mapping[str, Any]:
-    """The values of all items, or the one that all have."""
+    """Return the values of all items, or the one that all have."""
     first = values[0]
     if all(each == first for each in values):
         return {"all": first}

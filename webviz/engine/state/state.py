@@ -354,7 +354,7 @@ class State:
         memory: what is remembered of live topics, None for a recording.
         recording: the one that goes on, None for none.
         black_box: recordings that the rules of the config made, None for a bag.
-        sharing: what is shown as one file, None before the first turn.
+        sharing: files that share the shown moment, None before the first turn.
         what_if: the frame that is tried in another pose, None for none.
         selected: ids of what each browser has selected, each with that of its display, and
             whether it moves.

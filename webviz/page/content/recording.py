@@ -105,7 +105,7 @@ def black_box(state: State, _: str) -> BlackBoxStore | None:
 
 
 class SharingStore(PageStore, frozen=True):
-    """What is shown as one file.
+    """Files that share the shown moment.
 
     Args:
         share: that is done of the one that is being made, None for none.
@@ -120,7 +120,7 @@ class SharingStore(PageStore, frozen=True):
 
 
 def sharing(state: State, _: str) -> SharingStore | None:
-    """The file that is being made of what is shown, and how the last one ended."""
+    """Return the file that is being made of what is shown, and how the last one ended."""
     told = state.sharing
     if told is None:
         return None

@@ -55,7 +55,7 @@ class ExportOrder:
         return ExportSpan(first_ns, last_ns, self.rate_hz)
 
     def begin_s(self, span: ExportSpan) -> float:
-        """The moment that the file begins with, in seconds from the start of its span.
+        """Return the moment that the file begins with, in seconds from the start of its span.
 
         Raises:
             Error: it is outside of the span.

@@ -15,7 +15,7 @@ from typing import IO
 import msgspec
 
 from webviz.api.errors import Error
-from webviz.engine.parts.sharing import SharedMoment
+from webviz.engine.parts.sharing import Exporter, SharedMoment
 
 REST_S = 0.2
 """Between two looks whether the file is still wanted."""
@@ -24,7 +24,7 @@ NICE = 10
 ENDING_S = 5.0
 
 
-class Order(msgspec.Struct, frozen=True):
+class ExportRequest(msgspec.Struct, frozen=True):
     """A file to make; the words of `SharedMoment`, and the files with plug-ins."""
 
     bag: str
@@ -35,7 +35,7 @@ class Order(msgspec.Struct, frozen=True):
     plugins: Sequence[str] = ()
 
 
-class Told(msgspec.Struct, frozen=True, omit_defaults=True):
+class ExportProgress(msgspec.Struct, frozen=True, omit_defaults=True):
     """A line of the other process: the share that is done, or how it ended."""
 
     share: float | None = None
@@ -43,10 +43,8 @@ class Told(msgspec.Struct, frozen=True, omit_defaults=True):
     problem: str = ""
 
 
-def exporter(
-    plugins: Sequence[Path],
-) -> Callable[[SharedMoment, Callable[[float], object], threading.Event], str]:
-    """An `Exporter` that starts a process for each file.
+def exporter(plugins: Sequence[Path]) -> Exporter:
+    """Return an `Exporter` that starts a process for each file.
 
     Args:
         plugins: files to load there.
@@ -56,8 +54,8 @@ def exporter(
         moment: SharedMoment, tell: Callable[[float], object], stopped: threading.Event
     ) -> str:
         files = [str(path.absolute()) for path in plugins]
-        paths = (str(each) for each in (moment.bag, moment.config, moment.path))
-        order = Order(*paths, moment.name, moment.at_s, files)
+        bag, config, path = (str(each) for each in (moment.bag, moment.config, moment.path))
+        order = ExportRequest(bag, config, path, moment.name, moment.at_s, files)
         with _process(order) as process:
             for told in _lines(process, stopped):
                 if told.problem:
@@ -77,8 +75,8 @@ def exporter(
 
 
 @contextlib.contextmanager
-def _process(order: Order) -> Iterator[subprocess.Popen[bytes]]:
-    """A process that makes a file; it ends with the block, whatever happens."""
+def _process(order: ExportRequest) -> Iterator[subprocess.Popen[bytes]]:
+    """Start a process that makes a file; it ends with the block, whatever happens."""
     process = subprocess.Popen(
         [sys.executable, "-m", __name__],
         stdin=subprocess.PIPE,
@@ -103,8 +101,8 @@ def _process(order: Order) -> Iterator[subprocess.Popen[bytes]]:
             process.stdout.close()
 
 
-def _lines(process: subprocess.Popen[bytes], stopped: threading.Event) -> Iterator[Told]:
-    """What a process tells, until it ends or is not wanted any more."""
+def _lines(process: subprocess.Popen[bytes], stopped: threading.Event) -> Iterator[ExportProgress]:
+    """Yield the lines of a process, until it ends or is not wanted any more."""
     assert process.stdout is not None
     rest = b""
     while not stopped.is_set():
@@ -114,7 +112,7 @@ def _lines(process: subprocess.Popen[bytes], stopped: threading.Event) -> Iterat
         if not data:
             return
         *whole, rest = (rest + data).split(b"\n")
-        yield from (msgspec.json.decode(line, type=Told) for line in whole)
+        yield from (msgspec.json.decode(line, type=ExportProgress) for line in whole)
 
 
 def main() -> None:
@@ -122,7 +120,7 @@ def main() -> None:
     out = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # nothing else may write between the lines
     os.nice(NICE)
-    order = msgspec.json.decode(sys.stdin.buffer.readline(), type=Order)
+    order = msgspec.json.decode(sys.stdin.buffer.readline(), type=ExportRequest)
     work = threading.Thread(target=_work, args=(order, out), daemon=True)
     work.start()
     threading.Thread(target=_end_with_input, daemon=True).start()
@@ -134,18 +132,18 @@ def _end_with_input() -> None:
     os._exit(1)
 
 
-def _work(order: Order, out: IO[bytes]) -> None:
-    def tell(told: Told) -> None:
+def _work(order: ExportRequest, out: IO[bytes]) -> None:
+    def tell(told: ExportProgress) -> None:
         out.write(msgspec.json.encode(told) + b"\n")
         out.flush()
 
     try:
-        tell(Told(done=_make(order, lambda share: tell(Told(share)))))
+        tell(ExportProgress(done=_make(order, lambda share: tell(ExportProgress(share)))))
     except Error as error:
-        tell(Told(problem=str(error)))
+        tell(ExportProgress(problem=str(error)))
 
 
-def _make(order: Order, tell: Callable[[float], object]) -> str:
+def _make(order: ExportRequest, tell: Callable[[float], object]) -> str:
     from webviz.engine.pipeline import plugins
     from webviz.files.opening import parse
     from webviz.shell.bag_source import bag_source

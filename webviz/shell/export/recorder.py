@@ -154,14 +154,19 @@ class RunRecorder:
 
     def _show_values(self) -> None:
         """Record the details of what can be selected."""
+        frames = self._frames()
+        for runner in self.viewer.loop.runners():
+            self.channel.show(f"{VALUES}{runner.id}", self._values.of(runner, frames))
+
+    def _frames(self) -> Frames:
+        """Return the transforms at the time that is shown."""
         loop = self.viewer.loop
-        for runner in loop.runners():
-            self.channel.show(f"{VALUES}{runner.id}", self._values.of(runner, loop.frames))
+        return Frames(loop.buffer, loop.settings.fixed_frame, self._source.now_ns())
 
     def _follow_frames(self) -> None:
         """Record the poses of all frames that have one, as far as there are not too many."""
         loop = self.viewer.loop
-        frames = Frames(loop.buffer, loop.settings.fixed_frame, self._source.now_ns())
+        frames = self._frames()
         wanted = [view.target_frame for view in loop.settings.views.values()]
         known = dict.fromkeys([*wanted, *loop.state().frames])
         found = (frame for frame in known if frame != FIXED_FRAME and frames.latest(frame))

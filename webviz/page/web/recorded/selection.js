@@ -34,7 +34,7 @@ export function selection(rowOf, valuesOf, stamp) {
    * @param {any} item
    * @param {NodeValues} values
    */
-  function made({ group, key }, [id, number, at, color], values) {
+  function made({ group, key }, [, number, at, color], values) {
     const display = group.split("/", 1)[0];
     const row = rowOf(display);
     const name = row?.name ?? display;
