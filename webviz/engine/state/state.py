@@ -342,8 +342,7 @@ class State:
         panels: of plug-ins, in the order of their tabs.
         goals: that tools sent to actions, oldest first.
         driving: the vehicles that browsers attend to, by id of their tool.
-        handles: what browsers can drag, by id of the display and key, each with the id of the
-            browser that holds it.
+        handles: what browsers can drag, by id of the display and key, with who holds each.
         history: what can be undone and redone.
         playback: the recording that is played, None for live topics.
         recorded: counts of its messages in equal parts of its span, by topic.
@@ -356,8 +355,7 @@ class State:
         black_box: recordings that the rules of the config made, None for a bag.
         sharing: files that share the shown moment, None before the first turn.
         what_if: the frame that is tried in another pose, None for none.
-        selected: ids of what each browser has selected, each with that of its display, and
-            whether it moves.
+        selected: by browser, ids of things with those of their displays, and whether they move.
         selections: what is known of it, for the browsers that show it.
         reported: the selection of the bug report that is shown.
         more: fields of additional parts, by name.
