@@ -58,9 +58,7 @@ def serve(
     Returns:
         The exit status.
     """
-
     template = options.template or standard
-
     beside = _with_ghost(bag, ros)
 
     @functools.cache
@@ -76,30 +74,10 @@ def serve(
     _import_slow_parts()
     is_shown = False
     if stop.hold():
-        with Viewer(
-            options.display_config,
-            read=read,
-            host=options.host,
-            port=options.port,
-            allow_hosts=options.allow_host,
-            fixed_frame=options.fixed_frame,
-            bag=None if beside else bag.bag or None,
-            source=beside or (connect.source(ros) if connect.connect else None),
-            autoplay=not bag.paused,
-            ros_args=ros,
-            plugins=options.plugin,
-            sessions=_sessions(options, template, bag) if options.autosave and not beside else None,
-            config_folders=options.config_folder,
-            publish=not options.no_publish,
-            allow_publish=options.allow_publish,
-            certfile=options.certfile,
-            keyfile=options.keyfile,
-            trust_proxies=options.trust_proxy,
-            link=options.link,
-            token=options.token,
-            journal=options.journal,
-            control=not options.no_control,
-        ) as viewer:
+        sessions = _sessions(options, template, bag) if options.autosave and not beside else None
+        source = beside or (connect.source(ros) if connect.connect else None)
+        played = BagOptions(paused=bag.paused) if beside else bag
+        with _viewer(options, ros, played, source, read, sessions) as viewer:
             stop.then(viewer.stop)
             then(viewer)
             if options.debug:
@@ -116,6 +94,41 @@ def serve(
                 viewer.wait()
     say_end("\nwebviz: stopped." if is_shown else "webviz: interrupted.")
     return 0 if is_shown else INTERRUPTED
+
+
+def _viewer(
+    options: ViewingOptions,
+    ros: Sequence[str],
+    bag: BagOptions,
+    source: Source | None,
+    read: Callable[[Path | None, Source | None], Config],
+    sessions: Sessions | None,
+) -> Viewer:
+    """Start the viewer that the options of the command line describe."""
+    return Viewer(
+        options.display_config,
+        read=read,
+        host=options.host,
+        port=options.port,
+        allow_hosts=options.allow_host,
+        fixed_frame=options.fixed_frame,
+        bag=bag.bag or None,
+        source=source,
+        autoplay=not bag.paused,
+        ros_args=ros,
+        plugins=options.plugin,
+        sessions=sessions,
+        config_folders=options.config_folder,
+        publish=not options.no_publish,
+        allow_publish=options.allow_publish,
+        certfile=options.certfile,
+        keyfile=options.keyfile,
+        trust_proxies=options.trust_proxy,
+        link=options.link,
+        token=options.token,
+        journal=options.journal,
+        control=not options.no_control,
+    )
 
 
 def _import_slow_parts() -> None:
