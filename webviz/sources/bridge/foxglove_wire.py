@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import msgspec
 
@@ -12,9 +12,8 @@ from webviz.data.words import plain
 
 SUBPROTOCOLS = ("foxglove.sdk.v1", "foxglove.websocket.v1")
 """Names of the protocol since and before version 3 of foxglove_bridge; the frames are the same."""
-MESSAGE, TIME, RESPONSE, ASSET = 1, 2, 3, 4
-"""Opcodes of binary frames from the server."""
 _PUBLISH, _CALL = 1, 2
+"""Opcodes of binary frames to the server."""
 MAX_TEXT = 64 << 20
 """Characters of a JSON frame; definitions of thousands of topics have a tenth of it."""
 _MESSAGE = struct.Struct("<BIQ")
@@ -34,9 +33,7 @@ class _Struct(msgspec.Struct, rename="camel"):
 class ServerInfo(_Struct):
     """The first text of a server."""
 
-    name: str = ""
     capabilities: tuple[str, ...] = ()
-    supported_encodings: tuple[str, ...] = ()
 
 
 class ServerChannel(_Struct):
@@ -62,23 +59,12 @@ class Unadvertise(_Struct):
     channel_ids: tuple[int, ...]
 
 
-class MessageSchema(_Struct):
-    """The encoding of a request or response."""
-
-    encoding: str = ""
-    schema: str = ""
-
-
 class ServiceOffer(_Struct):
-    """A service of the server; its schemas are in either of two places."""
+    """A service of the server."""
 
     id: int
     name: str
     type: str
-    request: MessageSchema | None = None
-    response: MessageSchema | None = None
-    request_schema: str = ""
-    response_schema: str = ""
 
 
 class AdvertiseServices(_Struct):
@@ -145,21 +131,6 @@ class ConnectionGraphUpdate(_Struct):
     removed_services: tuple[str, ...] = ()
 
 
-class Parameter(_Struct):
-    """A parameter; its name begins with that of its node."""
-
-    name: str
-    value: Any = None
-    type: str | None = None
-
-
-class ParameterValues(_Struct):
-    """Values of parameters, for a request or after a change."""
-
-    parameters: tuple[Parameter, ...]
-    id: str = ""
-
-
 class MessageData(NamedTuple):
     """A message of a subscription, with the time at which the server received it, in ns."""
 
@@ -200,7 +171,6 @@ _KINDS: Mapping[str, type[_Struct]] = {
     "status": ServerStatus,
     "removeStatus": RemoveStatus,
     "connectionGraphUpdate": ConnectionGraphUpdate,
-    "parameterValues": ParameterValues,
 }
 _DECODERS = {op: msgspec.json.Decoder(kind) for op, kind in _KINDS.items()}
 
@@ -305,16 +275,6 @@ def fetch_asset(id: int, uri: str) -> str:
 def subscribe_connection_graph() -> str:
     """Ask for the nodes of the graph, and for all changes."""
     return _text("subscribeConnectionGraph")
-
-
-def get_parameters(names: Sequence[str], id: str) -> str:
-    """Ask for values of parameters; of all if no names are given."""
-    return _text("getParameters", parameterNames=names, id=id)
-
-
-def set_parameters(parameters: Sequence[Parameter], id: str) -> str:
-    """Set parameters, and ask for their values."""
-    return _text("setParameters", parameters=parameters, id=id)
 
 
 def _text(op: str, **fields: object) -> str:
