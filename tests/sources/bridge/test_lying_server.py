@@ -5,6 +5,7 @@ from __future__ import annotations
 import http
 import json
 import socket
+import ssl
 import struct
 import threading
 import time
@@ -13,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import trustme
 from bridges import SCAN, STRING, Reader, reading
 from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
@@ -316,3 +318,21 @@ def test_what_is_no_websocket_is_said() -> None:
         reader.until(lambda: reader.bridge.problem == f"Nothing listens on 127.0.0.1:{port}.")
     with reading("ws://no-such-robot.invalid:8765") as reader:
         reader.until(lambda: "is unknown" in reader.bridge.problem)
+
+
+def test_certificates_must_be_trusted(
+    liar: Callable[..., Reader], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    authority = trustme.CA()
+    context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+    authority.issue_cert("localhost").configure_cert(context)
+    plain = liar(lambda connection: None, ssl=context)
+    port = plain.bridge.name.rpartition(":")[2]
+    plain.until(lambda: not plain.bridge.is_up and "websocket server" in plain.bridge.problem)
+    with reading(f"wss://localhost:{port}") as reader:
+        reader.until(lambda: "is not trusted" in reader.bridge.problem)
+        assert "SSL_CERT_FILE" in reader.bridge.remedy
+    authority.cert_pem.write_to_path(str(tmp_path / "ca.pem"))
+    monkeypatch.setenv("SSL_CERT_FILE", str(tmp_path / "ca.pem"))
+    with reading(f"wss://localhost:{port}") as reader:
+        reader.until(lambda: reader.bridge.is_up)
