@@ -7,7 +7,16 @@ from typing import Any
 
 import pytest
 
-from webviz.engine.commands import Load, Redo, RemoveLayout, SaveLayout, SetLayout, Undo
+from webviz.engine.commands import (
+    AddPanel,
+    Load,
+    Redo,
+    RemoveLayout,
+    RemovePanel,
+    SaveLayout,
+    SetLayout,
+    Undo,
+)
 from webviz.files import rviz
 from webviz.files.config import ConfigError, DockedPanel, FloatingPanel, Layout, dump, read
 
@@ -94,6 +103,25 @@ def test_layouts_are_changed_saved_and_undone(b: Any) -> None:
     assert layouts(b) == (SHOWN, {"lab": LAB})
     b.do(Redo(steps=2))
     assert layouts(b) == (LAB, {"lab": LAB, "second": LAB})
+
+
+def test_a_panel_that_is_removed_leaves_its_place_to_none_of_its_type(b: Any) -> None:
+    for _ in range(3):
+        b.do(AddPanel("Joints", {}))
+    first = b.states[-1].panels[0].id
+    docked = [DockedPanel(panel=name) for name in ("Joints", "doctor", "Joints 3")]
+    arranged = Layout(beside=tuple(docked), over=(FloatingPanel(panel="Joints 2"),))
+    b.do(SetLayout(arranged))
+    b.do(SaveLayout("lab"))
+    b.do(RemovePanel(first))
+    kept = Layout(
+        beside=(DockedPanel(panel="doctor"), DockedPanel(panel="Joints 2")),
+        over=(FloatingPanel(panel="Joints"),),
+    )
+    assert layouts(b) == (kept, {"lab": kept})
+    b.do(Undo())
+    assert layouts(b) == (arranged, {"lab": arranged})
+    assert len(b.states[-1].panels) == 3
 
 
 def test_what_cannot_be_is_refused(b: Any) -> None:

@@ -72,7 +72,7 @@ def test_a_log_of_ros_1_has_the_levels_of_ros_2(log: Log) -> None:
 def test_a_time_is_sought_only_in_a_recording(log: Log) -> None:
     log.add((0.0, 20, "node", "text", ""), 5)
     log.show(State())
-    with pytest.raises(Error, match="There is no recording to go to"):
+    with pytest.raises(Error, match="There is no recording to seek in"):
         log.use([0, 0], 1)
 
 

@@ -211,7 +211,7 @@ class FrameLoop:
         """Make the parts that the loop itself does not ask, in the order of their turns."""
         core, displays, settings = self._core, self._displays, self._settings
         goals = GoalsPart(core)
-        panels = PanelsPart(core)
+        panels = PanelsPart(core, settings)
         tools = ToolsPart(
             core,
             goals,

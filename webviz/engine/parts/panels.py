@@ -27,6 +27,7 @@ from webviz.engine.commands import (
 from webviz.engine.parts.advertisements import advertisement_of, publish
 from webviz.engine.parts.part import Batches, Core, Handler, Part
 from webviz.engine.parts.plugin_list import PluginList
+from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.state import PanelTab
 from webviz.files.config import MAX_PLUGINS, ConfigError, mistakes, nearest, sentences
 from webviz.sources import Advertisement, Subscriber, Subscription, merged
@@ -39,12 +40,18 @@ READING = frozenset(
 
 
 class PanelsPart(Part):
-    """All panels of plug-ins. What is drawn of them is known to the pages alone."""
+    """All panels of plug-ins. What is drawn of them is known to the pages alone.
+
+    Args:
+        core: shared by all parts.
+        settings: has the layouts, which name panels.
+    """
 
     name = "Panels"
 
-    def __init__(self, core: Core) -> None:
+    def __init__(self, core: Core, settings: SettingsPart) -> None:
         super().__init__(core)
+        self._settings = settings
         self.list = PluginList(Panel)
         self._open: frozenset[str] = frozenset()
         self._subscribers: dict[str, Subscriber] = {}
@@ -154,7 +161,16 @@ class PanelsPart(Part):
         return f"Added {panel.name}."
 
     def _remove(self, command: RemovePanel, sender: Sender) -> str:
-        return f"Removed {self.list.remove(command.panel)}."
+        before = {tab.id: tab.tab for tab in self._tabs()}
+        name = self.list.remove(command.panel)
+        after = {tab.id: tab.tab for tab in self._tabs()}
+        # The second of a type is the first now.
+        names = {old: after.get(id, "") for id, old in before.items()}
+        settings = self._settings.settings
+        layouts = {key: each.renamed(names) for key, each in settings.layouts.items()}
+        self._settings.set("layout", settings.layout.renamed(names))
+        self._settings.set("layouts", layouts)
+        return f"Removed {name}."
 
     def _set(self, command: SetPanelProperty, sender: Sender) -> None:
         self.list.set(command.panel, command.path, command.value)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from collections.abc import Iterable, Mapping
+from typing import Annotated, TypeVar
 
 import msgspec
 
@@ -15,6 +16,9 @@ PanelName = Annotated[
     msgspec.Meta(min_length=1, max_length=100),
     Prop(help="Name of the panel: doctor, topics and so on, Plot, or Plot 2 for the second."),
 ]
+
+
+P = TypeVar("P", bound="DockedPanel | FloatingPanel")
 
 
 class DockedPanel(
@@ -77,3 +81,14 @@ class Layout(
         twice = next((name for at, name in enumerate(names) if name in names[:at]), None)
         if twice is not None:
             raise ValueError(f"the panel {twice} is placed twice; a panel stands in one place")
+
+    def renamed(self, names: Mapping[str, str]) -> Layout:
+        """Return the layout with other names of panels; those whose new name is "" are left out."""
+
+        def place(panels: Iterable[P]) -> tuple[P, ...]:
+            wanted = [(each, names.get(each.panel, each.panel)) for each in panels]
+            return tuple(msgspec.structs.replace(each, panel=new) for each, new in wanted if new)
+
+        return msgspec.structs.replace(
+            self, beside=place(self.beside), below=place(self.below), over=place(self.over)
+        )
