@@ -85,6 +85,10 @@ def test_a_path_through_an_obstacle(webviz_harness: Make) -> None:
             {"ranges": [2500.0, 2400.0, 2300.0, 2200.0, 2100.0], "range_max": 5000.0},
         ),
         ("DATA008 /scan", {"ranges": [2.0] * 9}),
+        (
+            "DATA014 /scan",
+            {"ranges": [0.1] * 4 + [2.0] * 4, "angle_max": 2.5, "range_min": 0.05},
+        ),
         ("", {"ranges": [math.inf] * 5}),
         ("", {"ranges": [2.0] * 5}),
     ],

@@ -188,6 +188,16 @@ def test_two_trees(robot: Harness) -> None:
     assert (finding.id, finding.subject) == ("TF006", "sensor mount")
 
 
+def test_an_optical_frame_that_is_not_rotated(robot: Harness) -> None:
+    mount(robot)
+    robot.transform("base_link", "camera_optical_frame")
+    robot.turn()
+    assert only(examined(robot)).id == "TF025"
+    robot.transform("base_link", "camera_optical_frame", xyzw=(-0.5, 0.5, -0.5, 0.5))
+    robot.turn()
+    assert "TF025 camera_optical_frame" not in examined(robot)
+
+
 def test_a_loop(robot: Harness) -> None:
     mount(robot)
     for parent, child in (("base_link", "odom"), ("odom", "base_link")):

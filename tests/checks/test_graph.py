@@ -158,6 +158,16 @@ def test_messages_above_the_limit(
     viewer.wait_for(lambda: not found())
 
 
+def test_a_dds_program_that_is_silent(webviz_harness: Callable[..., Harness]) -> None:
+    stage = webviz_harness(scan("/scan"), fixed_frame="map")
+    for node, is_found in (("", True), ("/lidar", False)):
+        offered = Offer((Publisher(node, SCAN, "reliable", "volatile"),), None)
+        stage.source.known["/scan"] = offered
+        examined(stage, CauseLevel.GRAPH)
+        found = {each.id for each in stage.viewer.snapshot().findings}
+        assert ("GRAPH013" in found) == is_found
+
+
 def test_a_publisher_that_stops(webviz_harness: Callable[..., Harness]) -> None:
     stage = webviz_harness(scan("/scan"), fixed_frame="map")
     stage.source.known["/scan"] = Offer((Publisher("/lidar", SCAN, "reliable", "volatile"),), None)

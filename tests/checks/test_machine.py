@@ -52,6 +52,7 @@ def well(monkeypatch: pytest.MonkeyPatch) -> set[str]:
     return {*examined()}
 
 
+OTHER_PYTHON = "/opt/ros/humble/lib/python3.8"
 RANGE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
 
 
@@ -67,6 +68,8 @@ RANGE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
         ("ENV006", "error", {"RMW_IMPLEMENTATION": "rmw_none_cpp"}, {}),
         ("ENV007", "warning", {"CYCLONEDDS_URI": "<CycloneDDS>"}, {"CYCLONEDDS_URI": "<A/>"}),
         ("ENV007", "warning", {"FASTRTPS_DEFAULT_PROFILES_FILE": "/missing.xml"}, {}),
+        ("ENV014", "warning", {"ROS_SECURITY_ENABLE": "true"}, {"ROS_SECURITY_ENABLE": "false"}),
+        ("ENV015", "warning", {"PYTHONPATH": f"{OTHER_PYTHON}/site-packages"}, {}),
         (
             "ENV009",
             "warning",
@@ -122,6 +125,21 @@ def test_zenoh_routers(monkeypatch: pytest.MonkeyPatch, well: set[str]) -> None:
     assert "ENV011" not in examined()
 
 
+def test_a_daemon_with_other_settings(monkeypatch: pytest.MonkeyPatch, well: set[str]) -> None:
+    monkeypatch.setenv("ROS_DOMAIN_ID", "97")
+    named = ("--name", "ros2-daemon", "--ros-domain-id", "97")
+    wait = "import sys; print(flush=True); sys.stdin.read()"
+    daemon = [sys.executable, "-c", wait, *named]
+    other = os.environ | {"ROS_LOCALHOST_ONLY": "1"}
+    pipe = subprocess.PIPE
+    for variables, expected in ((os.environ, set[str]()), (other, {"ENV013"})):
+        with subprocess.Popen(daemon, env=variables, stdin=pipe, stdout=pipe) as process:
+            assert process.stdout is not None
+            process.stdout.readline()
+            assert {*examined()} - well == expected
+            process.communicate()
+
+
 def test_ros_that_does_not_start_is_a_finding() -> None:
     report = examine_machine(look_around(ros_error="ROS did not start: no RMW. Source it."))
     found = {each.id: each for each in report.findings}
@@ -146,6 +164,21 @@ full.bind(("127.0.0.1", 0))
 for _ in range(1000):
     full.sendto(bytes(1000), full.getsockname())
 """
+FRAGMENT = """
+import socket, struct, time
+with open("/proc/sys/net/ipv4/ipfrag_time", "w") as kept:
+    kept.write("1")
+raw = socket.socket(socket.AF_INET, socket.SOCK_RAW, socket.IPPROTO_RAW)
+us = socket.inet_aton("127.0.0.1")
+more = 0x2000
+head = struct.pack("!BBHHHBBH4s4s", 0x45, 0, 0, 7, more, 64, socket.IPPROTO_UDP, 0, us, us)
+raw.sendto(head + bytes(64), ("127.0.0.1", 0))
+time.sleep(2.5)
+"""
+VPN = (
+    "ip link add tun0 type veth peer name far; ip address add 198.51.100.9/24 dev tun0; "
+    "ip link set tun0 up; ip link set far up; ip route add 224.0.0.0/4 dev tun0"
+)
 SHM = "mount -t tmpfs none /dev/shm -o"
 
 
@@ -157,7 +190,10 @@ SHM = "mount -t tmpfs none /dev/shm -o"
         ("NET003", LO, ETH),
         ("NET004", f"{ETH}; {OTHER}", ETH),
         ("NET005", f"{ETH}; ip link set eth0 mtu 1400", ETH),
+        ("NET009", f"{LO}; {sys.executable} -c '{FRAGMENT}'", LO),
+        ("NET010", f"{ETH}; {VPN}", ETH),
         ("NET006", f"{LO}; {sys.executable} -c '{FLOOD}'", LO),
+        ("SHM004", f"{SHM} size=1g; touch /dev/shm/fastrtps_port7_el", f"{SHM} size=1g"),
         ("SHM002", f"{SHM} size=64m", f"{SHM} size=1g"),
         (
             "SHM003",

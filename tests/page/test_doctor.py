@@ -11,9 +11,9 @@ from playwright.sync_api import expect
 from tests.page.conftest import Tab
 from webviz import Finding, OtherFixedFrame, Severity, Symptom
 from webviz.api.status import Level, Status
-from webviz.engine.commands import InspectLatency, SetFixedFrame
+from webviz.engine.commands import InspectLatency, Seek, SetFixedFrame
 from webviz.engine.state import Row, State
-from webviz.engine.state.latency import Latency, Stage
+from webviz.engine.state.latency import BrowserLatency, Latency, Stage
 from webviz.page.content.doctor import findings
 from webviz_displays.grid import Grid
 
@@ -26,6 +26,8 @@ MISSPELT = Finding(
     command="ros2 run tf2_tools view_frames",
     button=OtherFixedFrame("map"),
     explains=(Symptom("", "Fixed Frame"), Symptom("1", "Transform")),
+    evidence={"fixed_frame": "mapp", "known": ("map", "odom")},
+    began_s=100.0,
 )
 NOTE = Finding(
     id="NET005",
@@ -67,6 +69,9 @@ def test_findings_have_causes_remedies_and_what_they_explain(panel: Tab) -> None
     expect(first).to_contain_text('TF002The fixed frame "mapp" does not exist, but "map" does.')
     expect(first).to_contain_text("Explains Fixed Frame, Scan: Transform.")
     expect(first.locator("code").first).to_have_text("ros2 run tf2_tools view_frames")
+    expect(first).to_contain_text("Evidence: fixed frame mapp; known map, odom.")
+    first.get_by_role("button", name="Go to 0:01:40").click()
+    panel.wait_for(lambda: panel.loop.commands[-1:] == [Seek(100.0)])
     expect(page.locator(".wv-finding").last).to_contain_text(HOSTILE)
     first.get_by_text("Why, and how to repair it").click()
     expect(first.get_by_text("Everything is drawn in the fixed frame")).to_be_visible()
@@ -118,7 +123,9 @@ def test_a_finding_without_a_check_has_no_documentation() -> None:
 
 def test_latencies_are_a_waterfall_that_is_measured_while_it_is_open(panel: Tab) -> None:
     stages = (Stage("received", 0.0, 0.002, 0.004), Stage("ready", 0.002, 0.031, 0.06))
-    found = Latency("3", 40, stages, 0.033, 0.064, f"Waits 31 ms for {HOSTILE}.", 0.0123)
+    painted = Stage("acknowledged", 0.0, 0.017, 0.02), Stage("painted", 0.017, 0.05, 0.06)
+    to = BrowserLatency(7, HOSTILE, painted, 0.1, 0.2, 34_400.0)
+    found = Latency("3", 40, stages, 0.033, 0.064, f"Waits 31 ms for {HOSTILE}.", 0.0123, (to,))
     scan = Row("3", "Grid", Grid(name=HOSTILE), HOSTILE, {})
     section = panel.page.locator(".wv-latency")
     section.get_by_text("Stamp to screen").click()
@@ -127,12 +134,14 @@ def test_latencies_are_a_waterfall_that_is_measured_while_it_is_open(panel: Tab)
     panel.loop.show(scan, latencies=(found,))
     panel.wait_for(lambda: "33 ms, p99 64 ms" in section.inner_text())
     said = section.inner_text()
-    assert f"Waits 31 ms for {HOSTILE}. Takes 1.2 % of a core." in said
+    takes = f"Takes 1.2 % of a core, 34.4 kB/s to {HOSTILE}."
+    assert f"Waits 31 ms for {HOSTILE}. {takes}" in said
+    assert "100 ms, p99 200 ms" in said
     assert section.locator("img").count() == 0
     widths = section.locator(".wv-waterfall-bar").evaluate_all(
         "bars => bars.map((bar) => Math.round(parseFloat(bar.style.width)))"
     )
-    assert widths == [6, 94]
+    assert widths == [2, 31, 17, 50]
     section.get_by_text("Stamp to screen").click()
     panel.wait_for_command(InspectLatency(is_wanted=False))
     panel.loop.show(latencies=())

@@ -52,8 +52,15 @@ class Box:
         return Box(corners.min(axis=0), corners.max(axis=0))
 
 
-def bounds(node: Node) -> Box | None:
-    """Return the box around a node in its own coordinates; None if nothing of it is visible."""
+def bounds(node: Node, most: int = 0) -> Box | None:
+    """Return the box around a node in its own coordinates; None if nothing of it is visible.
+
+    Args:
+        node: the node.
+        most: number of points that are looked at of a cloud, spread evenly; 0 for all.
+    """
+    if most and isinstance(node, Points) and len(node.xyz) > most:
+        return _around((node.xyz[:: -(-len(node.xyz) // most)], 0.0))
     return _around(_EXTENTS[type(node)](node))
 
 

@@ -32,11 +32,13 @@ class SharedMemory:
     Args:
         size, free: bytes.
         foreign: names of segments of Fast DDS that belong to other users.
+        stale_locks: names of locks of Fast DDS whose segment is gone.
     """
 
     size: int
     free: int
     foreign: Sequence[str] = ()
+    stale_locks: Sequence[str] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,7 +57,11 @@ class Environment:
         receive_buffer: largest buffer of a socket in bytes (net.core.rmem_max); 0 if unknown.
         zenoh_routers: problem of each router that this machine connects to, "" for none.
         discovery_servers: problem of each server that ROS_DISCOVERY_SERVER names, "" for none.
-        lost_datagrams: dropped since the last look because a receive buffer was full.
+        lost_datagrams: dropped since the start because a receive buffer was full.
+        lost_fragments: datagrams since the start of which fragments were missing.
+        multicast_interface: by which multicast leaves, "" if unknown.
+        daemon: settings of discovery in which the daemon of `ros2` differs; none without one.
+        security_problem: why the files of security do not do, a clause; "" if they do.
     """
 
     variables: Mapping[str, str] = field(default_factory=dict)
@@ -68,5 +74,9 @@ class Environment:
     shared_memory: SharedMemory | None = None
     receive_buffer: int = 0
     lost_datagrams: int = 0
+    lost_fragments: int = 0
+    multicast_interface: str = ""
+    daemon: Mapping[str, str] = field(default_factory=dict)
+    security_problem: str = ""
     zenoh_routers: Mapping[str, str] = field(default_factory=dict)
     discovery_servers: Mapping[str, str] = field(default_factory=dict)

@@ -105,6 +105,8 @@ class Finding:
         button: a change of the viewer that repairs it, None if none does.
         explains: the statuses that follow from it.
         first_ns, last_ns: ROS time when it was first and last seen; 0 while unknown.
+        began_s: position in the recording, or in the memory of live topics, when it was first seen;
+            None without one.
     """
 
     id: str
@@ -118,6 +120,7 @@ class Finding:
     explains: tuple[Symptom, ...] = ()
     first_ns: int = field(default=0, compare=False)
     last_ns: int = field(default=0, compare=False)
+    began_s: float | None = field(default=None, compare=False)
 
     @property
     def level(self) -> CauseLevel:

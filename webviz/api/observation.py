@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from webviz.api.bounds import Box
 from webviz.api.bridge import Bridge
+from webviz.api.browser import BrowserSeen
 from webviz.api.consistency import MapFit
 from webviz.api.declared import Topic
 from webviz.api.display import Display
@@ -17,6 +19,7 @@ from webviz.api.offer import Offer
 from webviz.api.rule import Verdict
 from webviz.api.status import Level, Status
 from webviz.api.two_ends import TwoEnds
+from webviz.api.views import Camera
 from webviz.data.transforms import Diagnosis, TransformBuffer, diagnose
 from webviz.data.transforms.conflicts import Conflict, ConflictKind
 from webviz.data.transforms.reasons import Explanation, Kind
@@ -69,6 +72,10 @@ class DisplaySeen:
         inputs: its topics.
         fit: how well its laser scan fits the map, None if unknown.
         blocked: points of a laser scan on its path.
+        find_box: finds `box`.
+        wanted_points: that it would draw if browsers were fast enough.
+        core: share of a processor that it takes, 0 unless the viewer is behind.
+        order: its place among those that lie in one plane; later ones cover earlier ones.
     """
 
     id: str
@@ -78,6 +85,15 @@ class DisplaySeen:
     inputs: Sequence[InputSeen] = ()
     fit: MapFit | None = None
     blocked: int = 0
+    find_box: Callable[[], Box | None] = lambda: None
+    wanted_points: int = 0
+    core: float = 0.0
+    order: int = 0
+
+    @functools.cached_property
+    def box(self) -> Box | None:
+        """The box around all that it draws, in the fixed frame; None if it draws nothing."""
+        return self.find_box()
 
     def problem(self, key: str) -> Status | None:
         """Return the status of a key if it is a warning or an error."""
@@ -110,6 +126,9 @@ class Observation:
         findings: of the round before, without violated rules.
         verdicts: of the rules of the config.
         ends: this machine and its peer, None unless they are compared.
+        browsers: that are connected.
+        cameras: of the browsers whose camera is known, in the fixed frame, by id.
+        load: share of a processor that the frame loop takes while browsers are connected.
     """
 
     now_ns: int
@@ -128,6 +147,9 @@ class Observation:
     findings: Sequence[Finding] = ()
     verdicts: Sequence[Verdict] = ()
     ends: TwoEnds | None = None
+    browsers: Sequence[BrowserSeen] = ()
+    cameras: Mapping[int, Camera] = field(default_factory=dict)
+    load: float = 0.0
 
     def inputs(self) -> Iterator[tuple[DisplaySeen, InputSeen]]:
         """All inputs that have a topic, each with its display."""

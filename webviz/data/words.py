@@ -24,6 +24,11 @@ def counted(number: int, noun: str) -> str:
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
+def spaced(count: int) -> str:
+    """Return a number with spaces between thousands."""
+    return f"{count:,}".replace(",", " ")
+
+
 def listed(names: Sequence[str], most: int) -> str:
     """Return the first names, and how many more there are, such as "a, b and 3 more"."""
     rest = len(names) - most

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Mapping
 
 from webviz.api.nodes import POINTS_HELD
 from webviz.scene.adapter import Adapter
@@ -42,6 +43,11 @@ class PointCapacities:
             for browser in self._reports.keys() - clients.keys():
                 del self._reports[browser]
             return min(self._reports.values(), default=POINTS_HELD)
+
+    def reports(self) -> Mapping[int, int]:
+        """Return the number of points that each page draws fast enough, by id of its browser."""
+        with self._lock:
+            return dict(self._reports)
 
     def _hear(self, browser: int, report: PointCapacity) -> None:
         """Note the report of a page, on viser's event loop."""

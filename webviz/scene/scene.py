@@ -29,6 +29,7 @@ from webviz.api.nodes import (
 from webviz.scene.adapter import Adapter, Move, Position, Wxyz
 from webviz.scene.adapter.background import set_background
 from webviz.scene.axes import AxesDrawn
+from webviz.scene.browsers import ViserBrowsers
 from webviz.scene.cameras import ViserCameras
 from webviz.scene.capacity import PointCapacities
 from webviz.scene.drawn import Drawn
@@ -76,6 +77,7 @@ class ViserScene:
         keep_shaders(server.scene, ROOT)
         self.cameras = ViserCameras(self.link)
         self._capacities = PointCapacities(self.link)
+        self.browsers = ViserBrowsers(self.link, self.cameras, self._capacities.reports)
         self.attended_until_s = 0.0
         """Monotonic time until which a program looks, without a browser."""
 
@@ -131,14 +133,14 @@ class ViserScene:
         """Hides or shows a group; hidden nodes may be changed."""
         self._touch(group).visible = visible
 
-    def bounds(self, prefix: str) -> Box | None:
+    def bounds(self, prefix: str, most: int = 0) -> Box | None:
         """Return the bounding box in the fixed frame of all visible groups with a prefix."""
         return union(
             box.moved(pose).moved(group.pose)
             for name, group in self._groups.items()
             if name.startswith(prefix) and group.visible
             for node, pose in group.nodes.values()
-            if (box := bounds(node)) is not None
+            if (box := bounds(node, most)) is not None
         )
 
     def clear(self) -> None:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from webviz import Context, Details, Hit, Input, Pose, Prop, Remedy, Rgb, Sample, Topic, compose
 from webviz.api.nodes import POINTS_HELD
-from webviz.data.words import joined
+from webviz.data.words import joined, spaced
 from webviz_displays.point_cloud2.blocks import in_blocks
 from webviz_displays.point_cloud2.cloud import Cloud, CloudError, drawable
 from webviz_displays.point_cloud2.cloud_colors import (
@@ -278,8 +278,3 @@ class PointCloud2(CloudDisplay):
     def cloud_of(self, message: Any) -> Cloud:
         """Return the message as it is."""
         return Cloud(message)
-
-
-def spaced(count: int) -> str:
-    """Return a number with spaces between thousands."""
-    return f"{count:,}".replace(",", " ")

@@ -15,8 +15,9 @@ from webviz.api.finding import Finding, Severity
 from webviz.api.rule import Rule, Verdict
 from webviz.api.status import Level
 from webviz.data.disk import in_thread
-from webviz.engine.doctor.environment import look_around, lost_datagrams
+from webviz.engine.doctor.environment import look_around, lost_so_far
 from webviz.engine.doctor.judging import Judge
+from webviz.engine.doctor.load import LoadMeter
 from webviz.engine.doctor.observing import observe
 from webviz.engine.doctor.ordering import ordered
 from webviz.engine.parts.displays import DisplaysPart
@@ -66,7 +67,8 @@ class Doctor:
         self._checks: Sequence[Check] = ()
         self._began = -EVERY_S, -EVERY_S
         self._round: Iterator[None] | None = None
-        self._since: Mapping[Key, int] = {}
+        self._since: Mapping[Key, tuple[int, float | None]] = {}
+        """ROS time when each was first seen, and the position in the recording."""
         self.slice_s = SLICE_S
         """Time for checks in one turn."""
         self.environment: Environment | None = None
@@ -74,8 +76,9 @@ class Doctor:
         self._asked_until_s = 0.0
         self._looking: Future[Environment] | None = None
         self._next_look_s = 0.0
-        self._lost_before = lost_datagrams()
+        self._lost_before = lost_so_far()
         self._judge = Judge()
+        self._load = LoadMeter(displays.tracer)
         self.verdicts: Sequence[Verdict] = ()
         """Of the rules of the config, in the last round."""
         self.rounds = 0
@@ -141,7 +144,8 @@ class Doctor:
     def _examined(self, state: State) -> Iterator[None]:
         """Run all checks on what is seen now, with a pause after each."""
         core = self._core
-        seen = observe(core, self._displays, state, self._environment(state))
+        load, cores = self._load.measure()
+        seen = observe(core, self._displays, state, self._environment(state), load, cores)
         seen = replace(seen, findings=[each for each in self.findings if each.id != OF_RULES])
         self.verdicts = self._judge.judge(_rules(state), seen)
         seen = replace(seen, verdicts=self.verdicts)
@@ -150,14 +154,16 @@ class Doctor:
             found += core.guard.attempt(f"Check {check.id}", [], lambda c=check: list(c.find(seen)))
             yield
         before, now_ns = self._since, seen.now_ns
-        self._since = {key: before.get(key, now_ns) for key in map(_key, found)}
+        now = now_ns, state.playback.position_s if state.playback else None
+        self._since = {key: before.get(key, now) for key in map(_key, found)}
         steady = [each for each in found if _key(each) in before]
         self.findings = tuple(
             replace(
                 each,
                 command="" if seen.is_recorded else each.command,  # no node would answer
-                first_ns=self._since[_key(each)],
+                first_ns=self._since[_key(each)][0],
                 last_ns=now_ns,
+                began_s=self._since[_key(each)][1],
             )
             for each in ordered(steady)
         )

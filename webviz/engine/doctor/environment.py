@@ -8,17 +8,20 @@ import socket
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import NamedTuple
 from xml.etree import ElementTree
 
 import psutil
 
 from webviz.api.environment import Environment, NetworkInterface, SharedMemory
 from webviz.engine.doctor.servers import discovery_servers, zenoh_routers
+from webviz.engine.doctor.settings import daemon_differences, security_problem
 
 PREFIXES = ("ROS", "RMW", "FASTRTPS", "FASTDDS", "CYCLONEDDS", "ZENOH", "AMENT", "PYTHONPATH")
 PROFILES = ("FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE", "CYCLONEDDS_URI")
 RMW_INDEX = "share/ament_index/resource_index/rmw_typesupport_cpp"
 SHM = Path("/dev/shm")
+LOCKS = "fastrtps_port*_el"
 SEGMENTS = "fastrtps_*", "fastdds_*"
 RMEM_MAX = Path("/proc/sys/net/core/rmem_max")
 SNMP = Path("/proc/net/snmp")
@@ -29,16 +32,32 @@ MAX_PROFILE = 1 << 20
 """Bytes of a file of the middleware that are read."""
 
 
-def look_around(ros_error: str = "", lost_before: int = 0) -> Environment:
+class Lost(NamedTuple):
+    """Losses of a machine since its start.
+
+    Args:
+        datagrams: of UDP, as buffers were full.
+        fragmented: datagrams of which fragments did not arrive.
+    """
+
+    datagrams: int = 0
+    fragmented: int = 0
+
+
+NOTHING_LOST = Lost()
+
+
+def look_around(ros_error: str = "", lost_before: Lost = NOTHING_LOST) -> Environment:
     """Look at this machine; takes up to half a second.
 
     Args:
         ros_error: why ROS did not start, "" if it did.
-        lost_before: datagrams that were lost before, see `lost_datagrams`.
+        lost_before: what was lost before, see `lost_so_far`.
     """
     names = sorted(name for name in os.environ if name.startswith(PREFIXES))
     variables = {name: os.environ[name] for name in names}
     interfaces = _interfaces()
+    lost = lost_so_far()
     return Environment(
         variables=variables,
         python=".".join(platform.python_version_tuple()[:2]),
@@ -51,15 +70,24 @@ def look_around(ros_error: str = "", lost_before: int = 0) -> Environment:
         receive_buffer=_receive_buffer(),
         zenoh_routers=zenoh_routers(variables),
         discovery_servers=discovery_servers(variables),
-        lost_datagrams=max(0, lost_datagrams() - lost_before),
+        lost_datagrams=max(0, lost.datagrams - lost_before.datagrams),
+        lost_fragments=max(0, lost.fragmented - lost_before.fragmented),
+        multicast_interface=_multicast_interface(interfaces),
+        daemon=daemon_differences(variables),
+        security_problem=security_problem(variables),
     )
 
 
-def lost_datagrams() -> int:
-    """Return the UDP datagrams that this machine dropped since its start as buffers were full."""
+def lost_so_far() -> Lost:
+    """Return what this machine lost since its start."""
+    return Lost(_counter("Udp:", "RcvbufErrors"), _counter("Ip:", "ReasmFails"))
+
+
+def _counter(protocol: str, name: str) -> int:
+    """Return a counter of the kernel, 0 if it is unknown."""
     try:
-        lines = [line.split() for line in SNMP.read_text().splitlines() if line[:4] == "Udp:"]
-        return int(dict(zip(lines[0], lines[1], strict=True))["RcvbufErrors"])
+        rows = [line.split() for line in SNMP.read_text().splitlines() if line.startswith(protocol)]
+        return int(dict(zip(rows[0], rows[1], strict=True))[name])
     except (OSError, ValueError, KeyError, IndexError):
         return 0
 
@@ -84,6 +112,17 @@ def _interfaces() -> Sequence[NetworkInterface]:
         for name, each in sorted(stats.items())
         if each.isup
     ]
+
+
+def _multicast_interface(interfaces: Sequence[NetworkInterface]) -> str:
+    """Return the interface by which a packet to the group of DDS leaves, "" without a route."""
+    try:
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+            sender.connect((GROUP, 7400))
+            address = sender.getsockname()[0]
+    except OSError:
+        return ""
+    return next((each.name for each in interfaces if address in each.addresses), "")
 
 
 def _multicast_returns() -> bool | None:
@@ -120,8 +159,10 @@ def _shared_memory() -> SharedMemory | None:
         ]
     except OSError:
         return None
+    locks = [path.name for path in SHM.glob(LOCKS)]
+    stale = [name for name in locks if not (SHM / name.removesuffix("_el")).exists()]
     size, free = status.f_blocks * status.f_frsize, status.f_bavail * status.f_frsize
-    return SharedMemory(size, free, tuple(sorted(foreign)))
+    return SharedMemory(size, free, tuple(sorted(foreign)), tuple(sorted(stale)))
 
 
 def _receive_buffer() -> int:

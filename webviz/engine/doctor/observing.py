@@ -2,17 +2,35 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
+from functools import partial
+from types import MappingProxyType
+
+import numpy as np
+
+from webviz.api.browser import BrowserSeen
 from webviz.api.display import Display
 from webviz.api.environment import Environment
+from webviz.api.frames import Frames
 from webviz.api.group import DisplayGroup
 from webviz.api.observation import DisplaySeen, Observation
+from webviz.api.views import FIXED_FRAME, Camera, ThirdPersonFollower, camera_of
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core
 from webviz.engine.state import Row, State
 
+POINTS = 10_000
+"""Of a cloud that are looked at for its extent."""
+
 
 def observe(
-    core: Core, displays: DisplaysPart, state: State, environment: Environment | None = None
+    core: Core,
+    displays: DisplaysPart,
+    state: State,
+    environment: Environment | None = None,
+    load: float = 0.0,
+    cores: Mapping[str, float] = MappingProxyType({}),
 ) -> Observation:
     """Observe the viewer at this turn.
 
@@ -21,6 +39,8 @@ def observe(
         displays: have the messages.
         state: of this turn, with all statuses.
         environment: of this machine, None if unknown.
+        load: share of a processor that the frame loop takes.
+        cores: that of each display, by id.
     """
     runners = {runner.id: runner for runner in displays.list.active()}
     consistency = displays.consistency
@@ -33,10 +53,16 @@ def observe(
             inputs=runners[row.id].observed(),
             fit=consistency.fits.get(row.id),
             blocked=consistency.blocked.get(row.id, 0),
+            find_box=partial(core.scene.bounds, f"{row.id}/", POINTS),
+            wanted_points=displays.points.wanted(row.id),
+            core=cores.get(row.id, 0.0),
+            order=order,
         )
-        for row in state.rows
+        for order, row in enumerate(state.rows)
         if row.id in runners and isinstance(row.display, Display) and not _is_group(row)
     ]
+    browsers = core.guard.attempt("Scene", (), core.scene.browsers.seen)
+    cameras = {each.id: camera for each in browsers if (camera := _camera(each, core.frames))}
     return Observation(
         now_ns=core.frames.now_ns,
         fixed_frame=core.frames.fixed_frame,
@@ -51,7 +77,28 @@ def observe(
         is_recorded=state.playback is not None and state.playback.is_live is None,
         environment=environment,
         bridges=state.bridges,
+        browsers=browsers,
+        cameras=cameras,
+        load=load if browsers else 0.0,
     )
+
+
+def _camera(browser: BrowserSeen, frames: Frames) -> Camera | None:
+    """Return the camera of a browser in the fixed frame, None if it is unknown."""
+    view = browser.view
+    if view is None or browser.size[1] <= 0.0:
+        return None
+    camera = camera_of(view, browser.size[1])
+    if view.target_frame == FIXED_FRAME:
+        return camera
+    if (target := frames.latest(view.target_frame)) is None:
+        return None
+    w, x, y, z = target.wxyz
+    is_turned = isinstance(view, ThirdPersonFollower)
+    yaw = math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)) if is_turned else 0.0
+    cos, sin = math.cos(yaw), math.sin(yaw)
+    turn = np.array(((cos, -sin, 0), (sin, cos, 0), (0, 0, 1)))
+    return Camera(turn @ camera.position + target.position, turn @ camera.look_at + target.position)
 
 
 def _is_group(row: Row) -> bool:

@@ -49,7 +49,8 @@ class DisplaysPart(Part):
     def __init__(self, core: Core, services: Services) -> None:
         super().__init__(core)
         self.list = DisplayList(services)
-        self._tracer = services.tracer
+        self.tracer = services.tracer
+        self.points = services.points
         self.consistency = ConsistencyCheck(core, self.list)
 
     @property
@@ -131,7 +132,7 @@ class DisplaysPart(Part):
         self.list.reset(command.display)
 
     def _trace(self, command: TraceDisplay, sender: Sender) -> None:
-        self._tracer.ask(command.display, command.answer)
+        self.tracer.ask(command.display, command.answer)
 
 
 def _new(type_name: str, values: dict[str, Any]) -> Display:

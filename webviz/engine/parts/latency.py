@@ -15,6 +15,7 @@ from webviz.api.errors import Error
 from webviz.data.transforms import TransformBuffer
 from webviz.data.transforms.tree import ancestors
 from webviz.engine.commands import Command, InspectLatency, Sender
+from webviz.engine.parts.painting import Painting
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.pipeline.runner import Runner
 from webviz.engine.state.latency import Latency, Stage
@@ -55,6 +56,8 @@ class LatencyPart(Part):
         self._traces: dict[str, deque[Times]] = {}
         self._cores: dict[str, float] = {}
         self._busy: Mapping[str, float] = {}
+        self._painting = Painting(core.scene.browsers)
+        tracer.on_sent = self._sent
         self._shown: tuple[Latency, ...] = ()
         self._shown_at = 0.0
 
@@ -69,9 +72,11 @@ class LatencyPart(Part):
             return {"latencies": ()}
         runners = list(self._runners())[:MAX_DISPLAYS]
         self._collect([runner.id for runner in runners])
+        self.core.guard("Scene", self._painting.take)
         now = time.monotonic()
         if now - self._shown_at >= EVERY_S:
             self._measure(runners, now - self._shown_at)
+            self.core.guard("Scene", self._painting.measure, now - self._shown_at)
             self._shown_at = now
             self._shown = tuple(self._latency(each) for each in runners if each.id in self._traces)
         return {"latencies": self._shown}
@@ -79,20 +84,26 @@ class LatencyPart(Part):
     def reset(self) -> None:
         """Forget all traces: time has jumped."""
         self._traces.clear()
+        self._painting.clear()
         self._shown = ()
 
     def _inspect(self, command: InspectLatency, sender: Sender) -> None:
         self._is_wanted = command.is_wanted
-        self._tracer.is_timing = command.is_wanted
+        self._tracer.time(self.name, command.is_wanted)
         self._shown_at = time.monotonic()
         self._busy = dict(self._tracer.busy_s)
+        self.core.guard("Scene", self._painting.begin, command.is_wanted)
         if not command.is_wanted:
             for answer in self._asked.values():
                 answer.cancel()
             self._asked.clear()
             self._cores.clear()
-            self._tracer.busy_s.clear()
             self.reset()
+
+    def _sent(self, traces: Mapping[str, Trace], at_s: float) -> None:
+        if self._is_wanted:
+            ways_s = {display: _way_s(trace) for display, trace in traces.items()}
+            self.core.guard("Scene", self._painting.sent, ways_s, at_s)
 
     def _collect(self, displays: Sequence[str]) -> None:
         """Keep the traces that are complete, and ask for the next ones."""
@@ -146,6 +157,7 @@ class LatencyPart(Part):
             whole_p99,
             waits_for,
             self._cores.get(runner.id, 0.0),
+            self._painting.of(runner.id),
         )
 
 
@@ -153,6 +165,12 @@ def percentiles(spans: NDArray[np.float64]) -> tuple[list[float], list[float]]:
     """Return the medians and 99th percentiles of columns, float64 (N, M): values that occurred."""
     p50, p99 = np.percentile(spans, (50, 99), axis=0, method="inverted_cdf").tolist()
     return p50, p99
+
+
+def _way_s(trace: Trace) -> float:
+    """Return the time from a stamp, or the arrival if the stamp is of another clock, to sending."""
+    is_stamped = abs(trace.received_ns - trace.published_ns) < STAMPED_S * 1e9
+    return (trace.sent_ns - (trace.published_ns if is_stamped else trace.received_ns)) / 1e9
 
 
 def _times(trace: Trace) -> Times:

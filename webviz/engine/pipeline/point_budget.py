@@ -38,6 +38,10 @@ class PointBudget:
         # If all have what they want, any of them may have the rest as well.
         return _rounded(left // waiting if waiting else left + wanted)
 
+    def wanted(self, display: str) -> int:
+        """Return the number of points that a display has to show, 0 if unknown."""
+        return self._wanted.get(display, 0)
+
     def leave(self, display: str) -> None:
         """Give what a display had to the others."""
         self._wanted.pop(display, None)

@@ -8,6 +8,7 @@ from typing import Protocol
 from webviz.api.bounds import Box
 from webviz.api.declared import Color
 from webviz.api.views import View
+from webviz.engine.pipeline.browsers import Browsers
 from webviz.engine.pipeline.scene_diff import SceneWriter
 
 
@@ -72,8 +73,13 @@ class Scene(SceneWriter, Protocol):
         """The cameras of all browsers."""
         ...
 
-    def bounds(self, prefix: str) -> Box | None:
-        """Return the box around everything visible in the groups of a prefix."""
+    @property
+    def browsers(self) -> Browsers:
+        """The connected browsers."""
+        ...
+
+    def bounds(self, prefix: str, most: int = 0) -> Box | None:
+        """Return the box around all visible groups of a prefix; see `webviz.api.bounds`."""
         ...
 
     def flush(self) -> None:

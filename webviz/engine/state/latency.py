@@ -22,6 +22,28 @@ class Stage:
 
 
 @dataclass(frozen=True)
+class BrowserLatency:
+    """The rest of the way, to the screen of one browser.
+
+    Args:
+        browser: id of the browser.
+        name: of the browser, for people.
+        stages: "acknowledged" and "painted", which begin when samples were sent; none before the
+            browser has answered.
+        p50, p99: median and 99th percentile of the time from the stamp, or the arrival, to the
+            painted frame, in seconds; 0 before it has answered.
+        bytes_per_s: that the display takes of the link.
+    """
+
+    browser: int
+    name: str
+    stages: tuple[Stage, ...]
+    p50: float
+    p99: float
+    bytes_per_s: float
+
+
+@dataclass(frozen=True)
 class Latency:
     """The last samples of a display.
 
@@ -32,6 +54,7 @@ class Latency:
         p50, p99: median and 99th percentile of the time from the stamp to sending, in seconds.
         waits_for: the transform that samples wait for, a sentence; "" if they do not.
         core: share of a processor that it takes to read and draw.
+        browsers: the rest of the way, for each browser.
     """
 
     display: str
@@ -41,3 +64,4 @@ class Latency:
     p99: float
     waits_for: str
     core: float
+    browsers: tuple[BrowserLatency, ...] = ()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import time
 from collections import defaultdict
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Future
 from dataclasses import dataclass
 
@@ -90,14 +90,19 @@ class Tracer:
         self.clock = clock
         self._asked: dict[str, list[Future[Trace]]] = {}
         self._begun: dict[str, _Begun] = {}
-        self.is_timing = False
-        """True to count the time that displays take."""
+        self.on_sent: Callable[[Mapping[str, Trace], float], object] = lambda traces, at_s: None
+        """Called with the samples that were sent, by display, and when that was."""
+        self._timing: set[str] = set()
         self.busy_s: defaultdict[str, float] = defaultdict(float)
         """Seconds of a processor that reading and drawing took in the frame loop, by display."""
 
     def timed(self, display: str) -> contextlib.AbstractContextManager[None]:
         """Count the time of the block for a display."""
-        return self._timed(display) if self.is_timing else _UNTIMED
+        return self._timed(display) if self._timing else _UNTIMED
+
+    def time(self, purpose: str, is_wanted: bool) -> None:
+        """Count the time that displays take for a purpose from now on, or no longer."""
+        (self._timing.add if is_wanted else self._timing.discard)(purpose)
 
     @contextlib.contextmanager
     def _timed(self, display: str) -> Iterator[None]:
@@ -138,8 +143,13 @@ class Tracer:
 
     def sent(self) -> None:
         """Everything drawn was sent: answer."""
-        for display in [display for display, begun in self._begun.items() if begun.drawn_s]:
-            trace = self._begun.pop(display).trace(self.clock())
+        sent = [display for display, begun in self._begun.items() if begun.drawn_s]
+        if not sent:
+            return
+        now = self.clock()
+        traces = {display: self._begun.pop(display).trace(now) for display in sent}
+        self.on_sent(traces, now)
+        for display, trace in traces.items():
             for answer in self._asked.pop(display, ()):
                 if answer.set_running_or_notify_cancel():
                     answer.set_result(trace)

@@ -8,13 +8,14 @@ import msgspec
 
 from webviz.api.check import CheckText
 from webviz.api.check_registry import known_checks
-from webviz.api.finding import ChangeDisplay, Finding, Severity
+from webviz.api.finding import ChangeDisplay, Fact, Finding, Severity
 from webviz.api.status import Level, Status
 from webviz.engine.state import State
 from webviz.page.content.displays import RemedyButton, remedy_of
 from webviz.page.content.forms import brief
 from webviz.page.content.store import PageStore
 
+NS_PER_S = 1e9
 LEVELS = {Severity.NOTE: "ok", Severity.WARNING: "warn", Severity.ERROR: "error"}
 
 
@@ -37,6 +38,9 @@ class ShownFinding(msgspec.Struct, frozen=True):
 
     Args:
         level: "ok" for a note, "warn" or "error".
+        evidence: what was observed, pairs of a name and a value.
+        began: when it was first seen in the recording or in the memory of live topics, in seconds
+            since 1970 and from the start; None without one.
         explains: the statuses that follow from it.
         button: that repairs it, None if none does.
         why, repair: paragraphs of the documentation of its check.
@@ -46,6 +50,8 @@ class ShownFinding(msgspec.Struct, frozen=True):
     subject: str
     level: str
     cause: str
+    evidence: Sequence[tuple[str, str]]
+    began: tuple[float, float] | None
     remedy: str
     command: str
     explains: Sequence[ExplainedStatus]
@@ -63,16 +69,22 @@ class FindingsStore(PageStore, frozen=True):
 def findings(state: State, _: str) -> FindingsStore:
     """Return the findings of the last round."""
     names = {row.id: row.name for row in state.rows}
-    return FindingsStore([_finding(each, names) for each in state.findings])
+    start_s = state.playback.start_ns / NS_PER_S if state.playback else 0.0
+    return FindingsStore([_finding(each, names, start_s) for each in state.findings])
 
 
-def _finding(finding: Finding, names: Mapping[str, str]) -> ShownFinding:
+def _finding(finding: Finding, names: Mapping[str, str], start_s: float) -> ShownFinding:
     why, repair = _texts(finding.id)
+    began_s = finding.began_s
     return ShownFinding(
         id=finding.id,
         subject=brief(finding.subject),
         level=LEVELS[finding.severity],
         cause=brief(finding.cause),
+        evidence=[
+            (name.replace("_", " "), brief(_fact(v))) for name, v in finding.evidence.items()
+        ],
+        began=None if began_s is None else (round(start_s + began_s, 3), round(began_s, 3)),
         remedy=brief(finding.remedy),
         command=brief(finding.command),
         explains=[
@@ -83,6 +95,15 @@ def _finding(finding: Finding, names: Mapping[str, str]) -> ShownFinding:
         why=why,
         repair=repair,
     )
+
+
+def _fact(value: Fact) -> str:
+    """Return a piece of evidence in words."""
+    if isinstance(value, float):
+        return f"{value:.4g}"
+    if isinstance(value, tuple):
+        return ", ".join(value) or "none"
+    return {None: "unknown", "": "none", True: "yes", False: "no"}.get(value, str(value))
 
 
 def _button(finding: Finding) -> RemedyButton | None:

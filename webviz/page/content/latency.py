@@ -7,6 +7,8 @@ from collections.abc import Sequence
 import msgspec
 
 from webviz.engine.state import State
+from webviz.engine.state.latency import Stage
+from webviz.page.content.forms import brief
 from webviz.page.content.store import PageStore
 
 
@@ -17,6 +19,17 @@ class ShownStage(msgspec.Struct, frozen=True):
     begin: float
     p50: float
     p99: float
+
+
+class ShownBrowserLatency(msgspec.Struct, frozen=True):
+    """The way to one browser, see `webviz.engine.state.latency.BrowserLatency`."""
+
+    browser: int
+    name: str
+    stages: Sequence[ShownStage]
+    p50: float
+    p99: float
+    bytes_per_s: float
 
 
 class ShownLatency(msgspec.Struct, frozen=True):
@@ -34,6 +47,7 @@ class ShownLatency(msgspec.Struct, frozen=True):
     p99: float
     waits_for: str
     core: float
+    browsers: Sequence[ShownBrowserLatency]
 
 
 class LatencyStore(PageStore, frozen=True):
@@ -50,15 +64,27 @@ def latency(state: State, _: str) -> LatencyStore:
             each.display,
             names.get(each.display, each.display),
             each.samples,
-            [
-                ShownStage(s.name, round(s.begin, 5), round(s.p50, 5), round(s.p99, 5))
-                for s in each.stages
-            ],
+            _stages(each.stages),
             round(each.p50, 4),
             round(each.p99, 4),
             each.waits_for,
             round(each.core, 4),
+            [
+                ShownBrowserLatency(
+                    to.browser,
+                    brief(to.name),
+                    _stages(to.stages),
+                    round(to.p50, 4),
+                    round(to.p99, 4),
+                    round(to.bytes_per_s),
+                )
+                for to in each.browsers
+            ],
         )
         for each in state.latencies
     ]
     return LatencyStore(sorted(found, key=lambda each: -each.p50))
+
+
+def _stages(stages: Sequence[Stage]) -> Sequence[ShownStage]:
+    return [ShownStage(s.name, round(s.begin, 5), round(s.p50, 5), round(s.p99, 5)) for s in stages]

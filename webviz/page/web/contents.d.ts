@@ -211,11 +211,22 @@ export interface SelectionInfo {
   displays?: Array<DisplayShare>;
 }
 
+export interface ShownBrowserLatency {
+  browser: number;
+  name: string;
+  stages: Array<ShownStage>;
+  p50: number;
+  p99: number;
+  bytes_per_s: number;
+}
+
 export interface ShownFinding {
   id: string;
   subject: string;
   level: string;
   cause: string;
+  evidence: Array<[string, string]>;
+  began: [number, number] | null;
   remedy: string;
   command: string;
   explains: Array<ExplainedStatus>;
@@ -243,6 +254,7 @@ export interface ShownLatency {
   p99: number;
   waits_for: string;
   core: number;
+  browsers: Array<ShownBrowserLatency>;
 }
 
 export interface ShownStage {

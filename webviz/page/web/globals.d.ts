@@ -5,6 +5,7 @@ interface Window {
     /** viser's id of this page, null until it is connected. */
     browser: number | null;
     answer(token: string): void;
+    probe(number: number): void;
     connect(told: { browser: number; key: string; version: string }): Promise<void>;
     hasView(): boolean;
     pick(xy: [number, number]): unknown;

@@ -10,6 +10,7 @@ import * as colors from "./scene/colors.js";
 import constants from "./constants.js";
 import * as liveness from "./liveness.js";
 import * as extensions from "./extensions.js";
+import { hasWebGL } from "./scene/graphics.js";
 import * as flat from "./scene/flat.js";
 import * as handles from "./handles/handles.js";
 import * as capacity from "./scene/capacity.js";
@@ -31,6 +32,7 @@ import * as theme from "./shell/theme.js";
 import * as toolbar from "./shell/toolbar.js";
 import * as view from "./scene/view.js";
 import * as viser from "./viser_page.js";
+import * as vitals from "./vitals.js";
 import * as whole from "./scene/whole.js";
 
 /** @import {About} from "./recorded/types.js" */
@@ -56,6 +58,7 @@ async function install() {
   if (!run) liveness.install();
   await viser.until(() => viser.hasCamera() && viser.node(constants.ROOT));
   for (const part of [view, mouse, handles, saveImage, overlay, capacity, blocks]) part.install();
+  if (!run) vitals.install();
   toolbar.install(shell.places);
   extensions.install();
 }
@@ -69,6 +72,18 @@ async function play(run) {
   window.webviz.browser = 0;
   channel.open(socket, "");
   open();
+}
+
+// viser's page stays empty then, and nothing else of this one is installed.
+function noWebGL() {
+  const notice = document.createElement("p");
+  notice.className = "wv-contact";
+  notice.setAttribute("role", "alert");
+  notice.textContent =
+    "This browser has no WebGL 2, with which webviz draws. Switch on hardware acceleration in its " +
+    "settings, or use another browser.";
+  document.body.append(notice);
+  viser.reveal();
 }
 
 /** @param {string} token */
@@ -88,6 +103,7 @@ window.webviz = {
   /** viser's id of this page, once it is connected. */
   browser: null,
   answer,
+  probe: vitals.probe,
   async connect({ browser, key, version }) {
     // The server was replaced by one that has other modules.
     if (version !== constants.VERSION) return location.reload();
@@ -98,4 +114,5 @@ window.webviz = {
   hasView: () => view.type() !== "",
   pick: mouse.pick,
 };
+if (!hasWebGL()) noWebGL();
 window.webvizStarted();

@@ -135,6 +135,12 @@ export interface FramesShown {
   numbers: Record<string, number>;
 }
 
+export interface HasPainted {
+  type: "HasPainted";
+  probe: number;
+  waited_s: number;
+}
+
 export interface Hello {
   type: "Hello";
   key: string;
@@ -173,6 +179,15 @@ export interface ViewReport {
   target_frame: string;
   width: number;
   height: number;
+}
+
+export interface Vitals {
+  type: "Vitals";
+  renderer: string;
+  is_software: boolean;
+  is_hidden: boolean;
+  frame_s: number;
+  late_s: number;
 }
 
 export interface Watch {
@@ -324,6 +339,7 @@ export type FromPage =
   | Do
   | Drive
   | FramesShown
+  | HasPainted
   | Hello
   | Ping
   | PointCapacity
@@ -331,4 +347,5 @@ export type FromPage =
   | ShowPictures
   | Unwatch
   | ViewReport
+  | Vitals
   | Watch;

@@ -16,6 +16,9 @@ from webviz.server.http.viser_server import Server
 class AcknowledgementRequest(wire.RunJavascriptMessage, include_in_scene_serialization=True):
     """Makes a page answer once it has handled all messages queued before."""
 
+    makes_whole = True
+    """True if thinned clouds are sent whole before it."""
+
     def redundancy_key(self) -> str:
         """One per token, so that none replaces another."""
         return self.source
@@ -23,6 +26,16 @@ class AcknowledgementRequest(wire.RunJavascriptMessage, include_in_scene_seriali
     def as_serializable_dict(self, binary_buffers: list[memoryview] | None = None) -> dict:
         """As viser packs it, under the name of viser's class."""
         return {"type": "RunJavascriptMessage", "source": self.source}
+
+
+class Probe(AcknowledgementRequest, include_in_scene_serialization=True):
+    """Makes a page say when it has painted all messages queued before."""
+
+    makes_whole = False
+
+    def redundancy_key(self) -> str:
+        """One: a newer probe replaces those that were not sent."""
+        return "webviz probe"
 
 
 class Acknowledgements:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
 import viser
 from numpy.typing import NDArray
 
-from webviz.scene.adapter.acknowledging import AcknowledgementRequest, Acknowledgements
+from webviz.scene.adapter.acknowledging import AcknowledgementRequest, Acknowledgements, Probe
 from webviz.scene.adapter.hints import evaluate_hints_once
 from webviz.scene.adapter.poses import (
     Move,
@@ -26,6 +26,7 @@ from webviz.scene.deferred import DeferredMessages
 from webviz.scene.label_budget import LabelBudget
 from webviz.server.http.viser_server import Server
 from webviz.server.images.pictures import Pictures
+from webviz.server.sending.costs import Costs
 
 MAX_TOMBSTONES = 10_000
 """Removal messages in the buffer, above which browsers that do not read are disconnected."""
@@ -106,6 +107,21 @@ class Adapter:
             TimeoutError: see `Acknowledgements.wait`.
         """
         self._acknowledgements.wait(timeout, client_id)
+
+    def probe(self, number: int) -> None:
+        """Ask every page when it has painted everything queued so far; replace unsent probes."""
+        self._queue(Probe(self.server.modules.probe(number)))
+        self.flush()
+
+    def count_bytes(self, is_wanted: bool) -> None:
+        """Count the bytes of the scene and of pictures from now on, or no longer."""
+        if not is_wanted:
+            self._buffer.remove_from_buffer(lambda message: isinstance(message, Probe))
+        self._sender.costs = self.pictures.costs = Costs() if is_wanted else None
+
+    def bytes_sent(self) -> Mapping[int, Mapping[str, int]]:
+        """Return the bytes since `count_bytes`, by id of the browser and of the display."""
+        return self._sender.costs.by_browser() if self._sender.costs else {}
 
     def count_removals(self, count: int) -> None:
         """Count removed nodes, and sometimes drop removal messages that all browsers have."""

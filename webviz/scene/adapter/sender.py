@@ -12,9 +12,11 @@ from viser.infra._async_message_buffer import AsyncMessageBuffer
 from viser.infra._messages import Message
 
 from webviz.scene.adapter.packing import Packer
+from webviz.scene.names import ROOT, display_of
 from webviz.server.http.connections import Connection
 from webviz.server.sending.congestion import CongestionControl
-from webviz.server.sending.outbox import URGENT, Outbox, Progress
+from webviz.server.sending.costs import Costs
+from webviz.server.sending.outbox import URGENT, Outbox, Progress, bulk
 from webviz.server.sending.pieces import Piece
 
 
@@ -49,6 +51,8 @@ class SceneSender:
         """True if messages wait for the end of an atomic block."""
         self._thread: int | None = None
         self._due: asyncio.Handle | None = None
+        self.costs: Costs | None = None
+        """Counts what is sent while it is there."""
         buffer._window_loop = self._windows
         _follow(buffer.message_event, self._send_soon)
         _follow(buffer.flush_event, self._send)
@@ -117,6 +121,8 @@ class SceneSender:
         self._buffer.generator_cursors[browser.id] = outbox.cursor
         if (frame := step.frame(self._packer, browser.id)) is not None:
             browser.connection.write(frame)
+            if self.costs is not None:
+                self.costs.add(browser.id, step.sizes(len(frame)))
         if browser.connection.paused:
             browser.draining = asyncio.ensure_future(self._drain(browser))
             return False
@@ -209,6 +215,23 @@ class _Step:
         self.window = window
         self._excluded = {message.excluded_self_client for message in window} - {None}
         self._frame: bytes | None = None
+        self._sizes: Mapping[str, int] | None = None
+
+    def sizes(self, whole: int) -> Mapping[str, int]:
+        """Return the bytes of its frame by display, those of small messages in equal shares.
+
+        Args:
+            whole: size of the frame.
+        """
+        if self._sizes is None:
+            sizes: dict[str, int] = {}
+            named = [(display_of(name), each) for each in self.window if (name := _name(each))]
+            bulky = [(display, _bulk(each)) for display, each in named]
+            rest = max(0, whole - sum(size for _, size in bulky)) // max(1, len(self.window))
+            for display, size in bulky:
+                sizes[display] = sizes.get(display, 0) + size + rest
+            self._sizes = sizes
+        return self._sizes
 
     def frame(self, packer: Packer, browser_id: int) -> bytes | None:
         """Return the frame for a browser, None if it lacks nothing."""
@@ -218,6 +241,16 @@ class _Step:
         if self._frame is None and self.window:
             self._frame = packer.frame(self.window)
         return self._frame
+
+
+def _bulk(message: Message | Piece) -> int:
+    return len(message.data) if isinstance(message, Piece) else bulk(message)
+
+
+def _name(message: Message | Piece) -> str:
+    """Return the name of the node that a message changes, "" if it changes none of a display."""
+    name = getattr(message, "name", "")
+    return name if isinstance(name, str) and name.startswith(f"{ROOT}/") else ""
 
 
 def _follow(event: asyncio.Event, then: Callable[[], None]) -> None:

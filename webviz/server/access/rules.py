@@ -89,6 +89,7 @@ MESSAGES: Mapping[str, Role | None] = {
     "Do": None,
     "Drive": Role.OPERATOR,
     "FramesShown": Role.WATCHER,
+    "HasPainted": Role.OPERATOR,
     "Hello": Role.WATCHER,
     "PointCapacity": Role.OPERATOR,
     "Ping": Role.WATCHER,
@@ -96,6 +97,7 @@ MESSAGES: Mapping[str, Role | None] = {
     "ShowPictures": Role.WATCHER,
     "Unwatch": Role.WATCHER,
     "ViewReport": Role.WATCHER,
+    "Vitals": Role.OPERATOR,
     "Watch": Role.WATCHER,
 }
 """Of the messages of `webviz.server.channel.messages`; None if it is that of the command within."""

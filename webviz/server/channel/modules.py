@@ -56,6 +56,10 @@ class Modules:
         """Return a script that makes a page send an `Answer` with this token."""
         return f"window.webviz?.answer({json.dumps(token)});"
 
+    def probe(self, number: int) -> str:
+        """Return a script that makes a page send a `HasPainted` with this number."""
+        return f"window.webviz?.probe({json.dumps(number)});"
+
 
 @functools.cache
 def _files() -> dict[str, str]:

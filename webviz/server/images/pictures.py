@@ -18,6 +18,7 @@ from webviz.server.channel.messages import FramesShown, PixelValue, ReadPixel, S
 from webviz.server.images.encoding import File, factor_for, file_of
 from webviz.server.images.frames import Sent, frame
 from webviz.server.images.pixel_values import pixel_text
+from webviz.server.sending.costs import Costs
 
 MAX_IN_FLIGHT = 2
 """Pictures of a pane that a page has not shown yet: one on its way, one being decoded."""
@@ -74,6 +75,8 @@ class Pictures:
 
     def __init__(self, channel: Channel) -> None:
         self._channel = channel
+        self.costs: Costs | None = None
+        """Counts what is sent while it is there."""
         self._lock = threading.Lock()
         self._pool = ThreadPoolExecutor(max_workers=2, thread_name_prefix="webviz-pictures")
         self._shown: dict[str, _Shown] = {}
@@ -221,6 +224,8 @@ class Pictures:
                 # ones go on from what they say.
                 look.turn = not look.turn
                 self._channel.send_bytes(data, f"{display} {look.turn:d}", browser)
+                if self.costs is not None:
+                    self.costs.add(browser, {display: len(data)})
             is_ready = self._continue(browser, display, look)
         if is_ready:
             self._channel.call_soon(partial(self._send_ready, display))

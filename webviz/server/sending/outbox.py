@@ -146,7 +146,8 @@ class Outbox:
             if size > large or message.redundancy_key() in self._pieces:
                 self._put(message, number, size)
             elif isinstance(message, self._last):
-                self._make_whole(live)
+                if getattr(message, "makes_whole", True):
+                    self._make_whole(live)
                 if self.is_waiting():
                     self._line[number] = number
                 else:

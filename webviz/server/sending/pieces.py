@@ -40,6 +40,7 @@ class Piece:
         size: of all bytes.
         data: its bytes.
         update: what the bytes are for, only of the last piece.
+        name: of the node that the message changes.
     """
 
     slot: int
@@ -47,6 +48,7 @@ class Piece:
     size: int
     data: memoryview
     update: dict[str, Any] | None
+    name: str = ""
     excluded_self_client: None = None
 
     def as_serializable_dict(
@@ -90,6 +92,7 @@ class Pieces:
                 data += np.ascontiguousarray(value).data.cast("B")
                 dtype = value.dtype.str
             values[name] = {"start": start, "end": len(data), "dtype": dtype}
+        self._name = message.name
         self._data = memoryview(data)
         self._update = {"name": message.name, "owner": message.owner, "values": values}
         self._start = 0
@@ -103,4 +106,5 @@ class Pieces:
         """Return the next piece, of at most `size` bytes."""
         start, self._start = self._start, self._start + size
         update = self._update if self.is_over else None
-        return Piece(self.slot, start, len(self._data), self._data[start : self._start], update)
+        data = self._data[start : self._start]
+        return Piece(self.slot, start, len(self._data), data, update, name=self._name)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from webviz.api.bounds import Box
 from webviz.api.declared import Color
 from webviz.api.nodes import POINTS_HELD, Node, Pose
+from webviz.engine.pipeline.browsers import Browsers, NoBrowsers
 from webviz.engine.pipeline.scene import Cameras, NoCameras
 
 
@@ -12,6 +13,7 @@ class NoScene:
     """A scene that somebody seems to watch, so that displays draw."""
 
     cameras: Cameras = NoCameras()
+    browsers: Browsers = NoBrowsers()
 
     def set_pose(self, group: str, pose: Pose) -> None:
         """No effect."""
@@ -28,7 +30,7 @@ class NoScene:
     def remove_group(self, group: str) -> None:
         """No effect."""
 
-    def bounds(self, prefix: str) -> Box | None:
+    def bounds(self, prefix: str, most: int = 0) -> Box | None:
         """None."""
         return None
 

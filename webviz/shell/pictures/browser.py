@@ -104,7 +104,7 @@ def launched() -> Iterator[playwright.Browser]:
     except ImportError:
         raise NoBrowser("playwright is missing. Run `pip install 'webviz[pictures]'`.") from None
     with playwright.sync_playwright() as driver:
-        executable = _executable(driver)
+        executable = executable_of(driver.chromium)
         try:
             browser = driver.chromium.launch(executable_path=executable, args=list(FLAGS))
         except playwright.Error as error:
@@ -117,16 +117,19 @@ def launched() -> Iterator[playwright.Browser]:
                 browser.close()
 
 
-def _executable(driver: playwright.Playwright) -> str:
-    """Return the installed browser, or else playwright's own."""
+def executable_of(kind: playwright.BrowserType) -> str:
+    """Return the path of the installed browser, or else of playwright's own.
+
+    Raises:
+        NoBrowser: there is none.
+    """
     chosen = os.environ.get(VARIABLE)
     if chosen:
         found = shutil.which(chosen)
         if found is None:
             raise NoBrowser(f"{VARIABLE} is {chosen!r}, which is not a program. Fix or unset it.")
         return found
-    own = driver.chromium.executable_path
-    for name in (*NAMES, own):
+    for name in (*NAMES, kind.executable_path):
         if found := shutil.which(name):
             return found
     raise NoBrowser(f"No browser found. {HOW_TO_GET_ONE}")

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from webviz.api.bounds import Box, bounds, union
 from webviz.api.frames import compose
 from webviz.api.nodes import POINTS_HELD, Node, Pose, Rgb
+from webviz.engine.pipeline.browsers import Browsers, NoBrowsers
 from webviz.engine.pipeline.scene import Cameras, NoCameras
 
 if TYPE_CHECKING:
@@ -36,6 +37,7 @@ class RecordingScene:
     background: Rgb | None = None
     lock: threading.RLock = field(default_factory=threading.RLock)
     cameras: Cameras = field(default_factory=NoCameras)
+    browsers: Browsers = field(default_factory=NoBrowsers)
     _targets: list[ViserScene] = field(default_factory=list)
     """The attached scene, if any."""
 
@@ -61,14 +63,14 @@ class RecordingScene:
                 target.flush()
             self._targets = []
 
-    def bounds(self, prefix: str) -> Box | None:
+    def bounds(self, prefix: str, most: int = 0) -> Box | None:
         """Return the bounding box of all visible groups with a prefix."""
         return union(
             box.moved(pose).moved(self.poses.get(name, Pose()))
             for name, nodes in self.groups.items()
             if name.startswith(prefix) and name not in self.hidden
             for node, pose in nodes.values()
-            if (box := bounds(node)) is not None
+            if (box := bounds(node, most)) is not None
         )
 
     def set_background(self, rgb: Rgb | None) -> None:

@@ -3,6 +3,7 @@
 import * as channel from "../channel.js";
 import { el, set, setChildren, setText } from "../dom.js";
 import { points } from "../scene/capacity.js";
+import { isSoftware, renderer } from "../scene/graphics.js";
 import { watch } from "../stores.js";
 import * as viser from "../viser_page.js";
 
@@ -79,7 +80,7 @@ export function build() {
         `${render.triangles} triangles, ${render.points} points, ` + `${render.calls} calls`,
       ],
       ["Points held", `${points()} at once, to draw 20 frames a second`],
-      ["Drawn by", renderer()],
+      ["Drawn by", drawnBy()],
     ];
     setChildren(
       more,
@@ -104,14 +105,5 @@ export function build() {
   return el("div", { class: "wv-rates-box" }, button, more);
 }
 
-let named = "";
-function renderer() {
-  if (named) return named;
-  const context = viser.gl().getContext();
-  const info = context.getExtension("WEBGL_debug_renderer_info");
-  named = String(context.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : context.RENDERER));
-  if (/swiftshader|llvmpipe|software/i.test(named)) {
-    named = "the processor, slowly: this browser has no graphics acceleration";
-  }
-  return named;
-}
+const drawnBy = () =>
+  isSoftware() ? "the processor, slowly: this browser has no graphics acceleration" : renderer();

@@ -1,8 +1,11 @@
 // The panel "Doctor": the causes of what is not shown, the one to repair first on top.
 
+import { needs } from "../access.js";
+import { act } from "../act.js";
 import { copy } from "../clipboard.js";
 import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
+import { timeOfDay } from "../shell/time_text.js";
 import { toast } from "../shell/toasts.js";
 import { openPanel } from "../shell/layout.js";
 import { watch } from "../stores.js";
@@ -56,7 +59,8 @@ export const doctor = {
  * @param {boolean} isFirst whether it is to be repaired before others
  */
 function item(finding, unfolded, isFirst) {
-  const { id, level, cause, remedy, command, explains, button, why, repair } = finding;
+  const { id, level, cause, evidence, began, remedy, command } = finding;
+  const { explains, button, why, repair } = finding;
   const key = keyOf(finding);
   const more = el(
     "details",
@@ -78,12 +82,36 @@ function item(finding, unfolded, isFirst) {
     ),
     el("p", {}, remedy),
     command ? typed(command) : "",
-    button ? remedyButton(button) : "",
+    button || began
+      ? el(
+          "div",
+          { class: "wv-finding-acts" },
+          button ? remedyButton(button) : "",
+          began ? goTo(began) : "",
+        )
+      : "",
+    evidence.length
+      ? el("p", { class: "wv-quiet" }, `Evidence: ${evidence.map(fact).join("; ")}.`)
+      : "",
     explains.length
       ? el("p", { class: "wv-quiet" }, "Explains ", ...explains.flatMap(explained), ".")
       : "",
     more,
   );
+}
+
+/** @param {readonly [string, string]} evidence a name and a value */
+const fact = ([name, value]) => `${name} ${value}`;
+
+/**
+ * The button that shows the moment at which a finding began.
+ *
+ * @param {readonly [number, number]} began in seconds since 1970, and from the start
+ */
+function goTo([at, position]) {
+  const text = `Go to ${timeOfDay(at).split(" ").at(-1)}`;
+  const onclick = () => act("Seek", { at_s: position });
+  return needs("Seek", el("button", { type: "button", class: "wv-button", onclick }, text));
 }
 
 /**

@@ -3,7 +3,7 @@
 import { el } from "../dom.js";
 import { watch } from "../stores.js";
 
-/** @import {ShownLatency, ShownStage} from "../contents.js" */
+/** @import {ShownBrowserLatency, ShownLatency, ShownStage} from "../contents.js" */
 
 /** @type {Record<string, string>} */
 const NAMES = {
@@ -12,6 +12,8 @@ const NAMES = {
   decoded: "decoded",
   drawn: "drawn",
   sent: "sent",
+  acknowledged: "acknowledged",
+  painted: "painted",
 };
 const NOTHING = "No display has drawn a message since this was opened.";
 
@@ -40,8 +42,9 @@ export function stampToScreen() {
 }
 
 /** @param {ShownLatency} latency */
-function waterfall({ name, stages, p50, p99, waits_for: waitsFor, core }) {
-  const whole = Math.max(...stages.map(({ begin, p50: own }) => begin + Math.max(own, 0)), 1e-6);
+function waterfall({ name, stages, p50, p99, waits_for: waitsFor, core, browsers }) {
+  const sent = end(stages);
+  const whole = Math.max(sent, ...browsers.map((to) => sent + end(to.stages)), 1e-6);
   return el(
     "section",
     { class: "wv-waterfall", "aria-label": name },
@@ -51,21 +54,52 @@ function waterfall({ name, stages, p50, p99, waits_for: waitsFor, core }) {
       el("b", { class: "wv-ellipsis" }, name),
       el("span", { class: "wv-quiet wv-number" }, `${ms(p50)}, p99 ${ms(p99)}`),
     ),
-    ...stages.map((stage) => row(stage, whole)),
+    ...stages.map((stage) => row(stage, 0, whole)),
+    ...browsers.flatMap((to) => browser(to, sent, whole)),
     el(
       "p",
       { class: "wv-quiet" },
-      [waitsFor, `Takes ${percent(core)} of a core.`].join(" ").trim(),
+      [waitsFor, `Takes ${percent(core)} of a core${browsers.map(link).join("")}.`]
+        .join(" ")
+        .trim(),
     ),
   );
 }
 
 /**
- * @param {ShownStage} stage
+ * When the last of some stages ends.
+ *
+ * @param {readonly ShownStage[]} stages
+ */
+const end = (stages) => Math.max(0, ...stages.map(({ begin, p50 }) => begin + Math.max(p50, 0)));
+
+/**
+ * The rows of the way to a browser.
+ *
+ * @param {ShownBrowserLatency} to
+ * @param {number} sent when that begins, in seconds
  * @param {number} whole
  */
-function row({ name, begin, p50, p99 }, whole) {
-  const [left, width] = [Math.max(begin, 0) / whole, Math.max(p50, 0) / whole];
+function browser({ name, stages, p50, p99 }, sent, whole) {
+  if (!stages.length) return [];
+  return [
+    el(
+      "div",
+      { class: "wv-waterfall-browser wv-quiet" },
+      el("span", { class: "wv-ellipsis" }, `To ${name}`),
+      el("span", { class: "wv-number" }, `${ms(p50)}, p99 ${ms(p99)}`),
+    ),
+    ...stages.map((stage) => row(stage, sent, whole)),
+  ];
+}
+
+/**
+ * @param {ShownStage} stage
+ * @param {number} from when the first of its stages begins
+ * @param {number} whole
+ */
+function row({ name, begin, p50, p99 }, from, whole) {
+  const [left, width] = [Math.max(from + begin, 0) / whole, Math.max(p50, 0) / whole];
   const bar = el("span", { class: "wv-waterfall-bar", "data-stage": name });
   bar.style.left = `${100 * left}%`;
   bar.style.width = `${100 * width}%`;
@@ -81,6 +115,9 @@ function row({ name, begin, p50, p99 }, whole) {
   );
 }
 
+/** @param {ShownBrowserLatency} to */
+const link = ({ name, bytes_per_s: rate }) => `, ${perSecond(rate)} to ${name}`;
+
 /** @param {number} seconds */
 function ms(seconds) {
   const value = seconds * 1000;
@@ -89,3 +126,9 @@ function ms(seconds) {
 
 /** @param {number} share */
 const percent = (share) => `${(share * 100).toFixed(1)} %`;
+
+/** @param {number} bytes */
+function perSecond(bytes) {
+  if (bytes < 1000) return `${Math.round(bytes)} B/s`;
+  return bytes < 1e6 ? `${(bytes / 1e3).toFixed(1)} kB/s` : `${(bytes / 1e6).toFixed(1)} MB/s`;
+}

@@ -4,6 +4,7 @@ import { why } from "../access.js";
 import * as channel from "../channel.js";
 import constants from "../constants.js";
 import * as viser from "../viser_page.js";
+import { whenDrawn } from "./graphics.js";
 
 const { POINTS_HELD, FEWEST_POINTS, MAX_POINTS } = constants;
 const GOAL_MS = 50;
@@ -13,7 +14,6 @@ const FAST_MS = 0.5 * GOAL_MS;
 const USED = 0.7; // of the points held, for a fast frame to say that there is room for more
 const FRAMES = 5;
 const PATIENCE_MS = 1500; // of a slow browser, fewer frames are enough
-const LOOK_MS = 2;
 
 let held = POINTS_HELD;
 let isMeasured = false;
@@ -33,9 +33,11 @@ export function install() {
     const drawn = viser.gl().info.render.points;
     if (isMeasuring || 2 * drawn < FEWEST_POINTS || isHeld()) return;
     isMeasuring = true;
-    measure(began, (ms) => {
+    const from = began;
+    whenDrawn((isDrawn) => {
+      const ms = performance.now() - from;
       isMeasuring = false;
-      if (document.hidden || !ms) return;
+      if (document.hidden || !isDrawn) return;
       frames.push({ ms, drawn });
       const all = frames.reduce((sum, frame) => sum + frame.ms, 0);
       if (frames.length < FRAMES && all < PATIENCE_MS) return;
@@ -43,25 +45,6 @@ export function install() {
       frames = [];
     });
   });
-}
-
-// When the graphics card has drawn what it was told, not when it was told.
-/**
- * @param {number} began
- * @param {(ms: number) => void} done
- */
-function measure(began, done) {
-  const context = viser.gl().getContext();
-  const drawn = context.fenceSync(context.SYNC_GPU_COMMANDS_COMPLETE, 0);
-  context.flush();
-  (function look() {
-    if (context.isContextLost()) return done(0);
-    if (context.getSyncParameter(drawn, context.SYNC_STATUS) !== context.SIGNALED) {
-      return setTimeout(look, LOOK_MS);
-    }
-    context.deleteSync(drawn);
-    done(performance.now() - began);
-  })();
 }
 
 /** @param {{ms: number, drawn: number}[]} frames */

@@ -1,0 +1,296 @@
+"""Faults of browsers and of what they show, provoked with real ones."""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+import time
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import building
+import numpy as np
+import playwright.sync_api as playwright
+import pytest
+
+from webviz.api.finding import CauseLevel, Finding, Severity
+from webviz.api.views import Orbit, View
+from webviz.checks.browser import no_webgl, throttled_tab, viewer_behind
+from webviz.data.messages import encode
+from webviz.engine.commands import AddDisplay, InspectLatency, SetProperty, ShowView
+from webviz.engine.doctor import doctor
+from webviz.engine.state.latency import BrowserLatency
+from webviz.files.config import Config
+from webviz.files.opening import parse
+from webviz.shell.app.running import Running
+from webviz.shell.pictures.browser import FLAGS, Page, executable_of
+from webviz.shell.testing.messages import header
+from webviz.shell.testing.source import HandFedSource
+
+CONFIG = """\
+view: {type: Orbit, distance: 10}
+fixed_frame: map
+displays:
+- {type: Axes, name: Origin}
+"""
+SLOW = """
+import time
+from typing import Annotated
+from webviz import Display, Input, Topic
+
+class SlowDisplay(Display):
+    topic: Annotated[Topic, Input("sensor_msgs/msg/LaserScan")] = Topic("/scan")
+
+    def draw(self, samples, ctx):
+        until = time.thread_time() + 0.1
+        while time.thread_time() < until:
+            pass
+        ctx.ok("Slow", "Drawn.")
+"""
+SCAN = "sensor_msgs/msg/LaserScan"
+GRID = "nav_msgs/msg/OccupancyGrid"
+CLOUD = "sensor_msgs/msg/PointCloud2"
+TF = "tf2_msgs/msg/TFMessage"
+FIELDS = (("x", 0, 7, 1), ("y", 4, 7, 1), ("z", 8, 7, 1))
+"""Name, offset, type and count of those of clouds."""
+HANG = "setTimeout(() => { const end = Date.now() + 8000; while (Date.now() < end); })"
+PATIENCE_S = 30.0
+
+
+def read(*_: object) -> Config:
+    """The config of the viewer."""
+    return parse(CONFIG, "x.yaml")
+
+
+class Room:
+    """A viewer with a browser, and the findings of its doctor."""
+
+    def __init__(self, viewer: Running, source: HandFedSource, browser: playwright.Browser) -> None:
+        self.viewer = viewer
+        self.source = source
+        self.page = Page(browser, viewer.url, 600, 500)
+        self.page.wait_for(lambda: viewer.state.views, "the report of its view")
+
+    def found(self) -> Mapping[str, Finding]:
+        """The newest findings by id and subject."""
+        levels = CauseLevel.VIEW, CauseLevel.BROWSER
+        all = (each for each in self.viewer.state.findings if each.level in levels)
+        return {each.id: each for each in all}
+
+    def wait(self, id: str, is_there: bool = True) -> Finding | None:
+        """Wait for a finding, or until it is gone."""
+        try:
+            self.page.wait_for(lambda: (id in self.found()) == is_there, id, PATIENCE_S)
+        except TimeoutError:
+            pytest.fail(f"{id}: {self.found()}")
+        return self.found().get(id)
+
+    def look(self, view: View) -> None:
+        """Move all cameras."""
+        self.viewer.do(ShowView(view))
+
+    def add(self, type: str, **values: Any) -> str:
+        """Add a display; its id."""
+        made: list[str] = []
+        self.viewer.do(AddDisplay(type, values, made=made.append))
+        return made[0]
+
+    def put(self, topic: str, type: str, frame: str, values: Mapping[str, Any]) -> None:
+        """Receive a message."""
+        stamped = {"header": header(frame, self.source.now), **values}
+        self.source.put(topic, type, encode(type, stamped))
+
+    def transform(self, child: str, x: float) -> None:
+        """Receive a static transform from the map."""
+        moved = {"translation": {"x": x}, "rotation": {"w": 1.0}}
+        link = {"header": header("map", self.source.now), "child_frame_id": child}
+        values = {"transforms": [link | {"transform": moved}]}
+        self.source.put("/tf_static", "tf2_msgs/msg/TFMessage", encode(TF, values))
+
+
+@pytest.fixture(scope="module")
+def viewer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Running, HandFedSource]]:
+    plugin = tmp_path_factory.mktemp("plugin") / "slow.py"
+    plugin.write_text(SLOW)
+    source = HandFedSource()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(doctor, "EVERY_S", 0.1)
+        patch.setattr(doctor, "SLICE_S", 1.0)
+        running = Running(port=0, source=source, read=read, plugins=[plugin])
+        yield running, source
+        running.close()
+
+
+@pytest.fixture(scope="module")
+def room(viewer: tuple[Running, HandFedSource], browser: playwright.Browser) -> Iterator[Room]:
+    made = Room(*viewer, browser)
+    made.transform("base", 0.0)
+    yield made
+    made.page.close()
+
+
+def test_what_the_camera_does_not_show(room: Room) -> None:
+    away = Orbit(focal_point=(0.0, 5000.0, 0.0), distance=10.0)
+    room.look(away)
+    found = room.wait("VIEW004")
+    assert found is not None
+    assert found.severity is Severity.WARNING
+    assert found.cause == "The camera looks at nothing: all displays are outside the view."
+    room.look(Orbit())
+    room.wait("VIEW004", False)
+    axes = next(row.id for row in room.viewer.state.rows if row.name == "Origin")
+    room.viewer.do(SetProperty(axes, "length", 0.001))
+    room.viewer.do(SetProperty(axes, "radius", 0.0001))
+    found = room.wait("VIEW003")
+    assert found is not None
+    assert "less than a pixel" in found.cause
+    room.viewer.do(SetProperty(axes, "length", 1.0))
+    room.wait("VIEW003", False)
+    room.transform("far", 3e5)
+    room.viewer.do(SetProperty(axes, "length", 9e3))
+    room.viewer.do(SetProperty(axes, "reference_frame", "far"))
+    room.look(Orbit(focal_point=(5.0, 0.0, 0.0), yaw=np.pi, pitch=0.0))
+    found = room.wait("VIEW005")
+    assert found is not None
+    assert "km away" in found.cause
+    room.viewer.do(SetProperty(axes, "reference_frame", "map"))
+    room.viewer.do(SetProperty(axes, "length", 1.0))
+    room.wait("VIEW005", False)
+    room.look(Orbit())
+
+
+def test_a_map_below_an_opaque_one(room: Room) -> None:
+    room.add("Map", topic={"name": "/costmap"}, alpha=0.7)
+    upper = room.add("Map", topic={"name": "/map"}, alpha=1.0)
+    room.page.wait_for(lambda: "/map" in room.source.wanted)
+    room.put("/costmap", GRID, "map", building.grid())
+    room.put("/map", GRID, "map", building.grid())
+    found = room.wait("VIEW006")
+    assert found is not None
+    assert found.button is not None
+    room.viewer.do(SetProperty(upper, "alpha", 0.7))
+    room.wait("VIEW006", False)
+
+
+def test_a_browser_without_a_graphics_card(room: Room) -> None:
+    found = room.wait("WEB002")
+    assert found is not None
+    assert "SwiftShader" in str(found.evidence["renderer"])
+
+
+def test_a_page_that_hangs(room: Room, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert "WEB003" not in room.found()
+    monkeypatch.setattr(throttled_tab, "FROZEN_S", 6.5)
+    room.page.tab.evaluate(HANG)
+    until = time.monotonic() + PATIENCE_S
+    while "WEB003" not in room.found() and time.monotonic() < until:
+        time.sleep(0.1)
+    assert "has been silent for" in room.found()["WEB003"].cause
+    room.wait("WEB003", False)
+
+
+def test_a_viewer_that_cannot_keep_up(room: Room, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(viewer_behind, "OWN", 0.02)  # other tests want a core, too
+    slow = room.add("SlowDisplay")
+    ended = threading.Event()
+
+    def publish() -> None:
+        while not ended.wait(0.02):
+            room.source.now += 20_000_000
+            room.put("/scan", SCAN, "map", {"ranges": [1.0], "range_max": 2.0})
+
+    thread = threading.Thread(target=publish)
+    thread.start()
+    try:
+        found = room.wait("WEB006")
+    finally:
+        ended.set()
+        thread.join()
+    assert found is not None
+    assert "SlowDisplay" in found.cause
+    assert found.evidence["SlowDisplay"]
+    room.viewer.do(SetProperty(slow, "enabled", False))
+    room.wait("WEB006", False)
+
+
+def publish_points(room: Room, count: int) -> None:
+    """Receive a cloud of random points."""
+    names = ("name", "offset", "datatype", "count")
+    xyz = np.random.default_rng(room.source.now).uniform(-3.0, 3.0, (count, 3)).astype(np.float32)
+    values = {
+        "height": 1,
+        "width": count,
+        "fields": [dict(zip(names, each, strict=True)) for each in FIELDS],
+        "point_step": 12,
+        "row_step": 12 * count,
+        "data": xyz.view(np.uint8).ravel(),
+        "is_dense": True,
+    }
+    room.put("/points", CLOUD, "map", values)
+
+
+def test_clouds_that_are_too_large_for_a_browser(room: Room) -> None:
+    room.add("PointCloud2", topic={"name": "/points"})
+    room.page.wait_for(lambda: "/points" in room.source.wanted)
+    publish_points(room, 2_000_000)
+    found = room.wait("WEB005")
+    assert found is not None
+    assert found.cause.startswith("The clouds have 2 000 000 points, most of them PointCloud2")
+    publish_points(room, 1000)
+    room.wait("WEB005", False)
+
+
+def test_the_way_of_samples_to_the_screen(room: Room) -> None:
+    room.viewer.do(InspectLatency())
+
+    def ways() -> list[BrowserLatency]:
+        room.source.now += 10_000_000
+        publish_points(room, 1000)
+        return [to for each in room.viewer.state.latencies for to in each.browsers if to.stages]
+
+    room.page.wait_for(lambda: any(to.bytes_per_s for to in ways()), "the way")
+    to = ways()[0]
+    assert [stage.name for stage in to.stages] == ["acknowledged", "painted"]
+    assert to.stages[1].p50 > 0.0
+    assert to.name == "the browser of 127.0.0.1"
+    assert to.p99 >= to.p50 >= to.stages[0].p50 + to.stages[1].p50 / 2
+    room.viewer.do(InspectLatency(is_wanted=False))
+    assert room.viewer.state.latencies == ()
+
+
+def test_a_slow_link(browser: playwright.Browser) -> None:
+    source = HandFedSource()
+    with contextlib.closing(Running(port=0, source=source, read=read, link="1Mbit/s")) as viewer:
+        room = Room(viewer, source, browser)
+        room.transform("base", 0.0)
+        room.add("PointCloud2", topic={"name": "/points"})
+        room.page.wait_for(lambda: "/points" in source.wanted)
+
+        def is_reduced() -> bool:
+            publish_points(room, 50_000)
+            return "WEB004" in room.found()
+
+        room.page.wait_for(is_reduced, "the finding", PATIENCE_S)
+        assert "clouds show every" in room.found()["WEB004"].cause
+        room.page.wait_for(lambda: "WEB004" not in room.found(), "its end", PATIENCE_S)
+        room.page.close()
+
+
+def test_a_browser_without_webgl(room: Room, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(no_webgl, "PATIENCE_S", 2.0)
+    browser = room.page.tab.context.browser
+    assert browser is not None
+    kind = browser.browser_type
+    flags = [FLAGS[0], "--disable-3d-apis"]
+    bare = kind.launch(executable_path=executable_of(kind), args=flags)
+    try:
+        tab = bare.new_page()
+        tab.goto(room.viewer.url)
+        notice = tab.get_by_role("alert").filter(has_text="This browser has no WebGL 2")
+        playwright.expect(notice).to_be_visible()
+        found = room.wait("WEB001")
+    finally:
+        bare.close()
+    assert found is not None
+    assert found.severity is Severity.ERROR
+    room.wait("WEB001", False)

@@ -1,0 +1,1 @@
+"""Checks of browsers and of the viewer that serves them."""

@@ -1,0 +1,58 @@
+"""Settings of other programs and files that must agree with those of this one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import psutil
+
+DAEMON = "ros2-daemon"
+"""By this name the daemon of the command line calls itself in its arguments."""
+SETTINGS = (
+    "ROS_DOMAIN_ID",
+    "RMW_IMPLEMENTATION",
+    "ROS_AUTOMATIC_DISCOVERY_RANGE",
+    "ROS_STATIC_PEERS",
+    "ROS_LOCALHOST_ONLY",
+    "ROS_DISCOVERY_SERVER",
+)
+DOMAIN = "--ros-domain-id"
+
+
+def daemon_differences(variables: Mapping[str, str]) -> Mapping[str, str]:
+    """Return the settings in which the daemon of this domain differs, with its values.
+
+    There is one daemon for each domain and middleware, so one of another domain is not asked.
+    """
+    for process in psutil.process_iter(["cmdline"]):
+        words = process.info["cmdline"] or []
+        if DAEMON not in words or DOMAIN not in words[:-1]:
+            continue
+        if words[words.index(DOMAIN) + 1] != (variables.get("ROS_DOMAIN_ID") or "0"):
+            continue
+        try:
+            own = process.environ()
+        except (psutil.Error, OSError):
+            continue
+        return {
+            name: own.get(name, "")
+            for name in SETTINGS[1:]
+            if own.get(name, "") != variables.get(name, "")
+        }
+    return {}
+
+
+def security_problem(variables: Mapping[str, str]) -> str:
+    """Return the reason why security has no files, a clause; "" if it has, or is off."""
+    if variables.get("ROS_SECURITY_ENABLE", "").lower() != "true":
+        return ""
+    keystore = variables.get("ROS_SECURITY_KEYSTORE", "")
+    if not keystore:
+        return "ROS_SECURITY_KEYSTORE is not set"
+    if not Path(keystore, "enclaves").is_dir():
+        return f"{keystore} is not a keystore"
+    enclave = variables.get("ROS_SECURITY_ENCLAVE_OVERRIDE", "")
+    if enclave and not Path(keystore, "enclaves", enclave.lstrip("/")).is_dir():
+        return f"the keystore has no enclave {enclave}"
+    return ""

@@ -1,0 +1,43 @@
+// The graphics of this browser: what draws, and when it has drawn.
+
+import * as viser from "../viser_page.js";
+
+const LOOK_MS = 2;
+
+let named = "";
+
+/** Returns true if this browser can draw a scene at all. */
+export const hasWebGL = () => Boolean(document.createElement("canvas").getContext("webgl2"));
+
+/** The name of what draws, as the browser tells it. */
+export function renderer() {
+  if (named) return named;
+  const context = viser.gl().getContext();
+  const info = context.getExtension("WEBGL_debug_renderer_info");
+  named = String(context.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : context.RENDERER));
+  return named;
+}
+
+/** Returns true if the processor draws instead of a graphics card. */
+export const isSoftware = () =>
+  /swiftshader|llvmpipe|softpipe|software|basic render/i.test(renderer());
+
+/**
+ * Calls `done(true)` when the graphics card has drawn what it was told, not when it was told;
+ * `done(false)` if it has lost all.
+ *
+ * @param {(isDrawn: boolean) => void} done
+ */
+export function whenDrawn(done) {
+  const context = viser.gl().getContext();
+  const drawn = context.fenceSync(context.SYNC_GPU_COMMANDS_COMPLETE, 0);
+  context.flush();
+  (function look() {
+    if (context.isContextLost()) return done(false);
+    if (context.getSyncParameter(drawn, context.SYNC_STATUS) !== context.SIGNALED) {
+      return setTimeout(look, LOOK_MS);
+    }
+    context.deleteSync(drawn);
+    done(true);
+  })();
+}
