@@ -11,6 +11,7 @@ import { fold, openPanel } from "./layout.js";
 import { openPeople } from "./people.js";
 import { openReport } from "./report.js";
 import { setTheme } from "./theme.js";
+import { toggleShare } from "../timeline/share.js";
 import { toggle } from "./video.js";
 
 /** @import {Command} from "./commands.js" */
@@ -63,6 +64,13 @@ export const actions = {
     group: "Time",
     needs: "SaveReport",
     run: () => openReport(),
+  },
+  share: {
+    name: "Share this moment…",
+    icon: "upload",
+    group: "Time",
+    needs: "ShareMoment",
+    run: () => toggleShare(),
   },
   undo: {
     name: "Undo",

@@ -168,6 +168,7 @@ function menu(owner) {
     item(actions.people),
     item(actions.doctor),
     item(actions.report),
+    item(actions.share),
     { label: "Undo and redo steps…", icon: "clock", run: () => history.openSteps(owner) },
     null,
     item(actions.dark, isTheme("dark")),

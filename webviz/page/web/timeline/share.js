@@ -4,7 +4,6 @@ import { needs, onRole, why } from "../access.js";
 import { act } from "../act.js";
 import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
-import { provide } from "../shell/commands.js";
 import { openDialog } from "../shell/dialog.js";
 import { toast } from "../shell/toasts.js";
 import { watch } from "../stores.js";
@@ -14,28 +13,30 @@ import { watch } from "../stores.js";
 const NAME = "Share this moment";
 const TIP = "Make one file of what you see, which opens in any browser without webviz";
 
+let isBag = false; // of which a span can be selected
+/** @type {number | null} */
+let done = null; // the share of the work, while a file is made
+
+/** Asks whether to share the moment, or stops the file that is being made. */
+export const toggleShare = () => (done === null ? openShare() : act("StopSharing"));
+
 /** The button; hidden where there is nothing to share, and in a file that was shared. */
 export function share() {
   let isThere = false;
-  let isBag = false; // of which a span can be selected
-  /** @type {number | null} */
-  let share = null; // of the work that is done
   let known = -1; // how many had ended
 
   const label = el("span", { class: "wv-number" });
   const button = el(
     "button",
-    { type: "button", class: "wv-button wv-share", hidden: true, onclick: () => run() },
+    { type: "button", class: "wv-button wv-share", hidden: true, onclick: toggleShare },
     icon("upload", 14),
     label,
   );
 
-  const run = () => (share === null ? openShare(isBag) : act("StopSharing"));
-
   function show() {
-    const isRunning = share !== null;
+    const isRunning = done !== null;
     button.hidden = !isThere || Boolean(window.webvizRun);
-    setText(label, isRunning ? `Sharing… ${Math.round((share ?? 0) * 100)} %` : NAME);
+    setText(label, isRunning ? `Sharing… ${Math.round((done ?? 0) * 100)} %` : NAME);
     set(button, {
       "aria-label": isRunning ? "Stop making the file to share" : NAME,
       "data-tip": isRunning ? "Click to stop" : TIP,
@@ -51,7 +52,7 @@ export function share() {
   function follow(values) {
     const number = values.get("number");
     if (number === undefined) return;
-    share = values.get("share") ?? null;
+    done = values.get("share") ?? null;
     if (known >= 0 && number > known)
       toast(values.get("text") ?? "", { level: values.get("level") });
     known = number;
@@ -63,28 +64,11 @@ export function share() {
   });
   show();
 
-  provide(() =>
-    isThere && !window.webvizRun
-      ? [
-          {
-            name: share === null ? `${NAME}…` : "Stop sharing",
-            icon: "upload",
-            group: "Time",
-            needs: "ShareMoment",
-            run,
-          },
-        ]
-      : [],
-  );
   return needs("ShareMoment", button);
 }
 
-/**
- * Shows what a file would contain; begins to make it once that is confirmed.
- *
- * @param {boolean} isBag
- */
-function openShare(isBag) {
+/** Shows what a file would contain; begins to make it once that is confirmed. */
+function openShare() {
   const list = el("ul", { class: "wv-report" });
   const problem = el("p", { class: "wv-problem", role: "alert" });
 
