@@ -109,6 +109,8 @@ def test_discovery_servers(monkeypatch: pytest.MonkeyPatch, well: set[str]) -> N
         monkeypatch.setenv("ROS_SUPER_CLIENT", "TRUE")
         assert {*examined()} <= well
     assert examined().get("ENV012") == "error"
+    monkeypatch.delenv("ROS_SUPER_CLIENT")
+    assert "ENV008" not in examined(), "the server is to be repaired first"
     monkeypatch.setenv("ROS_DISCOVERY_SERVER", "127.0.0.1:robot")
     assert examined().get("ENV012") == "error"
 

@@ -30,6 +30,8 @@ class NoSuperClient(Check):
         """Yield a finding if so."""
         variables = seen.environment.variables if seen.environment else {}
         is_super = variables.get("ROS_SUPER_CLIENT", "").upper() in ("TRUE", "1")
+        if seen.environment and any(seen.environment.discovery_servers.values()):
+            return  # without its server, its role does not matter
         if variables.get("ROS_DISCOVERY_SERVER") and not is_super:
             yield self.found(
                 "A discovery server is used, and webviz is not its super client.",
