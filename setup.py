@@ -30,7 +30,7 @@ def readme() -> str:
 
 
 setup(
-    name="webviz",
+    name="ros-webviz",
     long_description=readme(),
     long_description_content_type="text/markdown",
     # The one place of the version, which tools of ROS read there.

@@ -43,7 +43,7 @@ def main(args: list[str] | None = None) -> int:
     except ImportError as error:
         print(
             "webviz-sim needs ROS 2: source an installed ROS Jazzy (source "
-            '/opt/ros/jazzy/setup.bash), or pip install "webviz[ros]"; '
+            '/opt/ros/jazzy/setup.bash), or pip install "ros-webviz[ros]"; '
             f"Python says: {error}.",
             file=sys.stderr,
         )

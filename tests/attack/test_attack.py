@@ -7,7 +7,7 @@ from typing import cast
 
 import pytest
 
-pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 
 from tests.attack.attack import Case, Outcome, random_of
 from tests.attack.run import CORPUS, KINDS, local_attacks, remote_attacks, run

@@ -9,7 +9,7 @@ import photos
 import PIL.Image
 import pytest
 
-pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 
 from robot import Robot, Scan
 

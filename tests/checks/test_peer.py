@@ -201,7 +201,7 @@ def test_software_that_differs(tmp_path: Path, id: str, cause: str, here: str, t
 
 @needs_namespaces
 def test_settings_of_running_nodes_count(tmp_path: Path) -> None:
-    pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+    pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
     (tmp_path / "talker.py").write_text(TALKER)
     (tmp_path / "listener.py").write_text(LISTENER)
     talk = f"""
@@ -219,7 +219,7 @@ here env ROS_DOMAIN_ID=5 $PYTHON {tmp_path}/listener.py
 
 @needs_namespaces
 def test_the_remedy_for_lost_multicast_works(tmp_path: Path) -> None:
-    pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+    pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
     (tmp_path / "talker.py").write_text(TALKER)
     (tmp_path / "listener.py").write_text(LISTENER)
     lost = "; ".join(

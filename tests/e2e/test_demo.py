@@ -17,7 +17,7 @@ from side import GLOBAL_OPTIONS, Side
 
 from webviz.shell.pictures.browser import Page
 
-pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 
 import rclpy
 import rclpy.executors
@@ -176,7 +176,9 @@ def settled(page: Page) -> Seen:
         before.append(seen)
         return seen if is_complete and stands else None
 
-    return page.wait_for(at_rest, "robot, scan and map in the picture", 60)
+    seen = page.wait_for(at_rest, "robot, scan and map in the picture", 60)
+    assert seen is not None
+    return seen
 
 
 def check_drive_in_map(page: Page, driver: Driver) -> None:

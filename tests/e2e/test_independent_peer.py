@@ -18,7 +18,7 @@ from side import Side
 
 from webviz.shell.pictures.browser import Page
 
-pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 
 ROOT = Path(__file__).parents[2]
 PEER = ROOT.parent / "shared" / "tools" / "cyclone_peer.py"

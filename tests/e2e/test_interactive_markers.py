@@ -18,7 +18,7 @@ from webviz.files.opening import parse
 from webviz.shell.app.picture_controls import checked_view
 from webviz.shell.pictures.browser import Page
 
-pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 
 from basic_controls import basic_controls
 from geometry_msgs.msg import Pose

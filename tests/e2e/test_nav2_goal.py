@@ -17,7 +17,7 @@ from webviz.files.config import Config
 from webviz.files.opening import parse
 from webviz.shell.pictures.browser import Page
 
-pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 
 from webviz.ros.node import RosSource
 

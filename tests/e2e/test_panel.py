@@ -17,7 +17,7 @@ from side import Side
 from webviz.data.messages import encode
 from webviz.shell.pictures.browser import Page, Pixels
 
-pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 
 from webviz.ros.publisher_node import PublisherNode
 

@@ -11,7 +11,7 @@ from side import GLOBAL_OPTIONS, Side
 
 from webviz.shell.pictures.browser import Page
 
-pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 
 from robot import TF, Robot, Scan, transforms
 

@@ -12,7 +12,7 @@ from rosbags.rosbag2 import Reader
 
 from webviz.data.recordings import open_recording
 
-pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 
 
 @pytest.fixture(scope="module", autouse=True)

@@ -57,7 +57,7 @@ def test_every_file_of_the_packages_is_installed() -> None:
 
 
 def test_the_description_on_a_package_index_has_no_links_into_a_clone() -> None:
-    about = metadata.metadata("webviz")
+    about = metadata.metadata("ros-webviz")
     text = about.json["description"]
     assert isinstance(text, str)
     assert "## Two commands" in text

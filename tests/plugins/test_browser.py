@@ -15,7 +15,7 @@ from program import Program
 
 from webviz.shell.pictures.browser import Page
 
-pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 
 import rclpy
 from geometry_msgs.msg import Point32, PolygonStamped

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 
 import rclpy
 from rclpy.context import Context
@@ -104,7 +104,7 @@ def source(webviz_domain: int) -> Iterator[RosSource]:
 
 @pytest.fixture(scope="module")
 def counter(webviz_domain: int, source: RosSource) -> Iterator[None]:
-    pytest.importorskip("test_msgs", reason="needs test_msgs: install webviz[ros-test]")
+    pytest.importorskip("test_msgs", reason="needs test_msgs: install ros-webviz[ros-test]")
     env = os.environ | {"ROS_DOMAIN_ID": str(webviz_domain)}
     process = subprocess.Popen(
         [sys.executable, "-c", ACTION_SERVER], env=env, stdout=subprocess.PIPE

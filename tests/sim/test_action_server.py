@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 pytest.importorskip("rclpy", reason="rclpy is not installed", exc_type=ImportError)
-pytest.importorskip("test_msgs", reason="needs test_msgs: install webviz[ros-test]")
+pytest.importorskip("test_msgs", reason="needs test_msgs: install ros-webviz[ros-test]")
 
 import rclpy
 from action_msgs.msg import GoalStatus

@@ -444,4 +444,4 @@ def test_without_rclpy_it_says_how_to_get_it():
     result = run(code=code)
     assert result.returncode == 1
     assert result.stderr.count("\n") == 1
-    assert 'pip install "webviz[ros]"' in result.stderr
+    assert 'pip install "ros-webviz[ros]"' in result.stderr

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 NO_ROS = (
     "Python {version} cannot import rclpy of ROS 2 Jazzy. Run `source /opt/ros/jazzy/setup.bash` "
-    "if ROS is installed, or `pip install 'webviz[ros]'`."
+    "if ROS is installed, or `pip install 'ros-webviz[ros]'`."
 )
 
 

@@ -166,7 +166,7 @@ def test_what_cannot_be_shown_has_a_reason(monkeypatch: pytest.MonkeyPatch) -> N
     assert "no equal message in ROS" in problem_of("foxglove.GeoJSON", "foxglove.GeoJSON")
     assert not problem_of("foxglove.Grid", "foxglove.Grid")
     monkeypatch.setattr(foxglove_schemas, "_is_installed", lambda: False)
-    assert "pip install 'webviz[foxglove]'" in problem_of("foxglove.Grid", "foxglove.Grid")
+    assert "pip install 'ros-webviz[foxglove]'" in problem_of("foxglove.Grid", "foxglove.Grid")
 
 
 def test_channels_of_a_server_are_topics_of_ros() -> None:

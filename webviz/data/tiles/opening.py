@@ -51,7 +51,7 @@ def open_tiles(address: str, timeout_s: float) -> TileSource:
             from webviz.data.tiles.pmtiles_file import PMTiles
         except ImportError as error:
             raise TileError(
-                "PMTiles files need a library: pip install 'webviz[outdoors]'."
+                "PMTiles files need a library: pip install 'ros-webviz[outdoors]'."
             ) from error
         return PMTiles(path)
     raise TileError(f"{path} is neither an .mbtiles nor a .pmtiles file, nor a folder.")

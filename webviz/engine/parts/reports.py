@@ -60,7 +60,7 @@ ROUNDS, ROUNDS_S = 3, 6.0
 """Of the doctor, that a report waits for, and for how long."""
 REST_S = 0.05
 FRAMES, GRAPH, LOG = "frames.txt", "graph.json", "log.txt"
-PACKAGES = ("webviz", "viser", "numpy", "mcap", "msgspec", "rosbags")
+PACKAGES = ("ros-webviz", "viser", "numpy", "mcap", "msgspec", "rosbags")
 VARIABLES = ("ROS_DISTRO", "RMW_IMPLEMENTATION")
 
 

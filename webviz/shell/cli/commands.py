@@ -85,7 +85,7 @@ def version() -> str:
     """Of this package."""
     import importlib.metadata  # here, as it takes a tenth of the time of --help
 
-    return importlib.metadata.version("webviz")
+    return importlib.metadata.version("ros-webviz")
 
 
 def split_ros_arguments(arguments: Sequence[str]) -> tuple[list[str], list[str]]:

@@ -26,7 +26,7 @@ With --http each caller sends a token of `webviz token` as `Authorization: Beare
 role. Pages then require tokens, too.
 
 """
-MISSING = "`webviz mcp` needs the package mcp: pip install 'webviz[mcp]'."
+MISSING = "`webviz mcp` needs the package mcp: pip install 'ros-webviz[mcp]'."
 
 app = App("mcp", help_epilogue=EXAMPLES + ROS_ARGS_HELP)
 

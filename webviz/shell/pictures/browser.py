@@ -102,7 +102,9 @@ def launched() -> Iterator[playwright.Browser]:
     try:
         import playwright.sync_api as playwright
     except ImportError:
-        raise NoBrowser("playwright is missing. Run `pip install 'webviz[pictures]'`.") from None
+        raise NoBrowser(
+            "playwright is missing. Run `pip install 'ros-webviz[pictures]'`."
+        ) from None
     with playwright.sync_playwright() as driver:
         executable = executable_of(driver.chromium)
         try:

@@ -19,7 +19,7 @@ from webviz.sources.bridge.foxglove_wire import WireError
 
 MISSING = (
     "{name} needs the package foxglove-schemas-protobuf. Install it with "
-    "`pip install 'webviz[foxglove]'`"
+    "`pip install 'ros-webviz[foxglove]'`"
 )
 UNKNOWN_SCHEMA = "{name} has no equal message in ROS, so no display shows it"
 _DATATYPES = {1: 2, 2: 1, 3: 4, 4: 3, 5: 6, 6: 5, 7: 7, 8: 8}

@@ -84,7 +84,7 @@ SYSTEMS = {
     system.name: system
     for system in (
         System("floor", "rclpy alone", _floor, _watch_floor, ("rclpy",), is_served=False),
-        System("webviz", "webviz", _webviz, _watch_webviz, ("webviz", "viser")),
+        System("webviz", "webviz", _webviz, _watch_webviz, ("ros-webviz", "viser")),
         System("plain", "plain viser", _module("plain"), _watch_viser, ("viser",)),
         System("foxglove", "foxglove-sdk", _module("foxglove"), _watch_foxglove, ("foxglove-sdk",)),
         System("rerun", "rerun-sdk", _module("rerun"), _watch_rerun, ("rerun-sdk",)),
