@@ -16,7 +16,7 @@ def library() -> str:
     """Return the name of the program, for the header of its recordings."""
     import importlib.metadata  # here, as it is slow
 
-    return f"webviz {importlib.metadata.version('webviz')}"
+    return f"webviz {importlib.metadata.version('ros-webviz')}"
 
 
 def new_name() -> str:
