@@ -304,7 +304,7 @@ def test_a_file_keeps_its_limit_and_says_what_was_left_out(
     assert (whole > 4_000_000, said) == (True, "")
     thinned, said = sizes["3MB"]
     assert thinned <= 3_000_000
-    assert "Clouds have at least one of" in said
+    assert "Clouds keep at least one of" in said
     assert cli([*arguments, "-o", str(clouds / "none.html"), "--max-size", "1kB"]) == 0
     assert "Choose a shorter span, or fewer displays." in capfd.readouterr().err
 

@@ -178,7 +178,7 @@ def test_a_publisher_that_stops(webviz_harness: Callable[..., Harness]) -> None:
     assert examined(stage, CauseLevel.GRAPH, 0.2, publish) == {}
     (found,) = examined(stage, CauseLevel.GRAPH).values()
     assert (found.id, found.subject) == ("GRAPH009", "/scan")
-    assert found.cause == "/lidar has stopped sending /scan, which came at 5.0 Hz."
+    assert found.cause == "/lidar has stopped publishing /scan, previously at 5.0 Hz."
     assert examined(stage, CauseLevel.GRAPH, 0.2, publish) == {}
 
 

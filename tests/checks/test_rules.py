@@ -70,9 +70,9 @@ def test_a_rule_is_a_subject_a_value_and_a_limit(
         ("Scan > 1", "`Scan > 1` is not a rule. Write it like"),
         ("Scan.rate > 5 for ever", "is not a rule"),
         ("Scan.mood > 5", "unknown value mood. Use status, rate,"),
-        ("Scan.rate > error", "error is a limit of status; rate needs a number."),
-        ("doctor.rate > 5", "doctor has findings and errors, which nothing else has."),
-        ("Scan.errors == 0", "doctor has findings and errors, which nothing else has."),
+        ("Scan.rate > error", "error fits status only; rate needs a number."),
+        ("doctor.rate > 5", "findings and errors are values of doctor only."),
+        ("Scan.errors == 0", "findings and errors are values of doctor only."),
     ],
 )
 def test_a_bad_rule_is_one_sentence(

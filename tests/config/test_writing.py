@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal
 
 import msgspec
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from webviz.api.declared import make
@@ -144,7 +144,11 @@ def test_every_value_of_every_display_comes_back(name: str, data: st.DataObject)
 @settings(deadline=None, max_examples=100)
 @given(structs(Settings))
 def test_all_settings_come_back(values: dict[str, Any]) -> None:
-    config = Config(msgspec.convert(values, Settings))
+    try:
+        config = Config(msgspec.convert(values, Settings))
+    except msgspec.ValidationError as error:
+        assume("`$.layout" not in str(error))  # panels that are named twice, or not at all
+        raise
     assert builtins(parse(dump(config), "x.yaml")) == builtins(config)
 
 

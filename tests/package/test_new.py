@@ -66,5 +66,5 @@ def test_a_name_that_no_package_can_have_is_refused(tmp_path: Path, name: str) -
 
 def test_nothing_is_overwritten(tmp_path: Path) -> None:
     write_package("tool", "mine", tmp_path)
-    with pytest.raises(Error, match="mine exists"):
+    with pytest.raises(Error, match="mine already exists"):
         write_package("panel", "mine", tmp_path)

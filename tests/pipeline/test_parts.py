@@ -97,6 +97,7 @@ HOOKS = sorted(
 PARTS = [
     "Autosave",
     "Black box",
+    "Connection",
     "Counter",
     "Displays",
     "Driving",
@@ -107,6 +108,7 @@ PARTS = [
 ]
 PARTS += [
     "Latency",
+    "Layouts",
     "Panels",
     "Playback",
     "Plugins",
@@ -114,6 +116,7 @@ PARTS += [
     "Report",
     "Selection",
     "Settings",
+    "Share",
     "Time",
     "Tools",
     "Topics",

@@ -130,7 +130,7 @@ def test_refusals(robot: Harness) -> None:
     for frame in ("base_link", "nothing"):
         with pytest.raises(Error, match="does not have a static transform"):
             robot.do(TryFrame(frame))
-    with pytest.raises(Error, match="No frame is tried"):
+    with pytest.raises(Error, match="No frame is being tried"):
         robot.do(FindFrame())
     robot.do(RemoveDisplay(display(robot, "Scan")))
     robot.do(TryFrame("laser"))

@@ -139,8 +139,7 @@ class Tape:
 def test_a_seek_shows_what_playing_shows(tmp_path: Path, name: str) -> None:
     display = make(display_types()[name], dict(SHORT.get(name, {})))
     for path, _, topic in inputs(display):
-        name = topic.name or "/any"
-        setattr(display, path, Topic(name, filter_size=100))
+        setattr(display, path, Topic(topic.name or "/any", filter_size=100))
     chance = random.Random(name)
     bag = Bag()
     tape = Tape(bag, display, chance)

@@ -17,7 +17,7 @@ TWICE = [*range(100), *range(50, 150)]
 """Times of recording in s: after 100 s, the clock was set back by 50 s."""
 SENTENCE = (
     "The clock was set back by 49 s while {} was recorded: from 50.0 to 99.0 s, messages from "
-    "before and after that are mixed. Select a span outside this range."
+    "before and after are interleaved. Select a span outside this range."
 )
 
 

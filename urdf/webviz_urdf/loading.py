@@ -106,12 +106,15 @@ class Loading:
             try:
                 return self._attempt(memory, skip)
             except MemoryError:
-                most = min(MAX_MEMORY, _memory_within(DECODING.room, self._request))
-                if memory < most:
+                if memory < (most := self._most()):
                     memory = most
                     continue
                 reason = f"It exceeds the memory limit of {memory // 1_000_000} MB. Simplify it."
             except _Ended as ended:
+                # A library may end the process where Python would raise a MemoryError.
+                if ended.is_crash and memory < (most := self._most()):
+                    memory = most
+                    continue
                 reason = str(ended)
             except OverBudgetError as error:
                 name = self._name or "The robot"
@@ -131,6 +134,10 @@ class Loading:
     def _name(self) -> str:
         """The file that is requested, "" for a robot."""
         return self._request.mesh or self._request.picture
+
+    def _most(self) -> int:
+        """Return the bytes that a second attempt may take."""
+        return min(MAX_MEMORY, _memory_within(DECODING.room, self._request))
 
     def _skip(self, reason: str, skip: dict[int, str]) -> None:
         """Add the shape at which loading failed to those that are skipped.
@@ -186,7 +193,7 @@ class Loading:
                 self.at = answer
         except (EOFError, OSError):
             if not self._stopped.is_set():
-                raise _Ended("It ended the process that loads robots.") from None
+                raise _Ended("It ended the process that loads robots.", True) from None
         raise LoadingStopped
 
 
@@ -210,7 +217,16 @@ main()
 
 
 class _Ended(Exception):
-    """The process hangs or has ended."""
+    """The process hangs or has ended.
+
+    Args:
+        reason: a sentence.
+        is_crash: whether it has ended by itself.
+    """
+
+    def __init__(self, reason: str, is_crash: bool = False) -> None:
+        super().__init__(reason)
+        self.is_crash = is_crash
 
 
 class _Process:
