@@ -193,7 +193,8 @@ class Loading:
                 self.at = answer
         except (EOFError, OSError):
             if not self._stopped.is_set():
-                raise _Ended("It ended the process that loads robots.", True) from None
+                reason = "It ended the process that loads robots."
+                raise _Ended(reason, is_crash=not process.was_killed()) from None
         raise LoadingStopped
 
 
@@ -252,6 +253,12 @@ class _Process:
 
     def kill(self) -> None:
         self._process.send_signal(signal.SIGKILL)
+
+    def was_killed(self) -> bool:
+        """Return whether it was ended from outside, as by a system without memory."""
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            return self._process.wait(1.0) == -signal.SIGKILL
+        return True
 
     def end(self) -> None:
         self.kill()
