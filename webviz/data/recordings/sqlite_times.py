@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from webviz.data.disk import in_thread
+from webviz.data.disk import DiskThreads
 from webviz.data.recordings.recording import Counts, RecordingError, TimeParts
 from webviz.data.recordings.set_back import LEAST_NS, SetBack
 from webviz.data.recordings.unpacking import MAX_BYTES
@@ -28,6 +28,9 @@ SLICES = 100
 
 _Span = tuple[int, int]
 """First and last time in ns, both included."""
+
+_readers = DiskThreads(16)
+"""For whole tables, which take longer than other files."""
 
 
 class TopicTimes:
@@ -100,7 +103,7 @@ class TopicTimes:
 
     def _start_reading(self) -> None:
         try:
-            in_thread(lambda: self.count(self._parts))
+            _readers.start(lambda: self.count(self._parts))
         except OSError:  # no thread is free
             with contextlib.suppress(sqlite3.Error):
                 self.count(self._parts)

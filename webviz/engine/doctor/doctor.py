@@ -14,7 +14,7 @@ from webviz.api.environment import Environment
 from webviz.api.finding import Finding, Severity
 from webviz.api.rule import Rule, Verdict
 from webviz.api.status import Level
-from webviz.data.disk import in_thread
+from webviz.data.disk import DiskThreads
 from webviz.engine.doctor.environment import look_around, lost_so_far
 from webviz.engine.doctor.judging import Judge
 from webviz.engine.doctor.load import LoadMeter
@@ -42,6 +42,9 @@ OF_RULES = "DATA012"
 
 Key = tuple[str, str]
 """Id and subject, by which a finding is known again."""
+
+_looks = DiskThreads(8)
+"""For looks at the machine, which may wait for its network: files have threads of their own."""
 
 
 class Doctor:
@@ -123,7 +126,7 @@ class Doctor:
         if self._looking is None and time.monotonic() >= self._next_look_s:
             self._next_look_s = time.monotonic() + LOOK_S
             with contextlib.suppress(OSError):  # no thread is free; another time
-                self._looking = in_thread(lambda: look_around(lost_before=self._lost_before))
+                self._looking = _looks.start(lambda: look_around(lost_before=self._lost_before))
         return self.environment
 
     def _is_due(self) -> bool:

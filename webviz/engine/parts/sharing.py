@@ -13,7 +13,7 @@ from typing import Any, Protocol
 
 from webviz.api.errors import Error
 from webviz.api.status import Level
-from webviz.data.disk import in_thread
+from webviz.data.disk import DiskThreads
 from webviz.data.words import counted
 from webviz.engine.commands import Command, ListMoment, Sender, ShareMoment, StopSharing
 from webviz.engine.parts.files import FilesPart
@@ -32,6 +32,9 @@ ENDING_S = 5.0
 """For an export that was stopped, when the viewer ends."""
 STEP = 100
 """Parts of the work that are told apart."""
+
+_exports = DiskThreads(8)
+"""For files that take minutes to be made."""
 
 
 @dataclass(frozen=True)
@@ -179,7 +182,7 @@ class SharingPart(Part):
             running.share = share
 
         try:
-            running = self._running = _Running(stopped, in_thread(work))
+            running = self._running = _Running(stopped, _exports.start(work))
         except OSError as error:
             raise Error(f"Failed: {error.strerror}.") from error
         return f"Making {path.name}. Panels and scene stay usable meanwhile."

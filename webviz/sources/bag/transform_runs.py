@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import Future
 from pathlib import Path
 
-from webviz.data.disk import in_thread
+from webviz.data.disk import DiskThreads
 from webviz.data.messages import MessageError, TFMessage, decode
 from webviz.sources.bag.files import BagFiles
 from webviz.sources.bag.time import TF
@@ -26,6 +26,9 @@ AT_ONCE = 50_000
 """Messages that are read without a pause."""
 YIELD_AFTER, YIELD_S = 500, 0.02
 """Of a longer bag: messages between two pauses, so that the frame loop has the interpreter."""
+
+_readers = DiskThreads(16)
+"""For whole bags, which take longer than other files."""
 
 
 class Runs:
@@ -71,7 +74,10 @@ class TransformRuns:
         """`Runs.ended_ns`; none until they are found, for which the first call waits a little."""
         wait_s = 0.0
         if self._reading is None:
-            self._reading = in_thread(self._read)
+            try:
+                self._reading = _readers.start(self._read)
+            except OSError:  # no thread is free; another time
+                return ()
             wait_s = WAIT_S
         concurrent.futures.wait([self._reading], wait_s)
         # That a bag can no longer be read, others report.
