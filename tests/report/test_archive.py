@@ -111,9 +111,9 @@ def test_names_are_replaced_by_as_many_characters() -> None:
 
 
 def test_names_of_topics_and_frames_stay() -> None:
-    names = PrivateNames(["/turtle7/scan", "/home/scan/points"], ["turtle7"], "/root")
+    names = PrivateNames(["/turtle7/scan", "/home/scan/points"], ["turtle7"], "/base")
     assert names.kept == ("turtle7",)
-    assert names.text("/turtle7/scan /home/scan /root/a") == "/turtle7/scan /home/scan /xxxx/a"
+    assert names.text("/turtle7/scan /home/scan /base/a") == "/turtle7/scan /home/scan /xxxx/a"
 
 
 def test_a_name_within_that_of_a_frame_stays_only_there() -> None:

@@ -185,7 +185,7 @@ class Answers(http.server.BaseHTTPRequestHandler):
 
 
 class Serving(http.server.ThreadingHTTPServer):
-    """Clients that have enough hang up, which is no error."""
+    """Ignores clients that hang up early."""
 
     def handle_error(self, request: object, client_address: object) -> None:
         """Nothing."""

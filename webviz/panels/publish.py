@@ -49,7 +49,7 @@ class PublishMessage(SendingPanel):
 
     def show(self, state: Any) -> None:
         """Show the form, and publish if it is time."""
-        # Whoever publishes by hand writes to topics that nobody else publishes.
+        # A topic that is published by hand, such as /cmd_vel, often has subscriptions only.
         read = {
             topic: tuple(each.type for each in offer.readers)
             for topic, offer in state.offers.items()

@@ -107,7 +107,7 @@ def _unit_vectors(angles: NDArray[np.floating]) -> F64:
 
 
 def _reasons(scan: messages.LaserScan, ranges: F64, farthest: float) -> dict[str, int]:
-    """Return counts of the ranges (N,) of a scan that are no hits, by reason."""
+    """Return counts of the ranges (N,) of a scan that hit nothing, by reason."""
     nan, infinite = np.isnan(ranges), np.isinf(ranges)
     near, far = ~infinite & (ranges < scan.range_min), ~infinite & (ranges >= farthest)
     counts = {

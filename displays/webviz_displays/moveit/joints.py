@@ -87,7 +87,7 @@ def poses_of(names: Sequence[str], transforms: Sequence[Any]) -> tuple[dict[str,
 def pose_of(position: Iterable[float], wxyz: Iterable[float]) -> Pose | None:
     """Return a pose with a normalised quaternion, None if it cannot be drawn.
 
-    Zeros are no rotation.
+    Zeros are not a rotation.
     """
     quaternion = np.array([*wxyz], float)
     turns, ok = normalized(quaternion)

@@ -22,7 +22,7 @@ CIRCLE = np.linspace(0.0, math.tau, 49)
 
 
 class NavSatFix(Display):
-    """Where a satellite receiver says it is, and was."""
+    """Fixes of a satellite receiver, the newest with its deviation."""
 
     icon = "target"
 

@@ -1,4 +1,4 @@
-"""Where a box is in the picture of a camera."""
+"""Positions of boxes in the picture of a camera."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ MAX_DEPTH_M = 100_000.0
 
 
 class InPicture(NamedTuple):
-    """Where a box is in a picture.
+    """The position of a box in a picture.
 
     Args:
         is_inside: whether a part of it may be in the picture, or beyond its depth.
@@ -32,7 +32,7 @@ class InPicture(NamedTuple):
 
 
 def places(seen: Observation, box: Box) -> Iterator[InPicture]:
-    """Where a box is in the picture of each browser whose camera is known."""
+    """Return the position of a box in the picture of each browser whose camera is known."""
     for browser in seen.browsers:
         camera = seen.cameras.get(browser.id)
         if camera is not None:
@@ -42,7 +42,7 @@ def places(seen: Observation, box: Box) -> Iterator[InPicture]:
 
 
 def place(camera: Camera, size: tuple[float, float], view_rad: float, box: Box) -> InPicture:
-    """Where a box is in a picture.
+    """Return the position of a box in a picture.
 
     Args:
         camera: in the coordinates of the box, upright.

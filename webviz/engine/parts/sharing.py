@@ -31,7 +31,7 @@ MAX_SLICE = 2_000_000_000
 ENDING_S = 5.0
 """For an export that was stopped, when the viewer ends."""
 STEP = 100
-"""Parts of the work that are told apart."""
+"""Steps of the progress that is shown."""
 
 _exports = DiskThreads(8)
 """For files that take minutes to be made."""

@@ -28,7 +28,7 @@ def slice_around(core: Core, control: PlaybackControl) -> tuple[Slice, str]:
     """Return the slice around the moment that is shown, and the name of its source.
 
     Raises:
-        Error: there are no messages.
+        Error: nothing has been received yet.
     """
     source = core.source
     if isinstance(source, Switchable):

@@ -61,7 +61,7 @@ class RecordedScene(ViserScene):
         return True
 
     def is_unseen(self, display: str) -> bool:
-        """Return False: whoever opens the file may look at each pane."""
+        """Return False: each pane can be opened in the file."""
         return False
 
 

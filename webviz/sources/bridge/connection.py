@@ -10,7 +10,7 @@ from websockets.asyncio.client import ClientConnection
 class BridgeConnection(ClientConnection):
     """A connection whose silence is measured in bytes.
 
-    An answer to a ping may wait behind a large message, which is no silence.
+    An answer to a ping may wait behind a large message, so that is not silence.
     """
 
     _heard_s = 0.0
