@@ -23,6 +23,8 @@ def _close(loop: Loop, tab: Tab) -> Iterator[None]:
     yield
     loop.show(panels=(), offers={}, traffic={})
     tab.show_tab("Displays")
+    # Else, on a busy machine, the next panel would keep what was unfolded and found in this one.
+    tab.wait_for(lambda: not tab.page.locator(".wv-graph-canvas").count())
 
 
 def publisher(node: str, reliability: str = "best_effort") -> Publisher:

@@ -318,7 +318,7 @@ export default function install(page) {
       topics = next;
       const isFirst = folded === null && topics.length > 0;
       folded = foldable(topics);
-      if (isFirst && boxesOf(topics, () => false).size <= FOLD_ABOVE)
+      if (isFirst && boxesOf(topics, () => false).boxes.size <= FOLD_ABOVE)
         for (const name of folded) opened.add(name);
       arrange();
       if (chosen) choose(chosen);
@@ -364,9 +364,13 @@ function namespacesOf(name) {
  * @param {Topic[]} topics
  */
 export function foldable(topics) {
-  const names = new Set(
-    topics.flatMap(({ name, from, to }) => [name, ...from, ...to.map(([n]) => n)]),
-  );
+  /** @type {Set<string>} */
+  const names = new Set();
+  for (const { name, from, to } of topics) {
+    names.add(name);
+    for (const node of from) names.add(node);
+    for (const [reader] of to) names.add(reader);
+  }
   /** @type {Map<string, number>} */
   const counts = new Map();
   for (const name of names)
@@ -375,40 +379,53 @@ export function foldable(topics) {
 }
 
 /**
- * The boxes by key; what is in a folded namespace is one box.
+ * The box of a node or topic, which is that of the outermost folded namespace that it is in.
+ *
+ * @typedef {(kind: "node" | "topic", name: string) => Box} BoxOf
+ */
+
+/**
+ * The boxes by key, and the box of each name.
  *
  * @param {Topic[]} topics
  * @param {(namespace: string) => boolean} isFolded
+ * @returns {{boxes: Map<string, Box>, boxOf: BoxOf}}
  */
 function boxesOf(topics, isFolded) {
-  const inside = foldable(topics);
+  const folded = new Set([...foldable(topics)].filter(isFolded));
   /** @type {Map<string, Box>} */
   const boxes = new Map();
-  /**
-   * @param {"node" | "topic"} kind
-   * @param {string} name
-   * @param {string} about
-   */
-  const add = (kind, name, about) => {
-    const group = namespacesOf(name).find((each) => inside.has(each) && isFolded(each));
+  /** @type {{node: Map<string, Box>, topic: Map<string, Box>}} */
+  const known = { node: new Map(), topic: new Map() };
+  /** @type {BoxOf} */
+  const boxOf = (kind, name) => {
+    let box = known[kind].get(name);
+    if (box) return box;
+    const group = namespacesOf(name).find((each) => folded.has(each));
     const key = group ? `group ${group}` : `${kind} ${name}`;
-    const box = boxes.get(key) ?? {
-      ...{ key, kind: group ? "group" : kind, name: group ?? name, about, topics: [] },
+    box = boxes.get(key) ?? {
+      ...{ key, kind: group ? "group" : kind, name: group ?? name, about: kind, topics: [] },
       ...{ layer: 0, x: 0, y: 0, width: 0 },
     };
-    boxes.set(key, /** @type {Box} */ (box));
-    if (kind === "topic") box.topics.push(name);
+    known[kind].set(name, box);
+    boxes.set(key, box);
+    return box;
   };
-  /** @type {Set<string>} */
-  const nodes = new Set();
-  for (const { name, type, from, to } of topics) {
-    add("topic", name, type);
-    for (const node of [...from, ...to.map(([reader]) => reader)]) nodes.add(node);
+  for (const { name, type } of topics) {
+    const box = boxOf("topic", name);
+    box.topics.push(name);
+    box.about = type;
   }
-  for (const node of nodes) add("node", node, "node");
-  for (const box of boxes.values())
+  for (const { from, to } of topics) {
+    for (const node of from) boxOf("node", node);
+    for (const [reader] of to) boxOf("node", reader);
+  }
+  for (const box of boxes.values()) {
     if (box.kind === "group") box.about = `${box.topics.length} topics, folded`;
-  return boxes;
+    const letters = Math.max(short(box.name).length, short(box.about).length);
+    box.width = Math.max(NARROWEST, Math.min(letters * LETTER + 20, WIDEST));
+  }
+  return { boxes, boxOf };
 }
 
 /**
@@ -419,38 +436,21 @@ function boxesOf(topics, isFolded) {
  * @returns {Drawing}
  */
 export function layOut(topics, isFolded) {
-  const boxes = boxesOf(topics, isFolded);
-  /** @type {Map<string, Box>} */
-  const places = new Map();
-  for (const box of boxes.values()) {
-    places.set(box.key, box);
-    box.width = Math.max(
-      NARROWEST,
-      Math.min(Math.max(short(box.name).length, short(box.about).length) * LETTER + 20, WIDEST),
-    );
-  }
-  const inside = foldable(topics);
-  /** @type {Map<string, Box>} */
-  const known = new Map();
-  /** @param {"node" | "topic"} kind @param {string} name */
-  const boxOf = (kind, name) => {
-    const key = `${kind} ${name}`;
-    let box = known.get(key);
-    if (!box) {
-      const group = namespacesOf(name).find((each) => inside.has(each) && isFolded(each));
-      box = /** @type {Box} */ (places.get(group ? `group ${group}` : key));
-      known.set(key, box);
-    }
-    return box;
-  };
-  /** @type {Map<string, Link>} */
-  const links = new Map();
+  const { boxes, boxOf } = boxesOf(topics, isFolded);
+  const every = [...boxes.values()];
+  /** @type {Link[]} */
+  const links = [];
+  /** @type {Map<Box, Map<Box, Link>>} */
+  const between = new Map(every.map((box) => [box, new Map()]));
   /** @param {Box} from @param {Box} to @param {string} topic @param {string} why */
   const link = (from, to, topic, why) => {
     if (from === to) return;
-    const key = `${from.key}\n${to.key}`;
-    const one = links.get(key) ?? { from, to, topics: new Set(), why: "" };
-    links.set(key, one);
+    let one = between.get(from)?.get(to);
+    if (!one) {
+      one = { from, to, topics: new Set(), why: "" };
+      between.get(from)?.set(to, one);
+      links.push(one);
+    }
     one.topics.add(topic);
     one.why ||= why;
   };
@@ -459,9 +459,8 @@ export function layOut(topics, isFolded) {
     for (const node of from) link(boxOf("node", node), box, name, "");
     for (const [node, why] of to) link(box, boxOf("node", node), name, why);
   }
-  const all = [...links.values()];
-  layer([...boxes.values()], all);
-  return { boxes, links: all, ...place([...boxes.values()], all) };
+  layer(every, links);
+  return { boxes, links, ...place(every, links) };
 }
 
 /**
