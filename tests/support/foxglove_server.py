@@ -1,6 +1,9 @@
 """A real Foxglove server with a small robot, as a process of its own.
 
-    python foxglove_server.py PORT [SCENE]
+    python foxglove_server.py PORT [OPTION ...]
+
+Options: `plain` has no capabilities, `short` a short queue, `ahead=3` a clock that is 3 s ahead,
+`named=/r1` most topics in a namespace.
 
 It prints its address, and then what clients do, one line of JSON each: subscriptions, messages,
 calls. Lines on its standard input are commands: `time SECONDS`, `status TEXT`, `stop TOPIC`,
@@ -90,6 +93,7 @@ f 1 2 3
     "package://arm/meshes/red.mtl": b"newmtl red\nKd 1 0 0\n",
 }
 SET_BOOL = "std_srvs/srv/SetBool"
+ahead_ns = 0
 
 
 def say(**fact: Any) -> None:
@@ -99,14 +103,15 @@ def say(**fact: Any) -> None:
 class Robot(foxglove.websocket.ServerListener):
     """Channels, and what clients do with them."""
 
-    def __init__(self) -> None:
+    def __init__(self, namespace: str) -> None:
+        self.namespace = namespace
         self.channels: dict[str, Any] = {}
         self.latched: dict[str, bytes] = {}
 
     def on_subscribe(self, client: Any, channel: Any) -> None:
         say(subscribed=channel.topic)
         if (last := self.latched.get(channel.topic)) is not None:
-            self.channels[channel.topic].log(last)
+            self.channels[channel.topic].log(last, log_time=now_ns())
 
     def on_unsubscribe(self, client: Any, channel: Any) -> None:
         say(unsubscribed=channel.topic)
@@ -125,14 +130,20 @@ class Robot(foxglove.websocket.ServerListener):
             schema = foxglove.Schema(name=type, encoding="ros2idl", data=BATTERY_IDL.encode())
         else:
             schema = foxglove.Schema(name=type, encoding="ros2msg", data=definition(type).encode())
-        self.channels[topic] = foxglove.Channel(topic, message_encoding="cdr", schema=schema)
+        name = topic if topic.startswith("/tf") else self.namespace + topic
+        self.channels[topic] = foxglove.Channel(name, message_encoding="cdr", schema=schema)
 
-    def publish(self, topic: str, values: Any, at_ns: int | None = None) -> None:
-        self.channels[topic].log(encode(TYPES[topic], values), log_time=at_ns)
+    def publish(self, topic: str, values: Any) -> None:
+        self.channels[topic].log(encode(TYPES[topic], values), log_time=now_ns())
+
+
+def now_ns() -> int:
+    """The clock of the robot."""
+    return time.time_ns() + ahead_ns
 
 
 def header(frame: str) -> dict[str, Any]:
-    sec, nanosec = divmod(time.time_ns(), 1_000_000_000)
+    sec, nanosec = divmod(now_ns(), 1_000_000_000)
     return {"stamp": {"sec": sec, "nanosec": nanosec}, "frame_id": frame}
 
 
@@ -149,8 +160,11 @@ def handle(request: Any) -> bytes:
 
 
 def main(port: int, *options: str) -> None:
+    global ahead_ns
+    settings = {name: value for name, _, value in (each.partition("=") for each in options)}
+    ahead_ns = round(float(settings.get("ahead", 0)) * 1e9)
     register(CUSTOM, BATTERY_IDL)
-    robot = Robot()
+    robot = Robot(settings.get("named", ""))
     for topic, type in TYPES.items():
         robot.add(topic, type)
     schema = ServiceSchema(

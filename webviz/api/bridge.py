@@ -19,6 +19,9 @@ class Bridge:
         remarks: sentences about an open link: warnings of the bridge, lost messages.
         limits: sentences on what the bridge does not pass on.
         round_trip_s: of the last answer, None before one.
+        robot: whose topics it carries, "" if they have no namespace of their own.
+        clock_s: by how much its clock is ahead of this machine's, which is corrected; 0 if it is
+            not, or by less than can be measured.
     """
 
     name: str
@@ -30,3 +33,10 @@ class Bridge:
     remarks: tuple[str, ...] = ()
     limits: tuple[str, ...] = ()
     round_trip_s: float | None = None
+    robot: str = ""
+    clock_s: float = 0.0
+
+    @property
+    def title(self) -> str:
+        """Its name in lists: of the robot, or its address."""
+        return self.robot or self.name

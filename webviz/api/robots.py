@@ -31,6 +31,10 @@ class NamespacedRobot(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         msgspec.Meta(max_length=100),
         Prop(help="Frames that it shares with the others, which have no prefix."),
     ] = ("map",)
+    connection: Annotated[
+        Annotated[str, msgspec.Meta(max_length=1000, pattern="^wss?://")] | None,
+        Prop(help="Bridge of the robot, such as ws://robot1:8765; null is the live topics."),
+    ] = None
 
     @property
     def name(self) -> str:

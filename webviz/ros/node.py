@@ -137,8 +137,9 @@ class RosSource:
 
     def close(self) -> None:
         """Destroy the node and end the thread."""
-        self._stop.set()
-        self._guard_condition.trigger()
+        if not self._stop.is_set():
+            self._stop.set()
+            self._guard_condition.trigger()
         self._thread.join()
 
     def _run(self) -> None:

@@ -1,18 +1,22 @@
-"""Live topics: of the ROS graph, or through a bridge without ROS."""
+"""Live topics: of the ROS graph, or through bridges without ROS."""
 
 from __future__ import annotations
 
+import importlib.util
 import os
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, overload
 
+from webviz.api.errors import Error
+from webviz.api.robots import NamespacedRobot, robots_of
 from webviz.shell.remappings import remappings
 from webviz.shell.ros_source import ros_source
 
 if TYPE_CHECKING:
     from webviz.sources import Source
     from webviz.sources.bridge.source import BridgeSource
+    from webviz.sources.fleet.source import FleetSource
 
 
 def bridge_source(
@@ -37,15 +41,62 @@ def bridge_source(
     return BridgeSource(address(url, Path(headers) if headers else None), renamed)
 
 
-def live_source(connect: str, headers: Path | None = None, ros_args: Sequence[str] = ()) -> Source:
-    """Return the topics of a bridge, or of the ROS graph.
+def live_source(
+    connect: str,
+    headers: Path | None = None,
+    ros_args: Sequence[str] = (),
+    robots: Sequence[str | NamespacedRobot] = (),
+) -> Source:
+    """Return the topics of a bridge, or of the ROS graph, and of robots with connections.
 
     Args:
         connect: URL of the bridge, "" for the ROS graph.
         headers: for the bridge.
         ros_args: command line arguments for ROS.
+        robots: of the config.
 
     Raises:
-        Error: the connection is invalid, or ROS is missing or does not start.
+        Error: a connection is invalid, or ROS is missing or does not start.
     """
-    return bridge_source(connect, headers, ros_args) if connect else ros_source(ros_args)
+    if not connect and is_alone(robots):
+        return with_robots(None, robots)
+    base = bridge_source(connect, headers, ros_args) if connect else ros_source(ros_args)
+    try:
+        return with_robots(base, robots)
+    except Error:
+        base.close()
+        raise
+
+
+def is_alone(robots: Sequence[str | NamespacedRobot]) -> bool:
+    """Return whether robots with connections are all there is, as ROS is not installed."""
+    has_ros = importlib.util.find_spec("rclpy") is not None
+    return not has_ros and any(robot.connection for robot in robots_of(tuple(robots)))
+
+
+@overload
+def with_robots(base: Source, robots: Sequence[str | NamespacedRobot]) -> Source: ...
+@overload
+def with_robots(base: None, robots: Sequence[str | NamespacedRobot]) -> FleetSource: ...
+def with_robots(base: Source | None, robots: Sequence[str | NamespacedRobot]) -> Source:
+    """Return a source with the robots that have connections.
+
+    Args:
+        base: of all other topics; None only if some robot has a connection.
+        robots: of the config.
+
+    Raises:
+        Error: a connection is invalid.
+    """
+    from webviz.sources.bridge.address import address, headers_of
+
+    found = [
+        (robot, address(robot.connection, environment=headers_of(robot.name)))
+        for robot in robots_of(tuple(robots))
+        if robot.connection
+    ]
+    if base is not None and not found:
+        return base
+    from webviz.sources.fleet.source import FleetSource
+
+    return FleetSource(found, base)

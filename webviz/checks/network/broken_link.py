@@ -38,7 +38,7 @@ class BrokenLink(Check):
                 for display, each, _ in seen.starved()
                 for symptom in display.symptom(each.status)
             ]
-            keys = ("Connection", f"Connection to {bridge.name}")
+            keys = ("Connection", f"Connection to {bridge.title}")
             of_viewer = [symptom for key in keys for symptom in seen.symptom(key)]
             is_alone = len(seen.bridges) == 1
             yield self.found(

@@ -29,7 +29,7 @@ class StrainedLink(Check):
         """Yield a finding for each link with a remark."""
         for bridge in seen.bridges:
             if bridge.is_up and bridge.remarks:
-                keys = ("Connection", f"Connection to {bridge.name}")
+                keys = ("Connection", f"Connection to {bridge.title}")
                 yield self.found(
                     bridge.remarks[0],
                     "Hide displays of large messages, or use a faster network.",

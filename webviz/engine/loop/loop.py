@@ -230,7 +230,7 @@ class FrameLoop:
             DrivingPart(core, self.controllers, tools.odometry),
             files,
             history,
-            BridgesPart(core),
+            BridgesPart(core, self._robots),
             TopicsPart(core),
             LatencyPart(core, self._tracer, displays.list.active),
             RecordingPart(core, settings, memory),

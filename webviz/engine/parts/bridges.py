@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from webviz.api.bridge import Bridge
+from webviz.api.robots import NamespacedRobot
 from webviz.api.status import Level, Status
 from webviz.data.words import joined
-from webviz.engine.parts.part import Part
+from webviz.engine.parts.part import Core, Part
+
+NOT_MADE = (
+    "Connections of robots are made when webviz starts, and this config was opened later. Restart "
+    "webviz with it."
+)
 
 
 class BridgesPart(Part):
@@ -16,14 +22,25 @@ class BridgesPart(Part):
 
     name = "Connection"
 
+    def __init__(self, core: Core, robots: Callable[[], Sequence[NamespacedRobot]]) -> None:
+        super().__init__(core)
+        self._robots = robots
+
     def state(self) -> Mapping[str, Any]:
         """Return the bridges as they are now."""
         return {"bridges": tuple(self.core.source.bridges)}
 
     def statuses(self) -> Mapping[str, Status]:
-        """Return one status for each bridge."""
+        """Return one status for each bridge, and for robots of the config that have none."""
         bridges = self.core.source.bridges
-        return {_key(bridge, bridges): status_of(bridge) for bridge in bridges}
+        found = {_key(bridge, bridges): status_of(bridge) for bridge in bridges}
+        if any(offer.is_recorded for offer in self.core.offers.values()):
+            return found
+        connected = {bridge.robot for bridge in bridges}
+        for robot in self._robots():
+            if robot.connection and robot.name not in connected:
+                found[f"Connection to {robot.name}"] = Status(Level.WARN, NOT_MADE)
+        return found
 
 
 def status_of(bridge: Bridge) -> Status:
@@ -37,8 +54,19 @@ def status_of(bridge: Bridge) -> Status:
         return Status(Level.WARN, joined(*bridge.remarks))
     trip = f", round trip {bridge.round_trip_s * 1e3:.0f} ms" if bridge.round_trip_s else ""
     text = f"Connected to {bridge.name} ({bridge.protocol}{trip})"
-    return Status(Level.OK, joined(text, *bridge.limits))
+    return Status(Level.OK, joined(text, *_clock(bridge), *bridge.limits))
+
+
+def _clock(bridge: Bridge) -> Sequence[str]:
+    """Return the difference of the clocks as a sentence, none if there is none."""
+    if not bridge.clock_s:
+        return ()
+    way = "ahead of" if bridge.clock_s > 0 else "behind"
+    return (
+        f"Its clock is {abs(bridge.clock_s):.2f} s {way} that of this machine; stamps are "
+        "corrected.",
+    )
 
 
 def _key(bridge: Bridge, bridges: Sequence[Bridge]) -> str:
-    return "Connection" if len(bridges) == 1 else f"Connection to {bridge.name}"
+    return "Connection" if len(bridges) == 1 else f"Connection to {bridge.title}"

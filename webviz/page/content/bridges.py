@@ -13,7 +13,7 @@ class BridgesStore(PageStore, frozen=True):
     """The links to bridges.
 
     Args:
-        all: address of each, and why it is not live; "" if it is.
+        all: address or robot of each, and why it is not live; "" if it is.
     """
 
     all: Sequence[tuple[str, str]]
@@ -25,7 +25,7 @@ def bridges(state: State, _: str) -> BridgesStore | None:
         return None
     return BridgesStore(
         [
-            (brief(bridge.name), "" if bridge.is_up else brief(bridge.problem))
+            (brief(bridge.title), "" if bridge.is_up else brief(bridge.problem))
             for bridge in state.bridges
         ]
     )

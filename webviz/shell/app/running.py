@@ -29,7 +29,7 @@ from webviz.shell.app.link_rate import bytes_per_second
 from webviz.shell.app.picture_controls import PictureControls
 from webviz.shell.app.reading import read_config
 from webviz.shell.app.starting import BagPaths
-from webviz.shell.live_source import bridge_source
+from webviz.shell.live_source import bridge_source, is_alone, with_robots
 from webviz.shell.ros_source import ros_source
 
 if TYPE_CHECKING:
@@ -101,7 +101,7 @@ class Running(PictureControls):
                 host, port, allow_hosts, tls, trust_proxies, token, link_rate, embedders
             )
             node_control = None
-            if source is None:
+            if source is None and not (shown and is_alone(shown.settings.robots)):
                 source = ros_source(ros_args)
                 closing.add("The ROS node", source.close)
                 node_control = source.control
@@ -109,6 +109,11 @@ class Running(PictureControls):
                 path = path or (Path(file) if file else None)
                 fixed_frame = fixed_frame or node_control.initial["fixed_frame"]
             shown = shown or read(path, source)
+            from webviz.sources.bag.source import BagSource
+
+            if not isinstance(source, BagSource):
+                source = with_robots(source, shown.settings.robots)
+                closing.add("The connections of robots", source.close)
             if publish:
                 report_everything((*(shown.settings.publish or ()), *allow_publish))
             if fixed_frame:

@@ -100,7 +100,7 @@ def _examine(options: DoctorOptions, connect: ConnectOptions, ros: Sequence[str]
     from webviz.shell.app.reading import read_config
     from webviz.shell.bag_source import bag_source
     from webviz.shell.doctor.examination import examine_bag, examine_live, examine_machine
-    from webviz.shell.ros_source import ros_source
+    from webviz.shell.live_source import is_alone
 
     if options.peer:
         from webviz.shell.doctor.peer import compare
@@ -113,16 +113,15 @@ def _examine(options: DoctorOptions, connect: ConnectOptions, ros: Sequence[str]
             config = read_config(path, bag)
             return examine_bag(bag, config, str(options.bag), progress)
     config = read_config(path) if path else None
-    if connect.connect:
-        with contextlib.closing(connect.source(ros)) as bridge:
+    if connect.connect or (config and is_alone(config.settings.robots)):
+        with contextlib.closing(connect.source(ros, config)) as bridge:
             return examine_live(bridge, config, options.seconds, progress)
     # Some faults end the program when ROS starts.
     machine = examine_machine(look_around())
     if any(finding.severity == "error" for finding in machine.findings):
         return machine
-    progress("starting ROS", 0.0)
     try:
-        source = ros_source(ros)
+        source = connect.source(ros, config)
     except Error as error:
         return examine_machine(look_around(str(error)))
     with contextlib.closing(source):

@@ -110,8 +110,12 @@ class ConnectOptions:
         if self.connect_headers and not self.connect:
             raise ValueError("--connect-headers needs --connect.")
 
-    def source(self, ros: Sequence[str]) -> "Source":
+    def source(self, ros: Sequence[str], config: "Config | None" = None) -> "Source":
         """Return the topics of the bridge, or of the ROS graph if none is given.
+
+        Args:
+            ros: arguments for ROS.
+            config: whose robots may have connections of their own.
 
         Raises:
             Error: the connection is invalid, or ROS is missing or does not start.
@@ -120,7 +124,8 @@ class ConnectOptions:
         from webviz.shell.live_source import live_source
 
         progress(f"connecting to {self.connect}" if self.connect else "starting ROS", 0.0)
-        return live_source(self.connect, self.connect_headers, ros)
+        robots = config.settings.robots if config else ()
+        return live_source(self.connect, self.connect_headers, ros, robots)
 
 
 def report_unsupported(path: Path, sentences: Sequence[str]) -> None:

@@ -90,7 +90,7 @@ def record(
         )
         config = load(options.shown) if options.shown else None
         try:
-            with contextlib.closing(connect.source(ros)) as source:
+            with contextlib.closing(connect.source(ros, config)) as source:
                 patterns = ("*",) if options.all else options.topics
                 if config is not None:
                     patterns = topics_of(config, source.resolve)

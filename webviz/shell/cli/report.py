@@ -132,4 +132,5 @@ def _source(options: ReportOptions, connect: ConnectOptions, ros: Sequence[str])
 
     if options.bag is not None:
         return bag_source(options.bag, ros_args=ros)
-    return connect.source(ros)
+    path = options.display_config
+    return connect.source(ros, options.read(path) if path else None)

@@ -74,7 +74,7 @@ def _make(options: ScreenshotOptions, connect: ConnectOptions, ros: Sequence[str
         config.set_fixed_frame(options.fixed_frame)
     extras = [map_of_file(each) for each in options.map]
     extras += [static_transform(*each) for each in options.transform]
-    with opened(options.bag, extras, ros, connect.source) as source:
+    with opened(options.bag, extras, ros, lambda args: connect.source(args, config)) as source:
         at: Sequence[At] = ("end",)
         if isinstance(source, BagSource):
             at = _times(options, source)

@@ -141,7 +141,7 @@ def _examined(options: RuleOptions, connect: ConnectOptions, ros: "Sequence[str]
             return results
     given = read_config(path) if path else None
     results = _rules(options, given)
-    with contextlib.closing(connect.source(ros)) as source:
+    with contextlib.closing(connect.source(ros, given)) as source:
         examine_live(source, given, options.seconds, progress, results)
     return results
 

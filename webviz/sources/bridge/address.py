@@ -75,6 +75,19 @@ def address(
     return Address(url, [_header(line) for line in lines if line.strip()])
 
 
+def headers_of(robot: str, environment: Mapping[str, str] = os.environ) -> Mapping[str, str]:
+    """Return the environment for the connection of a robot, whose headers have its name.
+
+    Those of another connection are not for it.
+
+    Args:
+        robot: its namespace, such as robot1: its headers are in WEBVIZ_CONNECT_HEADERS_ROBOT1.
+        environment: of this process.
+    """
+    name = f"{HEADERS}_{robot.replace('/', '_').upper()}"
+    return {HEADERS: environment.get(name, "")}
+
+
 def _lines(path: Path) -> list[str]:
     try:
         if not path.is_file():  # a FIFO would block

@@ -24,6 +24,11 @@ class LinkDelay:
         self._least: deque[tuple[float, float]] = deque()
         """Moment and difference, ascending in both: the first is the least."""
 
+    @property
+    def least_s(self) -> float:
+        """The least difference between arrival and stamp; 0 before the first message."""
+        return self._least[0][1] if self._least else 0.0
+
     def note(self, stamp_s: float, now_s: float) -> float:
         """Note a message; its delay in seconds."""
         difference = now_s - stamp_s

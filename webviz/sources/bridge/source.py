@@ -17,8 +17,10 @@ from webviz.api.offer import Offer
 from webviz.data import assets
 from webviz.data.words import Problem
 from webviz.sources.bridge.address import Address
+from webviz.sources.bridge.clock import BridgeClock
 from webviz.sources.bridge.connection import BridgeConnection, Silent
 from webviz.sources.bridge.definitions import Definitions
+from webviz.sources.bridge.describing import STALLED_S, described
 from webviz.sources.bridge.foxglove import FoxgloveSession
 from webviz.sources.bridge.foxglove_wire import SUBPROTOCOLS, WireError
 from webviz.sources.bridge.graph import BridgeGraph
@@ -33,8 +35,6 @@ from webviz.sources.source import Subscription
 log = logging.getLogger("webviz")
 
 PING_S = 0.4
-STALLED_S = 1.0
-"""Without any byte from the bridge, after which nothing is sent: it would arrive late."""
 BROKEN_S = 10.0
 """Without any byte, after which the connection is opened anew."""
 FIRST_RETRY_S = 0.5
@@ -62,10 +62,17 @@ class BridgeSource:
     Args:
         address: of the bridge.
         remappings: of full topic names.
+        inbox: for the messages.
     """
 
-    def __init__(self, address: Address, remappings: Mapping[str, str] | None = None) -> None:
-        self.inbox = Inbox()
+    def __init__(
+        self,
+        address: Address,
+        remappings: Mapping[str, str] | None = None,
+        inbox: Inbox | None = None,
+    ) -> None:
+        self.inbox = Inbox() if inbox is None else inbox
+        self.clock = BridgeClock()
         self.graph = BridgeGraph(self)
         self._address = address
         self._remappings = dict(remappings or {})
@@ -123,11 +130,15 @@ class BridgeSource:
         """Return the full name of a topic, remapped; raises ValueError."""
         return resolved(topic, self._remappings)
 
-    def close(self) -> None:
-        """Close the connection and end the thread."""
+    def stop(self) -> None:
+        """Begin to close the connection."""
         assets.withdraw(self.graph.fetch)
         self.soon(self._stop.set)
         self._is_closed = True
+
+    def close(self) -> None:
+        """Close the connection and end the thread."""
+        self.stop()
         self._thread.join()
 
     # The interface of webviz.sources.bridge.graph.Line
@@ -189,6 +200,7 @@ class BridgeSource:
             return
         if stamp_ns and self._clock_ns is None:  # simulated time has a pace of its own
             self._health.note_message(topic, stamp_ns)
+            self.clock.note(stamp_ns, time.time_ns())
         self.inbox.put(topic, Raw(cdr, self.now_ns()))
 
     def set_time(self, stamp_ns: int) -> None:
@@ -294,6 +306,7 @@ class BridgeSource:
             await asyncio.wait({pong}, timeout=PING_S)
             if pong.done():
                 self._round_trip_s = time.monotonic() - pinged_s
+                self.clock.note_trip(self._round_trip_s)
                 await asyncio.sleep(PING_S)
             silent_s = socket.silent_s
             if silent_s > BROKEN_S:
@@ -309,6 +322,7 @@ class BridgeSource:
             log.warning("%s: connected.", self._address.name)
         self._problem = None
         self._health = LinkHealth()
+        self.clock.start()
         session.start()
         self._reconcile()
         self.graph.readvertise(session)
@@ -368,28 +382,15 @@ class BridgeSource:
             problem = f"the link is broken. {self._problem.cause}"
         return carried.offer(wish, problem)
 
-    # The state of the link
-
     def _tell(self) -> None:
         """Describe the bridge as it is now."""
-        before, session, problem = self._bridges[0], self._session, self._problem
-        is_up = session is not None and problem is None
-        link = Bridge(
-            self._address.name,
-            session.protocol if session else before.protocol,
-            is_up,
-            before.was_up or is_up,
-            "" if problem is None else problem.cause,
-            "" if problem is None else problem.remedy,
-            tuple(self._remarks(session)) if session and is_up else (),
-            tuple(session.limits) if session else before.limits,
+        before, socket = self._bridges[0], self._socket
+        link = described(
+            before,
+            self._session,
+            self._problem,
+            self._health.remarks(),
+            socket.silent_s if socket else 0.0,
             self._round_trip_s,
         )
         self._bridges = (link,) if link != before else self._bridges
-
-    def _remarks(self, session: BridgeSession) -> list[str]:
-        socket = self._socket
-        silent_s = socket.silent_s if socket else 0.0
-        stall = f"Nothing came from the bridge for {silent_s:.0f} s. Check the network."
-        stalls = [stall] if silent_s > STALLED_S else []
-        return [*stalls, *self._health.remarks(), *session.remarks]

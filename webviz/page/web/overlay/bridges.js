@@ -4,14 +4,27 @@ import { el, set, setChildren, setText } from "../dom.js";
 import { sanitized } from "../sanitize.js";
 import { watch } from "../stores.js";
 
+const MANY = 3;
+
 export function build() {
   const list = el("output", { class: "wv-bridges", hidden: true });
   watch("bridges", (values) => {
     const all = values.get("all") ?? [];
     list.hidden = all.length === 0;
-    setChildren(list, all.map(card));
+    setChildren(list, cards(all));
   });
   return list;
+}
+
+/**
+ * Those of many that are live share one line.
+ *
+ * @param {[string, string][]} all
+ */
+function cards(all) {
+  if (all.length <= MANY) return all.map(card);
+  const down = all.filter(([, problem]) => problem);
+  return [card([`${all.length - down.length} robots connected`, ""]), ...down.map(card)];
 }
 
 /** @param {[string, string]} bridge */

@@ -1,0 +1,89 @@
+"""Robots with connections in a whole viewer."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import closing
+from pathlib import Path
+
+import pytest
+from bridges import FoxgloveServer, foxglove_server
+from processes import eventually
+
+import webviz
+from webviz.api.status import Level
+from webviz.engine.commands import Open
+from webviz.shell import live_source
+from webviz.shell.app import running
+from webviz.shell.cli import main
+from webviz.sources.bag.files import BagFiles
+
+ROBOTS = """\
+version: 1
+fixed_frame: odom
+robots:
+- {{namespace: r1, connection: "{0}", shared: [odom]}}
+- {{namespace: r2, connection: "{1}", shared: [odom]}}
+displays:
+- {{type: LaserScan, name: "{{robot}}", topic: "/{{robot}}/scan"}}
+"""
+
+
+@pytest.fixture(scope="module")
+def servers() -> Iterator[tuple[FoxgloveServer, FoxgloveServer]]:
+    with foxglove_server() as one, foxglove_server(0, "ahead=-2.5") as two:
+        yield one, two
+
+
+@pytest.fixture
+def config(
+    servers: tuple[FoxgloveServer, FoxgloveServer], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Path:
+    """The config of a fleet, on a machine without ROS."""
+    monkeypatch.setattr(live_source, "is_alone", lambda robots: any(robots))
+    monkeypatch.setattr(running, "is_alone", lambda robots: any(robots))
+    path = tmp_path / "fleet.yaml"
+    path.write_text(ROBOTS.format(*(server.url for server in servers)))
+    return path
+
+
+def test_robots_are_drawn_remembered_and_saved_together(config: Path, tmp_path: Path) -> None:
+    with webviz.Viewer(config, port=0) as viewer:
+        viewer.attend(60)
+
+        def is_drawn() -> bool:
+            viewer.attend(60)
+            statuses = viewer.statuses
+            return (
+                "2.5" in getattr(statuses.get("Connection to r2"), "text", "")
+                and all(display.status.level is Level.OK for display in viewer)
+                and {"r1/laser", "r2/laser"} <= set(viewer.frames)
+            )
+
+        assert eventually(is_drawn), (viewer.statuses, [d.statuses for d in viewer])
+        assert not [key for key, status in viewer.statuses.items() if status.level > Level.OK]
+        viewer.rewind(0.5)
+        assert viewer.state.playback
+        assert viewer.state.playback.is_live is False
+        viewer.return_to_live()
+        folder = viewer.save_last(folder=tmp_path / "saved")
+        with closing(BagFiles([folder])) as bag:
+            saved = {channel.topic for channel in bag.channels}
+        assert {"/r1/scan", "/r2/scan", "/r1/tf", "/r2/tf_static"} <= saved
+
+
+def test_a_config_that_is_opened_later_makes_no_connections(config: Path, tmp_path: Path) -> None:
+    later = tmp_path / "later.yaml"
+    later.write_text(config.read_text().replace("r2", "r3"))
+    with webviz.Viewer(config, port=0) as viewer:
+        viewer.do(Open(str(later)))
+        assert eventually(lambda: "Connection to r3" in viewer.statuses)
+        assert "opened later. Restart" in viewer.statuses["Connection to r3"].text
+
+
+def test_a_rule_is_tested_over_all_connections(
+    config: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    rules = [word for limit in (1, 1000) for word in ("--rule", f"/r2/scan.rate > {limit}")]
+    assert main(["test", "-d", str(config), "--seconds", "2", *rules]) != 0
+    assert "1 of 2 rules hold" in capsys.readouterr().out

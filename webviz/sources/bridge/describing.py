@@ -1,0 +1,47 @@
+"""The state of a link to a bridge, as everybody sees it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from webviz.api.bridge import Bridge
+from webviz.data.words import Problem
+from webviz.sources.bridge.session import BridgeSession
+
+STALLED_S = 1.0
+"""Without any byte from the bridge, after which nothing is sent: it would arrive late."""
+
+
+def described(
+    before: Bridge,
+    session: BridgeSession | None,
+    problem: Problem | None,
+    remarks: Iterable[str],
+    silent_s: float,
+    round_trip_s: float | None,
+) -> Bridge:
+    """Return a bridge as it is now.
+
+    Args:
+        before: as it was.
+        session: that is open, None while the link is broken.
+        problem: why it is broken, None if it is not.
+        remarks: sentences about the open link.
+        silent_s: seconds without any byte.
+        round_trip_s: see `Bridge`.
+    """
+    is_up = session is not None and problem is None
+    stall = f"Nothing came from the bridge for {silent_s:.0f} s. Check the network."
+    stalls = [stall] if silent_s > STALLED_S else []
+    return replace(
+        before,
+        protocol=session.protocol if session else before.protocol,
+        is_up=is_up,
+        was_up=before.was_up or is_up,
+        problem="" if problem is None else problem.cause,
+        remedy="" if problem is None else problem.remedy,
+        remarks=(*stalls, *remarks, *session.remarks) if session and is_up else (),
+        limits=tuple(session.limits) if session else before.limits,
+        round_trip_s=round_trip_s,
+    )

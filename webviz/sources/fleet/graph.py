@@ -1,0 +1,99 @@
+"""Output to the robots of a fleet: each message and call goes over the right connection."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Sequence
+from concurrent.futures import Future
+from dataclasses import replace
+
+from webviz.api.robots import robot_of
+from webviz.sources.fleet.member import FleetMember
+from webviz.sources.graph import Advertisement, Goal, Graph, ReadOnly
+
+
+class FleetGraph:
+    """Publishes and calls services by namespace; see `webviz.sources.Graph`.
+
+    Args:
+        members: the robots with connections.
+        base: of all other names.
+    """
+
+    def __init__(self, members: Sequence[FleetMember], base: Graph) -> None:
+        self._members = members
+        self._base = base
+
+    def advertise(self, advertisements: Collection[Advertisement]) -> Future[None]:
+        """Make the advertised publishers exactly these; fails if one connection refuses."""
+        by_robot: dict[FleetMember | None, list[Advertisement]] = {m: [] for m in self._members}
+        rest: list[Advertisement] = []
+        for each in advertisements:
+            member = self._member(each.topic)
+            if member is None:
+                rest.append(each)
+            else:
+                by_robot[member].append(_renamed(each, member))
+        pending = [m.source.graph.advertise(by_robot[m]) for m in self._members]
+        if rest or not isinstance(self._base, ReadOnly):
+            pending.append(self._base.advertise(rest))
+        return _all(pending)
+
+    def publish(self, advertisement: Advertisement, cdr: bytes) -> Future[int]:
+        """Publish a message to the robot whose topic it is, with stamps by its clock."""
+        member = self._member(advertisement.topic)
+        if member is None:
+            return self._base.publish(advertisement, cdr)
+        sent = member.sent(advertisement.type, cdr)
+        return member.source.graph.publish(_renamed(advertisement, member), sent)
+
+    def call(self, service: str, type: str, request: bytes, timeout_s: float) -> Future[bytes]:
+        """Call a service of the robot whose it is."""
+        member = self._member(service)
+        if member is None:
+            return self._base.call(service, type, request, timeout_s)
+        return member.source.graph.call(member.inner(service), type, request, timeout_s)
+
+    def send_goal(
+        self, action: str, type: str, goal: bytes, feedback: Callable[[bytes], object]
+    ) -> Goal:
+        """Send a goal; bridges refuse it."""
+        member = self._member(action)
+        if member is None:
+            return self._base.send_goal(action, type, goal, feedback)
+        return member.source.graph.send_goal(member.inner(action), type, goal, feedback)
+
+    def nodes(self) -> tuple[str, ...]:
+        """Full names of the nodes of all graphs, sorted."""
+        found = [*self._base.nodes()]
+        for member in self._members:
+            found += member.nodes()
+        return tuple(sorted(found))
+
+    def _member(self, name: str) -> FleetMember | None:
+        robot = robot_of([name], [m.robot for m in self._members])
+        return next((m for m in self._members if m.robot is robot), None)
+
+
+def _renamed(advertisement: Advertisement, member: FleetMember) -> Advertisement:
+    return replace(advertisement, topic=member.inner(advertisement.topic))
+
+
+def _all(futures: Sequence[Future[None]]) -> Future[None]:
+    """Return a future that is done when all are; it has the first error."""
+    done: Future[None] = Future()
+    left = len(futures)
+
+    def count(future: Future[None]) -> None:
+        nonlocal left
+        left -= 1
+        error = future.exception()
+        if done.done():
+            return
+        if error is not None:
+            done.set_exception(error)
+        elif left <= 0:
+            done.set_result(None)
+
+    for future in futures:
+        future.add_done_callback(count)
+    return done
