@@ -7,6 +7,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from mcap.exceptions import EndOfFile
+from mcap.records import Message
+from mcap.stream_reader import StreamReader
 from program import Program
 from rosbags.rosbag2 import Reader
 
@@ -59,7 +62,7 @@ def test_all_topics_are_recorded_with_what_is_latched(
         assert not any("/_" in topic for topic in bag.topics)
 
 
-def test_a_killed_recording_keeps_what_was_flushed(
+def test_a_killed_recording_keeps_what_was_flushed_and_is_recovered(
     start: Callable[..., Program], tmp_path: Path
 ) -> None:
     path = tmp_path / "run"
@@ -71,6 +74,23 @@ def test_a_killed_recording_keeps_what_was_flushed(
     read = list(recording.messages(recording.channels, *recording.span_ns))
     recording.close()
     assert {message.channel.topic for message in read} == {"/tf", "/tf_static", "/scan"}
+    (file,) = path.glob("*.mcap")
+    streamed = 0
+    with file.open("rb") as stream, pytest.raises(EndOfFile):
+        for record in StreamReader(stream).records:
+            streamed += isinstance(record, Message)
+    assert streamed == len(read), "only the end is missing"
+    program = start("webviz", "recover", str(path))
+    assert program.process.wait(timeout=60) == 0, program.output()
+    whole = tmp_path / "run_recovered"
+    assert program.output() == (
+        f"webviz: wrote {len(read)} messages to {whole}. The original has no end.\n"
+    )
+    with Reader(whole) as bag:
+        assert sum(1 for _ in bag.messages()) == bag.message_count == len(read)
+    program = start("webviz", "recover", str(path))
+    assert program.process.wait(timeout=60) == 1
+    assert "run_recovered is not empty" in program.output()
 
 
 def test_a_folder_that_cannot_be_written_is_one_sentence(start: Callable[..., Program]) -> None:

@@ -123,7 +123,8 @@ def test_the_memory_says_what_it_holds(loop: Loop, live: Tab) -> None:
     expect(memory).to_have_attribute(
         "data-tip",
         "Remembers the last 60 s of the displayed topics, up to 512 MB. Older messages are dropped "
-        "already: raise memory.megabytes. Older latched messages are kept of /map.",
+        "already: raise memory.megabytes. Older latched messages and last transforms are kept of "
+        "/map.",
     )
 
 

@@ -11,6 +11,7 @@ import pytest
 from playwright.sync_api import Locator, Position, expect
 
 from tests.page.conftest import Loop, Tab
+from webviz.api.errors import Error
 from webviz.api.status import Level
 from webviz.engine.commands import (
     Pause,
@@ -191,6 +192,30 @@ def test_buttons_and_keys_step_play_and_loop(loop: Loop, timeline: Tab) -> None:
     timeline.wait_for(lambda: timeline.button("Pause").count())
     page.keyboard.press(" ")
     timeline.wait_for_command(Pause(True))
+
+
+def test_a_held_key_steps_on_with_each_answer_and_no_further_than_it_goes(
+    loop: Loop, timeline: Tab
+) -> None:
+    page = timeline.page
+    page.evaluate("document.activeElement.blur()")
+
+    def hold() -> int:
+        """Hold the key for some repetitions; the steps that were made so far."""
+        for _ in range(4):
+            page.keyboard.down("ArrowRight")
+        timeline.turn()
+        return sum(isinstance(command, StepMessage) for command in loop.commands)
+
+    timeline.wait_for(lambda: hold() == 1)
+    timeline.wait_for(lambda: hold() == 2)
+    loop.answer = Error("There is no later message.")
+    timeline.wait_for(lambda: hold() == 3)
+    expect(page.locator(".wv-toast")).to_contain_text("There is no later message.")
+    assert hold() == 3
+    page.keyboard.up("ArrowRight")
+    assert hold() == 4
+    page.keyboard.up("ArrowRight")
 
 
 def test_bookmarks_are_added_gone_to_and_removed(loop: Loop, timeline: Tab) -> None:

@@ -8,11 +8,12 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from bench import Bench, benches
 
 from webviz.api.status import Level
-from webviz.data.messages import encode
+from webviz.data.messages import decode, encode
 from webviz.data.recordings import open_recording
 from webviz.engine.commands import Refresh
 from webviz.engine.parts import black_box
@@ -156,12 +157,13 @@ def test_rules_are_saved_as_they_were_written() -> None:
 def make(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., Bench]]:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(black_box, "AFTER_S", 0.2)
+    monkeypatch.setattr(black_box, "SETTLE_S", 0.0)
     with benches() as make_bench:
 
-        def make(*rules: WatchRule, per_day: int = 20) -> Bench:
+        def make(*rules: WatchRule, per_day: int = 20, gigabytes: float = 5.0) -> Bench:
             bench = make_bench(PathDisplay(name="Plan"))
             bench.viewer.settings.watch = rules
-            bench.viewer.settings.watch_limits = WatchLimits(per_day=per_day)
+            bench.viewer.settings.watch_limits = WatchLimits(per_day, gigabytes)
             bench.source.known["/path"] = Offer((PUBLISHER,), type=PATH)
             bench.turn()
             return bench
@@ -223,6 +225,7 @@ def test_a_violated_condition_saves_what_led_to_it(make: Callable[..., Bench]) -
 
 def test_no_more_is_saved_than_the_limits_allow(make: Callable[..., Bench]) -> None:
     bench = make(WatchRule(display="Plan", status="error"), per_day=0)
+    publish(bench, 1.0)
     bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
     statuses = until(bench, lambda state: "Black box" in state.statuses).statuses
     assert statuses["Black box"].text == (
@@ -230,6 +233,57 @@ def test_no_more_is_saved_than_the_limits_allow(make: Callable[..., Bench]) -> N
         "watch_limits.per_day."
     )
     assert not Path("webviz_black_box").exists()
+
+
+@pytest.mark.parametrize("rule", [{"display": "Plan", "status": "warn"}, {"rule": "Plan.status < warn"}])
+def test_a_display_that_has_received_nothing_yet_fires_no_rule(
+    make: Callable[..., Bench], rule: dict[str, str]
+) -> None:
+    bench = make(WatchRule(**rule))
+    bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
+    for _ in range(10):
+        assert bench.do(Refresh()).rows[0].level >= Level.WARN
+        bench.clock += 1.0  # for another round of the doctor
+    bench.source.known["/path"] = Offer((PUBLISHER,), type=PATH)
+    bench.turn()
+    assert not Path("webviz_black_box").exists()
+    publish(bench, 1.0)
+    bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
+    saved(bench)
+
+
+def test_a_status_does_not_count_while_a_robot_starts(
+    make: Callable[..., Bench], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(black_box, "SETTLE_S", 1e9)
+    bench = make(WatchRule(display="Plan", status="error"))
+    publish(bench, 1.0)
+    bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
+    until(bench, lambda state: state.rows[0].level is Level.ERROR)
+    bench.do(Refresh())
+    assert not Path("webviz_black_box").exists()
+    monkeypatch.setattr(black_box, "SETTLE_S", 0.0)
+    saved(bench)
+
+
+def test_a_recording_stays_below_the_limit(make: Callable[..., Bench]) -> None:
+    bench = make(WatchRule(display="Plan", status="error"), gigabytes=0.0001)
+    for x in range(10):
+        noise = np.random.default_rng(x).bytes(15_000).hex()[:15_000]
+        bench.publish("/path", PATH, {"header": {"frame_id": f"{x} {noise}"}})
+    bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
+    until(bench, lambda state: state.black_box is not None and bool(state.black_box.saving))
+    for x in range(10):
+        bench.publish("/path", PATH, {"header": {"frame_id": "x" * 15_000}})
+    (path,) = saved(bench)
+    assert sum(file.stat().st_size for file in path.iterdir()) < 100_000
+    recording = open_recording(path)
+    assert recording.span_ns
+    kept = [decode(PATH, m.data) for m in recording.messages(recording.channels, *recording.span_ns)]
+    recording.close()
+    assert kept[-1].header.frame_id.startswith("9 "), "those before the fault go first"
+    assert 4 <= len(kept) <= 6
+    assert bench.do(Refresh()).statuses["Black box"].text.startswith("The last recording was cut")
 
 
 def test_a_driver_that_crashes_fires_a_rule_about_its_rate(make: Callable[..., Bench]) -> None:

@@ -101,9 +101,9 @@ class SteadySource(HandFedSource):
 class Drive:
     """A viewer of live topics that have just carried a recorded drive."""
 
-    def __init__(self, path: Path, config: str) -> None:
+    def __init__(self, path: Path, config: str, ago_s: float = AGO_S) -> None:
         self.source = SteadySource()
-        self.source.began_s = self.began_s = time.monotonic() - AGO_S
+        self.source.began_s = self.began_s = time.monotonic() - ago_s
         self.scene = RecordingScene()
         self.files = BagFiles([path])
         for channel in self.files.channels:
@@ -154,8 +154,8 @@ def drive(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[
     monkeypatch.chdir(tmp_path)
     with contextlib.ExitStack() as stack:
 
-        def make(bag: Bag, config: str = CONFIG) -> Drive:
-            made = Drive(bag.write(tmp_path / "run"), config)
+        def make(bag: Bag, config: str = CONFIG, ago_s: float = AGO_S) -> Drive:
+            made = Drive(bag.write(tmp_path / "run"), config, ago_s)
             stack.callback(made.close)
             return made
 

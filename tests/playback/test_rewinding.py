@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from bags import START_NS, ns
+from bags import START_NS, Bag, ns
 from bench import Bench, benches
 from drives import CONFIG, recorded
 
@@ -79,6 +79,33 @@ def test_a_rewound_viewer_shows_what_the_saved_memory_does(
         assert live.playback.is_live is False
         for display, nodes in live.shown().items():
             assert nodes == truth[at_s][display], (display, at_s)
+
+
+@pytest.mark.parametrize("seconds", [60, 30])
+def test_frames_whose_transforms_ended_long_before_are_known(
+    drive: Callable[..., Drive], seconds: int
+) -> None:
+    """Those of the arm ended 39 s ago, and are forgotten in a memory of 30 s."""
+    bag = Bag()
+    for at_s in (0.5, 1.0):
+        bag.transform(at_s, "base", "arm", x=at_s)
+    for step in range(400):
+        bag.transform(step * 0.1, "map", "base")
+    config = f"fixed_frame: map\nmemory: {{seconds: {seconds}}}\ndisplays: [{{type: TF}}]\n"
+    live = drive(bag, config, ago_s=40.0)
+
+    for at_s in (39.0, 12.0, 35.0):
+        live.seek(at_s)
+        assert live.loop.buffer.link("arm"), at_s
+        assert "Clocks" not in live.loop.state().statuses
+    live.do(SaveMemory(path="saved"))
+    with contextlib.closing(BagViewer(Path("saved"), config)) as played:
+        length_s = (played.source.end_ns - played.source.start_ns) / 1e9
+        assert length_s == pytest.approx(min(39.9, seconds), abs=2.0)
+        for at_s in (25.0, 1.0):
+            played.do(Seek(at_s))
+            assert played.loop.buffer.link("arm"), at_s
+            assert "Clocks" not in played.loop.state().statuses
 
 
 def test_back_at_now_everything_is_shown_that_came_meanwhile(drive: Callable[..., Drive]) -> None:

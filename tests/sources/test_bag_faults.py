@@ -148,7 +148,8 @@ def test_of_an_mcap_file_that_was_cut_off_everything_before_is_shown(tmp_path, o
         bag = opened(file)
         assert bag.source.warnings == [
             f"{file.name} has no end: it is still being recorded or was cut off. What it "
-            "contained when it was opened is shown."
+            "contained when it was opened is shown. Once its recorder has ended, `webviz recover` "
+            "completes a copy."
         ]
         bag.want("/noise")
         bag.play(300)

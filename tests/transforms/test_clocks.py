@@ -10,7 +10,12 @@ NOW = 1_700_000_000 * S
 
 
 def hear(buffer: TransformBuffer, child: str, offset_s: float, received_ns: int = NOW) -> None:
-    """A transform whose publisher's clock is ahead of ours by an offset."""
+    """Transforms whose publisher's clock is ahead of ours by an offset."""
+    hear_once(buffer, child, offset_s, max(0, received_ns - S // 20))
+    hear_once(buffer, child, offset_s, received_ns)
+
+
+def hear_once(buffer: TransformBuffer, child: str, offset_s: float, received_ns: int) -> None:
     stamp_ns = received_ns + round(offset_s * S)
     identity = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)
     buffer.set_transform("map", child, stamp_ns, *identity, received_ns=received_ns)
@@ -66,6 +71,13 @@ def test_who_fell_silent_is_not_blamed_any_more(buffer: TransformBuffer) -> None
     hear(buffer, "odom", 2.0)
     assert clock_problem(buffer, NOW + 5 * S)
     assert clock_problem(buffer, NOW + 11 * S) is None
+
+
+def test_a_single_transform_says_nothing(buffer: TransformBuffer) -> None:
+    """Slices of recordings begin with the last one of each frame that has ended."""
+    hear(buffer, "odom", 0.0)
+    hear_once(buffer, "arm", -40.0, NOW)
+    assert clock_problem(buffer, NOW) is None
 
 
 def test_without_a_time_nothing_can_be_said(buffer: TransformBuffer) -> None:

@@ -9,15 +9,18 @@ from dataclasses import replace
 from webviz.api.bridge import Bridge
 from webviz.api.declared import Topic
 from webviz.api.lookback import Lookback
+from webviz.data.recordings.latched import STATIC_TF
 from webviz.sources.bag.log import LOG, ROSOUT
-from webviz.sources.bag.past import BagPast
+from webviz.sources.bag.past import RECENT_NS, BagPast
+from webviz.sources.bag.time import TF
+from webviz.sources.bag.transform_runs import Runs
 from webviz.sources.graph import Graph
 from webviz.sources.inbox import Raw
 from webviz.sources.live_histogram import LiveHistogram
 from webviz.sources.live_log import LiveLog
 from webviz.sources.memory_past import MemoryChannel, MemoryMessage, MemoryPast, WallClock
 from webviz.sources.past_state import Event
-from webviz.sources.recording import Channels, RecentMessages
+from webviz.sources.recording import Channels, Entry, RecentMessages
 from webviz.sources.replay import Replay
 from webviz.sources.slices import MemorySlice
 from webviz.sources.source import Offer, Source, Subscription
@@ -53,9 +56,12 @@ class Rewindable:
         self._histogram = LiveHistogram(self.memory, self._clock)
         self._log = LiveLog(self._clock)
         live.inbox.read_along(lambda: self._log.put)
-        self._held: list[tuple[str, Raw]] = []
+        self._held: list[Entry] = []
         self._replay: Replay[MemoryChannel, MemoryMessage] | None = None
         """None while live."""
+        self._runs = Runs()
+        self._runs_until_s = 0.0
+        """Arrival of the last message of which the runs know, in monotonic seconds."""
         self._wanted: dict[str, Subscription] = {}
         self._told: dict[str, Subscription] = {}
         """As the live source knows them."""
@@ -139,16 +145,21 @@ class Rewindable:
             self.inbox.divert()
             self._held = self.memory.last(math.inf).whole
             self._histogram.hold()
+            self._runs, self._runs_until_s = Runs(), -math.inf
         if not self._held:
             self._become_live()
             return
         self.inbox.drain()
-        past = self._past()
+        newest = self.memory.after(self._held[-1][1].arrived_s)
+        past = MemoryPast([*self._held, *newest], self._clock)
         if self._replay is None:
+            self._note_runs(self._held)
             self._replay = Replay(past, self._deliver)
+        self._note_runs(newest)
         self._replay.past = past
         at_ns = min(at_ns, self.end_ns - NEARLY_NS)
-        self._replay.seek(at_ns, self._channels_to_read(), self._wanted)
+        ended_ns = self._runs.ended_ns(at_ns - RECENT_NS)
+        self._replay.seek(at_ns, self._channels_to_read(), self._wanted, ended_ns)
         self._served = {topic: subscription.type for topic, subscription in self._wanted.items()}
 
     def rejoin(self) -> bool:
@@ -269,6 +280,16 @@ class Rewindable:
         """Return the messages that were held when it was rewound, and those since."""
         newest = self.memory.after(self._held[-1][1].arrived_s)
         return MemoryPast([*self._held, *newest], self._clock)
+
+    def _note_runs(self, entries: Sequence[Entry]) -> None:
+        """Note when frames have transforms, in those of some messages that are new."""
+        known_s = self._runs_until_s
+        for topic, raw in entries:
+            self._runs_until_s = raw.arrived_s
+            wanted = self._wanted.get(topic)
+            is_moving = wanted is not None and wanted.type == TF and not topic.endswith(STATIC_TF)
+            if is_moving and raw.arrived_s > known_s:
+                self._runs.read(raw.cdr, self._clock.stamp_ns(raw.arrived_s))
 
     def _catch_up_with_memory(self) -> None:
         """Read what has arrived since the memory was read."""

@@ -7,7 +7,7 @@ from typing import Generic, TypeVar
 
 from webviz.data.messages import MessageError, TFMessage, decode
 
-STATIC_TF = "tf_static"
+MOVING_TF, STATIC_TF = "tf", "tf_static"
 TF = "tf2_msgs/msg/TFMessage"
 MAX_LATCHED = 1000
 """Messages of one topic."""
@@ -18,8 +18,8 @@ T = TypeVar("T")
 class LatchedMessages(Generic[T]):
     """The newest latched messages of each topic, one per publisher.
 
-    Recordings do not say which publisher sent a message. Each publisher of static transforms has
-    frames of its own; other messages are told apart by their bytes, as far as there are publishers.
+    Recordings do not say which publisher sent a message. Each publisher of transforms has frames of
+    its own; other messages are told apart by their bytes, as far as there are publishers.
     """
 
     def __init__(self) -> None:
@@ -50,7 +50,7 @@ class LatchedMessages(Generic[T]):
         key = _publisher_of(topic, cdr)
         own.pop(key, None)
         own[key] = item
-        most = MAX_LATCHED if topic.endswith(STATIC_TF) else min(publishers, MAX_LATCHED)
+        most = MAX_LATCHED if has_transforms(topic) else min(publishers, MAX_LATCHED)
         while len(own) > most:
             del own[next(iter(own))]
         return True
@@ -73,9 +73,14 @@ class LatchedMessages(Generic[T]):
         return copy
 
 
+def has_transforms(topic: str) -> bool:
+    """Return whether the name of a topic, in any namespace, is that of transforms."""
+    return topic.rpartition("/")[2] in (MOVING_TF, STATIC_TF)
+
+
 def _publisher_of(topic: str, cdr: bytes) -> object:
     """Return a key that tells apart messages of several publishers, even if bytes are equal."""
-    if topic.endswith(STATIC_TF):
+    if has_transforms(topic):
         try:
             message: TFMessage = decode(TF, cdr)
         except MessageError:

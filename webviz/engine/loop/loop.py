@@ -151,7 +151,13 @@ class FrameLoop:
             autoplay,
             switchable,
         )
-        self._black_box = BlackBoxPart(core, self._settings, memory, lambda: control.is_live)
+        self._black_box = BlackBoxPart(
+            core,
+            self._settings,
+            memory,
+            lambda: control.is_live,
+            self._displays.list.active,
+        )
         views = ViewsPart(core, self._settings, self._displays)
         layouts = LayoutsPart(core, self._settings)
         first = [transforms, self._time, self._playback, self._displays, self._settings, views]

@@ -14,6 +14,8 @@ from typing import Any
 
 from webviz.api.declared import Topic
 from webviz.api.errors import Error
+from webviz.api.group import DisplayGroup
+from webviz.api.registry import type_name
 from webviz.api.rule import DOCTOR, Verdict
 from webviz.api.status import Level, Status
 from webviz.data.disk import in_thread
@@ -22,6 +24,7 @@ from webviz.data.words import joined
 from webviz.engine.parts.part import Core, Part
 from webviz.engine.parts.recording import new_folder
 from webviz.engine.parts.settings import SettingsPart
+from webviz.engine.pipeline import Runner
 from webviz.engine.state import Row
 from webviz.engine.watch import RuleWatcher, TopicObserver, WatchedMoment
 from webviz.engine.watch.observation import LEVEL_TYPES
@@ -29,17 +32,22 @@ from webviz.files.config import WatchRule
 from webviz.files.config import nearest as nearest_name
 from webviz.sources import Subscriber, Subscription
 from webviz.sources.past_state import BlackBoxState, SavedMoment
-from webviz.sources.recording import Entry, Recorder
+from webviz.sources.recording import Entry, Recorder, Remembered
+from webviz.sources.recording.recent import OVERHEAD
 from webviz.sources.rewindable import Rewindable
 
 FOLDER = "webviz_black_box"
 """In the working folder."""
 BEFORE_S, AFTER_S = 60.0, 10.0
 """Time around the moment at which a rule fires that is saved, as far as it is remembered."""
+SETTLE_S = 3.0
+"""Time after the first message of a display in which its status does not count: while a robot starts,
+transforms and other topics are still missing."""
 PARTS = "metadata.yaml", "*.mcap"
 """Of a recording; either may be missing if it was cut off or has no messages."""
 MOMENT = "%Y-%m-%d_%H-%M-%S"
 GIGABYTE = 10**9
+LIMIT = "which is the limit. Delete recordings, or raise watch_limits.gigabytes."
 
 
 @dataclass
@@ -49,6 +57,7 @@ class _Saving:
     title: str
     until_s: float
     past: Sequence[Entry]
+    max_bytes: int
     folder: Future[RecordingFolder]
     recorder: Recorder | None = None
     closed: Future[None] | None = None
@@ -62,6 +71,7 @@ class BlackBoxPart(Part):
         settings: have the rules.
         live: has the memory; None for a bag, on which no rule fires.
         is_live: whether what arrives is shown.
+        runners: the displays that are shown.
     """
 
     name = "Black box"
@@ -72,11 +82,15 @@ class BlackBoxPart(Part):
         settings: SettingsPart,
         live: Rewindable | None,
         is_live: Callable[[], bool],
+        runners: Callable[[], Sequence[Runner]],
     ) -> None:
         super().__init__(core)
         self._settings = settings
         self._live = live
         self._is_live = is_live
+        self._runners = runners
+        self._heard: dict[str, float] = {}
+        """By display, when its first message was noticed, in monotonic seconds."""
         self._observer = TopicObserver()
         self._watcher = RuleWatcher(())
         self._subscriber = Subscriber()
@@ -130,8 +144,9 @@ class BlackBoxPart(Part):
             if rule.path and (topic := rule.watched_topic) in wanted
         }
         self._observer.observe([*wanted], leveled, paths)
-        for rule in self._watcher.fired(self._observation(self._is_live())):
-            self._save(rule, live)
+        if self._listing is None:  # else it is not known yet how much may be saved
+            for rule in self._watcher.fired(self._observation(self._is_live())):
+                self._save(rule, live)
         self._go_on(live)
 
     def state(self) -> Mapping[str, Any]:
@@ -181,8 +196,10 @@ class BlackBoxPart(Part):
     def _observation(self, is_live: bool) -> WatchedMoment:
         now_s = time.monotonic()
         displays: dict[str, Level] = {}
-        for row in self._rows if is_live else ():  # else they are about the past
+        settled = self._settled(now_s)
+        for row in settled if is_live else ():  # else they are about the past
             displays[row.name] = max(displays.get(row.name, Level.OK), row.level)
+        starting = {row.name for row in self._rows} - {row.name for row in settled}
         rates, levels = self._observer.rates(now_s), self._observer.levels(now_s)
         for rule in self._watcher.rules:
             name = self._resolved(rule)
@@ -190,42 +207,64 @@ class BlackBoxPart(Part):
                 rates[rule.topic] = rates[name]
             if name in levels:
                 levels[rule.topic] = levels[name]
-        kept = {each.rule.text: each.holds for each in self._verdicts} if is_live else {}
+        kept = {
+            each.rule.text: None if each.rule.subject in starting else each.holds
+            for each in (self._verdicts if is_live else ())
+        }
         numbers = self._observer.numbers()
         return WatchedMoment(now_s, displays, rates, levels, numbers, kept)
+
+    def _settled(self, now_s: float) -> Sequence[Row]:
+        """Return the displays whose status counts, and the groups that contain some."""
+        has_frames = bool(self.core.buffer.frames())
+        heard: dict[str, float] = {}
+        for runner in self._runners():
+            received = has_frames if runner.has_received is None else runner.has_received
+            if received or runner.id in self._heard:
+                heard[runner.id] = self._heard.get(runner.id, now_s)
+        self._heard = heard
+        settled = {id_ for id_, at_s in heard.items() if now_s - at_s >= SETTLE_S}
+        return [
+            row
+            for row in self._rows
+            if row.id in settled or (row.type == type_name(DisplayGroup) and settled)
+        ]
 
     def _save(self, rule: WatchRule, live: Rewindable) -> None:
         """Begin to save, unless that goes on already or is too much."""
         if self._saving is not None or not live.memory.is_on:
             return
         now = datetime.now()
-        self._problem = self._excess(now)
+        self._problem, max_bytes = self._excess(now), self._room()
         if self._problem:
             return
         cause = re.sub(r"[^A-Za-z0-9]+", "_", rule.title).strip("_")[:60]
         path = Path(FOLDER).absolute() / f"{now:{MOMENT}}_{cause}"
-        past = live.memory.last(BEFORE_S)
+        past = _newest(live, max_bytes)
         folder = in_thread(lambda: new_folder(path))
         folder.add_done_callback(lambda _: self.core.source.inbox.arrived.set())
-        self._saving = _Saving(rule.title, time.monotonic() + AFTER_S, past.whole, folder)
+        until_s = time.monotonic() + AFTER_S
+        self._saving = _Saving(rule.title, until_s, past.whole, max_bytes, folder)
 
     def _excess(self, now: datetime) -> str:
         """Return the reason why no more may be saved; "" if more may."""
         limits = self._settings.settings.watch_limits
         today = f"{now:{MOMENT}}".partition("_")[0]
         count = sum(each.path.name.startswith(today) for each in self._saved)
-        size = sum(each.size for each in self._saved)
         if count >= limits.per_day:
             return (
                 f"A rule fired, but {count} recordings were made today, which is the limit. Raise "
                 "watch_limits.per_day."
             )
-        if size >= limits.gigabytes * GIGABYTE:
-            return (
-                f"A rule fired, but {FOLDER} has {size / GIGABYTE:.1f} GB, which is the limit. "
-                "Delete recordings, or raise watch_limits.gigabytes."
-            )
+        if self._room() <= 0:
+            size = sum(each.size for each in self._saved)
+            return f"A rule fired, but {FOLDER} has {size / GIGABYTE:.1f} GB, {LIMIT}"
         return ""
+
+    def _room(self) -> int:
+        """Return the bytes that may still be saved."""
+        limit = round(self._settings.settings.watch_limits.gigabytes * GIGABYTE)
+        return limit - sum(each.size for each in self._saved)
 
     def _go_on(self, live: Rewindable) -> None:
         """Record until the time is up, then complete the files."""
@@ -241,19 +280,23 @@ class BlackBoxPart(Part):
         if saving.recorder is None:
             inbox.read_along(lambda: self._recorder(saving, folder, live).put)
         elif saving.closed is None and (
-            time.monotonic() >= saving.until_s or saving.recorder.problem
+            time.monotonic() >= saving.until_s
+            or saving.recorder.problem
+            or saving.recorder.is_full
         ):
             inbox.forget(saving.recorder.put)
             saving.closed = in_thread(saving.recorder.close)
             saving.closed.add_done_callback(lambda _: inbox.arrived.set())
         elif saving.closed is not None and saving.closed.done():
             self._end(saving.recorder.problem)
+            if saving.recorder.is_full:
+                self._problem = f"The last recording was cut short at {FOLDER}'s size, {LIMIT}"
 
     def _recorder(self, saving: _Saving, folder: RecordingFolder, live: Rewindable) -> Recorder:
         """Between two messages: what came since the rule fired is in memory."""
         past = list(saving.past)
         past += live.memory.after(past[-1][1].arrived_s) if past else []
-        saving.recorder = Recorder(folder, live.channels, past)
+        saving.recorder = Recorder(folder, live.channels, past, saving.max_bytes)
         return saving.recorder
 
     def _end(self, problem: str) -> None:
@@ -266,6 +309,17 @@ class BlackBoxPart(Part):
     def _list(self) -> None:
         self._listing = in_thread(_saved)
         self._listing.add_done_callback(lambda _: self.core.source.inbox.arrived.set())
+
+
+def _newest(live: Rewindable, max_bytes: int) -> Remembered:
+    """Return the messages before this moment, as far back as they fit."""
+    past = live.memory.last(BEFORE_S)
+    size = 0
+    for _, raw in reversed(past.messages):
+        size += len(raw.cdr) + OVERHEAD
+        if size > max_bytes:
+            return live.memory.last(time.monotonic() - raw.arrived_s)
+    return past
 
 
 def _saved() -> tuple[SavedMoment, ...]:

@@ -92,6 +92,12 @@ class Runner:
         self._renderer.replace(display)
 
     @property
+    def has_received(self) -> bool | None:
+        """Return whether a message has arrived; None of a display without topics."""
+        active = self._sample_buffer.inputs.active().values()
+        return any(each.has_received for each in active) if active else None
+
+    @property
     def order(self) -> int:
         """Place of the display in the list of displays."""
         return self._renderer.order

@@ -138,5 +138,5 @@ def _about(memory: MemoryState, limits: MemorySettings) -> str:
         sentences.append("Older messages are dropped already: raise memory.megabytes.")
     if pinned := memory.pinned:
         names = ", ".join(pinned[:SHOWN]) + (" …" if len(pinned) > SHOWN else "")
-        sentences.append(f"Older latched messages are kept of {names}.")
+        sentences.append(f"Older latched messages and last transforms are kept of {names}.")
     return " ".join(sentences)

@@ -42,6 +42,7 @@ for name, summary in {
     "screenshot": "Save pictures of a config without a screen, live or from a bag.",
     "export": "Write a part of a bag as one HTML file that opens without a server.",
     "record": "Record topics to MCAP files that ROS 2 plays.",
+    "recover": "Write what is whole of a damaged or unfinished bag as one that every reader takes.",
     "report": "Write a bug report of a bag or of live topics, which webviz opens again.",
     "open": "Open a bug report; `webviz FILE.zip` does the same.",
     "doctor": "Find the causes of what is not shown, live or in a bag, without a browser.",

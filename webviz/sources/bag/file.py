@@ -92,7 +92,8 @@ class BagFile:
         if losses.is_unfinished:
             unfinished = (
                 f"{self.path.name} has no end: it is still being recorded or was cut off. What "
-                "it contained when it was opened is shown."
+                "it contained when it was opened is shown. Once its recorder has ended, `webviz "
+                "recover` completes a copy."
             )
             return [*losses.notes, unfinished]
         lost = str(losses)

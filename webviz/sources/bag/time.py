@@ -19,7 +19,8 @@ class BagTime:
     """Converts times of recording to ROS time, both in nanoseconds.
 
     A recorded /clock decides, as with use_sim_time; without one, the stamps of the first
-    transforms do if they are more than an hour off.
+    transforms do if all of them are more than an hour off. A slice may begin with the last
+    transforms of frames that ended long before.
 
     Args:
         file: the bags.
@@ -59,6 +60,7 @@ class BagTime:
         return recorded_ns - self._offset_ns if self._clock_ns is None else self._clock_ns
 
     def _follow_transforms(self, file: BagFiles) -> None:
+        found: list[tuple[int, int]] = []
         for recorded in _first(file, "/tf", TF):
             try:
                 message: TFMessage = decode(TF, recorded.cdr)
@@ -67,14 +69,21 @@ class BagTime:
             stamps = [t.stamp_ns for t in message.transforms if t.stamp_ns]
             if not stamps:
                 continue
-            offset_ns = recorded.stamp_ns - stamps[0]
-            if abs(offset_ns) > FOREIGN_NS:
-                self._offset_ns = offset_ns
-                self.warning = (
-                    f"The transforms begin at {stamps[0] / 1e9:.1f} s, which is not the time of "
-                    "recording, and there is no /clock: time follows the transforms."
-                )
+            found.append((recorded.stamp_ns - stamps[0], stamps[0]))
+            if abs(found[-1][0]) <= FOREIGN_NS:
+                return
+        if not found:
             return
+        least_ns = min(abs(offset_ns) for offset_ns, _ in found)
+        self._offset_ns, first_ns = next(
+            (offset_ns, stamp_ns)
+            for offset_ns, stamp_ns in found
+            if abs(offset_ns) - least_ns <= FOREIGN_NS
+        )
+        self.warning = (
+            f"The transforms begin at {first_ns / 1e9:.1f} s, which is not the time of "
+            "recording, and there is no /clock: time follows the transforms."
+        )
 
 
 def _first(file: BagFiles, topic: str, type_name: str) -> Iterator[Recorded]:

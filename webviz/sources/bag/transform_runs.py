@@ -5,7 +5,7 @@ from __future__ import annotations
 import bisect
 import concurrent.futures
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from concurrent.futures import Future
 from pathlib import Path
 
@@ -47,6 +47,15 @@ class Runs:
         else:
             begins.append(stamp_ns)
             ends.append(stamp_ns)
+
+    def read(self, cdr: bytes, stamp_ns: int) -> None:
+        """Note the transforms of a message; stamps must not decrease."""
+        try:
+            message: TFMessage = decode(TF, cdr)
+        except MessageError:
+            return
+        for each in message.transforms:
+            self.add(each.child, stamp_ns)
 
     def ended_ns(self, before_ns: int) -> Sequence[int]:
         """Return when all frames without a transform at a time had their last, in order."""
@@ -96,19 +105,9 @@ class TransformRuns:
             for number, recorded in enumerate(bags.messages(moving, bags.start_ns), 1):
                 if number > MAX_MESSAGES or self._is_closed.is_set():
                     break
-                for child in _children(recorded.cdr):
-                    runs.add(child, recorded.stamp_ns)
+                runs.read(recorded.cdr, recorded.stamp_ns)
                 if number > AT_ONCE and number % YIELD_AFTER == 0:
                     self._is_closed.wait(YIELD_S)
         finally:
             bags.close()
         return runs
-
-
-def _children(cdr: bytes) -> Iterator[str]:
-    try:
-        message: TFMessage = decode(TF, cdr)
-    except MessageError:
-        return
-    for each in message.transforms:
-        yield each.child

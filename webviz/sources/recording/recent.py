@@ -12,13 +12,13 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple
 
-from webviz.data.recordings.latched import LatchedMessages
+from webviz.data.recordings.latched import LatchedMessages, has_transforms
 from webviz.sources.inbox import Raw
 
 OVERHEAD = 200
 """Bytes of a message besides its own."""
 MAX_PINNED_BYTES = 128_000_000
-"""Of all latched messages that are kept beyond the bounds; the newest is, however large."""
+"""Of all messages that are kept beyond the bounds; the newest is, however large."""
 
 MAX_PARTS = 240
 """Parts of the time that is remembered in which messages are counted."""
@@ -32,7 +32,8 @@ class Remembered(NamedTuple):
     """A slice of the past.
 
     Args:
-        latched: the newest messages before the slice of each latched topic.
+        latched: the newest messages before the slice of each latched topic, and the last transforms
+            of each frame.
         messages: topics and messages, in the order of arrival.
     """
 
@@ -52,8 +53,9 @@ class Remembered(NamedTuple):
 class RecentMessages:
     """Keeps raw messages of all topics for some seconds, as far as they fit; for any thread.
 
-    The newest latched messages are kept beyond that: without the map, the robot and static
-    transforms, a slice of the past would show nothing.
+    The newest latched messages are kept beyond that, and the last transforms of each frame: without
+    the map, the robot and static transforms, a slice of the past would show nothing, and a frame
+    whose transforms ended would be unknown.
 
     Args:
         latched: number of messages of a topic that late subscribers receive.
@@ -118,7 +120,7 @@ class RecentMessages:
         return full_s is not None and time.monotonic() - full_s < self.seconds
 
     def pinned(self) -> tuple[str, ...]:
-        """Return the topics whose latched messages are kept although they are old."""
+        """Return the topics of which messages are kept although they are old."""
         with self._lock:
             return self._latched.topics()
 
@@ -185,7 +187,7 @@ class RecentMessages:
                 self._bound_pinned()
 
     def _bound_pinned(self) -> None:
-        """Forget the oldest latched messages that are too large together."""
+        """Forget the oldest of the messages that are kept and too large together."""
         size = sum(len(raw.cdr) for _, raw in self._latched)
         if size <= MAX_PINNED_BYTES:
             return
@@ -197,7 +199,8 @@ class RecentMessages:
 
     def _pin(self, latched: LatchedMessages[Raw], topic: str, raw: Raw) -> bool:
         """Keep a latched message instead of the one of its publisher before it; whether it is."""
-        return latched.put(topic, raw.cdr, raw, self._depth(topic))
+        publishers = 1 if has_transforms(topic) else self._depth(topic)
+        return latched.put(topic, raw.cdr, raw, publishers)
 
 
 def _flat(latched: LatchedMessages[Raw]) -> list[Entry]:

@@ -12,7 +12,7 @@ from webviz.data.recordings import RecordingError
 from webviz.data.recordings.folder_writing import RecordingFolder
 from webviz.sources.inbox import Raw
 from webviz.sources.recording.channels import Channels
-from webviz.sources.recording.recent import Entry
+from webviz.sources.recording.recent import OVERHEAD, Entry
 
 MAX_BYTES = 256 << 20
 """Of messages that wait for the disk."""
@@ -29,17 +29,27 @@ class Recorder:
         folder: written to by the thread of the recorder alone.
         channels: of the topics.
         past: what the recording begins with.
+        max_bytes: of the files, at which it ends by itself; 0 for no limit.
     """
 
     def __init__(
-        self, folder: RecordingFolder, channels: Channels, past: Iterable[Entry] = ()
+        self,
+        folder: RecordingFolder,
+        channels: Channels,
+        past: Iterable[Entry] = (),
+        max_bytes: int = 0,
     ) -> None:
         self._folder = folder
         self._channels = channels
         self._lock = threading.Condition()
         self._waiting: deque[Entry] = deque(past)
         self._bytes = sum(len(raw.cdr) for _, raw in self._waiting)
+        self._max_bytes = max_bytes
+        self._unwritten = (0, 0)
+        """Bytes of the files, and of the messages that were added since and are not compressed yet."""
         self._clock = ForwardClock()
+        self.is_full = False
+        """Whether it has ended since more would not have fitted."""
         self._is_ending = False
         self._began_s = time.monotonic()
         self.dropped = 0
@@ -72,7 +82,7 @@ class Recorder:
     def put(self, topic: str, raw: Raw) -> None:
         """Add a message, from any thread; the oldest are dropped while the disk is too slow."""
         with self._lock:
-            if self._is_ending or self.problem:
+            if self._is_ending or self.problem or self.is_full:
                 return
             self._waiting.append((topic, raw))
             self._bytes += len(raw.cdr)
@@ -95,9 +105,12 @@ class Recorder:
             self._folder.close()
         except RecordingError as error:
             self.problem = str(error)
-            with self._lock:
-                self._waiting.clear()
-                self._bytes = 0
+            self._forget_waiting()
+
+    def _forget_waiting(self) -> None:
+        with self._lock:
+            self._waiting.clear()
+            self._bytes = 0
 
     def _write_waiting(self) -> bool:
         """Write for a second, then flush.
@@ -115,9 +128,21 @@ class Recorder:
                     continue
                 topic, raw = self._waiting.popleft()
                 self._bytes -= len(raw.cdr)
+            self.is_full = self._exceeds(len(raw.cdr))
+            if self.is_full:
+                self._forget_waiting()
+                return False
             self._write(topic, raw)
         self._folder.flush()
         return True
+
+    def _exceeds(self, size: int) -> bool:
+        """Return whether a message of this size might make the files too large."""
+        written, unwritten = self._folder.size, size + OVERHEAD
+        if written == self._unwritten[0]:
+            unwritten += self._unwritten[1]
+        self._unwritten = written, unwritten
+        return 0 < self._max_bytes < written + unwritten
 
     def _write(self, topic: str, raw: Raw) -> None:
         channel = self._channels.find(topic)

@@ -8,7 +8,7 @@ import { toast } from "./toasts.js";
  * @typedef {{
  *   name: string, run: () => unknown, icon?: string, key?: string | string[], group?: string,
  *   note?: string, isHidden?: boolean, isThere?: () => boolean, isKeyHere?: () => boolean,
- *   needs?: string, inFields?: boolean,
+ *   needs?: string, inFields?: boolean, repeats?: boolean,
  * }} Command
  */
 
@@ -31,7 +31,8 @@ const takers = new Set();
  * behind the name; `isHidden` for what has a key but is not in the list of commands; `isThere()`,
  * whether it can be done now; `isKeyHere()`, whether its key is about it there; `needs`, the command of the viewer that it sends, which a role may not
  * be allowed. A key with Ctrl that means nothing in a field is marked with
- * `inFields`.
+ * `inFields`, and with `repeats` one that does it again while it is held, once what it did before is
+ * answered.
  *
  * @param {Command} wanted
  */
@@ -74,7 +75,7 @@ export function all() {
 export function run({ needs, run: act }) {
   const reason = needs ? why(needs) : "";
   if (reason) toast(reason, { level: "warn", topic: "access" });
-  else act();
+  else return act();
 }
 
 /**
@@ -92,6 +93,8 @@ export const keysOf = ({ key }) => (key ? [key].flat() : []);
 export const isTyping = ({ target }) => target instanceof Element && target.closest(TYPED) !== null;
 
 export function install() {
+  let isWaiting = false; // for an answer before a held key does more, after an error until it is let go
+
   // Within viser's listeners, which are on the document and further out, and around those of
   // controls, which come first. Dialogs and menus keep their keys to themselves.
   document.body.addEventListener("keydown", (event) => {
@@ -111,9 +114,12 @@ export function install() {
     if (!found) return;
     event.preventDefault();
     event.stopPropagation();
-    if (event.repeat) return;
+    if (event.repeat && (!found.repeats || isWaiting)) return;
     // What was typed counts before anything is saved.
     if (isInField) /** @type {HTMLElement} */ (document.activeElement).blur();
-    run(found);
+    isWaiting = true;
+    Promise.resolve(run(found)).then((answer) => {
+      isWaiting = /** @type {any} */ (answer)?.level === "error";
+    });
   });
 }

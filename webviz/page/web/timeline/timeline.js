@@ -147,6 +147,7 @@ export function timeline(places) {
     key: "Shift+ArrowLeft",
     needs: "Seek",
     run: () => jump(-JUMP_S),
+    repeats: true,
   };
   const previous = eventCommand(false, among);
   /**
@@ -168,6 +169,7 @@ export function timeline(places) {
       key: "ArrowRight",
       needs: "StepMessage",
       run: () => step.run(true),
+      repeats: true,
     },
     {
       name: "Previous message",
@@ -175,8 +177,15 @@ export function timeline(places) {
       key: "ArrowLeft",
       needs: "StepMessage",
       run: () => step.run(false),
+      repeats: true,
     },
-    { name: `${JUMP_S} s on`, key: "Shift+ArrowRight", needs: "Seek", run: () => jump(JUMP_S) },
+    {
+      name: `${JUMP_S} s on`,
+      key: "Shift+ArrowRight",
+      needs: "Seek",
+      run: () => jump(JUMP_S),
+      repeats: true,
+    },
     back,
     {
       name: "Start of the recording",
