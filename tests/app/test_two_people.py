@@ -1,11 +1,13 @@
-"""Two people who change the displays of one viewer in turns, each in a browser of their own."""
+"""Two people with one viewer, in turns and at once, each in a browser of their own."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import playwright.sync_api as playwright
 import pytest
+from drives import recorded
 from pages import open_pages
 
 import webviz
@@ -68,3 +70,37 @@ def test_each_takes_back_their_own_and_delete_is_about_what_came_back(pages: lis
     theirs.tab.keyboard.press("Control+z")
     theirs.wait_for(shown.is_checked, "the undone change")
     wait_for(pages, "Axes", "TF")
+
+
+def test_both_drag_the_head_at_once_and_end_at_the_same_moment(
+    browser: playwright.Browser, tmp_path: Path
+) -> None:
+    def read(*_: object) -> Config:
+        return parse("displays: [{type: LaserScan}]", "x.yaml")
+
+    bag = recorded(duration_s=20.0).write(tmp_path / "run")
+    with (
+        webviz.Viewer(port=0, bag=bag, read=read) as viewer,
+        open_pages(browser, viewer.url, 900, 600) as (mine, theirs),
+    ):
+        tracks = [page.tab.get_by_role("slider", name="recording") for page in (mine, theirs)]
+        boxes = [track.bounding_box() for track in tracks]
+        pages = [(page, box) for page, box in zip((mine, theirs), boxes, strict=True) if box]
+        for step in range(12):
+            for page, box in pages:
+                share = 0.1 + 0.05 * step if page is mine else 0.9 - 0.05 * step
+                page.tab.mouse.move(box["x"] + share * box["width"], box["y"] + box["height"] / 2)
+                if step == 0:
+                    page.tab.mouse.down()
+        for page, _ in pages:
+            page.tab.mouse.up()
+
+        def shown() -> list[float]:
+            """Where the viewer is, and both pages think that it is."""
+            values = [float(track.get_attribute("aria-valuenow") or -1.0) for track in tracks]
+            return [round(viewer.position, 2), *(round(value, 2) for value in values)]
+
+        mine.wait_for(lambda: len(set(shown())) == 1, "one moment")
+        assert 6.0 < viewer.position < 14.0, "where one of them let go"
+        tracks[1].click(position={"x": 20.0, "y": 5.0})
+        mine.wait_for(lambda: viewer.position < 2.0 and len(set(shown())) == 1, "the next seek")
