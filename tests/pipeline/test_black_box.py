@@ -235,11 +235,13 @@ def test_no_more_is_saved_than_the_limits_allow(make: Callable[..., Bench]) -> N
     assert not Path("webviz_black_box").exists()
 
 
-@pytest.mark.parametrize("rule", [{"display": "Plan", "status": "warn"}, {"rule": "Plan.status < warn"}])
+@pytest.mark.parametrize(
+    "rule", [WatchRule(display="Plan", status="warn"), WatchRule(rule="Plan.status < warn")]
+)
 def test_a_display_that_has_received_nothing_yet_fires_no_rule(
-    make: Callable[..., Bench], rule: dict[str, str]
+    make: Callable[..., Bench], rule: WatchRule
 ) -> None:
-    bench = make(WatchRule(**rule))
+    bench = make(rule)
     bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
     for _ in range(10):
         assert bench.do(Refresh()).rows[0].level >= Level.WARN
@@ -279,7 +281,9 @@ def test_a_recording_stays_below_the_limit(make: Callable[..., Bench]) -> None:
     assert sum(file.stat().st_size for file in path.iterdir()) < 100_000
     recording = open_recording(path)
     assert recording.span_ns
-    kept = [decode(PATH, m.data) for m in recording.messages(recording.channels, *recording.span_ns)]
+    kept = [
+        decode(PATH, m.data) for m in recording.messages(recording.channels, *recording.span_ns)
+    ]
     recording.close()
     assert kept[-1].header.frame_id.startswith("9 "), "those before the fault go first"
     assert 4 <= len(kept) <= 6

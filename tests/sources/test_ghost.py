@@ -9,13 +9,14 @@ from pathlib import Path
 import pytest
 from bags import START_NS, Bag, ns
 
+from webviz.api.nodes import Points
 from webviz.data.messages import TFMessage, decode, encode
 from webviz.data.messages.stamps import shifted
 from webviz.engine.commands import Seek
 from webviz.engine.loop import FrameLoop
 from webviz.files.config import Config
 from webviz.files.opening import parse
-from webviz.shell.app.ghost_config import with_ghost
+from webviz.shell.app.ghost_config import OPACITY, with_ghost
 from webviz.shell.cli import main as cli
 from webviz.shell.testing import BagViewer, header
 from webviz.shell.testing.recording import RecordingScene
@@ -105,6 +106,7 @@ def test_the_distance_and_a_difference_over_time(runs: tuple[Path, Path]) -> Non
         assert numbers(shown.source, DIFFERENCE) == pytest.approx([-AHEAD_M] * 61)
         (plot,) = [tab.panel for tab in shown.loop.state().panels if tab.panel.name == "Ghost"]
         assert plot.curves == [f"{DISTANCE}.data", f"{DIFFERENCE}.data"]  # pyright: ignore
+        assert plot.units == {f"{DISTANCE}.data": "m"}, "a number has none"  # pyright: ignore
 
 
 def test_a_slice_has_both_runs(runs: tuple[Path, Path]) -> None:
@@ -125,8 +127,19 @@ def test_copies_are_tinted_and_read_topics_of_their_own(runs: tuple[Path, Path])
         assert second is not None
         assert second.topic.name == "/ghost/scan"  # pyright: ignore
         assert second.size == first.size  # pyright: ignore
-        assert second.color != first.color  # pyright: ignore
-        assert second.alpha < first.alpha  # pyright: ignore
+        ids = {row.name: row.id for row in shown.loop.state().rows}
+
+        def points(name: str) -> Points:
+            ((_, _, node),) = shown.scene.visible(f"{ids[name]}/")
+            assert isinstance(node, Points)
+            return node
+
+        shown.do(Seek(2.0))
+        own, ghost = points("Scan"), points("Scan (ghost)")
+        assert own.opacity == 1.0
+        assert ghost.opacity == pytest.approx(OPACITY)
+        shown.do(Seek(3.0))
+        assert points("Scan (ghost)").opacity == pytest.approx(OPACITY), "once"
 
 
 def test_all_stamps_of_a_message_are_moved() -> None:

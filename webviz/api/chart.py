@@ -31,12 +31,14 @@ class Curve:
         chunks: oldest first.
         problem: why there is none, or what is wrong; a sentence or "".
         is_right: whether its values are those of the axis on the right.
+        unit: of its values, "" if it is unknown.
     """
 
     name: str
     chunks: Sequence[Chunk] = ()
     problem: str = ""
     is_right: bool = False
+    unit: str = ""
 
 
 Remove = Callable[[str, int | None], object]

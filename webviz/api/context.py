@@ -67,6 +67,8 @@ class Group:
 
     def __init__(self, placement: Placement) -> None:
         self.placement = placement
+        self.is_tinted = False
+        """Whether the nodes have the look of their robot already."""
         self.nodes: dict[str, Node] = {}
         self.poses: dict[str, Pose] = {}
 

@@ -10,7 +10,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz.api.declared import Prop
+from webviz.api.declared import Color, Prop
 from webviz.api.frames import FramePoses, Frames
 from webviz.api.nodes import Pose
 from webviz.data.transforms import Explanation, NewestTransform
@@ -35,6 +35,12 @@ class NamespacedRobot(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         Annotated[str, msgspec.Meta(max_length=1000, pattern="^wss?://")] | None,
         Prop(help="Bridge of the robot, such as ws://robot1:8765; null is the live topics."),
     ] = None
+    tint: Annotated[
+        Color | None, Prop(help="Colour that is mixed into everything of it; null for none.")
+    ] = None
+    opacity: Annotated[
+        float, msgspec.Meta(ge=0, le=1), Prop(help="Opacity of everything of it.")
+    ] = 1.0
 
     @property
     def name(self) -> str:

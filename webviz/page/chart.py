@@ -56,6 +56,7 @@ class ChartWidget(Widget):
                     "name": clean(curve.name),
                     "problem": clean(curve.problem),
                     "right": curve.is_right,
+                    "unit": clean(curve.unit),
                     "chunks": [numbers[0], numbers[-1] + 1] if numbers else [0, 0],
                 }
             )

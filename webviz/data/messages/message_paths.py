@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from webviz.data.messages.paths import MAX_LENGTH, FieldPath, PathError, as_number
+from webviz.data.messages.units import unit_of
 
 FUNCTIONS: Mapping[str, Callable[[float], float]] = {
     "abs": abs,
@@ -24,6 +25,8 @@ FUNCTIONS: Mapping[str, Callable[[float], float]] = {
 """Functions of a number."""
 GEOMETRIC = ("norm", "roll", "pitch", "yaw")
 """Functions of a vector, and of a quaternion in radians; they come first."""
+ANGLES = {"roll": "rad", "pitch": "rad", "yaw": "rad", "radians": "rad", "degrees": "°"}
+"""Units of what functions give."""
 OVER_TIME = ("derivative", "mean")
 """Functions of a number and those before it."""
 MEAN_S = 1.0
@@ -64,6 +67,7 @@ class MessagePath:
         self._geometry = ""
         self._functions: list[Callable[[float], float]] = []
         self._over_time: list[tuple[str, float]] = []
+        self._calls: list[str] = []
         found = _FUNCTION.findall(text, end)
         if len(found) > MAX_FUNCTIONS:
             raise PathError(f"`{text[:80]}` has more than {MAX_FUNCTIONS} functions.")
@@ -73,6 +77,7 @@ class MessagePath:
     def _add(self, name: str, argument: str, *, is_first: bool) -> None:
         if argument and name != "mean":
             raise PathError(f"`@{name}` takes no argument.")
+        self._calls.append(name)
         if name in GEOMETRIC and is_first:
             self._geometry = name
         elif name in GEOMETRIC:
@@ -112,6 +117,16 @@ class MessagePath:
         if (number := as_number(self.one(message))) is None:
             raise PathError(f"`{self.text}` is not a number. Choose one of its parts.")
         return number
+
+    def unit(self, type_name: str) -> str:
+        """Return the unit of the values, "" if the type of the messages states none."""
+        unit = unit_of(type_name, self._field.names) if self._field else ""
+        for name in self._calls:
+            if name in ANGLES:
+                unit = ANGLES[name]
+            elif name == "derivative" and unit:
+                unit = f"{unit}²" if unit.endswith("/s") else f"{unit}/s"
+        return unit
 
     @property
     def has_field(self) -> bool:

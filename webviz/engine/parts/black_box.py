@@ -280,9 +280,7 @@ class BlackBoxPart(Part):
         if saving.recorder is None:
             inbox.read_along(lambda: self._recorder(saving, folder, live).put)
         elif saving.closed is None and (
-            time.monotonic() >= saving.until_s
-            or saving.recorder.problem
-            or saving.recorder.is_full
+            time.monotonic() >= saving.until_s or saving.recorder.problem or saving.recorder.is_full
         ):
             inbox.forget(saving.recorder.put)
             saving.closed = in_thread(saving.recorder.close)

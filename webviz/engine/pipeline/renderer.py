@@ -12,6 +12,7 @@ from typing import Any
 from webviz.api.context import ColorScale, Context, Placement
 from webviz.api.display import Display, overrides
 from webviz.api.frames import Frames
+from webviz.api.nodes import Node
 from webviz.api.picking import Details, Hit
 from webviz.api.sample import Sample
 from webviz.api.status import Status
@@ -177,6 +178,10 @@ class Renderer:
     def busy_with(self) -> int:
         """Size of the message that is drawn in a worker, in bytes; 0 if none is."""
         return self._draw_job.held.size if self._draw_job else 0
+
+    def tint(self, tint: Callable[[Node], Node] | None) -> None:
+        """Give everything that is drawn from now on another look; None for its own."""
+        self._diff.tint = tint
 
     def followed(self) -> set[str]:
         """Return the frames whose poses `draw` needs."""

@@ -24,6 +24,7 @@ from webviz.engine.pipeline.picking import Found, Shot
 from webviz.engine.pipeline.renderer import Renderer
 from webviz.engine.pipeline.sample_buffer import SampleBuffer
 from webviz.engine.pipeline.services import Services
+from webviz.engine.pipeline.tinting import Tint
 from webviz.sources import Advertisement, Offer, Raw, Subscription, merged
 
 NOTHING_TO_DRAW = Status(
@@ -267,7 +268,15 @@ class Runner:
         if known_by != self._known_by:
             self._known_by = known_by
             self._robot = robot_of([*self._sample_buffer.inputs.topics(), *known_by[-1]], robots)
+            self._renderer.tint(self._tint())
         return RobotFrames(frames, self._robot) if self._robot else frames
+
+    def _tint(self) -> Tint | None:
+        """Return the look of the robot, None if it has none of its own."""
+        robot = self._robot
+        if robot is None or (robot.tint is None and robot.opacity == 1.0):
+            return None
+        return Tint(robot.tint, robot.opacity)
 
     def _new_guard(self) -> Guard:
         who = type(self.display).__name__

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
@@ -101,6 +101,8 @@ class SceneDiff:
         self._drawn_from: dict[str, tuple[Sequence[Sample], str]] = {}
         """Of each scope: its samples, and the fixed frame."""
         self._past: Past | None = None
+        self.tint: Callable[[Node], Node] | None = None
+        """Gives nodes another look; None for their own."""
         self._followers: list[_Followers] | None = None
         """All groups that follow frames; None if they have changed."""
 
@@ -235,6 +237,9 @@ class SceneDiff:
     def _put(self, name: str, drawn: _Drawn, frames: Frames) -> None:
         """Send a group that is new or changed."""
         group = drawn.group
+        if self.tint is not None and not group.is_tinted:
+            group.nodes = {key: self.tint(node) for key, node in group.nodes.items()}
+            group.is_tinted = True
         if group.placement.frame is not None:
             self._follow(name, drawn, frames)
         else:

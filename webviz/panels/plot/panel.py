@@ -40,6 +40,10 @@ class Plot(Panel):
     right: Annotated[
         list[str], Prop(help="Those of the curves whose values are on the axis at the right.")
     ] = msgspec.field(default_factory=list)
+    units: Annotated[
+        dict[str, str],
+        Prop(help="Units of values by message path, where the type of the messages states none."),
+    ] = msgspec.field(default_factory=dict)
     across: Annotated[
         str,
         Prop(
@@ -125,7 +129,13 @@ class Plot(Panel):
         if self.time == "Header Stamp" or not now_s:
             now_s = max(ends, default=now_s)
         shown = [
-            Curve(name, each.history.chunks(), each.explanation(self.types), name in self.right)
+            Curve(
+                name,
+                each.history.chunks(),
+                each.explanation(self.types),
+                name in self.right,
+                self.units.get(name) or each.unit(self.types),
+            )
             for name, each in self.series.items()
         ]
         self.chart.show(shown, self.window, now_s, self.across)

@@ -69,6 +69,10 @@ class Series:
         time_s = time_ns / 1e9
         self.history.add(time_s, self._over_time(time_s, value) if self._over_time else value)
 
+    def unit(self, types: Mapping[str, str]) -> str:
+        """Return the unit of the values, "" if the type of the messages states none."""
+        return self._path.unit(types.get(self.topic, "")) if self._path else ""
+
     def clear(self) -> None:
         """Forget all values."""
         self.history = CurveHistory(self.how[0])

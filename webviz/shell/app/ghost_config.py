@@ -13,14 +13,14 @@ from webviz.api.group import DisplayGroup
 from webviz.api.panel import Panel
 from webviz.api.registry import plugin_types
 from webviz.api.robots import NamespacedRobot
+from webviz.data.messages.message_paths import MessagePath
 from webviz.files.config import Branch, Config, Item
 from webviz.sources.bag.ghost import DIFFERENCE, DISTANCE, NAMESPACE, ROOT
 from webviz.sources.bag.source import BagSource
 
-TINT = [90, 150, 255]
+TINT = (90, 150, 255)
 OPACITY = 0.4
 """Of what the displays show of the first run."""
-FLAT = "FlatColor"
 COVERING = {"Map", "Costmap", "OccupancyGrid", "OccupancyMap", "GridMap"}
 """Displays that would lie over those of the first run; their copies are switched off."""
 
@@ -35,13 +35,27 @@ def with_ghost(config: Config, bag: BagSource) -> Config:
     copies: list[Item] = list(filter(None, map(_copy, _displays(config.displays))))
     config.displays = [*config.displays, Branch(make(DisplayGroup, {"name": "Ghost"}), copies)]
     root = _root(config.settings.fixed_frame, bag.links())
-    robot = NamespacedRobot(NAMESPACE, f"{NAMESPACE}/", (root,))
+    robot = NamespacedRobot(
+        NAMESPACE, f"{NAMESPACE}/", (root,), tint=TINT, opacity=OPACITY
+    )
     robots = (*config.settings.robots, robot)
     config.settings = msgspec.structs.replace(config.settings, robots=robots)
-    curves = [f"{topic}.data" for topic in (DISTANCE, DIFFERENCE) if bag.has(topic)]
+    units = {DISTANCE: "m", DIFFERENCE: _unit(bag)}
+    curves = {f"{topic}.data": unit for topic, unit in units.items() if bag.has(topic)}
     if curves and (plot := plugin_types(Panel).get("Plot")):
-        config.panels = [*config.panels, make(plot, {"name": "Ghost", "curves": curves})]
+        known = {name: unit for name, unit in curves.items() if unit}
+        values = {"name": "Ghost", "curves": list(curves), "units": known}
+        config.panels = [*config.panels, make(plot, values)]
     return config
+
+
+def _unit(bag: BagSource) -> str:
+    """Return the unit of the number whose difference is plotted, "" if it is unknown."""
+    if bag.ghost is None or not bag.ghost.difference:
+        return ""
+    path = MessagePath(bag.ghost.difference)
+    publishers = bag.offers()[path.topic].publishers if path.topic in bag.offers() else ()
+    return path.unit(publishers[0].type) if publishers else ""
 
 
 def _displays(items: Sequence[Item]) -> Iterator[Display]:
@@ -63,31 +77,13 @@ def _copy(display: Display) -> Display | None:
     }
     if not any(topic.name for topic in topics.values()):
         return None
-    values = _tinted(values)
     for field, topic in topics.items():
         if topic.name:
             values[field]["name"] = f"{ROOT}/{topic.name.removeprefix('/')}"
     values["name"] = f"{display.name} (ghost)"
     if cls.__name__ in COVERING or getattr(display, "has_pane", False):
         values["enabled"] = False
-    if "color_transformer" in values:
-        try:
-            return make(cls, values | {"color_transformer": FLAT})
-        except msgspec.ValidationError:
-            pass  # it has no such choice
     return make(cls, values)
-
-
-def _tinted(value: Any, key: str = "") -> Any:
-    """Plain values with other colours and opacities."""
-    if isinstance(value, dict):
-        return {name: _tinted(each, name) for name, each in value.items()}
-    is_color = isinstance(value, list | tuple) and len(value) == 3
-    if key.endswith("color") and is_color:
-        return TINT
-    if key.endswith("alpha") and isinstance(value, float):
-        return value * OPACITY
-    return value
 
 
 def _root(frame: str, links: Sequence[tuple[str, str]]) -> str:

@@ -10,7 +10,7 @@ import { timeOfDay } from "../shell/time_text.js";
 import { csv, curvesOf, extent, statistics, valueAt } from "./curves.js";
 import { draw, inside } from "./draw.js";
 import { hover, onHover, seeking } from "./hover.js";
-import { at, changed, numberText, roomy } from "./scale.js";
+import { at, changed, numberText, roomy, withUnit } from "./scale.js";
 
 /** @import {Curve, Facts, Piece, Range, ValuesOf, Vec2} from "../types.js" */
 
@@ -288,7 +288,7 @@ export function chart(_, send) {
         ? ""
         : Number.isNaN(found.value)
           ? "no value"
-          : numberText(found.value, 0.001);
+          : withUnit(numberText(found.value, 0.001), curve.unit);
       const shownEntry = entries.get(curve.key);
       if (!shownEntry) continue;
       setText(shownEntry.value, text);
@@ -301,7 +301,8 @@ export function chart(_, send) {
     const { count, low, high, mean } = statistics(curve, times());
     if (!count) return "No values in this span.";
     const [least, most, middle] = [low, high, mean].map((each) => numberText(each, 0.001));
-    return `min ${least}, max ${most}, mean ${middle}, ${count} values`;
+    const sums = withUnit(`min ${least}, max ${most}, mean ${middle}`, curve.unit);
+    return `${sums}, ${count} values`;
   }
 
   function showLegend() {

@@ -3,7 +3,7 @@
 /** @import {Curve, Facts, Piece, Range, ValuesOf, Vec2} from "../types.js" */
 
 /**
- * Of each curve `{key, name, problem, pieces}`; a piece is `{times, values}`, in ROS seconds.
+ * Of each curve `{key, name, problem, unit, pieces}`; a piece is `{times, values}`, in ROS seconds.
  *
  * @param {Facts[]} facts
  * @param {ValuesOf<"panel">} values
@@ -12,14 +12,14 @@
  * @returns {Curve[]}
  */
 export function curvesOf(facts, values, id, known) {
-  return facts.map(({ key, name, problem, right, chunks: [first, end] }) => {
+  return facts.map(({ key, name, problem, right, unit, chunks: [first, end] }) => {
     /** @type {Piece[]} */
     const pieces = [];
     for (let number = first; number < end; number++) {
       const part = values.get(`${id}/${key}.${number}`);
       if (part) pieces.push(pieceOf(/** @type {Parameters<typeof pieceOf>[0]} */ (part), known));
     }
-    return { key, name, problem, right, pieces };
+    return { key, name, problem, right, unit, pieces };
   });
 }
 

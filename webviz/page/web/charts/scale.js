@@ -80,3 +80,11 @@ export function numberText(value, span) {
     .replace(/(\.\d*?)0+$/, "$1")
     .replace(/\.$/, "");
 }
+
+/**
+ * A number with its unit, if it has one.
+ *
+ * @param {string} text
+ * @param {string} unit
+ */
+export const withUnit = (text, unit) => (unit ? `${text} ${unit}` : text);

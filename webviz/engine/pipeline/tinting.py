@@ -1,0 +1,139 @@
+"""Another look of everything that displays draw, so that a second run cannot be taken for the first."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz.api.nodes import (
+    Arrows,
+    Axes,
+    Glb,
+    Image,
+    Instances,
+    Labels,
+    Lines,
+    Mesh,
+    Models,
+    Node,
+    Pane,
+    Points,
+    Rgb,
+)
+from webviz.data.gltf import pack, unpack
+from webviz.data.rotations import matrices
+
+SHARE = 0.7
+"""Of the tint in each colour: the rest still tells apart what has several."""
+AXIS_COLORS = np.diag([255, 255, 255]).astype(np.uint8)
+GREY: Rgb = (128, 128, 128)
+GAMMA = 2.2
+"""Of sRGB, about."""
+
+
+@dataclass(frozen=True)
+class Tint:
+    """Mixes a colour into nodes and makes them transparent.
+
+    Args:
+        color: that is mixed in; None for none.
+        opacity: 0 to 1, multiplies that of each node.
+    """
+
+    color: Rgb | None
+    opacity: float
+
+    def __call__(self, node: Node) -> Node:
+        """Return a node with the other look; panes, which are no part of the scene, stay."""
+        match node:
+            case Points() | Lines():
+                own = GREY if self.color and node.colors is None else node.colors
+                colors = None if own is None else self._mixed(own)
+                return replace(node, colors=colors, opacity=node.opacity * self.opacity)
+            case Arrows():
+                return replace(node, colors=self._mixed(node.colors))
+            case Axes():
+                return self._lines(node)
+            case Labels():
+                return node if self.color is None else replace(node, colors=self.color)
+            case Mesh():
+                own = None if node.colors is None else self._faded(node.colors)
+                color, opacity = self._one(node.color), node.opacity * self.opacity
+                return replace(node, color=color, opacity=opacity, colors=own)
+            case Instances():
+                opacity = np.multiply(node.opacity, self.opacity, dtype=np.float32)
+                return replace(
+                    node,
+                    colors=self._mixed(node.colors),
+                    opacity=opacity if opacity.ndim else float(opacity),
+                )
+            case Models() | Glb():
+                return replace(node, data=self._model(node.data))
+            case Image(palette=None):
+                return replace(node, cells=self._faded(node.cells))
+            case Image():
+                return replace(node, palette=self._faded(np.asarray(node.palette)))
+            case Pane():
+                return node
+
+    def _mixed(self, colors: NDArray[np.uint8] | Rgb) -> NDArray[np.uint8] | Rgb:
+        if isinstance(colors, tuple):
+            return self._one(colors)
+        if self.color is None:
+            return colors
+        mixed = (1 - SHARE) * colors.astype(np.float32) + SHARE * np.array(self.color, np.float32)
+        return mixed.astype(np.uint8)
+
+    def _one(self, color: Rgb) -> Rgb:
+        if self.color is None:
+            return color
+        r, g, b = (
+            round((1 - SHARE) * own + SHARE * tint)
+            for own, tint in zip(color, self.color, strict=True)
+        )
+        return r, g, b
+
+    def _faded(self, rgba: NDArray[np.uint8]) -> NDArray[np.uint8]:
+        """Return colours with opacities, both with the other look."""
+        faded = rgba.copy()
+        faded[..., :3] = self._mixed(rgba[..., :3])
+        faded[..., 3] = rgba[..., 3] * self.opacity
+        return faded
+
+    def _lines(self, axes: Axes) -> Lines:
+        """Return axes as lines: viser's have fixed colours."""
+        count = len(axes.positions)
+        tails = np.repeat(axes.positions[:, None, :], 3, axis=1)
+        tips = tails + axes.length * matrices(axes.wxyzs).swapaxes(1, 2)
+        segments = np.stack((tails, tips), axis=2).reshape(-1, 2, 3).astype(np.float32)
+        ends = np.tile(np.repeat(AXIS_COLORS[:, None, :], 2, axis=1), (count, 1, 1))
+        ids = np.repeat(np.arange(count) if axes.ids is None else axes.ids, 3)
+        mixed = self._mixed(ends)
+        assert isinstance(mixed, np.ndarray)
+        return Lines(segments, mixed, 2 * axes.radius, "m", ids, self.opacity)
+
+    def _model(self, data: bytes) -> bytes:
+        """Return a binary glTF whose materials have the other look; textures are multiplied by it."""
+        try:
+            document, rest = unpack(data)
+        except ValueError:
+            return data
+        share = 0.0 if self.color is None else SHARE
+        tint = [(channel / 255) ** GAMMA for channel in self.color or GREY]
+        materials: list[dict[str, Any]] = document.setdefault("materials", [{}])
+        for material in materials:
+            surface = material.setdefault("pbrMetallicRoughness", {})
+            *rgb, alpha = surface.get("baseColorFactor", (1.0, 1.0, 1.0, 1.0))
+            mixed = [
+                (1 - share) * own + share * other for own, other in zip(rgb, tint, strict=True)
+            ]
+            surface["baseColorFactor"] = [*mixed, alpha * self.opacity]
+            if self.opacity < 1.0:
+                material["alphaMode"] = "BLEND"
+        for mesh in document.get("meshes", []):
+            for primitive in mesh["primitives"]:
+                primitive.setdefault("material", 0)
+        return pack(document, rest)
