@@ -275,7 +275,7 @@ def test_a_recording_stays_below_the_limit(make: Callable[..., Bench]) -> None:
         bench.publish("/path", PATH, {"header": {"frame_id": f"{x} {noise}"}})
     bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
     until(bench, lambda state: state.black_box is not None and bool(state.black_box.saving))
-    for x in range(10):
+    for _ in range(10):
         bench.publish("/path", PATH, {"header": {"frame_id": "x" * 15_000}})
     (path,) = saved(bench)
     assert sum(file.stat().st_size for file in path.iterdir()) < 100_000

@@ -41,8 +41,8 @@ FOLDER = "webviz_black_box"
 BEFORE_S, AFTER_S = 60.0, 10.0
 """Time around the moment at which a rule fires that is saved, as far as it is remembered."""
 SETTLE_S = 3.0
-"""Time after the first message of a display in which its status does not count: while a robot starts,
-transforms and other topics are still missing."""
+"""Time after the first message of a display in which its status does not count: while a robot
+starts, transforms and other topics are still missing."""
 PARTS = "metadata.yaml", "*.mcap"
 """Of a recording; either may be missing if it was cut off or has no messages."""
 MOMENT = "%Y-%m-%d_%H-%M-%S"

@@ -1,4 +1,4 @@
-"""Another look of everything that displays draw, so that a second run cannot be taken for the first."""
+"""Another look of all that displays draw, so that a second run cannot be taken for the first."""
 
 from __future__ import annotations
 
@@ -116,7 +116,7 @@ class Tint:
         return Lines(segments, mixed, 2 * axes.radius, "m", ids, self.opacity)
 
     def _model(self, data: bytes) -> bytes:
-        """Return a binary glTF whose materials have the other look; textures are multiplied by it."""
+        """Return a binary glTF with the other look; its textures are multiplied by it."""
         try:
             document, rest = unpack(data)
         except ValueError:

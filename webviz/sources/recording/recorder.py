@@ -46,7 +46,7 @@ class Recorder:
         self._bytes = sum(len(raw.cdr) for _, raw in self._waiting)
         self._max_bytes = max_bytes
         self._unwritten = (0, 0)
-        """Bytes of the files, and of the messages that were added since and are not compressed yet."""
+        """Bytes of the files, and of the messages since, which may not be compressed yet."""
         self._clock = ForwardClock()
         self.is_full = False
         """Whether it has ended since more would not have fitted."""
