@@ -68,7 +68,7 @@ class Group:
     def __init__(self, placement: Placement) -> None:
         self.placement = placement
         self.is_tinted = False
-        """Whether the nodes have the look of their robot already."""
+        """True once the nodes have the look of their robot."""
         self.nodes: dict[str, Node] = {}
         self.poses: dict[str, Pose] = {}
 

@@ -8,7 +8,7 @@ from webviz.data.messages.errors import MessageError
 from webviz.data.messages.typestore import fields
 
 TIMES = "builtin_interfaces/msg/Time", "builtin_interfaces/msg/Duration"
-"""Which are read as numbers."""
+"""Types that are read as numbers."""
 POSITION = {"x": "m", "y": "m", "z": "m"}
 UNITS: Mapping[str, Mapping[str, str]] = {
     "builtin_interfaces/msg/Duration": {"sec": "s", "nanosec": "ns"},

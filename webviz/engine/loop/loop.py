@@ -151,13 +151,8 @@ class FrameLoop:
             autoplay,
             switchable,
         )
-        self._black_box = BlackBoxPart(
-            core,
-            self._settings,
-            memory,
-            lambda: control.is_live,
-            self._displays.list.active,
-        )
+        black_box = core, self._settings, memory, control, self._displays.list.active
+        self._black_box = BlackBoxPart(*black_box)
         views = ViewsPart(core, self._settings, self._displays)
         layouts = LayoutsPart(core, self._settings)
         first = [transforms, self._time, self._playback, self._displays, self._settings, views]

@@ -25,6 +25,7 @@ from webviz.engine.parts.part import Core, Part
 from webviz.engine.parts.recording import new_folder
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.pipeline import Runner
+from webviz.engine.playback import PlaybackControl
 from webviz.engine.state import Row
 from webviz.engine.watch import RuleWatcher, TopicObserver, WatchedMoment
 from webviz.engine.watch.observation import LEVEL_TYPES
@@ -70,7 +71,7 @@ class BlackBoxPart(Part):
         core: shared by all parts.
         settings: have the rules.
         live: has the memory; None for a bag, on which no rule fires.
-        is_live: whether what arrives is shown.
+        control: of what is shown; rules about displays wait while that is the past.
         runners: the displays that are shown.
     """
 
@@ -81,13 +82,13 @@ class BlackBoxPart(Part):
         core: Core,
         settings: SettingsPart,
         live: Rewindable | None,
-        is_live: Callable[[], bool],
+        control: PlaybackControl,
         runners: Callable[[], Sequence[Runner]],
     ) -> None:
         super().__init__(core)
         self._settings = settings
         self._live = live
-        self._is_live = is_live
+        self._control = control
         self._runners = runners
         self._heard: dict[str, float] = {}
         """By display, when its first message was noticed, in monotonic seconds."""
@@ -145,7 +146,7 @@ class BlackBoxPart(Part):
         }
         self._observer.observe([*wanted], leveled, paths)
         if self._listing is None:  # else it is not known yet how much may be saved
-            for rule in self._watcher.fired(self._observation(self._is_live())):
+            for rule in self._watcher.fired(self._observation(self._control.is_live)):
                 self._save(rule, live)
         self._go_on(live)
 

@@ -26,7 +26,7 @@ from webviz.api.nodes import (
 from webviz.data.gltf import pack, unpack
 from webviz.data.rotations import matrices
 
-SHARE = 0.7
+SHARE = 0.8
 """Of the tint in each colour: the rest still tells apart what has several."""
 AXIS_COLORS = np.diag([255, 255, 255]).astype(np.uint8)
 GREY: Rgb = (128, 128, 128)

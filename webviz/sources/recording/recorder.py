@@ -49,7 +49,7 @@ class Recorder:
         """Bytes of the files, and of the messages since, which may not be compressed yet."""
         self._clock = ForwardClock()
         self.is_full = False
-        """Whether it has ended since more would not have fitted."""
+        """True if it has ended since more would not have fitted."""
         self._is_ending = False
         self._began_s = time.monotonic()
         self.dropped = 0
