@@ -35,9 +35,7 @@ def with_ghost(config: Config, bag: BagSource) -> Config:
     copies: list[Item] = list(filter(None, map(_copy, _displays(config.displays))))
     config.displays = [*config.displays, Branch(make(DisplayGroup, {"name": "Ghost"}), copies)]
     root = _root(config.settings.fixed_frame, bag.links())
-    robot = NamespacedRobot(
-        NAMESPACE, f"{NAMESPACE}/", (root,), tint=TINT, opacity=OPACITY
-    )
+    robot = NamespacedRobot(NAMESPACE, f"{NAMESPACE}/", (root,), tint=TINT, opacity=OPACITY)
     robots = (*config.settings.robots, robot)
     config.settings = msgspec.structs.replace(config.settings, robots=robots)
     units = {DISTANCE: "m", DIFFERENCE: _unit(bag)}
