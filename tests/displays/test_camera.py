@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
+from typing import Any, ClassVar
 
 import lenses
 import numpy as np
@@ -238,6 +238,7 @@ def test_rviz_nests_the_switches_of_displays() -> None:
 class TestCamera(BuiltInChecks):
     display = Camera
     later = ("median_window",)
+    needs: ClassVar = {"show_labels": {"annotations_topic": Topic("/found")}}
     elsewhere = ("undistort", "visibility")
 
     def publish(self, bench: Any) -> None:

@@ -6,7 +6,7 @@ import gc
 import io
 import struct
 from collections.abc import Callable
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import photos
@@ -15,6 +15,7 @@ from built_in_checks import BuiltInChecks
 from display_scenes import images
 from PIL import Image as Pillow
 
+from webviz import Topic
 from webviz.api.nodes import Pane
 from webviz.api.pictures import Encoded, Pixels, Video
 from webviz.data.memory import MemoryBudget
@@ -226,6 +227,7 @@ def test_no_message_breaks_the_display(bench: Benches, type_: str) -> None:
 class TestImage(BuiltInChecks):
     display = Image
     later = ("median_window",)
+    needs: ClassVar = {"show_labels": {"annotations_topic": Topic("/found")}}
 
     def publish(self, bench: Any) -> None:
         images(bench)

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { afterEach, test } from "node:test";
 
-import { straight } from "../../webviz/page/web/images/undistort.js";
+import { bent, straight } from "../../webviz/page/web/images/undistort.js";
 import { clicks } from "../../webviz/page/web/tools/clicks.js";
 import { disarm, share } from "../../webviz/page/web/tools/teleop_gamepad.js";
 
@@ -94,4 +94,28 @@ test("places outside an undistorted image, or of a cell that the lens does not s
     [0, 1],
   ])
     assert.equal(straight(HALF, place), null, String(place));
+});
+
+test("a place of an image is where the undistorted image shows it", () => {
+  const rows = 9;
+  const columns = 13;
+  const places = [];
+  for (let row = 0; row < rows; row++)
+    for (let column = 0; column < columns; column++) {
+      const [x, y] = [column / (columns - 1) - 0.5, row / (rows - 1) - 0.5];
+      const swell = 1 - 0.5 * (x * x + y * y); // a barrel
+      places.push(0.5 + x * swell, 0.5 + y * swell);
+    }
+  const warp = { rows, columns, places };
+  for (const place of [
+    [0.5, 0.5],
+    [0.1, 0.8],
+    [0.93, 0.07],
+  ]) {
+    const found = bent(warp, straight(warp, place));
+    assert.ok(Math.hypot(found[0] - place[0], found[1] - place[1]) < 1e-4, `${place}: ${found}`);
+  }
+  const beside = bent(warp, [0, 0]); // the corner of the image, which is not shown
+  assert.ok(beside[0] < 0 && beside[1] < 0, String(beside));
+  assert.equal(bent({ rows: 2, columns: 2, places: Array(8).fill(null) }, [0.5, 0.5]), null);
 });

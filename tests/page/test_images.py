@@ -11,6 +11,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import lenses
+import msgspec
 import numpy as np
 import photos
 import pytest
@@ -18,7 +19,7 @@ from numpy.typing import NDArray
 
 from webviz.api.declared import Topic
 from webviz.api.nodes import Labels, Pane, Points, Pose
-from webviz.api.pictures import Encoded, OverlayCamera, Packet, Pixels, Video, Warp
+from webviz.api.pictures import Encoded, Mark, OverlayCamera, Packet, Pixels, Video, Warp
 from webviz.api.status import Level, Status
 from webviz.data.images import CameraModel, Lens, RawImage, Tone
 from webviz.engine.state import Row
@@ -90,7 +91,7 @@ def near(color: list[int], wanted: Any, tolerance: int = 12) -> bool:
 
 
 def hover(tab: Any, name: str, x: float, y: float) -> str:
-    box = pane(tab, name).locator("canvas").bounding_box()
+    box = pane(tab, name).locator(".wv-pane-picture").bounding_box()
     scale = min(box["width"] / 160, box["height"] / 120)
     left = box["x"] + (box["width"] - 160 * scale) / 2 + (x + 0.5) * scale
     top = box["y"] + (box["height"] - 120 * scale) / 2 + (y + 0.5) * scale
@@ -159,6 +160,56 @@ def test_jpeg_is_decoded_by_the_page_and_swapped_if_it_must(tab: Any, pictures: 
     )
     pictures.show("Color", pixels(COLORS, "rgb8"))
     tab.wait_for(lambda: near(shown(tab, "Color"), COLORS[108, 80]) and not problem.is_visible())
+
+
+def test_marks_lie_over_the_picture_and_follow_the_zoom(tab: Any, pictures: Pictures) -> None:
+    corners = (40.0, 30.0, 80.0, 30.0, 80.0, 60.0, 40.0, 60.0)
+    mark = Mark("loop", corners, "#00ff00", fill="#0000ff", width=4.0, about="Detection 7")
+    plain = pixels(COLORS, "rgb8")
+    sent: list[int] = []
+    send = pictures._channel.send_bytes
+    pictures._channel.send_bytes = lambda data, key, browser: (  # type: ignore[method-assign]
+        sent.append(len(data)),
+        send(data, key, browser),
+    )[1]
+    marks = pane(tab, "Color").locator(".wv-pane-marks")
+    try:
+        pictures.show("Color", replace(plain, marks=(mark,)))
+        tab.wait_for(lambda: len(sent) == 1)
+        pictures.show("Color", replace(plain, marks=(replace_mark(mark, fill="#ff0000"),)))
+        tab.wait_for(lambda: len(sent) == 2)
+    finally:
+        del pictures._channel.send_bytes
+    assert sent[1] < 500 < sent[0], "The picture is not sent again for its marks."
+    tab.wait_for(lambda: color_of(marks, tab, 60, 45) == [255, 0, 0, 255])
+    assert color_of(marks, tab, 60, 30) == [0, 255, 0, 255]
+    assert color_of(marks, tab, 100, 45) == [0, 0, 0, 0]
+    tab.wait_for(lambda: hover(tab, "Color", 60, 45).endswith("Detection 7"))
+    tab.wait_for(lambda: "Detection" not in hover(tab, "Color", 110, 100))
+    hover(tab, "Color", 60, 45)
+    tab.page.mouse.wheel(0, -500)  # doubles it around the mouse
+    tab.wait_for(lambda: color_of(marks, tab, 60, 22) == [0, 0, 0, 0])
+    assert color_of(marks, tab, 60, 45) == [255, 0, 0, 255]
+    tab.page.mouse.dblclick(*middle(tab))
+    pictures.show("Color", plain)
+    tab.wait_for(lambda: marks.count() == 0)
+
+
+def replace_mark(mark: Mark, **changes: Any) -> Mark:
+    return msgspec.structs.replace(mark, **changes)
+
+
+def color_of(marks: Any, tab: Any, x: float, y: float) -> list[int]:
+    """RGBA of the marks where the pane shows a pixel of its picture at a zoom of 1."""
+    if not marks.count():
+        return []
+    script = """(canvas, [x, y]) => {
+      const scale = Math.min(canvas.width / 160, canvas.height / 120);
+      const left = (canvas.width - 160 * scale) / 2 + x * scale;
+      const top = (canvas.height - 120 * scale) / 2 + y * scale;
+      return [...canvas.getContext("2d").getImageData(left, top, 1, 1).data];
+    }"""
+    return list(marks.evaluate(script, [x, y]))
 
 
 def test_a_pane_says_what_its_display_misses_and_goes_with_it(tab: Any) -> None:

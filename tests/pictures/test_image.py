@@ -12,6 +12,7 @@ from webviz.api.views import Orbit
 from webviz.shell.testing import Harness
 from webviz_displays.grid import Grid
 from webviz_displays.image import Image
+from webviz_displays.image.marks import ANNOTATIONS, DETECTIONS
 from webviz_displays.text import Text
 
 Stages = Callable[..., Harness]
@@ -42,3 +43,36 @@ def test_texts_are_beside_the_scene(webviz_harness: Stages) -> None:
         seen.turn()
     seen.wait_until_drawn("Wheels")
     seen.check_picture("text/default")
+
+
+def test_annotations_are_over_the_image(webviz_harness: Stages) -> None:
+    camera = Image(name="Camera", annotations_topic=Topic("/found"))
+    drawn = Image(name="Drawn", topic=Topic("/depth"), annotations_topic=Topic("/drawn"))
+    view = Orbit(distance=9.0, yaw=-1.2, pitch=0.6)
+    seen = webviz_harness(camera, drawn, Grid(plane_cell_count=6), view=view)
+    colors, depths = photos.room()
+    results = [{"hypothesis": {"class_id": "box", "score": 0.93}}]
+    center = {"position": {"x": 96.0, "y": 72.0}}
+    box = {"center": center, "size_x": 42.0, "size_y": 52.0}
+    turned = {"center": {"position": {"x": 30.0, "y": 90.0}, "theta": 0.4}}
+    found = [
+        {"bbox": box, "results": results},
+        {"bbox": {**turned, "size_x": 30.0, "size_y": 16.0}},
+    ]
+    yellow, red = {"r": 1.0, "g": 0.9, "a": 1.0}, {"r": 1.0, "a": 0.4}
+    floor = [{"x": x, "y": y} for x, y in ((40.0, 80.0), (110.0, 100.0), (20.0, 110.0))]
+    line = {"type": 2, "points": floor, "outline_color": yellow, "fill_color": red}
+    place = {"x": 20.0, "y": 30.0}
+    text = {"position": place, "text": "free floor", "font_size": 12.0, "text_color": yellow}
+    ring = {"position": {"x": 96.0, "y": 72.0}, "diameter": 40.0, "outline_color": yellow}
+    drawings = {
+        "points": [{**line, "thickness": 2.0}],
+        "circles": [{**ring, "thickness": 3.0}],
+        "texts": [{**text, "background_color": {"a": 0.6}}],
+    }
+    seen.publish("/found", DETECTIONS, {"detections": found}, frame="camera")
+    seen.publish("/drawn", ANNOTATIONS, drawings)
+    seen.publish(camera.topic.name, photos.COMPRESSED, photos.jpeg(colors), frame="camera")
+    seen.publish("/depth", photos.RAW, photos.raw(depths, "32FC1"), frame="camera")
+    seen.turn()
+    seen.check_picture("image/annotations")

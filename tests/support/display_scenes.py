@@ -69,8 +69,17 @@ def robot_frame(bench: Any) -> None:
     bench.turn()
 
 
+def _detect(bench: Any) -> None:
+    """One detection in an image."""
+    box = {"size_x": 1.0, "size_y": 1.0}
+    found = {"bbox": box, "results": [{"hypothesis": {"class_id": "box", "score": 0.5}}]}
+    values = {"detections": [found]}
+    bench.send("vision_msgs/msg/Detection2DArray", values, frame="camera", topic="/found")
+
+
 def images(bench: Any) -> None:
-    """Two depth images of different ranges."""
+    """Two depth images of different ranges, and detections on /found."""
+    _detect(bench)
     for depths in ([0.3, 0.6], [2.0, 5.0]):
         data = np.array(depths, np.float32).view(np.uint8)
         values = {"width": 2, "height": 1, "encoding": "32FC1", "step": 8, "data": data}
@@ -99,7 +108,8 @@ def camera_infos(bench: Any) -> None:
 
 
 def cameras(bench: Any) -> None:
-    """Two depth images of different ranges, by a camera with distortion."""
+    """Two depth images of different ranges, by a camera with distortion; detections on /found."""
+    _detect(bench)
     bench.transform("map", "camera", (1.0, 0.0, 0.0))
     bend = {"distortion_model": "plumb_bob", "d": [-0.1, 0.0, 0.0, 0.0, 0.0]}
     for topic in ("/camera/camera_info", "/info"):

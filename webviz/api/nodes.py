@@ -15,7 +15,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz.api.pictures import OverlayCamera, Picture
+from webviz.api.pictures import Mark, OverlayCamera, Picture
 
 F32 = NDArray[np.float32]
 U8 = NDArray[np.uint8]
@@ -302,6 +302,7 @@ class Pane(_Node):
         stamp_ns: of its message, 0 if it has none.
         order: see `Context.order`.
         camera: that took the picture, if the scene is drawn with it.
+        marks: figures over the picture, of which later ones lie on top.
         sight: former name of `camera`, which works for one more version.
     """
 
@@ -309,6 +310,7 @@ class Pane(_Node):
     stamp_ns: int = 0
     order: int = 0
     camera: OverlayCamera | None = None
+    marks: tuple[Mark, ...] = ()
     sight: InitVar[OverlayCamera | None] = None
 
     def __post_init__(self, sight: OverlayCamera | None) -> None:

@@ -7,8 +7,9 @@ computed beside the frame loop, and only for pages that show them, at the size a
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -63,7 +64,10 @@ class Encoded:
 
     def __eq__(self, other: object) -> bool:
         """Of the same data, which is not compared."""
-        return isinstance(other, Encoded) and self.data is other.data
+        if not isinstance(other, Encoded):
+            return NotImplemented
+        how = self.swaps_red_and_blue == other.swaps_red_and_blue
+        return self.data is other.data and how
 
     __hash__ = None  # pyright: ignore[reportAssignmentType]
 
@@ -145,6 +149,31 @@ class Readout:
 
 
 Picture = Pixels | Encoded | Video | Readout
+
+
+class Mark(msgspec.Struct, frozen=True, omit_defaults=True):
+    """A figure over a picture; the upper left corner of the full picture is at 0, 0.
+
+    Args:
+        kind: how the points are joined: not at all, by an open or a closed line, in pairs, or by a
+            circle around the first through the second; a text begins at its only point.
+        points: x and y of each in pixels of the full picture.
+        color: of points, lines and text, such as "#ff000080".
+        colors: of each point or line in place of `color`, as far as they go.
+        fill: colour inside of a closed line or circle and behind a text, "" for none.
+        width: of lines and points, height of a text, in the same pixels.
+        text: beside the first point, "" for none.
+        about: shown while the mouse is there, "" for nothing.
+    """
+
+    kind: Literal["points", "strip", "loop", "pairs", "circle", "text"]
+    points: tuple[float, ...]
+    color: str
+    colors: tuple[str, ...] = ()
+    fill: str = ""
+    width: float = 1.0
+    text: str = ""
+    about: str = ""
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,7 +14,7 @@ from webviz.api.frames import compose
 from webviz.api.pictures import Encoded, OverlayCamera, Pixels, Warp
 from webviz.data.images import CameraModel, ImageError, Lens, optical_problem
 from webviz_displays.camera.infos import Infos
-from webviz_displays.image.base import ImageDisplay, ImageState
+from webviz_displays.image.annotated import INPUT, AnnotatedImage, AnnotatedState, Annotations
 
 BESIDE = Remedy("camera_info_topic.name", "", "Use camera_info beside the images")
 
@@ -22,7 +22,7 @@ _RECTIFIED = re.compile(r"(?:^|[/_])rect[^/]*(?:/[^/]*)?$")
 
 
 @dataclass
-class _State(ImageState):
+class _State(AnnotatedState):
     """Kept between images.
 
     Args:
@@ -30,14 +30,16 @@ class _State(ImageState):
         poses: of the optical frame in the fixed frame by number of their image; that which is
             decompressed may be older than the newest.
         warp: by the lens and the camera it is made for.
+        annotations: the newest.
     """
 
     infos: Infos = field(default_factory=Infos)
     poses: dict[int, Pose] = field(default_factory=dict)
     warp: tuple[tuple[Lens, CameraModel], Warp | None] | None = None
+    annotations: Annotations = field(default_factory=Annotations)
 
 
-class Camera(ImageDisplay):
+class Camera(AnnotatedImage):
     """The scene over and under the image of a camera, as that camera sees it."""
 
     rviz = "rviz_default_plugins/Camera"
@@ -89,7 +91,7 @@ class Camera(ImageDisplay):
 
     def waits(self, name: str) -> bool:
         """Return whether a transform is needed: camera info has the frame of the images."""
-        return name != "camera_info_topic"
+        return name == "topic"
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """Show the newest image, and how its camera sees the scene."""
@@ -97,6 +99,8 @@ class Camera(ImageDisplay):
         for each in samples:
             if each.input == "camera_info_topic":
                 state.infos.put(each)
+            elif each.input == INPUT:
+                state.annotations = state.annotations.taken(each)
         images = [each for each in samples if each.input == "topic"]
         if not images:
             return
@@ -113,12 +117,11 @@ class Camera(ImageDisplay):
             state.poses.clear()
             return
         state.poses = {n: pose for n, pose in state.poses.items() if n >= number}
-        pane = Pane(picture, image.stamp_ns, ctx.order, camera)
-        before = state.pane
-        if before is not None and (before.picture, before.camera) == (picture, camera):
-            pane = before  # with the stamp of its own image
-        state.pane = pane
-        ctx.add("pane", pane)
+        stamp_ns = self.stamp_of(picture, image, ctx)
+        pane = Pane(
+            picture, stamp_ns, ctx.order, camera, self.marks(state.annotations, stamp_ns, ctx)
+        )
+        ctx.add("pane", self.kept(pane, ctx))
 
     def _camera(
         self, picture: Pixels | Encoded, image: Sample, pose: Pose, ctx: Context

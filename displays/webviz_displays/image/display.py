@@ -2,16 +2,31 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field, replace
 from typing import Annotated, Any
 
 from webviz import Context, Input, Lookback, Pane, Prop, Sample, Topic
 from webviz.api.pictures import Picture, Video
 from webviz.data.images import ImageError
 from webviz_displays.image import transports, video
-from webviz_displays.image.base import ImageDisplay, ImageState
+from webviz_displays.image.annotated import (
+    INPUT,
+    KEPT,
+    AnnotatedImage,
+    AnnotatedState,
+    Annotations,
+)
 
 
-class Image(ImageDisplay):
+@dataclass(frozen=True)
+class _ImageHeld:
+    """The newest image, whose message may be a clip, and the newest annotations."""
+
+    image: Sample | None = None
+    annotations: Annotations = field(default_factory=Annotations)
+
+
+class Image(AnnotatedImage):
     """A camera's picture in a pane beside the scene: raw, compressed, depth or video."""
 
     rviz = "rviz_default_plugins/Image"
@@ -24,9 +39,9 @@ class Image(ImageDisplay):
         Prop(help="Topic of the images; choose that of a transport to save bandwidth."),
     ] = Topic("/camera/image_raw")
 
-    def new_state(self) -> ImageState:
+    def new_state(self) -> AnnotatedState:
         """Without an image."""
-        return ImageState()
+        return AnnotatedState()
 
     def waits(self, name: str) -> bool:
         """Return whether a transform is needed: a pane needs none."""
@@ -34,16 +49,27 @@ class Image(ImageDisplay):
 
     def lookback(self, name: str) -> Lookback:
         """Return the newest message, or all packets of a video since its last key frame."""
+        if name == INPUT:
+            return Lookback(count=KEPT)
         return Lookback(starts_over=video.stands_alone)
 
     def fold(self, name: str, sample: Sample, state: Any) -> Any:
-        """Return the newest message, or all packets of a video since its last key frame."""
+        """Return the newest image or all packets of a video since its last key frame, annotated."""
+        held: _ImageHeld = state or _ImageHeld()
+        if name == INPUT:
+            return replace(held, annotations=held.annotations.taken(sample))
         if sample.type in video.TYPES:
-            return video.extended(state if isinstance(state, video.Clip) else None, sample)
-        return sample.message
+            before = held.image.message if held.image else None
+            clip = video.extended(before if isinstance(before, video.Clip) else None, sample)
+            sample = replace(sample, message=clip)
+        return replace(held, image=sample)
 
     def draw(self, sample: Sample, ctx: Context) -> None:
-        """Show the newest image."""
+        """Show the newest image, and what is annotated there."""
+        held: _ImageHeld = sample.message
+        if held.image is None:
+            return
+        sample = held.image
         try:
             picture: Picture | None
             if isinstance(sample.message, video.Clip):
@@ -55,10 +81,9 @@ class Image(ImageDisplay):
             return
         if picture is None:
             return
-        before = ctx.state.pane
-        if before is None or before.picture != picture:  # else the next is being decompressed
-            ctx.state.pane = Pane(picture, sample.stamp_ns, ctx.order)
-        ctx.add("pane", ctx.state.pane)
+        stamp_ns = self.stamp_of(picture, sample, ctx)
+        pane = Pane(picture, stamp_ns, ctx.order, marks=self.marks(held.annotations, stamp_ns, ctx))
+        ctx.add("pane", self.kept(pane, ctx))
 
 
 def _video(clip: video.Clip, ctx: Context) -> Video | None:

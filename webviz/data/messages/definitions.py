@@ -5,10 +5,12 @@ moveit_msgs, nvblox_msgs, rtabmap_msgs, object_recognition_msgs, vision_msgs,
 foxglove_msgs and ffmpeg_image_transport_msgs in ROS 2 Jazzy, in the order of the wire.
 """
 
+from webviz.data.messages.annotation_definitions import ANNOTATIONS
 from webviz.data.messages.perception_definitions import PERCEPTION
 from webviz.data.messages.planning_definitions import PLANNING
 
 DEFINITIONS = {
+    **ANNOTATIONS,
     **PERCEPTION,
     **PLANNING,
     "map_msgs/msg/OccupancyGridUpdate": """

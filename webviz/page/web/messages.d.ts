@@ -277,6 +277,17 @@ export interface ColorRange {
   colors: Array<[number, number, number]>;
 }
 
+export interface Mark {
+  kind: "circle" | "loop" | "pairs" | "points" | "strip" | "text";
+  points: Array<number>;
+  color: string;
+  colors?: Array<string>;
+  fill?: string;
+  width?: number;
+  text?: string;
+  about?: string;
+}
+
 export interface PictureCamera {
   position: [number, number, number];
   wxyz: [number, number, number, number];
@@ -307,6 +318,8 @@ export interface PictureHeader {
   swaps?: boolean;
   camera?: PictureCamera;
   warp?: PictureWarp | null;
+  marks?: Array<Mark>;
+  is_same?: boolean;
 }
 
 export interface PictureWarp {

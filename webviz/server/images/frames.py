@@ -13,7 +13,7 @@ from msgspec import UNSET, UnsetType
 from msgspec.structs import replace
 
 from webviz.api.nodes import Pane
-from webviz.api.pictures import OverlayCamera, Packet, Pixels, Readout, Video, Warp
+from webviz.api.pictures import Mark, OverlayCamera, Packet, Picture, Pixels, Readout, Video, Warp
 from webviz.data.images import COLOR_MAPS
 from webviz.server.images.encoding import File
 
@@ -68,6 +68,8 @@ class PictureHeader(msgspec.Struct, frozen=True, kw_only=True):
         swaps: whether red and blue are in each other's place.
         camera: the camera through which the page draws the scene.
         warp: a new distortion of the picture, None for none.
+        marks: figures over the picture.
+        is_same: whether the page has the picture, which does not follow then.
     """
 
     display: str
@@ -86,19 +88,27 @@ class PictureHeader(msgspec.Struct, frozen=True, kw_only=True):
     swaps: bool | UnsetType = UNSET
     camera: PictureCamera | UnsetType = UNSET
     warp: PictureWarp | UnsetType | None = UNSET
+    marks: Sequence[Mark] | UnsetType = UNSET
+    is_same: bool | UnsetType = UNSET
 
 
 @dataclass(frozen=True)
 class Sent:
-    """Packets a page has already.
+    """Pictures, packets and warps that a page has already.
 
     Args:
         packet: number of the newest packet of a video.
         warp: of the newest picture, None without one.
+        picture: the newest one of a message; None without one, and of a video.
     """
 
     packet: int = -1
     warp: Warp | None = None
+    picture: Picture | None = None
+
+    def has(self, picture: Picture) -> bool:
+        """Return whether the page needs no file to show a picture."""
+        return self.picture is not None and self.picture == picture
 
 
 def frame(
@@ -110,7 +120,7 @@ def frame(
         display: id of the display.
         number: of the picture.
         pane: with the picture.
-        file: see `file_of`; None of a video.
+        file: see `file_of`; None of a video, and of a picture that the page has.
         sent: what the page has.
 
     Returns:
@@ -118,6 +128,8 @@ def frame(
     """
     picture = pane.picture
     head = PictureHeader(display=display, number=number, stamp=pane.stamp_ns / 1e9)
+    if pane.marks:
+        head = replace(head, marks=pane.marks)
     if isinstance(picture, Video):
         packets = _following(picture.packets, sent.packet)
         if not packets:
@@ -130,11 +142,11 @@ def frame(
         )
         parts = (np.ascontiguousarray(packet.data).data for packet in packets)
         return _joined(head, parts), Sent(packets[-1].number)
-    assert file is not None
-    head = replace(head, mime=file.mime)
+    head = replace(head, is_same=True) if file is None else replace(head, mime=file.mime)
+    data = [] if file is None else [file.data]
     if isinstance(picture, Readout):
         head = replace(head, topic=picture.topic, type=picture.type, received=picture.received_s)
-        return _joined(head, [file.data]), sent
+        return _joined(head, data), sent
     head = replace(head, size=picture.size)
     if isinstance(picture, Pixels):
         head = replace(head, legend=_legend(picture), readable=True)
@@ -146,7 +158,7 @@ def frame(
         head = replace(head, camera=camera_of(pane.camera))
         if warp is not sent.warp:
             head = replace(head, warp=warp_of(warp))
-    return _joined(head, [file.data]), Sent(sent.packet, warp)
+    return _joined(head, data), Sent(sent.packet, warp, picture)
 
 
 def _following(packets: tuple[Packet, ...], sent: int) -> tuple[Packet, ...]:

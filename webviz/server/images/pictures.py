@@ -7,7 +7,7 @@ import threading
 import time
 from collections import deque
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 
 from webviz.api.nodes import Pane
@@ -145,6 +145,7 @@ class Pictures:
             for display, look in looks.items():
                 if look.width != message.widths[display]:
                     look.width, look.sent = message.widths[display], 0
+                    look.has = replace(look.has, picture=None)
         for display in looks:
             self._send_ready(display)
 
@@ -191,7 +192,9 @@ class Pictures:
             return False
         if look.is_busy or len(look.waiting) >= MAX_IN_FLIGHT:
             return False
-        if isinstance(shown.pane.picture, Encoded | Video) and self._rate(browser) is None:
+        picture = shown.pane.picture
+        is_file = isinstance(picture, Encoded | Video) or look.has.has(picture)
+        if is_file and self._rate(browser) is None:
             return True
         look.is_busy = True
         self._pool.submit(self._send, browser, display, look)
@@ -206,11 +209,13 @@ class Pictures:
         data = b""
         if shown is not None:
             try:
+                is_same, now_has = has.has(shown.pane.picture), has
                 for _ in range(2):
-                    file = self._file(shown, display, look)
-                    data, has = frame(display, shown.number, shown.pane, file, has)
-                    if not self._fit(look, shown, len(data), rate):
+                    file = None if is_same else self._file(shown, display, look)
+                    data, now_has = frame(display, shown.number, shown.pane, file, has)
+                    if is_same or not self._fit(look, shown, len(data), rate):
                         break
+                has = now_has
             except Exception:
                 log.exception("A picture of %r could not be made", display)
         with self._lock:

@@ -80,6 +80,7 @@ class Tape:
         self._stores: dict[tuple[str, str], int] = {}
         self._known: dict[bytes, int] = {}
         self._panes: dict[str, list[int]] = {}
+        self._left_out: set[str] = set()
         self._chunk: TapeChunk | None = None
         self._times: list[float] = []
 
@@ -177,10 +178,16 @@ class Tape:
         for display, picture in pictures.items():
             if picture is None:
                 self._panes.pop(display, None)
+                self._left_out.discard(display)
                 told.append([display, []])
                 continue
             data, is_whole = picture
-            if is_whole and display in self._panes and self._is_skipped(f"picture of {display}"):
+            if is_whole and display in self._panes:
+                if self._is_skipped(f"picture of {display}"):
+                    self._left_out.add(display)
+                else:
+                    self._left_out.discard(display)
+            if display in self._left_out:  # also what goes on from a picture that is not there
                 continue
             chunk.add_picture(data)
             before = [] if is_whole else self._panes.get(display, [])

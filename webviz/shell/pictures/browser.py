@@ -18,7 +18,7 @@ import PIL.Image
 from numpy.typing import NDArray
 
 from webviz.api.errors import Error
-from webviz.api.pictures import OverlayCamera
+from webviz.api.nodes import Pane
 from webviz.server.images.frames import camera_of, warp_of
 from webviz.shell.pictures.browser_scripts import (
     CANVAS,
@@ -255,23 +255,24 @@ class Page:
     def pane(
         self,
         picture: PIL.Image.Image,
-        camera: OverlayCamera,
+        pane: Pane,
         size: tuple[int, int],
         hidden: Sequence[str],
     ) -> PIL.Image.Image:
-        """Return a picture with the scene over and under it.
+        """Return the picture of a pane with the scene over and under it, and with its marks.
 
         Args:
             picture: as the camera took it.
-            camera: through which the scene is seen.
+            pane: that it belongs to.
             size: width and height of the result in pixels.
             hidden: ids of displays to leave out.
         """
         file = io.BytesIO()
         picture.save(file, "PNG")
         url = f"data:image/png;base64,{base64.b64encode(file.getvalue()).decode()}"
-        how = camera_of(camera), warp_of(camera.warp)
-        found = msgspec.to_builtins([*size, *how, [*hidden], url])
+        camera = pane.camera
+        how = camera and camera_of(camera), camera and warp_of(camera.warp)
+        found = msgspec.to_builtins([*size, *how, [*hidden], pane.marks, url])
         png = base64.b64decode(self.evaluate(PANE, found).split(",")[1])
         return PIL.Image.open(io.BytesIO(png)).convert("RGB")
 

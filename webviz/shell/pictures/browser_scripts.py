@@ -92,12 +92,14 @@ TRANSPARENT = f"""async () => {{ {VISER}
   }}
 }}"""
 
-# A picture with the scene over and under it, drawn by the modules of the page.
+# A picture with the scene over and under it, and with its marks, drawn by the modules of the page.
 PANE = """
-async ([width, height, camera, warp, hidden, url]) => {
+async ([width, height, camera, warp, hidden, marks, url]) => {
   const viser = await import(new URL("webviz/viser_page.js", location.href));
   const load = (name) => import(new URL(`webviz/images/${name}.js`, location.href));
-  const [{ paint }, { undistort }] = [await load("camera_overlay"), await load("undistort")];
+  const { paint, placeIn } = await load("camera_overlay");
+  const { undistort } = await load("undistort");
+  const { drawMarks } = await load("marks");
   const picture = new Image();
   picture.src = url;
   await picture.decode();
@@ -115,6 +117,7 @@ async ([width, height, camera, warp, hidden, url]) => {
   if (window.webvizRender) gl.render = window.webvizRender;
   try {
     paint(context, { image, size, camera, hidden });
+    drawMarks(context, marks, placeIn({ camera, warp, size }, width, height));
   } finally {
     gl.render = render;
   }

@@ -31,7 +31,7 @@ def with_panes(
     The scene loses its sides, as in a narrower window: its vertical field of view stays.
 
     Args:
-        page: draws panes that show the scene, too.
+        page: draws panes that show more than the picture.
         scene: uint8 (H, W, 3) or (H, W, 4).
         panes: by display, from top to bottom; those with a video are left out.
         hidden: ids of the displays that a pane leaves out, by its display.
@@ -51,8 +51,8 @@ def with_panes(
             continue
         assert isinstance(pane.picture, Pixels | Encoded)
         own = opened(pane.picture)
-        if pane.camera:
-            shown = page.pane(own, pane.camera, room, hidden.get(display, ()))
+        if pane.camera or pane.marks:
+            shown = page.pane(own, pane, room, hidden.get(display, ()))
         else:
             shown = _fitting(own, room)
         place = GAP + (room[0] - shown.width) // 2, top + (room[1] - shown.height) // 2

@@ -4,7 +4,7 @@
 import * as viser from "../viser_page.js";
 import { contextOf } from "../dom.js";
 import { undistort, straight } from "./undistort.js";
-import { boxIn, paint } from "./camera_overlay.js";
+import { boxIn, paint, placeIn } from "./camera_overlay.js";
 import { makePicture } from "./picture.js";
 
 /** @import {Picture, PictureListener} from "./picture.js" */
@@ -39,12 +39,16 @@ export function makeCamera(canvas, { drawn, fail }) {
   let painted = 0;
   let timer = 0;
 
-  function take() {
+  function prepare() {
     if (warp) {
       Object.assign(undistorted.canvas, { width: sheet.width, height: sheet.height });
       undistort(sheet, warp, undistorted);
     }
     ask();
+  }
+
+  function take() {
+    prepare();
     drawn();
   }
 
@@ -94,6 +98,7 @@ export function makeCamera(canvas, { drawn, fail }) {
       camera = header.camera ?? null;
       if (header.warp !== undefined) warp = header.warp;
       if (!camera) warp = null;
+      if (header.is_same) prepare();
       return picture.take(header, data);
     },
     /**
@@ -132,6 +137,7 @@ export function makeCamera(canvas, { drawn, fail }) {
       const [x, y] = [Math.floor(share[0] * wide), Math.floor(share[1] * tall)];
       return x >= 0 && y >= 0 && x < wide && y < tall ? [x, y] : null;
     },
+    placeIn: (width, height) => placeIn({ camera, warp, size: picture.size() }, width, height),
     colorAt: picture.colorAt,
     close() {
       clearTimeout(timer);

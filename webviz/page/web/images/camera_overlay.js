@@ -1,8 +1,10 @@
 // A picture with the scene over and under it, as the camera sees it that took the picture.
 
 import { drawSecond } from "../scene/second_camera.js";
+import { bent } from "./undistort.js";
 
-/** @import {PictureCamera} from "../messages.js" */
+/** @import {PictureCamera, PictureWarp} from "../messages.js" */
+/** @import {Places} from "./marks.js" */
 /** @import {Vec2} from "../types.js" */
 
 /**
@@ -44,6 +46,28 @@ export function boxIn(camera, size, width, height) {
     top: height * ((1 - tall) / 2 + top * tall),
     width: width * wide * (right - left),
     height: height * tall * (bottom - top),
+  };
+}
+
+/**
+ * The places of the pixels of a picture in a pane so large.
+ *
+ * @param {{camera: PictureCamera | null, warp: PictureWarp | null, size: Vec2}} shown
+ * @param {number} width
+ * @param {number} height
+ * @returns {Places}
+ */
+export function placeIn({ camera, warp, size }, width, height) {
+  const box = boxIn(camera, size, width, height);
+  return {
+    width,
+    scale: box.width / size[0],
+    at(x, y) {
+      /** @type {Vec2} */
+      const share = [x / size[0], y / size[1]];
+      const [across, down] = (warp && bent(warp, share)) ?? share;
+      return [box.left + across * box.width, box.top + down * box.height];
+    },
   };
 }
 

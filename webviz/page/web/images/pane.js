@@ -1,12 +1,14 @@
 // A pane: the picture of one display, what it is called, and what is under the mouse.
 
 import * as channel from "../channel.js";
+import { fitted } from "../charts/canvas.js";
 import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
 import { sanitized } from "../sanitize.js";
 import { recall, remember } from "../remember.js";
 import { makeCamera } from "./camera.js";
 import * as frames from "./frames.js";
+import { drawMarks, markAt } from "./marks.js";
 import { makePicture } from "./picture.js";
 import { makeReadout } from "./readout.js";
 import { makeZoom } from "./zoom.js";
@@ -14,6 +16,7 @@ import { makeZoom } from "./zoom.js";
 /** @import {ColorRange, PictureHeader, PixelValue} from "../messages.js" */
 /** @import {PaneCaption} from "../contents.js" */
 /** @import {Vec2} from "../types.js" */
+/** @import {Places} from "./marks.js" */
 
 const READ_MS = 100;
 const RATE_MS = 1000;
@@ -64,6 +67,7 @@ export function makePane(id, changed, withScene) {
     icon("fullscreen"),
   );
   const head = el("header", { class: "wv-pane-head" }, fold, name, facts, unzoom, full);
+  const overlay = el("canvas", { class: "wv-pane-marks" });
   const body = el("div", { class: "wv-pane-body" }, canvas, problem, value, legend);
   const element = el("section", { class: "wv-pane", tabindex: -1 }, head, body);
 
@@ -108,6 +112,7 @@ export function makePane(id, changed, withScene) {
   function zoomed() {
     unzoom.hidden = zoom.zoom() === 1;
     setText(unzoom, `${zoom.zoom().toFixed(1)}×`);
+    showMarks();
     frames.refresh(); // a larger picture has more to show
   }
 
@@ -176,6 +181,38 @@ export function makePane(id, changed, withScene) {
     scale = stops;
   }
 
+  /** @returns {Places} of the pixels of the picture in the body. */
+  function places() {
+    const { clientWidth, clientHeight } = body;
+    const { at, scale } = picture.placeIn(clientWidth, clientHeight);
+    const [zoomed, [left, top]] = [zoom.zoom(), zoom.corner()];
+    return {
+      width: clientWidth,
+      scale: scale * zoomed,
+      at(x, y) {
+        const [across, down] = at(x, y);
+        return [left * clientWidth + zoomed * across, top * clientHeight + zoomed * down];
+      },
+    };
+  }
+
+  function showMarks() {
+    const marks = last.marks ?? [];
+    if (!marks.length) return overlay.remove();
+    if (!overlay.isConnected) canvas.after(overlay);
+    if (!body.clientWidth || !picture.size()[0]) return;
+    drawMarks(fitted(overlay).context, marks, places());
+  }
+  const resized = new ResizeObserver(showMarks);
+  resized.observe(body);
+
+  /** The text about the mark under the mouse. */
+  function aboutMark() {
+    if (!mouse || !last.marks?.length) return "";
+    const box = body.getBoundingClientRect();
+    return markAt(last.marks, places(), [mouse.clientX - box.left, mouse.clientY - box.top]);
+  }
+
   function read() {
     const pixel = mouse && picture.pixelAt(mouse);
     if (pixel && value.hidden) tell(pixel, "");
@@ -196,7 +233,8 @@ export function makePane(id, changed, withScene) {
    * @param {Vec2} pixel
    * @param {string} text
    */
-  const tell = ([x, y], text) => setText(value, `x ${x} · y ${y}${text && ` · ${text}`}`);
+  const tell = ([x, y], text) =>
+    setText(value, [`x ${x} · y ${y}`, text, aboutMark()].filter(Boolean).join(" · "));
   readers.set(id, ({ x, y, text }) => mouse && tell([x, y], text));
   canvas.addEventListener("pointermove", (event) => {
     mouse = { clientX: event.clientX, clientY: event.clientY };
@@ -232,6 +270,7 @@ export function makePane(id, changed, withScene) {
       if (header.mime === TEXT) return takeText(header, data);
       await picture.take(header, data);
       last = header;
+      showMarks();
       element.dataset.stamp = String(header.stamp);
       showLegend(header.legend);
       read();
@@ -281,6 +320,7 @@ export function makePane(id, changed, withScene) {
     },
     close() {
       clearInterval(ticking);
+      resized.disconnect();
       readers.delete(id);
       picture.close();
       readout?.close();

@@ -1,16 +1,19 @@
 // The canvas of a pane: draws still pictures and video, and knows which pixel is under the mouse.
 
 import { contextOf } from "../dom.js";
+import { placeIn } from "./camera_overlay.js";
 import { makeVideo } from "./video.js";
 
 /** @import {PictureHeader} from "../messages.js" */
 /** @import {Vec2} from "../types.js" */
+/** @import {Places} from "./marks.js" */
 
 /**
  * @typedef {{drawn: () => void, fail: (sentence: string) => void}} PictureListener
  * @typedef {{
  *   size: () => Vec2, take: (header: PictureHeader, data: Uint8Array<ArrayBuffer>) => Promise<void>,
  *   width: () => number, pixelAt: (pointer: {clientX: number, clientY: number}) => Vec2 | null,
+ *   placeIn: (width: number, height: number) => Places,
  *   colorAt: (pixel: Vec2) => number[], hide?: (ids: string[]) => void, close: () => void,
  * }} Picture
  */
@@ -96,6 +99,7 @@ export function makePicture(canvas, { drawn, fail }) {
      * @param {Uint8Array<ArrayBuffer>} data
      */
     async take(header, data) {
+      if (header.is_same) return;
       if (!header.video) {
         video?.close();
         video = null;
@@ -124,6 +128,8 @@ export function makePicture(canvas, { drawn, fail }) {
       const y = Math.floor((clientY - box.top - (box.height - size[1] * scale) / 2) / scale);
       return x >= 0 && y >= 0 && x < size[0] && y < size[1] ? [x, y] : null;
     },
+    /** The places of its pixels in a pane so large. */
+    placeIn: (width, height) => placeIn({ camera: null, warp: null, size }, width, height),
     /** Red, green and blue of a pixel as it is drawn. */
     colorAt([x, y]) {
       const column = Math.floor((x * canvas.width) / size[0]);

@@ -126,20 +126,76 @@ function trianglesOf({ rows, columns, places }) {
  * @param {Vec2} place
  * @returns {Vec2 | null}
  */
-export function straight({ rows, columns, places }, [x, y]) {
+export function straight(warp, place) {
+  const [x, y] = place;
+  if (x < 0 || y < 0 || x > 1 || y > 1) return null;
+  const share = sourceOf(warp, place);
+  return share.every((each) => each >= 0 && each < 1) ? share : null;
+}
+
+/**
+ * The same without a limit, from the nearest cell of the grid; not a number beside what the lens sees.
+ *
+ * @param {PictureWarp} warp
+ * @param {Vec2} place
+ * @returns {Vec2}
+ */
+function sourceOf({ rows, columns, places }, [x, y]) {
   const [across, down] = [x * (columns - 1), y * (rows - 1)];
-  const column = Math.min(Math.floor(across), columns - 2);
-  const row = Math.min(Math.floor(down), rows - 2);
-  if (column < 0 || row < 0 || across > columns - 1 || down > rows - 1) return null;
+  const column = Math.max(0, Math.min(Math.floor(across), columns - 2));
+  const row = Math.max(0, Math.min(Math.floor(down), rows - 2));
   const [u, v] = [across - column, down - row];
-  const share = [0, 1].map((axis) => {
+  /** @param {0 | 1} axis */
+  const share = (axis) => {
     /**
      * @param {number} r
      * @param {number} c
      */
     const at = (r, c) => places[2 * ((row + r) * columns + column + c) + axis] ?? NaN;
     return (at(0, 0) * (1 - u) + at(0, 1) * u) * (1 - v) + (at(1, 0) * (1 - u) + at(1, 1) * u) * v;
-  });
-  const isIn = share.every((each) => each >= 0 && each < 1);
-  return isIn ? [share[0], share[1]] : null;
+  };
+  return [share(0), share(1)];
+}
+
+const STEPS = 8;
+const SLOPE = 1e-3; // over which it is measured
+
+/**
+ * The place of the undistorted image that shows a place of the image; the opposite of `straight`. Null
+ * if the lens does not see it.
+ *
+ * @param {PictureWarp} warp
+ * @param {Vec2} share
+ * @returns {Vec2 | null}
+ */
+export function bent(warp, share) {
+  let [x, y] = nearest(warp, share);
+  for (let step = 0; step < STEPS; step++) {
+    const [u, v] = sourceOf(warp, [x, y]);
+    const [uRight, vRight] = sourceOf(warp, [x + SLOPE, y]);
+    const [uDown, vDown] = sourceOf(warp, [x, y + SLOPE]);
+    const [a, b, c, d] = [uRight - u, uDown - u, vRight - v, vDown - v].map((each) => each / SLOPE);
+    const size = a * d - b * c;
+    const [du, dv] = [share[0] - u, share[1] - v];
+    x += (d * du - b * dv) / size;
+    y += (a * dv - c * du) / size;
+  }
+  return Number.isFinite(x) && Number.isFinite(y) ? [x, y] : null;
+}
+
+/**
+ * The corner of the grid that is nearest to a place of the image.
+ *
+ * @param {PictureWarp} warp
+ * @param {Vec2} share
+ * @returns {Vec2}
+ */
+function nearest({ rows, columns, places }, [x, y]) {
+  let [best, least] = [0, Infinity];
+  for (let i = 0; i < rows * columns; i++) {
+    const [u, v] = [places[2 * i] ?? NaN, places[2 * i + 1] ?? NaN];
+    const far = Math.hypot(u - x, v - y);
+    if (far < least) [best, least] = [i, far];
+  }
+  return [(best % columns) / (columns - 1), Math.floor(best / columns) / (rows - 1)];
 }

@@ -13,7 +13,7 @@ const MOVES = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDo
 
 /**
  * Lets a canvas that fills its parent be zoomed; `changed()` is called whenever it shows another part.
- * Returns `{zoom(), reset(), key(event)}`; `key` says whether it took a key.
+ * Returns `{zoom(), corner(), reset(), key(event)}`; `key` says whether it took a key.
  *
  * @param {HTMLCanvasElement} canvas
  * @param {() => void} changed
@@ -99,6 +99,8 @@ export function makeZoom(canvas, changed) {
 
   return {
     zoom: () => zoom,
+    /** @returns {Vec2} The left upper corner of the zoomed canvas, as shares of the pane. */
+    corner: () => [x, y],
     reset: () => show(1, 0, 0),
     /** @param {KeyboardEvent} event */
     key(event) {

@@ -1,0 +1,222 @@
+"""Annotations over images: which belong to an image, what they look like, and what is refused."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import photos
+import pytest
+
+from webviz import Topic
+from webviz_displays.camera import Camera
+from webviz_displays.image import Image
+from webviz_displays.image.annotated import KEPT
+from webviz_displays.image.marks import ANNOTATIONS, DETECTIONS, MAX_MARKS, MAX_POINTS
+
+SECOND = 1_000_000_000
+Benches = Callable[..., Any]
+PIXELS = photos.room(16, 12)[0]
+RED = {"r": 1.0, "a": 1.0}
+
+
+def detection(x: float = 8.0, turn: float = 0.0, **scores: float) -> dict[str, Any]:
+    center = {"position": {"x": x, "y": 6.0}, "theta": turn}
+    results = [{"hypothesis": {"class_id": k, "score": v}} for k, v in scores.items()]
+    return {"bbox": {"center": center, "size_x": 4.0, "size_y": 2.0}, "results": results}
+
+
+def points(kind: int, *places: tuple[float, float], **changes: Any) -> dict[str, Any]:
+    found = [{"x": x, "y": y} for x, y in places]
+    return {"type": kind, "points": found, "outline_color": RED, "thickness": 1.0, **changes}
+
+
+class Stage:
+    """An image display at work, with images and detections at seconds of its time."""
+
+    def __init__(self, bench: Benches, **values: Any) -> None:
+        self.at = bench(Image(annotations_topic=Topic("/found"), **values))
+        self.start_ns = self.at.now_ns
+
+    def image(self, second: float) -> None:
+        self._send(photos.RAW, photos.raw(PIXELS, "rgb8"), "/camera/image_raw", second)
+
+    def detect(self, second: float, *found: dict[str, Any]) -> None:
+        topic = self.at.runner.display.annotations_topic.name
+        self._send(DETECTIONS, {"detections": list(found)}, topic, second)
+
+    def annotate(self, **values: Any) -> None:
+        self.at.send(ANNOTATIONS, values, topic="/found")
+        self.at.turn()
+
+    def _send(self, type_name: str, values: Any, topic: str, second: float) -> None:
+        stamp_ns = self.start_ns + round(second * SECOND)
+        self.at.send(type_name, values, frame="camera", topic=topic, stamp_ns=stamp_ns)
+        self.at.turn()
+
+    def pane(self) -> Any:
+        return self.at.nodes()["pane"]
+
+    def status(self) -> tuple[str, str]:
+        return self.at.statuses()["Annotations"]
+
+
+@pytest.fixture
+def shown(bench: Benches) -> Stage:
+    return Stage(bench)
+
+
+def test_an_image_has_the_detections_of_its_stamp_whichever_comes_first(shown: Stage) -> None:
+    shown.detect(0.1, detection(5.0))
+    shown.detect(0.2, detection(9.0))
+    shown.image(0.1)
+    (mark,) = shown.pane().marks
+    assert mark.points == (3.0, 5.0, 7.0, 5.0, 7.0, 7.0, 3.0, 7.0)
+    assert shown.status() == ("OK", "1 annotation.")
+    shown.image(0.3)
+    assert shown.pane().marks[0].points[0] == 7.0
+    assert shown.status() == ("OK", "1 annotation, 0.1 s older than the image.")
+    shown.detect(0.3)
+    assert shown.pane().marks == ()
+    assert shown.status() == ("OK", "0 annotations.")
+
+
+def test_only_what_changed_is_another_pane(shown: Stage) -> None:
+    shown.image(0.0)
+    shown.detect(0.0, detection())
+    pane = shown.pane()
+    shown.at.turn()
+    assert shown.pane() is pane
+    shown.detect(0.0, detection())
+    assert shown.pane() is pane
+    shown.detect(0.0, detection(9.0))
+    assert shown.pane().picture == pane.picture
+    assert shown.pane() is not pane
+
+
+def test_detections_of_another_time_are_not_shown(shown: Stage) -> None:
+    shown.detect(0.0, detection())
+    shown.image(3.0)
+    assert shown.pane().marks == ()
+    level, text = shown.status()
+    assert level == "WARN"
+    assert text.startswith("None within 1 s of the image: the newest are 3 s older than it.")
+    shown.detect(3.0, detection())
+    assert len(shown.pane().marks) == 1
+
+
+def test_only_the_newest_messages_are_kept(shown: Stage) -> None:
+    for i in range(KEPT + 1):
+        shown.detect(i / 10, detection(float(i)))
+    shown.image(0.0)
+    assert shown.pane().marks[0].points[0] == KEPT - 2.0
+    shown.image(0.1)
+    assert shown.pane().marks[0].points[0] == -1.0
+
+
+def test_annotations_of_another_topic_are_forgotten(shown: Stage) -> None:
+    shown.detect(0.0, detection())
+    shown.image(0.0)
+    assert shown.pane().marks
+    shown.at.set("annotations_topic", Topic("/others"))
+    shown.detect(0.2, detection(9.0), detection(2.0))
+    shown.image(0.0)
+    assert len(shown.pane().marks) == 2
+    shown.at.set("annotations_topic", Topic())
+    shown.image(0.0)
+    assert shown.pane().marks == ()
+    assert "Annotations" not in shown.at.statuses()
+
+
+def test_a_detection_says_its_classes_and_is_turned(shown: Stage) -> None:
+    shown.image(0.0)
+    shown.detect(0.0, detection(turn=math.pi / 2, dog=0.25, person=0.5), detection())
+    (first, second) = shown.pane().marks
+    assert first.text == "person 0.50"
+    assert first.about == "Detection 0 · person 0.50 · dog 0.25 · 4 x 2 px"
+    assert first.points[:4] == (9.0, 4.0, 9.0, 8.0)  # x to the right becomes down
+    assert second.text == ""
+    assert first.color != second.color
+    shown.at.set("show_labels", False)
+    assert shown.pane().marks[0].text == ""
+
+
+def test_annotations_of_foxglove_have_their_kinds_and_colours(shown: Stage) -> None:
+    green = {"g": 1.0, "a": 0.5}
+    shown.image(0.0)
+    shown.annotate(
+        points=[
+            points(1, (1.0, 2.0), (3.0, 4.0), outline_colors=[green]),
+            points(2, (0.0, 0.0), (4.0, 0.0), (4.0, 4.0), fill_color=green),
+            points(3, (0.0, 0.0), (4.0, 0.0)),
+            points(4, (0.0, 0.0), (4.0, 0.0)),
+        ],
+        circles=[{"position": {"x": 5.0, "y": 6.0}, "diameter": 4.0, "outline_color": RED}],
+        texts=[{"position": {"x": 1.0}, "text": "two\nlines", "text_color": RED}],
+    )
+    kinds = ("points", "loop", "strip", "pairs", "circle", "text")
+    marks = shown.pane().marks
+    assert tuple(mark.kind for mark in marks) == kinds
+    assert {mark.color for mark in marks} == {"#ff0000ff"}
+    assert marks[0].colors == ("#00ff0080",)
+    assert marks[1].fill == "#00ff0080"
+    assert marks[4].points == (5.0, 6.0, 7.0, 6.0)
+    assert (marks[5].text, marks[5].width) == ("two lines", 12.0)
+    assert shown.status() == ("OK", "6 annotations.")
+
+
+@pytest.mark.parametrize(
+    "bad",
+    [
+        {"points": [points(2, (math.nan, 0.0))]},
+        {"points": [points(2, (1e308, 0.0))]},
+        {"points": [points(2)]},
+        {"points": [points(7, (0.0, 0.0))]},
+        {"points": [points(2, (0.0, 0.0), thickness=math.inf)]},
+        {"circles": [{"diameter": -1.0}]},
+        {"circles": [{"diameter": math.nan}]},
+        {"texts": [{"position": {"x": -math.inf}, "text": "far"}]},
+    ],
+)
+def test_what_is_not_valid_is_counted_and_the_rest_shown(shown: Stage, bad: Any) -> None:
+    shown.image(0.0)
+    good = points(2, (0.0, 0.0), (1.0, 0.0))
+    shown.annotate(**{**bad, "points": [*bad.get("points", []), good]})
+    assert [mark.kind for mark in shown.pane().marks] == ["loop"]
+    level, text = shown.status()
+    assert level == "ERROR"
+    assert text.startswith("1 of 2 annotations have a place, size or kind that is not valid.")
+
+
+def test_colours_that_are_no_numbers_are_black(shown: Stage) -> None:
+    shown.image(0.0)
+    color = {"r": math.nan, "g": math.inf, "b": -1e308, "a": 1.0}
+    shown.annotate(points=[points(2, (0.0, 0.0), outline_color=color)])
+    assert shown.pane().marks[0].color == "#00ff00ff"
+
+
+def test_a_flood_is_cut(shown: Stage) -> None:
+    shown.image(0.0)
+    shown.detect(0.0, *[detection()] * (MAX_MARKS + 7))
+    assert len(shown.pane().marks) == MAX_MARKS
+    assert shown.status() == ("WARN", f"Showing {MAX_MARKS} annotations; 7 more are left out.")
+
+
+def test_what_has_too_many_points_is_left_out(shown: Stage) -> None:
+    shown.image(0.0)
+    huge = points(3, *[(1.0, 1.0)] * (MAX_POINTS + 1))
+    shown.annotate(points=[points(3, (0.0, 0.0)), huge])
+    assert len(shown.pane().marks) == 1
+    assert shown.status() == ("WARN", "Showing 1 annotation; 1 more are left out.")
+
+
+def test_the_camera_shows_them_too(bench: Benches) -> None:
+    at = bench(Camera(annotations_topic=Topic("/found")))
+    at.transform("map", "camera", (1.0, 0.0, 0.0))
+    at.send(photos.INFO, photos.info(16, 12), frame="camera", topic="/camera/camera_info")
+    at.send(DETECTIONS, {"detections": [detection()]}, frame="camera", topic="/found")
+    at.send(photos.RAW, photos.raw(PIXELS, "rgb8"), frame="camera", topic="/camera/image_raw")
+    at.turn()
+    assert len(at.nodes()["pane"].marks) == 1
+    assert at.nodes()["pane"].camera is not None

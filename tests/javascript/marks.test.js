@@ -1,0 +1,20 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { markAt } from "../../webviz/page/web/images/marks.js";
+
+const places = { at: (x, y) => [2 * x, 2 * y], scale: 2, width: 200 };
+const box = (about, left, top, right, bottom) => ({
+  kind: "loop",
+  points: [left, top, right, top, right, bottom, left, bottom],
+  color: "#ff0000",
+  about,
+});
+
+test("the smallest box under the mouse is told, and nothing beside all", () => {
+  const marks = [box("dog", 20, 20, 30, 30), box("room", 0, 0, 90, 90), box("", 24, 24, 26, 26)];
+  assert.equal(markAt(marks, places, [50, 50]), "dog");
+  assert.equal(markAt(marks, places, [100, 100]), "room");
+  assert.equal(markAt(marks, places, [100, 198]), "");
+  assert.equal(markAt([], places, [0, 0]), "");
+});
