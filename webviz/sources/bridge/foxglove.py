@@ -7,14 +7,20 @@ from collections.abc import Collection, Mapping, Sequence
 from concurrent.futures import Future
 from typing import Any
 
-from webviz.api.offer import Durability, Endpoint, Publisher
+from webviz.api.offer import Endpoint, Publisher
 from webviz.data.messages import UnknownTypeError, definition
 from webviz.data.words import plain
 from webviz.sources.bridge import foxglove_wire as wire
 from webviz.sources.bridge.foxglove_channels import FoxgloveChannels
 from webviz.sources.bridge.foxglove_graph import ConnectionGraph
 from webviz.sources.bridge.foxglove_schemas import conversion, problem_of
-from webviz.sources.bridge.session import CarriedTopic, Host
+from webviz.sources.bridge.session import (
+    CarriedTopic,
+    Host,
+    fail,
+    succeed,
+    usual_durability,
+)
 from webviz.sources.graph import UNKNOWN, Advertisement, Missing, NotConnected
 from webviz.sources.source import Subscription
 
@@ -175,7 +181,7 @@ class FoxgloveSession:
     def close(self, problem: str) -> None:
         """Fail everything that is pending."""
         for answer in (*self._pending.values(), *self._assets.values()):
-            _fail(answer, problem)
+            fail(answer, problem)
         self._pending.clear()
         self._assets.clear()
 
@@ -194,9 +200,9 @@ class FoxgloveSession:
             case wire.Asset():
                 answer = self._assets.pop(message.request, None)
                 if answer is not None and message.problem:
-                    _fail(answer, f"The bridge has no such file: {message.problem}.")
+                    fail(answer, f"The bridge has no such file: {message.problem}.")
                 elif answer is not None:
-                    _succeed(answer, message.data)
+                    succeed(answer, message.data)
 
     def _cdr(self, topic: str, payload: bytes) -> bytes:
         """Return a message in CDR, of which others than Foxglove's own are made already."""
@@ -225,7 +231,7 @@ class FoxgloveSession:
             case wire.ServiceCallFailure():
                 if answer := self._pending.pop(message.call_id, None):
                     reason = plain(message.message, 300) or "the bridge gives no reason"
-                    _fail(answer, f"The call has failed: {reason}")
+                    fail(answer, f"The call has failed: {reason}")
                 return
             case wire.ConnectionGraphUpdate():
                 self._graph.update(message)
@@ -252,9 +258,9 @@ class FoxgloveSession:
             return
         if response.encoding != "cdr":
             said = plain(response.encoding, 40)
-            _fail(answer, f"The bridge answers in the encoding {said!r}, webviz reads cdr only.")
+            fail(answer, f"The bridge answers in the encoding {said!r}, webviz reads cdr only.")
         else:
-            _succeed(answer, response.payload)
+            succeed(answer, response.payload)
 
     def _note(self, status: wire.ServerStatus) -> None:
         if status.level <= 0:
@@ -302,7 +308,7 @@ class FoxgloveSession:
             make = functools.partial(
                 Publisher, type=type, reliability="reliable", is_qos_known=False
             )
-            durability = _durability(topic, type)
+            durability = usual_durability(topic, type)
             nodes = self._graph.publishers(topic) or ("",)
             publishers += [make(node=node, durability=durability) for node in nodes]
         reasons = [_unread(channel) for channel in channels]
@@ -375,21 +381,3 @@ def _type_of(channel: wire.ServerChannel) -> str:
     """Return the message type of ROS of what a channel has."""
     known = conversion(channel.schema_name) if _is_foreign(channel) else None
     return known.type if known else channel.schema_name
-
-
-def _durability(topic: str, type: str) -> Durability:
-    """Return what publishers of such a topic usually offer, as the bridge does not tell it."""
-    is_latched = (
-        topic.endswith(("/tf_static", "/robot_description")) or type == "nav_msgs/msg/OccupancyGrid"
-    )
-    return "transient_local" if is_latched else "volatile"
-
-
-def _fail(answer: Future[bytes], problem: str) -> None:
-    if not answer.done():
-        answer.set_exception(NotConnected(problem))
-
-
-def _succeed(answer: Future[bytes], data: bytes) -> None:
-    if not answer.done():
-        answer.set_result(data)

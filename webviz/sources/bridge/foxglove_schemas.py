@@ -15,7 +15,7 @@ import numpy as np
 from webviz.data.messages import encode
 from webviz.data.rotations import matrices, w_first
 from webviz.sources.bridge.foxglove_scene import header, markers_of, pose_of, time_of
-from webviz.sources.bridge.foxglove_wire import WireError
+from webviz.sources.bridge.session import WireError
 
 MISSING = (
     "{name} needs the package foxglove-schemas-protobuf. Install it with "

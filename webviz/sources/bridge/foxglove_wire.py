@@ -9,6 +9,7 @@ from typing import NamedTuple
 import msgspec
 
 from webviz.data.words import plain
+from webviz.sources.bridge.session import WireError
 
 SUBPROTOCOLS = ("foxglove.sdk.v1", "foxglove.websocket.v1")
 """Names of the protocol since and before version 3 of foxglove_bridge; the frames are the same."""
@@ -20,10 +21,6 @@ _MESSAGE = struct.Struct("<BIQ")
 _TIME = struct.Struct("<BQ")
 _RESPONSE = struct.Struct("<BIII")
 _ASSET = struct.Struct("<BIBI")
-
-
-class WireError(ValueError):
-    """A frame is not of the protocol; one sentence."""
 
 
 class _Struct(msgspec.Struct, rename="camel"):

@@ -7,9 +7,13 @@ from concurrent.futures import Future
 from dataclasses import dataclass, replace
 from typing import Protocol
 
-from webviz.api.offer import Endpoint, Offer, Publisher
-from webviz.sources.graph import Advertisement
+from webviz.api.offer import Durability, Endpoint, Offer, Publisher
+from webviz.sources.graph import Advertisement, NotConnected
 from webviz.sources.source import Subscription
+
+
+class WireError(ValueError):
+    """A frame is not of the protocol; one sentence."""
 
 
 @dataclass(frozen=True)
@@ -148,3 +152,24 @@ class BridgeSession(Protocol):
     def close(self, problem: str) -> None:
         """Fail everything that is pending."""
         ...
+
+
+def usual_durability(topic: str, type: str) -> Durability:
+    """Return what publishers of such a topic usually offer, as bridges do not tell it."""
+    is_latched = (
+        topic.endswith(("/tf_static", "/robot_description")) or type == "nav_msgs/msg/OccupancyGrid"
+    )
+    return "transient_local" if is_latched else "volatile"
+
+
+def fail(answer: Future[bytes], problem: str | NotConnected) -> None:
+    """End a request without an answer."""
+    if not answer.done():
+        error = NotConnected(problem) if isinstance(problem, str) else problem
+        answer.set_exception(error)
+
+
+def succeed(answer: Future[bytes], data: bytes) -> None:
+    """Answer a request."""
+    if not answer.done():
+        answer.set_result(data)

@@ -21,12 +21,11 @@ from webviz.sources.bridge.clock import BridgeClock
 from webviz.sources.bridge.connection import BridgeConnection, Silent
 from webviz.sources.bridge.definitions import Definitions
 from webviz.sources.bridge.describing import STALLED_S, described
-from webviz.sources.bridge.foxglove import FoxgloveSession
-from webviz.sources.bridge.foxglove_wire import SUBPROTOCOLS, WireError
 from webviz.sources.bridge.graph import BridgeGraph
 from webviz.sources.bridge.health import LinkHealth
+from webviz.sources.bridge.protocols import OFFERED, open_session
 from webviz.sources.bridge.refusals import OPEN_TIMEOUT_S, explain
-from webviz.sources.bridge.session import BridgeSession, CarriedTopic
+from webviz.sources.bridge.session import BridgeSession, CarriedTopic, WireError
 from webviz.sources.graph import NotConnected
 from webviz.sources.inbox import MAX_TOTAL, Inbox, Raw
 from webviz.sources.names import resolved
@@ -255,7 +254,7 @@ class BridgeSource:
         """Open the connection once, and talk until it breaks."""
         async with connect(
             self._address.url,
-            subprotocols=SUBPROTOCOLS,  # pyright: ignore[reportArgumentType]
+            subprotocols=OFFERED,  # pyright: ignore[reportArgumentType]
             additional_headers=self._address.headers,
             create_connection=BridgeConnection,
             open_timeout=OPEN_TIMEOUT_S,
@@ -268,7 +267,7 @@ class BridgeSource:
             assert isinstance(socket, BridgeConnection)
             self._socket = socket
             self._outbox = asyncio.Queue()
-            self._session = session = FoxgloveSession(self)
+            self._session = session = open_session(socket.subprotocol, self)
             self._joined(session)
             tasks = [
                 asyncio.ensure_future(each)

@@ -1,0 +1,387 @@
+"""One connection to rosbridge, with rosapi beside it."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Callable, Collection, Mapping, Sequence
+from concurrent.futures import Future
+from typing import Any
+
+from webviz.api.errors import Error
+from webviz.api.offer import Publisher
+from webviz.data.messages import Clock, MessageError, decode
+from webviz.data.words import listed, plain
+from webviz.sources.bridge import rosbridge_wire as wire
+from webviz.sources.bridge.rosbridge_values import from_values, to_values
+from webviz.sources.bridge.session import (
+    CarriedTopic,
+    Host,
+    WireError,
+    fail,
+    succeed,
+    usual_durability,
+)
+from webviz.sources.graph import UNKNOWN, Advertisement, Missing, NotConnected
+from webviz.sources.names import MAX_NAME, is_full_name
+from webviz.sources.source import Subscription
+
+POLL_S = 2.0
+"""Between two readings of the topics, of which rosbridge tells no changes."""
+NODES_EACH = 5
+"""Readings of the topics for one of the nodes."""
+LATE_S = 6.0
+"""Without an answer of rosapi, after which that is said."""
+MAX_TOPICS = 10_000
+MAX_TEXTS = 256 << 20
+"""Characters of all definitions."""
+MAX_PENDING = 1000
+"""Calls whose answers are outstanding."""
+MAX_STATUSES = 8
+"""Warnings of the bridge that are kept, the newest."""
+CLOCK = "/clock"
+CLOCK_TYPE = "rosgraph_msgs/msg/Clock"
+EVENTS = "/parameter_events"
+GET_PARAMETERS = "rcl_interfaces/srv/GetParameters"
+START = (
+    "Start rosbridge with `ros2 launch rosbridge_server rosbridge_websocket_launch.xml`, which "
+    "starts rosapi, too."
+)
+NO_ASSETS = (
+    "rosbridge sends no files. Install the package with the meshes on this machine, or use "
+    "foxglove_bridge."
+)
+LIMITS = (
+    "rosbridge does not tell the QoS of publishers; it subscribes with one that matches them.",
+    "rosbridge tells neither which nodes publish a topic nor whether any does.",
+    "Messages above its max_message_size, 10 MB unless set, do not arrive.",
+    "A topic that another client of rosbridge reads as JSON does not arrive.",
+    "While a service takes its time, rosbridge publishes nothing; its parameter "
+    "call_services_in_new_thread changes that.",
+    "Goals for actions and files do not pass it.",
+)
+NO_DEFINITION = "# failed to get full definition text"
+"""In place of a definition that rosapi does not have."""
+
+
+class RosbridgeSession:
+    """Topics and services of rosbridge; see `BridgeSession`.
+
+    Of rosapi, only services are called that no race makes fail: an exception in one ends rosapi.
+
+    Args:
+        host: of the connection.
+    """
+
+    protocol = "rosbridge"
+
+    def __init__(self, host: Host) -> None:
+        self._host = host
+        self._types: dict[str, str] = {}
+        """By topic."""
+        self._texts: dict[str, str] = {}
+        """Definitions by type, "" if rosapi has none."""
+        self._nodes: tuple[str, ...] = ()
+        self._with_parameters: tuple[str, ...] = ()
+        """Nodes with services for parameters, which publish their changes."""
+        self._wishes: Mapping[str, Subscription] = {}
+        self._lines: dict[str, tuple[str, int]] = {}
+        """By subscribed topic: its type, and `asked` of the wish."""
+        self._problems: dict[str, str] = {}
+        self._advertised: set[Advertisement] = set()
+        self._asked: dict[str, Callable[[wire.ServiceResponse], object]] = {}
+        """By id of a call of rosapi."""
+        self._asked_s: float | None = None
+        """Moment of the reading that is not answered yet."""
+        self._pending: dict[str, tuple[Future[bytes], str, str]] = {}
+        """By id of a call: its answer, the service, and the type of the response."""
+        self._fragments = wire.Fragments()
+        self._statuses: dict[str, None] = {}
+        self._api_problem = ""
+        self._left_out: list[str] = []
+        self._polls = 0
+        self._timer: asyncio.TimerHandle | None = None
+        self._next_id = 1
+
+    # For the source
+
+    @property
+    def topics(self) -> Mapping[str, CarriedTopic]:
+        """All topics, by name."""
+        return {topic: self._carried(topic, type) for topic, type in self._types.items()}
+
+    @property
+    def nodes(self) -> tuple[str, ...]:
+        """Full names of the nodes, sorted."""
+        return self._nodes
+
+    @property
+    def remarks(self) -> Sequence[str]:
+        """What the bridge and rosapi lack, and warnings of the bridge."""
+        late_s = 0.0 if self._asked_s is None else time.monotonic() - self._asked_s
+        late = f"rosapi has not answered for {late_s:.0f} s, so topics may be missing. {START}"
+        return [
+            *([] if wire.is_readable() else [f"{wire.MISSING}."]),
+            *([late] if late_s > LATE_S else []),
+            *([self._api_problem] if self._api_problem else []),
+            *self._left_out,
+            *self._statuses,
+        ]
+
+    @property
+    def limits(self) -> Sequence[str]:
+        """Limits of rosbridge."""
+        return LIMITS
+
+    def start(self) -> None:
+        """Ask for the topics, and again and again."""
+        self._asked_s = time.monotonic()
+        self._ask("/rosapi/topics", {}, self._take_topics)
+        if self._polls % NODES_EACH == 0:
+            self._ask("/rosapi/nodes", {}, self._take_nodes)
+            self._ask("/rosapi/services_for_type", {"type": GET_PARAMETERS}, self._take_services)
+        self._polls += 1
+
+    def receive(self, frame: str | bytes) -> None:
+        """Take a frame; raises WireError."""
+        if isinstance(frame, bytes):
+            if wire.is_readable():
+                self._take_message(wire.read_binary(frame))
+            return
+        message = wire.read_text(frame)
+        if isinstance(message, wire.Fragment):
+            whole = self._fragments.add(message)
+            message = None if whole is None else wire.read_text(whole)
+        match message:
+            case wire.ServiceResponse():
+                self._take_response(message)
+            case wire.Status():
+                self._note(message)
+            case _:
+                return
+
+    def want(self, wishes: Mapping[str, Subscription]) -> None:
+        """Make the subscriptions exactly these, as far as they are offered."""
+        self._wishes = wishes
+        wanted = {topic: (wish.type, wish.asked) for topic, wish in wishes.items()}
+        if self._types.get(CLOCK) == CLOCK_TYPE:
+            wanted.setdefault(CLOCK, (CLOCK_TYPE, 0))
+        lines = {topic: line for topic, line in wanted.items() if self._can_read(topic, line[0])}
+        for topic, line in list(self._lines.items()):
+            if lines.get(topic) != line:
+                self._host.send(wire.unsubscribe(topic))
+                del self._lines[topic]
+        for topic, line in lines.items():
+            if topic not in self._lines:
+                self._host.send(wire.subscribe(topic, line[0]))
+                self._lines[topic] = line
+
+    def advertise(self, advertisements: Collection[Advertisement]) -> None:
+        """Make the advertised publishers exactly these."""
+        for each in self._advertised - set(advertisements):
+            self._host.send(wire.unadvertise(each.topic))
+            self._advertised.discard(each)
+        for each in advertisements:
+            self._advertise(each)
+
+    def publish(self, advertisement: Advertisement, cdr: bytes) -> int:
+        """Publish a message; raises NotConnected."""
+        values = _values(advertisement.type, cdr)
+        self._advertise(advertisement)
+        self._host.send(
+            wire.publish(advertisement.topic, values, **_publishing(advertisement)),
+        )
+        return UNKNOWN
+
+    def call(self, service: str, type: str, request: bytes, answer: Future[bytes]) -> None:
+        """Call a service; raises NotConnected."""
+        if len(self._pending) >= MAX_PENDING:
+            raise NotConnected(f"The bridge owes {MAX_PENDING} answers. Try again later.")
+        values = _values(f"{type}_Request", request)
+        id = self._new_id()
+        self._pending[id] = answer, service, f"{type}_Response"
+        self._host.send(wire.call(id, service, values))
+
+    def forget(self, answer: Future[bytes]) -> None:
+        """Expect the response of a call no longer."""
+        self._pending = {id: each for id, each in self._pending.items() if each[0] is not answer}
+
+    def fetch(self, uri: str, answer: Future[bytes]) -> None:
+        """Refuse: it sends no files."""
+        raise NotConnected(NO_ASSETS)
+
+    def close(self, problem: str) -> None:
+        """Fail everything that is pending."""
+        if self._timer is not None:
+            self._timer.cancel()
+        for answer, _, _ in self._pending.values():
+            fail(answer, problem)
+        self._pending.clear()
+        self._asked.clear()
+
+    # Frames
+
+    def _take_message(self, message: wire.Message) -> None:
+        # What was on its way when a subscription ended is not wanted any more.
+        if message.topic not in self._lines:
+            return
+        if message.topic == CLOCK and self._lines[CLOCK][0] == CLOCK_TYPE:
+            self._take_clock(message.cdr)
+        if message.topic in self._wishes:
+            self._host.arrive(message.topic, message.cdr, message.stamp_ns)
+
+    def _take_clock(self, cdr: bytes) -> None:
+        try:
+            clock: Clock = decode(CLOCK_TYPE, cdr)
+        except MessageError as error:
+            raise WireError(str(error).rstrip(".")) from error
+        self._host.set_time(clock.clock.ns)
+
+    def _take_response(self, response: wire.ServiceResponse) -> None:
+        if take := self._asked.pop(response.id, None):
+            take(response)
+            return
+        answer, service, type = self._pending.pop(response.id, (None, "", ""))
+        if answer is None:
+            return
+        if not response.result:
+            reason = plain(str(response.values), 300) or "the bridge gives no reason"
+            missing = Missing(f"The bridge finds no service {service}.")
+            is_missing = reason.endswith("does not exist")
+            fail(answer, missing if is_missing else f"The call has failed: {reason}")
+            return
+        try:
+            succeed(answer, from_values(type, response.values or {}))
+        except Error as error:
+            fail(answer, f"The response cannot be read: {error}")
+
+    def _note(self, status: wire.Status) -> None:
+        if status.level in ("error", "warning"):
+            text = f"The bridge reports: {plain(status.msg, 300)}"
+            self._statuses.pop(text, None)
+            self._statuses[text] = None
+            while len(self._statuses) > MAX_STATUSES:
+                del self._statuses[next(iter(self._statuses))]
+            self._host.look()
+
+    # rosapi
+
+    def _ask(
+        self,
+        service: str,
+        values: Mapping[str, Any],
+        take: Callable[[wire.ServiceResponse], object],
+    ) -> None:
+        id = self._new_id()
+        self._asked[id] = take
+        self._host.send(wire.call(id, service, values))
+
+    def _take_topics(self, response: wire.ServiceResponse) -> None:
+        self._asked_s = None
+        self._timer = asyncio.get_running_loop().call_later(POLL_S, self.start)
+        if not response.result:
+            reason = plain(str(response.values), 200).rstrip(".")
+            self._api_problem = f"rosbridge cannot list its topics: {reason}. {START}"
+            self._host.look()
+            return
+        self._api_problem = ""
+        found = wire.converted(response.values, wire.Topics)
+        types = dict(zip(found.topics, found.types, strict=False))
+        is_new = types != self._types
+        self._types = self._bounded(types)
+        if not self._texts.keys() >= set(self._types.values()):
+            self._ask("/rosapi/topics_and_raw_types", {}, self._take_definitions)
+        if is_new:
+            self.want(self._wishes)
+            self._host.look()
+
+    def _take_definitions(self, response: wire.ServiceResponse) -> None:
+        found = wire.converted(response.values, wire.Topics) if response.result else wire.Topics()
+        size = 0
+        for type, text in zip(found.types, found.typedefs_full_text, strict=False):
+            size += len(text)
+            if size <= MAX_TEXTS:
+                self._texts[type] = "" if text.startswith(NO_DEFINITION) else text
+        # What came up since is known to be missing only then, and asked for once.
+        for type in self._types.values():
+            self._texts.setdefault(type, "")
+        self.want(self._wishes)
+        self._host.look()
+
+    def _take_nodes(self, response: wire.ServiceResponse) -> None:
+        if response.result:
+            found = wire.converted(response.values, wire.Names)
+            self._nodes = tuple(sorted(set(filter(is_full_name, found.nodes[:MAX_TOPICS]))))
+            self._host.look()
+
+    def _take_services(self, response: wire.ServiceResponse) -> None:
+        if response.result:
+            found = wire.converted(response.values, wire.Names)
+            nodes = {name.rpartition("/")[0] for name in found.services[:MAX_TOPICS]}
+            self._with_parameters = tuple(sorted(filter(is_full_name, nodes)))
+            self._host.look()
+
+    def _bounded(self, types: Mapping[str, str]) -> dict[str, str]:
+        """Return the topics that are kept, and note what is left out."""
+        valid = {t: type for t, type in types.items() if is_full_name(t) and len(type) <= MAX_NAME}
+        misnamed = [plain(topic, 40) for topic in types if topic not in valid]
+        kept = dict(list(valid.items())[:MAX_TOPICS])
+        more = len(valid) - len(kept)
+        self._left_out = [
+            *([f"The bridge offers {more} topics more than webviz reads."] if more else []),
+            *(
+                [f"Topics whose names ROS does not allow are left out: {listed(misnamed, 3)}."]
+                if misnamed
+                else []
+            ),
+        ]
+        return kept
+
+    # Topics
+
+    def _can_read(self, topic: str, type: str) -> bool:
+        """Return whether a topic is offered with this type, whose definition is known."""
+        if self._types.get(topic) != type or type not in self._texts or not wire.is_readable():
+            return False
+        if topic in self._lines and self._lines[topic][0] == type:
+            return True
+        problem = self._host.learn(type, self._texts[type])
+        self._problems[topic] = problem
+        return not problem
+
+    def _carried(self, topic: str, type: str) -> CarriedTopic:
+        nodes = self._with_parameters if topic == EVENTS else ()
+        publishers = [
+            Publisher(node, type, "reliable", usual_durability(topic, type), is_qos_known=False)
+            for node in nodes or ("",)
+        ]
+        problem = self._problems.get(topic, "") if wire.is_readable() else wire.MISSING
+        return CarriedTopic(tuple(publishers), problem)
+
+    def _advertise(self, advertisement: Advertisement) -> None:
+        if advertisement not in self._advertised:
+            self._advertised.add(advertisement)
+            self._host.send(
+                wire.advertise(
+                    advertisement.topic, advertisement.type, **_publishing(advertisement)
+                )
+            )
+
+    def _new_id(self) -> str:
+        self._next_id += 1
+        return f"webviz:{self._next_id}"
+
+
+def _publishing(advertisement: Advertisement) -> dict[str, Any]:
+    """Return the QoS, as far as rosbridge takes it."""
+    is_latched = advertisement.durability == "transient_local"
+    return {"is_latched": is_latched, "depth": advertisement.depth}
+
+
+def _values(type: str, cdr: bytes) -> dict[str, Any]:
+    try:
+        return to_values(type, cdr)
+    except MessageError as error:
+        raise NotConnected(
+            f"rosbridge takes messages as JSON, and this is none: {error}"
+        ) from error
