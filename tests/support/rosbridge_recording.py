@@ -25,7 +25,8 @@ from typing import Any
 
 from bridges import SCAN, STRING, TF, Reader, reading
 from websockets.exceptions import ConnectionClosed
-from websockets.sync.client import ClientConnection, connect
+from websockets.sync.client import connect
+from websockets.sync.connection import Connection
 from websockets.sync.server import ServerConnection, serve
 
 from webviz.data.messages import encode, interfaces
@@ -141,8 +142,8 @@ def recording(url: str, frames: list[tuple[bool, Frame]]) -> Iterator[str]:
             forward(near, far, is_client=True)
 
     def forward(
-        source: ServerConnection | ClientConnection,
-        target: ServerConnection | ClientConnection,
+        source: Connection,
+        target: Connection,
         *,
         is_client: bool,
     ) -> None:
@@ -161,7 +162,7 @@ def recording(url: str, frames: list[tuple[bool, Frame]]) -> Iterator[str]:
 def do_all(reader: Reader, count: int = EACH) -> None:
     """Do what tests compare with the recording, after so many messages of /odom."""
     reader.until_up()
-    types = {"scan": SCAN, "tf": TF, "tf_static": TF, "map": MAP, "odom": ODOMETRY}
+    types: dict[str, Any] = {"scan": SCAN, "tf": TF, "tf_static": TF, "map": MAP, "odom": ODOMETRY}
     reader.want(**types, robot_description=STRING)
     reader.receive("/odom", count)
     graph = reader.source.graph

@@ -24,6 +24,10 @@ class BrokenLink(Check):
         Start the bridge on the robot, and let the port through its firewall:
 
             ros2 launch foxglove_bridge foxglove_bridge_launch.xml
+
+        or, for rosbridge:
+
+            ros2 launch rosbridge_server rosbridge_websocket_launch.xml
     """
 
     id = "NET007"
@@ -47,6 +51,13 @@ class BrokenLink(Check):
                 subject=bridge.name,
                 severity=Severity.ERROR,
                 evidence={"bridge": bridge.name, "was_connected": bridge.was_up},
-                command="ros2 launch foxglove_bridge foxglove_bridge_launch.xml",
+                command=_command(bridge.protocol),
                 explains=(*of_viewer, *(explains if is_alone else ())),
             )
+
+
+def _command(protocol: str) -> str:
+    """Return what starts a bridge that speaks a protocol."""
+    if protocol == "rosbridge":
+        return "ros2 launch rosbridge_server rosbridge_websocket_launch.xml"
+    return "ros2 launch foxglove_bridge foxglove_bridge_launch.xml"

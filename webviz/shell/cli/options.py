@@ -95,7 +95,8 @@ class ConnectOptions:
     """The bridge whose topics are live, instead of the ROS graph."""
 
     connect: Annotated[str, Parameter(metavar="URL", show_default=False)] = ""
-    """Connect to a bridge, such as ws://robot:8765 of foxglove_bridge, without ROS here."""
+    """Connect to a bridge without ROS here, such as ws://robot:8765 of foxglove_bridge or
+    ws://robot:9090 of rosbridge."""
     connect_headers: File | None = None
     """File with headers for the bridge, such as `Authorization: Bearer TOKEN`, one a line."""
 
