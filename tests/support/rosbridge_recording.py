@@ -54,7 +54,7 @@ class Replay:
 
     def __init__(self, path: Path, port: int = 0) -> None:
         self.got: list[dict[str, Any]] = []
-        """What clients sent besides calls of rosapi."""
+        """Frames of clients other than calls of rosapi."""
         self._answers: dict[str, list[dict[str, Any]]] = {}
         self._messages: dict[str, list[bytes]] = {}
         self._load(path)

@@ -89,7 +89,7 @@ class RosbridgeSession:
         """By subscribed topic: its type, and `asked` of the wish."""
         self._problems: dict[str, str] = {}
         self._advertised: set[Advertisement] = set()
-        self._asked: dict[str, Callable[[wire.ServiceResponse], object]] = {}
+        self._asked: dict[str, Callable[[wire.RosbridgeResponse], object]] = {}
         """By id of a call of rosapi."""
         self._asked_s: float | None = None
         """Moment of the reading that is not answered yet."""
@@ -117,7 +117,7 @@ class RosbridgeSession:
 
     @property
     def remarks(self) -> Sequence[str]:
-        """What the bridge and rosapi lack, and warnings of the bridge."""
+        """Sentences: lacks of the bridge and of rosapi, and warnings of the bridge."""
         late_s = 0.0 if self._asked_s is None else time.monotonic() - self._asked_s
         late = f"rosapi has not answered for {late_s:.0f} s, so topics may be missing. {START}"
         return [
@@ -153,9 +153,9 @@ class RosbridgeSession:
             whole = self._fragments.add(message)
             message = None if whole is None else wire.read_text(whole)
         match message:
-            case wire.ServiceResponse():
+            case wire.RosbridgeResponse():
                 self._take_response(message)
-            case wire.Status():
+            case wire.RosbridgeStatus():
                 self._note(message)
             case _:
                 return
@@ -221,7 +221,7 @@ class RosbridgeSession:
 
     # Frames
 
-    def _take_message(self, message: wire.Message) -> None:
+    def _take_message(self, message: wire.RosbridgeMessage) -> None:
         # What was on its way when a subscription ended is not wanted any more.
         if message.topic not in self._lines:
             return
@@ -237,7 +237,7 @@ class RosbridgeSession:
             raise WireError(str(error).rstrip(".")) from error
         self._host.set_time(clock.clock.ns)
 
-    def _take_response(self, response: wire.ServiceResponse) -> None:
+    def _take_response(self, response: wire.RosbridgeResponse) -> None:
         if take := self._asked.pop(response.id, None):
             take(response)
             return
@@ -255,7 +255,7 @@ class RosbridgeSession:
         except Error as error:
             fail(answer, f"The response cannot be read: {error}")
 
-    def _note(self, status: wire.Status) -> None:
+    def _note(self, status: wire.RosbridgeStatus) -> None:
         if status.level in ("error", "warning"):
             text = f"The bridge reports: {plain(status.msg, 300)}"
             self._statuses.pop(text, None)
@@ -270,13 +270,13 @@ class RosbridgeSession:
         self,
         service: str,
         values: Mapping[str, Any],
-        take: Callable[[wire.ServiceResponse], object],
+        take: Callable[[wire.RosbridgeResponse], object],
     ) -> None:
         id = self._new_id()
         self._asked[id] = take
         self._host.send(wire.call(id, service, values))
 
-    def _take_topics(self, response: wire.ServiceResponse) -> None:
+    def _take_topics(self, response: wire.RosbridgeResponse) -> None:
         self._asked_s = None
         self._timer = asyncio.get_running_loop().call_later(POLL_S, self.start)
         if not response.result:
@@ -295,7 +295,7 @@ class RosbridgeSession:
             self.want(self._wishes)
             self._host.look()
 
-    def _take_definitions(self, response: wire.ServiceResponse) -> None:
+    def _take_definitions(self, response: wire.RosbridgeResponse) -> None:
         found = wire.converted(response.values, wire.Topics) if response.result else wire.Topics()
         size = 0
         for type, text in zip(found.types, found.typedefs_full_text, strict=False):
@@ -308,13 +308,13 @@ class RosbridgeSession:
         self.want(self._wishes)
         self._host.look()
 
-    def _take_nodes(self, response: wire.ServiceResponse) -> None:
+    def _take_nodes(self, response: wire.RosbridgeResponse) -> None:
         if response.result:
             found = wire.converted(response.values, wire.Names)
             self._nodes = tuple(sorted(set(filter(is_full_name, found.nodes[:MAX_TOPICS]))))
             self._host.look()
 
-    def _take_services(self, response: wire.ServiceResponse) -> None:
+    def _take_services(self, response: wire.RosbridgeResponse) -> None:
         if response.result:
             found = wire.converted(response.values, wire.Names)
             nodes = {name.rpartition("/")[0] for name in found.services[:MAX_TOPICS]}

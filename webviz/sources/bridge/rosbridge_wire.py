@@ -20,10 +20,10 @@ MAX_DEPTH = 8
 MAX_FRAGMENTED = 4
 """Texts that may arrive in fragments at the same time."""
 PART_SIZE = 100
-"""What a fragment takes besides its characters."""
+"""Characters that a fragment counts besides its own."""
 
 
-class Message(NamedTuple):
+class RosbridgeMessage(NamedTuple):
     """A message of a subscription, with the time at which the server sent it, in ns."""
 
     topic: str
@@ -35,7 +35,7 @@ class _Struct(msgspec.Struct):
     pass
 
 
-class ServiceResponse(_Struct):
+class RosbridgeResponse(_Struct):
     """The response to a call: its values, or a text if it has failed."""
 
     id: str
@@ -43,7 +43,7 @@ class ServiceResponse(_Struct):
     result: bool = False
 
 
-class Status(_Struct):
+class RosbridgeStatus(_Struct):
     """A text of the server, whose levels are "error", "warning" and others."""
 
     level: str = ""
@@ -87,8 +87,8 @@ class Names(_Struct):
 
 
 _DECODERS = {
-    "service_response": msgspec.json.Decoder(ServiceResponse),
-    "status": msgspec.json.Decoder(Status),
+    "service_response": msgspec.json.Decoder(RosbridgeResponse),
+    "status": msgspec.json.Decoder(RosbridgeStatus),
     "fragment": msgspec.json.Decoder(Fragment),
 }
 
@@ -105,7 +105,7 @@ def is_readable() -> bool:
     return importlib.util.find_spec("cbor2") is not None
 
 
-def read_text(text: str) -> ServiceResponse | Status | Fragment | None:
+def read_text(text: str) -> RosbridgeResponse | RosbridgeStatus | Fragment | None:
     """Return the message in a text frame, None for one of a kind that is not used.
 
     Raises:
@@ -120,7 +120,7 @@ def read_text(text: str) -> ServiceResponse | Status | Fragment | None:
         raise WireError(f"A text is not of the protocol: {plain(str(error), 120)}") from error
 
 
-def read_binary(frame: bytes) -> Message:
+def read_binary(frame: bytes) -> RosbridgeMessage:
     """Return the message in a binary frame.
 
     Raises:
@@ -134,7 +134,9 @@ def read_binary(frame: bytes) -> Message:
         found = msgspec.convert(values, _Publish, builtin_types=(bytes,))
     except (cbor2.CBORDecodeError, msgspec.ValidationError) as error:
         raise WireError("A binary frame is not a message in cbor-raw") from error
-    return Message(found.topic, found.msg.secs * 1_000_000_000 + found.msg.nsecs, found.msg.cdr)
+    return RosbridgeMessage(
+        found.topic, found.msg.secs * 1_000_000_000 + found.msg.nsecs, found.msg.cdr
+    )
 
 
 def converted(values: Any, kind: type[Any]) -> Any:
