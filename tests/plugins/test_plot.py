@@ -220,7 +220,7 @@ def test_a_curve_may_be_on_the_right_or_stand_in_place_of_time() -> None:
     left, right = "/joints.position[left]", "/joints.position[0]"
     bench = Bench(left, right=[left, "/other.x"], across=right)
     assert bench.curve(0)["name"] == right
-    assert [each["right"] for each in bench.chart.values["curves"]] == [False, True]
+    assert [each["axis"] for each in bench.chart.values["curves"]] == [0, 1]
     assert bench.chart.values["across"] == bench.curve(0)["key"]
     bench.chart.use(right, 7)
     assert bench.sent.pop() == SetPanelProperty("id", "across", "")
@@ -228,6 +228,13 @@ def test_a_curve_may_be_on_the_right_or_stand_in_place_of_time() -> None:
     bench.panel.across = ""
     bench.show()
     assert bench.chart.values["across"] == -1
+
+
+def test_curves_may_have_axes_of_their_own() -> None:
+    curves = [f"/joints.position[{i}]" for i in range(8)]
+    bench = Bench(*curves, right=[curves[0], curves[2]], own_axis=[*curves[2:], "/other.x"])
+    axes = [each["axis"] for each in bench.chart.values["curves"]]
+    assert axes == [1, 0, 2, 3, 4, 5, 0, 0]
 
 
 def test_a_time_of_a_chart_is_gone_to_within_what_is_recorded() -> None:

@@ -30,14 +30,14 @@ class Curve:
         name: in the legend, different from all others.
         chunks: oldest first.
         problem: why there is none, or what is wrong; a sentence or "".
-        is_right: whether its values are those of the axis on the right.
+        axis: of its values: 0 is at the left, 1 and higher are at the right, the lowest innermost.
         unit: of its values, "" if it is unknown.
     """
 
     name: str
     chunks: Sequence[Chunk] = ()
     problem: str = ""
-    is_right: bool = False
+    axis: int = 0
     unit: str = ""
 
 

@@ -55,7 +55,7 @@ class ChartWidget(Widget):
                     "key": key,
                     "name": clean(curve.name),
                     "problem": clean(curve.problem),
-                    "right": curve.is_right,
+                    "axis": curve.axis,
                     "unit": clean(curve.unit),
                     "chunks": [numbers[0], numbers[-1] + 1] if numbers else [0, 0],
                 }

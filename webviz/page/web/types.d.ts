@@ -100,9 +100,9 @@ export type Area = { left: number; top: number; width: number; height: number };
 /** A part of a curve: its times in seconds and values; NaN ends a line. */
 export type Piece = { times: Float64Array; values: Float64Array };
 /** A curve as the server describes it: its pieces from the first to before the last. */
-export type Facts = { key: number; name: string; problem: string; chunks: [number, number]; right: boolean; unit: string };
+export type Facts = { key: number; name: string; problem: string; chunks: [number, number]; axis: number; unit: string };
 /** A curve of a chart. */
-export type Curve = { key: number; name: string; problem: string; pieces: Piece[]; right: boolean; unit: string };
+export type Curve = { key: number; name: string; problem: string; pieces: Piece[]; axis: number; unit: string };
 /** Seconds from the start, level, and text. */
 export type LoggedEvent = [number, string, string];
 

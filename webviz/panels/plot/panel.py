@@ -18,6 +18,8 @@ from webviz.panels.plot.series import Series
 from webviz.panels.seeking import NS_PER_S, seek_to
 
 MAX_CURVES = 16
+MAX_AXES = 4
+"""Axes at the right that one curve has for itself."""
 MAX_FIELDS = 300
 """Fields of a message that are offered."""
 CLOSED_S = 1.5
@@ -39,6 +41,9 @@ class Plot(Panel):
     ] = msgspec.field(default_factory=list)
     right: Annotated[
         list[str], Prop(help="Those of the curves whose values are on the axis at the right.")
+    ] = msgspec.field(default_factory=list)
+    own_axis: Annotated[
+        list[str], Prop(help="Those of the curves that have an axis of their own at the right.")
     ] = msgspec.field(default_factory=list)
     units: Annotated[
         dict[str, str],
@@ -128,12 +133,13 @@ class Plot(Panel):
         now_s = state.clock.ros_ns / 1e9
         if self.time == "Header Stamp" or not now_s:
             now_s = max(ends, default=now_s)
+        axes = self._axes()
         shown = [
             Curve(
                 name,
                 each.history.chunks(),
                 each.explanation(self.types),
-                name in self.right,
+                axes.get(name, 0),
                 self.units.get(name) or each.unit(self.types),
             )
             for name, each in self.series.items()
@@ -154,6 +160,11 @@ class Plot(Panel):
             else Series(text, how, known)
             for text in list(dict.fromkeys([*self._across(), *self.curves]))[:MAX_CURVES]
         }
+
+    def _axes(self) -> Mapping[str, int]:
+        """Return the axes at the right by curve: the shared one is innermost."""
+        own = [name for name in self.series if name in self.own_axis][:MAX_AXES]
+        return dict.fromkeys(self.right, 1) | {name: 2 + i for i, name in enumerate(own)}
 
     def _across(self) -> list[str]:
         return [self.across] if self.across else []

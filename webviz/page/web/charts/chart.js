@@ -111,11 +111,14 @@ export function chart(_, send) {
 
   const shown = () => held ?? live;
   const across = () => shown().find(({ key: one }) => one === facts.across) ?? null;
-  /** @param {boolean} right */
-  const curvesAt = (right) => shown().filter((each) => each.right === right && each !== across());
-  const hasRight = () => curvesAt(true).length > 0;
+  /** @param {number} axis */
+  const curvesAt = (axis) => shown().filter((each) => each.axis === axis && each !== across());
+  const rightAxes = () =>
+    [...new Set(shown().map(({ axis }) => axis))]
+      .filter((axis) => axis > 0 && curvesAt(axis).length > 0)
+      .toSorted((a, b) => a - b);
   const times = () => zoomed?.times ?? [end - facts.window, end];
-  const values = () => zoomed?.values ?? roomy(...extent(curvesAt(false), times()));
+  const values = () => zoomed?.values ?? roomy(...extent(curvesAt(0), times()));
 
   function later() {
     frame ||= requestAnimationFrame(() => {
@@ -124,7 +127,11 @@ export function chart(_, send) {
       const over = across();
       draw(canvas, {
         ...{ curves: shown(), colors: color, times: times(), values: values(), cursor },
-        right: hasRight() ? roomy(...extent(curvesAt(true), times())) : null,
+        rights: rightAxes().map((axis) => {
+          const curves = curvesAt(axis);
+          const range = roomy(...extent(curves, times()));
+          return { axis, range, color: curves.length === 1 ? color(curves[0].key) : "" };
+        }),
         across: over && { curve: over, range: roomy(...extent([over], times())) },
       });
       readOut();
@@ -151,7 +158,7 @@ export function chart(_, send) {
     later();
   }
 
-  const area = () => inside(canvas.clientWidth, canvas.clientHeight, hasRight());
+  const area = () => inside(canvas.clientWidth, canvas.clientHeight, rightAxes().length);
 
   // Where in the area of the curves a pointer is, from 0 to 1 each, y upwards.
   /**

@@ -12,14 +12,14 @@
  * @returns {Curve[]}
  */
 export function curvesOf(facts, values, id, known) {
-  return facts.map(({ key, name, problem, right, unit, chunks: [first, end] }) => {
+  return facts.map(({ key, name, problem, axis, unit, chunks: [first, end] }) => {
     /** @type {Piece[]} */
     const pieces = [];
     for (let number = first; number < end; number++) {
       const part = values.get(`${id}/${key}.${number}`);
       if (part) pieces.push(pieceOf(/** @type {Parameters<typeof pieceOf>[0]} */ (part), known));
     }
-    return { key, name, problem, right, unit, pieces };
+    return { key, name, problem, axis, unit, pieces };
   });
 }
 

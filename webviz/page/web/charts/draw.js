@@ -6,7 +6,10 @@ import { pairs, visit } from "./curves.js";
 import { numberText, share, ticks } from "./scale.js";
 
 /** @import {Area, Curve, Range, Vec2} from "../types.js" */
-/** @typedef {{curve: Curve, range: Range}} Across another curve in place of time, and its values */
+/**
+ * @typedef {{curve: Curve, range: Range}} Across another curve in place of time, and its values
+ * @typedef {{axis: number, range: Range, color: string}} RightAxis with the colour of its only curve, or ""
+ */
 
 export const LEFT = 52;
 export const BOTTOM = 18;
@@ -19,34 +22,37 @@ const PER_TICK = [70, 36];
  *
  * @param {number} width
  * @param {number} height
- * @param {boolean} [isTwo] with an axis at the right, too
+ * @param {number} [axes] at the right
  * @returns {Area}
  */
-export const inside = (width, height, isTwo = false) => ({
+export const inside = (width, height, axes = 0) => ({
   left: LEFT,
   top: TOP,
-  width: Math.max(1, width - LEFT - (isTwo ? LEFT : RIGHT)),
+  width: Math.max(1, width - LEFT - (axes * LEFT || RIGHT)),
   height: Math.max(1, height - TOP - BOTTOM),
 });
 
 /**
- * Draws `{curves, colors, times, values, right, across, cursor}`: ranges of the axes, and a time or null.
+ * Draws `{curves, colors, times, values, rights, across, cursor}`: ranges of the axes, and a time or null.
  *
  * @param {HTMLCanvasElement} canvas
  * @param {{
- *   curves: Curve[], colors: (key: number) => string, times: Range, values: Range, right: Range | null,
+ *   curves: Curve[], colors: (key: number) => string, times: Range, values: Range, rights: RightAxis[],
  *   across: Across | null, cursor: number | null,
  * }} shown
  */
-export function draw(canvas, { curves, colors, times, values, right, across, cursor }) {
+export function draw(canvas, { curves, colors, times, values, rights, across, cursor }) {
   const { context, ratio, width, height } = fitted(canvas);
-  const area = inside(width, height, right !== null);
+  const area = inside(width, height, rights.length);
   /** @param {number} time */
   const x = (time) => area.left + share(time, times) * area.width;
   /** @param {number} value */
   const y = (value) => area.top + (1 - share(value, values)) * area.height;
-  /** @param {number} value */
-  const yRight = (value) => area.top + (1 - share(value, right ?? values)) * area.height;
+  /** @param {Curve} curve */
+  const yOf = ({ axis }) => {
+    const range = rights.find((each) => each.axis === axis)?.range ?? values;
+    return (/** @type {number} */ value) => area.top + (1 - share(value, range)) * area.height;
+  };
   const style = getComputedStyle(canvas);
   if (across) {
     /** @param {number} value */
@@ -54,22 +60,22 @@ export function draw(canvas, { curves, colors, times, values, right, across, cur
     grid(
       context,
       area,
-      { times: across.range, values, right, x: along, y, text: numberText },
+      { times: across.range, values, rights, x: along, y, text: numberText },
       style,
     );
     clip(context, area);
     for (const curve of curves) {
       if (curve === across.curve) continue;
       const places = pairs(curve, across.curve, times);
-      path(context, places, { x: along, y: curve.right ? yRight : y, color: colors(curve.key) });
+      path(context, places, { x: along, y: yOf(curve), color: colors(curve.key) });
     }
     context.restore();
     return;
   }
-  grid(context, area, { times, values, right, x, y, text: tickText }, style);
+  grid(context, area, { times, values, rights, x, y, text: tickText }, style);
   clip(context, area);
   for (const curve of curves) {
-    const to = { times, x, y: curve.right ? yRight : y, color: colors(curve.key), ratio };
+    const to = { times, x, y: yOf(curve), color: colors(curve.key), ratio };
     line(context, curve, to);
   }
   if (cursor !== null) {
@@ -120,12 +126,12 @@ function path(context, places, { x, y, color }) {
  * @param {CanvasRenderingContext2D} context
  * @param {Area} area
  * @param {{
- *   times: Range, values: Range, right: Range | null, x: (time: number) => number,
+ *   times: Range, values: Range, rights: RightAxis[], x: (time: number) => number,
  *   y: (value: number) => number, text: (value: number, span: number) => string,
  * }} axes
  * @param {CSSStyleDeclaration} style
  */
-function grid(context, area, { times, values, right, x, y, text: textOf }, style) {
+function grid(context, area, { times, values, rights, x, y, text: textOf }, style) {
   context.lineWidth = 1;
   context.font = "11px system-ui, sans-serif";
   context.strokeStyle = style.getPropertyValue("--wv-line");
@@ -137,13 +143,18 @@ function grid(context, area, { times, values, right, x, y, text: textOf }, style
     context.fillText(numberText(value, values[1] - values[0]), area.left - 4, y(value), LEFT - 6);
   }
   context.textAlign = "left";
-  const edge = area.left + area.width;
-  for (const value of right ? ticks(...right, Math.max(2, area.height / PER_TICK[1])) : []) {
-    const level = area.top + (1 - share(value, right ?? values)) * area.height;
-    stroke(context, edge, level, edge + 3, level);
-    const text = numberText(value, right ? right[1] - right[0] : 0);
-    context.fillText(text, edge + 5, level, LEFT - 8);
-  }
+  rights.forEach(({ range, color }, i) => {
+    const edge = area.left + area.width + i * LEFT;
+    const quiet = context.fillStyle;
+    context.fillStyle = color || quiet;
+    if (i > 0) stroke(context, edge, area.top, edge, area.top + area.height);
+    for (const value of ticks(...range, Math.max(2, area.height / PER_TICK[1]))) {
+      const level = area.top + (1 - share(value, range)) * area.height;
+      stroke(context, edge, level, edge + 3, level);
+      context.fillText(numberText(value, range[1] - range[0]), edge + 5, level, LEFT - 8);
+    }
+    context.fillStyle = quiet;
+  });
   context.textBaseline = "top";
   context.textAlign = "center";
   for (const time of ticks(...times, Math.max(2, area.width / PER_TICK[0]))) {
