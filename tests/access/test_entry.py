@@ -24,6 +24,7 @@ from webviz.engine.commands import Command, DragHandle, UseTool
 from webviz.engine.parts.selection import MAX_SELECTED
 from webviz.page.dispatcher import NOT_OF_PAGES
 from webviz.scene import open_server
+from webviz.scene.browsers import HasPainted, Vitals
 from webviz.server.access import roles, rules, token_file
 from webviz.server.access.access import Access
 from webviz.server.access.roles import LIMITS, LINKS, Limits, Role
@@ -126,6 +127,22 @@ def test_everything_that_a_page_sends_is_held_against_its_role(
     acted = {"Drive"} if role > Role.WATCHER else set()
     internal = {"InspectTopics", "InspectSelections", "InspectTransforms"}
     assert {*house.reached} - internal == allowed | acted
+
+
+def test_only_operators_say_how_their_page_draws(house: House) -> None:
+    heard: list[str | int] = []
+    house.server.channel.on(Vitals, lambda _, report: heard.append(report.renderer))
+    house.server.channel.on(HasPainted, lambda _, answer: heard.append(answer.probe))
+    right = {"is_software": False, "is_hidden": False, "frame_s": 0.1, "late_s": 0.0}
+    for role in Role:
+        guest = house.enter(role)
+        guest.send("Vitals", renderer=role.label, **right)
+        guest.send("HasPainted", probe=role.value, waited_s=0.1)
+        guest.send("Vitals", renderer="x" * 201, **right)
+        guest.send("Vitals", renderer="late", **(right | {"late_s": 1e9}))
+        guest.send("HasPainted", probe=9, waited_s=-1.0)
+        guest.do("Refresh")  # answered once all of these were read
+    assert heard == ["operator", Role.OPERATOR.value, "owner", Role.OWNER.value]
 
 
 SILENT = (DragHandle, UseTool)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import msgspec
@@ -14,7 +16,7 @@ import webviz.checks
 from webviz.api.check_registry import known_checks, register_checks
 from webviz.engine.commands import ReloadPlugin
 from webviz.shell.cli import main
-from webviz.shell.doctor.report import DoctorReport, schema_text
+from webviz.shell.doctor.report import DoctorReport, schema_text, to_text
 
 LASER = """
 from webviz import Check
@@ -41,6 +43,7 @@ ROS2 = {
     "node list": set[str](),
     "param get": set[str](),
     "param set": set[str](),
+    "topic bw": set[str](),
     "topic delay": set[str](),
     "topic echo": {"--field", "--once"},
     "topic find": set[str](),
@@ -158,6 +161,39 @@ def test_a_fault_that_would_end_ros_is_found_before_it_starts(
     assert main(["doctor", "--json"]) == 3
     report = msgspec.json.decode(capsys.readouterr().out, type=DoctorReport)
     assert report.findings[0].id == "ENV001"
+
+
+BLOCKED = """
+import pathlib, time
+from webviz import Check
+
+class Blocked(Check):
+    \"\"\"Blocked.\"\"\"
+
+    id = "DATA903"
+
+    def find(self, seen):
+        while not pathlib.Path({path!r}).exists():
+            time.sleep(0.01)
+        return ()
+"""
+
+
+@pytest.mark.usefixtures("webviz_domain")
+def test_a_live_examination_ends_in_time(tmp_path: Path) -> None:
+    path = tmp_path / "blocked.py"
+    path.write_text(BLOCKED.format(path=str(tmp_path / "never")))
+    command = ["doctor", "--plugin", str(path), "--seconds", "1", "--json"]
+    # It would wait for its check without end. Its standard output has to be a file for ROS.
+    done = subprocess.run(
+        [sys.executable, "-m", "webviz", *command], capture_output=True, timeout=60.0, check=False
+    )
+    assert done.returncode == 1, done.stderr
+    report = msgspec.json.decode(done.stdout, type=DoctorReport)
+    assert report.unfinished
+    said = to_text(report, is_colored=False)
+    assert "unfinished: This machine is so busy" in said
+    assert "All is well" not in said
 
 
 def test_a_viewer_is_examined_on_request_and_a_recording_notes_the_moment(run_bag: Path) -> None:

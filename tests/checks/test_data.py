@@ -13,11 +13,12 @@ import pytest
 from examining import HERE, display, look
 
 import webviz
-from webviz import Finding, Symptom, Topic
+from webviz import Finding, Severity, Symptom, Topic
 from webviz.api.finding import CauseLevel
 from webviz.shell.testing.harness import Harness
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.source import SECOND
+from webviz_displays.image import Image
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Map
 from webviz_displays.odometry import Odometry
@@ -85,10 +86,6 @@ def test_a_path_through_an_obstacle(webviz_harness: Make) -> None:
             {"ranges": [2500.0, 2400.0, 2300.0, 2200.0, 2100.0], "range_max": 5000.0},
         ),
         ("DATA008 /scan", {"ranges": [2.0] * 9}),
-        (
-            "DATA014 /scan",
-            {"ranges": [0.1] * 4 + [2.0] * 4, "angle_max": 2.5, "range_min": 0.05},
-        ),
         ("", {"ranges": [math.inf] * 5}),
         ("", {"ranges": [2.0] * 5}),
     ],
@@ -99,6 +96,58 @@ def test_scans(webviz_harness: Make, id: str, values: dict[str, Any]) -> None:
     stage.publish("/scan", SCAN, angles | values, frame="map")
     stage.turn()
     assert [*examined(stage)] == ([id] if id else [])
+
+
+def test_a_laser_that_sees_a_post_of_its_robot(webviz_harness: Make) -> None:
+    stage = webviz_harness(LaserScan(), fixed_frame="map")
+
+    def stand(*poses: tuple[Pose2D, Pose2D]) -> list[tuple[str, Severity]]:
+        """The findings about the laser at poses, each with that of a post in its plane."""
+        for here, post in poses:
+            world = building.with_box(post.x, post.y, 0.06)
+            look(stage, here, building.scan(here, world, range_min=0.03))
+            examined(stage)
+        found = stage.viewer.snapshot().findings
+        return [(each.id, each.severity) for each in found if each.id == "DATA014"]
+
+    there = Pose2D(2.0, 0.0, 0.0)
+    beside = Pose2D(HERE.x + 0.08, HERE.y)
+    assert stand((HERE, beside)) == [("DATA014", Severity.NOTE)], "it may stand beside a post"
+    assert stand((there, beside)) == [], "it did"
+    assert stand((HERE, beside), (there, Pose2D(there.x + 0.08, there.y))) == [
+        ("DATA014", Severity.WARNING)
+    ]
+    assert stand((there, beside)) == []
+
+
+@pytest.mark.parametrize(
+    ("changed", "severity"),
+    [
+        ({"encoding": "mono8"}, Severity.WARNING),
+        ({"encoding": "rgba8", "step": 0}, Severity.ERROR),
+        ({"step": 10}, Severity.ERROR),
+        ({"height": 7}, Severity.ERROR),
+        ({"encoding": "bgra8", "step": 512}, Severity.ERROR),
+        ({"encoding": "nv21", "width": 192, "height": 4}, None),
+        ({}, None),
+        ({"encoding": "whatever"}, None),
+    ],
+)
+def test_images_that_are_not_what_they_say(
+    webviz_harness: Make, changed: dict[str, Any], severity: Severity | None
+) -> None:
+    stage = webviz_harness(Image(name="Camera", topic=Topic("/image")), fixed_frame="map")
+    pixels = np.zeros((6, 64, 3), np.uint8)
+    right = {"width": 64, "height": 6, "encoding": "rgb8", "step": 192, "data": pixels.ravel()}
+    stage.publish("/image", "sensor_msgs/msg/Image", right | changed, frame="camera")
+    stage.turn()
+    found = examined(stage)
+    assert [each.severity for each in found.values()] == ([severity] if severity else [])
+    if severity:
+        (finding,) = found.values()
+        assert (finding.id, finding.subject) == ("DATA015", "/image")
+        explained = (Symptom(display(stage, "Camera"), "Image"),)
+        assert finding.explains == (explained if severity is Severity.ERROR else ())
 
 
 def notes(stage: Harness) -> set[str]:

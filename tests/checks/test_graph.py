@@ -10,6 +10,7 @@ import rclpy
 from examining import display, examined, live_findings
 from geometry_msgs.msg import PoseStamped
 from rclpy.context import Context
+from rclpy.duration import Duration
 from rclpy.lifecycle import LifecycleNode
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -25,6 +26,7 @@ from webviz.shell.testing.live import LiveViewer
 from webviz_displays.laser_scan import LaserScan as LaserScanDisplay
 from webviz_displays.path import Path
 from webviz_displays.poses import Pose
+from webviz_displays.tf import TF
 
 BEST_EFFORT = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 SCAN = "sensor_msgs/msg/LaserScan"
@@ -158,14 +160,66 @@ def test_messages_above_the_limit(
     viewer.wait_for(lambda: not found())
 
 
-def test_a_dds_program_that_is_silent(webviz_harness: Callable[..., Harness]) -> None:
-    stage = webviz_harness(scan("/scan"), fixed_frame="map")
-    for node, is_found in (("", True), ("/lidar", False)):
-        offered = Offer((Publisher(node, SCAN, "reliable", "volatile"),), None)
-        stage.source.known["/scan"] = offered
-        examined(stage, CauseLevel.GRAPH)
-        found = {each.id for each in stage.viewer.snapshot().findings}
-        assert ("GRAPH013" in found) == is_found
+def test_a_deadline_that_nobody_meets(
+    robot: Node, webviz_viewer: Callable[..., LiveViewer]
+) -> None:
+    slow, quick = (QoSProfile(depth=1, deadline=Duration(seconds=s)) for s in (1.0, 0.1))
+    publisher = robot.create_publisher(PoseStamped, "/pose", slow)
+    listener = robot.create_subscription(PoseStamped, "/pose", print, quick)
+    viewer = webviz_viewer(TF())
+    found = wait_for(viewer, "GRAPH014 /pose")["GRAPH014 /pose"]
+    assert found.cause == (
+        "/robot receives nothing on /pose: it asks for a deadline of 0.1 s, and /robot offers 1 s."
+    )
+    robot.destroy_publisher(publisher)
+    publisher = robot.create_publisher(PoseStamped, "/pose", quick)
+    wait_for(viewer)
+    robot.destroy_publisher(publisher)
+    robot.create_publisher(PoseStamped, "/pose", 1)
+    found = wait_for(viewer, "GRAPH014 /pose")["GRAPH014 /pose"]
+    assert found.cause.endswith("/robot offers none.")
+    robot.destroy_subscription(listener)
+    wait_for(viewer)
+
+
+def test_a_node_that_was_started_twice(
+    robot: Node, webviz_viewer: Callable[..., LiveViewer]
+) -> None:
+    lidars = [Node("lidar", context=robot.context, enable_rosout=False) for _ in range(2)]
+    viewer = webviz_viewer(TF())
+    viewer.wait_for(lambda: noted(viewer) == {"GRAPH015": webviz.Severity.NOTE})
+    for node in lidars:
+        node.create_publisher(LaserScan, "/scan", 1)
+    found = wait_for(viewer, "GRAPH015 /lidar")["GRAPH015 /lidar"]
+    assert found.cause == "2 nodes have the name /lidar, and publish /scan."
+    lidars[0].destroy_node()
+    viewer.wait_for(lambda: not noted(viewer))
+    lidars[1].destroy_node()
+
+
+def test_large_messages_that_are_not_repeated(
+    robot: Node, webviz_viewer: Callable[..., LiveViewer]
+) -> None:
+    viewer = webviz_viewer(scan("/scan"))
+    publisher = robot.create_publisher(LaserScan, "/scan", BEST_EFFORT)
+    message = LaserScan(ranges=[1.0] * 150_000)
+    message.header.frame_id = "map"
+
+    def found() -> dict[str, webviz.Severity]:
+        publisher.publish(message)  # some may be lost
+        return {id: severity for id, severity in noted(viewer).items() if id == "NET013"}
+
+    viewer.wait_for(found)
+    message.ranges = [1.0] * 100
+    viewer.wait_for(lambda: not found())
+
+
+def noted(viewer: LiveViewer) -> dict[str, webviz.Severity]:
+    """The findings on graph and network, notes too, by id."""
+    levels = CauseLevel.GRAPH, CauseLevel.NETWORK
+    found = viewer.viewer.snapshot().findings
+    own = {"NET003", "NET004", "NET005", "NET006"}  # of the machine on which the tests run
+    return {each.id: each.severity for each in found if each.level in levels and each.id not in own}
 
 
 def test_a_publisher_that_stops(webviz_harness: Callable[..., Harness]) -> None:

@@ -22,6 +22,7 @@ from webviz.shell.doctor.examination import examine_machine
 from webviz.shell.doctor.report import to_json
 print(to_json(examine_machine(look_around())))
 """
+PATIENCE_S = 120.0
 OWN = ("ROS", "RMW", "FASTRTPS", "FASTDDS", "CYCLONEDDS", "AMENT", "ZENOH")
 
 
@@ -31,9 +32,19 @@ def in_namespaces(commands: str) -> Mapping[str, str]:
     Args:
         commands: of a shell, which are run there before.
     """
-    script = f'{commands}\nexec "$0" -c "$1"'
-    program = ["unshare", "-rnm", "sh", "-ec", script, sys.executable, EXAMINE]
-    done = subprocess.run(program, capture_output=True, text=True, check=True)
+    # All processes end with the first one of their namespace.
+    script = f'{commands}\n"$0" -c "$1"'
+    program = ["unshare", "-rnmpf", "--mount-proc", "--kill-child", "sh", "-ec", script]
+    # Other tests of this process set variables of ROS.
+    bare = {name: value for name, value in os.environ.items() if not name.startswith(OWN)}
+    done = subprocess.run(
+        [*program, sys.executable, EXAMINE],
+        capture_output=True,
+        text=True,
+        check=True,
+        env=bare,
+        timeout=PATIENCE_S,
+    )
     report = msgspec.json.decode(done.stdout, type=DoctorReport)
     return {each.id: each.severity for each in report.findings}
 
@@ -66,7 +77,18 @@ RANGE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
         ("ENV004", "warning", {RANGE: "LAN"}, {RANGE: "LOCALHOST"}),
         ("ENV005", "warning", {RANGE: "SUBNET", "ROS_LOCALHOST_ONLY": "1"}, {RANGE: "SUBNET"}),
         ("ENV006", "error", {"RMW_IMPLEMENTATION": "rmw_none_cpp"}, {}),
-        ("ENV007", "warning", {"CYCLONEDDS_URI": "<CycloneDDS>"}, {"CYCLONEDDS_URI": "<A/>"}),
+        (
+            "ENV007",
+            "warning",
+            {"CYCLONEDDS_URI": "<CycloneDDS>"},
+            {"CYCLONEDDS_URI": "<A b='1,2'/>"},
+        ),
+        (
+            "ENV007",
+            "warning",
+            {"CYCLONEDDS_URI": "<A>"},
+            {"CYCLONEDDS_URI": '<General><Peers><Peer Address="a,b"/></></>'},
+        ),
         ("ENV007", "warning", {"FASTRTPS_DEFAULT_PROFILES_FILE": "/missing.xml"}, {}),
         ("ENV014", "warning", {"ROS_SECURITY_ENABLE": "true"}, {"ROS_SECURITY_ENABLE": "false"}),
         ("ENV015", "warning", {"PYTHONPATH": f"{OTHER_PYTHON}/site-packages"}, {}),
@@ -96,6 +118,14 @@ def test_variables(
     for name, value in cured.items():
         monkeypatch.setenv(name, value)
     assert {*examined()} <= well
+
+
+def test_what_ends_ros_comes_first(monkeypatch: pytest.MonkeyPatch, well: set[str]) -> None:
+    monkeypatch.setenv("CYCLONEDDS_URI", "<CycloneDDS>")
+    monkeypatch.setenv("ROS_SECURITY_ENABLE", "true")
+    assert [id for id in examined() if id not in well] == ["ENV007", "ENV014"]
+    monkeypatch.setenv("ROS_SECURITY_STRATEGY", "Enforce")
+    assert [id for id in examined() if id not in well] == ["ENV014", "ENV007"]
 
 
 def test_discovery_servers(monkeypatch: pytest.MonkeyPatch, well: set[str]) -> None:
@@ -182,6 +212,11 @@ VPN = (
     "ip link set tun0 up; ip link set far up; ip route add 224.0.0.0/4 dev tun0"
 )
 SHM = "mount -t tmpfs none /dev/shm -o"
+NODE = f"{sys.executable} -c 'import rclpy; rclpy.init(); rclpy.spin(rclpy.create_node(\"n\"))'"
+QUIET = ">/dev/null 2>&1 & node=$!"
+GROUP = "0100FFEF" if sys.byteorder == "little" else "EFFF0001"
+HEARD = f"until grep -q {GROUP} /proc/net/igmp; do sleep 0.05; done"
+LOADED = "until grep -q librmw_fast /proc/$node/maps; do sleep 0.05; done"
 
 
 @pytest.mark.parametrize(
@@ -196,6 +231,12 @@ SHM = "mount -t tmpfs none /dev/shm -o"
         ("NET010", f"{ETH}; {VPN}", ETH),
         ("NET006", f"{LO}; {sys.executable} -c '{FLOOD}'", LO),
         ("SHM004", f"{SHM} size=1g; touch /dev/shm/fastrtps_port7_el", f"{SHM} size=1g"),
+        ("NET011", f"{LO}; {NODE} {QUIET}; {HEARD}; {ETH}", f"{ETH}; {NODE} {QUIET}; {HEARD}"),
+        (
+            "SHM005",
+            f'{LO}; unshare -m sh -c \'{SHM} size=1g; exec "$0" "$@"\' {NODE} {QUIET}; {LOADED}',
+            f"{LO}; {NODE} {QUIET}; {LOADED}",
+        ),
         ("SHM002", f"{SHM} size=64m", f"{SHM} size=1g"),
         (
             "SHM003",
@@ -226,3 +267,66 @@ def test_segments_of_another_user() -> None:
         assert "SHM001" in examined()
     finally:
         path.unlink()
+
+
+SATURATE = """
+import array, fcntl, os, socket, struct, subprocess, sys, threading, time
+import webviz.engine.doctor.interfaces as interfaces
+from webviz.engine.doctor.environment import look_around
+from webviz.shell.doctor.examination import examine_machine
+from webviz.shell.doctor.report import to_json
+
+TUNSETIFF, IFF_TAP, IFF_NO_PI = 0x400454CA, 2, 0x1000
+SIOCETHTOOL, GET, SET, SPEED_AT = 0x8946, 1, 2, 12
+mbits, is_read, packets = map(int, sys.argv[1:])
+tap = os.open("/dev/net/tun", os.O_RDWR)
+fcntl.ioctl(tap, TUNSETIFF, struct.pack("16sH", b"eth9", IFF_TAP | IFF_NO_PI))
+for command in (
+    "address add 192.0.2.9/24 dev eth9",
+    "link set eth9 up txqueuelen 50",
+    "neighbour add 192.0.2.10 lladdr 02:00:00:00:00:01 dev eth9",
+):
+    subprocess.run(["ip", *command.split()], check=True)
+sender = socket.socket(type=socket.SOCK_DGRAM)
+settings = array.array("B", bytes(44))
+request = struct.pack("16sQ", b"eth9", settings.buffer_info()[0])
+struct.pack_into("I", settings, 0, GET)
+fcntl.ioctl(sender, SIOCETHTOOL, request)
+struct.pack_into("I", settings, 0, SET)
+struct.pack_into("H", settings, SPEED_AT, mbits)
+fcntl.ioctl(sender, SIOCETHTOOL, request)
+
+
+def read():
+    while is_read:
+        os.read(tap, 2000)
+
+
+threading.Thread(target=read, daemon=True).start()
+interfaces.LEAST_S = 0.0
+before = look_around()
+until = time.monotonic() + 0.3
+for sent in range(packets):
+    sender.sendto(bytes(1000), ("192.0.2.10", 9))
+while time.monotonic() < until:
+    time.sleep(0.01)
+print(to_json(examine_machine(look_around(before=before))))
+"""
+
+
+@pytest.mark.skipif(not os.access("/dev/net/tun", os.W_OK), reason="there is no /dev/net/tun")
+@pytest.mark.parametrize(
+    ("mbits", "is_read", "packets", "is_found"),
+    [
+        pytest.param(1, 1, 3000, True, id="full"),
+        pytest.param(10_000, 0, 3000, True, id="drops"),
+        pytest.param(10_000, 1, 100, False, id="quiet"),
+    ],
+)
+def test_a_saturated_link(mbits: int, is_read: int, packets: int, is_found: bool) -> None:
+    assert can_unshare(), "This machine has no network namespaces for users."
+    numbers = map(str, (mbits, is_read, packets))
+    program = ["unshare", "-rn", sys.executable, "-c", SATURATE, *numbers]
+    done = subprocess.run(program, capture_output=True, text=True, check=True)
+    report = msgspec.json.decode(done.stdout, type=DoctorReport)
+    assert ("NET012" in {each.id for each in report.findings}) == is_found

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -37,15 +38,16 @@ def with_box(x: float, y: float, edge: float) -> World:
     return World(occupied, WORLD.resolution, WORLD.origin)
 
 
-def scan(laser: Pose2D, world: World = WORLD) -> dict[str, Any]:
+def scan(laser: Pose2D, world: World = WORLD, range_min: float = LIDAR.range_min) -> dict[str, Any]:
     """Return the scan of a laser there, as a sensor_msgs/LaserScan."""
     random = np.random.default_rng(0)
-    measured = lidar.scan(world, laser, laser, LIDAR, random)
+    settings = replace(LIDAR, range_min=range_min)
+    measured = lidar.scan(world, laser, laser, settings, random)
     return {
         "angle_min": -math.pi,
         "angle_max": math.pi - math.tau / LIDAR.beams,
         "angle_increment": math.tau / LIDAR.beams,
-        "range_min": LIDAR.range_min,
+        "range_min": range_min,
         "range_max": LIDAR.range_max,
         "ranges": measured.ranges,
         "intensities": measured.intensities,

@@ -16,6 +16,9 @@ class NetworkInterface:
         has_multicast: whether it may send and receive multicast.
         is_loopback: whether it only reaches this machine.
         mtu: largest packet in bytes.
+        hears: whether a program of this machine listens to the multicast group of DDS there.
+        load: share of its speed that was used since the look before; 0 if unknown.
+        dropped: share of the packets since then that it could not send.
     """
 
     name: str
@@ -23,6 +26,9 @@ class NetworkInterface:
     has_multicast: bool
     is_loopback: bool
     mtu: int
+    hears: bool = False
+    load: float = 0.0
+    dropped: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -33,12 +39,30 @@ class SharedMemory:
         size, free: bytes.
         foreign: names of segments of Fast DDS that belong to other users.
         stale_locks: names of locks of Fast DDS whose segment is gone.
+        apart: ROS programs of this network with other shared memory, by their command lines.
     """
 
     size: int
     free: int
     foreign: Sequence[str] = ()
     stale_locks: Sequence[str] = ()
+    apart: Sequence[str] = ()
+
+
+@dataclass(frozen=True)
+class InterfaceCounters:
+    """The counters of an interface since it is up.
+
+    Args:
+        sent, received: bytes.
+        packets: that were sent.
+        dropped: packets that could not be sent.
+    """
+
+    sent: int
+    received: int
+    packets: int
+    dropped: int
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,6 +76,8 @@ class Environment:
         ros_error: why ROS did not start, "" if it runs or was not tried.
         profiles: problem of each file of the middleware that variables name, by path; "" for none.
         interfaces: that are up.
+        traffic: of interfaces by name.
+        at_s: monotonic time of `traffic` in seconds.
         multicast_returns: whether a multicast packet to this machine arrives; None if untried.
         shared_memory: None if there is none.
         receive_buffer: largest buffer of a socket in bytes (net.core.rmem_max); 0 if unknown.
@@ -70,6 +96,8 @@ class Environment:
     ros_error: str = ""
     profiles: Mapping[str, str] = field(default_factory=dict)
     interfaces: Sequence[NetworkInterface] = ()
+    traffic: Mapping[str, InterfaceCounters] = field(default_factory=dict)
+    at_s: float = 0.0
     multicast_returns: bool | None = None
     shared_memory: SharedMemory | None = None
     receive_buffer: int = 0

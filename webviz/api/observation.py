@@ -39,6 +39,7 @@ class InputSeen:
         latched: whether it always asks for transient local.
         status: key of the status of its topic.
         received: messages since the start.
+        size: of the newest message in bytes.
         rate_hz: of the last messages, 0 if unknown.
         stamps: (stamp, time of reception) of the last messages with a header, in ns, oldest first.
         frame: frame id of the newest message, as it was sent.
@@ -58,6 +59,7 @@ class InputSeen:
     frame: str
     type: str
     message: Any
+    size: int = 0
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -17,6 +18,7 @@ class Endpoint:
         node: full node name, "" for a DDS program without a ROS node.
         type: message type.
         reliability, durability: offered or requested QoS.
+        deadline_s: longest time between two messages that is promised or asked for, inf for any.
         is_qos_known: whether that is certain; a bridge does not tell it.
         endpoint: its identity, which changes when its node is started again; b"" if unknown.
     """
@@ -26,6 +28,7 @@ class Endpoint:
     reliability: Reliability
     durability: Durability
     endpoint: bytes = b""
+    deadline_s: float = math.inf
     is_qos_known: bool = True
 
     @property

@@ -69,7 +69,7 @@ class RosGraph:
     def look(self) -> None:
         """Refresh the node names."""
         names = self._node.get_node_names_and_namespaces()
-        self._nodes = tuple(sorted({f"{space.rstrip('/')}/{name}" for name, space in names}))
+        self._nodes = tuple(sorted(f"{space.rstrip('/')}/{name}" for name, space in names))
 
     def close(self) -> None:
         """Fail everything that is pending."""

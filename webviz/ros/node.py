@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 import threading
 import time
 from collections.abc import Mapping, Sequence
@@ -43,6 +44,7 @@ READERS_EVERY = 5
 INBOX_LIMIT = 1000
 MAX_MESSAGE = MAX_TOTAL
 """Bytes, the same as of a bag."""
+ANY_DEADLINE_NS = 2**62
 TF_TYPE = "tf2_msgs/msg/TFMessage"
 ANY_JUMP = JumpThreshold(
     min_forward=Duration(nanoseconds=1),
@@ -313,6 +315,11 @@ def _executor(context: Context) -> Executor:
     return EventsExecutor(context=context)  # pyright: ignore[reportReturnType]
 
 
+def _seconds(deadline: Duration) -> float:
+    """Return a deadline in seconds; DDS writes "any" as 0 or as the longest that there is."""
+    return deadline.nanoseconds / 1e9 if 0 < deadline.nanoseconds < ANY_DEADLINE_NS else math.inf
+
+
 def _publisher(info: TopicEndpointInfo) -> Publisher:
     return Publisher(**vars(_endpoint(info)))
 
@@ -329,4 +336,5 @@ def _endpoint(info: TopicEndpointInfo) -> Endpoint:
         reliability="reliable" if is_reliable else "best_effort",
         durability="transient_local" if is_latched else "volatile",
         endpoint=bytes(info.endpoint_gid),
+        deadline_s=_seconds(policies.deadline),
     )

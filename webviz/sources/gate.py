@@ -147,7 +147,7 @@ class Gate:
         return self._graph(action).send_goal(action, type, goal, feedback)
 
     def nodes(self) -> tuple[str, ...]:
-        """Full names of the nodes of the graph, sorted."""
+        """Full names of the nodes of the graph, sorted; one for each node of the name."""
         return self._source.graph.nodes()
 
     def _graph(self, name: str) -> Graph:

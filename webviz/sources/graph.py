@@ -103,7 +103,7 @@ class Graph(Protocol):
         ...
 
     def nodes(self) -> tuple[str, ...]:
-        """Full names of the nodes of the graph, sorted."""
+        """Full names of the nodes of the graph, sorted; one for each node of the name."""
         ...
 
 

@@ -8,14 +8,12 @@ from webviz.api.check import Check
 from webviz.api.finding import Finding, Severity
 from webviz.api.observation import Observation
 
-SLOW_S = 0.25
-"""For a frame; slower ones look like pictures, not like movement."""
-
 
 class SoftwareRendering(Check):
     """Software rendering.
 
-    A browser draws with the processor instead of a graphics card.
+    A browser draws with the processor instead of a graphics card. It is a note: everything is
+    drawn, only more slowly.
 
     Why:
         Large clouds and meshes become slow, and take the processor from everything else on that
@@ -32,12 +30,11 @@ class SoftwareRendering(Check):
         """Yield a finding for each such browser."""
         for each in seen.browsers:
             if each.is_software and not each.is_hidden:
-                is_slow = each.frame_s >= SLOW_S
                 takes = f", {1000 * each.frame_s:.0f} ms for a frame" if each.frame_s else ""
                 yield self.found(
                     f"The processor draws for {each.name}, not a graphics card{takes}.",
                     "Switch on hardware acceleration in that browser, or use another machine.",
                     subject=each.name,
-                    severity=Severity.WARNING if is_slow else Severity.NOTE,
+                    severity=Severity.NOTE,
                     evidence={"renderer": each.renderer, "frame_s": each.frame_s},
                 )

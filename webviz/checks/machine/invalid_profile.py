@@ -8,6 +8,9 @@ from webviz.api.check import Check
 from webviz.api.finding import Finding
 from webviz.api.observation import Observation
 
+INLINE = "CYCLONEDDS_URI"
+"""A variable that may hold the XML itself."""
+
 
 class InvalidProfile(Check):
     """Invalid file of the middleware.
@@ -32,10 +35,14 @@ class InvalidProfile(Check):
         profiles = seen.environment.profiles if seen.environment else {}
         for path, problem in profiles.items():
             if problem:
+                is_file = path != INLINE
                 yield self.found(
-                    f"The file {path} of the middleware is invalid: {problem}.",
-                    "Correct the file, or remove the variable that names it.",
+                    f"{f'The file {path}' if is_file else f'The XML in {path}'} for the middleware "
+                    f"is invalid: {problem}.",
+                    "Correct the file, or remove the variable that names it."
+                    if is_file
+                    else "Correct or remove the variable.",
                     subject=path,
                     evidence={"path": path, "problem": problem},
-                    command=f"xmllint --noout {path}",
+                    command=f"xmllint --noout {path}" if is_file else f"printenv {path}",
                 )

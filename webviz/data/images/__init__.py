@@ -14,7 +14,7 @@ from webviz.data.images.encodings import ENCODINGS, PixelLayout, layout_of
 from webviz.data.images.errors import ImageError
 from webviz.data.images.headers import read_header
 from webviz.data.images.lens import Lens
-from webviz.data.images.raw import RawImage, remarks, values
+from webviz.data.images.raw import RawImage, needed_bytes, remarks, values, whole_bytes
 from webviz.data.images.render import jpeg, render
 from webviz.data.images.tone import Tone, to_rgb, value_range
 
@@ -34,6 +34,7 @@ __all__ = [
     "inspect_compressed",
     "jpeg",
     "layout_of",
+    "needed_bytes",
     "open_compressed",
     "optical_problem",
     "read_header",
@@ -43,4 +44,5 @@ __all__ = [
     "to_rgb",
     "value_range",
     "values",
+    "whole_bytes",
 ]

@@ -76,7 +76,7 @@ class RawImage:
                 "Correct the width, encoding or step in the publisher."
             )
         data = np.asarray(message.data, np.uint8)
-        needed = _needed(layout, width, height, step)
+        needed = needed_bytes(layout, width, height, step)
         if len(data) < needed:
             raise ImageError(
                 f"data has {len(data)} bytes, but {width} x {height} pixels of "
@@ -103,7 +103,7 @@ def remarks(message: Any, image: RawImage) -> str:
     """Return a sentence on suspicious fields of a drawable message; "" if there are none."""
     if not message.step:
         return f"step is 0 instead of {image.step}; rows are assumed to follow without a gap."
-    size = _whole(image.layout, image.height, image.step)
+    size = whole_bytes(image.layout, image.height, image.step)
     if len(image.data) > size:
         return (
             f"data has {len(image.data)} bytes, {len(image.data) - size} more than {image.width} x "
@@ -187,13 +187,14 @@ def _grid(image: RawImage, layout: PixelLayout) -> NDArray[Any]:
     return numbers.reshape(image.height, image.width, layout.channels)
 
 
-def _needed(layout: PixelLayout, width: int, height: int, step: int) -> int:
-    """Bytes that an image has at least; the gap behind the last row may be missing."""
+def needed_bytes(layout: PixelLayout, width: int, height: int, step: int) -> int:
+    """Return the bytes that an image has at least; the gap behind the last row may be missing."""
     last_gap = step - width * layout.pixel_bytes
-    return _whole(layout, height, step) - (0 if layout.order.startswith("nv") else last_gap)
+    return whole_bytes(layout, height, step) - (0 if layout.order.startswith("nv") else last_gap)
 
 
-def _whole(layout: PixelLayout, height: int, step: int) -> int:
+def whole_bytes(layout: PixelLayout, height: int, step: int) -> int:
+    """Return the bytes of an image whose rows have `step` bytes each."""
     match layout.order:
         case "nv21":  # a colour for each 2 x 2 pixels
             return step * (height + (height + 1) // 2)

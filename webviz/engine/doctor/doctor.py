@@ -33,6 +33,8 @@ SLICE_S = 0.001
 ASKED_S = 10.0
 LOOK_S = 10.0
 """Interval between two looks at this machine."""
+SECOND_LOOK_S = 3.0
+"""The same for the second one, which tells first what has changed since."""
 
 MAX_EVENTS = 1000
 """Findings whose beginning is kept; after these, that of others is not noted."""
@@ -124,9 +126,10 @@ class Doctor:
             if looking.exception() is None:
                 self.environment = looking.result()
         if self._looking is None and time.monotonic() >= self._next_look_s:
-            self._next_look_s = time.monotonic() + LOOK_S
+            before, lost = self.environment, self._lost_before
+            self._next_look_s = time.monotonic() + (LOOK_S if before else SECOND_LOOK_S)
             with contextlib.suppress(OSError):  # no thread is free; another time
-                self._looking = _looks.start(lambda: look_around(lost_before=self._lost_before))
+                self._looking = _looks.start(lambda: look_around("", lost, before))
         return self.environment
 
     def _is_due(self) -> bool:

@@ -6,14 +6,15 @@ import os
 import platform
 import socket
 import sys
+import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 from xml.etree import ElementTree
 
-import psutil
-
 from webviz.api.environment import Environment, NetworkInterface, SharedMemory
+from webviz.engine.doctor.interfaces import GROUP, interfaces_since, traffic
+from webviz.engine.doctor.programs import programs_apart
 from webviz.engine.doctor.servers import discovery_servers, zenoh_routers
 from webviz.engine.doctor.settings import daemon_differences, security_problem
 
@@ -25,8 +26,6 @@ LOCKS = "fastrtps_port*_el"
 SEGMENTS = "fastrtps_*", "fastdds_*"
 RMEM_MAX = Path("/proc/sys/net/core/rmem_max")
 SNMP = Path("/proc/net/snmp")
-GROUP = "239.255.0.1"
-"""Multicast group of DDS, for a probe on a port that nobody else uses."""
 PROBE_S = 0.5
 MAX_PROFILE = 1 << 20
 """Bytes of a file of the middleware that are read."""
@@ -47,16 +46,22 @@ class Lost(NamedTuple):
 NOTHING_LOST = Lost()
 
 
-def look_around(ros_error: str = "", lost_before: Lost = NOTHING_LOST) -> Environment:
+def look_around(
+    ros_error: str = "",
+    lost_before: Lost = NOTHING_LOST,
+    before: Environment | None = None,
+) -> Environment:
     """Look at this machine; takes up to half a second.
 
     Args:
         ros_error: why ROS did not start, "" if it did.
         lost_before: what was lost before, see `lost_so_far`.
+        before: the look before, to which the use of interfaces is compared.
     """
     names = sorted(name for name in os.environ if name.startswith(PREFIXES))
     variables = {name: os.environ[name] for name in names}
-    interfaces = _interfaces()
+    now_s, passed = time.monotonic(), traffic()
+    interfaces = interfaces_since(passed, now_s, before)
     lost = lost_so_far()
     return Environment(
         variables=variables,
@@ -65,6 +70,8 @@ def look_around(ros_error: str = "", lost_before: Lost = NOTHING_LOST) -> Enviro
         ros_error=ros_error,
         profiles=_profiles(variables),
         interfaces=interfaces,
+        traffic=passed,
+        at_s=now_s,
         multicast_returns=_multicast_returns() if interfaces else None,
         shared_memory=_shared_memory(),
         receive_buffer=_receive_buffer(),
@@ -97,21 +104,6 @@ def _middlewares() -> Sequence[str]:
     prefixes = [*os.environ.get("AMENT_PREFIX_PATH", "").split(":"), sys.prefix]
     folders = [Path(prefix) / RMW_INDEX for prefix in prefixes if prefix]
     return tuple(sorted({path.name for folder in folders for path in folder.glob("rmw_*")}))
-
-
-def _interfaces() -> Sequence[NetworkInterface]:
-    stats, addresses = psutil.net_if_stats(), psutil.net_if_addrs()
-    return [
-        NetworkInterface(
-            name,
-            tuple(a.address for a in addresses.get(name, ()) if a.family == socket.AF_INET),
-            "multicast" in each.flags,
-            "loopback" in each.flags,
-            each.mtu,
-        )
-        for name, each in sorted(stats.items())
-        if each.isup
-    ]
 
 
 def _multicast_interface(interfaces: Sequence[NetworkInterface]) -> str:
@@ -162,7 +154,9 @@ def _shared_memory() -> SharedMemory | None:
     locks = [path.name for path in SHM.glob(LOCKS)]
     stale = [name for name in locks if not (SHM / name.removesuffix("_el")).exists()]
     size, free = status.f_blocks * status.f_frsize, status.f_bavail * status.f_frsize
-    return SharedMemory(size, free, tuple(sorted(foreign)), tuple(sorted(stale)))
+    return SharedMemory(
+        size, free, tuple(sorted(foreign)), tuple(sorted(stale)), programs_apart(SHM)
+    )
 
 
 def _receive_buffer() -> int:
@@ -176,10 +170,12 @@ def _profiles(variables: Mapping[str, str]) -> Mapping[str, str]:
     """Return the problems of the files that variables name."""
     found: dict[str, str] = {}
     for name in PROFILES:
-        for entry in filter(None, variables.get(name, "").split(",")):
-            if entry.lstrip().startswith("<"):
-                found[name] = _xml_problem(entry)
-                continue
+        value = variables.get(name, "").strip()
+        if value.startswith("<"):
+            # Cyclone DDS also reads `</>`, which closes any element.
+            found[name] = "" if "</>" in value else _xml_problem(value)
+            continue
+        for entry in filter(None, value.split(",")):
             path = Path(entry.removeprefix("file://"))
             try:
                 with path.open("rb") as file:

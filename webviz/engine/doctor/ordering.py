@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from webviz.api.finding import Finding, Severity, Symptom
+from webviz.api.finding import CauseLevel, Finding, Severity, Symptom
 
 SUMMARIES = {Symptom("", "Transforms")}
 """Statuses that sum up several causes, so that one cause does not explain the others."""
@@ -15,7 +15,8 @@ def ordered(findings: Iterable[Finding]) -> Sequence[Finding]:
     """Return the findings to show, the one to repair first at the beginning.
 
     Findings of one check about one subject become one. Of the others, those on a level that affects
-    more come first; notes, which break nothing, come last. A finding that explains no status but
+    more come first; notes, which break nothing, come last, and errors of this machine, with which
+    ROS does not start, before its warnings. A finding that explains no status but
     those of the ones before it is a symptom of these, and left out.
     """
     merged: dict[tuple[str, str], Finding] = {}
@@ -35,6 +36,8 @@ def ordered(findings: Iterable[Finding]) -> Sequence[Finding]:
     return tuple(shown)
 
 
-def _place(finding: Finding) -> tuple[bool, int, str, int, str]:
-    is_note = finding.severity is Severity.NOTE
-    return is_note, finding.level.place, finding.id, -len(finding.explains), finding.subject
+def _place(finding: Finding) -> tuple[bool, int, bool, str, int, str]:
+    is_note, level = finding.severity is Severity.NOTE, finding.level
+    is_milder = level is CauseLevel.MACHINE and finding.severity is not Severity.ERROR
+    symptoms = len(finding.explains)
+    return is_note, level.place, is_milder, finding.id, -symptoms, finding.subject

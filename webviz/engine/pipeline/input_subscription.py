@@ -241,6 +241,7 @@ class InputSubscription:
             latched=self.spec.latched,
             status="Topic" if self.path == "topic" else f"Topic ({self.path})",
             received=self._topic_statistics.count,
+            size=self._topic_statistics.size,
             rate_hz=self._topic_statistics.rate(),
             stamps=tuple(self._stamps),
             frame=self._frame,

@@ -12,7 +12,7 @@ from webviz.api.nodes import Pose
 from webviz.api.observation import InputSeen
 from webviz.api.sample import Sample
 from webviz.api.status import Level, Status
-from webviz.data.messages import MessageError, decode
+from webviz.data.messages import MessageError, decode, message_class
 from webviz.engine.commands.guard import Guard
 from webviz.engine.pipeline.folding import Folding, Received
 from webviz.engine.pipeline.history import Histories, History, held_samples
@@ -107,8 +107,9 @@ class SampleBuffer:
     def observed(self) -> tuple[InputSeen, ...]:
         """Return the inputs that the display listens to, as the checks of the doctor see them."""
         newest: dict[str, Sample] = {}
-        if not overrides(self._display, "fold"):  # whose samples are no messages
-            for sample in held_samples(self.histories):
+        folds = overrides(self._display, "fold")  # so that a sample need not be a message
+        for sample in held_samples(self.histories):
+            if not folds or _is_message(sample):
                 newest |= {sample.input: sample, **sample.synced}
         return tuple(
             input_subscription.observed(newest.get(name))
@@ -227,3 +228,8 @@ class SampleBuffer:
             name,
             type=input_subscription.type,
         )
+
+
+def _is_message(sample: Sample) -> bool:
+    """Return whether the display has kept the message as it came."""
+    return bool(sample.type) and isinstance(sample.message, message_class(sample.type))

@@ -36,6 +36,8 @@ class TopicStatistics:
 
     def __init__(self, path: str, spec: Input, topic: Topic, name: str, problem: str) -> None:
         self.count = 0
+        self.size = 0
+        """Of the newest message in bytes."""
         self.last: Raw | None = None
         self._path = path
         self.type = spec.types[0] if spec.types[0] != ANY else ""
@@ -55,6 +57,7 @@ class TopicStatistics:
         """
         self.last = raw if is_latched else Raw(b"", raw.received_ns, raw.arrived_s)
         self.count += 1
+        self.size = len(raw.cdr)
         self._times.append(clock - (time.monotonic() - raw.arrived_s))
 
     def reset(self) -> None:

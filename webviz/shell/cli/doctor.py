@@ -3,7 +3,8 @@
 import contextlib
 import os
 import sys
-from collections.abc import Sequence
+import time
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
@@ -25,11 +26,11 @@ Examples:
   webviz doctor --peer user@robot    compare this machine with another, over ssh
   webviz doctor --explain TF003      explain a finding
 
-Exit status: 0 without findings above "note", 3 with some, 1 after an error, 2 for invalid
-arguments.
+Exit status: 0 without findings above "note", 3 with some, 1 after an error or if the time did not
+suffice to find any, 2 for invalid arguments.
 
 """
-FOUND = 3
+FOUND, UNKNOWN = 3, 1
 
 app = App("doctor", help_epilogue=EXAMPLES + ROS_ARGS_HELP)
 
@@ -45,8 +46,8 @@ class DoctorOptions:
     """Examine the displays of this config (default: those that fit the topics)."""
     seconds: Annotated[
         float, Parameter(validator=validators.Number(gt=0, lte=3600), metavar="SECONDS")
-    ] = 4.5
-    """Time for the examination of live topics, after their discovery."""
+    ] = 8.0
+    """Time for the examination of live topics, from the start of the command to the report."""
     peer: Annotated[str, Parameter(metavar="HOST", show_default=False)] = ""
     """Compare this machine with another, such as user@robot, instead of examining topics."""
     ssh: Annotated[str, Parameter(metavar="COMMAND")] = "ssh -o ConnectTimeout=10"
@@ -76,6 +77,7 @@ def doctor(
     ros: RosArgs,
 ) -> int:
     """Examine the ROS graph or a bag, and print the causes of what is wrong."""
+    until_s = time.monotonic() + options.seconds
     from webviz.engine.pipeline import plugins
 
     for path in options.plugin:
@@ -84,17 +86,26 @@ def doctor(
         return _explain(options.explain)
 
     def work(stop: Stop) -> int:
-        from webviz.shell.doctor.report import to_json, to_text
+        from webviz.shell.doctor.report import DoctorReport, to_json, to_text
 
-        report = _examine(options, connect, ros)
-        is_colored = sys.stdout.isatty() and not os.environ.get("NO_COLOR")
-        print(to_json(report) if options.json else to_text(report, is_colored), flush=True)
-        return 0 if report.is_well else FOUND
+        def tell(report: DoctorReport) -> int:
+            is_colored = sys.stdout.isatty() and not os.environ.get("NO_COLOR")
+            print(to_json(report) if options.json else to_text(report, is_colored), flush=True)
+            return UNKNOWN if report.is_unknown else 0 if report.is_well else FOUND
+
+        return _examine(options, connect, ros, until_s, tell)
 
     return until_signal(work)
 
 
-def _examine(options: DoctorOptions, connect: ConnectOptions, ros: Sequence[str]) -> "DoctorReport":
+def _examine(
+    options: DoctorOptions,
+    connect: ConnectOptions,
+    ros: Sequence[str],
+    until_s: float,
+    tell: "Callable[[DoctorReport], int]",
+) -> int:
+    """Tell the report as soon as it is made: to leave the graph takes time on a busy machine."""
     from webviz.api.errors import Error
     from webviz.engine.doctor.environment import look_around
     from webviz.shell.app.reading import read_config
@@ -106,26 +117,29 @@ def _examine(options: DoctorOptions, connect: ConnectOptions, ros: Sequence[str]
         from webviz.shell.doctor.peer import compare
 
         ends = compare(options.peer, options.ssh, progress)
-        return examine_machine(look_around(), ends)
+        return tell(examine_machine(look_around(), ends))
     path = options.display_config
     if options.bag is not None:
         with contextlib.closing(bag_source(options.bag, ros_args=ros)) as bag:
             config = read_config(path, bag)
-            return examine_bag(bag, config, str(options.bag), progress)
+            return tell(examine_bag(bag, config, str(options.bag), progress))
     config = read_config(path) if path else None
     if connect.connect or (config and is_alone(config.settings.robots)):
         with contextlib.closing(connect.source(ros, config)) as bridge:
-            return examine_live(bridge, config, options.seconds, progress)
+            return tell(examine_live(bridge, config, until_s, progress))
     # Some faults end the program when ROS starts.
     machine = examine_machine(look_around())
     if any(finding.severity == "error" for finding in machine.findings):
-        return machine
+        return tell(machine)
+    progress("starting ROS", 0.0)
     try:
         source = connect.source(ros, config)
     except Error as error:
-        return examine_machine(look_around(str(error)))
+        return tell(examine_machine(look_around(str(error))))
     with contextlib.closing(source):
-        return examine_live(source, config, options.seconds, progress)
+        report = examine_live(source, config, until_s, progress)
+        machine.unfinished = report.unfinished
+        return tell(machine if report.unfinished else report)
 
 
 def _explain(id: str) -> int:

@@ -1,6 +1,7 @@
 """`webviz test`: checks rules over a bag or live topics, for CI."""
 
 import contextlib
+import time
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -127,7 +128,7 @@ def _examined(options: RuleOptions, connect: ConnectOptions, ros: "Sequence[str]
     from webviz.shell.app.reading import read_config
     from webviz.shell.bag_source import bag_source
     from webviz.shell.cli.doctor import progress
-    from webviz.shell.doctor.examination import examine_bag, examine_live
+    from webviz.shell.doctor.examination import DISCOVERY_S, examine_bag, examine_live
 
     for path in options.plugin:
         plugins.load(path)
@@ -142,7 +143,8 @@ def _examined(options: RuleOptions, connect: ConnectOptions, ros: "Sequence[str]
     given = read_config(path) if path else None
     results = _rules(options, given)
     with contextlib.closing(connect.source(ros, given)) as source:
-        examine_live(source, given, options.seconds, progress, results)
+        until_s = time.monotonic() + DISCOVERY_S + options.seconds
+        examine_live(source, given, until_s, progress, results)
     return results
 
 

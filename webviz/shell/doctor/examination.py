@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
+import threading
 import time
 from collections.abc import Callable, Mapping
+from concurrent.futures import Future
 from dataclasses import replace
 
 import msgspec
@@ -29,7 +32,15 @@ from webviz.sources.bag.source import BagSource
 
 DISCOVERY_S = 4.3
 """Time for the graph, which is read every two seconds: the first reading may be half of it."""
+DISCOVERY_SHARE = 0.5
+"""Of the time that is left, if there is less."""
 REST_S = 0.05
+SLICE_S = 0.1
+"""Time for checks in one turn of a live examination, so that it ends in time."""
+GRACE_S = 0.2
+"""Time for the last turn of a live examination."""
+ROUNDS = 2
+"""Rounds of all checks that a finding takes."""
 MAP = "/map"
 """A robot that publishes it is to be seen in its frame, so that a missing localisation is found."""
 FRAME_S = 1.5
@@ -69,25 +80,48 @@ class Examination:
         self._source = source
         self._progress = progress
         self._loop = FrameLoop(config, source, NoScene())
-        self._loop.doctor.slice_s = math.inf
         self._seen: dict[tuple[str, str], Finding] = {}
+        self._state: State | None = None
 
-    def watch(self, seconds: float, is_frame_given: bool) -> DoctorReport:
-        """Examine live topics for some seconds."""
+    def watch(self, until_s: float, is_frame_given: bool) -> DoctorReport:
+        """Examine live topics until a monotonic time in seconds, and end the threads.
+
+        On a busy machine a turn may take seconds, for which nobody waits then.
+        """
+        self._loop.doctor.slice_s = SLICE_S
+        ended = Future[None]()
+
+        def run() -> None:
+            try:
+                with contextlib.closing(self):
+                    self._watch(until_s, is_frame_given)
+                ended.set_result(None)
+            except BaseException as error:
+                ended.set_exception(error)
+
+        threading.Thread(target=run, name="webviz-examination", daemon=True).start()
+        with contextlib.suppress(TimeoutError):
+            ended.result(max(0.0, until_s - time.monotonic()) + GRACE_S)
+        state = self._state
+        report = report_of("live", state, state.findings if state else (), len(known_checks()))
+        report.unfinished = self._loop.doctor.rounds < ROUNDS
+        return report
+
+    def _watch(self, until_s: float, is_frame_given: bool) -> None:
         began = time.monotonic()
-        state = self._turn()
-        while (passed := time.monotonic() - began) < seconds:
-            self._progress("examining", passed / seconds)
+        while (now := time.monotonic()) < until_s:
+            self._state = self._turn()
+            passed = now - began
+            self._progress("examining", passed / (until_s - began))
             if not is_frame_given and passed > FRAME_S:
                 is_frame_given = True
                 self._choose_frame()
             self._source.inbox.arrived.wait(REST_S)
             self._source.inbox.arrived.clear()
-            state = self._turn()
-        return report_of("live", state, state.findings, len(known_checks()))
 
     def play(self, bag: BagSource, name: str) -> DoctorReport:
         """Examine a bag from its beginning to its end."""
+        self._loop.doctor.slice_s = math.inf
         self._loop.enqueue(SetRate(math.inf))
         self._loop.enqueue(Play())
         state = self._turn()
@@ -134,7 +168,7 @@ class Examination:
 def examine_live(
     source: Source,
     config: Config | None,
-    seconds: float,
+    until_s: float,
     progress: Progress,
     results: RuleResults | None = None,
 ) -> DoctorReport:
@@ -143,23 +177,20 @@ def examine_live(
     Args:
         source: of messages.
         config: the displays to examine; None for those that fit the published topics.
-        seconds: for the examination, after the discovery of topics.
+        until_s: monotonic time in seconds at which it ends.
         progress: called now and then.
         results: of rules, which take the verdicts.
     """
-    until = time.monotonic() + DISCOVERY_S
-    while (left := until - time.monotonic()) > 0.0:
-        progress("discovering", 1.0 - left / DISCOVERY_S)
+    began_s = time.monotonic()
+    discovery_s = max(0.0, min(DISCOVERY_S, DISCOVERY_SHARE * (until_s - began_s)))
+    while (passed_s := time.monotonic() - began_s) < discovery_s:
+        progress("discovering", passed_s / discovery_s)
         time.sleep(REST_S)
     is_given = config is not None or MAP in source.offers()
     if config is None:
         offers = {topic: offer for topic, offer in source.offers().items() if offer.publishers}
         config = live_config(offers)
-    examination = Examination(config, source, progress, results)
-    try:
-        return examination.watch(seconds, is_given)
-    finally:
-        examination.close()
+    return Examination(config, source, progress, results).watch(until_s, is_given)
 
 
 def examine_bag(

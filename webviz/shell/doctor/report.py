@@ -16,6 +16,10 @@ from webviz.engine.state import State
 WIDTH = 90
 COLORS = {"error": "31;1", "warning": "33;1", "note": "36", "id": "1", "faint": "2", "ok": "32;1"}
 """Codes of ANSI terminals."""
+UNFINISHED = (
+    "This machine is so busy that the time did not suffice for the checks of topics, transforms "
+    "and data. Repeat it with --seconds 30."
+)
 Meta = msgspec.Meta
 
 
@@ -69,11 +73,20 @@ class DoctorReport(msgspec.Struct, kw_only=True):
         Sequence[ReportedStatus],
         Meta(description="Warnings and errors of displays that no finding explains."),
     ]
+    unfinished: Annotated[
+        bool,
+        Meta(description="Whether the time did not suffice for the checks of live topics."),
+    ] = False
 
     @property
     def is_well(self) -> bool:
         """Return whether no finding is more than a note."""
         return all(finding.severity == "note" for finding in self.findings)
+
+    @property
+    def is_unknown(self) -> bool:
+        """Return whether nothing was found, in too little time to find anything."""
+        return self.unfinished and self.is_well
 
 
 def report_of(
@@ -165,19 +178,23 @@ def _lines(report: DoctorReport, is_colored: bool) -> Iterator[str]:
             where = status.display or "viewer"
             yield paint(f"  explains: {where}, {status.status}", "faint")
         yield ""
-    for status in report.unexplained:
+    unexplained = () if report.unfinished else report.unexplained
+    for status in unexplained:
         where = f"{status.display or 'viewer'}, {status.status}: "
         yield from _wrapped(f"{paint('status', 'faint')}: {where}", status.text)
-    if report.unexplained:
+    if unexplained:
+        yield ""
+    if report.unfinished:
+        yield from _wrapped(f"{paint('unfinished', 'warning')}: ", UNFINISHED)
         yield ""
     severe = sum(finding.severity != Severity.NOTE.name.lower() for finding in report.findings)
     scope = f"{counted(report.checks, 'check')}, {counted(report.displays, 'display')}"
     if severe:
         first = next(each.id for each in report.findings)
         yield f"{counted(severe, 'finding')} ({scope}). More: webviz doctor --explain {first}"
-    elif report.unexplained:
+    elif unexplained:
         yield f"No finding explains {counted(len(report.unexplained), 'warning')} above ({scope})."
-    else:
+    elif not report.unfinished:
         yield f"{paint('All is well', 'ok')} ({scope})."
 
 

@@ -1,0 +1,57 @@
+"""Nodes that have the same name."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+
+from webviz.api.check import Check
+from webviz.api.finding import Finding, Severity
+from webviz.api.observation import Observation
+
+VIEWER = "webviz"
+"""Several viewers, or a viewer and `webviz doctor`, are no fault."""
+SHARED = {"/tf", "/tf_static", "/rosout", "/parameter_events", "/diagnostics", "/clock"}
+"""Topics that many nodes publish."""
+
+
+class SameName(Check):
+    """Two nodes have one name.
+
+    Several nodes of the graph have the same full name. It is a note unless they also publish the
+    same topic.
+
+    Why:
+        Services and parameters of the name are answered by any of them. Usually a node was started
+        twice, such as by two launch files or on two robots without namespaces, so that its
+        messages and transforms come from two sources. A node that was killed stays in the graph
+        for about 20 s.
+
+    Repair:
+        End one of them, or give it another name or namespace:
+
+            ros2 run my_package my_node --ros-args -r __node:=other -r __ns:=/robot2
+    """
+
+    id = "GRAPH015"
+
+    def find(self, seen: Observation) -> Iterator[Finding]:
+        """Yield a finding for each such name."""
+        for node, number in Counter(seen.nodes).items():
+            if number < 2 or node.rpartition("/")[2] == VIEWER:
+                continue
+            both = sorted(
+                topic
+                for topic, offer in seen.offers.items()
+                if topic not in SHARED and sum(p.node == node for p in offer.publishers) > 1
+            )
+            too = f", and publish {both[0]}" if both else ""
+            yield self.found(
+                f"{number} nodes have the name {node}{too}.",
+                "End one of them, or give it another name or namespace.",
+                subject=node,
+                severity=Severity.WARNING if both else Severity.NOTE,
+                evidence={"node": node, "number": number, "topics": tuple(both[:10])},
+                command="ros2 node list",
+                explains=seen.symptom("Transforms") if both else (),
+            )
