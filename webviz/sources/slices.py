@@ -175,7 +175,7 @@ class BagSlice:
     def _message(
         self, channels: Mapping[tuple[str, str], BagChannel], recorded: Recorded, stamp_ns: int
     ) -> SliceMessage:
-        channel = channels[recorded.topic, recorded.type].recorded
+        channel = channels[recorded.topic, recorded.type].written
         name = self.renamed.get(recorded.topic, recorded.topic)
         return replace(channel, topic=name), stamp_ns, recorded.cdr
 

@@ -119,10 +119,16 @@ def type_hash(type_name: str) -> str:
     return _store().hash_rihs01(full_name(type_name))
 
 
+def is_idl(text: str) -> bool:
+    """Return whether a definition is in IDL, not .msg text."""
+    return bool(_IDL.search(text))
+
+
 def are_same(type_name: str, text: str, other: str) -> bool:
-    """Return whether two .msg texts define the same type; those that are invalid do not."""
+    """Return whether two definitions are of the same type; those that are invalid are not."""
+    name = full_name(type_name)
     try:
-        first, second = (get_types_from_msg(each, full_name(type_name)) for each in (text, other))
+        first, second = _types_in(name, text), _types_in(name, other)
     except TypesysError:
         return False
     return first == second
@@ -134,11 +140,10 @@ def add(type_name: str, text: str, fixed: Container[str]) -> None:
     See `webviz.data.messages.register`.
     """
     name = full_name(type_name)
-    is_idl = bool(_IDL.search(text))
     try:
-        learnt = _types_from_idl(text) if is_idl else get_types_from_msg(text, name)
+        learnt = _types_in(name, text)
     except TypesysError as error:  # its text quotes the whole definition
-        language = "IDL" if is_idl else ".msg text"
+        language = "IDL" if is_idl(text) else ".msg text"
         raise DefinitionError(f"The definition of {name} is not valid {language}.") from error
     if name not in learnt:  # such as that of a service
         raise DefinitionError(f"The definition of {name} does not define it.")
@@ -157,6 +162,11 @@ def add(type_name: str, text: str, fixed: Container[str]) -> None:
             del known[key]
         known.update(before)
         raise
+
+
+def _types_in(name: str, text: str) -> dict[str, Any]:
+    """Return the types in a definition; raises TypesysError."""
+    return _types_from_idl(text) if is_idl(text) else get_types_from_msg(text, name)
 
 
 def _types_from_idl(text: str) -> dict[str, Any]:

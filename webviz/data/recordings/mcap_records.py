@@ -6,6 +6,8 @@ import struct
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from webviz.data.recordings.recording import DEFINITION_ENCODINGS
+
 MAGIC = b"\x89MCAP0\r\n"
 HEADER, FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK = range(1, 7)
 MESSAGE_INDEX, CHUNK_INDEX, ATTACHMENT, STATISTICS, METADATA = 0x07, 0x08, 0x09, 0x0B, 0x0C
@@ -58,7 +60,7 @@ class RecordFields:
 
 
 class McapSchema(NamedTuple):
-    """Name of a message type and its .msg text, "" if there is none."""
+    """Name of a message type and its definition, "" if there is none that is read."""
 
     name: str
     definition: str
@@ -68,7 +70,7 @@ def schema_of(fields: RecordFields) -> tuple[int, McapSchema]:
     """Id and contents of a schema."""
     (number,) = fields.numbers("H")
     name, encoding, definition = fields.text(), fields.text(), fields.text()
-    return number, McapSchema(name, definition if encoding == "ros2msg" else "")
+    return number, McapSchema(name, definition if encoding in DEFINITION_ENCODINGS else "")
 
 
 class McapChannel(NamedTuple):

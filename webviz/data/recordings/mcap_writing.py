@@ -6,6 +6,7 @@ import contextlib
 from pathlib import Path
 from typing import BinaryIO, cast
 
+from webviz.data.messages.typestore import is_idl
 from webviz.data.recordings.recording import RecordedChannel
 
 CHUNK_BYTES = 1 << 20
@@ -80,7 +81,8 @@ class McapFile:
         schema = self._schemas.get(key)
         if schema is None:
             text = channel.definition.encode()
-            schema = self._writer.register_schema(channel.type, "ros2msg" if text else "", text)
+            encoding = "ros2idl" if is_idl(channel.definition) else "ros2msg"
+            schema = self._writer.register_schema(channel.type, encoding if text else "", text)
             self._schemas[key] = schema
         metadata = {"offered_qos_profiles": channel.profiles}
         return self._writer.register_channel(channel.topic, channel.encoding, schema, metadata)

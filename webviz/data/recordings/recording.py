@@ -9,6 +9,9 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 import numpy.typing as npt
 
+DEFINITION_ENCODINGS = ("ros2msg", "ros2idl")
+"""Of the definitions that are read."""
+
 
 class RecordingError(Exception):
     """A recording cannot be opened; one sentence with a remedy."""
@@ -22,7 +25,7 @@ class RecordedChannel:
         topic: full name.
         type: message type as recorded, such as "std_msgs/msg/String" or "std_msgs/String".
         encoding: of the messages; "cdr" for those of ROS 2.
-        definition: the .msg text of the type, "" if there is none.
+        definition: of the type, as .msg text or IDL; "" if there is none.
         profiles: the QoS that publishers offered, as YAML; "" if unknown.
     """
 

@@ -16,6 +16,7 @@ import numpy as np
 
 from webviz.data.recordings.metadata import recorded_counts
 from webviz.data.recordings.recording import (
+    DEFINITION_ENCODINGS,
     END_MISSING,
     Counts,
     Losses,
@@ -228,7 +229,7 @@ class SqliteRecording:
         return found
 
     def _definitions(self, allowance: TextAllowance) -> dict[str, str]:
-        """Return the .msg texts by type; older bags have none."""
+        """Return the definitions by type; older bags have none."""
         if not self._db.execute("PRAGMA table_info(message_definitions)").fetchall():
             return {}
         found = {}
@@ -236,7 +237,7 @@ class SqliteRecording:
             "SELECT topic_type, encoding, encoded_message_definition FROM message_definitions "
             f"ORDER BY id LIMIT {MAX_TOPICS}"
         ):
-            if encoding == "ros2msg" and allowance.take(len(str(name)), len(str(text))):
+            if encoding in DEFINITION_ENCODINGS and allowance.take(len(str(name)), len(str(text))):
                 found[str(name)] = str(text)
         return found
 

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
-from dataclasses import dataclass
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple
 
 from webviz.api.errors import Error
 from webviz.api.offer import Publisher
-from webviz.data.messages import MessageError, register, type_exists
+from webviz.data.foxglove.schemas import Conversion, ConversionError, conversion, is_own, problem_of
+from webviz.data.messages import MessageError, definition, register, type_exists
 from webviz.data.messages.typestore import full_name
 from webviz.data.recordings import RecordedChannel, RecordingError, open_recording
-from webviz.data.recordings.recording import Counts, TimeParts
+from webviz.data.recordings.recording import Counts, RecordedMessage, TimeParts
 from webviz.sources.bag.qos import profiles_of
+from webviz.sources.names import is_full_name
 
 KEEP_LAST = 1
 """Latched messages per publisher if the bag does not record the depth."""
@@ -42,6 +44,7 @@ class BagChannel:
         publishers: recorded QoS.
         depth: how many messages its publishers latch in total.
         recorded: as it is in the file.
+        conversion: to that type, None for messages of ROS.
     """
 
     topic: str
@@ -49,6 +52,21 @@ class BagChannel:
     publishers: tuple[Publisher, ...]
     depth: int
     recorded: RecordedChannel
+    conversion: Conversion | None = None
+
+    @property
+    def written(self) -> RecordedChannel:
+        """As it is written to other files, in CDR."""
+        if self.conversion is None:
+            return self.recorded
+        text = definition(self.type)
+        return replace(self.recorded, type=self.type, encoding="cdr", definition=text)
+
+    def cdr(self, data: bytes) -> bytes:
+        """Return a message in CDR; raises ConversionError if it is not of its schema."""
+        if self.conversion is None:
+            return data
+        return self.conversion.convert(self.recorded.encoding, data)
 
 
 class BagFile:
@@ -83,22 +101,25 @@ class BagFile:
         self.channels: tuple[BagChannel, ...] = ()
         self.skipped: dict[str, str] = {}
         """Why the messages of a topic cannot be read, by topic."""
+        self._misfits: dict[str, str] = {}
+        """By topic, why the last of its messages that could not be converted was left out."""
         self._look()
 
     @property
     def warnings(self) -> list[str]:
         """Return sentences on what is missing, unusual or damaged so far."""
         losses = self._recording.losses
+        misfits = [f"{topic}: {reason}; it is left out." for topic, reason in self._misfits.items()]
         if losses.is_unfinished:
             unfinished = (
                 f"{self.path.name} has no end: it is still being recorded or was cut off. What "
                 "it contained when it was opened is shown. Once its recorder has ended, `webviz "
                 "recover` completes a copy."
             )
-            return [*losses.notes, unfinished]
+            return [*losses.notes, *misfits, unfinished]
         lost = str(losses)
         damage = f"{self.path.name} is damaged: {lost}; everything else is shown."
-        return [*losses.notes, *([damage] if lost else [])]
+        return [*losses.notes, *misfits, *([damage] if lost else [])]
 
     def messages(
         self, channels: Collection[BagChannel], start_ns: int, end_ns: int | None = None
@@ -113,9 +134,8 @@ class BagFile:
         by_recorded = {channel.recorded: channel for channel in channels}
         end_ns = self.end_ns if end_ns is None else end_ns
         try:
-            for entry in self._recording.messages(by_recorded.keys(), start_ns, end_ns):
-                channel = by_recorded[entry.channel]
-                yield Recorded(channel.topic, channel.type, entry.data, entry.stamp_ns)
+            entries = self._recording.messages(by_recorded.keys(), start_ns, end_ns)
+            yield from self._converted(entries, by_recorded)
         except OSError as error:
             raise BagError(self._unreadable(error)) from error
 
@@ -127,9 +147,8 @@ class BagFile:
         """
         by_recorded = {channel.recorded: channel for channel in channels}
         try:
-            for entry in self._recording.newest(by_recorded.keys(), end_ns):
-                channel = by_recorded[entry.channel]
-                yield Recorded(channel.topic, channel.type, entry.data, entry.stamp_ns)
+            entries = self._recording.newest(by_recorded.keys(), end_ns)
+            yield from self._converted(entries, by_recorded)
         except OSError as error:
             raise BagError(self._unreadable(error)) from error
 
@@ -154,6 +173,18 @@ class BagFile:
         """Close the file."""
         self._recording.close()
 
+    def _converted(
+        self, entries: Iterable[RecordedMessage], channels: Mapping[RecordedChannel, BagChannel]
+    ) -> Iterator[Recorded]:
+        for entry in entries:
+            channel = channels[entry.channel]
+            try:
+                cdr = channel.cdr(entry.data)
+            except ConversionError as error:
+                self._misfits[channel.topic] = str(error)
+                continue
+            yield Recorded(channel.topic, channel.type, cdr, entry.stamp_ns)
+
     def _unreadable(self, error: OSError) -> str:
         return f"Cannot read {self.path}: {error.strerror or error}."
 
@@ -170,6 +201,10 @@ class BagFile:
 
 def _obstacle(recorded: RecordedChannel) -> str:
     """Why the messages of a channel cannot be read, "" if they can; registers their type."""
+    if is_own(recorded.type, recorded.encoding):
+        if not is_full_name(recorded.topic):
+            return "its name is none of a topic of ROS"
+        return problem_of(recorded.type, recorded.type)
     if recorded.encoding != "cdr":
         return f"its messages are encoded as {recorded.encoding}, not as CDR"
     if recorded.type.endswith("_Event") and "/srv/" in recorded.type:
@@ -186,7 +221,8 @@ def _obstacle(recorded: RecordedChannel) -> str:
 
 
 def _channel(recorded: RecordedChannel, who: str) -> BagChannel:
-    type_name = full_name(recorded.type)
+    known = conversion(recorded.type) if is_own(recorded.type, recorded.encoding) else None
+    type_name = known.type if known else full_name(recorded.type)
     profiles = profiles_of(recorded.profiles)
     publishers = tuple(Publisher(who, type_name, p.reliability, p.durability) for p in profiles)
     return BagChannel(
@@ -195,4 +231,5 @@ def _channel(recorded: RecordedChannel, who: str) -> BagChannel:
         publishers or (Publisher(who, type_name, "reliable", "volatile"),),
         sum(max(profile.depth, KEEP_LAST) for profile in profiles) or KEEP_LAST,
         recorded,
+        known,
     )

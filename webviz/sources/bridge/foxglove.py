@@ -8,15 +8,16 @@ from concurrent.futures import Future
 from typing import Any
 
 from webviz.api.offer import Endpoint, Publisher
+from webviz.data.foxglove.schemas import ConversionError, conversion, is_own, problem_of
 from webviz.data.messages import UnknownTypeError, definition
 from webviz.data.words import plain
 from webviz.sources.bridge import foxglove_wire as wire
 from webviz.sources.bridge.foxglove_channels import FoxgloveChannels
 from webviz.sources.bridge.foxglove_graph import ConnectionGraph
-from webviz.sources.bridge.foxglove_schemas import conversion, problem_of
 from webviz.sources.bridge.session import (
     CarriedTopic,
     Host,
+    WireError,
     fail,
     succeed,
     usual_durability,
@@ -208,7 +209,12 @@ class FoxgloveSession:
         """Return a message in CDR, of which others than Foxglove's own are made already."""
         channel = self._foreign.get(topic)
         known = channel and conversion(channel.schema_name)
-        return known.convert(channel.encoding, payload) if channel and known else payload
+        if channel is None or known is None:
+            return payload
+        try:
+            return known.convert(channel.encoding, payload)
+        except ConversionError as error:
+            raise WireError(str(error)) from error
 
     def _take_text(self, message: Any) -> None:
         match message:
@@ -372,9 +378,7 @@ def _unread(channel: wire.ServerChannel) -> str:
 
 
 def _is_foreign(channel: wire.ServerChannel) -> bool:
-    """Return whether messages are in one of Foxglove's own schemas."""
-    is_own = channel.schema_name.startswith("foxglove.")
-    return is_own and channel.encoding in ("protobuf", "json")
+    return is_own(channel.schema_name, channel.encoding)
 
 
 def _type_of(channel: wire.ServerChannel) -> str:

@@ -12,10 +12,9 @@ from typing import Any
 
 import numpy as np
 
+from webviz.data.foxglove.scene import header, markers_of, pose_of, time_of
 from webviz.data.messages import encode
 from webviz.data.rotations import matrices, w_first
-from webviz.sources.bridge.foxglove_scene import header, markers_of, pose_of, time_of
-from webviz.sources.bridge.session import WireError
 
 MISSING = (
     "{name} needs the package foxglove-schemas-protobuf. Install it with "
@@ -27,6 +26,10 @@ _DATATYPES = {1: 2, 2: 1, 3: 4, 4: 3, 5: 6, 6: 5, 7: 7, 8: 8}
 _SIZES = {1: 1, 2: 1, 3: 2, 4: 2, 5: 4, 6: 4, 7: 4, 8: 8}
 FLOAT32 = 7
 MAX_JSON_DEPTH = 50
+
+
+class ConversionError(ValueError):
+    """A message is not of its schema, or has no equal in ROS; one sentence."""
 
 
 @dataclass(frozen=True)
@@ -51,7 +54,7 @@ class Conversion:
             payload: a message of the schema.
 
         Raises:
-            WireError: it is not one, or has no equal in ROS.
+            ConversionError: it is not one, or has no equal in ROS.
         """
         message = _message_class(self.schema)()
         try:
@@ -60,10 +63,20 @@ class Conversion:
             else:
                 _parse_json(payload, message)
             return encode(self.type, self.values(message))
-        except WireError:
+        except ConversionError:
             raise
         except Exception as error:  # of protobuf, numpy and the encoder: of many kinds
-            raise WireError(f"A message is not a valid {self.schema}") from error
+            raise ConversionError(f"A message is not a valid {self.schema}") from error
+
+
+def is_own(schema: str, encoding: str) -> bool:
+    """Return whether messages are in one of Foxglove's own schemas.
+
+    Args:
+        schema: its name.
+        encoding: of the messages.
+    """
+    return schema.startswith("foxglove.") and encoding in ("protobuf", "json")
 
 
 def conversion(schema: str) -> Conversion | None:
@@ -141,7 +154,7 @@ def _transform(message: Any) -> dict[str, Any]:
 def _cloud(message: Any) -> dict[str, Any]:
     step, data = message.point_stride, message.data
     if step <= 0 or any(f.offset + _SIZES.get(f.type, 8) > step for f in message.fields):
-        raise WireError("A foxglove.PointCloud has fields outside of its points")
+        raise ConversionError("A foxglove.PointCloud has fields outside of its points")
     width = len(data) // step
     data = _placed(message, np.frombuffer(data, np.uint8, width * step).reshape(width, step))
     return {
@@ -172,7 +185,7 @@ def _placed(message: Any, points: Any) -> Any:
     at = {f.name: f for f in message.fields}
     axes = [at.get(name) for name in "xyz"]
     if any(axis is None or axis.type != FLOAT32 for axis in axes):
-        raise WireError("A foxglove.PointCloud has a pose, but no float32 fields x, y and z")
+        raise ConversionError("A foxglove.PointCloud has a pose, but no float32 fields x, y and z")
     points = points.copy()
     parts = [points[:, f.offset : f.offset + 4] for f in axes if f is not None]
     xyz = np.hstack([np.ascontiguousarray(part).view("<f4") for part in parts]).astype(np.float64)
@@ -187,7 +200,7 @@ def _placed(message: Any, points: Any) -> Any:
 
 def _scan(message: Any) -> dict[str, Any]:
     if not _is_identity(message.pose):
-        raise WireError("A foxglove.LaserScan has a pose, which scans of ROS do not have")
+        raise ConversionError("A foxglove.LaserScan has a pose, which scans of ROS do not have")
     ranges = np.array(message.ranges, np.float32)
     span = message.end_angle - message.start_angle
     finite = ranges[np.isfinite(ranges)]
@@ -207,7 +220,7 @@ def _grid(message: Any) -> dict[str, Any]:
     field = next((f for f in message.fields if f.type in (1, 2) and f.offset < cell), None)
     columns, size = message.column_count, message.cell_size
     if field is None or not math.isclose(size.x, size.y) or not 0 < columns * cell <= row:
-        raise WireError("A foxglove.Grid has no square cells with a field of 8 bits")
+        raise ConversionError("A foxglove.Grid has no square cells with a field of 8 bits")
     rows = len(message.data) // row
     data = np.frombuffer(message.data, np.uint8, rows * row).reshape(rows, row)
     cells = data[:, field.offset : columns * cell : cell]
@@ -226,7 +239,7 @@ def _grid(message: Any) -> dict[str, Any]:
 def _calibration(message: Any) -> dict[str, Any]:
     sizes = len(message.K), len(message.R), len(message.P)
     if sizes not in ((9, 9, 12), (9, 0, 12), (9, 0, 0), (9, 9, 0)):
-        raise WireError("A foxglove.CameraCalibration has matrices of invalid sizes")
+        raise ConversionError("A foxglove.CameraCalibration has matrices of invalid sizes")
     k = list(message.K)
     return {
         "header": header(message),
@@ -294,6 +307,16 @@ _CONVERSIONS = {
             "foxglove.CompressedImage",
             "sensor_msgs/msg/CompressedImage",
             lambda m: {"header": header(m), "format": m.format, "data": m.data},
+        ),
+        Conversion(
+            "foxglove.CompressedVideo",
+            "foxglove_msgs/msg/CompressedVideo",
+            lambda m: {
+                "timestamp": time_of(m.timestamp),
+                "frame_id": m.frame_id,
+                "data": m.data,
+                "format": m.format,
+            },
         ),
         Conversion("foxglove.RawImage", "sensor_msgs/msg/Image", _image),
         Conversion("foxglove.CameraCalibration", "sensor_msgs/msg/CameraInfo", _calibration),

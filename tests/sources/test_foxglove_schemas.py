@@ -13,10 +13,9 @@ import numpy as np
 import pytest
 from bridges import reading
 
+from webviz.data.foxglove import schemas
+from webviz.data.foxglove.schemas import Conversion, ConversionError, conversion, problem_of
 from webviz.data.messages import decode
-from webviz.sources.bridge import foxglove_schemas
-from webviz.sources.bridge.foxglove_schemas import Conversion, conversion, problem_of
-from webviz.sources.bridge.foxglove_wire import WireError
 
 TIME = fox.Timestamp(sec=7, nsec=8)
 RED = fox.Color(r=1.0, g=0.0, b=0.0, a=0.5)
@@ -88,7 +87,7 @@ def test_a_cloud_is_at_its_pose() -> None:
     assert still.data.tobytes() == xyz.tobytes()
     moved = converted(fox.PointCloud(**cloud, pose=TURNED)).data.view(np.float32).reshape(2, 3)
     assert moved == pytest.approx(np.array([[10, 1, 0], [9, 0, 0]]), abs=1e-6)
-    with pytest.raises(WireError, match="fields outside of its points"):
+    with pytest.raises(ConversionError, match="fields outside of its points"):
         converted(fox.PointCloud(**{**cloud, "point_stride": 11}))
 
 
@@ -96,7 +95,7 @@ def test_scans_grids_and_images() -> None:
     ranges = [1.0, 2.0, math.inf]
     scan = converted(fox.LaserScan(**BASE, start_angle=-1.0, end_angle=1.0, ranges=ranges))
     assert (scan.angle_increment, scan.range_max, list(scan.ranges)) == (1.0, 3.0, ranges)
-    with pytest.raises(WireError, match="which scans of ROS do not have"):
+    with pytest.raises(ConversionError, match="which scans of ROS do not have"):
         converted(fox.LaserScan(**BASE, pose=TURNED))
     field = fox.PackedElementField(
         name="cost", offset=1, type=fox.PackedElementFieldNumericType.Int8
@@ -123,7 +122,7 @@ def test_scans_grids_and_images() -> None:
         fox.CameraCalibration(**BASE, width=4, height=3, K=[float(i) for i in range(9)])
     )
     assert list(calibration.p)[:4] == [0.0, 1.0, 2.0, 0.0]
-    with pytest.raises(WireError, match="matrices of invalid sizes"):
+    with pytest.raises(ConversionError, match="matrices of invalid sizes"):
         converted(fox.CameraCalibration(**BASE, K=[1.0]))
 
 
@@ -153,19 +152,19 @@ def test_json_has_times_as_objects() -> None:
 
 @pytest.mark.parametrize("payload", [b"", b"{", b"[]", b"[" * 100_000, b'{"entities": 5}'])
 def test_invalid_json_is_an_error(payload: bytes) -> None:
-    with pytest.raises(WireError, match=r"not a valid foxglove\.SceneUpdate"):
+    with pytest.raises(ConversionError, match=r"not a valid foxglove\.SceneUpdate"):
         known("SceneUpdate").convert("json", payload)
 
 
 def test_invalid_protobuf_is_an_error() -> None:
-    with pytest.raises(WireError, match=r"not a valid foxglove\.PointCloud"):
+    with pytest.raises(ConversionError, match=r"not a valid foxglove\.PointCloud"):
         known("PointCloud").convert("protobuf", b"\xff" * 100)
 
 
 def test_what_cannot_be_shown_has_a_reason(monkeypatch: pytest.MonkeyPatch) -> None:
     assert "no equal message in ROS" in problem_of("foxglove.GeoJSON", "foxglove.GeoJSON")
     assert not problem_of("foxglove.Grid", "foxglove.Grid")
-    monkeypatch.setattr(foxglove_schemas, "_is_installed", lambda: False)
+    monkeypatch.setattr(schemas, "_is_installed", lambda: False)
     assert "pip install 'ros-webviz[foxglove]'" in problem_of("foxglove.Grid", "foxglove.Grid")
 
 
@@ -187,3 +186,9 @@ def test_channels_of_a_server_are_topics_of_ros() -> None:
             assert message.pose.position.x == 10.0
     finally:
         server.stop()
+
+
+def test_video_stays_what_it_is() -> None:
+    video = converted(fox.CompressedVideo(**BASE, data=b"\0\0\0\1\x67", format="h264"))
+    assert (video.timestamp.sec, video.frame_id, video.format) == (7, "base", "h264")
+    assert bytes(video.data) == b"\0\0\0\1\x67"

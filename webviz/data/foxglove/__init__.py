@@ -1,0 +1,1 @@
+"""Messages in Foxglove's own schemas, as the equal ones of ROS."""
