@@ -49,12 +49,21 @@ def _floor(scene: Scene, folder: Path) -> Sequence[str]:
     return [python, m, module, str(folder / "floor.bin"), *topics]
 
 
-def _webviz(scene: Scene, folder: Path) -> Sequence[str]:
+def _config(scene: Scene, folder: Path) -> str:
     config = folder / "scene.yaml"
     config.write_text(scene.config)
+    return str(config)
+
+
+def _bridged(scene: Scene, folder: Path) -> Sequence[str]:
+    python, m, module, *topics = _module("bridged")(scene, folder)
+    return [python, m, module, _config(scene, folder), *topics]
+
+
+def _webviz(scene: Scene, folder: Path) -> Sequence[str]:
     # The others do not remember the last minute either.
     options = ["--port", "0", "--no-autosave", "--set", "memory.seconds=0"]
-    return [sys.executable, "-m", "webviz", "-d", str(config), *options]
+    return [sys.executable, "-m", "webviz", "-d", _config(scene, folder), *options]
 
 
 def _watch_viser(port: int, folder: Path, scene: Scene | None, stalls: bool) -> Watcher:
@@ -85,6 +94,13 @@ SYSTEMS = {
     for system in (
         System("floor", "rclpy alone", _floor, _watch_floor, ("rclpy",), is_served=False),
         System("webviz", "webviz", _webviz, _watch_webviz, ("ros-webviz", "viser")),
+        System(
+            "bridged",
+            "webviz behind foxglove-sdk",
+            _bridged,
+            _watch_webviz,
+            ("ros-webviz", "viser", "foxglove-sdk"),
+        ),
         System("plain", "plain viser", _module("plain"), _watch_viser, ("viser",)),
         System("foxglove", "foxglove-sdk", _module("foxglove"), _watch_foxglove, ("foxglove-sdk",)),
         System("rerun", "rerun-sdk", _module("rerun"), _watch_rerun, ("rerun-sdk",)),
