@@ -38,7 +38,7 @@ PARAMETERS = {role: name for name, role in LINKS.items()}
 
 
 @pytest.mark.parametrize(
-    "path", ["/", "/index.html", "/webviz/main.js", "/webviz/constants.js", "/x"]
+    "path", ["/", "/index.html", "/webviz/main.js", "/webviz/constants.js", "/shared", "/x"]
 )
 @pytest.mark.parametrize("method", ["GET", "HEAD"])
 def test_without_a_cookie_there_is_nothing_but_a_sentence(
@@ -65,6 +65,20 @@ def test_a_link_lets_in_and_is_gone_from_the_address(house: House, role: Role) -
     assert house.ask("/", Cookie=given).status == 200
     assert secret.encode() not in house.body
     assert house.tokens[role].cookie.encode() not in house.body
+
+
+@pytest.mark.parametrize("role", list(Role))
+def test_a_shared_file_is_only_for_owners(house: House, role: Role) -> None:
+    cookie = house.cookie(role)
+    is_owner = role is Role.OWNER
+    assert house.ask("/shared", Cookie=cookie).status == (404 if is_owner else 403)
+    house.server.shared.offer("run.html", b"<p>the run</p>")
+    response = house.ask("/shared", Cookie=cookie)
+    house.server.shared.offer("", b"")
+    assert response.status == (200 if is_owner else 403)
+    assert (b"the run" in house.body) == is_owner
+    if is_owner:
+        assert response.headers["Content-Disposition"] == 'attachment; filename="run.html"'
 
 
 @pytest.mark.parametrize("query", ["watch=", "own=SECRET", "watch=SECRET&own=SECRET", "watch=x"])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import contextlib
 import io
 import itertools
 import math
@@ -27,6 +28,7 @@ from playwright.sync_api import expect
 
 import webviz
 from webviz.api.views import VIEW_TYPES, Rig, View, mimic, type_of
+from webviz.engine.commands import Seek
 from webviz.shell.cli import main as cli
 from webviz.shell.cli.options import MESH_ROOT
 from webviz.shell.pictures.browser_scripts import (
@@ -37,7 +39,8 @@ from webviz.shell.pictures.browser_scripts import (
     SETTLE,
 )
 from webviz.shell.pictures.headless_renderer import HeadlessRenderer
-from webviz.shell.testing import header
+from webviz.shell.testing import BagViewer, header
+from webviz_displays.map import Map
 
 TIMES = (1.0, 4.5, 0.5, 5.0, 2.0, 0.0)
 SIZE: playwright.ViewportSize = {"width": 800, "height": 500}
@@ -204,6 +207,33 @@ def test_what_is_in_a_box_is_selected_with_its_place_and_display(file: OpenFile)
     page.mouse.up()
     shown = page.locator(".wv-selection")
     expect(shown.get_by_text("Odometry").first).to_be_attached()
+    page.keyboard.press("Escape")
+
+
+def test_a_cell_of_the_map_has_its_value(file: OpenFile, folder: Path) -> None:
+    with contextlib.closing(BagViewer(folder / "run", CONFIG)) as viewer:
+        viewer.do(Seek(2.0))
+        (runner,) = [each for each in viewer.loop.runners() if type(each.display) is Map]
+        values = runner._renderer._state.grid.tiles[0, 0]
+    file.seek(2.0)
+    page = file.page
+    page.keyboard.press("s")
+    (left, top, width, _), (columns, rows) = page.evaluate(BOX), page.evaluate(CANVAS)
+    # Next to what the robot publishes, and in the middle of the picture.
+    places = {
+        (column, row): page.evaluate(PIXEL, [column + 0.3, row + 0.6, 0.0])
+        for column, row in itertools.product(range(4), (1, 2, 3))
+    }
+    (column, row), (x, y) = min(
+        places.items(), key=lambda each: math.dist(each[1], (columns / 2, rows / 2))
+    )
+    page.mouse.click(left + x * width / columns, top + y * width / columns)
+    shown = page.locator(".wv-selection")
+    expect(shown).to_contain_text(f"Cell {column}, {row}")
+    field = shown.locator(".wv-field-row").filter(has_text="Value")
+    value = re.compile(rf"^{values[row, column]}\b")
+    expect(field.locator(".wv-field-value")).to_have_text(value)
+    expect(shown).to_contain_text(f"{column + 0.5:.4f}, {row + 0.5:.4f}, 0.0000 m")
     page.keyboard.press("Escape")
 
 

@@ -101,9 +101,15 @@ def test_a_click_shares_the_moment_and_the_view(
         page.get_by_role("button", name="Share this moment").click()
         dialog = page.get_by_role("dialog")
         expect(dialog.get_by_role("listitem").first).to_contain_text(re.compile(r"6\.0 s of \d"))
-        dialog.get_by_role("button", name="Share", exact=True).click()
-        expect(page.get_by_text("Saved webviz_run_")).to_be_visible(timeout=PATIENCE_S * 1e3)
-    (path,) = work.iterdir()
+        with page.expect_download(timeout=PATIENCE_S * 1e3) as downloaded:
+            dialog.get_by_role("button", name="Share", exact=True).click()
+        expect(page.get_by_text("Saved webviz_run_")).to_be_visible()
+        (path,) = work.iterdir()
+        assert downloaded.value.suggested_filename == path.name
+        assert Path(downloaded.value.path()).read_bytes() == path.read_bytes()
+        with page.expect_download() as again:
+            page.get_by_role("button", name="Download").click()
+        assert again.value.suggested_filename == path.name
     page.goto(path.as_uri())
     page.wait_for_function("window.webviz?.hasView()")
     expect(page.get_by_label("Go to time")).to_have_value(f"0:00:0{AT_S:.3f}")

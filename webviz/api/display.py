@@ -26,7 +26,7 @@ import msgspec
 from webviz.api.capabilities import Selective, capability
 from webviz.api.declared import Declared, Topic
 from webviz.api.lookback import Lookback
-from webviz.api.picking import Details, Hit, noun_of
+from webviz.api.picking import Cells, Details, Hit, noun_of
 from webviz.api.ports import Input, Namespace
 from webviz.api.properties import properties_of
 
@@ -197,6 +197,13 @@ class Display(Declared, kw_only=True):
         """
         noun = noun_of(hit.node)
         return Details(noun if hit.id is None else f"{noun} {hit.id}")
+
+    def cells(self, key: str, ctx: Context) -> Cells | None:
+        """Return how the cells of the image with a key are read; None if they have no values.
+
+        A shared file tells the values of cells by that, as `inspect` does in the viewer.
+        """
+        return None
 
 
 D = TypeVar("D", bound=Display)

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from webviz.api.nodes import Arrows, Axes, Image, Instances, Labels, Lines, Node, Points
+from webviz.api.nodes import Arrows, Axes, Image, Instances, Labels, Lines, Node, Points, Pose
 from webviz.api.sample import Sample
 
 
@@ -69,6 +69,27 @@ class Details:
 
     title: str
     values: Mapping[str, object] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Cells:
+    """How the cells of an image with a palette are read, where there is no display to ask.
+
+    Args:
+        corner: row and column of its first cell in the whole grid.
+        columns: of the whole grid.
+        resolution: edge of a cell in metres.
+        origin: of the whole grid, in `frame`.
+        frame: frame id.
+        told: what is said about a cell, by its index in the palette.
+    """
+
+    corner: tuple[int, int]
+    columns: int
+    resolution: float
+    origin: Pose
+    frame: str
+    told: Sequence[str | int]
 
 
 def noun_of(node: Node) -> str:

@@ -23,6 +23,7 @@ from webviz.server.http.guard import RequestGuard
 from webviz.server.http.hosts import HostList
 from webviz.server.http.listener import Handshakes, listen
 from webviz.server.http.revocation import Revocation
+from webviz.server.http.shared import SharedFile
 from webviz.server.http.steps import at, behind, page, with_link, within
 from webviz.server.http.viser_server import Server, replaced
 
@@ -66,18 +67,19 @@ def open_server(
     if tls is not None:
         listener.handshakes = Handshakes()
     limits, access = ConnectionLimits(listener.handshakes), access or Access()
-    channel, modules = Channel(), Modules(CONSTANTS)
+    channel, modules, shared = Channel(), Modules(CONSTANTS), SharedFile()
     steps = (
         behind(proxies),
         at(HostList(host, allowed_hosts)),
         with_link(access, listener.getsockname()[1]),
         within(limits),
+        shared.step,
         page(modules.head),
     )
     begin = Revocation(access, limits).begin
     guard = RequestGuard(listener, steps, limits, tls, channel, begin, link_rate, embedders)
     with _opening, replaced(websocket, "serve", functools.partial(guard.serve, websocket.serve)):
-        server = Server(channel, modules, limits.close, host=host, port=port, verbose=False)
+        server = Server(channel, modules, shared, limits.close, host=host, port=port, verbose=False)
     greet(server, channel, modules)
     _prepare(server)
     return server

@@ -28,6 +28,7 @@ from webviz import (
     compose,
 )
 from webviz.api.consistency import OccupiedCells
+from webviz.api.picking import Cells
 from webviz.data.words import counted, joined
 from webviz_displays.map.cells import MEANINGS, cell_details, tile_key
 from webviz_displays.map.palettes import lookup_table
@@ -225,9 +226,16 @@ class MapDisplay(Display):
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
         """Return a cell, with the value that it has now."""
-        grid: TiledGrid | None = ctx.state.grid
-        corner = next((c for c in grid.tiles if tile_key(c) == hit.key), None) if grid else None
+        grid, corner = _tile(ctx.state, hit.key)
         return cell_details(grid, corner, hit.point, self.told) if grid and corner else None
+
+    def cells(self, key: str, ctx: Context) -> Cells | None:
+        """Return how the cells of a tile are read."""
+        grid, corner = _tile(ctx.state, key)
+        if grid is None or corner is None:
+            return None
+        told = [self.told(int(value)) for value in np.arange(256).astype(np.uint8).view(np.int8)]
+        return Cells(corner, grid.width, grid.resolution, grid.origin, grid.frame, told)
 
     def _pose_at_stamp(self, frame: str, stamp_ns: int, ctx: Context) -> Pose | None:
         """Where the frame was at the stamp; kept, because transforms expire after seconds."""
@@ -284,6 +292,12 @@ class Map(MapDisplay, Comparable):
         return OccupiedCells(
             self.topic.name, grid.frame, grid.origin, grid.resolution, partial(window, grid)
         )
+
+
+def _tile(state: _State, key: str) -> tuple[TiledGrid | None, Corner | None]:
+    """Return the map that is drawn, and the corner of the tile whose node has a key."""
+    grid = state.grid
+    return grid, next((c for c in grid.tiles if tile_key(c) == key), None) if grid else None
 
 
 def _images(grid: TiledGrid, look: MapStyle, state: _State) -> dict[Corner, Image]:

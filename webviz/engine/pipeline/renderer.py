@@ -13,7 +13,7 @@ from webviz.api.context import ColorScale, Context, Placement
 from webviz.api.display import Display, overrides
 from webviz.api.frames import Frames
 from webviz.api.nodes import Node
-from webviz.api.picking import Details, Hit
+from webviz.api.picking import Cells, Details, Hit
 from webviz.api.sample import Sample
 from webviz.api.status import Status
 from webviz.engine.commands import Picks
@@ -164,6 +164,12 @@ class Renderer:
         if self._state is _NO_STATE:
             return None
         return guard.attempt("inspect", None, display.inspect, hit, self._context(frames))
+
+    def cells(self, display: Display, guard: Guard, key: str, frames: Frames) -> Cells | None:
+        """Return how the display reads the cells of an image that is drawn."""
+        if self._state is _NO_STATE:
+            return None
+        return guard.attempt("cells", None, display.cells, key, self._context(frames))
 
     def has(self, sample: Sample) -> bool:
         """Return whether a sample is drawn, by itself or with others."""

@@ -13,7 +13,7 @@ from webviz.api.display import Display, inputs, overrides
 from webviz.api.frames import Frames
 from webviz.api.handles import Drag, Handle
 from webviz.api.observation import InputSeen
-from webviz.api.picking import Details
+from webviz.api.picking import Cells, Details
 from webviz.api.robots import NamespacedRobot, RobotFrames, robot_of
 from webviz.api.status import Level, OtherFixedFrame, Status, worst
 from webviz.engine.commands import Picks
@@ -231,6 +231,10 @@ class Runner:
     def inspect(self, found: Found, frames: Frames) -> Details | None:
         """Return the details the display reports of a selected item, if it still exists."""
         return self._renderer.inspect(self.display, self._guard, found.hit, self._own(frames))
+
+    def cells(self, key: str, frames: Frames) -> Cells | None:
+        """Return how the display reads the cells of an image that is drawn."""
+        return self._renderer.cells(self.display, self._guard, key, self._own(frames))
 
     def shows(self, found: Found) -> bool:
         """Return whether the message that something was drawn from is still drawn."""

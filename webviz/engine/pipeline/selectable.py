@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 
 from webviz.api.frames import Frames
-from webviz.api.nodes import Node
+from webviz.api.nodes import Image, Node
 from webviz.api.picking import Details, Quantity
 from webviz.api.sample import Sample
+from webviz.data.rotations import matrices
 from webviz.data.transforms.errors import format_stamp
 from webviz.engine.pipeline.details import details_tree
 from webviz.engine.pipeline.picking import Found, every_item
@@ -45,6 +46,12 @@ class SelectableValues:
         told: dict[str, Any] = {}
         for name, key, node, samples, items in _nodes(runner):
             made = self._made.get((name, key))
+            if isinstance(node, Image) and node.palette is not None:
+                if made is None or made[0] is not node or made[1] is not samples:
+                    values = _cell_values(runner, key, samples, frames)
+                    made = self._made[name, key] = node, samples, values
+                told |= {f"{name}\n{key}\n{what}": value for what, value in made[2].items()}
+                continue
             # What has no message, or follows a frame, is another at each time.
             is_old = made is None or made[0] is not node or made[1] is not samples
             if is_old or not samples or any(each.placement.frame for each in items[:1]):
@@ -79,6 +86,26 @@ def _values(runner: Runner, items: Sequence[Found], frames: Frames) -> Values:
         "#titles": _column(_titles(details)),
         **{f".{name}": _values_column(name, details) for name in names},
     }
+
+
+def _cell_values(runner: Runner, key: str, samples: Sequence[Sample], frames: Frames) -> Values:
+    """Return how the cells of an image are read: their values are in it."""
+    cells = runner.cells(key, frames)
+    if cells is None:
+        return {}
+    along, across, _ = matrices(cells.origin.wxyz).T.tolist()
+    grid = {
+        "corner": cells.corner,
+        "columns": cells.columns,
+        "resolution": cells.resolution,
+        "origin": cells.origin.position,
+        "axes": [along, across],
+        "frame": cells.frame,
+        "told": cells.told,
+    }
+    stamp_ns = samples[-1].stamp_ns if samples else 0
+    stamp = f"{format_stamp(stamp_ns)} s" if stamp_ns else ""
+    return {"#frame": cells.frame, "#stamp": stamp, "#cells": grid}
 
 
 def _titles(details: Iterable[Details | None]) -> list[str | None]:

@@ -11,6 +11,7 @@ import viser
 
 from webviz.server.channel.channel import Channel
 from webviz.server.channel.modules import Modules
+from webviz.server.http.shared import SharedFile
 
 
 class Server(viser.ViserServer):
@@ -19,15 +20,22 @@ class Server(viser.ViserServer):
     Args:
         channel: to the modules of its pages.
         modules: of its pages.
+        shared: the file that its pages can download.
         close: closes all connections; called on the event loop.
         options: for viser.
     """
 
     def __init__(
-        self, channel: Channel, modules: Modules, close: Callable[[], None], **options: Any
+        self,
+        channel: Channel,
+        modules: Modules,
+        shared: SharedFile,
+        close: Callable[[], None],
+        **options: Any,
     ) -> None:
         self.channel = channel
         self.modules = modules
+        self.shared = shared
         self._close = close
         with replaced(rich.get_console(), "quiet", True):
             super().__init__(**options)

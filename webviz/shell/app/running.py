@@ -136,7 +136,7 @@ class Running(PictureControls):
                 autosave=autosave,
                 session=session and session.path,
                 restore=bool(sessions and sessions.restore),
-                export=exporter([Path(file) for file in plugins]),
+                export=exporter([Path(file) for file in plugins], server.shared.offer),
             )
             self._open_pages(server, allow_hosts, keep)
             self._run_loop(source)

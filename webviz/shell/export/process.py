@@ -43,11 +43,14 @@ class ExportProgress(msgspec.Struct, frozen=True, omit_defaults=True):
     problem: str = ""
 
 
-def exporter(plugins: Sequence[Path]) -> Exporter:
+def exporter(
+    plugins: Sequence[Path], offer: Callable[[str, bytes], object] = lambda name, data: None
+) -> Exporter:
     """Return an `Exporter` that starts a process for each file.
 
     Args:
         plugins: files to load there.
+        offer: called with the name and the content of each file that was made.
     """
 
     def export(
@@ -61,6 +64,7 @@ def exporter(plugins: Sequence[Path]) -> Exporter:
                 if told.problem:
                     raise Error(told.problem)
                 if told.done:
+                    offer(moment.path.name, moment.path.read_bytes())
                     return told.done
                 tell(told.share or 0.0)
             if stopped.is_set():

@@ -218,6 +218,25 @@ export function player(about, sinks) {
       );
     },
     /**
+     * The picture that was sent last for a node, of those whose name is wanted; null for none.
+     *
+     * @param {(name: string) => boolean} isWanted
+     * @returns {Promise<Uint8Array | null>}
+     */
+    async picture(isWanted) {
+      const numbers = [...known.values()].filter((one) => isWanted(one.node));
+      const of = await homes(
+        "message",
+        numbers.map(({ number }) => number),
+      );
+      for (const { number } of numbers.reverse()) {
+        const message = made(of(number), number);
+        const data = message.updates?._data ?? message.props?._data;
+        if (data) return data;
+      }
+      return null;
+    },
+    /**
      * The ids of a display and of those in it, if it is a group.
      *
      * @param {string} display

@@ -1,5 +1,7 @@
 // The selection of a page that was exported: the recorded details of things, and what the scene has.
 
+import { cellAt, cellDetails, indexAt } from "./cells.js";
+
 /** @import {DisplayRow} from "../contents.js" */
 /** @import {Column, NodeValues} from "./types.js" */
 
@@ -23,23 +25,40 @@ function cell(column, number) {
  * @param {(display: string) => DisplayRow | undefined} rowOf
  * @param {(display: string, node: string) => Promise<NodeValues>} valuesOf of a node now
  * @param {() => string} stamp the time that is shown
+ * @param {(group: string, key: string) => Promise<Uint8Array | null>} pictureOf a node, as PNG
  */
-export function selection(rowOf, valuesOf, stamp) {
+export function selection(rowOf, valuesOf, stamp, pictureOf) {
   /** @type {Map<number, {display: string, thing: object}>} */
   let things = new Map(); // by id
   let total = 0;
 
   /**
    * @param {any} picks
+   * @param {number[]} at
+   * @param {NodeValues} values
+   */
+  async function cellOf({ group, key }, at, values) {
+    const grid = values.get("#cells");
+    const png = grid && (await pictureOf(group, key));
+    if (!png) return null;
+    const place = cellAt(grid, at);
+    const index = await indexAt(png, place.x, place.y);
+    return index === null ? null : cellDetails(grid, place, index);
+  }
+
+  /**
+   * @param {any} picks
    * @param {any} item
    * @param {NodeValues} values
    */
-  function made({ group, key }, [, number, at, color], values) {
+  async function made({ group, key }, [, number, at, color], values) {
     const display = group.split("/", 1)[0];
     const row = rowOf(display);
     const name = row?.name ?? display;
     /** @type {Record<string, any>} */
     const fields = {};
+    const mapCell = await cellOf({ group, key }, at, values);
+    Object.assign(fields, mapCell?.fields);
     for (const [field, column] of values) {
       const value = field.startsWith(".") ? cell(column, number ?? 0) : null;
       if (value !== undefined && value !== null) fields[field.slice(1)] = value;
@@ -52,7 +71,7 @@ export function selection(rowOf, valuesOf, stamp) {
     fields.Time = stamp();
     if (!values.size) fields.Values = MISSING;
     const plain = number === null ? key || name : `${key || "Item"} ${number}`.trim();
-    const title = cell(values.get("#titles"), number ?? 0) ?? plain;
+    const title = mapCell?.title ?? cell(values.get("#titles"), number ?? 0) ?? plain;
     const thing = { display, name, title, tree: { fields }, note: "" };
     return { display, thing };
   }
@@ -64,7 +83,7 @@ export function selection(rowOf, valuesOf, stamp) {
       for (const each of picks) {
         const display = each.group.split("/", 1)[0];
         const values = await valuesOf(display, `${each.group}\n${each.key}\n`);
-        for (const item of each.items) next.set(item[0], made(each, item, values));
+        for (const item of each.items) next.set(item[0], await made(each, item, values));
       }
       things = next;
       total = Math.max(count, things.size);

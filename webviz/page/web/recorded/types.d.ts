@@ -95,5 +95,16 @@ export type ViewCamera = [position: Vec3, lookAt: Vec3];
 export type ViewRig = { origin: Vec3; yaw: number };
 /** A value of each item of a node, or the one that all have. */
 export type Column = { all: unknown } | { each: unknown[] } | { numbers: number[]; unit: string };
+/** How the cells of the picture of a map are read; see webviz/api/picking.py. */
+export interface CellGrid {
+  corner: [row: number, column: number];
+  columns: number;
+  resolution: number;
+  origin: Vec3;
+  /** Directions of columns and rows, of length 1. */
+  axes: [Vec3, Vec3];
+  frame: string;
+  told: (string | number)[];
+}
 /** The details of what is drawn as one node; see webviz/engine/pipeline/selectable.py. */
 export type NodeValues = Map<string, any>;

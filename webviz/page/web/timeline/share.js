@@ -16,6 +16,7 @@ const TIP = "Make one file of what you see, which opens in any browser without w
 let isBag = false; // of which a span can be selected
 /** @type {number | null} */
 let done = null; // the share of the work, while a file is made
+let isMine = false; // whether this page has asked for it
 
 /** Asks whether to share the moment, or stops the file that is being made. */
 export const toggleShare = () => (done === null ? openShare() : act("StopSharing"));
@@ -53,8 +54,13 @@ export function share() {
     const number = values.get("number");
     if (number === undefined) return;
     done = values.get("share") ?? null;
-    if (known >= 0 && number > known)
-      toast(values.get("text") ?? "", { level: values.get("level") });
+    if (known >= 0 && number > known) {
+      const isMade = values.get("level") === "ok";
+      const action = isMade ? { label: "Download", run: fetchFile } : null;
+      toast(values.get("text") ?? "", { level: values.get("level"), action });
+      if (isMade && isMine) fetchFile();
+      isMine = false;
+    }
     known = number;
     show();
   }
@@ -66,6 +72,9 @@ export function share() {
 
   return needs("ShareMoment", button);
 }
+
+/** Downloads the last file that was made; the page may be at a path of a proxy. */
+const fetchFile = () => el("a", { href: "shared", download: "" }).click();
 
 /** Shows what a file would contain; begins to make it once that is confirmed. */
 function openShare() {
@@ -82,8 +91,9 @@ function openShare() {
   async function begin() {
     const { level, text } = await act("ShareMoment", {}, { quiet: true, errors: "caller" });
     setText(problem, level === "error" ? text : "");
-    if (level !== "error") toast(text, { level });
-    return level !== "error";
+    isMine = level !== "error";
+    if (isMine) toast(text, { level });
+    return isMine;
   }
 
   show();
@@ -94,8 +104,8 @@ function openShare() {
       el(
         "p",
         { class: "wv-quiet" },
-        "One HTML file of at most 50 MB in the working folder of webviz; nothing is sent anywhere. " +
-          "It opens in any browser, without webviz or a network, and contains:",
+        "One HTML file of at most 50 MB, which this browser downloads and webviz keeps in its working " +
+          "folder. It opens in any browser, without webviz or a network, and contains:",
       ),
       list,
       el(
