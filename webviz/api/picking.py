@@ -73,7 +73,7 @@ class Details:
 
 @dataclass(frozen=True)
 class Cells:
-    """How the cells of an image with a palette are read, where there is no display to ask.
+    """Reading of the cells of an image with a palette, where there is no display to ask.
 
     Args:
         corner: row and column of its first cell in the whole grid.
