@@ -62,8 +62,13 @@ class TopicBacklog:
         period = stamp_s - before if before is not None else 0.0
         if period <= 0.0:
             return
-        usual = sorted(self._periods)[len(self._periods) // 2] if self._periods else 0.0
+        usual = self._usual_s()
         if len(self._periods) >= FEWEST and delay_s > BEHIND_S and period > 1.5 * usual:
             self.dropped += round(period / usual) - 1
         elif delay_s <= BEHIND_S or len(self._periods) < FEWEST:
             self._periods.append(period)
+
+    def _usual_s(self) -> float:
+        """Return the mean period without pauses: several publishers may send at one moment."""
+        periods = sorted(self._periods)[: -(-len(self._periods) * 9 // 10)]
+        return sum(periods) / len(periods) if periods else 0.0

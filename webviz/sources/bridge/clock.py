@@ -26,6 +26,11 @@ class BridgeClock:
         self._delay = LinkDelay()
         self._trip_s: float | None = None
 
+    @property
+    def trip_s(self) -> float:
+        """The shortest round trip; 0 before one."""
+        return self._trip_s or 0.0
+
     def note_trip(self, seconds: float) -> None:
         """Note a round trip."""
         self._trip_s = seconds if self._trip_s is None else min(seconds, self._trip_s)
@@ -33,8 +38,7 @@ class BridgeClock:
     def note(self, stamp_ns: int, arrived_ns: int) -> None:
         """Note a message, with the wall times at which the bridge and this machine received it."""
         self._delay.note(stamp_ns / 1e9, arrived_ns / 1e9)
-        way_s = (self._trip_s or 0.0) / 2
-        ahead_ns = -round((self._delay.least_s - way_s) * 1e9)
+        ahead_ns = -round((self._delay.least_s - self.trip_s / 2) * 1e9)
         # It drifts slowly: a difference that changed with each message would let frames tremble.
         if abs(ahead_ns - self.ahead_ns) > TOLERANCE_NS:
             self.ahead_ns = ahead_ns if abs(ahead_ns) > TOLERANCE_NS else 0

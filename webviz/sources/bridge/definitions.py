@@ -31,6 +31,10 @@ class Definitions:
         self._learned[type] = text, problem
         return problem
 
+    def problem(self, type: str) -> str:
+        """Why messages of a type that was learned cannot be read, "" if they can."""
+        return self._learned.get(type, ("", ""))[1]
+
     def _problem(self, type: str, text: str) -> str:
         if not text:
             if type_exists(type):

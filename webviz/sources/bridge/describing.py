@@ -2,15 +2,28 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterable
 from dataclasses import replace
 
 from webviz.api.bridge import Bridge
-from webviz.data.words import Problem
+from webviz.data.words import Problem, listed
+from webviz.sources.bridge.connection import STALLED_S
+from webviz.sources.bridge.pacing import Pacer
 from webviz.sources.bridge.session import BridgeSession
 
-STALLED_S = 1.0
-"""Without any byte from the bridge, after which nothing is sent: it would arrive late."""
+MOST = 5
+"""Thinned topics that are named."""
+
+
+def thinning(pacer: Pacer) -> list[str]:
+    """Return a sentence on the topics that are thinned; none if the link takes all."""
+    rates = pacer.thinned(time.monotonic())
+    if not rates:
+        return []
+    parts = listed([f"{topic} to {hz:.2g} Hz" for topic, hz in sorted(rates.items())], MOST)
+    mbit = pacer.carried() * 8e-6
+    return [f"The link carries {mbit:.2g} Mbit/s, so webviz thins {parts}."]
 
 
 def described(

@@ -14,6 +14,7 @@ from webviz.data.words import plain
 from webviz.sources.bridge import foxglove_wire as wire
 from webviz.sources.bridge.foxglove_channels import FoxgloveChannels
 from webviz.sources.bridge.foxglove_graph import ConnectionGraph
+from webviz.sources.bridge.foxglove_subscriptions import ChannelSubscription, ChannelSubscriptions
 from webviz.sources.bridge.session import (
     CarriedTopic,
     Host,
@@ -64,12 +65,9 @@ class FoxgloveSession:
         self._channels = FoxgloveChannels()
         self._services: dict[str, wire.ServiceOffer] = {}
         self._wishes: Mapping[str, Subscription] = {}
-        self._lines: dict[str, tuple[int, int, int]] = {}
-        """By topic: id of our subscription, that of the channel, and `asked` of the wish."""
+        self._lines = ChannelSubscriptions()
         self._foreign: dict[str, wire.ServerChannel] = {}
         """By topic: subscribed channels of Foxglove's own schemas."""
-        self._topic_of: dict[int, str] = {}
-        """By id of our subscription."""
         self._problems: dict[str, str] = {}
         self._to_advertise: frozenset[Advertisement] = frozenset()
         self._advertised: dict[Advertisement, int] = {}
@@ -125,10 +123,12 @@ class FoxgloveSession:
         """Make the subscriptions exactly these, as far as they are offered."""
         self._wishes = wishes
         ended: list[int] = []
-        for topic, line in list(self._lines.items()):
-            channel = self._channel(topic)
-            if channel is None or (channel.id, wishes[topic].asked) != line[1:]:
-                ended.append(self._end(topic))
+        for line in self._lines:
+            channel = self._channel(line.topic)
+            wanted = channel and (channel.id, wishes[line.topic].asked)
+            if wanted != (line.channel, line.asked):
+                self._lines.end(line)
+                ended.append(line.id)
         begun: list[tuple[int, int]] = []
         for topic in wishes:
             if topic not in self._lines and (channel := self._channel(topic)) is not None:
@@ -191,8 +191,7 @@ class FoxgloveSession:
     def _take_binary(self, message: Any) -> None:
         match message:
             case wire.MessageData():
-                # What was on its way when a subscription ended has no topic any more.
-                if topic := self._topic_of.get(message.subscription):
+                if topic := self._lines.topic(message.subscription):
                     self._host.arrive(topic, self._cdr(topic, message.payload), message.stamp_ns)
             case wire.TimeNow():
                 self._host.set_time(message.stamp_ns)
@@ -284,7 +283,7 @@ class FoxgloveSession:
         wish = self._wishes.get(topic)
         for channel in self._channels.by_topic.get(topic, ()) if wish else ():
             if wish and _type_of(channel) == wish.type and not _unread(channel):
-                if topic in self._lines and self._lines[topic][1] == channel.id:
+                if self._lines.channel(topic) == channel.id:
                     return channel
                 text = "" if _is_foreign(channel) else channel.schema
                 problem = self._host.learn(wish.type, text)
@@ -294,18 +293,12 @@ class FoxgloveSession:
         return None
 
     def _begin(self, topic: str, channel: wire.ServerChannel) -> tuple[int, int]:
-        id = self._new_id()
-        self._lines[topic] = id, channel.id, self._wishes[topic].asked
-        self._topic_of[id] = topic
+        line = ChannelSubscription(self._new_id(), topic, channel.id, self._wishes[topic].asked)
+        self._lines.begin(line)
+        self._foreign.pop(topic, None)
         if _is_foreign(channel):
             self._foreign[topic] = channel
-        return id, channel.id
-
-    def _end(self, topic: str) -> int:
-        id, _, _ = self._lines.pop(topic)
-        del self._topic_of[id]
-        self._foreign.pop(topic, None)
-        return id
+        return line.id, channel.id
 
     def _carried(self, topic: str, channels: Sequence[wire.ServerChannel]) -> CarriedTopic:
         publishers: list[Publisher] = []

@@ -28,11 +28,24 @@ class LinkHealth:
         self._malformed += 1
         self._malformation = problem
 
-    def note_message(self, topic: str, stamp_ns: int) -> None:
-        """Note a message, with the time at which the bridge received it."""
+    def note_message(self, topic: str, stamp_ns: int, is_thinned: bool = False) -> float:
+        """Note a message.
+
+        Args:
+            topic: of the message.
+            stamp_ns: time at which the bridge received it.
+            is_thinned: whether webviz takes some of the messages only, so that gaps say nothing.
+
+        Returns:
+            By how much it is later than the fastest, in seconds.
+        """
         stamp_s = stamp_ns / 1e9
         delay_s = self._delay.note(stamp_s, time.monotonic())
-        self._backlogs.setdefault(topic, TopicBacklog()).note(stamp_s, delay_s)
+        if is_thinned:
+            self.forget(topic)
+        else:
+            self._backlogs.setdefault(topic, TopicBacklog()).note(stamp_s, delay_s)
+        return delay_s
 
     def forget(self, topic: str) -> None:
         """Forget a topic that is no longer subscribed to."""

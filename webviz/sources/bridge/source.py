@@ -5,27 +5,30 @@ from __future__ import annotations
 import asyncio
 import logging
 import random
-import ssl
 import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
-
-from websockets.asyncio.client import connect
+from contextlib import AbstractAsyncContextManager
 
 from webviz.api.bridge import Bridge
 from webviz.api.offer import Offer
 from webviz.data import assets
 from webviz.data.words import Problem
 from webviz.sources.bridge.address import Address
+from webviz.sources.bridge.bulk import BulkConnection, BulkLine
 from webviz.sources.bridge.clock import BridgeClock
 from webviz.sources.bridge.connection import BridgeConnection, Silent
 from webviz.sources.bridge.definitions import Definitions
-from webviz.sources.bridge.describing import STALLED_S, described
+from webviz.sources.bridge.describing import described, thinning
+from webviz.sources.bridge.foxglove import FoxgloveSession
 from webviz.sources.bridge.graph import BridgeGraph
 from webviz.sources.bridge.health import LinkHealth
-from webviz.sources.bridge.protocols import OFFERED, open_session
-from webviz.sources.bridge.refusals import OPEN_TIMEOUT_S, explain
-from webviz.sources.bridge.session import BridgeSession, CarriedTopic, WireError
+from webviz.sources.bridge.opening import opened
+from webviz.sources.bridge.pacing import TF_TYPE, Pacer
+from webviz.sources.bridge.protocols import open_session
+from webviz.sources.bridge.refusals import explain
+from webviz.sources.bridge.session import BridgeSession, CarriedTopic
+from webviz.sources.bridge.talking import first_of, read, write
 from webviz.sources.graph import NotConnected
 from webviz.sources.inbox import MAX_TOTAL, Inbox, Raw
 from webviz.sources.names import resolved
@@ -41,11 +44,7 @@ LAST_RETRY_S = 10.0
 LOOK_S = 0.1
 """Between two readings of what a bridge offers, which may change for each of many topics."""
 REMARK_S = 1.0
-MAX_UNSENT = 64 << 10
-"""Bytes that may wait to be sent, beyond which nothing is."""
-CLOSE_S = 1.0
 INBOX_LIMIT = 1000
-TF_TYPE = "tf2_msgs/msg/TFMessage"
 TF_LIMIT = 20_000
 """Every transform counts: room for the 10 s that the buffer keeps, at 2 kHz."""
 NEVER = Problem("The bridge is not connected yet.", "Wait a moment.")
@@ -85,6 +84,8 @@ class BridgeSource:
         self._bridges = (Bridge(address.name, problem=NEVER.cause, remedy=NEVER.remedy),)
         self._session: BridgeSession | None = None
         self._socket: BridgeConnection | None = None
+        self._pacer = Pacer()
+        self._bulk: BulkLine | None = None
         self._problem: Problem | None = NEVER
         self._clock_ns: int | None = None
         self._clock_messages = 0
@@ -152,20 +153,8 @@ class BridgeSource:
 
     def require_fresh(self) -> None:
         """Raise NotConnected if what is sent now would arrive late."""
-        socket = self._socket
-        if socket is None or self._session is None:
-            return  # `session` says why
-        silent_s = socket.silent_s
-        if silent_s > STALLED_S:
-            raise NotConnected(
-                f"The link to the bridge stalls: nothing came for {silent_s:.1f} s, so nothing is "
-                "sent that would arrive late."
-            )
-        if socket.transport.get_write_buffer_size() > MAX_UNSENT:
-            raise NotConnected(
-                "The link to the bridge is too slow for what is sent. Send less, or use a faster "
-                "link."
-            )
+        if self._socket is not None and self._session is not None:  # else `session` says why
+            self._socket.require_fresh()
 
     def soon(self, do: Callable[[], None]) -> bool:
         """Call `do` in the thread of the connection; whether there still is one."""
@@ -190,17 +179,32 @@ class BridgeSource:
 
     def arrive(self, topic: str, cdr: bytes, stamp_ns: int) -> None:
         """Take a message."""
+        delay_s = self._take(topic, cdr, stamp_ns)
+        type = self._opened.get(topic, "")
+        if self._pacer.note_small(topic, type, len(cdr), delay_s, time.monotonic()):
+            self.sort_topics()
+
+    def arrive_large(self, topic: str, cdr: bytes, stamp_ns: int) -> None:
+        """Take a message of the second connection."""
+        delay_s = self._take(topic, cdr, stamp_ns, is_large=True)
+        self._pacer.note_large(topic, cdr, delay_s, time.monotonic())
+
+    def _take(self, topic: str, cdr: bytes, stamp_ns: int, is_large: bool = False) -> float:
+        """Take a message; its delay in seconds, 0 if it is unknown."""
+        delay_s = 0.0
         if len(cdr) > MAX_TOTAL:
             self._too_large[topic] = (
                 f"a message of {len(cdr) >> 20} MB is above the limit of {MAX_TOTAL >> 20} MB; "
                 "publish smaller ones"
             )
             self.look()
-            return
+            return delay_s
         if stamp_ns and self._clock_ns is None:  # simulated time has a pace of its own
-            self._health.note_message(topic, stamp_ns)
+            is_thinned = is_large and self._pacer.is_in_turns
+            delay_s = self._health.note_message(topic, stamp_ns, is_thinned)
             self.clock.note(stamp_ns, time.time_ns())
         self.inbox.put(topic, Raw(cdr, self.now_ns()))
+        return delay_s
 
     def set_time(self, stamp_ns: int) -> None:
         """Take the simulated time."""
@@ -252,49 +256,28 @@ class BridgeSource:
 
     async def _talk(self) -> None:
         """Open the connection once, and talk until it breaks."""
-        async with connect(
-            self._address.url,
-            subprotocols=OFFERED,  # pyright: ignore[reportArgumentType]
-            additional_headers=self._address.headers,
-            create_connection=BridgeConnection,
-            open_timeout=OPEN_TIMEOUT_S,
-            close_timeout=CLOSE_S,
-            ping_interval=None,  # `_watch` does it: an answer may wait behind a large message
-            max_size=MAX_TOTAL + (1 << 20),
-            compression=None,
-            ssl=ssl.create_default_context() if self._address.url.startswith("wss") else None,
-        ) as socket:
-            assert isinstance(socket, BridgeConnection)
+        async with opened(self._address, BridgeConnection) as socket:
             self._socket = socket
             self._outbox = asyncio.Queue()
             self._session = session = open_session(socket.subprotocol, self)
+            self._pacer = Pacer()
+            is_paced = isinstance(session, FoxgloveSession)
+            self._bulk = BulkLine(self._pacer, self, FoxgloveSession) if is_paced else None
             self._joined(session)
-            tasks = [
-                asyncio.ensure_future(each)
-                for each in (self._read(socket, session), self._write(socket), self._watch(socket))
-            ]
-            try:
-                await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
-            finally:
-                for task in tasks:
-                    task.cancel()
-                outcomes = await asyncio.gather(*tasks, return_exceptions=True)
-            for outcome in outcomes:
-                if isinstance(outcome, Exception):
-                    raise outcome
+            await first_of(
+                read(socket, session, self._note_malformed),
+                write(socket, self._outbox),
+                self._watch(socket),
+                *([self._bulk.run()] if self._bulk else ()),
+            )
 
-    async def _read(self, socket: BridgeConnection, session: BridgeSession) -> None:
-        while True:
-            frame = await socket.recv()
-            try:
-                session.receive(frame)
-            except WireError as error:
-                self._health.note_malformed(str(error))
-                self.look()
+    def open_bulk(self) -> AbstractAsyncContextManager[BulkConnection]:
+        """Open the second connection."""
+        return opened(self._address, BulkConnection)
 
-    async def _write(self, socket: BridgeConnection) -> None:
-        while True:
-            await socket.send(await self._outbox.get())
+    def _note_malformed(self, problem: str) -> None:
+        self._health.note_malformed(problem)
+        self.look()
 
     async def _watch(self, socket: BridgeConnection) -> None:
         """Measure the link, and end it if it is silent for too long."""
@@ -306,6 +289,7 @@ class BridgeSource:
             if pong.done():
                 self._round_trip_s = time.monotonic() - pinged_s
                 self.clock.note_trip(self._round_trip_s)
+                self._pacer.note_trip(self._round_trip_s, self.clock.trip_s, time.monotonic())
                 await asyncio.sleep(PING_S)
             silent_s = socket.silent_s
             if silent_s > BROKEN_S:
@@ -356,9 +340,18 @@ class BridgeSource:
             if self._opened.get(topic) != type:
                 self._opened[topic] = type
                 self.inbox.open(topic, TF_LIMIT if type == TF_TYPE else INBOX_LIMIT)
-        if self._session is not None:
-            self._session.want(self._wanted)
+        self.sort_topics()
         self._look()
+
+    def sort_topics(self) -> None:
+        """Subscribe to what is wanted over the first connection, and to large topics in turns."""
+        if self._session is None:
+            return
+        is_apart = self._bulk is not None and not self._bulk.is_refused
+        large = self._pacer.large(self._wanted) if is_apart else {}
+        self._session.want({t: wish for t, wish in self._wanted.items() if t not in large})
+        if self._bulk is not None:
+            self._bulk.want(large)
 
     def _look(self) -> None:
         """Read topics, nodes and remarks."""
@@ -377,6 +370,8 @@ class BridgeSource:
     def _offer(self, topic: str, carried: CarriedTopic) -> Offer:
         problem = carried.problem or self._too_large.get(topic, "")
         wish = self._wanted.get(topic)
+        if wish is not None and not problem and topic in self._pacer.subscribed():
+            problem = self._definitions.problem(wish.type)
         if wish is not None and self._problem is not None:
             problem = f"the link is broken. {self._problem.cause}"
         return carried.offer(wish, problem)
@@ -388,7 +383,7 @@ class BridgeSource:
             before,
             self._session,
             self._problem,
-            self._health.remarks(),
+            [*thinning(self._pacer), *self._health.remarks()],
             socket.silent_s if socket else 0.0,
             self._round_trip_s,
         )

@@ -1,0 +1,265 @@
+"""The pacing of large topics, on a link and a bridge that are computed."""
+
+from __future__ import annotations
+
+import random
+from collections import deque
+from dataclasses import dataclass
+
+import pytest
+
+from webviz.api.declared import Topic
+from webviz.api.lookback import Lookback
+from webviz.sources import Subscription
+from webviz.sources.bridge.pacing import LARGE, MIN_RATE, Pacer, is_thinnable
+
+TICK_S = 0.01
+CHUNK = 1448
+SCAN, CLOUD = "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/PointCloud2"
+IMAGE, MAP = "sensor_msgs/msg/CompressedImage", "nav_msgs/msg/OccupancyGrid"
+TF, MARKERS = "tf2_msgs/msg/TFMessage", "visualization_msgs/msg/MarkerArray"
+
+
+@dataclass
+class Published:
+    """A topic of the robot, in bytes and Hz."""
+
+    type: str
+    size: int
+    hz: float
+
+
+@dataclass
+class Outcome:
+    """The arrivals of a topic: delays in s, and moments."""
+
+    delays: list[float]
+    moments: list[float]
+
+
+class Link:
+    """A link with a rate and a delay, behind a bridge with two connections.
+
+    Small messages wait in the queue of the link behind what is on its way already. Large ones wait
+    at the bridge; of them only what the receive buffer allows is on its way.
+
+    Args:
+        rate: bytes per second.
+        topics: of the robot.
+        delay_s: of the link.
+    """
+
+    def __init__(self, rate: float, topics: dict[str, Published], delay_s: float = 0.1) -> None:
+        self.rate, self.delay_s, self.topics = rate, delay_s, topics
+        self.pacer = Pacer()
+        self.now = 100.0
+        self.outcomes = {topic: Outcome([], []) for topic in topics}
+        self._chance = random.Random(2)
+        self._link: deque[tuple[str, int, float, bool]] = deque()
+        """Topic, bytes, moment of publication, and whether it ends its message."""
+        self._free_s = self.now
+        self._arriving: deque[tuple[float, str, int, float, bool]] = deque()
+        self._at_bridge: deque[tuple[str, int, float]] = deque()
+        self._begun = 0
+        self._subscribed: deque[tuple[float, set[str]]] = deque([(0.0, set())])
+        self._due = {t: self.now + self._chance.random() / p.hz for t, p in topics.items()}
+        self._moved()
+
+    def _moved(self) -> None:
+        wishes = {t: Subscription(p.type, Topic(t)) for t, p in self.topics.items()}
+        self.large = set(self.pacer.large(wishes))
+
+    def run(self, seconds: float) -> None:
+        until = self.now + seconds
+        while self.now < until:
+            self.now += TICK_S
+            self._publish()
+            self._send_large()
+            self._arrive()
+            if self.pacer.step(self.now):
+                self._moved()
+            self._subscribed.append((self.now + self.delay_s / 10, set(self.pacer.subscribed())))
+            while len(self._subscribed) > 1 and self._subscribed[1][0] <= self.now:
+                self._subscribed.popleft()
+
+    def _publish(self) -> None:
+        for topic, published in self.topics.items():
+            if self._due[topic] > self.now:
+                continue
+            self._due[topic] += 1 / published.hz
+            if topic not in self.large:
+                self._queue(topic, published.size, self.now, True)
+            elif topic in self._subscribed[0][1]:
+                self._at_bridge.append((topic, published.size, self.now))
+
+    def _queue(self, topic: str, size: int, at_s: float, is_last: bool) -> None:
+        self._free_s = max(self.now, self._free_s) + size / self.rate
+        self._arriving.append((self._free_s + self.delay_s, topic, size, at_s, is_last))
+
+    def _send_large(self) -> None:
+        """Put on the link what the reader's rate and buffer allow."""
+        window = self.pacer.rate * (self.pacer.trip_s + 0.05)
+        flying = sum(size for _, topic, size, _, _ in self._arriving if topic in self.large)
+        room = min(window - flying, self.pacer.rate * TICK_S + CHUNK)
+        while self._at_bridge and room > 0:
+            topic, size, at_s = self._at_bridge[0]
+            part = min(CHUNK, size - self._begun)
+            self._begun += part
+            room -= part
+            is_last = self._begun >= size
+            self._queue(topic, part, at_s, is_last)
+            if is_last:
+                self._at_bridge.popleft()
+                self._begun = 0
+
+    def _arrive(self) -> None:
+        while self._arriving and self._arriving[0][0] <= self.now:
+            _, topic, size, at_s, is_last = self._arriving.popleft()
+            late_s = self.now - at_s - self.delay_s
+            if topic in self.large:
+                self.pacer.note_bytes(size, self.now)
+            if not is_last:
+                continue
+            self.outcomes[topic].delays.append(self.now - at_s)
+            self.outcomes[topic].moments.append(self.now)
+            published = self.topics[topic]
+            if topic in self.large:
+                cdr = self._chance.randbytes(8) + bytes(published.size - 8)
+                self.pacer.note_large(topic, cdr, late_s, self.now)
+            elif self.pacer.note_small(topic, published.type, published.size, late_s, self.now):
+                self._moved()
+            if topic == "/tf":
+                self.pacer.note_trip(self.delay_s + late_s, self.delay_s, self.now)
+
+    def median_delay(self, topic: str, since: float) -> float:
+        outcome = self.outcomes[topic]
+        pairs = zip(outcome.delays, outcome.moments, strict=True)
+        delays = sorted(delay for delay, at_s in pairs if at_s > since)
+        return delays[len(delays) // 2]
+
+
+POSE, LASER = Published(TF, 120, 50), Published(SCAN, 4400, 10)
+ROBOT = {
+    "/tf": POSE,
+    "/scan": LASER,
+    "/points": Published(CLOUD, 200_000, 10),
+    "/image": Published(IMAGE, 60_000, 15),
+}
+
+
+@pytest.mark.parametrize("mbit", [1.0, 2.0, 5.0])
+def test_small_messages_are_in_time_and_large_ones_get_what_is_left(mbit: float) -> None:
+    link = Link(mbit * 125e3, ROBOT)
+    link.run(20)
+    since = link.now
+    link.run(40)
+    assert link.median_delay("/tf", since) < 0.25
+    assert link.median_delay("/scan", since) < 0.3
+    sizes = {"/points": 200_000, "/image": 60_000}
+    taken = sum(
+        size * sum(at_s > since for at_s in link.outcomes[topic].moments) / 40
+        for topic, size in sizes.items()
+    )
+    left = mbit * 125e3 - 50_000
+    assert taken > 0.5 * left
+    assert set(link.pacer.thinned(link.now)) == {"/points", "/image"}
+    for hz in link.pacer.thinned(link.now).values():
+        assert hz < 15
+
+
+def test_a_fast_link_carries_everything_and_nothing_is_said() -> None:
+    link = Link(50e6, ROBOT, delay_s=0.005)
+    link.run(5)
+    assert not link.pacer.is_in_turns
+    since = link.now
+    link.run(5)
+    assert sum(at_s > since for at_s in link.outcomes["/points"].moments) == pytest.approx(
+        50, abs=2
+    )
+    assert link.pacer.thinned(link.now) == {}
+
+
+def test_a_link_that_becomes_slow_and_fast_again_is_followed() -> None:
+    link = Link(20e6, ROBOT, delay_s=0.02)
+    link.run(5)
+    assert not link.pacer.is_in_turns
+    link.rate = 150e3
+    link.run(30)
+    since = link.now
+    link.run(20)
+    assert link.pacer.is_in_turns
+    assert link.median_delay("/tf", since) < 0.25
+    link.rate = 20e6
+    link.run(30)
+    assert not link.pacer.is_in_turns
+
+
+def test_a_scan_that_does_not_fit_takes_turns_too() -> None:
+    link = Link(0.3 * 125e3, ROBOT)
+    link.run(30)
+    assert "/scan" in link.large
+    assert "/tf" not in link.large
+    since = link.now
+    link.run(60)
+    assert link.median_delay("/tf", since) < 0.4
+    assert link.outcomes["/scan"].moments[-1] > since
+
+
+def test_a_message_that_is_large_moves_its_topic() -> None:
+    link = Link(1e6, {"/tf": POSE, "/clusters": Published(MARKERS, LARGE, 1)})
+    assert link.large == set()
+    link.run(3)
+    assert link.large == {"/clusters"}
+
+
+def test_a_latched_message_is_not_taken_again_and_again() -> None:
+    pacer = Pacer()
+    pacer.large({"/cloud": Subscription(CLOUD, Topic("/cloud"))})
+    now, subscriptions, was_open, is_open = 0.0, 0, False, False
+    for _ in range(400):
+        now += 0.05
+        pacer.note_trip(0.05, 0.05, now)
+        pacer.step(now)
+        is_open = "/cloud" in pacer.subscribed()
+        if is_open and not was_open:
+            subscriptions += 1
+            pacer.note_large("/cloud", b"the same" * 10_000, 0.0, now)
+        was_open = is_open
+    assert subscriptions <= 3
+    assert is_open
+
+
+def test_a_topic_that_is_silent_stays_subscribed_to_longer_and_keeps_no_other_out() -> None:
+    link = Link(
+        2e5, {"/tf": POSE, "/rare": Published(CLOUD, 50_000, 0.2), "/image": ROBOT["/image"]}
+    )
+    link.run(60)
+    assert len(link.outcomes["/rare"].moments) >= 3
+    assert len(link.outcomes["/image"].moments) > 20
+
+
+@pytest.mark.parametrize(
+    ("type", "lookbacks", "is_thin"),
+    [
+        (CLOUD, (Lookback(count=1),), True),
+        (SCAN, (Lookback(seconds=2.0), Lookback(count=1)), True),
+        (MARKERS, (Lookback(),), False),
+        (IMAGE, (Lookback(count=1, chooses=lambda newest: [0]),), False),
+        (MAP, (Lookback(count=1),), False),
+        (TF, (Lookback(seconds=15.0),), False),
+    ],
+)
+def test_only_messages_that_are_shown_alone_are_left_out(
+    type: str, lookbacks: tuple[Lookback, ...], is_thin: bool
+) -> None:
+    assert is_thinnable(Subscription(type, Topic("/t"), lookbacks=lookbacks)) is is_thin
+
+
+def test_the_rate_never_falls_below_the_least() -> None:
+    pacer = Pacer()
+    pacer.large({"/points": Subscription(CLOUD, Topic("/points"))})
+    for i in range(1000):
+        pacer.note_small("/pose", "geometry_msgs/msg/PoseStamped", 100, 5.0, i / 20)
+        pacer.note_bytes(5000, i / 20)
+        pacer.step(i / 20)
+    assert pacer.rate == MIN_RATE
