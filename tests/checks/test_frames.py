@@ -104,6 +104,11 @@ def test_no_transforms(webviz_harness: Make) -> None:
     finding = only(examined(stage))
     assert finding.id == "TF001"
     assert {each.status for each in finding.explains} == {"Fixed Frame", "Transform"}
+    talker = Publisher("/talker", "tf2_msgs/msg/TFMessage", "reliable", "volatile")
+    stage.source.known["/tf"] = Offer((talker,))
+    assert examined(stage) == {}, "webviz has not subscribed yet"
+    stage.source.known["/tf"] = Offer((talker,), ("reliable", "volatile"))
+    assert only(examined(stage)).cause == "/talker publishes transforms, but none has arrived."
 
 
 @pytest.mark.parametrize(
@@ -157,27 +162,45 @@ def test_an_unknown_fixed_frame(robot: Harness) -> None:
     assert only(examined(robot)).id == "TF004"
 
 
+@pytest.mark.parametrize("prefix", ["", "robot1/", "robot1_"])
 @pytest.mark.parametrize("is_known", [False, True])
-def test_localisation_is_missing(webviz_harness: Make, is_known: bool) -> None:
+def test_localisation_is_missing(webviz_harness: Make, is_known: bool, prefix: str) -> None:
     stage = viewer(webviz_harness)
-    stage.transform("odom", "base_link", stamp_ns=stage.source.now)
-    stage.transform("base_link", "laser")
+    stage.transform(f"{prefix}odom", f"{prefix}base_link", stamp_ns=stage.source.now)
+    stage.transform(f"{prefix}base_link", f"{prefix}laser")
     if is_known:
         stage.transform("map", "dock")
     stage.turn()
-    scan(stage)
+    scan(stage, f"{prefix}laser")
     finding = only(examined(stage))
     assert finding.id == "TF003"
     assert Symptom(display(stage, "Scan"), "Transform") in finding.explains
-    assert finding.button == OtherFixedFrame("odom")
+    assert finding.button == OtherFixedFrame(f"{prefix}odom")
 
 
-def test_odometry_is_missing(robot: Harness) -> None:
-    robot.transform("base_link", "laser")
-    robot.turn()
-    scan(robot)
-    finding = only(examined(robot))
-    assert (finding.id, finding.subject) == ("TF005", "base_link")
+def test_localisation_of_one_of_two_robots_is_missing(webviz_harness: Make) -> None:
+    stage = webviz_harness(*(LaserScan(topic=Topic(f"/r{n}/scan")) for n in (1, 2)))
+    for number in (1, 2):
+        stage.transform(f"r{number}/odom", f"r{number}/laser", stamp_ns=stage.source.now)
+    stage.transform("map", "r1/odom", stamp_ns=stage.source.now)
+    stage.turn()
+    for number in (1, 2):
+        values = {"ranges": [2.0] * 3, "range_max": 10.0}
+        stage.publish(f"/r{number}/scan", SCAN, values, frame=f"r{number}/laser")
+    stage.turn()
+    assert [*examined(stage)] == ["TF003 r2/odom"]
+
+
+@pytest.mark.parametrize("prefix", ["", "robot1/", "robot1_"])
+def test_odometry_is_missing(webviz_harness: Make, prefix: str) -> None:
+    stage = viewer(webviz_harness)
+    drive(stage, child=f"{prefix}odom")
+    stage.transform(f"{prefix}base_link", f"{prefix}laser")
+    stage.turn()
+    scan(stage, f"{prefix}laser")
+    finding = only(examined(stage))
+    assert (finding.id, finding.subject) == ("TF005", f"{prefix}base_link")
+    assert finding.cause.startswith(f'Nothing publishes the transform from "{prefix}odom"')
 
 
 def test_two_trees(robot: Harness) -> None:

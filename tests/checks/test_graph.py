@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path as PathOfFile
 
 import pytest
@@ -25,11 +26,12 @@ from webviz.shell.testing.harness import Harness
 from webviz.shell.testing.live import LiveViewer
 from webviz_displays.laser_scan import LaserScan as LaserScanDisplay
 from webviz_displays.path import Path
-from webviz_displays.poses import Pose
+from webviz_displays.poses import Pose, PoseWithCovariance
 from webviz_displays.tf import TF
 
 BEST_EFFORT = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 SCAN = "sensor_msgs/msg/LaserScan"
+POSE = "geometry_msgs/msg/PoseWithCovarianceStamped"
 
 
 @pytest.fixture
@@ -234,6 +236,18 @@ def test_a_publisher_that_stops(webviz_harness: Callable[..., Harness]) -> None:
     assert (found.id, found.subject) == ("GRAPH009", "/scan")
     assert found.cause == "/lidar has stopped publishing /scan, previously at 5.0 Hz."
     assert examined(stage, CauseLevel.GRAPH, 0.2, publish) == {}
+
+
+def test_a_pose_that_is_sent_while_the_robot_moves(webviz_harness: Callable[..., Harness]) -> None:
+    stage = webviz_harness(PoseWithCovariance(topic=webviz.Topic("/amcl_pose")), fixed_frame="map")
+    offered = Publisher("/amcl", POSE, "reliable", "volatile")
+    stage.source.known["/amcl_pose"] = Offer((offered,), None)
+    values = {"pose": {"pose": {"orientation": {"w": 1.0}}}}
+    moved = partial(stage.publish, "/amcl_pose", POSE, values, frame="map")
+    examined(stage, CauseLevel.GRAPH, 0.2, moved)
+    assert examined(stage, CauseLevel.GRAPH) == {}
+    (found,) = [each for each in stage.viewer.snapshot().findings if each.id == "GRAPH009"]
+    assert found.severity is webviz.Severity.NOTE
 
 
 def test_a_lifecycle_node_that_is_not_active(

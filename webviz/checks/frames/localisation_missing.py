@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from webviz.api.check import Check
-from webviz.api.finding import Finding, Severity
+from webviz.api.finding import Finding, Severity, Symptom
 from webviz.api.observation import Observation
 from webviz.api.status import OtherFixedFrame
+from webviz.checks.frames.names import is_named
 from webviz.data.transforms.reasons import Kind
 
 ROBOT = ("odom", "base_footprint", "base_link")
@@ -32,33 +33,33 @@ class LocalisationMissing(Check):
     id = "TF003"
 
     def find(self, seen: Observation) -> Iterator[Finding]:
-        """Yield a finding if the map is the fixed frame and the robot is not connected to it."""
-        frames, explains = seen.buffer.frames(), []
+        """Yield a finding for each robot that is not connected to the map."""
+        frames = sorted(seen.buffer.frames())
+        robot = next((frame for name in ROBOT for frame in frames if is_named(frame, name)), "")
+        is_wanted = is_named(seen.fixed_frame, "map")
+        missing: dict[str, list[Symptom]] = {}
         for symptom, reason in seen.lost(Kind.UNKNOWN_FIXED_FRAME, Kind.NOT_CONNECTED):
-            is_unknown = reason.kind is Kind.UNKNOWN_FIXED_FRAME and not reason.near
-            if is_unknown or reason.roots == ("odom", seen.fixed_frame):
-                explains.append(symptom)
-        is_wanted = seen.fixed_frame == "map"
+            root, fixed_root = reason.roots or ("", "")
+            if is_named(root, "odom") and fixed_root == seen.fixed_frame:
+                missing.setdefault(root, []).append(symptom)
+            elif reason.kind is Kind.UNKNOWN_FIXED_FRAME and not reason.near:
+                missing.setdefault(robot, []).append(symptom)
         for symptom, reason in seen.lost(Kind.UNKNOWN_FRAME):
-            if reason.frame == "map":
-                explains.append(symptom)
+            if is_named(reason.frame, "map"):
+                missing.setdefault(robot, []).append(symptom)
                 is_wanted = True
-        robot = next(
-            (name for name in ("odom", "base_footprint", "base_link") if name in frames), ""
-        )
-        if not is_wanted or not robot or not explains:
-            return
         amcl = next((node for node in seen.nodes if node.rpartition("/")[2] == "amcl"), "")
         start = "Give AMCL the initial pose (2D Pose Estimate)." if amcl else "Start AMCL or SLAM."
-        yield self.found(
-            f'Nothing publishes the transform from "map" to "{robot}".',
-            f'{start} Until then, use "{robot}" as the fixed frame.',
-            subject=robot,
-            severity=Severity.ERROR,
-            evidence={"root": robot, "amcl": amcl},
-            command=""
-            if seen.is_recorded or amcl
-            else "ros2 launch nav2_bringup localization_launch.py",
-            button=OtherFixedFrame(robot),
-            explains=tuple(explains),
-        )
+        for root, explains in missing.items() if is_wanted else ():
+            if not root:
+                continue
+            yield self.found(
+                f'Nothing publishes the transform from "map" to "{root}".',
+                f'{start} Until then, use "{root}" as the fixed frame.',
+                subject=root,
+                severity=Severity.ERROR,
+                evidence={"root": root, "amcl": amcl},
+                command="" if seen.is_recorded or amcl else LAUNCH,
+                button=OtherFixedFrame(root),
+                explains=tuple(explains),
+            )

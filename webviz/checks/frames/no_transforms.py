@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from webviz.api.check import Check
 from webviz.api.finding import Finding, Severity
-from webviz.api.observation import Observation
+from webviz.api.observation import NO_OFFER, Observation
 from webviz.data.transforms.reasons import Kind
 
 
@@ -32,6 +32,10 @@ class NoTransforms(Check):
         explains = tuple(symptom for symptom, _ in seen.lost(Kind.NO_TRANSFORMS))
         if not explains or (seen.is_recorded and "none" not in (seen.buffer.recorded or "none")):
             return
+        offers = [seen.offers.get(topic, NO_OFFER) for topic in ("/tf", "/tf_static")]
+        offers = [offer for offer in offers if offer.publishers]
+        if offers and not seen.is_recorded and all(offer.requested is None for offer in offers):
+            return  # they have just been found
         nodes = seen.nodes_of("/tf") or seen.nodes_of("/tf_static")
         yield self.found(
             f"{nodes} publishes transforms, but none has arrived."

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from webviz.api.check import Check
-from webviz.api.finding import Finding, Severity
+from webviz.api.finding import Finding, Severity, Symptom
 from webviz.api.observation import Observation
+from webviz.checks.frames.names import is_named
 from webviz.data.transforms.reasons import Kind
+
+BASE = re.compile(r"(.*[/_])?base\w*")
+"""Of frames of a base, such as base_link; its group is the prefix of the robot."""
 
 
 class OdometryMissing(Check):
@@ -28,20 +33,23 @@ class OdometryMissing(Check):
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding if the base is the root of a tree besides that of odom."""
-        tree, explains, base = seen.buffer.tree, [], ""
+        tree, explains = seen.buffer.tree, list[Symptom]()
+        base, odom = "", "odom"
         for symptom, reason in seen.lost(Kind.NOT_CONNECTED):
             root, fixed_root = reason.roots or ("", "")
-            known = "odom" in tree.names and tree.root("odom") == fixed_root
-            if root.startswith("base") and known:
+            if (found := BASE.fullmatch(root)) is None:
+                continue
+            own = f"{found[1] or ''}odom"
+            if own in tree.names and tree.root(own) == fixed_root:
                 explains.append(symptom)
-                base = root
+                base, odom = root, own
         for symptom, reason in seen.lost(Kind.UNKNOWN_FRAME):
-            if reason.frame == "odom":
+            if is_named(reason.frame, "odom"):
                 explains.append(symptom)
-                base = seen.fixed_frame
+                base, odom = seen.fixed_frame, reason.frame
         if explains:
             yield self.found(
-                f'Nothing publishes the transform from "odom" to "{base}".',
+                f'Nothing publishes the transform from "{odom}" to "{base}".',
                 "Start the odometry of the robot, or let it publish its transform.",
                 subject=base,
                 severity=Severity.ERROR,

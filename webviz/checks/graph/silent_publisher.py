@@ -15,6 +15,7 @@ STREAMS = {
         f"sensor_msgs/msg/{name}"
         for name in (
             "CameraInfo",
+            "BatteryState",
             "CompressedImage",
             "FluidPressure",
             "Illuminance",
@@ -23,6 +24,7 @@ STREAMS = {
             "JointState",
             "LaserScan",
             "MagneticField",
+            "NavSatFix",
             "PointCloud",
             "PointCloud2",
             "Range",

@@ -7,15 +7,18 @@ from collections.abc import Iterator
 from webviz.api.check import Check
 from webviz.api.finding import Finding, Severity
 from webviz.api.observation import Observation
+from webviz.checks.graph.silent_publisher import STREAMS
 
-COMMANDS = ("geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
-"""Types that are only sent while somebody drives."""
+ON_CHANGE = "nav_msgs/msg/OccupancyGrid"
+"""Some mappers publish only while the robot moves."""
 
 
 class StoppedPublisher(Check):
     """Publisher that has stopped sending.
 
-    Messages arrived at a steady rate, and then no more, although the publisher still exists.
+    Messages arrived at a steady rate, and then no more, although the publisher still exists. Of
+    maps, paths, poses of localisation and others that are only sent while the robot moves, it is a
+    note.
 
     Why:
         The node hangs, its sensor has failed, or the link to its machine has been lost: DDS notices
@@ -40,7 +43,7 @@ class StoppedPublisher(Check):
                 else f"{who} has stopped publishing {each.topic}, previously at {rate}.",
                 "Look at the log of the node and at its sensor.",
                 subject=each.topic,
-                severity=Severity.NOTE if each.type in COMMANDS else Severity.WARNING,
+                severity=Severity.WARNING if each.type in STREAMS - {ON_CHANGE} else Severity.NOTE,
                 evidence={
                     "topic": each.topic,
                     "rate_hz": round(each.rate_hz, 3),

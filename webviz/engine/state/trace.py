@@ -137,7 +137,7 @@ class Tracer:
         self._begun[display] = _Begun(sample, raw.arrived_s, ready_s, at_s)
 
     def drawn(self, display: str) -> None:
-        """Draw a display has drawn its samples."""
+        """Note that a display has drawn its samples."""
         if begun := self._begun.get(display):
             begun.drawn_s = self.clock()
 
