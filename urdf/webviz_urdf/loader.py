@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import pickle
-import resource
 import signal
 import sys
 import traceback
+from collections.abc import Callable
 from multiprocessing.connection import Connection
 from pathlib import Path
 
@@ -19,30 +20,55 @@ from webviz_urdf.resolve import Resolver
 from webviz_urdf.robot import RobotDescriptionError
 from webviz_urdf.textures import MAX_PIXELS
 
+try:
+    import resource
+except ImportError:  # not a Unix
+    resource = None
+
+STATM = Path("/proc/self/statm")
+
 
 def main() -> None:
     """Serve requests until the connection is closed or idle for long."""
     connection = Connection(int(sys.argv[1]))
-    # If the machine runs out of memory first, the kernel ends this process.
-    Path("/proc/self/oom_score_adj").write_text("1000")
+    # If the machine runs out of memory first, Linux ends this process.
+    with contextlib.suppress(OSError):
+        Path("/proc/self/oom_score_adj").write_text("1000")
     # For pictures in meshes; PIL refuses twice this number.
     Image.MAX_IMAGE_PIXELS = MAX_PIXELS // 2
     np.dot(
         np.eye(64), np.eye(64)
     )  # BLAS allocates memory of its own, without which it ends the process
-    imports = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
-    _, hard = resource.getrlimit(resource.RLIMIT_AS)
+    limit = _memory_limit()
     while connection.poll(IDLE_S):
-        resource.setrlimit(resource.RLIMIT_AS, (hard, hard))
+        limit(None)
         try:
             request, resolver, skip, memory = connection.recv()
         except EOFError:
             return
-        limit = imports + len(request.data) + memory
-        soft = limit if hard == resource.RLIM_INFINITY else min(limit, hard)
-        resource.setrlimit(resource.RLIMIT_AS, (soft, hard))
+        limit(len(request.data) + memory)
         connection.send_bytes(_answer(connection, request, resolver, skip, memory))
         signal.alarm(0)
+
+
+def _memory_limit() -> Callable[[int | None], None]:
+    """Return the function that limits the bytes that this process takes besides those it has.
+
+    None lifts the limit. There is none on other systems than Linux, which do not tell the address
+    space of a process.
+    """
+    if resource is None or not STATM.exists():
+        return lambda more: None
+    unix = resource
+    taken = int(STATM.read_text().split()[0]) * unix.getpagesize()
+    _, hard = unix.getrlimit(unix.RLIMIT_AS)
+
+    def limit(more: int | None) -> None:
+        most = hard if more is None else taken + more
+        soft = most if hard == unix.RLIM_INFINITY else min(most, hard)
+        unix.setrlimit(unix.RLIMIT_AS, (soft, hard))
+
+    return limit
 
 
 def _answer(
