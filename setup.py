@@ -143,6 +143,7 @@ setup(
             "MotionPlanningTasks = webviz.panels.planning_tasks:MotionPlanningTasks",
             "Nav2 = webviz.panels.nav2:Nav2",
             "NodeGraph = webviz.panels.graph:NodeGraph",
+            "OutdoorMap = webviz.panels.outdoor_map:OutdoorMap",
             "Parameters = webviz.panels.parameters:Parameters",
             "Plot = webviz.panels.plot:Plot",
             "PublishMessage = webviz.panels.publish:PublishMessage",

@@ -1,0 +1,194 @@
+"""The panel Outdoor map: tracks of satellite receivers over map tiles."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Any
+
+import msgspec
+
+from webviz.api.declared import Prop
+from webviz.api.lookback import Lookback
+from webviz.api.panel import Panel, Send, Ui
+from webviz.data.geo import MAX_LATITUDE
+from webviz.data.words import counted
+from webviz.panels.reading import types_of
+from webviz.panels.tile_shelf import TileShelf
+
+FIX, PATH = "sensor_msgs/msg/NavSatFix", "geographic_msgs/msg/GeoPath"
+MAX_TOPICS = 8
+MAX_POINTS = 5000
+"""Places of a track."""
+PER_PART = 250
+"""Places that pages receive at once."""
+STEP_DEG = 1e-6
+"""Places nearer than this to the one before, 10 cm, are left out."""
+MAX_ASKED = 128
+"""Tiles that a page may ask for at once."""
+NO_FIX = -1
+"""`status.status` of a receiver that knows no position."""
+
+Place = tuple[float, float]
+"""Longitude and latitude in degrees."""
+
+
+class _Track:
+    """The places of one topic, in parts of which only the last one changes."""
+
+    def __init__(self) -> None:
+        self.parts: list[list[Place]] = []
+        self.first = 0
+        """Number of the first part."""
+        self.invalid = 0
+        """Messages without a place in succession."""
+        self.newest: Place | None = None
+        self._made: dict[int, tuple[int, Mapping[str, Any]]] = {}
+
+    def add(self, place: Place) -> None:
+        """Go on to a place."""
+        before, self.newest = self.newest, place
+        if before and max(abs(before[0] - place[0]), abs(before[1] - place[1])) < STEP_DEG:
+            return
+        if not self.parts or len(self.parts[-1]) >= PER_PART:
+            # The first place of a part is the last of the one before, so that no gap is drawn.
+            self.parts.append([before] if before and self.parts else [])
+        self.parts[-1].append(place)
+        while len(self.parts) > MAX_POINTS // PER_PART:
+            del self.parts[0]
+            self.first += 1
+
+    def shown(self) -> dict[int, Mapping[str, Any]]:
+        """Return the parts by number; the same objects as before if they have not changed."""
+        for number, part in enumerate(self.parts, self.first):
+            known = self._made.get(number)
+            if known is None or known[0] != len(part):
+                flat = [round(degree, 7) for place in part for degree in place]
+                self._made[number] = len(part), {"places": flat}
+        numbers = range(self.first, self.first + len(self.parts))
+        self._made = {number: self._made[number] for number in numbers}
+        return {number: part for number, (_, part) in self._made.items()}
+
+
+class OutdoorMap(Panel):
+    """Where satellite receivers were, and paths of latitudes and longitudes, over map tiles."""
+
+    title = "Outdoor map"
+    on_request = True
+    module = "outdoor_map.js"
+
+    topics: Annotated[
+        list[str],
+        msgspec.Meta(max_length=MAX_TOPICS),
+        Prop(help="Topics with NavSatFix or GeoPath; empty for all, eight at most."),
+    ] = msgspec.field(default_factory=list)
+    object_uri: Annotated[
+        str,
+        Prop(
+            help="Tiles: an .mbtiles or .pmtiles file, a folder, or an address with {z}, {x} and "
+            "{y}. Servers must be allowed: WEBVIZ_TILE_SERVERS=https://tiles.example/",
+        ),
+    ] = ""
+    timeout: Annotated[
+        float, Prop(gt=0, le=60, unit="s", help="Time that a server has for each tile.")
+    ] = 3.0
+    window: Annotated[float, Prop(gt=0, le=86400, unit="s", help="Time read after a seek.")] = 600.0
+
+    def __post_init__(self) -> None:
+        """Without tracks."""
+        self.types: dict[str, str] = {}
+        self.tracks: dict[str, _Track] = {}
+        self.refused: dict[str, str] = {}
+        self.shelf = TileShelf("", 0.0)
+        self.shelved: tuple[str, float] = ("", 0.0)
+
+    def build(self, ui: Ui, send: Send) -> None:
+        """Show the map."""
+        self.map = ui.widget("outdoor map", {}, self._ask)
+
+    def subscriptions(self) -> Mapping[str, str]:
+        """Return the topics of the tracks."""
+        return {topic: self.types[topic] for topic in self.tracks if topic in self.types}
+
+    def lookback(self, topic: str) -> Lookback:
+        """Return the fixes of the window, the newest path."""
+        if self.types.get(topic) == PATH:
+            return Lookback(count=1)
+        return Lookback(seconds=self.window)
+
+    def receive(self, topic: str, message: Any, received_ns: int) -> None:
+        """Add a fix to its track, or show another path."""
+        if topic not in self.tracks:
+            return
+        self.refused.pop(topic, None)
+        if self.types.get(topic) == PATH:
+            track = self.tracks[topic] = _Track()
+            positions = [each.pose.position for each in message.poses[:MAX_POINTS]]
+        else:
+            track, positions = self.tracks[topic], [message]
+            if message.status.status <= NO_FIX:
+                track.invalid += 1
+                return
+        for each in positions:
+            if _is_shown(each.latitude, each.longitude):
+                track.add((each.longitude, each.latitude))
+                track.invalid = 0
+            else:
+                track.invalid += 1
+
+    def refuse(self, topic: str, reason: str) -> None:
+        """Show why a topic cannot be read."""
+        self.refused[topic] = reason
+
+    def start_over(self) -> None:
+        """Forget all places."""
+        self.tracks = {topic: _Track() for topic in self.tracks}
+
+    def show(self, state: Any) -> None:
+        """Show the tracks and the tiles."""
+        known = types_of(state)
+        self.types = {topic: type_ for topic, type_ in known.items() if type_ in (FIX, PATH)}
+        wanted = list(dict.fromkeys(self.topics or sorted(self.types)))[:MAX_TOPICS]
+        self.tracks = {topic: self.tracks.get(topic) or _Track() for topic in wanted}
+        if self.shelved != (self.object_uri, self.timeout):
+            self.shelved = self.object_uri, self.timeout
+            self.shelf = TileShelf(*self.shelved)
+        parts = {f"tile/{name}": part for name, part in self.shelf.parts().items()}
+        tracks: list[Mapping[str, Any]] = []
+        for index, (topic, track) in enumerate(self.tracks.items()):
+            shown = track.shown()
+            parts |= {f"track/{index}/{number}": part for number, part in shown.items()}
+            is_path = self.types.get(topic) == PATH
+            newest = None if is_path or track.newest is None else list(track.newest)
+            span = [track.first, track.first + len(shown)]
+            tracks.append({"topic": topic, "is_path": is_path, "parts": span, "newest": newest})
+        values = {"address": self.object_uri, "credit": self.shelf.attribution, "tracks": tracks}
+        self.map.show(values | {"problem": self._problem(wanted)}, parts)
+
+    def _problem(self, wanted: Sequence[str]) -> str:
+        if not wanted:
+            return "No publisher of NavSatFix or GeoPath. Start the node of the receiver."
+        for topic in wanted:
+            track = self.tracks[topic]
+            if topic not in self.types:
+                return f"No publisher of NavSatFix or GeoPath on {topic}. Start it."
+            if reason := self.refused.get(topic):
+                return reason
+            if track.invalid:
+                found = counted(track.invalid, "message")
+                return f"{topic}: {found} without a place on the map. Check the receiver."
+        if not any(track.parts for track in self.tracks.values()):
+            return f"No place yet on {', '.join(wanted)}."
+        if not self.object_uri:
+            return "No tiles are chosen. Enter a file, folder or address below, in Properties."
+        return self.shelf.problem
+
+    def _ask(self, value: Any, browser: int | None) -> None:
+        """Read the tiles that a page shows."""
+        asked = msgspec.convert(value, list[tuple[int, int, int]])
+        self.shelf.want(asked[:MAX_ASKED])
+
+
+def _is_shown(latitude: float, longitude: float) -> bool:
+    """Return whether a place in degrees is on the map; False for NaN."""
+    return abs(latitude) <= MAX_LATITUDE and abs(longitude) <= 180.0 and math.isfinite(longitude)
