@@ -110,7 +110,7 @@ class VoxelGrid(Display):
         x, y, z = _indices(np.array([hit.id]), message)[0].tolist()
         center = np.add(_corner(message), _centers(np.array([hit.id]), message)[0])
         return Details(
-            f"Voxel {x}, {y}, {z}", {"State": hit.key, f"Center in {hit.sample.frame}": center}
+            f"Voxel {x}, {y}, {z}", {"State": hit.key, f"Centre in {hit.sample.frame}": center}
         )
 
     def _remedy(self, cells: Mapping[str, NDArray[np.bool_]]) -> Remedy | None:

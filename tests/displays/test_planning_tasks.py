@@ -116,7 +116,7 @@ def test_an_answer_without_a_solution_is_said(planned: Any) -> None:
     planned.serve("/get_solution_robot_1", service, {"solution": SOLUTION | {"task_id": ""}})
     planned.set("solution", 5)
     planned.settle()
-    text = "Solution 5: The task does not have it any more. Choose another."
+    text = "Solution 5: The task no longer has it. Choose another."
     assert planned.statuses()["Solution"] == ("WARN", text)
 
 

@@ -239,7 +239,7 @@ def test_a_goal_of_a_server_that_is_killed_while_it_cancels_ends_and_the_next_is
     robot.end(signal.SIGKILL)
     start_robot()
     # Cancel works again, as nobody answered; the server that runs now does not know the goal.
-    ended = "does not know this goal any more. Send it again.", "has ended. Start Nav2's bt_nav"
+    ended = "no longer knows this goal. Send it again.", "has ended. Start Nav2's bt_nav"
     cancel = page.tab.locator(".wv-goal .wv-button:enabled:visible")
 
     def is_over() -> bool:

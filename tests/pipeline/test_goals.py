@@ -196,7 +196,7 @@ def test_a_goal_that_the_server_has_forgotten_ends_when_it_is_cancelled(robot: R
     goal.cancels[-1].set_result(2)
     assert robot.only().phase == "canceling"
     robot.bench.clock += ANSWER_S + 0.1
-    text = "/navigate_to_pose does not know this goal any more. Send it again."
+    text = "/navigate_to_pose no longer knows this goal. Send it again."
     assert robot.outcome() == (Level.WARN, text)
 
 
@@ -322,7 +322,7 @@ def test_cancelling_is_asked_again_of_a_server_that_was_started_again(robot: Rob
     goal.cancels[-1].set_result(2)
     robot.shown()
     robot.bench.clock += ANSWER_S + 0.1
-    assert "does not know this goal any more" in robot.outcome()[1]
+    assert "no longer knows this goal" in robot.outcome()[1]
     assert goal.result.cancelled()
 
 

@@ -175,7 +175,7 @@ def test_what_waits_for_its_partner_is_bounded_in_bytes(
             LoosePair,
             T + 2 * SECOND,
             "Waiting for a PoseStamped on /left within 0.1 s of the PoseStamped on /right, "
-            "102.000 s. The nearest is 2.0 s earlier. Synchronize the clocks of their publishers.",
+            "102.000 s. The nearest is 2.0 s earlier. Synchronise the clocks of their publishers.",
         ),
     ],
 )

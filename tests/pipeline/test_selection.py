@@ -233,7 +233,7 @@ def test_what_its_display_does_not_know_any_more_is_said_to_be_gone(shown: Any) 
     shown.do(Select((clock,), total=1), PAGE)
     shown.clock += 1.0
     shown.do(SetProperty("display2", "enabled", False))
-    assert told(shown)["note"] == "It does not exist any more."
+    assert told(shown)["note"] == "It no longer exists."
 
 
 def test_a_plugin_that_gives_the_wrong_number_of_ids_is_named(bench: Benches) -> None:

@@ -169,7 +169,7 @@ def test_a_file_that_unfolds_to_more_than_the_limit(tmp_path, opened, monkeypatc
     bag.want("/words")
     bag.play(1)
     assert bag.heard() == ["0", "1"]
-    assert "it unfolds to more than 1 048 576 bytes" in bag.source.warnings[0]
+    assert "it expands to more than 1 048 576 bytes" in bag.source.warnings[0]
 
 
 def test_unpacking_leaves_room_on_the_disk(tmp_path, monkeypatch):

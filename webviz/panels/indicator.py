@@ -31,7 +31,7 @@ class Indicator(PathPanel):
     rules: Annotated[
         list[str],
         Prop(
-            help="Rules such as `< 20: red Low` or `== 'IDLE': grey`; colors are green, yellow, "
+            help="Rules such as `< 20: red Low` or `== 'IDLE': grey`; colours are green, yellow, "
             "orange, red, blue and grey."
         ),
     ] = msgspec.field(default_factory=list)
@@ -63,7 +63,7 @@ def parse(text: str) -> Rule | str:
     match = _RULE.fullmatch(text[:400])
     if match is None or match[3] not in COLORS:
         colors = ", ".join(COLORS)
-        return f"`{text[:80]}` is not a rule. Write it like `< 20: red Low`; colors are {colors}."
+        return f"`{text[:80]}` is not a rule. Write it like `< 20: red Low`; colours are {colors}."
     operator, limit, color, label = match.groups()
     return operator, _limit(limit), color, readable(label[:MAX_TEXT])
 

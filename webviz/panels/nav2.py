@@ -57,7 +57,7 @@ class Nav2(Panel):
     navigation_manager: Annotated[str, Prop(help="Lifecycle manager of the navigation.")] = (
         "lifecycle_manager_navigation"
     )
-    localization_manager: Annotated[str, Prop(help="Lifecycle manager of the localization.")] = (
+    localization_manager: Annotated[str, Prop(help="Lifecycle manager of the localisation.")] = (
         "lifecycle_manager_localization"
     )
 

@@ -73,7 +73,7 @@ class SlamToolbox(Panel):
             width=0.5,
         )
         add("Clear changes", "clear_changes", "Clear", "Put moved nodes back.", 0.5)
-        hint = "Optimize the graph with the moved nodes."
+        hint = "Optimise the graph with the moved nodes."
         add("Save changes", "manual_loop_closure", "LoopClosure", hint, 0.5)
         of_map = "File of the occupancy grid, without extension, on the machine of slam_toolbox."
         self.map = ui.field("Map", "", keep, of_map)

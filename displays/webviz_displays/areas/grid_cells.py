@@ -97,7 +97,7 @@ class GridCells(Display):
         return Details(
             f"Cell {nearest}",
             {
-                f"Center in {hit.sample.frame}": message.cells[nearest],
+                f"Centre in {hit.sample.frame}": message.cells[nearest],
                 "Size": f"{message.cell_width:g} m x {message.cell_height:g} m",
                 "Cells in the message": len(message.cells),
             },

@@ -50,7 +50,7 @@ def cell_details(
             "Column (x)": column,
             "Row (y)": row,
             "Index": row * grid.width + column,
-            f"Center in {grid.frame}": f"{center[0]:.4f}, {center[1]:.4f}, {center[2]:.4f} m",
+            f"Centre in {grid.frame}": f"{center[0]:.4f}, {center[1]:.4f}, {center[2]:.4f} m",
             "Resolution": f"{size:.4g} m",
         },
     )

@@ -123,7 +123,7 @@ class SolutionRequest:
                 if not self.solution.task_id:
                     self.solution, self.problem = (
                         None,
-                        "The task does not have it any more. Choose another.",
+                        "The task no longer has it. Choose another.",
                     )
                 connection.wake()
         except (Error, CancelledError) as error:

@@ -174,7 +174,7 @@ class OctreeDisplay(Display):
         values: dict[str, object] = {
             "Occupancy": f"{probabilities(log_odds)[0]:.1%}",
             "Log-odds": log_odds[0],
-            f"Center in {hit.sample.frame}": voxels.centers[0],
+            f"Centre in {hit.sample.frame}": voxels.centers[0],
             "Size": f"{voxels.sizes[0]:g} m",
             "Depth": int(tree.depths[node]),
         }

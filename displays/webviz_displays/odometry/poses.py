@@ -24,7 +24,7 @@ def fault(message: messages.Odometry) -> str:
         return "The orientation is all zeros. The publisher must set it (w = 1 for no rotation)."
     if abs(square - 1.0) >= UNIT_TOLERANCE:
         return (
-            f"The orientation ({q.x:g}, {q.y:g}, {q.z:g}, {q.w:g}) is not normalized: "
+            f"The orientation ({q.x:g}, {q.y:g}, {q.z:g}, {q.w:g}) is not normalised: "
             f"its squared length is {square:g} instead of 1."
         )
     return ""

@@ -46,7 +46,7 @@ def _inertia(link: Link) -> dict[str, object]:
         return {}
     rows = link.inertial.inertia
     return {
-        "Center of mass": link.inertial.com,
+        "Centre of mass": link.inertial.com,
         "Inertia": {
             axis: f"{', '.join(f'{value:.4g}' for value in row)} kg m²"
             for axis, row in zip("xyz", rows, strict=True)

@@ -70,6 +70,6 @@ def report_orientations(squares: np.ndarray, noun: str, ctx: Context) -> None:
         which = f"{odd} {total}" if len(squares) > 1 else total.removeprefix("of ")
         ctx.warn(
             "Orientation",
-            f"The orientation of {which} is not normalized and drawn as if it were. "
+            f"The orientation of {which} is not normalised and drawn as if it were. "
             "Fix the publisher.",
         )

@@ -29,7 +29,7 @@ class RobotMisplaced(Check):
             if found.fit.shift is None:
                 continue
             yield self.found(
-                f"The scan of '{found.frame}' is beside the walls: the robot is misplaced.",
+                f"The scan of '{found.frame}' is not at the walls: the robot is misplaced.",
                 f"Correct the transform of '{found.frame}'."
                 if found.is_placed
                 else "Give the pose of the robot with the tool 2D Pose Estimate.",

@@ -21,7 +21,7 @@ class MulticastElsewhere(Check):
         robot then never see the announcements of this machine.
 
     Repair:
-        Lead multicast to the interface of the robot:
+        Route multicast through the interface of the robot:
 
             sudo ip route add 224.0.0.0/4 dev eth0
     """
@@ -44,7 +44,7 @@ class MulticastElsewhere(Check):
         explains = seen.undiscovered()
         yield self.found(
             f"Multicast leaves through {name}, not through {' or '.join(others)}.",
-            f"Lead multicast to the interface of the robot, such as {others[0]}.",
+            f"Route multicast through the interface of the robot, such as {others[0]}.",
             subject=name,
             severity=Severity.WARNING if explains else Severity.NOTE,
             evidence={"interface": name, "others": tuple(others)},

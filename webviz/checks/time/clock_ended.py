@@ -12,7 +12,7 @@ from webviz.api.observation import Observation
 class ClockEnded(Check):
     """/clock has ended.
 
-    Simulated time stands still, and /clock has no publisher any more.
+    Simulated time stands still, and /clock no longer has a publisher.
 
     Why:
         All nodes with use_sim_time stand still with it: timers do not run, and stamps stay the

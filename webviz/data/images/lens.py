@@ -127,7 +127,8 @@ class Lens:
             shares = ((pixels - (left, top)) / (width, height)).astype(np.float32)
             if (np.abs(shares - 0.5) < 1.0).all(axis=-1).mean() < _SEEN:
                 raise ImageError(
-                    "By K, D and R the camera sees nothing of what P shows. Calibrate the camera."
+                    "According to K, D and R, the camera sees nothing of what P shows. "
+                    "Calibrate the camera."
                 )
             return shares
 

@@ -109,4 +109,4 @@ def _blocks(stream: BinaryIO, compression: str) -> Iterator[bytes]:
 
 
 def _too_large(limit: int) -> str:
-    return f"it unfolds to more than {limit:,} bytes".replace(",", " ")
+    return f"it expands to more than {limit:,} bytes".replace(",", " ")

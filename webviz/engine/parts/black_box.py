@@ -175,7 +175,9 @@ class BlackBoxPart(Part):
                 remedy = nearest_name(watched, names)
                 return {"Black box": Status(Level.WARN, f"{text} {remedy}")}
         if self._watcher.rules and not self._live.memory.is_on:
-            text = "Rules have nothing to save, since nothing is remembered. Raise memory.seconds."
+            text = (
+                "Rules have nothing to save, because nothing is remembered. Raise memory.seconds."
+            )
             return {"Black box": Status(Level.WARN, text)}
         return {}
 

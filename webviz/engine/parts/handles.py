@@ -90,7 +90,7 @@ class HandlesPart(Part):
         runner = self._runner(command.display)
         handle = runner.handles().get(drag.handle) if runner else None
         if runner is None or handle is None or not 0 <= drag.control < len(handle.controls):
-            raise Error("This handle does not exist any more.")
+            raise Error("This handle no longer exists.")
         if handle.refusal:
             raise Error(handle.refusal)
         hold = self._holds.get(place)

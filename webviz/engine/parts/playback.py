@@ -44,7 +44,7 @@ BUCKETS = 500
 LIVE = "Topics are live, so there is nothing to play. Seek to a past moment first."
 REWOUND = "Nothing is sent to the robot while the page shows the past. Return to live first (L)."
 NO_LIVE = "A bag is already open. Start webviz with --bag to play another one."
-STOPPED = "The vehicle was stopped, since the page shows the past."
+STOPPED = "The vehicle was stopped, because the page shows the past."
 
 
 class PlaybackPart(Part):

@@ -88,7 +88,7 @@ class RecordingPart(Part):
             return {"Recording": Status(Level.ERROR, self._problem)}
         if self._recorder is not None and self._recorder.dropped:
             lost = counted(self._recorder.dropped, "message")
-            text = f"{lost} dropped, since the disk is too slow. Show fewer topics."
+            text = f"{lost} dropped, because the disk is too slow. Show fewer topics."
             return {"Recording": Status(Level.WARN, text)}
         return {}
 

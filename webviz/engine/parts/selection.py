@@ -173,7 +173,7 @@ class SelectionPart(Part):
             alike.append(tree)
             note = "" if runner.shows(found) else REPLACED
             if details is None:
-                note = "It does not exist any more."
+                note = "It no longer exists."
             own = tree["fields"]
             fields = own | {k: v for k, v in self._whereabouts(found).items() if k not in own}
             each = {"title": title, "tree": {"fields": fields}, "note": note}

@@ -224,7 +224,7 @@ class Inputs:
         size = abs(gap.off_ns)
         distance = in_words(size) if size >= 100_000 else f"{size} ns"
         side = "later" if gap.off_ns > 0 else "earlier"
-        remedy = "Synchronize the clocks of" if sync.slop else "Use equal stamps in"
+        remedy = "Synchronise the clocks of" if sync.slop else "Use equal stamps in"
         return f"{text} The nearest is {distance} {side}. {remedy} their publishers."
 
     def _title(self, name: str) -> str:

@@ -68,7 +68,7 @@ class RosTime:
             at = f"Simulated time has stopped at {self._now_ns / 1e9:.1f} s"
             if nodes:
                 return Status(Level.OK, f"{at}: {nodes} is paused.")
-            return Status(Level.WARN, f"{at}: /clock has no publisher any more.")
+            return Status(Level.WARN, f"{at}: /clock no longer has a publisher.")
         if self._event and clock - self._event_at < EVENT_S:
             return Status(Level.OK, self._event)
         return None

@@ -182,7 +182,7 @@ class RunningGoal:
 
     def _follow_cancel(self, sent: Goal, now: float) -> None:
         if self._give_up_s is not None and now > self._give_up_s:
-            text = f"{self.action} does not know this goal any more. Send it again."
+            text = f"{self.action} no longer knows this goal. Send it again."
             self._end(Status(Level.WARN, text), now)
         elif self._is_canceling and (self._canceled is None or self._is_late(now)):
             self._canceled, self._canceled_s = sent.cancel(), None

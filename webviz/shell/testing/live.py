@@ -145,7 +145,7 @@ class LiveViewer(Shown):
         while not (result := condition()):
             if time.monotonic() > deadline:
                 text = what if isinstance(what, str) else what()
-                raise AssertionError(f"Waited {seconds:g} s in vain. {text}")
+                raise AssertionError(f"Waited {seconds:g} s without success. {text}")
             self._turn()
         return result
 

@@ -34,7 +34,7 @@ def explain(error: BaseException, address: Address) -> Problem:
                 "Use a bridge with foxglove.sdk.v1 or foxglove.websocket.v1, or rosbridge.",
             )
         case ConnectionClosed():
-            return Problem(_closed(error), "Look into the log of the bridge.")
+            return Problem(_closed(error), "Check the log of the bridge.")
         case InvalidMessage() | InvalidHandshake():
             return Problem(
                 f"What listens on {place} is not a websocket server.",

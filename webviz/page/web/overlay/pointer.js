@@ -17,7 +17,7 @@ const SHARE = 20; // at most one part of the time goes to looking again
 /** @type {Record<string, string>} */
 const HINTS = {
   FPS: "Left: look around · Middle or Shift: move · Right or wheel: walk · F: look at",
-  TopDownOrtho: "Left: turn · Middle or Shift: move · Right or wheel: zoom · F: center",
+  TopDownOrtho: "Left: turn · Middle or Shift: move · Right or wheel: zoom · F: centre",
 };
 const HINT = "Left: turn · Middle or Shift: move · Right or wheel: zoom · F: look at";
 
