@@ -41,6 +41,34 @@ JAGGED = """{
 """Draws scenes without smooth edges, which take a third of the time of a browser without a graphics
 card."""
 
+CALM = """{
+  const FRAME_MS = 66;
+  const request = window.requestAnimationFrame.bind(window);
+  const waiting = new Map();
+  let count = 0;
+  let last = 0;
+  let isDue = false;
+  // Each in a callback of its own, after which the browser does what React has left to do.
+  const run = (number) => request((now) => {
+    last = performance.now();
+    const draw = waiting.get(number);
+    if (waiting.delete(number)) draw(now);
+  });
+  window.requestAnimationFrame = (draw) => {
+    waiting.set(++count, draw);
+    const wait = () => {
+      isDue = false;
+      [...waiting.keys()].forEach(run);
+    };
+    if (!isDue) setTimeout(wait, Math.max(0, last + FRAME_MS - performance.now()));
+    isDue = true;
+    return count;
+  };
+  window.cancelAnimationFrame = (number) => waiting.delete(number);
+}"""
+"""Draws at most 15 frames a second: without a graphics card, the 60 of a robot that moves take a
+whole processor."""
+
 
 def pytest_configure() -> None:
     """Check the installation, and give viewers that tests start a folder of their own."""
@@ -68,7 +96,11 @@ def said_on_consoles() -> list[str]:
 
 @pytest.fixture(scope="session")
 def browser(said_on_consoles: list[str]) -> Iterator[playwright.Browser]:
-    """One headless Chromium for all tests of pages; `smooth=True` of a context is for pictures."""
+    """One headless Chromium for all tests of pages.
+
+    Its contexts have two options more: `smooth=True` is for pictures, `every_frame=True` for
+    gestures that are shorter than a frame.
+    """
 
     def hear(message: playwright.ConsoleMessage) -> None:
         is_ours = "/webviz/" in message.location.get("url", "")
@@ -76,10 +108,14 @@ def browser(said_on_consoles: list[str]) -> Iterator[playwright.Browser]:
         if is_bad and not message.text.startswith(EXPECTED):
             said_on_consoles.append(message.text)
 
-    def new_context(smooth: bool = False, **options: Any) -> playwright.BrowserContext:
+    def new_context(
+        smooth: bool = False, every_frame: bool = False, **options: Any
+    ) -> playwright.BrowserContext:
         context = make(**options)
         if not smooth:
             context.add_init_script(JAGGED)
+        if not every_frame:
+            context.add_init_script(CALM)
         context.set_default_timeout(1000.0 * PATIENCE_S)
         context.on("console", hear)
         context.on("weberror", lambda error: said_on_consoles.append(str(error.error)))

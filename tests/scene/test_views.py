@@ -6,6 +6,7 @@ import itertools
 import math
 from collections.abc import Iterator
 from datetime import datetime
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -108,7 +109,9 @@ class Window(Page):
 @pytest.fixture(scope="module")
 def opened(browser: playwright.Browser) -> Iterator[Window]:
     server = open_server(port=0)
-    window = Window(browser, ViserScene(server))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(browser, "new_context", partial(browser.new_context, every_frame=True))  # pyright: ignore[reportCallIssue]
+        window = Window(browser, ViserScene(server))
     yield window
     window.close()
     server.stop()

@@ -8,6 +8,9 @@ import numpy as np
 from viser import _messages as wire
 from viser.infra._messages import _prepare_for_serialization as prepared
 
+_PLAIN = {str, bytes, float, int, bool, type(None)}
+"""Types of values that msgpack takes as they are; what viser does to find out takes longer."""
+
 
 class UpdateMessage(wire.SceneNodeUpdateMessage, include_in_scene_serialization=True):
     """Assigns properties of a node; most of its bytes are arrays, which need no preparation."""
@@ -22,6 +25,8 @@ class UpdateMessage(wire.SceneNodeUpdateMessage, include_in_scene_serialization=
 
 
 def _packed(value: Any, buffers: list[memoryview] | None) -> Any:
+    if type(value) in _PLAIN:
+        return value
     if buffers is None or not isinstance(value, np.ndarray):
         return prepared(value, Any, buffers)
     buffers.append(np.ascontiguousarray(value).data)
