@@ -56,6 +56,7 @@ class FoxgloveSession:
     """
 
     protocol = "Foxglove"
+    is_paced = True
 
     def __init__(self, host: Host) -> None:
         self._host = host

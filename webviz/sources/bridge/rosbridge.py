@@ -74,6 +74,7 @@ class RosbridgeSession:
     """
 
     protocol = "rosbridge"
+    is_paced = False
 
     def __init__(self, host: Host) -> None:
         self._host = host

@@ -76,6 +76,9 @@ class BridgeSession(Protocol):
 
     protocol: str
     """Its name, for sentences."""
+    is_paced: bool
+    """True if large topics may come over a second connection, of which the server drops messages
+    that its queue cannot hold."""
 
     @property
     def topics(self) -> Mapping[str, CarriedTopic]:

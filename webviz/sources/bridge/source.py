@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import functools
 import logging
 import random
 import threading
@@ -20,7 +21,6 @@ from webviz.sources.bridge.clock import BridgeClock
 from webviz.sources.bridge.connection import BridgeConnection, Silent
 from webviz.sources.bridge.definitions import Definitions
 from webviz.sources.bridge.describing import described, thinning
-from webviz.sources.bridge.foxglove import FoxgloveSession
 from webviz.sources.bridge.graph import BridgeGraph
 from webviz.sources.bridge.health import LinkHealth
 from webviz.sources.bridge.opening import opened
@@ -259,10 +259,10 @@ class BridgeSource:
         async with opened(self._address, BridgeConnection) as socket:
             self._socket = socket
             self._outbox = asyncio.Queue()
-            self._session = session = open_session(socket.subprotocol, self)
+            begin = functools.partial(open_session, socket.subprotocol)
+            self._session = session = begin(self)
             self._pacer = Pacer()
-            is_paced = isinstance(session, FoxgloveSession)
-            self._bulk = BulkLine(self._pacer, self, FoxgloveSession) if is_paced else None
+            self._bulk = BulkLine(self._pacer, self, begin) if session.is_paced else None
             self._joined(session)
             await first_of(
                 read(socket, session, self._note_malformed),
