@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from webviz.api.bounds import Box, bounds, union
+from webviz.api.bounds import MOST_NODES, Box, bounds, box_around, union
 from webviz.api.nodes import (
     Arrows,
     Axes,
@@ -93,3 +93,16 @@ def test_a_union_holds_all() -> None:
     box = union(boxes)
     assert box is not None
     assert (box.low.tolist(), box.high.tolist()) == ([-3] * 3, [3] * 3)
+
+
+def test_the_box_of_many_nodes_is_approximate_where_that_is_enough() -> None:
+    point, turned = Points(ORIGIN, (0, 0, 0), 0.2), Pose(wxyz=(0.0, 0.0, 0.0, 1.0))
+    placed = [(point, Pose((float(x), 0.0, 0.0)), turned) for x in range(10_000)]
+    exact, quick = box_around(placed), box_around(placed, 1)
+    assert exact is not None
+    assert quick is not None
+    assert exact.low == pytest.approx([-9999.1, -0.1, -0.1])
+    assert exact.high == pytest.approx([0.1, 0.1, 0.1])
+    assert -9999.1 < quick.low[0] < -9900.0
+    assert box_around(placed[:MOST_NODES], 1).low[0] == pytest.approx(1 - MOST_NODES - 0.1)  # pyright: ignore[reportOptionalMemberAccess]
+    assert box_around([]) is None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -31,6 +31,8 @@ from webviz.data.rotations import matrices
 
 F64 = NDArray[np.float64]
 
+MOST_NODES = 300
+"""Nodes that are looked at for an approximate box: 10 ms of them."""
 _DEEPEST = 64
 _CORNERS = np.array(np.meshgrid([0, 1], [0, 1], [0, 1])).reshape(3, 8).T
 
@@ -62,6 +64,21 @@ def bounds(node: Node, most: int = 0) -> Box | None:
     if most and isinstance(node, Points) and len(node.xyz) > most:
         return _around((node.xyz[:: -(-len(node.xyz) // most)], 0.0))
     return _around(_EXTENTS[type(node)](node))
+
+
+def box_around(placed: Sequence[tuple[Node, Pose, Pose]], most: int = 0) -> Box | None:
+    """Return the box around nodes; None if nothing of them is visible.
+
+    Args:
+        placed: each node with its pose in a group, and the pose of that group.
+        most: see `bounds`; if it is given, `MOST_NODES` are looked at, spread evenly.
+    """
+    step = -(-len(placed) // MOST_NODES) if most else 1
+    return union(
+        box.moved(pose).moved(outer)
+        for node, pose, outer in placed[:: step or 1]
+        if (box := bounds(node, most)) is not None
+    )
 
 
 def union(boxes: Iterable[Box]) -> Box | None:

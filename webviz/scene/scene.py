@@ -9,7 +9,7 @@ from typing import Any
 
 import viser
 
-from webviz.api.bounds import Box, bounds, union
+from webviz.api.bounds import Box, box_around
 from webviz.api.nodes import (
     Arrows,
     Axes,
@@ -135,13 +135,13 @@ class ViserScene:
 
     def bounds(self, prefix: str, most: int = 0) -> Box | None:
         """Return the bounding box in the fixed frame of all visible groups with a prefix."""
-        return union(
-            box.moved(pose).moved(group.pose)
+        placed = [
+            (node, pose, group.pose)
             for name, group in self._groups.items()
             if name.startswith(prefix) and group.visible
             for node, pose in group.nodes.values()
-            if (box := bounds(node, most)) is not None
-        )
+        ]
+        return box_around(placed, most)
 
     def clear(self) -> None:
         """Remove every group."""

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from webviz.api.bounds import Box, bounds, union
+from webviz.api.bounds import Box, box_around
 from webviz.api.frames import compose
 from webviz.api.nodes import POINTS_HELD, Node, Pose, Rgb
 from webviz.engine.pipeline.browsers import Browsers, NoBrowsers
@@ -65,13 +65,13 @@ class RecordingScene:
 
     def bounds(self, prefix: str, most: int = 0) -> Box | None:
         """Return the bounding box of all visible groups with a prefix."""
-        return union(
-            box.moved(pose).moved(self.poses.get(name, Pose()))
+        placed = [
+            (node, pose, self.poses.get(name, Pose()))
             for name, nodes in self.groups.items()
             if name.startswith(prefix) and name not in self.hidden
             for node, pose in nodes.values()
-            if (box := bounds(node, most)) is not None
-        )
+        ]
+        return box_around(placed, most)
 
     def set_background(self, rgb: Rgb | None) -> None:
         """Set the background to one colour; None is that of each page, which follows its theme."""
