@@ -192,7 +192,14 @@ def test_the_page_names_its_bridge_and_says_when_it_is_not_live(tab: Tab, loop: 
     loop.state = replace(loop.state, bridges=(up,))
     tab.wait_for(card.is_visible)
     assert card.text_content() == "ws://robot:8765"
+    thinned = "The link carries 1.5 Mbit/s, so webviz thins /points to 0.13 Hz."
+    loop.state = replace(loop.state, bridges=(replace(up, remarks=(thinned,)),))
+    tab.wait_for(lambda: card.text_content() == f"ws://robot:8765 · {thinned}")
     problem = "Nothing listens on <b>robot</b>:8765."
     loop.state = replace(loop.state, bridges=(replace(up, is_up=False, problem=problem),))
     tab.wait_for(lambda: card.text_content() == "ws://robot:8765 · not live")
     assert card.get_attribute("data-tip") == problem
+    fleet = [replace(up, robot=f"r{n}") for n in range(1, 11)]
+    fleet[3] = replace(fleet[3], is_up=False, problem=problem)
+    loop.state = replace(loop.state, bridges=tuple(fleet))
+    tab.wait_for(lambda: card.all_text_contents() == ["9 robots connected", "r4 · not live"])

@@ -13,10 +13,11 @@ class BridgesStore(PageStore, frozen=True):
     """The links to bridges.
 
     Args:
-        all: address or robot of each, and why it is not live; "" if it is.
+        all: address or robot of each, why it is not live, "" if it is, and what is wrong with its
+            link, such as topics that are thinned; "" if nothing is.
     """
 
-    all: Sequence[tuple[str, str]]
+    all: Sequence[tuple[str, str, str]]
 
 
 def bridges(state: State, _: str) -> BridgesStore | None:
@@ -25,7 +26,11 @@ def bridges(state: State, _: str) -> BridgesStore | None:
         return None
     return BridgesStore(
         [
-            (brief(bridge.title), "" if bridge.is_up else brief(bridge.problem))
+            (
+                brief(bridge.title),
+                "" if bridge.is_up else brief(bridge.problem),
+                brief(next(iter(bridge.remarks), "")),
+            )
             for bridge in state.bridges
         ]
     )

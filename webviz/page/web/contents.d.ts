@@ -312,7 +312,7 @@ export interface Stores {
   between: { own: { problem?: string; translation?: [number, number, number]; rotation?: [number, number, number, number]; rpy?: [number, number, number]; distance?: number; age?: number | null }; items: never };
   black_box: { own: { saving?: string; saved?: Array<[string, number, string, string]> }; items: never };
   bookmarks: { own: { all?: Array<[string, number]> }; items: never };
-  bridges: { own: { all?: Array<[string, string]> }; items: never };
+  bridges: { own: { all?: Array<[string, string, string]> }; items: never };
   clock: { own: { pace: [number, number, number]; began: [number, number]; is_known: boolean; is_paused: boolean; is_simulated: boolean; hz: number }; items: never };
   commands: { own: {  }; items: PanelCommand };
   density: { own: { counts: Array<number>; first: number; last: number }; items: never };

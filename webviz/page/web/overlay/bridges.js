@@ -19,20 +19,23 @@ export function build() {
 /**
  * Those of many that are live share one line.
  *
- * @param {[string, string][]} all
+ * @param {[string, string, string][]} all
  */
 function cards(all) {
   if (all.length <= MANY) return all.map(card);
   const down = all.filter(([, problem]) => problem);
-  return [card([`${all.length - down.length} robots connected`, ""]), ...down.map(card)];
+  const strained = all.filter(([, problem, remark]) => remark && !problem);
+  const summary = card([`${all.length - down.length} robots connected`, "", ""]);
+  return [summary, ...[...down, ...strained].map(card)];
 }
 
-/** @param {[string, string]} bridge */
-function card([name, problem]) {
+/** @param {[string, string, string]} bridge */
+function card([name, problem, remark]) {
   const element = el("div", { class: "wv-card wv-bridge" });
-  setText(element, problem ? `${sanitized(name)} · not live` : sanitized(name));
+  const state = problem ? "not live" : sanitized(remark);
+  setText(element, state ? `${sanitized(name)} · ${state}` : sanitized(name));
   set(element, {
-    "data-state": problem ? "down" : "up",
+    "data-state": problem ? "down" : remark ? "strained" : "up",
     "data-tip": problem ? sanitized(problem) : "Connected over a bridge",
   });
   return element;
