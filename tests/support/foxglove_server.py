@@ -93,6 +93,14 @@ f 1 2 3
     "package://arm/meshes/red.mtl": b"newmtl red\nKd 1 0 0\n",
 }
 SET_BOOL = "std_srvs/srv/SetBool"
+SET_MODE = "my_robot_msgs/srv/SetMode"
+MODE_REQUEST = """\
+my_robot_msgs/Mode mode
+uint8[] levels
+================================================================================
+MSG: my_robot_msgs/Mode
+string name
+"""
 ahead_ns = 0
 
 
@@ -159,6 +167,10 @@ def handle(request: Any) -> bytes:
     raise RuntimeError("the motor is locked")
 
 
+def set_mode(request: Any) -> bytes:
+    return encode(f"{SET_MODE}_Response", {"said": request.payload.hex()})
+
+
 def main(port: int, *options: str) -> None:
     global ahead_ns
     settings = {name: value for name, _, value in (each.partition("=") for each in options)}
@@ -185,7 +197,28 @@ def main(port: int, *options: str) -> None:
         ),
     )
 
+    mode = ServiceSchema(
+        SET_MODE,
+        request=MessageSchema(
+            encoding="cdr",
+            schema=foxglove.Schema(
+                name=f"{SET_MODE}_Request", encoding="ros2msg", data=MODE_REQUEST.encode()
+            ),
+        ),
+        response=MessageSchema(
+            encoding="cdr",
+            schema=foxglove.Schema(
+                name=f"{SET_MODE}_Response", encoding="ros2msg", data=b"string said"
+            ),
+        ),
+    )
+
     interfaces.service(SET_BOOL)
+    interfaces.service(SET_MODE, "---\nstring said")
+    services = [
+        Service("/motor", schema=schema, handler=handle),
+        Service("/mode", schema=mode, handler=set_mode),
+    ]
     # Without capabilities, it is a server that only shows.
     is_able = "plain" not in options
     able = [Capability.ClientPublish, Capability.Services, Capability.ConnectionGraph]
@@ -196,7 +229,7 @@ def main(port: int, *options: str) -> None:
         server_listener=robot,
         supported_encodings=["cdr"],
         capabilities=[*(able if is_able else []), Capability.Time],
-        services=[Service("/motor", schema=schema, handler=handle)] if is_able else None,
+        services=services if is_able else None,
         asset_handler=ASSETS.get if is_able else None,
         message_backlog_size=200 if "short" in options else None,
     )

@@ -11,7 +11,7 @@ import pytest
 from bridges import SCAN, STRING, TF, FoxgloveServer, Reader, foxglove_server, reading
 from slow_link import SlowLink
 
-from webviz.data.messages import decode, encode, interfaces
+from webviz.data.messages import decode, encode, interfaces, type_exists
 from webviz.sources import Advertisement, NotConnected
 from webviz.sources.bridge import source as bridge_source
 from webviz.sources.graph import UNKNOWN
@@ -20,6 +20,7 @@ from webviz_urdf.loading import Loading, LoadRequest
 
 BATTERY = "my_robot_msgs/msg/Battery"
 SET_BOOL = "std_srvs/srv/SetBool"
+SET_MODE = "my_robot_msgs/srv/SetMode"
 CMD_VEL = Advertisement("/cmd_vel", "geometry_msgs/msg/Twist")
 
 
@@ -84,6 +85,14 @@ def test_a_service_answers_and_its_error_is_told(server: FoxgloveServer, reader:
         call("/horn", SET_BOOL, b"", 20.0).result(20)
     with pytest.raises(NotConnected, match="has the type std_srvs/srv/SetBool"):
         call("/motor", "std_srvs/srv/Empty", b"", 20.0).result(20)
+
+
+def test_a_service_is_known_by_the_definitions_of_the_bridge(reader: Reader) -> None:
+    reader.until(lambda: type_exists(f"{SET_MODE}_Request"))
+    request, response = interfaces.service(SET_MODE)
+    cdr = encode(request, {"mode": {"name": "fast"}, "levels": [1, 2]})
+    answer = reader.source.graph.call("/mode", SET_MODE, cdr, 20.0).result(20)
+    assert decode(response, answer).said == cdr.hex()
 
 
 def test_what_is_published_arrives_with_its_subscribers(

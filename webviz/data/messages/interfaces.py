@@ -17,7 +17,7 @@ from rosbags.interfaces import Nodetype
 from rosbags.typesys import TypesysError, get_types_from_msg
 
 from webviz.data.messages import typestore
-from webviz.data.messages.decode import decode
+from webviz.data.messages.decode import decode, register
 from webviz.data.messages.errors import DefinitionError, UnknownTypeError
 from webviz.data.messages.service_definitions import ACTIONS, SERVICES
 
@@ -63,6 +63,38 @@ def service(type_name: str, text: str = "") -> Service:
         for part, definition in zip(parts, texts, strict=True):
             typestore.declare(part, _fields(part, definition) or [_PLACEHOLDER])
     return _with_event(type_name, parts)
+
+
+def learn(type_name: str, request: str, response: str) -> None:
+    """Declare a service type by the definitions that its server sends, unless it is known.
+
+    Args:
+        type_name: such as "my_robot_msgs/srv/SetMode".
+        request, response: .msg text or IDL with all nested types, see `register`; "" if it has no
+            fields.
+
+    Raises:
+        MessageError: the name or a definition is invalid.
+    """
+    parts = Service(f"{type_name}_Request", f"{type_name}_Response")
+    if type_name in SERVICES or typestore.type_exists(parts.request):
+        return
+    described = [
+        _described(part, text) for part, text in zip(parts, (request, response), strict=True)
+    ]
+    for part, fields in zip(parts, described, strict=True):
+        typestore.declare(part, fields or [_PLACEHOLDER])
+    _with_event(type_name, parts)
+
+
+def _described(part: str, text: str) -> list[Any]:
+    """Return the fields of a part, and register the types that they contain."""
+    if not text.strip():
+        return []
+    package, _, name = typestore.full_name(part).split("/")
+    plain = part if typestore.is_idl(text) else f"{package}/msg/{name}"
+    register(plain, text)  # rosbags reads .msg texts of messages only
+    return typestore.described(plain)
 
 
 def action(type_name: str, text: str = "") -> Action:

@@ -181,5 +181,8 @@ class BulkLine:
         """See `Host.learn`."""
         return self._source.learn(type, definition)
 
+    def learn_service(self, type: str, request: str, response: str) -> None:
+        """Do nothing: the first connection calls services."""
+
     def look(self) -> None:
         """Do nothing: the first connection has the same."""

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from webviz.data.messages import MessageError, register, type_exists
+import contextlib
+
+from webviz.data.messages import MessageError, interfaces, register, type_exists
 
 MAX_TEXT = 1 << 20
 """Characters of a definition with all its nested types; the longest of ROS have a tenth of it."""
@@ -13,6 +15,7 @@ class Definitions:
 
     def __init__(self) -> None:
         self._learned: dict[str, tuple[str, str]] = {}
+        self._services = set[str]()
 
     def learn(self, type: str, text: str) -> str:
         """Register a type.
@@ -30,6 +33,19 @@ class Definitions:
         problem = self._problem(type, text)
         self._learned[type] = text, problem
         return problem
+
+    def learn_service(self, type: str, request: str, response: str) -> None:
+        """Register a service type, unless it is known; what is invalid stays unknown.
+
+        Args:
+            type: its name, such as "my_robot_msgs/srv/SetMode".
+            request, response: definitions, see `webviz.data.messages.register`; "" if it is empty.
+        """
+        if type in self._services or max(len(request), len(response)) > MAX_TEXT:
+            return
+        self._services.add(type)
+        with contextlib.suppress(MessageError, RecursionError):
+            interfaces.learn(type, request, response)
 
     def problem(self, type: str) -> str:
         """Why messages of a type that was learned cannot be read, "" if they can."""

@@ -231,6 +231,8 @@ class FoxgloveSession:
             case wire.AdvertiseServices():
                 for service in message.services[: MAX_SERVICES - len(self._services)]:
                     self._services[service.name] = service
+                    if (texts := service.definitions) is not None:
+                        self._host.learn_service(service.type, *texts)
             case wire.UnadvertiseServices():
                 gone = set(message.service_ids)
                 self._services = {n: s for n, s in self._services.items() if s.id not in gone}

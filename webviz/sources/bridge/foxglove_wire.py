@@ -56,12 +56,34 @@ class Unadvertise(_Struct):
     channel_ids: tuple[int, ...]
 
 
+class ServiceSchema(_Struct):
+    """The definition of a request or response; `encoding` is of the messages."""
+
+    encoding: str = ""
+    schema: str = ""
+
+
 class ServiceOffer(_Struct):
-    """A service of the server."""
+    """A service of the server, of which older ones send the definitions as texts alone."""
 
     id: int
     name: str
     type: str
+    request: ServiceSchema | None = None
+    response: ServiceSchema | None = None
+    request_schema: str = ""
+    response_schema: str = ""
+
+    @property
+    def definitions(self) -> tuple[str, str] | None:
+        """Return the definitions of request and response; None if they are not of ROS 2."""
+        both = self.request, self.response
+        if any(each is not None and each.encoding not in ("", "cdr") for each in both):
+            return None
+        return (
+            self.request.schema if self.request else self.request_schema,
+            self.response.schema if self.response else self.response_schema,
+        )
 
 
 class AdvertiseServices(_Struct):

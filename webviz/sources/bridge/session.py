@@ -66,6 +66,10 @@ class Host(Protocol):
         """Register a message type; the problem of its definition, "" if it is known then."""
         ...
 
+    def learn_service(self, type: str, request: str, response: str) -> None:
+        """Register a service type by its definitions, unless it is known."""
+        ...
+
     def look(self) -> None:
         """Read the topics, nodes and remarks again, as they have changed."""
         ...

@@ -216,6 +216,10 @@ class BridgeSource:
         """Register a message type; the problem of its definition, "" if it is known then."""
         return self._definitions.learn(type, definition)
 
+    def learn_service(self, type: str, request: str, response: str) -> None:
+        """Register a service type by its definitions, unless it is known."""
+        self._definitions.learn_service(type, request, response)
+
     def look(self) -> None:
         """Read topics, nodes and remarks soon."""
         if not self._is_look_due:
