@@ -63,6 +63,12 @@ def _broken(site: Path, pages: dict[Path, Anchors]) -> Iterator[str]:
                 yield f"{path.relative_to(site)}: no heading {link}"
 
 
+def test_a_run_is_embedded_and_small(site: Path) -> None:
+    page, run = site / "run/index.html", site / "runs/building.html"
+    assert '<iframe src="../runs/building.html"' in page.read_text(encoding="utf-8")
+    assert 1_000_000 < run.stat().st_size < 6_000_000
+
+
 def test_pages_load_nothing_from_elsewhere(site: Path) -> None:
     text = (site / "index.html").read_text(encoding="utf-8")
     assert re.findall(r"""(?:src|rel="stylesheet" href)=["']?(https?:[^"' >]*)""", text) == []

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from ruamel.yaml import YAML
 
+from tests.site import example
 from tests.site.pages import DOCS, ROOT, pages, write
 
 Entry = dict[str, object]
@@ -20,6 +21,7 @@ TASKS = {
     "Home": "README.md",
     "Start": {
         "Installing": "installing/README.md",
+        "A run in your browser": example.NAME,
         "The page": "page/README.md",
         "RViz2's tasks": "page/rviz2_tasks.md",
         "Compared with others": "page/comparison.md",
@@ -100,6 +102,7 @@ def build(folder: Path) -> Path:
     """
     shutil.rmtree(folder, ignore_errors=True)
     write(folder / "docs")
+    example.write(folder / "docs")
     config = folder / "zensical.toml"
     config.write_text(CONFIG.format(nav=_toml(_nav())), encoding="utf-8")
     subprocess.run(
@@ -113,7 +116,8 @@ def build(folder: Path) -> Path:
 def _nav() -> list[Entry]:
     """The pages in the order of the menu; those of no chapter are found by links and search."""
     chapters: Entry = {**TASKS, "Displays": _displays(), "About": ABOUT}
-    return [_entry(title, what, pages()) for title, what in chapters.items()]
+    known = {**pages(), example.NAME: example.NAME}
+    return [_entry(title, what, known) for title, what in chapters.items()]
 
 
 def _displays() -> Entry:
