@@ -85,6 +85,7 @@ def test_a_path_through_an_obstacle(webviz_harness: Make) -> None:
             "DATA007 /scan",
             {"ranges": [2500.0, 2400.0, 2300.0, 2200.0, 2100.0], "range_max": 5000.0},
         ),
+        ("DATA007 /scan", {"ranges": [2500.0, 2400.0, 2300.0, 2200.0, 2100.0]}),
         ("DATA008 /scan", {"ranges": [2.0] * 9}),
         ("", {"ranges": [math.inf] * 5}),
         ("", {"ranges": [2.0] * 5}),

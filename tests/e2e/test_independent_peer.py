@@ -7,6 +7,7 @@ import os
 import signal
 import subprocess
 import sys
+import time
 import venv
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -16,6 +17,7 @@ import pytest
 from program import Program
 from side import Side
 
+import webviz
 from webviz.shell.pictures.browser import Page
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
@@ -40,6 +42,7 @@ ROBOT = """
 <limit lower="0.25" upper="0.75" effort="1" velocity="1"/></joint></robot>
 """
 
+PATIENCE_S = 60.0
 SENT = {
     "goal_pose": ("g", r"PoseStamped\(header=Header\(.*frame_id='map'\).*z=0\.0"),
     "initialpose": ("p", r"PoseWithCovarianceStamped\(header=Header\(.*frame_id='map'\).*0\.25, "),
@@ -125,6 +128,38 @@ def count(page: Page, rgb: tuple[int, int, int]) -> int:
     """Pixels of about one colour."""
     page.draw()
     return int((np.abs(page.pixels().astype(int) - rgb).max(axis=2) < 40).sum())
+
+
+SILENT = """
+import sys, time
+sys.path.insert(0, sys.argv[1])
+from cyclone_peer import SENSOR, DataWriter, DomainParticipant, LaserScan, Topic
+participant = DomainParticipant(int(sys.argv[2]))
+writer = DataWriter(participant, Topic(participant, "rt/scan", LaserScan), qos=SENSOR)
+time.sleep(120)
+"""
+
+
+def test_a_program_without_a_node_that_sends_nothing(
+    peer_python: str, domain: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    env = {k: v for k, v in os.environ.items() if k != "_ROS_WHEELS_BOOTSTRAP_COMPLETE"}
+    command = [peer_python, "-c", SILENT, str(PEER.parent), domain]
+    # With this, rclpy announces itself to other processes in a way that only Fast DDS looks for.
+    monkeypatch.delenv("ROS_AUTOMATIC_DISCOVERY_RANGE", raising=False)
+    config = tmp_path / "scan.yaml"
+    config.write_text("fixed_frame: map\ndisplays: [{type: LaserScan}]\n")
+    with webviz.Viewer(config, port=0) as viewer:
+
+        def wait_until(is_found: bool) -> None:
+            until = time.monotonic() + PATIENCE_S
+            while ("GRAPH013" in {each.id for each in viewer.doctor()}) != is_found:
+                assert time.monotonic() < until, [each.cause for each in viewer.doctor()]
+
+        program = Program(command, env, tmp_path / "silent.txt")
+        wait_until(True)
+        program.end(signal.SIGTERM)
+        wait_until(False)
 
 
 def test_it_sees_everything_the_peer_publishes(

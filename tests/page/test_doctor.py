@@ -17,6 +17,7 @@ from webviz.engine.state.latency import BrowserLatency, Latency, Stage
 from webviz.page.content.doctor import findings
 from webviz_displays.grid import Grid
 
+EXAMINED_NS = 3_607_000_000_000
 HOSTILE = "<img src=x onerror=alert(1)>"
 MISSPELT = Finding(
     id="TF002",
@@ -28,6 +29,7 @@ MISSPELT = Finding(
     explains=(Symptom("", "Fixed Frame"), Symptom("1", "Transform")),
     evidence={"fixed_frame": "mapp", "known": ("map", "odom")},
     began_s=100.0,
+    first_ns=3_600_000_000_000,
 )
 NOTE = Finding(
     id="NET005",
@@ -46,7 +48,7 @@ def panel(tab: Tab) -> Iterator[Tab]:
     tab.page.keyboard.press("Enter")
     tab.turn()
     yield tab
-    tab.loop.state = replace(tab.loop.state, findings=())
+    tab.loop.state = replace(tab.loop.state, findings=(), examined_ns=0)
     tab.turn()
     tab.show_tab("Displays")
 
@@ -56,20 +58,23 @@ def show(tab: Tab, *found: Finding) -> None:
     row = Row("1", "Grid", Grid(name="Scan"), "Scan", {"Transform": late, "Points": late})
     well = Row("2", "Grid", Grid(name="Ground"), "Ground", {})
     unknown = {"Fixed Frame": Status(Level.ERROR, "Unknown.")}
-    tab.loop.show(well, row, findings=found, statuses=unknown)
+    tab.loop.show(well, row, findings=found, statuses=unknown, examined_ns=EXAMINED_NS)
     tab.turn()
 
 
 def test_findings_have_causes_remedies_and_what_they_explain(panel: Tab) -> None:
     page = panel.page
+    expect(page.get_by_text("The doctor examines the viewer.")).to_be_visible()
+    show(panel)
     expect(page.get_by_text("All is well")).to_be_visible()
     show(panel, MISSPELT, NOTE)
+    expect(page.locator(".wv-finding-examined")).to_have_text("As of 1:00:07.")
     expect(page.locator(".wv-finding")).to_have_count(2)
     first = page.locator(".wv-finding").first
     expect(first).to_contain_text('TF002The fixed frame "mapp" does not exist, but "map" does.')
     expect(first).to_contain_text("Explains Fixed Frame, Scan: Transform.")
     expect(first.locator("code").first).to_have_text("ros2 run tf2_tools view_frames")
-    expect(first).to_contain_text("Evidence: fixed frame mapp; known map, odom.")
+    expect(first).to_contain_text("Since 1:00:00. Evidence: fixed frame mapp; known map, odom.")
     first.get_by_role("button", name="Go to 0:01:40").click()
     panel.wait_for(lambda: panel.loop.commands[-1:] == [Seek(100.0)])
     expect(page.locator(".wv-finding").last).to_contain_text(HOSTILE)

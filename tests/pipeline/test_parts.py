@@ -204,7 +204,14 @@ def test_every_command_and_every_field_of_the_state_has_one_owner(
     b = bench()
     parts = b.viewer._parts._parts
     owned = [name for part in parts for name in part.state()]
-    of_loop = ("statuses", "warned", "findings", "found", "more")  # made of what all parts say
+    of_loop = (
+        "statuses",
+        "warned",
+        "findings",
+        "examined_ns",
+        "found",
+        "more",
+    )  # made of what all parts say
     assert sorted([*owned, *of_loop]) == sorted(field.name for field in fields(State))
     public = [getattr(commands, name) for name in commands.__all__]
     asked = {cls for cls in public if isinstance(cls, type) and issubclass(cls, Command)}

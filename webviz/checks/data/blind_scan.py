@@ -9,6 +9,7 @@ import numpy as np
 from webviz.api.check import Check
 from webviz.api.finding import Finding
 from webviz.api.observation import Observation
+from webviz.checks.data.millimetres import FARTHEST_M, middle_of
 
 SCAN = "sensor_msgs/msg/LaserScan"
 
@@ -34,8 +35,8 @@ class BlindScan(Check):
             ranges = np.asarray(scan.ranges)
             if not len(ranges) or ((ranges >= scan.range_min) & (ranges <= scan.range_max)).any():
                 continue
-            if np.isposinf(ranges).all():
-                continue  # it looks into the open
+            if np.isposinf(ranges).all() or middle_of(ranges) > FARTHEST_M:
+                continue  # it looks into the open, or has another unit
             yield self.found(
                 f"No range on {each.topic} is between {scan.range_min:g} and {scan.range_max:g} m.",
                 "Clean the laser, and check its limits in the driver.",

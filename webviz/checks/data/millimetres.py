@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from webviz.api.check import Check
 from webviz.api.finding import Finding
@@ -33,10 +35,8 @@ class Millimetres(Check):
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each such topic."""
         for display, each in seen.samples(SCAN):
-            ranges = np.asarray(each.message.ranges)
-            # `np.median` imports numpy.ma, 8 ms of the frame loop.
-            ranges = np.sort(ranges[np.isfinite(ranges) & (ranges > 0.0)])
-            if len(ranges) and (middle := float(ranges[len(ranges) // 2])) > FARTHEST_M:
+            middle = middle_of(np.asarray(each.message.ranges))
+            if middle > FARTHEST_M:
                 yield self.found(
                     f"The ranges on {each.topic} are millimetres: half of them are above "
                     f"{middle:.0f} m.",
@@ -46,3 +46,10 @@ class Millimetres(Check):
                     command=f"ros2 topic echo --once {each.topic}",
                     explains=(*display.symptom("Points"), *display.symptom("Map")),
                 )
+
+
+def middle_of(ranges: NDArray[Any]) -> float:
+    """Return the median of the ranges that are positive numbers, 0 without any."""
+    # `np.median` imports numpy.ma, 8 ms of the frame loop.
+    ranges = np.sort(ranges[np.isfinite(ranges) & (ranges > 0.0)])
+    return float(ranges[len(ranges) // 2]) if len(ranges) else 0.0

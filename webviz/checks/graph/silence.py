@@ -6,6 +6,11 @@ from webviz.api.observation import DisplaySeen, InputSeen, Observation
 from webviz.api.offer import Offer
 
 
+def is_nameless(offer: Offer) -> bool:
+    """Return whether no publisher belongs to a node, though that would be known."""
+    return all(not each.node and each.is_qos_known for each in offer.publishers)
+
+
 def is_silent(seen: Observation, display: DisplaySeen, each: InputSeen, offer: Offer) -> bool:
     """Return whether a topic is published and matches, but has sent nothing yet."""
     publishers = [p for p in offer.publishers if p.type in each.types]

@@ -8,7 +8,7 @@ from webviz.api.check import Check
 from webviz.api.finding import Finding, Severity
 from webviz.api.observation import Observation
 from webviz.checks.graph.inactive_node import lifecycle_nodes
-from webviz.checks.graph.silence import is_silent
+from webviz.checks.graph.silence import is_nameless, is_silent
 
 STREAMS = {
     *(
@@ -60,7 +60,9 @@ class SilentPublisher(Check):
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each topic that is published, matches, and is silent."""
         for display, each, offer in seen.starved():
-            if not is_silent(seen, display, each, offer) or lifecycle_nodes(seen, offer.publishers):
+            if not is_silent(seen, display, each, offer) or is_nameless(offer):
+                continue
+            if lifecycle_nodes(seen, offer.publishers):
                 continue
             publishers = [p for p in offer.publishers if p.type in each.types]
             node = publishers[0].label

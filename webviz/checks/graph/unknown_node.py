@@ -7,16 +7,19 @@ from collections.abc import Iterator
 from webviz.api.check import Check
 from webviz.api.finding import Finding, Severity
 from webviz.api.observation import Observation
+from webviz.checks.graph.silence import is_nameless, is_silent
+from webviz.checks.graph.silent_publisher import STREAMS
 
 
 class UnknownNode(Check):
     """Publisher of an unknown node.
 
-    A topic has a publisher that belongs to no known ROS node.
+    A topic has a publisher that belongs to no known ROS node, and no message has arrived. Of goals,
+    paths and others that are sent on an event it is a note.
 
     Why:
         It is a program of DDS without ROS, such as a bridge, or a node whose announcement was lost.
-        If it sends nothing, its node cannot be asked why.
+        No node can be asked why it sends nothing.
 
     Repair:
         Start discovery again, and look at the endpoint:
@@ -29,14 +32,12 @@ class UnknownNode(Check):
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each such topic."""
         for display, each, offer in seen.starved():
-            if each.received or not offer.publishers:
-                continue
-            if all(not publisher.node for publisher in offer.publishers):
+            if is_silent(seen, display, each, offer) and is_nameless(offer):
                 yield self.found(
                     f"The publisher of {each.topic} belongs to no known node and sends nothing.",
                     "Check the DDS program or bridge that offers the topic.",
                     subject=each.topic,
-                    severity=Severity.NOTE,
+                    severity=Severity.WARNING if {*each.types} & STREAMS else Severity.NOTE,
                     evidence={"publishers": len(offer.publishers)},
                     command=f"ros2 topic info -v {each.topic}",
                     explains=display.symptom(each.status),

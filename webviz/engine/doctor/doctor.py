@@ -91,6 +91,8 @@ class Doctor:
         self._noted: dict[Key, Event] = {}
         self.events: Sequence[Event] = ()
         """When findings began, as far as the recording was shown; each is noted once."""
+        self.examined_ns = 0
+        """ROS time of the last round, 0 before the first."""
         self.findings: Sequence[Finding] = ()
         """Of the last round, the one to repair first at the beginning."""
 
@@ -174,6 +176,7 @@ class Doctor:
             for each in ordered(steady)
         )
         self.rounds += 1
+        self.examined_ns = now_ns
         if state.playback is not None:
             at_ns = state.playback.start_ns + round(state.playback.position_s * 1e9)
             self._note(at_ns)

@@ -363,7 +363,8 @@ class FrameLoop:
             warned=self._playback.warned(state.rows),
         )
         findings = self._guard.attempt("Doctor", (), self.doctor.examine, seen)
-        return replace(seen, findings=findings, found=self.doctor.events)
+        doctor = self.doctor
+        return replace(seen, findings=findings, found=doctor.events, examined_ns=doctor.examined_ns)
 
     def is_busy(self) -> bool:
         """Return whether a display is loading something that it has not drawn yet."""

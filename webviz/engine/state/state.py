@@ -349,6 +349,7 @@ class State:
         logged: warnings and errors that its nodes logged, by time.
         warned: when displays began to warn, as far as it was shown, by time.
         findings: of the doctor, the one to repair first at the beginning.
+        examined_ns: ROS time of that examination; 0 before the first, or while it is unknown.
         found: when findings began, as far as a recording was shown, by time.
         memory: what is remembered of live topics, None for a recording.
         recording: the one that goes on, None for none.
@@ -388,6 +389,7 @@ class State:
     logged: Sequence[Event] = ()
     warned: Sequence[Event] = ()
     findings: Sequence[Finding] = ()
+    examined_ns: int = 0
     found: Sequence[Event] = ()
     memory: MemoryState | None = None
     recording: RecordingState | None = None

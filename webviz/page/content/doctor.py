@@ -38,6 +38,7 @@ class ShownFinding(msgspec.Struct, frozen=True):
 
     Args:
         level: "ok" for a note, "warn" or "error".
+        since: when it was first seen, in seconds since 1970; None while time is unknown.
         evidence: what was observed, pairs of a name and a value.
         began: when it was first seen in the recording or in the memory of live topics, in seconds
             since 1970 and from the start; None without one.
@@ -50,6 +51,7 @@ class ShownFinding(msgspec.Struct, frozen=True):
     subject: str
     level: str
     cause: str
+    since: float | None
     evidence: Sequence[tuple[str, str]]
     began: tuple[float, float] | None
     remedy: str
@@ -61,16 +63,22 @@ class ShownFinding(msgspec.Struct, frozen=True):
 
 
 class FindingsStore(PageStore, frozen=True):
-    """The findings, the one to repair first at the beginning."""
+    """The findings, the one to repair first at the beginning.
+
+    Args:
+        examined: when that was, in whole seconds since 1970; None before the first examination.
+    """
 
     all: Sequence[ShownFinding]
+    examined: int | None = None
 
 
 def findings(state: State, _: str) -> FindingsStore:
     """Return the findings of the last round."""
     names = {row.id: row.name for row in state.rows}
     start_s = state.playback.start_ns / NS_PER_S if state.playback else 0.0
-    return FindingsStore([_finding(each, names, start_s) for each in state.findings])
+    examined = int(state.examined_ns / NS_PER_S) if state.examined_ns else None
+    return FindingsStore([_finding(each, names, start_s) for each in state.findings], examined)
 
 
 def _finding(finding: Finding, names: Mapping[str, str], start_s: float) -> ShownFinding:
@@ -81,6 +89,7 @@ def _finding(finding: Finding, names: Mapping[str, str], start_s: float) -> Show
         subject=brief(finding.subject),
         level=LEVELS[finding.severity],
         cause=brief(finding.cause),
+        since=round(finding.first_ns / NS_PER_S, 3) if finding.first_ns else None,
         evidence=[
             (name.replace("_", " "), brief(_fact(v))) for name, v in finding.evidence.items()
         ],

@@ -16,6 +16,7 @@ import { stampToScreen } from "./latency.js";
 import { isSevere, keyOf, takeWanted } from "./findings.js";
 
 const WELL = "All is well: no check found a problem.";
+const EXAMINING = "The doctor examines the viewer.";
 
 /** @import {ShownFinding, ExplainedStatus} from "../contents.js" */
 
@@ -26,10 +27,18 @@ export const doctor = {
   /** @param {HTMLElement} element */
   open(element) {
     const list = el("ol", { class: "wv-findings", "aria-label": "Findings" });
-    const empty = el("p", { class: "wv-empty", role: "status" }, WELL);
+    const empty = el("p", { class: "wv-empty", role: "status" }, EXAMINING);
+    const examined = el("p", { class: "wv-quiet wv-finding-examined" });
     const latency = stampToScreen();
     element.append(
-      el("section", { class: "wv-doctor", "aria-label": "Doctor" }, empty, list, latency.element),
+      el(
+        "section",
+        { class: "wv-doctor", "aria-label": "Doctor" },
+        empty,
+        examined,
+        list,
+        latency.element,
+      ),
     );
     /** @type {Set<string>} */
     const unfolded = new Set();
@@ -37,7 +46,11 @@ export const doctor = {
 
     const end = watch("findings", (values) => {
       const all = values.get("all") ?? [];
+      const at = values.get("examined") ?? null;
       set(empty, { hidden: all.length > 0 });
+      setText(empty, at === null ? EXAMINING : WELL);
+      set(examined, { hidden: at === null });
+      setText(examined, at === null ? "" : `As of ${clock(at)}.`);
       if (JSON.stringify(all) === shown) return;
       shown = JSON.stringify(all);
       const isFirst = all.filter(isSevere).length > 1;
@@ -59,7 +72,7 @@ export const doctor = {
  * @param {boolean} isFirst whether it is to be repaired before others
  */
 function item(finding, unfolded, isFirst) {
-  const { id, level, cause, evidence, began, remedy, command } = finding;
+  const { id, level, cause, since, evidence, began, remedy, command } = finding;
   const { explains, button, why, repair } = finding;
   const key = keyOf(finding);
   const more = el(
@@ -90,14 +103,24 @@ function item(finding, unfolded, isFirst) {
           began ? goTo(began) : "",
         )
       : "",
-    evidence.length
-      ? el("p", { class: "wv-quiet" }, `Evidence: ${evidence.map(fact).join("; ")}.`)
-      : "",
+    since || evidence.length ? el("p", { class: "wv-quiet" }, seen(since, evidence)) : "",
     explains.length
       ? el("p", { class: "wv-quiet" }, "Explains ", ...explains.flatMap(explained), ".")
       : "",
     more,
   );
+}
+
+/** @param {number} at in seconds since 1970 */
+const clock = (at) => timeOfDay(at).split(" ").at(-1);
+
+/**
+ * @param {number | null} since when it was first seen
+ * @param {ReadonlyArray<readonly [string, string]>} evidence
+ */
+function seen(since, evidence) {
+  const time = since === null ? "" : `Since ${clock(since)}. `;
+  return time + (evidence.length ? `Evidence: ${evidence.map(fact).join("; ")}.` : "");
 }
 
 /** @param {readonly [string, string]} evidence a name and a value */
@@ -109,7 +132,7 @@ const fact = ([name, value]) => `${name} ${value}`;
  * @param {readonly [number, number]} began in seconds since 1970, and from the start
  */
 function goTo([at, position]) {
-  const text = `Go to ${timeOfDay(at).split(" ").at(-1)}`;
+  const text = `Go to ${clock(at)}`;
   const onclick = () => act("Seek", { at_s: position });
   return needs("Seek", el("button", { type: "button", class: "wv-button", onclick }, text));
 }
