@@ -18,11 +18,23 @@ from webviz.server.sending.thinning import chosen
 
 ALIGNMENT = 8
 """Bytes; browsers make numbers only of what is aligned."""
-LEVEL = 6
-"""Of compression."""
+LEVEL = 9
+"""Of compression: a twentieth smaller than the usual one, for half a second a minute of a run."""
 SHUFFLED_BYTES = 256
 """Arrays from this size on have the first bytes of all their numbers first, then the second ones
 and so on, which compresses floats by a third more."""
+
+
+SHARED_BYTES = 1 << 10
+"""Columns of values from this size on have the numbers of their items, each of which a chunk has
+once: compression does not see as far back as the trail with one point less."""
+COLUMN = b'{"each":['
+
+
+class _Column(msgspec.Struct):
+    """The values of many items; see `webviz.engine.pipeline.selectable`."""
+
+    each: list[msgspec.Raw]
 
 
 @dataclass(frozen=True)
@@ -96,6 +108,7 @@ class TapeChunk:
     pictures: list[int] = field(default_factory=list[int])
     frames: list[Any] = field(default_factory=list[Any])
     buffers: Buffers = field(default_factory=Buffers)
+    shared: dict[bytes, int] = field(default_factory=dict[bytes, int])
     json_bytes: int = 0
     has_clouds: bool = False
 
@@ -119,8 +132,22 @@ class TapeChunk:
 
     def add_value(self, kind: str, value: msgspec.Raw) -> None:
         """Add a value of a store; those of a kind are alike, and compressed side by side."""
+        data = bytes(value)
+        if len(data) >= SHARED_BYTES and data.startswith(COLUMN):
+            value = self._with_shared(data)
         self.json_bytes += len(bytes(value))
         self.values.append((kind, value))
+
+    def _with_shared(self, column: bytes) -> msgspec.Raw:
+        """Return a column with the numbers of its items."""
+        numbers: list[int] = []
+        for item in msgspec.json.decode(column, type=_Column).each:
+            data = bytes(item)
+            if data not in self.shared:
+                self.shared[data] = len(self.shared)
+                self.json_bytes += len(data)
+            numbers.append(self.shared[data])
+        return msgspec.Raw(msgspec.json.encode({"__each": numbers}))
 
     def add_picture(self, data: bytes) -> None:
         """Add a picture of a pane as pages receive it."""
@@ -142,6 +169,7 @@ class TapeChunk:
                     "first": self.first_value,
                     "items": [self.values[number][1] for number in order],
                     "places": [places[number] for number in range(len(order))],
+                    "shared": [msgspec.Raw(data) for data in self.shared],
                 },
                 "pictures": {"first": self.first_picture, "items": self.pictures},
                 "start": self.start,

@@ -35,7 +35,11 @@ const made = (chunk, number) =>
  * @param {Chunk} chunk
  * @param {number} number
  */
-const valueIn = ({ values: { first, items, places } }, number) => items[places[number - first]];
+function valueIn({ values: { first, items, places, shared } }, number) {
+  const item = /** @type {any} */ (items[places[number - first]]);
+  if (!item?.__each) return item;
+  return { each: item.__each.map((/** @type {number} */ one) => shared[one]) };
+}
 
 /**
  * Returns `{show(at), ros(), watch(store), unwatch(store), enable(display, enabled), repeat(display)}`.

@@ -18,8 +18,9 @@ export type RecordedFrame = [
 /** Some seconds of the run, with the numbers of the first message, value and picture in it. */
 export interface RawChunk {
   messages: { first: number; items: SceneItem[] };
-  /** Items in another order than their numbers, with the place of each number. */
-  values: { first: number; items: unknown[]; places: number[] };
+  /** Items in another order than their numbers, with the place of each number; columns may have the
+   * numbers of items that several share. */
+  values: { first: number; items: unknown[]; places: number[]; shared: unknown[] };
   pictures: { first: number; items: number[] };
   start: {
     scene: number[];

@@ -1,0 +1,45 @@
+"""Chunks of exported runs: what is repeated within them."""
+
+from __future__ import annotations
+
+import json
+import zlib
+from typing import Any
+
+import msgspec
+
+from webviz.shell.export.chunks import SHARED_BYTES, TapeChunk
+
+GZIP = 31
+
+
+def values_in(chunk: TapeChunk) -> list[Any]:
+    """The values as a page reads them."""
+    data = zlib.decompress(chunk.packed(), GZIP)
+    size = int.from_bytes(data[:4], "little")
+    values = json.loads(data[4 : 4 + size])["values"]
+    items = [values["items"][place] for place in values["places"]]
+    return [
+        {"each": [values["shared"][number] for number in item["__each"]]}
+        if isinstance(item, dict) and "__each" in item
+        else item
+        for item in items
+    ]
+
+
+def test_a_trail_that_moves_on_is_not_repeated() -> None:
+    points = [{"fields": {"Position": f"{x * 0.37:.4f}, {x * 0.11:.4f}, 0 m"}} for x in range(600)]
+    trails = [{"each": points[first : first + 500]} for first in range(100)]
+    chunk = TapeChunk(0, 0, 0)
+    for trail in trails:
+        chunk.add_value("values .Pose", msgspec.Raw(msgspec.json.encode(trail)))
+    assert values_in(chunk) == trails
+    assert chunk.size < 500_000 < sum(len(json.dumps(trail)) for trail in trails)
+
+
+def test_other_values_stay_as_they_are() -> None:
+    small, other = {"each": [1, None, "a"]}, {"all": "x" * 2 * SHARED_BYTES}
+    chunk = TapeChunk(0, 0, 0)
+    for value in (small, other, [1, 2], None):
+        chunk.add_value("some", msgspec.Raw(msgspec.json.encode(value)))
+    assert values_in(chunk) == [small, other, [1, 2], None]
