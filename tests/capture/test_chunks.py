@@ -7,8 +7,9 @@ import zlib
 from typing import Any
 
 import msgspec
+import numpy as np
 
-from webviz.shell.export.chunks import SHARED_BYTES, TapeChunk
+from webviz.shell.export.chunks import SHARED_BYTES, Buffers, TapeChunk
 
 GZIP = 31
 
@@ -43,3 +44,21 @@ def test_other_values_stay_as_they_are() -> None:
     for value in (small, other, [1, 2], None):
         chunk.add_value("some", msgspec.Raw(msgspec.json.encode(value)))
     assert values_in(chunk) == [small, other, [1, 2], None]
+
+
+def test_arrays_that_are_alike_are_compressed_side_by_side() -> None:
+    chance = np.random.default_rng(0)
+    noise = [chance.random(500, np.float32) for _ in range(20)]
+    steps = [np.arange(500, dtype=np.float32) + k for k in range(20)]
+    arrays = [array for pair in zip(noise, steps, strict=True) for array in pair]
+    sizes = {}
+    for kinds in (("", ""), ("noise", "steps")):
+        buffers = Buffers()
+        for number, array in enumerate(arrays):
+            assert buffers.add(memoryview(array), "<f4", kind=kinds[number % 2]) == number
+        index, packed = buffers.packed(1)
+        sizes[kinds] = len(zlib.compress(packed))
+        for array, (start, size, width) in zip(arrays, index, strict=True):
+            shuffled = np.frombuffer(packed[start : start + size], np.uint8).reshape(width, -1)
+            assert np.array_equal(np.ascontiguousarray(shuffled.T).view("<f4").ravel(), array)
+    assert sizes["noise", "steps"] < 0.95 * sizes["", ""]

@@ -45,11 +45,13 @@ class _Buffer:
         data: an array, or bytes.
         width: size of its numbers in bytes if these are shuffled, else 1.
         rows: how many points it has, 0 if it is not of a cloud.
+        kind: of buffers that are alike, and compressed side by side.
     """
 
     data: memoryview
     width: int
     rows: int = 0
+    kind: str = ""
 
     def packed(self, every: int) -> bytes:
         """Return the bytes as they are compressed, of a cloud with one of `every` points."""
@@ -69,22 +71,22 @@ class Buffers:
         self.size = 0
         """Bytes before compression."""
 
-    def add(self, data: memoryview | bytes, dtype: str = "", rows: int = 0) -> int:
+    def add(self, data: memoryview | bytes, dtype: str = "", rows: int = 0, kind: str = "") -> int:
         """Add an array or bytes; its number."""
         view = memoryview(data)
         item = np.dtype(dtype).itemsize if dtype else 1
         width = item if item > 1 and view.nbytes >= SHUFFLED_BYTES else 1
-        self._all.append(_Buffer(view, width, rows))
+        self._all.append(_Buffer(view, width, rows, kind))
         self.size += view.nbytes
         return len(self._all) - 1
 
     def packed(self, every: int) -> tuple[list[tuple[int, int, int]], bytes]:
         """Start, size and width of each, and all of them."""
-        whole, index = bytearray(), list[tuple[int, int, int]]()
-        for buffer in self._all:
+        whole, index = bytearray(), [(0, 0, 1)] * len(self._all)
+        for number, buffer in sorted(enumerate(self._all), key=lambda each: each[1].kind):
             data = buffer.packed(every)
             whole += bytes(-len(whole) % ALIGNMENT)
-            index.append((len(whole), len(data), buffer.width))
+            index[number] = len(whole), len(data), buffer.width
             whole += data
         return index, bytes(whole)
 
@@ -122,8 +124,15 @@ class TapeChunk:
         rows = _points_of(message)
         self.has_clouds |= rows > 0
         own = [
-            self.buffers.add(data, dtype, rows if (data.shape or ())[:1] == (rows,) else 0)
-            for data, dtype in zip(message.buffers, _dtypes(message.content), strict=True)
+            self.buffers.add(
+                data,
+                dtype,
+                rows if (data.shape or ())[:1] == (rows,) else 0,
+                f"{place} {message.key}",
+            )
+            for place, (data, dtype) in enumerate(
+                zip(message.buffers, _dtypes(message.content), strict=True)
+            )
         ]
         content = _plain(message.content, own, self.buffers)
         encoded = msgspec.json.encode([message.key, message.node, message.phase, content])
