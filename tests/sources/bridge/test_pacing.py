@@ -17,6 +17,7 @@ TICK_S = 0.01
 CHUNK = 1448
 SCAN, CLOUD = "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/PointCloud2"
 IMAGE, MAP = "sensor_msgs/msg/CompressedImage", "nav_msgs/msg/OccupancyGrid"
+VIDEO = "foxglove_msgs/msg/CompressedVideo"
 TF, MARKERS = "tf2_msgs/msg/TFMessage", "visualization_msgs/msg/MarkerArray"
 
 
@@ -244,7 +245,8 @@ def test_a_topic_that_is_silent_stays_subscribed_to_longer_and_keeps_no_other_ou
         (CLOUD, (Lookback(count=1),), True),
         (SCAN, (Lookback(seconds=2.0), Lookback(count=1)), True),
         (MARKERS, (Lookback(),), False),
-        (IMAGE, (Lookback(count=1, chooses=lambda newest: [0]),), False),
+        (IMAGE, (Lookback(starts_over=lambda message, type: True),), True),
+        (VIDEO, (Lookback(starts_over=lambda message, type: True),), False),
         (MAP, (Lookback(count=1),), False),
         (TF, (Lookback(seconds=15.0),), False),
     ],

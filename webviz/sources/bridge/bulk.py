@@ -133,11 +133,14 @@ class BulkLine:
                 self._refuse(False)
                 session.start()
                 self._subscribe()
-                await first_of(
-                    read(socket, session, lambda problem: None),
-                    write(socket, self._outbox),
-                    self._pace(socket),
-                )
+                try:
+                    await first_of(
+                        read(socket, session, lambda problem: None),
+                        write(socket, self._outbox),
+                        self._pace(socket),
+                    )
+                finally:
+                    socket.transport.abort()  # what is on its way would come before the farewell
         except (OSError, WebSocketException):  # the first connection says what is wrong
             self._refuse(True)
         finally:

@@ -32,6 +32,7 @@ LARGE_TYPES = frozenset(
 LARGE = 48 << 10
 """Bytes of a large message."""
 TF_TYPE = "tf2_msgs/msg/TFMessage"
+PICTURE_TYPES = frozenset(("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"))
 STREAMED_TYPES = frozenset(("nav_msgs/msg/OccupancyGrid", "map_msgs/msg/OccupancyGridUpdate"))
 """Types that are not thinned: each subscription would bring a whole map again."""
 FIRST_RATE, MIN_RATE, MAX_RATE = 250e3, 4e3, 100e6
@@ -74,6 +75,8 @@ RECENT_S = 5.0
 
 def is_thinnable(wish: Subscription) -> bool:
     """Return whether messages may be left out, since each is shown alone."""
+    if wish.type in PICTURE_TYPES:
+        return True  # displays of images also read video, of which each needs those before
     return wish.type not in STREAMED_TYPES | {TF_TYPE} and all(
         (each.count or each.seconds) and not (each.since or each.starts_over or each.chooses)
         for each in wish.lookbacks
