@@ -19,6 +19,8 @@ from tests.release.archives import ROOT, build, digest
 PYTHONS = ("3.11", "3.12", "3.13")
 PACKAGE = "ros-webviz"
 RETRY_S = 0.5
+OWN = ("PYTHONPATH", "LD_LIBRARY_PATH", "_ROS_WHEELS_BOOTSTRAP_COMPLETE")
+"""Variables of this environment, by which a new one would load the libraries of this one."""
 
 
 def main() -> None:
@@ -94,7 +96,7 @@ def _run_demo(python: str, archive: Path, folder: Path) -> None:
         [scripts / "python", "-m", "pip", "install", "-q", f"{PACKAGE}[ros] @ {archive.as_uri()}"],
         check=True,
     )
-    env = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"} | {"PYTHONUNBUFFERED": "1"}
+    env = {k: v for k, v in os.environ.items() if k not in OWN} | {"PYTHONUNBUFFERED": "1"}
     demo = Program(
         [str(scripts / "webviz"), "demo", "--port", "0"], env, folder / "log", cwd=folder
     )
