@@ -83,7 +83,7 @@ def late_s(fleet: Fleet, topic: str, type: str) -> float:
 def test_topics_and_nodes_of_each_robot_are_in_its_namespace(fleet: Fleet) -> None:
     fleet.until(lambda: fleet.source.offers()["/r2/scan"].publishers[0].node == "/r2/laser")
     assert "/scan" not in fleet.source.offers()
-    assert {"/r1/base", "/r2/base"} <= set(fleet.source.graph.nodes())
+    fleet.until(lambda: {"/r1/base", "/r2/base"} <= set(fleet.source.graph.nodes()))
     fleet.want(r1__robot_description=STRING, r2__scan=SCAN)
     fleet.until(lambda: {"/r1/robot_description", "/r2/scan"} <= fleet.newest.keys())
     assert fleet.source.offers()["/r2/scan"].requested == ("reliable", "volatile")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import importlib.util
 import json
 from collections.abc import Mapping, Sequence
@@ -100,6 +101,7 @@ class _Op(msgspec.Struct):
 _OP = msgspec.json.Decoder(_Op)
 
 
+@functools.cache
 def is_readable() -> bool:
     """Return whether messages can be read: the library for CBOR is optional."""
     return importlib.util.find_spec("cbor2") is not None

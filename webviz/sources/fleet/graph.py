@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable, Collection, Sequence
-from concurrent.futures import Future
+from concurrent.futures import Future, InvalidStateError
 from dataclasses import replace
 
 from webviz.api.robots import robot_of
@@ -47,7 +48,7 @@ class FleetGraph:
         return member.source.graph.publish(_renamed(advertisement, member), sent)
 
     def call(self, service: str, type: str, request: bytes, timeout_s: float) -> Future[bytes]:
-        """Call a service of the robot whose it is."""
+        """Call a service of the robot that offers it."""
         member = self._member(service)
         if member is None:
             return self._base.call(service, type, request, timeout_s)
@@ -81,19 +82,15 @@ def _renamed(advertisement: Advertisement, member: FleetMember) -> Advertisement
 def _all(futures: Sequence[Future[None]]) -> Future[None]:
     """Return a future that is done when all are; it has the first error."""
     done: Future[None] = Future()
-    left = len(futures)
 
-    def count(future: Future[None]) -> None:
-        nonlocal left
-        left -= 1
-        error = future.exception()
-        if done.done():
-            return
-        if error is not None:
-            done.set_exception(error)
-        elif left <= 0:
-            done.set_result(None)
+    def look(future: Future[None]) -> None:
+        # Connections have threads of their own: the last two may see at once that all are done.
+        with contextlib.suppress(InvalidStateError):
+            if error := future.exception():
+                done.set_exception(error)
+            elif all(each.done() for each in futures):
+                done.set_result(None)
 
     for future in futures:
-        future.add_done_callback(count)
+        future.add_done_callback(look)
     return done
