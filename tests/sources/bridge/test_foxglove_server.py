@@ -212,9 +212,9 @@ def test_what_a_slow_link_loses_is_estimated() -> None:
         try:
             with reading(f"ws://127.0.0.1:{link.get_port()}") as reader:
                 reader.until_up()
-                reader.want(map="nav_msgs/msg/OccupancyGrid", scan=SCAN)
+                reader.want(robot_description=STRING, scan=SCAN)
                 reader.receive("/scan", 10)
-                server.do("burst /map 600 40000")
+                server.do("burst /robot_description 600 40000")
                 reader.until(
                     lambda: any("the bridge dropped about" in r for r in reader.bridge.remarks)
                 )

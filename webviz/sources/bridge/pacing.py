@@ -178,6 +178,10 @@ class Pacer:
         always = {t for t, f in self._flows.items() if f.is_kept or not self._thin[t]}
         return always | ({self._turn} if self._turn and self._is_open else set())
 
+    def is_thinned(self, topic: str) -> bool:
+        """Return whether messages of a large topic are left out now."""
+        return self.is_in_turns and self._thin.get(topic, False)
+
     # Observations
 
     def note_small(self, topic: str, type: str, size: int, delay_s: float, now_s: float) -> bool:

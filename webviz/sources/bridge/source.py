@@ -200,7 +200,7 @@ class BridgeSource:
             self.look()
             return delay_s
         if stamp_ns and self._clock_ns is None:  # simulated time has a pace of its own
-            is_thinned = is_large and self._pacer.is_in_turns
+            is_thinned = is_large and self._pacer.is_thinned(topic)
             delay_s = self._health.note_message(topic, stamp_ns, is_thinned)
             self.clock.note(stamp_ns, time.time_ns())
         self.inbox.put(topic, Raw(cdr, self.now_ns()))
