@@ -151,8 +151,7 @@ class FrameLoop:
             autoplay,
             switchable,
         )
-        black_box = core, self._settings, memory, control, self._displays.list.active
-        self._black_box = BlackBoxPart(*black_box)
+        self._black_box = BlackBoxPart(core, self._settings, memory, control, self._displays.list)
         views = ViewsPart(core, self._settings, self._displays)
         layouts = LayoutsPart(core, self._settings)
         first = [transforms, self._time, self._playback, self._displays, self._settings, views]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import re
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass
 from datetime import datetime
@@ -21,10 +21,10 @@ from webviz.api.status import Level, Status
 from webviz.data.disk import in_thread
 from webviz.data.recordings.folder_writing import RecordingFolder
 from webviz.data.words import joined
+from webviz.engine.parts.display_list import DisplayList
 from webviz.engine.parts.part import Core, Part
 from webviz.engine.parts.recording import new_folder
 from webviz.engine.parts.settings import SettingsPart
-from webviz.engine.pipeline import Runner
 from webviz.engine.playback import PlaybackControl
 from webviz.engine.state import Row
 from webviz.engine.watch import RuleWatcher, TopicObserver, WatchedMoment
@@ -72,7 +72,7 @@ class BlackBoxPart(Part):
         settings: have the rules.
         live: has the memory; None for a bag, on which no rule fires.
         control: of what is shown; rules about displays wait while that is the past.
-        runners: the displays that are shown.
+        displays: those that are shown.
     """
 
     name = "Black box"
@@ -83,13 +83,13 @@ class BlackBoxPart(Part):
         settings: SettingsPart,
         live: Rewindable | None,
         control: PlaybackControl,
-        runners: Callable[[], Sequence[Runner]],
+        displays: DisplayList,
     ) -> None:
         super().__init__(core)
         self._settings = settings
         self._live = live
         self._control = control
-        self._runners = runners
+        self._displays = displays
         self._heard: dict[str, float] = {}
         """By display, when its first message was noticed, in monotonic seconds."""
         self._observer = TopicObserver()
@@ -221,7 +221,7 @@ class BlackBoxPart(Part):
         """Return the displays whose status counts, and the groups that contain some."""
         has_frames = bool(self.core.buffer.frames())
         heard: dict[str, float] = {}
-        for runner in self._runners():
+        for runner in self._displays.active():
             received = has_frames if runner.has_received is None else runner.has_received
             if received or runner.id in self._heard:
                 heard[runner.id] = self._heard.get(runner.id, now_s)
