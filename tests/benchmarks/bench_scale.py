@@ -1,4 +1,4 @@
-"""How far one viewer goes: browsers, topics, displays and frames, one after the other.
+"""Limits of one viewer: browsers, topics, displays and frames, one after the other.
 
     PYTHONPATH=tests/benchmarks:tests/support .venv/bin/python tests/benchmarks/bench_scale.py
 
