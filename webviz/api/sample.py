@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Protocol, runtime_checkable
 
 from webviz.api.nodes import Pose
 
@@ -34,3 +34,13 @@ class Sample:
     input: str
     synced: Mapping[str, Sample] = field(default_factory=dict)
     type: str = ""
+
+
+@runtime_checkable
+class KeepsNewest(Protocol):
+    """A result of a display's `fold` that has kept a message as it came."""
+
+    @property
+    def newest(self) -> Sample | None:
+        """The newest of them, for the checks of the doctor; None without one."""
+        ...

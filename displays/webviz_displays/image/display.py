@@ -25,6 +25,11 @@ class _ImageHeld:
     image: Sample | None = None
     annotations: Annotations = field(default_factory=Annotations)
 
+    @property
+    def newest(self) -> Sample | None:
+        """The newest image, for the checks of the doctor."""
+        return self.image
+
 
 class Image(AnnotatedImage):
     """A camera's picture in a pane beside the scene: raw, compressed, depth or video."""

@@ -354,11 +354,10 @@ class FrameLoop:
     def state(self) -> State:
         """Return a snapshot for a panel, as of the last turn."""
         state, statuses = self._parts.state(), self._parts.statuses()
-        crashed = failures(self._guard.crashes)
         self._black_box.look(state.rows, self.doctor.verdicts)
         seen = replace(
             state,
-            statuses=statuses | crashed | self._showing.statuses,
+            statuses=statuses | failures(self._guard.crashes) | self._showing.statuses,
             warned=self._playback.warned(state.rows),
         )
         findings = self._guard.attempt("Doctor", (), self.doctor.examine, seen)

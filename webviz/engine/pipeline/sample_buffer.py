@@ -10,7 +10,7 @@ from webviz.api.display import Display, Keep, overrides
 from webviz.api.frames import Frames
 from webviz.api.nodes import Pose
 from webviz.api.observation import InputSeen
-from webviz.api.sample import Sample
+from webviz.api.sample import KeepsNewest, Sample
 from webviz.api.status import Level, Status
 from webviz.data.messages import MessageError, decode, message_class
 from webviz.engine.commands.guard import Guard
@@ -108,8 +108,8 @@ class SampleBuffer:
         """Return the inputs that the display listens to, as the checks of the doctor see them."""
         newest: dict[str, Sample] = {}
         folds = overrides(self._display, "fold")  # so that a sample need not be a message
-        for sample in held_samples(self.histories):
-            if not folds or _is_message(sample):
+        for each in held_samples(self.histories):
+            if sample := _received(each) if folds else each:
                 newest |= {sample.input: sample, **sample.synced}
         return tuple(
             input_subscription.observed(newest.get(name))
@@ -230,6 +230,9 @@ class SampleBuffer:
         )
 
 
-def _is_message(sample: Sample) -> bool:
-    """Return whether the display has kept the message as it came."""
-    return bool(sample.type) and isinstance(sample.message, message_class(sample.type))
+def _received(sample: Sample) -> Sample | None:
+    """Return the sample of a message that a fold has kept as it came, None if it has not."""
+    newest = sample.message.newest if isinstance(sample.message, KeepsNewest) else sample
+    if newest is None or not newest.type:
+        return None
+    return newest if isinstance(newest.message, message_class(newest.type)) else None

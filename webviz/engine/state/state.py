@@ -108,9 +108,8 @@ class PanelTimes:
 
     Args:
         ros_ns: the ROS time that is shown; constant while paused, 0 while unknown.
-        ros_elapsed_ns: since the viewer started or was reset.
         wall_s: seconds since 1970.
-        wall_elapsed_s: since the viewer started or was reset.
+        ros_elapsed_ns, wall_elapsed_s: since the viewer started or was reset.
         is_paused: whether time is paused.
         pace: how the time that is shown goes on.
         is_simulated: whether ROS time comes from /clock or a bag instead of this machine.
@@ -338,8 +337,7 @@ class State:
         between: requested transforms, by target and source frame.
         latencies: of the displays, while a page shows them.
         views: what each browser shows, by its id.
-        tools: in the order of the toolbar.
-        panels: of plug-ins, in the order of their tabs.
+        tools, panels: of the toolbar, and of plug-ins, in their order.
         goals: that tools sent to actions, oldest first.
         driving: the vehicles that browsers attend to, by id of their tool.
         handles: what browsers can drag, by id of the display and key, with who holds each.

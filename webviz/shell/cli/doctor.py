@@ -46,7 +46,7 @@ class DoctorOptions:
     """Examine the displays of this config (default: those that fit the topics)."""
     seconds: Annotated[
         float, Parameter(validator=validators.Number(gt=0, lte=3600), metavar="SECONDS")
-    ] = 8.0
+    ] = 8.6
     """Time for the examination of live topics, from the start of the command to the report."""
     peer: Annotated[str, Parameter(metavar="HOST", show_default=False)] = ""
     """Compare this machine with another, such as user@robot, instead of examining topics."""
