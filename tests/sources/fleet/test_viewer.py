@@ -90,7 +90,9 @@ def test_a_config_that_is_opened_later_makes_no_connections(config: Path, tmp_pa
 def test_a_rule_is_tested_over_all_connections(
     config: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.chdir(config.parent)  # the rule that fails saves a bag
+    monkeypatch.chdir(config.parent)
+    files = sorted(config.parent.iterdir())
     rules = [word for limit in (1, 1000) for word in ("--rule", f"/r2/scan.rate > {limit}")]
     assert main(["test", "-d", str(config), "--seconds", "2", *rules]) != 0
     assert "1 of 2 rules hold" in capsys.readouterr().out
+    assert sorted(config.parent.iterdir()) == files  # no recording

@@ -84,8 +84,10 @@ class Doctor:
         self._lost_before = lost_so_far()
         self._judge = Judge()
         self._load = LoadMeter(displays.tracer)
+        self.rules: Sequence[Rule] = ()
+        """To judge besides those of the config; nothing is saved when one does not hold."""
         self.verdicts: Sequence[Verdict] = ()
-        """Of the rules of the config, in the last round."""
+        """Of all rules, in the last round."""
         self.rounds = 0
         """Number of completed rounds."""
         self._noted: dict[Key, Event] = {}
@@ -106,7 +108,7 @@ class Doctor:
         Args:
             state: of this turn.
         """
-        is_asked = time.monotonic() < self._asked_until_s or any(_rules(state))
+        is_asked = time.monotonic() < self._asked_until_s or any(self._rules(state))
         if not (self._core.is_watched() or is_asked):
             self._round = None
         elif self._round is not None or self._is_due():
@@ -155,7 +157,7 @@ class Doctor:
         load, cores = self._load.measure()
         seen = observe(core, self._displays, state, self._environment(state), load, cores)
         seen = replace(seen, findings=[each for each in self.findings if each.id != OF_RULES])
-        self.verdicts = self._judge.judge(_rules(state), seen)
+        self.verdicts = self._judge.judge(self._rules(state), seen)
         seen = replace(seen, verdicts=self.verdicts)
         found: list[Finding] = []
         for check in self._current():
@@ -181,6 +183,10 @@ class Doctor:
             at_ns = state.playback.start_ns + round(state.playback.position_s * 1e9)
             self._note(at_ns)
 
+    def _rules(self, state: State) -> Iterator[Rule]:
+        yield from self.rules
+        yield from (rule.condition for rule in state.settings.watch if rule.condition)
+
     def _current(self) -> Sequence[Check]:
         """Return the checks, those of files as they are now."""
         classes = known_checks()
@@ -196,11 +202,6 @@ class Doctor:
             self._noted.setdefault(_key(each), Event(at_ns, level, each.id, each.cause))
         if len(self._noted) != len(self.events):
             self.events = tuple(sorted(self._noted.values(), key=lambda event: event.at_ns))
-
-
-def _rules(state: State) -> Iterator[Rule]:
-    """Return the conditions among the rules of the config."""
-    return (rule.condition for rule in state.settings.watch if rule.condition)
 
 
 def _key(finding: Finding) -> Key:

@@ -74,14 +74,15 @@ class Examination:
         progress: Progress,
         results: RuleResults | None = None,
     ) -> None:
-        watched = results.watched if results else ()
-        config = replace(config, settings=msgspec.structs.replace(config.settings, watch=watched))
+        # Those of the config would save a recording in the working folder.
+        config = replace(config, settings=msgspec.structs.replace(config.settings, watch=()))
         self._results = results
         self._rounds = 0
         self._began_s = time.monotonic()
         self._source = source
         self._progress = progress
         self._loop = FrameLoop(config, source, NoScene())
+        self._loop.doctor.rules = results.rules if results else ()
         self._seen: dict[tuple[str, str], Finding] = {}
         self._state: State | None = None
 
@@ -125,6 +126,7 @@ class Examination:
         """Examine a bag from its beginning to its end."""
         self._loop.doctor.slice_s = math.inf
         length_ns = bag.end_ns - bag.start_ns
+        state = self._turn()
         for step in range(math.ceil(length_ns / STEP_NS) + 1):
             at_ns = min(step * STEP_NS, length_ns)
             self._loop.enqueue(Seek(at_ns / 1e9))

@@ -72,9 +72,9 @@ class RuleResults:
         self.all = {rule.text: RuleResult(rule) for rule in conditions if rule}
 
     @property
-    def watched(self) -> tuple[WatchRule, ...]:
-        """The rules as a config has them."""
-        return tuple(WatchRule(rule=text) for text in self.all)
+    def rules(self) -> Sequence[Rule]:
+        """The rules."""
+        return [each.rule for each in self.all.values()]
 
     @property
     def failed(self) -> Sequence[RuleResult]:
