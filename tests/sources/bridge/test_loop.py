@@ -14,7 +14,7 @@ BROKEN = "NET007"
 
 def test_the_doctor_examines_a_robot_behind_a_bridge(capsys: pytest.CaptureFixture[str]) -> None:
     with foxglove_server() as server:
-        main(["doctor", "--connect", server.url, "--json", "--seconds", "2.5"])
+        main(["doctor", "--connect", server.url, "--json", "--seconds", "6"])
     report = json.loads(capsys.readouterr().out)
     ids = {finding["id"] for finding in report["findings"]}
     assert "TF003" in ids or "GRAPH008" in ids  # of the data, as with ROS

@@ -206,6 +206,18 @@ def test_a_scan_that_does_not_fit_takes_turns_too() -> None:
     assert link.outcomes["/scan"].moments[-1] > since
 
 
+def test_a_fast_link_carries_all_within_seconds() -> None:
+    """Also if the first messages take longer than the rate takes to grow."""
+    link = Link(1e8, {"/tf": POSE, "/points": Published(CLOUD, 1_600_000, 10)}, delay_s=0.001)
+    link.run(4)
+    since = link.now
+    link.run(2)
+    recent = [at_s for at_s in link.outcomes["/points"].moments if at_s > since]
+    assert len(recent) >= 19
+    assert not link.pacer.is_in_turns
+    assert link.median_delay("/points", since) < 0.1
+
+
 def test_a_message_that_is_large_moves_its_topic() -> None:
     link = Link(1e6, {"/tf": POSE, "/clusters": Published(MARKERS, LARGE, 1)})
     assert link.large == set()

@@ -139,8 +139,8 @@ class Pacer:
         """True while it is subscribed to."""
         self._heard_s = 0.0
         """The last byte of a large topic."""
-        self._burst: tuple[float, int] = 0.0, 0
-        """Since the last large message: moment of the first byte, and bytes."""
+        self._burst: tuple[float, int, float] = 0.0, 0, 0.0
+        """Since the last large message: moment of the first byte, bytes, and the rate then."""
         self.trip_s = 0.0
         """The shortest round trip."""
         self._thin: dict[str, bool] = {}
@@ -205,8 +205,8 @@ class Pacer:
         """Note bytes of large topics."""
         self._heard_s = now_s
         self._bytes.append((now_s, size, True))
-        began_s, count = self._burst
-        self._burst = began_s if count else now_s, count + size
+        began_s, count, rate = self._burst
+        self._burst = (began_s, count + size, rate) if count else (now_s, size, self.rate)
 
     def note_large(self, topic: str, cdr: bytes, delay_s: float, now_s: float) -> None:
         """Note a message of a large topic."""
@@ -225,10 +225,10 @@ class Pacer:
             flow.is_kept = False
         flow.digest = digest
         flow.count += 1
-        (began_s, count), self._burst = self._burst, (now_s, 0)
+        (began_s, count, rate), self._burst = self._burst, (now_s, 0, self.rate)
         if count > LARGE:  # the link may take less than the rate, without any queue
             speed = self._speed = count / (now_s - began_s + LEAST_TRANSFER_S)
-            if speed < self.rate / 2:
+            if speed < min(rate, self.rate) / 2:  # the rate may have grown meanwhile
                 self._is_starting, self.rate = False, max(MIN_RATE, 1.5 * speed)
             else:
                 self._limited_s = now_s
@@ -365,7 +365,7 @@ class Pacer:
 
     def _is_coming(self, flow: Flow, now_s: float) -> bool:
         """Return whether so much of a message has come that the next is asked for in time."""
-        began_s, count = self._burst
+        began_s, count, _ = self._burst
         speed = count / (now_s - began_s + LEAST_TRANSFER_S)
         return 0 < flow.size - count < speed * (self.trip_s + flow.window_s)
 
