@@ -25,6 +25,9 @@ BURST_S = 0.1
 QUEUE_S = 0.05
 """By which what is on its way may delay small messages."""
 MIN_BUFFER, MAX_BUFFER = 4 << 10, 4 << 20
+SEGMENTS = 4
+"""Of TCP that the receive buffer holds at least: with less, TCP sends a part at each of its timeouts,
+five a second. Those of loopback have 65 kB."""
 RETRY_S = 2.0
 
 
@@ -42,11 +45,15 @@ class BulkConnection(BridgeConnection):
 
     def limit(self) -> None:
         """Bound what is on its way to what the link takes in a round trip, and a little more."""
-        wanted = self.pacer.rate * (self.pacer.trip_s + QUEUE_S)
-        wanted = round(min(max(wanted, MIN_BUFFER), MAX_BUFFER))
-        if wanted != self._buffer and (sock := self.transport.get_extra_info("socket")):
-            self._buffer = wanted
-            with contextlib.suppress(OSError):  # it is being closed
+        sock = self.transport.get_extra_info("socket")
+        if sock is None:
+            return
+        with contextlib.suppress(OSError):  # it is being closed
+            least = max(MIN_BUFFER, SEGMENTS * _segment(sock))
+            wanted = self.pacer.rate * (self.pacer.trip_s + QUEUE_S)
+            wanted = round(min(max(wanted, least), MAX_BUFFER))
+            if wanted != self._buffer:
+                self._buffer = wanted
                 sock.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, wanted)
 
     def data_received(self, data: bytes) -> None:
@@ -67,6 +74,12 @@ class BulkConnection(BridgeConnection):
     def _go_on(self) -> None:
         if not self.transport.is_closing():
             self.transport.resume_reading()
+
+
+def _segment(sock: socket.socket) -> int:
+    """Return the size of the segments of a connection in bytes, 0 where systems do not tell it."""
+    option = getattr(socket, "TCP_MAXSEG", None)
+    return 0 if option is None else sock.getsockopt(socket.IPPROTO_TCP, option)
 
 
 class BulkHost(Protocol):
