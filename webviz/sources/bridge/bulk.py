@@ -26,8 +26,8 @@ QUEUE_S = 0.05
 """By which what is on its way may delay small messages."""
 MIN_BUFFER, MAX_BUFFER = 4 << 10, 4 << 20
 SEGMENTS = 4
-"""Of TCP that the receive buffer holds at least: with less, TCP sends a part at each of its timeouts,
-five a second. Those of loopback have 65 kB."""
+"""Of TCP that the receive buffer holds at least: with less, TCP sends a part at each of its
+timeouts, five a second. Those of loopback have 65 kB."""
 RETRY_S = 2.0
 
 
