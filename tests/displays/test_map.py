@@ -418,7 +418,7 @@ def test_selecting_cell_of_a_map(bench: Callable[..., Any]) -> None:
             "Column (x)": "520",
             "Row (y)": "1",
             "Index": "1120",
-            "Center in map": "9.2500, 260.2500, 0.0000 m",
+            "Centre in map": "9.2500, 260.2500, 0.0000 m",
         },
     )
     read = at.runner.cells("tile 0 512", Frames(at.buffer, "map", at.now_ns))

@@ -266,8 +266,8 @@ def test_a_negative_variance_out_of_the_plane_counts_as_none_and_is_named(shown:
         (odometry(turn=(0, 0, NAN, 1)), "orientation (0, 0, nan, 1)"),
         (odometry(1e300), "too far away"),
         (odometry(turn=(0, 0, 0, 0)), "all zeros"),
-        (odometry(turn=(0, 0, 0, 1.01)), "not normalized: its squared length is 1.0201"),
-        (odometry(turn=(0, 0, 1e300, 0)), "not normalized"),
+        (odometry(turn=(0, 0, 0, 1.01)), "not normalised: its squared length is 1.0201"),
+        (odometry(turn=(0, 0, 1e300, 0)), "not normalised"),
     ],
 )
 def test_a_bad_pose_is_named_and_the_trail_stays(

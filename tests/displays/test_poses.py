@@ -76,7 +76,7 @@ def test_former_poses_stay_where_their_frame_was(bench: Benches) -> None:
 
 @pytest.mark.parametrize(
     ("turn", "said"),
-    [((0, 0, 0, 0), "all zeros"), ((0, 0, 0, 7), "not normalized"), ((0, 0, 0, 1e200), "not norm")],
+    [((0, 0, 0, 0), "all zeros"), ((0, 0, 0, 7), "not normalised"), ((0, 0, 0, 1e200), "not norm")],
 )
 def test_a_quaternion_that_is_no_rotation_is_drawn_as_the_nearest_one(
     shown: Benches, turn: tuple[float, ...], said: str

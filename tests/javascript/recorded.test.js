@@ -142,7 +142,7 @@ test("a cell has the place in the whole map, also if that is turned", () => {
     "Column (x)": "1026",
     "Row (y)": "512",
     Index: "1025026",
-    "Center in map": "-24.6250, 53.3250, 0.0000 m",
+    "Centre in map": "-24.6250, 53.3250, 0.0000 m",
     Resolution: "0.05 m",
   });
 });

@@ -112,6 +112,9 @@ class Faulty(Display, Comparable, Draggable, Selective, Sweep):
     def inspect(self, hit: Hit, ctx: Context) -> None:
         self._raise_in("inspect")
 
+    def cells(self, key: str, ctx: Context) -> None:
+        self._raise_in("cells")
+
     def consistency_input(self, samples: Sequence[Sample], ctx: Context) -> None:
         self._raise_in("consistency_input")
 
@@ -165,6 +168,7 @@ def test_what_a_hook_raises_is_a_status_of_its_display_and_logged_once(
         b.viewer.enqueue(Identify(dot))
         b.viewer.enqueue(DragHandle("display1", Drag("m1", 0, "press")))
         b.turn()
+        b.viewer._displays.list.active()[0].cells("dot", b.viewer._core.frames)  # as exporting does
     before = sound.turns
     feed(b)
     level, text = b.statuses(0)["Display"]

@@ -67,7 +67,7 @@ def write(folder: Path) -> None:
 
 
 def drive() -> Bag:
-    """What the simulated robot publishes on a tour of the building; the same each time."""
+    """Messages of the simulated robot on a tour of the building, the same each time."""
     simulation = Simulation(load_world(BUILDING), SimulationSettings(), seed=1)
     robot, random, lidar = simulation.robot, np.random.default_rng(1), LidarSettings()
     joints = read_joints(demo_description())

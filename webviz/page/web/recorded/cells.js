@@ -58,7 +58,7 @@ export function cellDetails({ columns, resolution, origin, axes, frame, told }, 
       "Column (x)": String(column),
       "Row (y)": String(row),
       Index: String(row * columns + column),
-      [`Center in ${frame}`]: `${middle.map((each) => each.toFixed(4)).join(", ")} m`,
+      [`Centre in ${frame}`]: `${middle.map((each) => each.toFixed(4)).join(", ")} m`,
       Resolution: `${Number(resolution.toPrecision(4))} m`,
     },
   };
