@@ -152,6 +152,8 @@ class Pacer:
         """The last message that came as fast as the rate allows."""
         self._turns_s = 0.0
         """The beginning of the turns."""
+        self._told: tuple[set[str], int] = set(), 0
+        """What `step` has decided: messages change it in between, too."""
 
     # What is wanted
 
@@ -240,13 +242,13 @@ class Pacer:
 
     def step(self, now_s: float) -> bool:
         """Decide anew; whether other topics are subscribed to than before, or others are large."""
-        before = set(self.subscribed()), len(self._moved)
         self._forget(now_s)
         if now_s - self._changed_s >= STEP_S:
             self._changed_s = now_s
             self._choose_rate(now_s)
         self._take_turns(now_s)
-        return (set(self.subscribed()), len(self._moved)) != before
+        before, self._told = self._told, (set(self.subscribed()), len(self._moved))
+        return self._told != before
 
     @property
     def late_s(self) -> float:
