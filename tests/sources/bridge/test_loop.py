@@ -6,6 +6,7 @@ import json
 
 import pytest
 from bridges import foxglove_server
+from processes import eventually
 
 from webviz.shell.cli import main
 
@@ -13,11 +14,17 @@ BROKEN = "NET007"
 
 
 def test_the_doctor_examines_a_robot_behind_a_bridge(capsys: pytest.CaptureFixture[str]) -> None:
-    with foxglove_server() as server:
+    ids: set[str] = set()
+
+    def has_found() -> bool:
+        """Return whether there was time for findings, which a busy machine may not have."""
         main(["doctor", "--connect", server.url, "--json", "--seconds", "6"])
-    report = json.loads(capsys.readouterr().out)
-    ids = {finding["id"] for finding in report["findings"]}
-    assert "TF003" in ids or "GRAPH008" in ids  # of the data, as with ROS
+        report = json.loads(capsys.readouterr().out)
+        ids.update(finding["id"] for finding in report["findings"])
+        return "TF003" in ids or "GRAPH008" in ids  # of the data, as with ROS
+
+    with foxglove_server() as server:
+        assert eventually(has_found)
     assert not any(id.startswith(("ENV", "SHM", "NET")) for id in ids)
 
 

@@ -153,7 +153,7 @@ class Pacer:
         self._turns_s = 0.0
         """The beginning of the turns."""
         self._told: tuple[set[str], int] = set(), 0
-        """What `step` has decided: messages change it in between, too."""
+        """The last decision of `step`, which messages change in between."""
 
     # What is wanted
 
