@@ -105,7 +105,7 @@ ahead_ns = 0
 
 
 def say(**fact: Any) -> None:
-    print(json.dumps(fact), flush=True)
+    print(json.dumps(fact) + "\n", end="", flush=True)
 
 
 class Robot(foxglove.websocket.ServerListener):
