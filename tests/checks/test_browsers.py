@@ -13,6 +13,7 @@ import numpy as np
 import playwright.sync_api as playwright
 import pytest
 
+from webviz.api import registry
 from webviz.api.finding import CauseLevel, Finding, Severity
 from webviz.api.views import Orbit, View
 from webviz.checks.browser import no_webgl, throttled_tab, viewer_behind
@@ -119,6 +120,7 @@ def viewer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Running, 
         running = Running(port=0, source=source, read=read, plugins=[plugin])
         yield running, source
         running.close()
+        registry.register(str(plugin), {})  # other tests list all displays
 
 
 @pytest.fixture(scope="module")

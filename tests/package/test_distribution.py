@@ -22,7 +22,7 @@ LICENCES = (ROOT / "THIRD_PARTY.md").read_text(encoding="utf-8")
 CLIENT = Path(viser.__file__).parent / "client"
 OPTIONAL = {"rclpy", "xacro", "pytest", "_pytest"}
 """Modules of ROS and of those who write tests; imported where they are used."""
-EXTRAS = "pictures", "outdoors", "foxglove", "mcp"
+EXTRAS = "pictures", "outdoors", "foxglove", "rosbridge", "mcp"
 """Whose modules are imported where they are used."""
 REQUIREMENT = {"google": "protobuf", "PIL": "pillow", "collada": "pycollada", "re2": "google_re2"}
 REQUIREMENT |= {"ruamel": "ruamel.yaml", "svg": "svg.path"}

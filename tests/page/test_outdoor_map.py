@@ -78,8 +78,11 @@ def test_the_track_lies_on_the_tiles_and_the_map_follows_it(
     tab.page.mouse.move(x, y)
     there = tab.page.locator(".wv-outdoor-place")
     tab.wait_for(there.is_visible)
-    degrees = [float(each) for each in there.inner_text().replace("°", "").split(", ")]
-    assert degrees == pytest.approx([50.0, 8.001], abs=2e-5)  # two pixels
+
+    def place() -> list[float]:
+        return [float(each) for each in there.inner_text().replace("°", "").split(", ")]
+
+    tab.wait_for(lambda: place() == pytest.approx([50.0, 8.001], abs=2e-5))  # two pixels
     tab.page.mouse.down()
     tab.page.mouse.move(x, y + 50, steps=3)
     tab.page.mouse.up()

@@ -233,6 +233,6 @@ class SampleBuffer:
 def _received(sample: Sample) -> Sample | None:
     """Return the sample of a message that a fold has kept as it came, None if it has not."""
     newest = sample.message.newest if isinstance(sample.message, KeepsNewest) else sample
-    if newest is None or not newest.type:
+    if not isinstance(newest, Sample) or not newest.type:
         return None
     return newest if isinstance(newest.message, message_class(newest.type)) else None
