@@ -96,7 +96,7 @@ def test_both_drag_the_head_at_once_and_end_at_the_same_moment(
             page.tab.mouse.up()
 
         def shown() -> list[float]:
-            """Where the viewer is, and both pages think that it is."""
+            """The positions of the viewer and of both pages."""
             values = [float(track.get_attribute("aria-valuenow") or -1.0) for track in tracks]
             return [round(viewer.position, 2), *(round(value, 2) for value in values)]
 

@@ -11,7 +11,7 @@ const box = (about, left, top, right, bottom) => ({
   about,
 });
 
-test("the smallest box under the mouse is told, and nothing beside all", () => {
+test("the smallest box under the mouse is described, and nothing outside them all", () => {
   const marks = [box("dog", 20, 20, 30, 30), box("room", 0, 0, 90, 90), box("", 24, 24, 26, 26)];
   assert.equal(markAt(marks, places, [50, 50]), "dog");
   assert.equal(markAt(marks, places, [100, 100]), "room");

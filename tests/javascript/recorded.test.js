@@ -89,7 +89,7 @@ function png(rows) {
     const head = Buffer.alloc(8);
     head.writeUInt32BE(data.length);
     head.write(kind, 4);
-    return Buffer.concat([head, data, Buffer.alloc(4)]); // nobody looks at the checksum
+    return Buffer.concat([head, data, Buffer.alloc(4)]); // the checksum is not verified
   };
   const header = Buffer.alloc(13);
   header.writeUInt32BE(rows[0].length, 0);

@@ -210,7 +210,7 @@ def test_a_held_key_steps_on_with_each_answer_and_no_further_than_it_goes(
     for _ in range(4):
         page.keyboard.down("ArrowRight")
     timeline.wait_for(steps)
-    assert steps() == 1, "without an answer there is no other"
+    assert steps() == 1, "the next step waits for the answer"
     held_until(lambda: steps() == 2)
     loop.answer = Error("There is no later message.")
     toast = page.locator(".wv-toast", has_text="There is no later message.")

@@ -71,7 +71,7 @@ class _Track:
 
 
 class OutdoorMap(Panel):
-    """Where satellite receivers were, and paths of latitudes and longitudes, over map tiles."""
+    """Tracks of satellite receivers, and paths of latitudes and longitudes, over map tiles."""
 
     title = "Outdoor map"
     on_request = True

@@ -21,7 +21,7 @@ from websockets.http11 import Request, Response
 from websockets.sync.server import ServerConnection, serve
 
 from webviz.data.messages import definition, encode, type_exists
-from webviz.sources.bridge import foxglove, foxglove_channels, foxglove_wire, source
+from webviz.sources.bridge import foxglove, foxglove_channels, json_frames, source
 
 INFO = {"op": "serverInfo", "name": "liar", "capabilities": ["services", "assets"]}
 SDK = "foxglove.sdk.v1"
@@ -237,7 +237,7 @@ def test_a_frame_above_all_limits_ends_the_connection(
 def test_a_text_above_its_limit_is_ignored(
     liar: Callable[..., Reader], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(foxglove_wire, "MAX_TEXT", 1000)
+    monkeypatch.setattr(json_frames, "MAX_TEXT", 1000)
     reader = liar(lambda connection: connection.send(advertise(channel(1, "/" + "x" * 2000))))
     reader.until(lambda: any("above the limit" in remark for remark in reader.bridge.remarks))
 

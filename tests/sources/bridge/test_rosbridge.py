@@ -28,7 +28,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.server import ServerConnection, serve
 
 from webviz.data.messages import EncodeError, decode, encode, interfaces
-from webviz.sources.bridge import rosbridge, rosbridge_wire
+from webviz.sources.bridge import json_frames, rosbridge, rosbridge_wire
 from webviz.sources.bridge.rosbridge_values import from_values, to_values
 from webviz.sources.bridge.rosbridge_wire import Fragment, Fragments
 from webviz.sources.bridge.session import WireError
@@ -348,7 +348,7 @@ def test_fragments_are_put_together_and_bounded(monkeypatch: pytest.MonkeyPatch)
     assert fragments.add(Fragment("a", "two", 1, 2.3)) == "one two"
     with pytest.raises(WireError, match="does not follow"):
         fragments.add(Fragment("a", "again", 1, 2.3))
-    monkeypatch.setattr(rosbridge_wire, "MAX_TEXT", 1000)
+    monkeypatch.setattr(json_frames, "MAX_TEXT", 1000)
     fragments.add(Fragment("a", "x" * 600, 0, 9.0))
     with pytest.raises(WireError, match="above the limit"):
         fragments.add(Fragment("b", "x" * 600, 0, 9.0))

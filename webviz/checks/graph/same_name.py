@@ -10,7 +10,7 @@ from webviz.api.finding import Finding, Severity
 from webviz.api.observation import Observation
 
 VIEWER = "webviz"
-"""Several viewers, or a viewer and `webviz doctor`, are no fault."""
+"""Several viewers at once, or `webviz doctor` beside one, are normal."""
 SHARED = {"/tf", "/tf_static", "/rosout", "/parameter_events", "/diagnostics", "/clock"}
 """Topics that many nodes publish."""
 

@@ -19,7 +19,7 @@ class LatchedMessages(Generic[T]):
     """The newest latched messages of each topic, one per publisher.
 
     Recordings do not say which publisher sent a message. Each publisher of transforms has frames of
-    its own; other messages are told apart by their bytes, as far as there are publishers.
+    its own; other messages are distinguished by their bytes, one for each publisher at most.
     """
 
     def __init__(self) -> None:

@@ -11,7 +11,7 @@ LIBRARIES = (b"librmw", b"libfastrtps", b"libfastdds", b"libddsc")
 """Of programs that are ROS nodes."""
 MOST = 10
 LONGEST = 80
-"""Characters of a command line that are told."""
+"""Characters of a command line that are shown."""
 
 
 def programs_apart(memory: Path) -> Sequence[str]:

@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 import struct
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import msgspec
 
 from webviz.data.words import plain
+from webviz.sources.bridge.json_frames import JsonFrames
 from webviz.sources.bridge.session import WireError
 
 SUBPROTOCOLS = ("foxglove.sdk.v1", "foxglove.websocket.v1")
 """Names of the protocol since and before version 3 of foxglove_bridge; the frames are the same."""
 _PUBLISH, _CALL = 1, 2
 """Opcodes of binary frames to the server."""
-MAX_TEXT = 64 << 20
-"""Characters of a JSON frame; definitions of thousands of topics have a tenth of it."""
 _MESSAGE = struct.Struct("<BIQ")
 _TIME = struct.Struct("<BQ")
 _RESPONSE = struct.Struct("<BIII")
@@ -180,40 +179,20 @@ class Asset(NamedTuple):
     problem: str
 
 
-_KINDS: Mapping[str, type[_Struct]] = {
-    "serverInfo": ServerInfo,
-    "advertise": Advertise,
-    "unadvertise": Unadvertise,
-    "advertiseServices": AdvertiseServices,
-    "unadvertiseServices": UnadvertiseServices,
-    "serviceCallFailure": ServiceCallFailure,
-    "status": ServerStatus,
-    "removeStatus": RemoveStatus,
-    "connectionGraphUpdate": ConnectionGraphUpdate,
-}
-_DECODERS = {op: msgspec.json.Decoder(kind) for op, kind in _KINDS.items()}
-
-
-class _Op(msgspec.Struct):
-    op: str
-
-
-_OP = msgspec.json.Decoder(_Op)
-
-
-def read_text(text: str) -> _Struct | None:
-    """Return the message in a text frame, None for one of a kind that is not used.
-
-    Raises:
-        WireError: it is not of the protocol.
-    """
-    if len(text) > MAX_TEXT:
-        raise WireError(f"A text of {len(text) >> 20} MB is above the limit of {MAX_TEXT >> 20} MB")
-    try:
-        decoder = _DECODERS.get(_OP.decode(text).op)
-        return decoder and decoder.decode(text)
-    except (msgspec.DecodeError, UnicodeError, RecursionError) as error:
-        raise WireError(f"A text is not of the protocol: {plain(str(error), 120)}") from error
+read_text = JsonFrames[_Struct](
+    {
+        "serverInfo": ServerInfo,
+        "advertise": Advertise,
+        "unadvertise": Unadvertise,
+        "advertiseServices": AdvertiseServices,
+        "unadvertiseServices": UnadvertiseServices,
+        "serviceCallFailure": ServiceCallFailure,
+        "status": ServerStatus,
+        "removeStatus": RemoveStatus,
+        "connectionGraphUpdate": ConnectionGraphUpdate,
+    }
+).read
+"""Returns the message in a text frame; see `JsonFrames.read`."""
 
 
 def read_binary(frame: bytes) -> MessageData | TimeNow | ServiceResponse | Asset | None:

@@ -11,11 +11,11 @@ from typing import Any, NamedTuple
 import msgspec
 
 from webviz.data.words import plain
+from webviz.sources.bridge import json_frames
+from webviz.sources.bridge.json_frames import JsonFrames
 from webviz.sources.bridge.session import WireError
 
 MISSING = "rosbridge needs the package cbor2. Install it with `pip install 'ros-webviz[rosbridge]'`"
-MAX_TEXT = 64 << 20
-"""Characters of a JSON frame, or of all fragments of one."""
 MAX_DEPTH = 8
 """Of the containers of a CBOR frame; those of rosbridge have two."""
 MAX_FRAGMENTED = 4
@@ -87,39 +87,16 @@ class Names(_Struct):
     services: Sequence[str] = ()
 
 
-_DECODERS = {
-    "service_response": msgspec.json.Decoder(RosbridgeResponse),
-    "status": msgspec.json.Decoder(RosbridgeStatus),
-    "fragment": msgspec.json.Decoder(Fragment),
-}
-
-
-class _Op(msgspec.Struct):
-    op: str
-
-
-_OP = msgspec.json.Decoder(_Op)
+read_text = JsonFrames[RosbridgeResponse | RosbridgeStatus | Fragment](
+    {"service_response": RosbridgeResponse, "status": RosbridgeStatus, "fragment": Fragment}
+).read
+"""Returns the message in a text frame; see `JsonFrames.read`."""
 
 
 @functools.cache
 def is_readable() -> bool:
     """Return whether messages can be read: the library for CBOR is optional."""
     return importlib.util.find_spec("cbor2") is not None
-
-
-def read_text(text: str) -> RosbridgeResponse | RosbridgeStatus | Fragment | None:
-    """Return the message in a text frame, None for one of a kind that is not used.
-
-    Raises:
-        WireError: it is not of the protocol.
-    """
-    if len(text) > MAX_TEXT:
-        raise WireError(f"A text of {len(text) >> 20} MB is above the limit of {MAX_TEXT >> 20} MB")
-    try:
-        decoder = _DECODERS.get(_OP.decode(text).op)
-        return decoder and decoder.decode(text)
-    except (msgspec.DecodeError, UnicodeError, RecursionError) as error:
-        raise WireError(f"A text is not of the protocol: {plain(str(error), 120)}") from error
 
 
 def read_binary(frame: bytes) -> RosbridgeMessage:
@@ -174,7 +151,7 @@ class Fragments:
             raise WireError("A fragment does not follow the one before")
         parts.append(part.data)
         self._size += len(part.data) + PART_SIZE
-        if len(self._parts) > MAX_FRAGMENTED or self._size > MAX_TEXT:
+        if len(self._parts) > MAX_FRAGMENTED or self._size > json_frames.MAX_TEXT:
             self._parts.clear()
             self._size = 0
             raise WireError("Fragments are above the limit")

@@ -30,7 +30,7 @@ class FleetSource:
 
     Args:
         robots: with the addresses of their bridges.
-        base: of all other topics, closed with the fleet; None if there are no others.
+        base: source of all other topics, closed with the fleet; None for the robots alone.
     """
 
     def __init__(
