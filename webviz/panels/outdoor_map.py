@@ -100,7 +100,6 @@ class OutdoorMap(Panel):
         self.tracks: dict[str, _Track] = {}
         self.refused: dict[str, str] = {}
         self.shelf = TileShelf("", 0.0)
-        self.shelved: tuple[str, float] = ("", 0.0)
 
     def build(self, ui: Ui, send: Send) -> None:
         """Show the map."""
@@ -150,9 +149,8 @@ class OutdoorMap(Panel):
         self.types = {topic: type_ for topic, type_ in known.items() if type_ in (FIX, PATH)}
         wanted = list(dict.fromkeys(self.topics or sorted(self.types)))[:MAX_TOPICS]
         self.tracks = {topic: self.tracks.get(topic) or _Track() for topic in wanted}
-        if self.shelved != (self.object_uri, self.timeout):
-            self.shelved = self.object_uri, self.timeout
-            self.shelf = TileShelf(*self.shelved)
+        if (self.shelf.address, self.shelf.timeout_s) != (self.object_uri, self.timeout):
+            self.shelf = TileShelf(self.object_uri, self.timeout)
         parts = {f"tile/{name}": part for name, part in self.shelf.parts().items()}
         tracks: list[Mapping[str, Any]] = []
         for index, (topic, track) in enumerate(self.tracks.items()):

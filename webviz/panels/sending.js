@@ -140,7 +140,7 @@ export default function install({ el, messageRows, set, setText, style, widget }
       if (document.activeElement !== name) name.value = form.name;
       setText(kind, form.type || "Enter the message type in Properties.");
       setText(go, form.verb);
-      setText(repeat, form.repeats ? "Stop" : `Repeat at ${form.rate} Hz`);
+      setText(repeat, form.repeats ? "Stop" : `Repeat at ${form.rate ?? 0} Hz`);
       set(repeat, { hidden: form.rate === undefined, "aria-pressed": String(!!form.repeats) });
       if (JSON.stringify(old?.names) !== JSON.stringify(form.names))
         names.replaceChildren(...form.names.map((value) => el("option", { value })));

@@ -36,7 +36,7 @@ class TileShelf:
         self.problem = ""
         """Why the newest tile could not be read, a sentence or ""."""
         self.attribution = ""
-        self._timeout_s = timeout_s
+        self.timeout_s = timeout_s
         self._lock = threading.Lock()
         self._tiles: OrderedDict[Tile, Mapping[str, Any]] = OrderedDict()
         self._wanted: OrderedDict[Tile, None] = OrderedDict()
@@ -83,7 +83,7 @@ class TileShelf:
         """Return a tile for pages, an empty one if there is none."""
         try:
             if self._source is None:
-                self._source = open_tiles(self.address, self._timeout_s)
+                self._source = open_tiles(self.address, self.timeout_s)
                 self.attribution = self._source.attribution
             content = self._source.read(*tile)
             if content is not None:

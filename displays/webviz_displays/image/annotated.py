@@ -99,8 +99,8 @@ class AnnotatedImage(ImageDisplay):
             return ()  # the status of the topic says why
         made = ctx.state.made
         if made is None or made[0] is not message or made[1] != self.show_labels:
-            found = marks_of(message, type_name, self.show_labels)
-            made = ctx.state.made = message, self.show_labels, found
+            marks = marks_of(message, type_name, self.show_labels)
+            made = ctx.state.made = message, self.show_labels, marks
         found: MessageMarks = made[2]
         apart = "" if not newer_s else f"{abs(newer_s):.2g} s {_older_or_newer(newer_s)}"
         if abs(newer_s) > TOLERANCE_S:

@@ -16,7 +16,7 @@ ANNOTATIONS = "foxglove_msgs/msg/ImageAnnotations"
 TYPES = (DETECTIONS, ANNOTATIONS)
 
 MAX_MARKS = 1000
-"""MessageMarks that are shown of a message."""
+"""Marks of a message that are shown."""
 MAX_POINTS = 20_000
 """Points of all of them."""
 FURTHEST = 1e6

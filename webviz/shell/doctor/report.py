@@ -17,8 +17,8 @@ WIDTH = 90
 COLORS = {"error": "31;1", "warning": "33;1", "note": "36", "id": "1", "faint": "2", "ok": "32;1"}
 """Codes of ANSI terminals."""
 UNFINISHED = (
-    "This machine is so busy that the time did not suffice for the checks of topics, transforms "
-    "and data. Repeat it with --seconds 30."
+    "This machine is busy: there was too little time to check topics, transforms and data. Repeat "
+    "the command with --seconds 30."
 )
 Meta = msgspec.Meta
 
@@ -75,7 +75,7 @@ class DoctorReport(msgspec.Struct, kw_only=True):
     ]
     unfinished: Annotated[
         bool,
-        Meta(description="Whether the time did not suffice for the checks of live topics."),
+        Meta(description="Whether there was too little time for the checks of live topics."),
     ] = False
 
     @property
