@@ -94,6 +94,8 @@ export default function install({ el, fitted, iconButton, set, setText, style, w
     let request = 0;
     /** @type {Vec2 | null} */
     let held = null;
+    /** @type {{offsetX: number, offsetY: number} | null} */
+    let pointer = null;
 
     const canvas = el("canvas", { role: "img", tabindex: 0, "aria-label": "Map" });
     const credit = el("div", { class: "wv-outdoor-credit", hidden: true });
@@ -156,7 +158,16 @@ export default function install({ el, fitted, iconButton, set, setText, style, w
       for (const [index, { track, lines }] of tracks.entries())
         drawTrack(context, index, track, lines);
       set(canvas, { "aria-label": `Map, level ${Math.round(look.zoom)}` });
+      showPlace();
       if (hasPlace) ask(wanted);
+    }
+
+    /** The place under the pointer, which changes with the map, too. */
+    function showPlace() {
+      place.hidden = !pointer;
+      if (!pointer) return;
+      const [longitude, latitude] = unmercator(shareAt(pointer));
+      setText(place, `${latitude.toFixed(6)}°, ${longitude.toFixed(6)}°`);
     }
 
     /** @param {[number, number, number][]} wanted */
@@ -235,10 +246,8 @@ export default function install({ el, fitted, iconButton, set, setText, style, w
       held = [event.clientX, event.clientY];
     });
     canvas.addEventListener("pointermove", (event) => {
-      const [longitude, latitude] = unmercator(shareAt(event));
-      place.hidden = false;
-      setText(place, `${latitude.toFixed(6)}°, ${longitude.toFixed(6)}°`);
-      if (!held) return;
+      pointer = { offsetX: event.offsetX, offsetY: event.offsetY };
+      if (!held) return showPlace();
       const world = TILE * 2 ** look.zoom;
       look.x -= (event.clientX - held[0]) / world;
       look.y -= (event.clientY - held[1]) / world;
@@ -247,7 +256,10 @@ export default function install({ el, fitted, iconButton, set, setText, style, w
     });
     for (const end of /** @type {const} */ (["pointerup", "pointercancel"]))
       canvas.addEventListener(end, () => (held = null));
-    canvas.addEventListener("pointerleave", () => (place.hidden = true));
+    canvas.addEventListener("pointerleave", () => {
+      pointer = null;
+      showPlace();
+    });
     canvas.addEventListener("keydown", (event) => {
       if (event.ctrlKey || event.metaKey || event.altKey) return;
       if (event.key === "+" || event.key === "=") zoom(1);
