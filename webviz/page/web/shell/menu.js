@@ -68,7 +68,7 @@ export function openMenu(x, y, items, outer = null) {
         "data-why": reason || null,
         "aria-haspopup": below ? "menu" : null,
         "data-tip": tip || null,
-        onclick: () => disabled || (below ? openBeside(element, below) : choose(run)),
+        onclick: () => disabled || (below ? hover(element, below) : choose(run)),
         onpointermove: () => hover(element, disabled ? null : below),
       },
       el("span", { class: "wv-menu-icon" }, checked ? icon("check") : name ? icon(name) : null),
@@ -84,7 +84,7 @@ export function openMenu(x, y, items, outer = null) {
    * @param {MenuItem["items"] | null} [below]
    */
   function hover(element, below) {
-    if (inner?.element === element) return;
+    if (inner?.element === element && menu.querySelector(":popover-open")) return;
     element.focus({ preventScroll: true });
     inner?.close();
     inner = null;
