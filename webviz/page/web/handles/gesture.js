@@ -38,6 +38,7 @@ const LONG_MS = 600; // that a finger rests for the menu
 const VIBRATE_MS = 15;
 const CLICK_PX = 6;
 const BEFORE_PLACING = -1001;
+const KEEP_OPEN = { once: true, passive: false };
 /** @type {Partial<Record<HandleControl["mode"], string>>} */
 const DOES = { menu: "Show menu", button: "Activate" };
 const TURNS = /^rotate/;
@@ -257,7 +258,10 @@ const isSane = ({ position, wxyz }) =>
 
 /** @param {Drag} drag */
 function release(drag) {
-  if (drag.at !== drag.before) step(drag);
+  if (drag.at !== drag.before) {
+    step(drag);
+    poses.placeNow();
+  }
   const { id, control, now, at } = drag;
   const point = pointAt(at, id);
   send(drag, "release", { ...placed(now), point });
@@ -310,10 +314,18 @@ function followAsked(part, event) {
   const isFar = Math.hypot(event.clientX - at[0], event.clientY - at[1]) > CLICK_PX;
   if (event.type === "pointerup" && (event.button === 2 || part.isResting)) {
     asked = null;
+    if (part.isResting) canvas().addEventListener("touchend", keepOpen, KEEP_OPEN);
     if (!isFar) show({ ...part, point: pointAt(at, part.id) });
   } else if (event.type === "pointercancel") asked = null;
   return true;
 }
+
+/**
+ * No click follows the finger, which would close the menu.
+ *
+ * @param {TouchEvent} event
+ */
+const keepOpen = (event) => event.preventDefault();
 
 /** @param {Part & {at: Vec2, point: Vec3 | null}} asked */
 function show({ id, control, at, point }) {

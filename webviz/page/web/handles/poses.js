@@ -77,6 +77,13 @@ export function letGo(id) {
   viser.requestRender();
 }
 
+/** Places what is dragged at once, for what is to be picked before the next frame. */
+export function placeNow() {
+  uncover();
+  place();
+  for (const { object } of covered.values()) object.updateMatrixWorld(true);
+}
+
 // Before viser places what is new: a pose of the server may equal that of the drag.
 function uncover() {
   for (const [path, { object, base }] of covered) {
