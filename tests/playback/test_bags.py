@@ -15,8 +15,9 @@ from processes import eventually
 from rosbags.rosbag2 import StoragePlugin
 
 import webviz
+from webviz.api.views import Orbit
 from webviz.data.messages import encode
-from webviz.shell.app.bag_config import config_of
+from webviz.shell.app.bag_config import config_of, fixed_frame_of, robot_frame_of
 from webviz.shell.cli import main as cli
 from webviz.shell.testing import header
 from webviz.sources.bag.source import BagSource
@@ -56,8 +57,28 @@ def test_without_a_config_the_topics_of_a_bag_are_shown(tmp_path: Path) -> None:
         "/rear/scan": "LaserScan",
         "Image": "Image",
     }
-    assert config_of(source).settings.fixed_frame == "odom"
+    settings = config_of(source).settings
+    assert settings.fixed_frame == "odom"
+    assert settings.view == Orbit(target_frame="base")
     source.close()
+
+
+@pytest.mark.parametrize(
+    ("links", "robot"),
+    [
+        (
+            [("map", "odom"), ("odom", "base_footprint"), ("base_footprint", "base_link")],
+            "base_link",
+        ),
+        ([("map", "r2/base_link"), ("map", "r1/base_link")], "r1/base_link"),
+        ([("base_link", "laser")], ""),
+        ([("map", "odom"), ("world", "base_link")], ""),
+    ],
+)
+def test_the_view_follows_a_robot_that_moves_in_the_fixed_frame(
+    links: list[tuple[str, str]], robot: str
+) -> None:
+    assert robot_frame_of(links, fixed_frame_of(links)) == robot
 
 
 def test_without_transforms_the_fixed_frame_is_that_of_the_data(tmp_path: Path) -> None:

@@ -1,18 +1,21 @@
-"""The config of a bag without one: displays for its topics, and a fixed frame."""
+"""The config of a bag without one: displays for its topics, a fixed frame, a view of the robot."""
 
 from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 
+import msgspec
+
 from webviz.api.declared import make
 from webviz.api.display import Display
 from webviz.api.offer import Offer
 from webviz.api.ports import TRANSPORTS
 from webviz.api.registry import display_types
+from webviz.api.views import Orbit
 from webviz.engine.commands.by_topic import Pick, picks
 from webviz.files.config import STANDARD, Config, Item
-from webviz.sources.bag.ghost import ROOT
+from webviz.sources.bag.ghost import BASES, ROOT
 from webviz.sources.bag.source import BagSource
 from webviz.sources.bag.time import TF
 
@@ -30,7 +33,10 @@ FRAMES = ("map", "odom", "world")
 
 
 def config_of(bag: BagSource) -> Config:
-    """Return the displays that fit the topics of a bag, in a frame that it has."""
+    """Return the displays that fit the topics of a bag, in a frame that it has.
+
+    The view follows the robot, which may be far from where the fixed frame is.
+    """
     offers = {
         topic: offer
         for topic, offer in bag.offers().items()
@@ -40,6 +46,8 @@ def config_of(bag: BagSource) -> Config:
     links = bag.links() or [(frame, frame) for frame in bag.frames(shown)]
     if frame := fixed_frame_of(links):
         config.set_fixed_frame(frame)
+    if robot := robot_frame_of(links, frame):
+        config.settings = msgspec.structs.replace(config.settings, view=Orbit(target_frame=robot))
     return config
 
 
@@ -108,6 +116,23 @@ def fixed_frame_of(links: Sequence[tuple[str, str]]) -> str:
             return name
     sizes = Counter(_root(frame, parents) for frame in frames)
     return min(sizes, key=lambda root: (-sizes[root], root), default="")
+
+
+def robot_frame_of(links: Sequence[tuple[str, str]], fixed_frame: str) -> str:
+    """Return the frame of a robot that moves in the fixed frame, "" without any.
+
+    Args:
+        links: parents and children.
+    """
+    parents = {child: parent for parent, child in links}
+    robots = [
+        (BASES.index(name), frame)
+        for frame in parents
+        if (name := frame.rpartition("/")[2]) in BASES
+        and frame != fixed_frame
+        and _root(frame, parents) == _root(fixed_frame, parents)
+    ]
+    return min(robots, default=(0, ""))[1]
 
 
 def _root(frame: str, parents: Mapping[str, str]) -> str:
