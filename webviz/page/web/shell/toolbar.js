@@ -76,9 +76,9 @@ export function install(places) {
   /** @type {ReturnType<typeof fit>} */
   const bar = fit(element, more, [
     "wv-compact",
+    "wv-tight",
     { element: full, items: () => [item(actions.fullscreen)] },
     { element: image, items: () => [item(actions.image)] },
-    "wv-tight",
     "wv-wrapped",
     { element: tools.icons, items: () => tools.iconItems() },
     { element: views, items: () => savedMenu() },
