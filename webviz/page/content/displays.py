@@ -47,6 +47,7 @@ class DisplayRow(msgspec.Struct, frozen=True):
         can_edit: whether it has properties.
         level: the worst of its statuses.
         line: the first status of this level if it is a problem, "" if not.
+        status: its name.
         topics: that it subscribes to.
         remedy: of the problem, if a click can solve it.
     """
@@ -59,6 +60,7 @@ class DisplayRow(msgspec.Struct, frozen=True):
     can_edit: bool
     level: LevelName
     line: str
+    status: str
     topics: Sequence[str]
     remedy: RemedyButton | msgspec.UnsetType = msgspec.UNSET
 
@@ -157,7 +159,7 @@ def _follows(status: Status, cause: Status) -> bool:
 
 def _row(row: Row, causes: Sequence[Status]) -> DisplayRow:
     level = row.level
-    worst = next((s for s in row.statuses.values() if s.level == level), None)
+    name, worst = next(((n, s) for n, s in row.statuses.items() if s.level == level), ("", None))
     is_said = any(_follows(status, each) for each in causes for status in row.statuses.values())
     has_own = worst and level > Level.OK and not is_said and row.type != "Group"
     remedy = remedy_of(worst, row.id) if worst and has_own else None
@@ -170,21 +172,16 @@ def _row(row: Row, causes: Sequence[Status]) -> DisplayRow:
         can_edit=row.display is not None,
         level=level_name(level),
         # What the viewer says is on top of the list, once.
-        line="" if is_said else _worst(row, level),
+        line="" if is_said or not worst or level < Level.WARN else _sentence(row, name, worst),
+        status=name,
         topics=_topics(row),
         remedy=remedy or msgspec.UNSET,
     )
 
 
-def _worst(row: Row, level: Level) -> str:
-    """Return the first status of this level if it is a problem.
-
-    That of a group names the display.
-    """
-    if level < Level.WARN:
-        return ""
-    key, status = next((k, s) for k, s in row.statuses.items() if s.level == level)
-    return f"{key}: {status.text}" if row.type == "Group" or not status.text else status.text
+def _sentence(row: Row, name: str, status: Status) -> str:
+    """Return what a status says; that of a group names the display."""
+    return f"{name}: {status.text}" if row.type == "Group" or not status.text else status.text
 
 
 def _topics(row: Row | None) -> list[str]:

@@ -29,6 +29,7 @@ export interface DisplayRow {
   can_edit: boolean;
   level: "error" | "idle" | "ok" | "warn";
   line: string;
+  status: string;
   topics: Array<string>;
   remedy?: RemedyButton;
 }

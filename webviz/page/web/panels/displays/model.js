@@ -19,7 +19,7 @@ export function globalItem(settings) {
   const statuses = settings?.get("statuses") ?? [];
   const error = statuses.find(([, level]) => level === "error");
   const worst = error ?? statuses.find(([, level]) => level === "warn");
-  const [, level, line, remedy] = worst ?? ["", /** @type {const} */ ("ok"), "", null];
+  const [status, level, line, remedy] = worst ?? ["", /** @type {const} */ ("ok"), "", null];
   const rate = settings?.get("frame_rate");
   const note = rate === undefined ? "" : `${settings?.get("fixed_frame")}, ${Math.round(rate)} Hz`;
   return {
@@ -32,6 +32,7 @@ export function globalItem(settings) {
     can_edit: false,
     level,
     line,
+    status,
     remedy: remedy ?? undefined,
     note,
     topics: [],

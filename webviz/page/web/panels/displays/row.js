@@ -79,7 +79,7 @@ export function makeRow(first, look) {
   let inside = null;
   /** @type {(() => void) | null} */
   let unwatch = null;
-  /** @type {{said: string, remedy: RemedyButton | null}} */
+  /** @type {{said: string, status?: string, remedy: RemedyButton | null}} */
   let shown = { said: "", remedy: null };
   /** @type {Explaining} */
   let explaining = () => undefined;
@@ -104,7 +104,7 @@ export function makeRow(first, look) {
 
   // Without a line the viewer says it on top, or the group's displays do.
   function showHelp() {
-    const finding = shown.said ? explaining(isGlobal ? "" : id) : undefined;
+    const finding = shown.said ? explaining(isGlobal ? "" : id, shown.status) : undefined;
     fillHelp(remedy, shown.said ? shown.remedy : null, finding);
   }
 
@@ -153,7 +153,8 @@ export function makeRow(first, look) {
     set(dot, { "data-tip": level && LEVELS[level], hidden: !level });
     setText(line, said);
     set(line, { "data-tip": said || null, hidden: !said });
-    shown = { said, remedy: item.remedy ?? null };
+    // A group repeats a status of a display in it.
+    shown = { said, status: item.isGroup ? undefined : item.status, remedy: item.remedy ?? null };
     showHelp();
     if (isGlobal) setText(note, sanitized(item.note ?? ""));
     else showRate(hasRate && item.topics.length > 0);
