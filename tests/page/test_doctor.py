@@ -101,7 +101,8 @@ def test_the_badge_counts_what_is_more_than_a_note(panel: Tab) -> None:
 def test_statuses_lead_to_the_finding_that_explains_them_and_back(panel: Tab) -> None:
     page = panel.page
     panel.show_tab("Displays")
-    show(panel, replace(NOTE, severity=Severity.ERROR), MISSPELT)
+    other = replace(NOTE, severity=Severity.ERROR, explains=(Symptom("1", "Points"),))
+    show(panel, other, MISSPELT)
     scan = page.get_by_role("treeitem", name="Scan")
     link = scan.get_by_role("button", name="Cause: TF002")
     expect(link).to_be_visible()
@@ -109,7 +110,9 @@ def test_statuses_lead_to_the_finding_that_explains_them_and_back(panel: Tab) ->
     scan.get_by_role("button", name="Unfold Scan").click()
     lines = page.locator(".wv-statuses-lines > li")
     panel.wait_for(lambda: lines.count() == 2)
-    expect(lines).to_have_text(["Transform: No transform.Cause: TF002", "Points: No transform."])
+    expect(lines).to_have_text(
+        ["Transform: No transform.Cause: TF002", "Points: No transform.Cause: NET005"]
+    )
     lines.first.get_by_role("button").click()
     led = page.locator(".wv-finding").nth(1)
     expect(led).to_be_focused()
