@@ -167,9 +167,12 @@ class Observation:
                 yield display, each, self.offers.get(each.topic, NO_OFFER)
 
     def undiscovered(self) -> tuple[Symptom, ...]:
-        """Return the statuses of topics that have no publisher."""
+        """Return the statuses of topics that have no publisher, those of transforms included."""
         found = [(d, each) for d, each, offer in self.starved() if not offer.publishers]
-        return tuple(symptom for display, each in found for symptom in display.symptom(each.status))
+        starved = [symptom for display, each in found for symptom in display.symptom(each.status)]
+        if not any(self.offers.get(topic, NO_OFFER).publishers for topic in ("/tf", "/tf_static")):
+            starved += [symptom for symptom, _ in self.lost(Kind.NO_TRANSFORMS)]
+        return tuple(starved)
 
     def unreceived(self) -> tuple[Symptom, ...]:
         """Return the statuses of topics that have a publisher and no message."""

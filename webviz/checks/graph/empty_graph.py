@@ -30,7 +30,7 @@ class EmptyGraph(Check):
     id = "GRAPH001"
 
     def find(self, seen: Observation) -> Iterator[Finding]:
-        """Yield a finding if the graph has one node and displays lack topics."""
+        """Yield a finding if the graph has one node, and topics or transforms are lacking."""
         explains = seen.undiscovered()
         if seen.is_recorded or len(seen.nodes) != 1 or not explains:
             return
