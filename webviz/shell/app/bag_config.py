@@ -19,7 +19,7 @@ from webviz.sources.bag.ghost import BASES, ROOT
 from webviz.sources.bag.source import BagSource
 from webviz.sources.bag.time import TF
 
-PREFERRED = ("RobotModel", "Image", "OccupancyGrid", "PlanningScene", "Trajectory")
+PREFERRED = ("RobotModel", "Image", "OccupancyGrid", "PlanningScene", "Trajectory", "NavSatFix")
 """Of several displays that fit a topic."""
 ON_REQUEST = {"CameraInfo", "Effort", "Text"}
 """Displays that repeat what others show, or that fit everything."""
