@@ -90,7 +90,7 @@ def standing(stage: Harness, rounds: int, at_ns: int | None = None) -> dict[str,
 
 def test_a_clock_that_is_missing_ends_or_is_there_twice(stage: Harness) -> None:
     clocks(stage)
-    assert standing(stage, 2, 0) == {}
+    assert standing(stage, 1, 0) == {}  # it takes two rounds
     assert [*standing(stage, 5, 0)] == ["TIME001"]
     clocks(stage, SIMULATOR, PLAYER)
     assert [*examined(stage)] == ["TIME003"]
