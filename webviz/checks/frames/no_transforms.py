@@ -28,7 +28,7 @@ class NoTransforms(Check):
     id = "TF001"
 
     def find(self, seen: Observation) -> Iterator[Finding]:
-        """Yield a finding if nothing is known of any frame."""
+        """Yield a finding if nothing is known of any frame: a note if all data can be drawn."""
         explains = tuple(symptom for symptom, _ in seen.lost(Kind.NO_TRANSFORMS))
         if not explains or (seen.is_recorded and "none" not in (seen.buffer.recorded or "none")):
             return
@@ -37,6 +37,7 @@ class NoTransforms(Check):
         if offers and not seen.is_recorded and all(offer.requested is None for offer in offers):
             return  # they have just been found
         nodes = seen.nodes_of("/tf") or seen.nodes_of("/tf_static")
+        is_harmless = any(seen.inputs()) and not any(each.display for each in explains)
         yield self.found(
             f"{nodes} publishes transforms, but none has arrived."
             if nodes
@@ -46,7 +47,7 @@ class NoTransforms(Check):
             "Record /tf and /tf_static as well, or add a transform with --transform."
             if seen.is_recorded
             else "Start robot_state_publisher, the odometry and localisation.",
-            severity=Severity.ERROR,
+            severity=Severity.NOTE if is_harmless else Severity.ERROR,
             evidence={"publishers": nodes, "fixed_frame": seen.fixed_frame},
             command="ros2 topic info /tf --verbose",
             explains=explains,
