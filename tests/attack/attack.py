@@ -41,6 +41,8 @@ class Attack(abc.ABC):
 
     kind: str
     """Its name, also that of its folder in the corpus."""
+    least = 1
+    """Number of cases in a turn, however slow the machine is."""
 
     def start(self) -> None:  # noqa: B027 - most start nothing
         """Start what the attack needs, once before the first case."""

@@ -126,12 +126,14 @@ def _attack(
     while time.monotonic() < end and len(report.breaches) < MAX_BREACHES and target.is_alive:
         for attack in attacks:
             turn_end = time.monotonic() + turn_s
+            enough = numbers[attack.kind] + attack.least
             while True:
                 number = numbers[attack.kind]
                 numbers[attack.kind] += 1
                 case = attack.draw(random_of(report.seed, attack.kind, number))
                 _strike(attack, case, number, target, report)
-                if time.monotonic() > turn_end or not target.is_alive:
+                is_over = numbers[attack.kind] >= enough and time.monotonic() > turn_end
+                if is_over or not target.is_alive:
                     break
 
 

@@ -65,6 +65,8 @@ class Sockets(Attack):
         role: of the pages; None for somebody without a token.
     """
 
+    least = 20
+
     def __init__(self, target: Target, role: Role | None) -> None:
         self.kind = kind_of(role)
         self._target = target

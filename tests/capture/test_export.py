@@ -129,6 +129,7 @@ def file(folder: Path, browser: playwright.Browser) -> Iterator[OpenFile]:
 def test_the_file_shows_what_the_viewer_shows_at_any_time_in_any_order(
     folder: Path, file: OpenFile, renderer: HeadlessRenderer
 ) -> None:
+    file.seek(TIMES[0])  # the scene has its size by then
     size = tuple(file.page.evaluate(CANVAS))
     shots = webviz.capture(
         CONFIG, bag=folder / "run", at=sorted(TIMES), size=size, renderer=renderer
