@@ -10,10 +10,11 @@ import pytest
 
 from webviz.api.errors import Error
 from webviz.data.messages import encode, interfaces, message_class
+from webviz.data.parameters import KINDS
 from webviz.engine.commands import CallService
 from webviz.engine.state import State
 from webviz.page.recorded_ui import RecordedUi
-from webviz.panels.parameter_values import KINDS, flat, to_yaml
+from webviz.panels.parameter_values import flat, to_yaml
 from webviz.panels.parameters import MAX_PARAMETERS, Parameters
 from webviz.panels.yaml_text import MAX_CHARACTERS, inline, read_yaml, write_yaml
 from webviz.sources import Offer, Publisher

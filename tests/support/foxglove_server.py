@@ -7,6 +7,7 @@ Options: `plain` has no capabilities, `short` a short queue, `ahead=3` a clock t
 
 It prints its address, and then what clients do, one line of JSON each: subscriptions, messages,
 calls. Lines on its standard input are commands: `time SECONDS`, `status TEXT`, `stop TOPIC`,
+`parameter NAME VALUE`,
 `burst TOPIC COUNT SIZE`.
 """
 
@@ -25,6 +26,8 @@ from foxglove.websocket import (  # pyright: ignore[reportMissingImports]
     Capability,
     ConnectionGraph,
     MessageSchema,
+    Parameter,
+    ParameterType,
     Service,
     ServiceSchema,
     StatusLevel,
@@ -101,6 +104,20 @@ uint8[] levels
 MSG: my_robot_msgs/Mode
 string name
 """
+FIXED = "/base.wheel_radius"
+PARAMETERS = [
+    Parameter("/base.max_speed", value=0.5),
+    Parameter(FIXED, value=0.1),
+    Parameter("/base.count", value=3),
+    Parameter("/base.name", value="robot"),
+    Parameter("/base.is_on", value=True),
+    Parameter("/base.key", value=b"\x01\xff"),
+    Parameter("/base.gains", value=[1.0, 2.5], type=ParameterType.Float64Array),
+    Parameter("/base.joints", value=["a", "b"]),
+    Parameter("/base.limits", value={"low": 1}),
+    Parameter("/base.qos_overrides./tf.depth", value=10),
+    Parameter("free", value="of no node"),
+]
 ahead_ns = 0
 
 
@@ -115,6 +132,7 @@ class Robot(foxglove.websocket.ServerListener):
         self.namespace = namespace
         self.channels: dict[str, Any] = {}
         self.latched: dict[str, bytes] = {}
+        self.parameters = {each.name: each for each in PARAMETERS}
 
     def on_subscribe(self, client: Any, channel: Any) -> None:
         say(subscribed=channel.topic)
@@ -132,6 +150,23 @@ class Robot(foxglove.websocket.ServerListener):
 
     def on_message_data(self, client: Any, client_channel_id: Any, data: bytes) -> None:
         say(message=base64.b64encode(data).decode())
+
+    def on_get_parameters(
+        self, client: Any, param_names: list[str], request_id: str | None = None
+    ) -> list[Any]:
+        return [p for name, p in self.parameters.items() if not param_names or name in param_names]
+
+    def on_set_parameters(
+        self, client: Any, parameters: list[Any], request_id: str | None = None
+    ) -> list[Any]:
+        for each in parameters:
+            say(set=each.name)
+            if each.name != FIXED:
+                self.parameters[each.name] = each
+        return [self.parameters[each.name] for each in parameters]
+
+    def on_parameters_subscribe(self, param_names: list[str]) -> None:
+        say(told=len(param_names))
 
     def add(self, topic: str, type: str) -> None:
         if type == CUSTOM:
@@ -221,7 +256,12 @@ def main(port: int, *options: str) -> None:
     ]
     # Without capabilities, it is a server that only shows.
     is_able = "plain" not in options
-    able = [Capability.ClientPublish, Capability.Services, Capability.ConnectionGraph]
+    able = [
+        Capability.ClientPublish,
+        Capability.Services,
+        Capability.ConnectionGraph,
+        Capability.Parameters,
+    ]
     server = foxglove.start_server(
         name="test",
         host="127.0.0.1",
@@ -269,6 +309,10 @@ def follow(robot: Robot, server: Any) -> None:
             server.publish_status(rest, StatusLevel.Warning, "1")
         elif command == "stop":
             robot.channels.pop(rest).close()
+        elif command == "parameter":
+            name, value = rest.split()
+            robot.parameters[name] = Parameter(name, value=float(value))
+            server.publish_parameter_values([robot.parameters[name]])
         elif command == "burst":
             topic, count, size = rest.split()
             cdr = encode(STRING, {"data": "x" * int(size)})

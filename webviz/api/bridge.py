@@ -6,6 +6,19 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
+class BridgeParameters:
+    """Parameters that a bridge has beside those that nodes tell themselves.
+
+    Args:
+        nodes: full names of the nodes, sorted.
+        changes: how often it has told that values have changed.
+    """
+
+    nodes: tuple[str, ...] = ()
+    changes: int = 0
+
+
+@dataclass(frozen=True)
 class Bridge:
     """A bridge and the link to it, as they are now.
 
@@ -22,6 +35,7 @@ class Bridge:
         robot: whose topics it carries, "" if they have no namespace of their own.
         clock_s: by how much its clock is ahead of this machine's, which is corrected; 0 if it is
             not, or by less than can be measured.
+        parameters: the nodes whose parameters it has.
     """
 
     name: str
@@ -35,6 +49,7 @@ class Bridge:
     round_trip_s: float | None = None
     robot: str = ""
     clock_s: float = 0.0
+    parameters: BridgeParameters = BridgeParameters()
 
     @property
     def title(self) -> str:

@@ -1,40 +1,16 @@
-"""Values of parameters: their types, and as YAML that `ros2 param load` reads."""
+"""Values of parameters, as text and as YAML that `ros2 param load` reads."""
 
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from webviz.api.errors import Error
+from webviz.data.parameters import BYTES, KINDS, Value
 from webviz.panels.yaml_text import read_yaml, write_yaml
 
-KINDS = {
-    1: ("bool", "bool_value"),
-    2: ("int", "integer_value"),
-    3: ("double", "double_value"),
-    4: ("string", "string_value"),
-    5: ("byte[]", "byte_array_value"),
-    6: ("bool[]", "bool_array_value"),
-    7: ("int[]", "integer_array_value"),
-    8: ("double[]", "double_array_value"),
-    9: ("string[]", "string_array_value"),
-}
-"""Types of rcl_interfaces/msg/ParameterType: their names, and where the value is."""
-BYTES = 5
 INT64 = 2**63
-
-Value = bool | int | float | str | Sequence[Any]
-
-
-def plain(value: Any, kind: int) -> Value | None:
-    """Return the value in a rcl_interfaces/msg/ParameterValue, None if it is not set."""
-    if kind not in KINDS:
-        return None
-    found = getattr(value, KINDS[kind][1])
-    if hasattr(found, "tolist"):
-        return found.tolist()
-    return list(found) if kind >= BYTES else found
 
 
 def parse(text: str, kind: int) -> Value:

@@ -13,18 +13,10 @@ from webviz.api.declared import Prop
 from webviz.api.errors import Error
 from webviz.api.panel import Panel, Send, Ui
 from webviz.data.names import readable
+from webviz.data.parameters import KINDS, Value, plain
 from webviz.data.words import counted
 from webviz.engine.commands import CallService
-from webviz.panels.parameter_values import (
-    KINDS,
-    Value,
-    fitting,
-    flat,
-    of_node,
-    parse,
-    plain,
-    to_yaml,
-)
+from webviz.panels.parameter_values import fitting, flat, of_node, parse, to_yaml
 from webviz.panels.yaml_text import inline, read_yaml
 
 EVENTS = "/parameter_events"
@@ -63,6 +55,7 @@ class Parameters(Panel):
         self.steps: list[tuple[str, dict[str, tuple[int, Value]]]] = []
         self.problem = self.outcome = ""
         self.refused: dict[str, str] = {}
+        self.changes: list[int] = []
 
     def build(self, ui: Ui, send: Send) -> None:
         """Show the node and its parameters."""
@@ -81,8 +74,11 @@ class Parameters(Panel):
         """Show the parameters, and ask for them if another node was chosen."""
         offer = state.offers.get(EVENTS)
         nodes = {each.node for each in offer.publishers if each.node} if offer else set[str]()
+        nodes.update(node for bridge in state.bridges for node in bridge.parameters.nodes)
         self.nodes.offer([NOTHING, *sorted(nodes)], self.chosen)
-        if self.asked != self.chosen:
+        changes = [bridge.parameters.changes for bridge in state.bridges]
+        if self.asked != self.chosen or changes != self.changes:
+            self.changes = changes
             self.refresh(None)
         with self.lock:
             self.list.show(self._shown())

@@ -78,8 +78,7 @@ def test_recorded_topics_are_read(replay: Callable[..., Replay]) -> None:
         assert offers["/map"].publishers[0].durability == "transient_local"
         reader.until(lambda: reader.source.graph.nodes())
         assert "/sim" in reader.source.graph.nodes()
-        events = reader.source.offers()["/parameter_events"].publishers
-        assert "/sim" in [each.node for each in events]
+        reader.until(lambda: "/sim" in reader.bridge.parameters.nodes)
         reader.want(scan=SCAN, map=MAP, path=PATH, robot_description=STRING, tf=TF)
         for topic in ("/scan", "/map", "/path", "/robot_description", "/tf"):
             reader.until(lambda topic=topic: _arrived(reader, topic))

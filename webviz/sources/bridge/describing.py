@@ -57,4 +57,5 @@ def described(
         remarks=(*stalls, *remarks, *session.remarks) if session and is_up else (),
         limits=tuple(session.limits) if session else before.limits,
         round_trip_s=round_trip_s,
+        parameters=session.parameters if session else before.parameters,
     )

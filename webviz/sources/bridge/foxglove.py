@@ -7,13 +7,15 @@ from collections.abc import Collection, Mapping, Sequence
 from concurrent.futures import Future
 from typing import Any
 
+from webviz.api.bridge import BridgeParameters
 from webviz.api.offer import Endpoint, Publisher
-from webviz.data.foxglove.schemas import ConversionError, conversion, is_own, problem_of
+from webviz.data.foxglove.schemas import ConversionError, conversion
 from webviz.data.messages import UnknownTypeError, definition
 from webviz.data.words import plain
 from webviz.sources.bridge import foxglove_wire as wire
-from webviz.sources.bridge.foxglove_channels import FoxgloveChannels
+from webviz.sources.bridge.foxglove_channels import FoxgloveChannels, is_foreign, type_of, unread
 from webviz.sources.bridge.foxglove_graph import ConnectionGraph
+from webviz.sources.bridge.foxglove_parameters import ParameterServices
 from webviz.sources.bridge.foxglove_subscriptions import ChannelSubscription, ChannelSubscriptions
 from webviz.sources.bridge.session import (
     CarriedTopic,
@@ -65,6 +67,7 @@ class FoxgloveSession:
         self._graph = ConnectionGraph()
         self._channels = FoxgloveChannels()
         self._services: dict[str, wire.ServiceOffer] = {}
+        self._parameters = ParameterServices(host.send, host.look)
         self._wishes: Mapping[str, Subscription] = {}
         self._lines = ChannelSubscriptions()
         self._foreign: dict[str, wire.ServerChannel] = {}
@@ -90,6 +93,11 @@ class FoxgloveSession:
     def nodes(self) -> tuple[str, ...]:
         """Full names of the nodes, as far as the bridge tells them."""
         return self._graph.nodes
+
+    @property
+    def parameters(self) -> BridgeParameters:
+        """The nodes with parameters that the bridge itself has."""
+        return self._parameters.known
 
     @property
     def remarks(self) -> Sequence[str]:
@@ -158,6 +166,9 @@ class FoxgloveSession:
 
     def call(self, service: str, type: str, request: bytes, answer: Future[bytes]) -> None:
         """Call a service; raises NotConnected."""
+        if service not in self._services and self._parameters.serves(service):
+            self._parameters.call(service, type, request, answer)
+            return
         self._require("services", NO_SERVICES)
         offered = self._services.get(service)
         if offered is None:
@@ -170,6 +181,7 @@ class FoxgloveSession:
 
     def forget(self, answer: Future[bytes]) -> None:
         """Expect the response of a call no longer."""
+        self._parameters.forget(answer)
         for pending in (self._pending, self._assets):
             for id, each in list(pending.items()):
                 if each is answer:
@@ -182,6 +194,7 @@ class FoxgloveSession:
 
     def close(self, problem: str) -> None:
         """Fail everything that is pending."""
+        self._parameters.close(problem)
         for answer in (*self._pending.values(), *self._assets.values()):
             fail(answer, problem)
         self._pending.clear()
@@ -243,6 +256,9 @@ class FoxgloveSession:
                 return
             case wire.ConnectionGraphUpdate():
                 self._graph.update(message)
+            case wire.ParameterValues():
+                self._parameters.take(message)
+                return
             case wire.ServerStatus():
                 self._note(message)
             case wire.RemoveStatus():
@@ -257,6 +273,8 @@ class FoxgloveSession:
         self._info = info
         if "connectionGraph" in info.capabilities:
             self._host.send(wire.subscribe_connection_graph())
+        if "parameters" in info.capabilities:
+            self._parameters.start("parametersSubscribe" in info.capabilities)
         if "clientPublish" in info.capabilities:
             self.advertise(self._to_advertise)
 
@@ -285,10 +303,10 @@ class FoxgloveSession:
         """Return the channel to subscribe to, None if none is wanted or can be read."""
         wish = self._wishes.get(topic)
         for channel in self._channels.by_topic.get(topic, ()) if wish else ():
-            if wish and _type_of(channel) == wish.type and not _unread(channel):
+            if wish and type_of(channel) == wish.type and not unread(channel):
                 if self._lines.channel(topic) == channel.id:
                     return channel
-                text = "" if _is_foreign(channel) else channel.schema
+                text = "" if is_foreign(channel) else channel.schema
                 problem = self._host.learn(wish.type, text)
                 self._problems[topic] = problem
                 if not problem:
@@ -299,30 +317,32 @@ class FoxgloveSession:
         line = ChannelSubscription(self._new_id(), topic, channel.id, self._wishes[topic].asked)
         self._lines.begin(line)
         self._foreign.pop(topic, None)
-        if _is_foreign(channel):
+        if is_foreign(channel):
             self._foreign[topic] = channel
         return line.id, channel.id
 
     def _carried(self, topic: str, channels: Sequence[wire.ServerChannel]) -> CarriedTopic:
         publishers: list[Publisher] = []
         for channel in channels:
-            type = _type_of(channel)
+            type = type_of(channel)
             make = functools.partial(
                 Publisher, type=type, reliability="reliable", is_qos_known=False
             )
             durability = usual_durability(topic, type)
             nodes = self._graph.publishers(topic) or ("",)
             publishers += [make(node=node, durability=durability) for node in nodes]
-        reasons = [_unread(channel) for channel in channels]
+        reasons = [unread(channel) for channel in channels]
         problem = self._problems.get(topic, "")
         if all(reasons):
             problem = reasons[0]
+        return CarriedTopic(tuple(publishers), problem, self._readers(topic, publishers[0].type))
+
+    def _readers(self, topic: str, type: str) -> tuple[Endpoint, ...] | None:
         names = self._graph.subscribers(topic)
-        if names is None:
-            return CarriedTopic(tuple(publishers), problem)
-        type = publishers[0].type
-        readers = [Endpoint(n, type, "reliable", "volatile", is_qos_known=False) for n in names]
-        return CarriedTopic(tuple(publishers), problem, tuple(readers))
+        make = functools.partial(Endpoint, is_qos_known=False)
+        return (
+            None if names is None else tuple(make(n, type, "reliable", "volatile") for n in names)
+        )
 
     # Output
 
@@ -356,28 +376,3 @@ class FoxgloveSession:
     def _new_id(self) -> int:
         id, self._next_id = self._next_id, self._next_id % 0xFFFFFFFF + 1
         return id
-
-
-def _unread(channel: wire.ServerChannel) -> str:
-    """Why the messages of a channel cannot be read, "" if they can."""
-    name = plain(channel.schema_name, 60)
-    if channel.encoding == "cdr":
-        schema = channel.schema_encoding or "ros2msg"
-        if schema in ("ros2msg", "ros2idl"):
-            return ""
-        return f"{name} is defined as {plain(schema, 20)!r}, webviz reads ros2msg and ros2idl"
-    if _is_foreign(channel):
-        return problem_of(channel.schema_name, name)
-    if channel.encoding == "ros1":
-        return f"{name} is a message of ROS 1, webviz shows ROS 2"
-    return f"{name} comes as {plain(channel.encoding, 20)!r}, no display reads that"
-
-
-def _is_foreign(channel: wire.ServerChannel) -> bool:
-    return is_own(channel.schema_name, channel.encoding)
-
-
-def _type_of(channel: wire.ServerChannel) -> str:
-    """Return the message type of ROS of what a channel has."""
-    known = conversion(channel.schema_name) if _is_foreign(channel) else None
-    return known.type if known else channel.schema_name

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from msgspec.structs import replace
 
+from webviz.data.foxglove.schemas import conversion, is_own, problem_of
 from webviz.data.words import listed, plain
 from webviz.sources.bridge.foxglove_wire import ServerChannel
 from webviz.sources.names import MAX_NAME, is_full_name
@@ -73,3 +74,29 @@ class FoxgloveChannels:
             self._by_topic[channel.topic] = rest
         else:
             del self._by_topic[channel.topic]
+
+
+def unread(channel: ServerChannel) -> str:
+    """Return why the messages of a channel cannot be read, "" if they can."""
+    name = plain(channel.schema_name, 60)
+    if channel.encoding == "cdr":
+        schema = channel.schema_encoding or "ros2msg"
+        if schema in ("ros2msg", "ros2idl"):
+            return ""
+        return f"{name} is defined as {plain(schema, 20)!r}, webviz reads ros2msg and ros2idl"
+    if is_foreign(channel):
+        return problem_of(channel.schema_name, name)
+    if channel.encoding == "ros1":
+        return f"{name} is a message of ROS 1, webviz shows ROS 2"
+    return f"{name} comes as {plain(channel.encoding, 20)!r}, no display reads that"
+
+
+def is_foreign(channel: ServerChannel) -> bool:
+    """Return whether the messages of a channel are in one of Foxglove's own schemas."""
+    return is_own(channel.schema_name, channel.encoding)
+
+
+def type_of(channel: ServerChannel) -> str:
+    """Return the message type of ROS of what a channel has."""
+    known = conversion(channel.schema_name) if is_foreign(channel) else None
+    return known.type if known else channel.schema_name

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import msgspec
 
@@ -149,6 +149,21 @@ class ConnectionGraphUpdate(_Struct):
     removed_services: tuple[str, ...] = ()
 
 
+class ServerParameter(_Struct, omit_defaults=True):
+    """A parameter; `type` is "float64", "float64_array" or "byte_array", or follows from it."""
+
+    name: str
+    value: Any = None
+    type: str | None = None
+
+
+class ParameterValues(_Struct):
+    """Values that were asked for under an id, or have changed."""
+
+    parameters: tuple[ServerParameter, ...]
+    id: str | None = None
+
+
 class MessageData(NamedTuple):
     """A message of a subscription, with the time at which the server received it, in ns."""
 
@@ -190,6 +205,7 @@ read_text = JsonFrames[_Struct](
         "status": ServerStatus,
         "removeStatus": RemoveStatus,
         "connectionGraphUpdate": ConnectionGraphUpdate,
+        "parameterValues": ParameterValues,
     }
 ).read
 """Returns the message in a text frame; see `JsonFrames.read`."""
@@ -273,6 +289,21 @@ def fetch_asset(id: int, uri: str) -> str:
 def subscribe_connection_graph() -> str:
     """Ask for the nodes of the graph, and for all changes."""
     return _text("subscribeConnectionGraph")
+
+
+def get_parameters(names: Sequence[str], id: str) -> str:
+    """Ask for parameters; without names, for all."""
+    return _text("getParameters", parameterNames=names, id=id)
+
+
+def set_parameters(parameters: Sequence[ServerParameter], id: str) -> str:
+    """Set parameters; the answer has their values then."""
+    return _text("setParameters", parameters=parameters, id=id)
+
+
+def subscribe_parameter_updates(names: Sequence[str]) -> str:
+    """Ask for all changes of parameters."""
+    return _text("subscribeParameterUpdates", parameterNames=names)
 
 
 def _text(op: str, **fields: object) -> str:

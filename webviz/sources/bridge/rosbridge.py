@@ -8,6 +8,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from concurrent.futures import Future
 from typing import Any
 
+from webviz.api.bridge import BridgeParameters
 from webviz.api.errors import Error
 from webviz.api.offer import Publisher
 from webviz.data.messages import Clock, MessageError, decode
@@ -41,7 +42,6 @@ MAX_STATUSES = 8
 """Warnings of the bridge that are kept, the newest."""
 CLOCK = "/clock"
 CLOCK_TYPE = "rosgraph_msgs/msg/Clock"
-EVENTS = "/parameter_events"
 GET_PARAMETERS = "rcl_interfaces/srv/GetParameters"
 START = (
     "Start rosbridge with `ros2 launch rosbridge_server rosbridge_websocket_launch.xml`, which "
@@ -84,7 +84,7 @@ class RosbridgeSession:
         """Definitions by type, "" if rosapi has none."""
         self._nodes: tuple[str, ...] = ()
         self._with_parameters: tuple[str, ...] = ()
-        """Nodes with services for parameters, which publish their changes."""
+        """Nodes with services for parameters."""
         self._wishes: Mapping[str, Subscription] = {}
         self._lines: dict[str, tuple[str, int]] = {}
         """By subscribed topic: its type, and `asked` of the wish."""
@@ -115,6 +115,11 @@ class RosbridgeSession:
     def nodes(self) -> tuple[str, ...]:
         """Full names of the nodes, sorted."""
         return self._nodes
+
+    @property
+    def parameters(self) -> BridgeParameters:
+        """The nodes with services for parameters."""
+        return BridgeParameters(self._with_parameters)
 
     @property
     def remarks(self) -> Sequence[str]:
@@ -351,13 +356,10 @@ class RosbridgeSession:
         return not problem
 
     def _carried(self, topic: str, type: str) -> CarriedTopic:
-        nodes = self._with_parameters if topic == EVENTS else ()
-        publishers = [
-            Publisher(node, type, "reliable", usual_durability(topic, type), is_qos_known=False)
-            for node in nodes or ("",)
-        ]
+        durability = usual_durability(topic, type)
+        publisher = Publisher("", type, "reliable", durability, is_qos_known=False)
         problem = self._problems.get(topic, "") if wire.is_readable() else wire.MISSING
-        return CarriedTopic(tuple(publishers), problem)
+        return CarriedTopic((publisher,), problem)
 
     def _advertise(self, advertisement: Advertisement) -> None:
         if advertisement not in self._advertised:

@@ -7,6 +7,7 @@ from concurrent.futures import Future
 from dataclasses import dataclass, replace
 from typing import Protocol
 
+from webviz.api.bridge import BridgeParameters
 from webviz.api.offer import Durability, Endpoint, Offer, Publisher
 from webviz.sources.graph import Advertisement, NotConnected
 from webviz.sources.source import Subscription
@@ -92,6 +93,11 @@ class BridgeSession(Protocol):
     @property
     def nodes(self) -> tuple[str, ...]:
         """Full names of the nodes of the graph, sorted."""
+        ...
+
+    @property
+    def parameters(self) -> BridgeParameters:
+        """The nodes with parameters, as far as the bridge tells them."""
         ...
 
     @property
