@@ -138,7 +138,6 @@ def delays(urls: list[str], seconds: float) -> dict[str, list[float]]:
     from webviz.api.robots import NamespacedRobot
     from webviz.data.messages import decode
     from webviz.sources import Raw, Subscription
-    from webviz.sources.bridge.address import Address
     from webviz.sources.fleet.source import FleetSource
 
     found: dict[str, list[float]] = {"scan": [], "odom": []}
@@ -149,10 +148,10 @@ def delays(urls: list[str], seconds: float) -> dict[str, list[float]]:
         stamp_ns = decode(types[name], raw.cdr).header.stamp_ns
         found[name].append((raw.received_ns - stamp_ns) / 1e9)
 
-    members = [(NamespacedRobot(f"r{n}"), Address(url)) for n, url in enumerate(urls, 1)]
+    members = [NamespacedRobot(f"r{n}", connection=url) for n, url in enumerate(urls, 1)]
     with contextlib.closing(FleetSource(members, None)) as source:
         source.inbox.read_along(lambda: note)
-        topics = [(f"/{robot.name}/{name}", types[name]) for robot, _ in members for name in types]
+        topics = [(f"/{robot.name}/{name}", types[name]) for robot in members for name in types]
         source.want({topic: Subscription(type, Topic(topic)) for topic, type in topics})
         until = time.monotonic() + seconds
         while time.monotonic() < until:

@@ -6,7 +6,7 @@ import importlib.util
 import os
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, overload
+from typing import TYPE_CHECKING
 
 from webviz.api.errors import Error
 from webviz.api.robots import NamespacedRobot, robots_of
@@ -74,29 +74,16 @@ def is_alone(robots: Sequence[str | NamespacedRobot]) -> bool:
     return not has_ros and any(robot.connection for robot in robots_of(tuple(robots)))
 
 
-@overload
-def with_robots(base: Source, robots: Sequence[str | NamespacedRobot]) -> Source: ...
-@overload
-def with_robots(base: None, robots: Sequence[str | NamespacedRobot]) -> FleetSource: ...
-def with_robots(base: Source | None, robots: Sequence[str | NamespacedRobot]) -> Source:
-    """Return a source with the robots that have connections.
+def with_robots(base: Source | None, robots: Sequence[str | NamespacedRobot]) -> FleetSource:
+    """Return a source with the robots that have connections, now and later.
 
     Args:
-        base: of all other topics; None only if some robot has a connection.
+        base: of all other topics; None if there are none.
         robots: of the config.
 
     Raises:
         Error: a connection is invalid.
     """
-    from webviz.sources.bridge.address import address, headers_of
-
-    found = [
-        (robot, address(robot.connection, environment=headers_of(robot.name)))
-        for robot in robots_of(tuple(robots))
-        if robot.connection
-    ]
-    if base is not None and not found:
-        return base
     from webviz.sources.fleet.source import FleetSource
 
-    return FleetSource(found, base)
+    return FleetSource(robots_of(tuple(robots)), base)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import msgspec
 
@@ -12,6 +12,7 @@ from webviz.api.bridge import Bridge
 from webviz.api.declared import Topic
 from webviz.api.lookback import Lookback
 from webviz.api.offer import Offer
+from webviz.api.robots import NamespacedRobot
 from webviz.sources.graph import Graph
 from webviz.sources.inbox import Inbox
 
@@ -118,4 +119,13 @@ class Source(Protocol):
 
     def close(self) -> None:
         """Stop all threads."""
+        ...
+
+
+@runtime_checkable
+class Fleet(Protocol):
+    """A source that connects to robots."""
+
+    def follow(self, robots: Sequence[NamespacedRobot]) -> None:
+        """Make the connections exactly those of these robots; existing ones stay open."""
         ...

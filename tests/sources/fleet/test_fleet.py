@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, contextmanager
 from typing import Any
 
@@ -17,12 +17,16 @@ from webviz.api.robots import NamespacedRobot
 from webviz.data.messages import decode, encode, interfaces
 from webviz.engine.parts.bridges import status_of
 from webviz.sources import Advertisement, NotConnected, Subscription
-from webviz.sources.bridge.address import HEADERS, Address, address, headers_of
+from webviz.sources.bridge.address import HEADERS, address, headers_of
 from webviz.sources.fleet.source import FleetSource
 
 AHEAD_S = 3.0
 SET_BOOL = "std_srvs/srv/SetBool"
 GOAL = Advertisement("/r2/goal_pose", "geometry_msgs/msg/PoseStamped")
+
+
+def _robots(urls: Mapping[str, str]) -> list[NamespacedRobot]:
+    return [NamespacedRobot(name, connection=url) for name, url in urls.items()]
 
 
 class Fleet:
@@ -33,7 +37,7 @@ class Fleet:
     """
 
     def __init__(self, **urls: str) -> None:
-        self.source = FleetSource([(NamespacedRobot(n), Address(u)) for n, u in urls.items()], None)
+        self.source = FleetSource(_robots(urls), None)
         self.newest: dict[str, bytes] = {}
         self.received: dict[str, int] = {}
 

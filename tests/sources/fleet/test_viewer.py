@@ -78,13 +78,24 @@ def test_robots_are_drawn_remembered_and_saved_together(config: Path, tmp_path: 
         assert {"/r1/scan", "/r2/scan", "/r1/tf", "/r2/tf_static"} <= saved
 
 
-def test_a_config_that_is_opened_later_makes_no_connections(config: Path, tmp_path: Path) -> None:
+def test_a_config_that_is_opened_later_is_connected(config: Path, tmp_path: Path) -> None:
     later = tmp_path / "later.yaml"
-    later.write_text(config.read_text().replace("r2", "r3"))
+    text = config.read_text().replace("r2", "r3")
+    broken = '- {namespace: r4, connection: "ws://"}\n'
+    later.write_text(text.replace("displays:", broken + "displays:"))
     with webviz.Viewer(config, port=0) as viewer:
+        viewer.attend(60)
+        assert eventually(lambda: "r2/laser" in viewer.frames)
         viewer.do(Open(str(later)))
-        assert eventually(lambda: "Connection to r3" in viewer.statuses)
-        assert "opened later. Restart" in viewer.statuses["Connection to r3"].text
+
+        def is_drawn() -> bool:
+            viewer.attend(60)
+            levels = {each.name: each.status.level for each in viewer}
+            return (levels["r1"], levels.get("r3")) == (Level.OK, Level.OK)
+
+        assert eventually(is_drawn), (viewer.statuses, [d.statuses for d in viewer])
+        assert "Connection to r2" not in viewer.statuses
+        assert "not the address of a bridge" in viewer.statuses["Connection to r4"].text
 
 
 def test_a_rule_is_tested_over_all_connections(

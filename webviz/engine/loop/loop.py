@@ -230,7 +230,7 @@ class FrameLoop:
             DrivingPart(core, self.controllers, tools.odometry),
             files,
             history,
-            BridgesPart(core, self._robots),
+            BridgesPart(core, self._robots, memory and memory.live),
             TopicsPart(core),
             LatencyPart(core, self._tracer, displays.list.active),
             RecordingPart(core, settings, memory),

@@ -10,37 +10,45 @@ from webviz.api.robots import NamespacedRobot
 from webviz.api.status import Level, Status
 from webviz.data.words import joined
 from webviz.engine.parts.part import Core, Part
-
-NOT_MADE = (
-    "Connections of robots are made when webviz starts, and this config was opened later. Restart "
-    "webviz with it."
-)
+from webviz.sources import Fleet, Source
 
 
 class BridgesPart(Part):
-    """Shows the bridges of the source."""
+    """Shows the bridges of the source, and has it connect to the robots of the config.
+
+    Args:
+        core: shared by all parts.
+        robots: returns those of the config.
+        live: source of live topics, None for a recording.
+    """
 
     name = "Connection"
 
-    def __init__(self, core: Core, robots: Callable[[], Sequence[NamespacedRobot]]) -> None:
+    def __init__(
+        self,
+        core: Core,
+        robots: Callable[[], Sequence[NamespacedRobot]],
+        live: Source | None,
+    ) -> None:
         super().__init__(core)
         self._robots = robots
+        self._fleet = live if isinstance(live, Fleet) else None
+        self._followed: Sequence[NamespacedRobot] | None = None
+
+    def keep_up(self, commanded: bool) -> None:
+        """Connect to the robots of a config that was opened or edited."""
+        if self._fleet is not None and (robots := self._robots()) is not self._followed:
+            self._followed = robots
+            self._fleet.follow(robots)
 
     def state(self) -> Mapping[str, Any]:
         """Return the bridges as they are now."""
         return {"bridges": tuple(self.core.source.bridges)}
 
     def statuses(self) -> Mapping[str, Status]:
-        """Return one status for each bridge, and for robots of the config that have none."""
+        """Return one status for each bridge."""
         bridges = self.core.source.bridges
-        found = {_key(bridge, bridges): status_of(bridge) for bridge in bridges}
-        if any(offer.is_recorded for offer in self.core.offers.values()):
-            return found
-        connected = {bridge.robot for bridge in bridges}
-        for robot in self._robots():
-            if robot.connection and robot.name not in connected:
-                found[f"Connection to {robot.name}"] = Status(Level.WARN, NOT_MADE)
-        return found
+        return {_key(bridge, bridges): status_of(bridge) for bridge in bridges}
 
 
 def status_of(bridge: Bridge) -> Status:

@@ -112,9 +112,8 @@ class Running(PictureControls):
             from webviz.sources.bag.source import BagSource
 
             if not isinstance(source, BagSource):
-                alone, source = source, with_robots(source, shown.settings.robots)
-                if source is not alone:
-                    closing.add("The connections of robots", source.close)
+                source = with_robots(source, shown.settings.robots)
+                closing.add("The connections of robots", source.close)
             if publish:
                 report_everything((*(shown.settings.publish or ()), *allow_publish))
             if fixed_frame:

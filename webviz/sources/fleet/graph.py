@@ -16,25 +16,32 @@ class FleetGraph:
     """Publishes and calls services by namespace; see `webviz.sources.Graph`.
 
     Args:
-        members: the robots with connections.
         base: of all other names.
     """
 
-    def __init__(self, members: Sequence[FleetMember], base: Graph) -> None:
-        self._members = members
+    def __init__(self, base: Graph) -> None:
+        self._members: Sequence[FleetMember] = ()
         self._base = base
+        self._advertised: Collection[Advertisement] = ()
+
+    def follow(self, members: Sequence[FleetMember]) -> None:
+        """Make the robots with connections exactly these, and advertise to new ones."""
+        self._members = members
+        if self._advertised:
+            self.advertise(self._advertised)
 
     def advertise(self, advertisements: Collection[Advertisement]) -> Future[None]:
         """Make the advertised publishers exactly these; fails if one connection refuses."""
-        by_robot: dict[FleetMember | None, list[Advertisement]] = {m: [] for m in self._members}
+        self._advertised, members = advertisements, self._members
+        by_robot: dict[FleetMember | None, list[Advertisement]] = {m: [] for m in members}
         rest: list[Advertisement] = []
         for each in advertisements:
-            member = self._member(each.topic)
+            member = _member(each.topic, members)
             if member is None:
                 rest.append(each)
             else:
                 by_robot[member].append(_renamed(each, member))
-        pending = [m.source.graph.advertise(by_robot[m]) for m in self._members]
+        pending = [m.source.graph.advertise(by_robot[m]) for m in members]
         if rest or not isinstance(self._base, ReadOnly):
             pending.append(self._base.advertise(rest))
         return _all(pending)
@@ -71,8 +78,12 @@ class FleetGraph:
         return tuple(sorted(found))
 
     def _member(self, name: str) -> FleetMember | None:
-        robot = robot_of([name], [m.robot for m in self._members])
-        return next((m for m in self._members if m.robot is robot), None)
+        return _member(name, self._members)
+
+
+def _member(name: str, members: Sequence[FleetMember]) -> FleetMember | None:
+    robot = robot_of([name], [m.robot for m in members])
+    return next((m for m in members if m.robot is robot), None)
 
 
 def _renamed(advertisement: Advertisement, member: FleetMember) -> Advertisement:

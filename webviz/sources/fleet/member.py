@@ -39,20 +39,38 @@ class MemberInbox(Inbox):
         self._shared = shared
         self._outer = outer
         self._moved = moved
+        self._open: dict[str, int] = {}
+        """By topic of the inbox of all: its limit."""
+        self._is_left = False
         self.arrived = shared.arrived
 
     def open(self, topic: str, limit: int) -> None:
         """See `Inbox.open`."""
-        self._shared.open(self._outer(topic), limit)
+        if not self._is_left:
+            name = self._outer(topic)
+            self._open[name] = limit
+            self._shared.open(name, limit)
 
     def close(self, topic: str) -> None:
         """See `Inbox.close`."""
-        self._shared.close(self._outer(topic))
+        if self._open.pop(self._outer(topic), None) is not None:
+            self._shared.close(self._outer(topic))
 
     def put(self, topic: str, raw: Raw) -> None:
         """See `Inbox.put`."""
         name = self._outer(topic)
-        self._shared.put(name, self._moved(name, raw))
+        limit = self._open.get(name)
+        if limit is not None:
+            # Who had the topic before this robot was connected may have closed it only now.
+            self._shared.open(name, limit)
+            self._shared.put(name, self._moved(name, raw))
+
+    def leave(self) -> None:
+        """Close all topics, and pass nothing on any more."""
+        self._is_left = True
+        opened, self._open = self._open, {}
+        for name in opened:
+            self._shared.close(name)
 
 
 class FleetMember:
@@ -76,7 +94,8 @@ class FleetMember:
         self._types: dict[str, str] = {}
         self._offers: tuple[Mapping[str, Offer], Mapping[str, Offer]] = {}, {}
         self._bridge: tuple[Bridge | None, int, Bridge | None] = None, 0, None
-        self.source = BridgeSource(address, inbox=MemberInbox(inbox, self.outer, self._moved))
+        self._inbox = MemberInbox(inbox, self.outer, self._moved)
+        self.source = BridgeSource(address, inbox=self._inbox)
 
     @property
     def bridge(self) -> Bridge:
@@ -85,7 +104,13 @@ class FleetMember:
         known, ahead_ns, named = self._bridge
         if named is None or known is not link or ahead_ns != self.ahead_ns:
             ahead_ns = self.ahead_ns
-            named = replace(link, robot=self.robot.name, clock_s=ahead_ns / 1e9)
+            nodes = tuple(self.outer(node) for node in link.parameters.nodes)
+            named = replace(
+                link,
+                robot=self.robot.name,
+                clock_s=ahead_ns / 1e9,
+                parameters=replace(link.parameters, nodes=nodes),
+            )
             self._bridge = link, ahead_ns, named
         return named
 
@@ -111,6 +136,11 @@ class FleetMember:
     def nodes(self) -> Sequence[str]:
         """Full names of its nodes, in its namespace."""
         return [self.outer(name) for name in self.source.graph.nodes()]
+
+    def leave(self) -> None:
+        """Close its topics at once, and its connection soon."""
+        self._inbox.leave()
+        self.source.stop()
 
     def outer(self, name: str) -> str:
         """Return the name in the fleet of a topic, node or service of the bridge."""

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Mapping, Sequence
 
 from webviz.api.bridge import Bridge
+from webviz.api.errors import Error
 from webviz.api.offer import Offer
 from webviz.api.robots import NamespacedRobot, robot_of
-from webviz.sources.bridge.address import Address
+from webviz.sources.bridge.address import Address, address, headers_of
 from webviz.sources.fleet.graph import FleetGraph
 from webviz.sources.fleet.member import FleetMember
 from webviz.sources.graph import ReadOnly
@@ -29,30 +31,55 @@ class FleetSource:
     the first.
 
     Args:
-        robots: with the addresses of their bridges.
+        robots: those with connections are connected.
         base: source of all other topics, closed with the fleet; None for the robots alone.
+
+    Raises:
+        Error: the address of a connection is invalid, or a header for it.
     """
 
-    def __init__(
-        self, robots: Sequence[tuple[NamespacedRobot, Address]], base: Source | None
-    ) -> None:
+    def __init__(self, robots: Sequence[NamespacedRobot], base: Source | None) -> None:
+        for robot in _connected(robots):
+            _address(robot)  # before any thread is started
         self._base = base
         self.inbox = Inbox() if base is None else base.inbox
-        self._members = [
-            FleetMember(robot, address, self.inbox, self.now_ns) for robot, address in robots
-        ]
-        others = ReadOnly(ALONE) if base is None else base.graph
-        self.graph = FleetGraph(self._members, others)
-        self._offers: tuple[list[Mapping[str, Offer]], dict[str, Offer]] = [], {}
+        self._members: Sequence[FleetMember] = ()
+        self._refused: Sequence[Bridge] = ()
+        """Robots of the config that cannot be connected."""
+        self._wanted: Mapping[str, Subscription] = {}
+        self.graph = FleetGraph(ReadOnly(ALONE) if base is None else base.graph)
+        self._offers: tuple[list[Mapping[str, Offer]], Mapping[str, Offer]] = [], {}
+        self.follow(robots)
+
+    def follow(self, robots: Sequence[NamespacedRobot]) -> None:
+        """Make the connections exactly those of these robots; existing ones stay open."""
+        known = {(m.robot.root, m.robot.connection): m for m in self._members}
+        members: list[FleetMember] = []
+        refused: list[Bridge] = []
+        for robot in _connected(robots):
+            member = known.pop((robot.root, robot.connection), None)
+            try:
+                member = member or FleetMember(robot, _address(robot), self.inbox, self.now_ns)
+            except Error as error:
+                refused.append(Bridge(robot.name, problem=str(error), robot=robot.name))
+                continue
+            member.robot = robot
+            members.append(member)
+        for member in known.values():
+            member.leave()
+        self._members, self._refused = members, refused
+        self.graph.follow(members)
+        self.want(self._wanted)
 
     @property
     def bridges(self) -> Sequence[Bridge]:
         """The links to all robots."""
         others = () if self._base is None else self._base.bridges
-        return [*others, *(member.bridge for member in self._members)]
+        return [*others, *(member.bridge for member in self._members), *self._refused]
 
     def want(self, subscriptions: Mapping[str, Subscription]) -> None:
         """Make the subscriptions exactly these, each over its connection."""
+        self._wanted = subscriptions
         rest: dict[str, Subscription] = {}
         by_robot: dict[str, dict[str, Subscription]] = {m.robot.root: {} for m in self._members}
         robots = [member.robot for member in self._members]
@@ -69,6 +96,8 @@ class FleetSource:
         known, merged = self._offers
         found = [member.offers() for member in self._members]
         found = [*([] if self._base is None else [self._base.offers()]), *found]
+        if len(found) == 1:
+            return found[0]
         if len(known) != len(found) or any(a is not b for a, b in zip(known, found, strict=True)):
             merged = {topic: offer for offers in found for topic, offer in offers.items()}
             self._offers = found, merged
@@ -76,11 +105,13 @@ class FleetSource:
 
     def now_ns(self) -> int:
         """ROS time."""
-        return self._clock.now_ns()
+        clock = self._clock
+        return time.time_ns() if clock is None else clock.now_ns()
 
     def clock_messages(self) -> int | None:
         """Return the number of messages that set ROS time; None while it is wall time."""
-        return self._clock.clock_messages()
+        clock = self._clock
+        return None if clock is None else clock.clock_messages()
 
     def resolve(self, topic: str) -> str:
         """Return the full name of a topic; raises ValueError."""
@@ -96,8 +127,18 @@ class FleetSource:
             self._base.close()
 
     @property
-    def _clock(self) -> Source:
-        """The source whose time counts."""
+    def _clock(self) -> Source | None:
+        """The source whose simulated time counts, or any; None without robots and other topics."""
         members: list[Source] = [member.source for member in self._members]
         sources = members if self._base is None else [self._base, *members]
-        return next((s for s in sources if s.clock_messages() is not None), sources[0])
+        simulated = (s for s in sources if s.clock_messages() is not None)
+        return next(simulated, sources[0] if sources else None)
+
+
+def _connected(robots: Sequence[NamespacedRobot]) -> Sequence[NamespacedRobot]:
+    return [robot for robot in robots if robot.connection]
+
+
+def _address(robot: NamespacedRobot) -> Address:
+    """Return the address of a robot's bridge; raises Error."""
+    return address(robot.connection or "", environment=headers_of(robot.name))
