@@ -126,7 +126,7 @@ class BulkLine:
     def want(self, wishes: Mapping[str, Subscription]) -> None:
         """Make the large topics exactly these."""
         self._wishes = wishes
-        self._subscribe()
+        self.subscribe()
 
     async def run(self) -> None:
         """Have a connection while there are large topics."""
@@ -145,7 +145,7 @@ class BulkLine:
                 self._session = session = self._begin(self)
                 self._refuse(False)
                 session.start()
-                self._subscribe()
+                self.subscribe()
                 try:
                     await first_of(
                         read(socket, session, lambda problem: None),
@@ -174,10 +174,10 @@ class BulkLine:
         if self._pacer.step(time.monotonic()):
             self._source.sort_topics()
 
-    def _subscribe(self) -> None:
+    def subscribe(self) -> None:
+        """Subscribe to what is offered now, of which some topics rest."""
         if self._session is not None:
-            now = self._pacer.subscribed()
-            self._session.want({t: wish for t, wish in self._wishes.items() if t in now})
+            self._session.want(self._wishes, self._wishes.keys() - self._pacer.subscribed())
 
     # The interface of webviz.sources.bridge.session.Host
 

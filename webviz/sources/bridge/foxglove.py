@@ -55,13 +55,14 @@ class FoxgloveSession:
 
     Args:
         host: of the connection.
+        is_first: False for a second connection, for large topics only.
     """
 
     protocol = "Foxglove"
-    is_paced = True
 
-    def __init__(self, host: Host) -> None:
+    def __init__(self, host: Host, is_first: bool = True) -> None:
         self._host = host
+        self._is_first = is_first
         self._info: wire.ServerInfo | None = None
         """Its first text, None before."""
         self._graph = ConnectionGraph()
@@ -121,6 +122,10 @@ class FoxgloveSession:
     def start(self) -> None:
         """Do nothing: the server speaks first."""
 
+    def beside(self, host: Host) -> FoxgloveSession:
+        """Return a session for a second connection, for large topics."""
+        return FoxgloveSession(host, is_first=False)
+
     def receive(self, frame: str | bytes) -> None:
         """Take a frame; raises WireError."""
         if isinstance(frame, bytes):
@@ -128,9 +133,11 @@ class FoxgloveSession:
         else:
             self._take_text(wire.read_text(frame))
 
-    def want(self, wishes: Mapping[str, Subscription]) -> None:
+    def want(
+        self, wishes: Mapping[str, Subscription], resting: Collection[str] = frozenset()
+    ) -> None:
         """Make the subscriptions exactly these, as far as they are offered."""
-        self._wishes = wishes
+        self._wishes = wishes = {t: wish for t, wish in wishes.items() if t not in resting}
         ended: list[int] = []
         for line in self._lines:
             channel = self._channel(line.topic)
@@ -271,6 +278,8 @@ class FoxgloveSession:
     def _begin_session(self, info: wire.ServerInfo) -> None:
         """Take what a server says first; it may begin anew on the same connection."""
         self._info = info
+        if not self._is_first:
+            return
         if "connectionGraph" in info.capabilities:
             self._host.send(wire.subscribe_connection_graph())
         if "parameters" in info.capabilities:

@@ -221,10 +221,10 @@ class Pacer:
         # A turn takes a round trip, too, in which others could have had the link.
         flow.taken += max(len(cdr), min(self.rate * self.trip_s, UNKNOWN_SIZE))
         digest = hash(cdr)
-        if digest == flow.digest:
-            flow.is_kept = flow.is_kept or (self.is_in_turns and flow.count == 0)
-        elif rested_s < RARE_S:
+        if flow.is_kept and rested_s < RARE_S:
             flow.is_kept = False
+        elif digest == flow.digest and self.is_in_turns and flow.count == 0:
+            flow.is_kept = True
         flow.digest = digest
         flow.count += 1
         (began_s, count, rate), self._burst = self._burst, (now_s, 0, self.rate)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
-import time
 from collections.abc import Callable, Collection, Mapping, Sequence
 from concurrent.futures import Future
 from typing import Any
@@ -12,8 +10,9 @@ from webviz.api.bridge import BridgeParameters
 from webviz.api.errors import Error
 from webviz.api.offer import Publisher
 from webviz.data.messages import Clock, MessageError, decode
-from webviz.data.words import listed, plain
+from webviz.data.words import plain
 from webviz.sources.bridge import rosbridge_wire as wire
+from webviz.sources.bridge.rosapi import Rosapi
 from webviz.sources.bridge.rosbridge_values import from_values, to_values
 from webviz.sources.bridge.session import (
     CarriedTopic,
@@ -24,29 +23,18 @@ from webviz.sources.bridge.session import (
     usual_durability,
 )
 from webviz.sources.graph import UNKNOWN, Advertisement, Missing, NotConnected
-from webviz.sources.names import MAX_NAME, is_full_name
 from webviz.sources.source import Subscription
 
-POLL_S = 2.0
-"""Between two readings of the topics, of which rosbridge tells no changes."""
-NODES_EACH = 5
-"""Readings of the topics for one of the nodes."""
-LATE_S = 6.0
-"""Without an answer of rosapi, after which that is said."""
-MAX_TOPICS = 10_000
-MAX_TEXTS = 256 << 20
-"""Characters of all definitions."""
 MAX_PENDING = 1000
 """Calls whose answers are outstanding."""
 MAX_STATUSES = 8
 """Warnings of the bridge that are kept, the newest."""
 CLOCK = "/clock"
 CLOCK_TYPE = "rosgraph_msgs/msg/Clock"
-GET_PARAMETERS = "rcl_interfaces/srv/GetParameters"
-START = (
-    "Start rosbridge with `ros2 launch rosbridge_server rosbridge_websocket_launch.xml`, which "
-    "starts rosapi, too."
-)
+AWAKE_MS, RESTING_MS = 20, 3_600_000
+"""Least time between two messages of a topic that takes turns. At rest it stays subscribed to, so
+that a message comes as soon as its turn comes; without the first, rosbridge would send that twice,
+as it subscribes anew for each change."""
 NO_ASSETS = (
     "rosbridge sends no files. Install the package with the meshes on this machine, or use "
     "foxglove_bridge."
@@ -60,48 +48,36 @@ LIMITS = (
     "call_services_in_new_thread changes that.",
     "Goals for actions and files do not pass it.",
 )
-NO_DEFINITION = "# failed to get full definition text"
-"""In place of a definition that rosapi does not have."""
 
 
 class RosbridgeSession:
     """Topics and services of rosbridge; see `BridgeSession`.
 
-    Of rosapi, only services are called that no race makes fail: an exception in one ends rosapi.
-
     Args:
         host: of the connection.
+        api: what the first connection knows, None for the first.
     """
 
     protocol = "rosbridge"
-    is_paced = False
 
-    def __init__(self, host: Host) -> None:
+    def __init__(self, host: Host, api: Rosapi | None = None) -> None:
         self._host = host
-        self._types: dict[str, str] = {}
-        """By topic."""
-        self._texts: dict[str, str] = {}
-        """Definitions by type, "" if rosapi has none."""
-        self._nodes: tuple[str, ...] = ()
-        self._with_parameters: tuple[str, ...] = ()
-        """Nodes with services for parameters."""
+        self._is_first = api is None
+        self._api = api or Rosapi(self._ask, self._take_changes)
         self._wishes: Mapping[str, Subscription] = {}
+        self._resting: Collection[str] = ()
         self._lines: dict[str, tuple[str, int]] = {}
         """By subscribed topic: its type, and `asked` of the wish."""
+        self._throttles: dict[str, int] = {}
+        """By subscribed topic: the least time between two messages, in ms."""
         self._problems: dict[str, str] = {}
         self._advertised: set[Advertisement] = set()
         self._asked: dict[str, Callable[[wire.RosbridgeResponse], object]] = {}
         """By id of a call of rosapi."""
-        self._asked_s: float | None = None
-        """Moment of the reading that is not answered yet."""
         self._pending: dict[str, tuple[Future[bytes], str, str]] = {}
         """By id of a call: its answer, the service, and the type of the response."""
         self._fragments = wire.Fragments()
         self._statuses: dict[str, None] = {}
-        self._api_problem = ""
-        self._left_out: list[str] = []
-        self._polls = 0
-        self._timer: asyncio.TimerHandle | None = None
         self._next_id = 1
 
     # For the source
@@ -109,30 +85,23 @@ class RosbridgeSession:
     @property
     def topics(self) -> Mapping[str, CarriedTopic]:
         """All topics, by name."""
-        return {topic: self._carried(topic, type) for topic, type in self._types.items()}
+        return {topic: self._carried(topic, type) for topic, type in self._api.types.items()}
 
     @property
     def nodes(self) -> tuple[str, ...]:
         """Full names of the nodes, sorted."""
-        return self._nodes
+        return self._api.nodes
 
     @property
     def parameters(self) -> BridgeParameters:
         """The nodes with services for parameters."""
-        return BridgeParameters(self._with_parameters)
+        return BridgeParameters(self._api.with_parameters)
 
     @property
     def remarks(self) -> Sequence[str]:
         """Sentences: lacks of the bridge and of rosapi, and warnings of the bridge."""
-        late_s = 0.0 if self._asked_s is None else time.monotonic() - self._asked_s
-        late = f"rosapi has not answered for {late_s:.0f} s, so topics may be missing. {START}"
-        return [
-            *([] if wire.is_readable() else [f"{wire.MISSING}."]),
-            *([late] if late_s > LATE_S else []),
-            *([self._api_problem] if self._api_problem else []),
-            *self._left_out,
-            *self._statuses,
-        ]
+        missing = [] if wire.is_readable() else [f"{wire.MISSING}."]
+        return [*missing, *self._api.remarks(), *self._statuses]
 
     @property
     def limits(self) -> Sequence[str]:
@@ -140,13 +109,13 @@ class RosbridgeSession:
         return LIMITS
 
     def start(self) -> None:
-        """Ask for the topics, and again and again."""
-        self._asked_s = time.monotonic()
-        self._ask("/rosapi/topics", {}, self._take_topics)
-        if self._polls % NODES_EACH == 0:
-            self._ask("/rosapi/nodes", {}, self._take_nodes)
-            self._ask("/rosapi/services_for_type", {"type": GET_PARAMETERS}, self._take_services)
-        self._polls += 1
+        """Ask for the topics, and again and again; on the first connection."""
+        if self._is_first:
+            self._api.start()
+
+    def beside(self, host: Host) -> RosbridgeSession:
+        """Return a session for a second connection, for large topics."""
+        return RosbridgeSession(host, self._api)
 
     def receive(self, frame: str | bytes) -> None:
         """Take a frame; raises WireError."""
@@ -166,21 +135,33 @@ class RosbridgeSession:
             case _:
                 return
 
-    def want(self, wishes: Mapping[str, Subscription]) -> None:
+    def want(
+        self, wishes: Mapping[str, Subscription], resting: Collection[str] = frozenset()
+    ) -> None:
         """Make the subscriptions exactly these, as far as they are offered."""
-        self._wishes = wishes
+        self._wishes, self._resting = wishes, resting
         wanted = {topic: (wish.type, wish.asked) for topic, wish in wishes.items()}
-        if self._types.get(CLOCK) == CLOCK_TYPE:
+        if self._is_first and self._api.types.get(CLOCK) == CLOCK_TYPE:
             wanted.setdefault(CLOCK, (CLOCK_TYPE, 0))
         lines = {topic: line for topic, line in wanted.items() if self._can_read(topic, line[0])}
         for topic, line in list(self._lines.items()):
             if lines.get(topic) != line:
                 self._host.send(wire.unsubscribe(topic))
                 del self._lines[topic]
+                self._throttles.pop(topic, None)
         for topic, line in lines.items():
-            if topic not in self._lines:
-                self._host.send(wire.subscribe(topic, line[0]))
-                self._lines[topic] = line
+            self._subscribe(topic, line)
+
+    def _subscribe(self, topic: str, line: tuple[str, int]) -> None:
+        """Subscribe to a topic, or change how often its messages come."""
+        is_resting = topic in self._resting
+        if is_resting and topic not in self._lines:
+            return  # the first message would come at once
+        known = self._throttles.get(topic)
+        throttle = RESTING_MS if is_resting else AWAKE_MS if known else 0
+        if throttle != known:
+            self._host.send(wire.subscribe(topic, line[0], throttle))
+            self._lines[topic], self._throttles[topic] = line, throttle
 
     def advertise(self, advertisements: Collection[Advertisement]) -> None:
         """Make the advertised publishers exactly these."""
@@ -218,8 +199,8 @@ class RosbridgeSession:
 
     def close(self, problem: str) -> None:
         """Fail everything that is pending."""
-        if self._timer is not None:
-            self._timer.cancel()
+        if self._is_first:
+            self._api.close()
         for answer, _, _ in self._pending.values():
             fail(answer, problem)
         self._pending.clear()
@@ -270,7 +251,12 @@ class RosbridgeSession:
                 del self._statuses[next(iter(self._statuses))]
             self._host.look()
 
-    # rosapi
+    # Topics
+
+    def _take_changes(self) -> None:
+        """Subscribe to what rosapi lists now."""
+        self.want(self._wishes, self._resting)
+        self._host.look()
 
     def _ask(
         self,
@@ -282,76 +268,14 @@ class RosbridgeSession:
         self._asked[id] = take
         self._host.send(wire.call(id, service, values))
 
-    def _take_topics(self, response: wire.RosbridgeResponse) -> None:
-        self._asked_s = None
-        self._timer = asyncio.get_running_loop().call_later(POLL_S, self.start)
-        if not response.result:
-            reason = plain(str(response.values), 200).rstrip(".")
-            self._api_problem = f"rosbridge cannot list its topics: {reason}. {START}"
-            self._host.look()
-            return
-        self._api_problem = ""
-        found = wire.converted(response.values, wire.Topics)
-        types = dict(zip(found.topics, found.types, strict=False))
-        is_new = types != self._types
-        self._types = self._bounded(types)
-        if not self._texts.keys() >= set(self._types.values()):
-            self._ask("/rosapi/topics_and_raw_types", {}, self._take_definitions)
-        if is_new:
-            self.want(self._wishes)
-            self._host.look()
-
-    def _take_definitions(self, response: wire.RosbridgeResponse) -> None:
-        found = wire.converted(response.values, wire.Topics) if response.result else wire.Topics()
-        size = 0
-        for type, text in zip(found.types, found.typedefs_full_text, strict=False):
-            size += len(text)
-            if size <= MAX_TEXTS:
-                self._texts[type] = "" if text.startswith(NO_DEFINITION) else text
-        # What came up since is known to be missing only then, and asked for once.
-        for type in self._types.values():
-            self._texts.setdefault(type, "")
-        self.want(self._wishes)
-        self._host.look()
-
-    def _take_nodes(self, response: wire.RosbridgeResponse) -> None:
-        if response.result:
-            found = wire.converted(response.values, wire.Names)
-            self._nodes = tuple(sorted(set(filter(is_full_name, found.nodes[:MAX_TOPICS]))))
-            self._host.look()
-
-    def _take_services(self, response: wire.RosbridgeResponse) -> None:
-        if response.result:
-            found = wire.converted(response.values, wire.Names)
-            nodes = {name.rpartition("/")[0] for name in found.services[:MAX_TOPICS]}
-            self._with_parameters = tuple(sorted(filter(is_full_name, nodes)))
-            self._host.look()
-
-    def _bounded(self, types: Mapping[str, str]) -> dict[str, str]:
-        """Return the topics that are kept, and note what is left out."""
-        valid = {t: type for t, type in types.items() if is_full_name(t) and len(type) <= MAX_NAME}
-        misnamed = [plain(topic, 40) for topic in types if topic not in valid]
-        kept = dict(list(valid.items())[:MAX_TOPICS])
-        more = len(valid) - len(kept)
-        self._left_out = [
-            *([f"The bridge offers {more} topics more than webviz reads."] if more else []),
-            *(
-                [f"Topics whose names ROS does not allow are left out: {listed(misnamed, 3)}."]
-                if misnamed
-                else []
-            ),
-        ]
-        return kept
-
-    # Topics
-
     def _can_read(self, topic: str, type: str) -> bool:
         """Return whether a topic is offered with this type, whose definition is known."""
-        if self._types.get(topic) != type or type not in self._texts or not wire.is_readable():
+        texts = self._api.texts
+        if self._api.types.get(topic) != type or type not in texts or not wire.is_readable():
             return False
         if topic in self._lines and self._lines[topic][0] == type:
             return True
-        problem = self._host.learn(type, self._texts[type])
+        problem = self._host.learn(type, texts[type])
         self._problems[topic] = problem
         return not problem
 

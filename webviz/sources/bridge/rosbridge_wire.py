@@ -163,9 +163,10 @@ class Fragments:
         return "".join(parts)
 
 
-def subscribe(topic: str, type: str) -> str:
-    """Subscribe to a topic, whose messages come in CDR."""
-    return _text("subscribe", id=topic, topic=topic, type=type, compression="cbor-raw")
+def subscribe(topic: str, type: str, throttle_ms: int = 0) -> str:
+    """Subscribe to a topic, whose messages come in CDR, or change the time between two of them."""
+    throttle = {"throttle_rate": throttle_ms} if throttle_ms else {}
+    return _text("subscribe", id=topic, topic=topic, type=type, compression="cbor-raw", **throttle)
 
 
 def unsubscribe(topic: str) -> str:

@@ -81,9 +81,6 @@ class BridgeSession(Protocol):
 
     protocol: str
     """Its name, for sentences."""
-    is_paced: bool
-    """True if large topics may come over a second connection, of which the server drops messages
-    that its queue cannot hold."""
 
     @property
     def topics(self) -> Mapping[str, CarriedTopic]:
@@ -114,6 +111,10 @@ class BridgeSession(Protocol):
         """Send what the server has to know first."""
         ...
 
+    def beside(self, host: Host) -> BridgeSession:
+        """Return a session for a second connection to the server, for large topics."""
+        ...
+
     def receive(self, frame: str | bytes) -> None:
         """Take a frame.
 
@@ -122,8 +123,15 @@ class BridgeSession(Protocol):
         """
         ...
 
-    def want(self, wishes: Mapping[str, Subscription]) -> None:
-        """Make the subscriptions exactly these, as far as they are offered."""
+    def want(
+        self, wishes: Mapping[str, Subscription], resting: Collection[str] = frozenset()
+    ) -> None:
+        """Make the subscriptions exactly these, as far as they are offered.
+
+        Args:
+            wishes: by topic.
+            resting: topics of which no message shall come for now.
+        """
         ...
 
     def advertise(self, advertisements: Collection[Advertisement]) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import functools
 import logging
 import random
 import threading
@@ -263,16 +262,15 @@ class BridgeSource:
         async with opened(self._address, BridgeConnection) as socket:
             self._socket = socket
             self._outbox = asyncio.Queue()
-            begin = functools.partial(open_session, socket.subprotocol)
-            self._session = session = begin(self)
+            self._session = session = open_session(socket.subprotocol, self)
             self._pacer = Pacer()
-            self._bulk = BulkLine(self._pacer, self, begin) if session.is_paced else None
+            self._bulk = BulkLine(self._pacer, self, session.beside)
             self._joined(session)
             await first_of(
                 read(socket, session, self._note_malformed),
                 write(socket, self._outbox),
                 self._watch(socket),
-                *([self._bulk.run()] if self._bulk else ()),
+                self._bulk.run(),
             )
 
     def open_bulk(self) -> AbstractAsyncContextManager[BulkConnection]:
@@ -365,6 +363,8 @@ class BridgeSource:
             # A new connection begins without topics; those of before hold until it has some.
             self._topics = topics if topics or self._bridges[0].is_up else self._topics
             self._nodes = session.nodes
+        if self._bulk is not None:
+            self._bulk.subscribe()
         offers = {topic: self._offer(topic, carried) for topic, carried in self._topics.items()}
         if offers != self._offers:
             self._offers = offers
