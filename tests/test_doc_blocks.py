@@ -1,14 +1,13 @@
 """Commands, configs and programs in the documentation are valid.
 
-`tests/e2e/test_doc_programs.py` runs the programs.
+`tests/e2e/test_doc_commands.py` runs the commands, `tests/e2e/test_doc_programs.py` the programs.
 """
 
 from __future__ import annotations
 
 import ast
-import importlib
+import importlib.util
 import re
-import shlex
 import subprocess
 import tomllib
 from pathlib import Path
@@ -21,26 +20,44 @@ from webviz.shell.cli.commands import app, split_ros_arguments, with_command
 from webviz.shell.cli.options import ConfigOptions
 from webviz_sim.world import load_world
 
+NEEDS = {
+    "With an apt ROS 2": r"\bros2 ",
+    "With the network": r"\b(pip|pipx|uvx) ",
+    "With another machine": r"\bssh|ROS_(AUTOMATIC|STATIC|DISCOVERY)|fast-discovery-server",
+    "With Podman": r"\bpodman ",
+    "With a public bag": r"--bag macfirst",
+    "Takes minutes": r"\bmake |/python ",
+}
+"""Titles of blocks of commands that tests do not run, and what such a block contains."""
 
-def commands(program: str) -> list[tuple[str, str]]:
+
+def commands(program: str) -> list[tuple[str, tuple[str, ...]]]:
     """Place and arguments of each command of a program."""
-    found: list[tuple[str, str]] = []
-    for block in blocks("sh"):
-        for line in block.text.replace("\\\n", " ").splitlines():
-            for part in line.split("#")[0].split("&&"):
-                name, _, arguments = part.strip().partition(" ")
-                if Path(name).name == program:
-                    found.append((str(block), arguments.strip()))
-    return found
+    return [
+        (str(block), words[1:])
+        for block in blocks("sh")
+        for words in block.commands()
+        if Path(words[0]).name == program
+    ]
+
+
+@pytest.mark.parametrize("block", [b for b in blocks("sh") if b.title], ids=str)
+def test_a_block_that_is_not_run_says_what_it_needs(block: Block) -> None:
+    assert re.search(NEEDS[block.title], block.text)
+
+
+@pytest.mark.parametrize("block", [b for b in blocks("sh") if not b.title], ids=str)
+def test_a_block_without_a_title_has_what_tests_run(block: Block) -> None:
+    assert {Path(words[0]).name for words in block.commands()} <= {"webviz", "make", "export"}
 
 
 @pytest.mark.parametrize(("place", "arguments"), commands("webviz"))
 def test_every_option_of_a_command_exists_and_fits_the_config(
-    place: str, arguments: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    place: str, arguments: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path("lab.yaml").write_text(CONFIG.text)
-    own, _ = split_ros_arguments(shlex.split(arguments))
+    own, _ = split_ros_arguments(arguments)
     _, given, _ = app.parse_args(with_command(own), exit_on_error=False, print_error=False)
     for options in given.arguments.values():
         if isinstance(options, ConfigOptions) and options.display_config == Path("lab.yaml"):
@@ -48,9 +65,9 @@ def test_every_option_of_a_command_exists_and_fits_the_config(
 
 
 @pytest.mark.parametrize(("place", "arguments"), commands("make"))
-def test_every_target_of_make_exists(place: str, arguments: str) -> None:
+def test_every_target_of_make_exists(place: str, arguments: tuple[str, ...]) -> None:
     planned = subprocess.run(
-        ["make", "--dry-run", *shlex.split(arguments)],
+        ["make", "--dry-run", *arguments],
         cwd=ROOT,
         capture_output=True,
         text=True,
@@ -69,9 +86,9 @@ def test_every_config_is_read_without_a_complaint(block: Block, tmp_path: Path) 
 
 
 @pytest.mark.parametrize(("place", "arguments"), commands("python"))
-def test_every_script_that_a_command_runs_exists(place: str, arguments: str) -> None:
-    script, _, _ = arguments.partition(" ")
-    assert script == "-m" or (ROOT / script).is_file()
+def test_every_script_that_a_command_runs_exists(place: str, arguments: tuple[str, ...]) -> None:
+    option, module = arguments[:2] if arguments[0] == "-m" else ("", "")
+    assert (option and importlib.util.find_spec(module)) or (ROOT / arguments[0]).is_file()
 
 
 @pytest.mark.parametrize("block", blocks("xml"), ids=str)

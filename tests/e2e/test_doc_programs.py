@@ -1,10 +1,9 @@
-"""The programs and commands of the documentation, run as they stand there."""
+"""The programs of the documentation, run as they stand there."""
 
 from __future__ import annotations
 
 import signal
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -63,22 +62,6 @@ def test_a_program_shows_its_page_until_ctrl_c(
     program.url()
     assert program.end(signal.SIGINT) == 0, program.output()
     assert "Traceback" not in program.output()
-
-
-def test_ros_parameters_name_config_frame_and_saved_view(
-    start: Callable[..., Program], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    (line,) = [
-        line.partition("#")[0].split()
-        for block in blocks("sh")
-        for line in block.text.splitlines()
-        if "config_file:=" in line
-    ]
-    monkeypatch.chdir(tmp_path)
-    Path("lab.yaml").write_text(CONFIG.text)
-    program = start("webviz", "--port", "0", *line[1:])
-    program.url()
-    assert program.end() == 0, program.output()
 
 
 @pytest.mark.parametrize("block", TESTS, ids=str)

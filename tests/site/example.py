@@ -66,7 +66,7 @@ def write(folder: Path) -> None:
         subprocess.run([sys.executable, "-m", "webviz", "export", bag, *options], check=True)
 
 
-def drive() -> Bag:
+def drive(duration_s: float = DURATION_S) -> Bag:
     """Messages of the simulated robot on a tour of the building, the same each time."""
     simulation = Simulation(load_world(BUILDING), SimulationSettings(), seed=1)
     robot, random, lidar = simulation.robot, np.random.default_rng(1), LidarSettings()
@@ -87,7 +87,7 @@ def drive() -> Bag:
     bag.put(0.0, "/tf_static", messages.tf(fixed))
     bag.put(0.0, "/robot_description", {"data": demo_description()})
     bag.put(0.0, "/map", messages.occupancy_grid(simulation.world, START_NS))
-    for step in range(round(DURATION_S / STEP_S)):
+    for step in range(round(duration_s / STEP_S)):
         simulation.step(STEP_S)
         at_s = step * STEP_S
         now = START_NS + ns(at_s)

@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 import re
+import shlex
 from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "displays/docs").rglob("*.md")])
-_BLOCK = re.compile(r"^```(\w+)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+PAGES = sorted(
+    [
+        *ROOT.glob("*.md"),
+        *(ROOT / "displays/docs").rglob("*.md"),
+        ROOT / "tests/benchmarks/README.md",
+    ]
+)
+_BLOCK = re.compile(r'^```(\w+)(?: title="([^"]*)")?\n(.*?)^```', re.MULTILINE | re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -18,10 +25,27 @@ class Block:
     page: Path
     line: int
     language: str
+    title: str
+    """What its commands need that a test does not have; "" if tests run them."""
     text: str
 
     def __str__(self) -> str:
         return f"{self.page.relative_to(ROOT)}:{self.line}"
+
+    def commands(self) -> list[tuple[str, ...]]:
+        """The words of each command of a block in `sh`."""
+        found: list[tuple[str, ...]] = []
+        for line in self.text.replace("\\\n", " ").splitlines():
+            lexer = shlex.shlex(line, posix=True, punctuation_chars="&")
+            lexer.whitespace_split = True
+            words: list[str] = []
+            for word in [*lexer, "&&"]:
+                if word != "&&":
+                    words.append(word)
+                elif words:
+                    found.append(tuple(words))
+                    words = []
+        return found
 
 
 def blocks(language: str) -> list[Block]:
@@ -32,7 +56,7 @@ def blocks(language: str) -> list[Block]:
         for match in _BLOCK.finditer(text):
             line = text.count("\n", 0, match.start()) + 1
             if match[1] == language:
-                found.append(Block(page, line, match[1], match[2]))
+                found.append(Block(page, line, match[1], match[2] or "", match[3]))
     return found
 
 
