@@ -36,7 +36,8 @@ QUICK := $(wildcard tests/test_*.py) $(addprefix tests/,access config displays i
 WAITING := 3
 # A long file that comes last would leave one of the processes without work.
 FIRST := $(addprefix tests/,benchmarks e2e testing sim page capture)
-SLOW := $(FIRST) tests $(addprefix --ignore=,$(QUICK))
+# Each folder by itself: a folder that holds others takes their place in the order.
+SLOW := $(FIRST) $(filter-out $(FIRST) $(QUICK),$(patsubst %/,%,$(wildcard tests/*/)))
 
 # $(call run,OPTIONS,TESTS): a busy machine delays threads, browsers and ROS graphs, so what fails
 # runs once more, alone.

@@ -49,7 +49,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return write_run(tmp_path_factory.mktemp("bags") / "run")
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def renderer(browser: playwright.Browser) -> Iterator[HeadlessRenderer]:
     """One tab for all pictures."""
     renderer = HeadlessRenderer(browser, *SIZE)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import queue
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Future
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import Annotated, Any, Literal
 
@@ -142,10 +143,16 @@ class Tab:
         server: of the page to open.
         loop: of the server.
         resolution: pixels of the scene per pixel of the page.
+        query: more of the address, as "&panel=topics".
     """
 
     def __init__(
-        self, page: playwright.Page, server: Server, loop: Loop, resolution: float = COARSE
+        self,
+        page: playwright.Page,
+        server: Server,
+        loop: Loop,
+        resolution: float = COARSE,
+        query: str = "",
     ) -> None:
         self.page = page
         self.loop = loop
@@ -153,7 +160,7 @@ class Tab:
         page.on("pageerror", lambda error: self.errors.append(str(error)))
         page.on("console", self._read_console)
         page.on("dialog", self._dismiss)
-        page.goto(f"http://127.0.0.1:{server.get_port()}/?fixedDpr={resolution}")
+        page.goto(f"http://127.0.0.1:{server.get_port()}/?fixedDpr={resolution}{query}")
         self.wait_for(lambda: page.locator("#webviz").count() > 0)
 
     def button(self, name: str) -> playwright.Locator:
@@ -196,7 +203,7 @@ class Tab:
             self.errors.append(message.text)
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def server() -> Iterator[Server]:
     """One server for all tests, and thereby for their tab."""
     server = open_server(port=0)
@@ -204,10 +211,19 @@ def server() -> Iterator[Server]:
     server.stop()
 
 
-@pytest.fixture(scope="session")
-def lasting(server: Server, browser: playwright.Browser) -> Iterator[Tab]:
-    """The tab of all tests: to open one takes two seconds of a processor."""
-    tab = Tab(open_page(browser), server, Loop(server))
+@pytest.fixture(scope="package")
+def shared_loop(server: Server) -> Loop:
+    """The loop of all tabs."""
+    return Loop(server)
+
+
+@pytest.fixture(scope="package")
+def lasting(server: Server, browser: playwright.Browser, shared_loop: Loop) -> Iterator[Tab]:
+    """The tab of all tests: to open one takes two seconds of a processor.
+
+    A page that does nothing takes a thirtieth of a processor, so it does not stay for other tests.
+    """
+    tab = Tab(open_page(browser), server, shared_loop)
     yield tab
     tab.page.context.close()
 
@@ -245,18 +261,22 @@ def loop(tab: Tab) -> Loop:
     return tab.loop
 
 
-@pytest.fixture
-def open_tab(
-    browser: playwright.Browser, server: Server, lasting: Tab
+@contextmanager
+def tabs_of(
+    browser: playwright.Browser, server: Server, loop: Loop
 ) -> Iterator[Callable[..., Tab]]:
-    """Open more tabs, each in a browser session of its own."""
+    """Open more tabs, each in a browser session of its own; they must not see an error."""
     tabs: list[Tab] = []
 
     def open_tab(
-        width: int = WIDTH, height: int = HEIGHT, resolution: float = COARSE, **options: Any
+        width: int = WIDTH,
+        height: int = HEIGHT,
+        resolution: float = COARSE,
+        query: str = "",
+        **options: Any,
     ) -> Tab:
         page = open_page(browser, width, height, **options)
-        tabs.append(Tab(page, server, lasting.loop, resolution))
+        tabs.append(Tab(page, server, loop, resolution, query))
         return tabs[-1]
 
     yield open_tab
@@ -264,6 +284,24 @@ def open_tab(
     for tab in tabs:
         tab.page.context.close()
     assert errors == []
+
+
+@pytest.fixture
+def open_tab(
+    browser: playwright.Browser, server: Server, shared_loop: Loop
+) -> Iterator[Callable[..., Tab]]:
+    """Open more tabs for one test."""
+    with tabs_of(browser, server, shared_loop) as open_tab:
+        yield open_tab
+
+
+@pytest.fixture(scope="module")
+def open_lasting_tab(
+    browser: playwright.Browser, server: Server, shared_loop: Loop
+) -> Iterator[Callable[..., Tab]]:
+    """Open more tabs for the tests of a module."""
+    with tabs_of(browser, server, shared_loop) as open_tab:
+        yield open_tab
 
 
 def open_page(

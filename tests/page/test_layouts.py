@@ -168,25 +168,23 @@ def test_a_window_shows_one_panel_or_a_layout(
     loop: Loop, tab: Tab, open_tab: Callable[..., Tab]
 ) -> None:
     loop.show(settings=Settings(layouts={"driving": BESIDE}))
-    other = open_tab()
-    here = other.page.url
-    other.page.goto(f"{here}&panel=topics")
+    other = open_tab(query="&panel=topics")
     other.wait_for(lambda: docked(other) == {"topics": "wv-floats"})
     other.wait_for(lambda: not other.page.locator("#root").is_visible())
-    other.page.goto(f"{here}&layout=driving")
+    other.page.goto(other.page.url.replace("panel=topics", "layout=driving"))
     other.wait_for(lambda: docked(other) == {"doctor": "wv-beside"})
     assert docked(tab) == {}
 
 
-def test_a_phone_keeps_its_collapsed_panel(
-    loop: Loop, tab: Tab, open_tab: Callable[..., Tab]
-) -> None:
-    phone = open_tab()
+def test_a_phone_keeps_its_collapsed_panel(loop: Loop, tab: Tab) -> None:
     loop.show(settings=Settings(layout=BESIDE))
-    phone.wait_for(lambda: docked(phone) == {"doctor": "wv-beside"})
-    phone.page.set_viewport_size({"width": 390, "height": 780})
-    phone.wait_for(lambda: docked(phone) == {})
-    assert scene(phone)["width"] == 390
+    tab.wait_for(lambda: docked(tab) == {"doctor": "wv-beside"})
+    size = tab.page.viewport_size
+    assert size is not None
+    tab.page.set_viewport_size({"width": 390, "height": 780})
+    tab.wait_for(lambda: docked(tab) == {})
+    assert scene(tab)["width"] == 390
+    tab.page.set_viewport_size(size)
 
 
 def test_a_store_has_the_saved_layout_of_a_window(loop: Loop) -> None:

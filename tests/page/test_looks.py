@@ -9,7 +9,7 @@ import playwright.sync_api as playwright
 import pytest
 from pages import COARSE
 
-from tests.page.conftest import Tab, open_page
+from tests.page.conftest import Loop, Tab, open_page
 from webviz.engine.state import Row, State
 from webviz.scene.server import Server
 from webviz.server.channel.messages import Shell
@@ -171,7 +171,7 @@ def test_nothing_changes_on_the_page_while_nothing_changes(tab: Tab) -> None:
 
 
 def test_nothing_is_seen_before_the_page_is_ours(
-    browser: playwright.Browser, server: Server, lasting: Tab
+    browser: playwright.Browser, server: Server, shared_loop: Loop
 ) -> None:
     page = open_page(browser)
     page.add_init_script(WATCH)

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 
 import playwright.sync_api as playwright
 import pytest
 
-from tests.page.conftest import Tab, open_page
+from tests.page.conftest import Tab
 from webviz.commands import Save
 from webviz.data.messages import LaserScan, to_tree
 from webviz.data.transforms import Diagnosis, FrameReport
 from webviz.engine.state import ConfigFile, Inspected, Row
-from webviz.scene.server import Server
 from webviz.sources import Offer, Publisher
 
 WIDTH, HEIGHT = 390, 844
@@ -28,22 +27,19 @@ HIT = """(element) => {
 
 
 @pytest.fixture(scope="module")
-def opened(browser: playwright.Browser, lasting: Tab, server: Server) -> Iterator[Tab]:
-    page = open_page(browser, WIDTH, HEIGHT, has_touch=True, is_mobile=True)
-    yield Tab(page, server, lasting.loop)
-    page.context.close()
+def opened(open_lasting_tab: Callable[..., Tab]) -> Tab:
+    return open_lasting_tab(WIDTH, HEIGHT, has_touch=True, is_mobile=True)
 
 
 @pytest.fixture
-def phone(opened: Tab, tab: Tab) -> Iterator[Tab]:
+def phone(opened: Tab, tab: Tab) -> Tab:
     """A phone with the panels closed."""
     opened.page.set_viewport_size({"width": WIDTH, "height": HEIGHT})
     opened.page.keyboard.press("Escape")
     hide = opened.button("Hide the panels")
     if hide.is_visible():
         hide.tap()
-    yield opened
-    assert opened.errors == []
+    return opened
 
 
 def side(phone: Tab) -> playwright.Locator:

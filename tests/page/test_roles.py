@@ -97,8 +97,8 @@ def test_a_link_leaves_no_token_in_the_address_nor_for_scripts(
         assert cookies
         for cookie in cookies:
             assert (cookie.get("httpOnly"), cookie.get("sameSite")) == (True, "Strict")
-        page.goto(link(house.url, house.tokens[Role.OPERATOR]))
-        assert page.url == f"{house.url}/"
+        page.goto(link(house.url, house.tokens[Role.OPERATOR]), wait_until="commit")
+        page.wait_for_url(f"{house.url}/", wait_until="commit")
 
 
 def test_what_a_watcher_may_not_do_says_why(house: House) -> None:

@@ -15,15 +15,29 @@ MakeRow = Callable[..., Row]
 OpenTab = Callable[[], Tab]
 
 
+@pytest.fixture(scope="module")
+def other_tab(open_lasting_tab: OpenTab) -> Tab:
+    return open_lasting_tab()
+
+
 @pytest.fixture
 def mine(tab: Tab, make_row: MakeRow) -> Iterator[Pane]:
     tab.loop.show(make_row("a"))
+    yield from mounted(tab)
+
+
+@pytest.fixture
+def other(mine: Pane, other_tab: Tab) -> Iterator[Pane]:
+    yield from mounted(other_tab)
+
+
+def mounted(tab: Tab) -> Iterator[Pane]:
     yield Pane(tab).mount()
     tab.page.evaluate("ended(); document.querySelector('#bench').remove()")
 
 
-def test_two_who_edit_in_turns_see_the_same(mine: Pane, open_tab: OpenTab) -> None:
-    editor, watcher = mine, Pane(open_tab()).mount()
+def test_two_who_edit_in_turns_see_the_same(mine: Pane, other: Pane) -> None:
+    editor, watcher = mine, other
     for value in ("4", "15", "6", "17"):
         editor.enter("count", value)
         watcher.wait_for_value("count", value)
@@ -33,8 +47,7 @@ def test_two_who_edit_in_turns_see_the_same(mine: Pane, open_tab: OpenTab) -> No
     assert editor.field("count").input_value() == "17"
 
 
-def test_two_who_edit_at_once_end_with_the_same(mine: Pane, open_tab: OpenTab) -> None:
-    other = Pane(open_tab()).mount()
+def test_two_who_edit_at_once_end_with_the_same(mine: Pane, other: Pane) -> None:
     mine.field("channel").fill("mine")
     other.enter("channel", "other")
     other.wait_for_set("channel", "other")
@@ -50,9 +63,8 @@ def test_two_who_edit_at_once_end_with_the_same(mine: Pane, open_tab: OpenTab) -
 
 
 def test_a_field_that_was_left_or_has_the_focus_shows_what_another_has_entered(
-    mine: Pane, open_tab: OpenTab
+    mine: Pane, other: Pane
 ) -> None:
-    other = Pane(open_tab()).mount()
     mine.enter("count", "0")
     mine.tab.wait_for(mine.row("count").get_by_role("alert").is_visible)
     mine.field("channel").focus()

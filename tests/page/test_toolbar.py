@@ -172,11 +172,15 @@ def test_what_does_not_fit_is_in_a_menu_but_frames_and_tools_stay(
         playwright.expect(bar.get_by_role("button", name=tool.name)).to_be_in_viewport(ratio=1)
 
 
+@pytest.fixture(scope="module")
+def phone(open_lasting_tab: Callable[..., Tab]) -> Tab:
+    return open_lasting_tab(390, 780, has_touch=True, is_mobile=True)
+
+
 @pytest.mark.parametrize("width", [360, 390, 430])
-def test_on_a_phone_everything_is_inside_the_bar(
-    wide: Tab, open_tab: Callable[..., Tab], width: int
-) -> None:
-    phone = open_tab(width, 780, has_touch=True, is_mobile=True)
+def test_on_a_phone_everything_is_inside_the_bar(wide: Tab, phone: Tab, width: int) -> None:
+    phone.page.set_viewport_size({"width": width, "height": 780})
+    phone.wait_for(lambda: phone.page.evaluate("innerWidth") == width)
     bar = toolbar(phone)
     more = bar.get_by_role("button", name="More")
     phone.wait_for(lambda: bar.get_by_role("button", name="2D Goal Pose").is_visible())

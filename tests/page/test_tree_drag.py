@@ -151,9 +151,14 @@ class Finger:
         self._send("touchEnd")
 
 
+@pytest.fixture(scope="module")
+def touched(open_lasting_tab: Callable[..., Tab]) -> Tab:
+    return open_lasting_tab(800, 900, has_touch=True)
+
+
 @pytest.fixture
-def phone(open_tab: Callable[..., Tab], rows: list[Row], loop: Loop) -> Tree:
-    tree = Tree(open_tab(800, 900, has_touch=True))
+def phone(touched: Tab, rows: list[Row], loop: Loop) -> Tree:
+    tree = Tree(touched)
     loop.show(*rows)
     tree.wait_for_names("a", "g", "b", "c", "d", "empty", "e")
     return tree

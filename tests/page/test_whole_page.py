@@ -208,11 +208,9 @@ def server() -> Iterator[Server]:
 
 
 @pytest.fixture(scope="module")
-def lasting(server: Server, browser: playwright.Browser) -> Iterator[Tab]:
-    """A tab of that server."""
-    tab = Tab(open_page(browser), server, Loop(server))
-    yield tab
-    tab.page.context.close()
+def shared_loop(server: Server) -> Loop:
+    """The loop of that server."""
+    return Loop(server)
 
 
 @pytest.fixture
@@ -320,18 +318,21 @@ def test_live_topics_that_are_recorded_and_rewound(
     tab.wait_for(lambda: tab.page.locator("canvas[data-engine]").evaluate(FITS))
     references.check("layout", capture(tab), tolerance=TOLERANCE)
 
-    phone = open_still(PHONE, has_touch=True, is_mobile=True, color_scheme="dark")
-    phone.page.evaluate(HEARD)
-    phone.loop.state = replace(phone.loop.state, **PAST)
-    phone.wait_for(phone.page.locator(".wv-rewound-banner").is_visible)
-    references.check("phone_rewound", capture(phone), tolerance=TOLERANCE)
-
 
 def test_on_a_phone_the_scene_is_free_until_the_side_lies_over_it(
-    open_still: Callable[..., Tab], references: ReferenceImages
+    open_still: Callable[..., Tab], references: ReferenceImages, still_server: None
 ) -> None:
     phone = open_still(PHONE, has_touch=True, is_mobile=True, color_scheme="dark")
     references.check("phone", capture(phone), tolerance=TOLERANCE)
+
+    phone.page.evaluate(HEARD)
+    phone.loop.state = replace(phone.loop.state, **PAST)
+    banner = phone.page.locator(".wv-rewound-banner")
+    phone.wait_for(banner.is_visible)
+    references.check("phone_rewound", capture(phone), tolerance=TOLERANCE)
+
+    show(phone)
+    phone.wait_for(banner.is_hidden)
     phone.button("Show the panels").tap()
     phone.wait_for(lambda: phone.page.get_by_role("treeitem").count() == 7)
     references.check("phone_with_panels", capture(phone), tolerance=TOLERANCE)

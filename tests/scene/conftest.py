@@ -37,7 +37,7 @@ def scene(server: viser.ViserServer) -> ViserScene:
     return ViserScene(server)
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def tab(browser: playwright.Browser) -> Iterator[View]:
     """One tab for the tests of all modules: opening it takes seconds."""
     server = open_server(port=0)
@@ -47,7 +47,7 @@ def tab(browser: playwright.Browser) -> Iterator[View]:
     server.stop()
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def still(browser: playwright.Browser) -> Iterator[View]:
     """A tab that draws only when it is looked at, which costs less."""
     server = open_server(port=0)

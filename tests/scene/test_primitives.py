@@ -41,7 +41,7 @@ COLOR = (200, 100, 50)
 RED, GREEN, BLUE = (255, 0, 0), (0, 255, 0), (0, 0, 255)
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def tab(still: View) -> View:
     """None of these ask what is seen while something changes, but for the last."""
     return still
