@@ -10,6 +10,7 @@ the next one: the delay of the link, what waits in queues, and 50 ms between two
 from __future__ import annotations
 
 import argparse
+import math
 import threading
 import time
 from dataclasses import dataclass
@@ -93,8 +94,10 @@ def watch(peer: Peer, seconds: float) -> Found:
                 kind = "scan" if "scan" in update["name"] else "lidar"
                 counts[kind] += update["name"].endswith("it")
     rates = {kind: count / seconds for kind, count in counts.items()}
+    ages = ages or [math.inf]  # the first pose is still behind what was sent before it
     p50 = float(np.median(ages))
-    return Found(len(ages) / seconds, p50, max(ages), rates["scan"], rates["lidar"])
+    poses = sum(map(math.isfinite, ages)) / seconds
+    return Found(poses, p50, max(ages), rates["scan"], rates["lidar"])
 
 
 def behind_proxy(port: int, mbit: float, seconds: float) -> Found:

@@ -1,4 +1,4 @@
-"""What rosapi lists: topics with their definitions, and nodes; asked again and again."""
+"""The lists of rosapi: topics with their definitions, and nodes; asked for again and again."""
 
 from __future__ import annotations
 
