@@ -82,9 +82,9 @@ def screenshot(
     monkeypatch.chdir(tmp_path)
     handlers = {number: signal.getsignal(number) for number in SIGNALS}
 
-    def screenshot(*arguments: str) -> Ended:
-        config = () if "--image" in arguments else ("-d", str(CONFIG))
-        status = cli(["screenshot", *config, *arguments])
+    def screenshot(*arguments: str, config: Path | None = CONFIG) -> Ended:
+        given = () if config is None else ("-d", str(config))
+        status = cli(["screenshot", *given, *arguments])
         printed = capfd.readouterr()
         return Ended(status, printed.out, printed.err)
 

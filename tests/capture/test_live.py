@@ -53,7 +53,7 @@ def test_an_image_of_a_running_camera_is_written_as_it_is(
     }
     type_name, values = images[name]
     robot.publish(f"/camera/{name}", type_name, values, latched=True)
-    result = screenshot("-o", "a.png", "--image", f"/camera/{name}", "--timeout", "60")
+    result = screenshot("-o", "a.png", "--image", f"/camera/{name}", "--timeout", "60", config=None)
     assert result.status == 0, result.errors
     with PIL.Image.open(tmp_path / "a.png") as image:
         pixels = np.asarray(image, np.float64)
@@ -69,7 +69,7 @@ def test_an_image_of_a_running_camera_is_written_as_it_is(
 @pytest.mark.usefixtures("robot")
 def test_why_there_is_no_image_is_one_sentence(screenshot):
     # Longer than a page may hide a pane before its display is not received any more.
-    result = screenshot("-o", "a.png", "--image", "/nothing", "--timeout", "2.5")
+    result = screenshot("-o", "a.png", "--image", "/nothing", "--timeout", "2.5", config=None)
     assert result.status != 0
     assert result.errors.startswith("webviz: No image to write. No publisher on /nothing.")
     assert result.errors.count("\n") == 1

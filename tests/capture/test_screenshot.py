@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import os
 import signal
 import subprocess
@@ -106,6 +107,7 @@ def test_an_image_of_a_bag_is_written_as_it_is(tmp_path, screenshot):
     bag.put(0, "/depth/compressedDepth", photos.compressed_depth(depths))
     bag.write(tmp_path / "run")
     arguments = ["--bag", "run", "-o", "a.png", "--image"]
+    screenshot = functools.partial(screenshot, config=None)
     result = screenshot(*arguments, "/camera/image_raw", "--at", "1")
     assert result.status == 0
     assert "1 picture of 36 x 24 pixels" in result.output
@@ -117,6 +119,11 @@ def test_an_image_of_a_bag_is_written_as_it_is(tmp_path, screenshot):
     result = screenshot(*arguments, "/nothing")
     assert result.status == 1
     assert "No image to write." in result.errors
+
+
+def test_without_a_config_the_topics_of_the_bag_are_shown(run, screenshot):
+    result = screenshot("--bag", str(run), "-o", "a.png", *SMALL, config=None)
+    assert (result.status, result.errors) == (0, "")
 
 
 def test_several_times_and_views_are_files_of_their_own(run, tmp_path, screenshot):
@@ -165,8 +172,8 @@ def test_meshes_below_a_mesh_root_are_drawn(tmp_path, screenshot):
     bag.transform(0.0, "map", "box", static=True)
     config = tmp_path / "robot.yaml"
     config.write_text("{fixed_frame: map, displays: [{type: RobotModel, name: Robot}]}")
-    given = ["-d", str(config), "--bag", str(bag.write(tmp_path / "bag")), "-o", "a.png", *SMALL]
-    result = screenshot(*given, "--mesh-root", str(mesh.parent))
+    given = ["--bag", str(bag.write(tmp_path / "bag")), "-o", "a.png", *SMALL]
+    result = screenshot(*given, "--mesh-root", str(mesh.parent), config=config)
     assert result.status == 0, result.errors
 
 
@@ -223,8 +230,9 @@ def test_only_skipped_topics_that_a_display_wants_are_listed(tmp_path, screensho
         bag.add(topic, "odd_msgs/msg/Odd", definition="other_msgs/Missing part\n")
         bag.put(0, topic, b"\x00\x01\x00\x00")
     folder = bag.write(tmp_path / "run")
-    (tmp_path / "odd.yaml").write_text("displays: [{type: Path, topic: /odd}]\n")
-    result = screenshot("-d", "odd.yaml", "--bag", str(folder), "-o", "a.png", *SMALL)
+    config = tmp_path / "odd.yaml"
+    config.write_text("displays: [{type: Path, topic: /odd}]\n")
+    result = screenshot("--bag", str(folder), "-o", "a.png", *SMALL, config=config)
     assert result.status == 3, result.errors
     assert f"webviz: {folder}: /odd is skipped: " in result.errors
     assert "/other" not in result.errors

@@ -25,7 +25,9 @@ from webviz.shell.pictures.files import OutputError
 from webviz.shell.pictures.times import At, every
 
 if TYPE_CHECKING:
+    from webviz.files.config import Config
     from webviz.shell.pictures.capture import Order, Picture
+    from webviz.sources import Source
     from webviz.sources.bag.source import BagSource
 
 MAX_TOPICS = 40
@@ -59,7 +61,7 @@ def screenshot(
 
 
 def _make(options: ScreenshotOptions, connect: ConnectOptions, ros: Sequence[str]) -> int:
-    from webviz.shell.pictures.capture import SIZE, Order, image_alone, opened
+    from webviz.shell.pictures.capture import SIZE, Order, opened
     from webviz.sources.bag.extras import map_of_file, static_transform
     from webviz.sources.bag.source import BagSource
 
@@ -69,12 +71,11 @@ def _make(options: ScreenshotOptions, connect: ConnectOptions, ros: Sequence[str
     options.allow_meshes()
     for path in options.plugin:
         plugins.load(path)
-    config = image_alone(options.image) if options.image else options.read(options.display_config)
-    if options.fixed_frame:
-        config.set_fixed_frame(options.fixed_frame)
+    config = None if options.bag else _config(options)
     extras = [map_of_file(each) for each in options.map]
     extras += [static_transform(*each) for each in options.transform]
     with opened(options.bag, extras, ros, lambda args: connect.source(args, config)) as source:
+        config = config or _config(options, source)
         at: Sequence[At] = ("end",)
         if isinstance(source, BagSource):
             at = _times(options, source)
@@ -96,6 +97,19 @@ def _make(options: ScreenshotOptions, connect: ConnectOptions, ros: Sequence[str
             for warning in [*source.warnings, *([_topics(source)] if status else [])]:
                 print(f"webviz: {options.bag}: {warning}", file=sys.stderr)
         return status
+
+
+def _config(options: ScreenshotOptions, source: Source | None = None) -> Config:
+    """Return the config to show; without one that of the topics of a bag."""
+    from webviz.shell.pictures.capture import image_alone
+
+    if options.image:
+        config = image_alone(options.image)
+    else:
+        config = options.read(options.display_config, source)
+    if options.fixed_frame:
+        config.set_fixed_frame(options.fixed_frame)
+    return config
 
 
 def _times(options: ScreenshotOptions, source: BagSource) -> Sequence[At]:
