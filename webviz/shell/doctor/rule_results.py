@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from xml.etree import ElementTree
 
 from webviz.api.rule import Rule, Verdict
-from webviz.data.words import counted
 from webviz.files.config import WatchRule
 
 
@@ -95,7 +94,8 @@ class RuleResults:
             for each in self.all.values()
         ]
         held = len(self.all) - len(self.failed)
-        return "\n".join([*lines, f"{held} of {counted(len(self.all), 'rule')} hold."])
+        hold = "rule holds" if held == len(self.all) == 1 else "rules hold"
+        return "\n".join([*lines, f"{held} of {len(self.all)} {hold}."])
 
     def to_junit(self) -> str:
         """Return the results as JUnit XML: a test case for each rule."""
