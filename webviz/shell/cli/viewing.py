@@ -90,10 +90,15 @@ def demo(
         from webviz.shell.cli.fleet import standard_config
         from webviz.shell.cli.serving import serve
         from webviz.shell.cli.simulator import simulator
+        from webviz.shell.domains import demo_domain
 
         extra = ["--robots", str(robots)] if robots > 1 else []
         extra += [word for each in fault for word in ("--fault", each)]
-        with standard_config(robots) as standard, simulator([*extra, *ros], stop) as note:
-            return serve(options, ros, stop, standard, note)
+        with (
+            standard_config(robots) as standard,
+            demo_domain() as other,
+            simulator([*extra, *ros], stop) as note,
+        ):
+            return serve(options, ros, stop, standard, "\n".join(filter(None, (other, note))))
 
     return until_signal(work)
