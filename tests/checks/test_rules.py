@@ -30,10 +30,12 @@ def run(tmp_path: Path) -> Path:
     """A bag whose scans stop for ten seconds."""
     bag = Bag()
     bag.add("/scan", SCAN)
+    bag.add("/charge", "std_msgs/msg/Float64")
     bag.transform(0.0, "base_link", "laser", static=True)
     for number in range(200):
         at_s = number / 10
         bag.transform(at_s, "odom", "base_link", at_s)
+        bag.put(at_s, "/charge", {"data": 0.1 if number == 57 else 1.0})
         if 5.0 < at_s < 15.0:
             continue
         seconds, rest = divmod(START_NS + ns(at_s), 1_000_000_000)
@@ -55,6 +57,9 @@ def run(tmp_path: Path) -> Path:
         ("Front Scan v1.2.rate>=5 for 500 ms", "Front Scan v1.2", ">= 5", 0.5),
         ("/front/scan.status < warn for 2min", "/front/scan", "< warn", 120.0),
         ("doctor.errors == 0", "doctor", "== 0", 0.0),
+        ("/battery.percentage > 0.2", "/battery.percentage", "> 0.2", 0.0),
+        ("/a.b[:]{id>=3}.score<=1 for 2s", "/a.b[:]{id>=3}.score", "<= 1", 2.0),
+        ("/a.rate.@abs != 0", "/a.rate.@abs", "!= 0", 0.0),
     ],
 )
 def test_a_rule_is_a_subject_a_value_and_a_limit(
@@ -68,6 +73,9 @@ def test_a_rule_is_a_subject_a_value_and_a_limit(
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
+        ("/battery > 1", "`/battery > 1` is not a rule. Write it like"),
+        ("/a.b.@sum > 1", "Unknown function `@sum`."),
+        ("/a.b > error", "error fits status only; /a.b needs a number."),
         ("Scan > 1", "`Scan > 1` is not a rule. Write it like"),
         ("Scan.rate > 5 for ever", "is not a rule"),
         ("Scan.mood > 5", "unknown value mood. Use status, rate,"),
@@ -106,6 +114,24 @@ def test_rules_over_a_bag_are_test_cases(
     messages = [each.get("message", "") for each in ElementTree.parse(junit).iter("failure")]
     assert len(messages) == 2
     assert messages[0].endswith("expected > 5.")
+
+
+def test_a_rule_is_about_each_number_that_a_message_path_names(
+    run: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    rules = {
+        "/charge.data > 0.2": False,
+        "/charge.data > 0.2 for 3s": True,
+        "/charge.data.@mean(3) > 0.9": True,
+        "/charge.date > 0.2": False,
+    }
+    given = [word for rule in rules for word in ("--rule", rule)]
+    assert main(["test", "--bag", str(run), *given]) == 3
+    said = capsys.readouterr().out
+    for rule, holds in rules.items():
+        assert f"{'ok     ' if holds else 'FAILED '}{rule}" in said
+    assert "/charge.data is 0.1 at " in said, "one of 200 messages"
+    assert "/charge.date never had a value." in said
 
 
 def test_a_rule_of_the_config_is_tested(

@@ -114,6 +114,7 @@ PARTS += [
     "Plugins",
     "Recording",
     "Report",
+    "Rules",
     "Selection",
     "Settings",
     "Share",

@@ -126,6 +126,7 @@ class Observation:
         environment: of this machine, None with a bag or bridge, or until it is known.
         bridges: to bridges.
         findings: of the round before, without violated rules.
+        numbers: in messages, by the message paths of rules: those since the round before.
         verdicts: of the rules of the config.
         ends: this machine and its peer, None unless they are compared.
         browsers: that are connected.
@@ -147,6 +148,7 @@ class Observation:
     environment: Environment | None = None
     bridges: Sequence[Bridge] = ()
     findings: Sequence[Finding] = ()
+    numbers: Mapping[str, Sequence[float]] = field(default_factory=dict)
     verdicts: Sequence[Verdict] = ()
     ends: TwoEnds | None = None
     browsers: Sequence[BrowserSeen] = ()

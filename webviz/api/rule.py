@@ -8,6 +8,9 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+from webviz.data.messages.message_paths import MessagePath
+from webviz.data.messages.paths import PathError
+
 COMPARISONS: Mapping[str, Callable[[float, float], bool]] = {
     "<=": operator.le,
     ">=": operator.ge,
@@ -34,11 +37,16 @@ DOCTOR = "doctor"
 
 _UNITS = {"ms": 0.001, "s": 1.0, "min": 60.0}
 _LINE = re.compile(
-    r"(?P<subject>\S.*?)\.(?P<value>[a-z]+) *(?P<comparison>[<>]=?|[=!]=) *"
+    r"(?P<about>\S.*?) *(?P<comparison>[<>]=?|[=!]=) *"
     r"(?P<limit>-?\d+(\.\d+)?|ok|warn|error)"
     r"( +for +(?P<count>\d+(\.\d+)?) ?(?P<unit>ms|s|min))?"
 )
-FORM = 'Write it like "Scan.walls > 0.8", "/scan.rate >= 5 for 2s" or "doctor.errors == 0".'
+_NAMED = re.compile(r"(?P<subject>\S.*)\.(?P<value>[a-z]+)")
+_TOPIC = re.compile(r"/[\w~/]+")
+FORM = (
+    'Write it like "Scan.walls > 0.8", "/scan.rate >= 5 for 2s", "/battery.percentage > 0.2" or '
+    '"doctor.errors == 0".'
+)
 
 
 @dataclass(frozen=True)
@@ -47,8 +55,8 @@ class Rule:
 
     Args:
         text: as it was written.
-        subject: name of a display, a topic that a display shows, or `DOCTOR`.
-        value: one of `VALUES`.
+        subject: name of a display, a topic that a display shows, `DOCTOR`, or a message path.
+        value: one of `VALUES`, "" of a message path.
         comparison: one of `COMPARISONS`.
         limit: that the value is compared with.
         seconds: a violation counts once it has lasted as long.
@@ -60,6 +68,16 @@ class Rule:
     comparison: str
     limit: float
     seconds: float = 0.0
+
+    @property
+    def path(self) -> str:
+        """The message path that it is about, "" for none."""
+        return "" if self.value else self.subject
+
+    @property
+    def about(self) -> str:
+        """The value that it is about, such as "Scan.walls"."""
+        return self.path or f"{self.subject}.{self.value}"
 
     def holds(self, value: float) -> bool:
         """Return whether the condition holds for a value."""
@@ -112,13 +130,14 @@ def parse_rule(text: str) -> Rule:
     found = _LINE.fullmatch(text.strip())
     if found is None:
         raise ValueError(f"`{text}` is not a rule. {FORM}")
-    subject, value, limit = found["subject"], found["value"], found["limit"]
-    if value not in VALUES:
+    subject, value = _subject_and_value(text, found["about"])
+    limit = found["limit"]
+    if value and value not in VALUES:
         raise ValueError(f"`{text}`: unknown value {value}. Use {', '.join(VALUES)}.")
     if (subject == DOCTOR) != (value in OF_DOCTOR):
         raise ValueError(f"`{text}`: {' and '.join(OF_DOCTOR)} are values of doctor only.")
     if limit in LEVELS and value != "status":
-        raise ValueError(f"`{text}`: {limit} fits status only; {value} needs a number.")
+        raise ValueError(f"`{text}`: {limit} fits status only; {value or subject} needs a number.")
     return Rule(
         text=text.strip(),
         subject=subject,
@@ -127,3 +146,20 @@ def parse_rule(text: str) -> Rule:
         limit=LEVELS[limit] if limit in LEVELS else float(limit),
         seconds=float(found["count"]) * _UNITS[found["unit"]] if found["count"] else 0.0,
     )
+
+
+def _subject_and_value(text: str, about: str) -> tuple[str, str]:
+    """Split what a rule is about; a message path is a subject without a value."""
+    named = _NAMED.fullmatch(about)
+    is_topic = named is not None and _TOPIC.fullmatch(named["subject"]) and named["value"] in VALUES
+    if about.startswith("/") and not is_topic:
+        try:
+            path = MessagePath(about)
+        except PathError as error:
+            raise ValueError(f"`{text}`: {error}") from error
+        if not path.has_field:
+            raise ValueError(f"`{text}` is not a rule. {FORM}")
+        return about, ""
+    if named is None:
+        raise ValueError(f"`{text}` is not a rule. {FORM}")
+    return named["subject"], named["value"]

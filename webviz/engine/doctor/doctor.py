@@ -57,6 +57,7 @@ class Doctor:
     Args:
         core: shared by all parts.
         displays: have messages and statuses.
+        numbers: returns those in messages since its last call, by the message paths of rules.
         waiting: monotonic time in seconds, which goes on while a recording is paused.
     """
 
@@ -64,11 +65,13 @@ class Doctor:
         self,
         core: Core,
         displays: DisplaysPart,
+        numbers: Callable[[], Mapping[str, Sequence[float]]],
         waiting: Callable[[], float] = time.monotonic,
     ) -> None:
         self._core = core
         self._waiting = waiting
         self._displays = displays
+        self._numbers = numbers
         self._checks: Sequence[Check] = ()
         self._began = -EVERY_S, -EVERY_S
         self._round: Iterator[None] | None = None
@@ -160,7 +163,8 @@ class Doctor:
         core = self._core
         load, cores = self._load.measure()
         seen = observe(core, self._displays, state, self._environment(state), load, cores)
-        seen = replace(seen, findings=[each for each in self.findings if each.id != OF_RULES])
+        others = [each for each in self.findings if each.id != OF_RULES]
+        seen = replace(seen, findings=others, numbers=self._numbers())
         self.verdicts = self._judge.judge(self._rules(state), seen)
         seen = replace(seen, verdicts=self.verdicts)
         found: list[Finding] = []

@@ -36,6 +36,8 @@ class Judge:
 
 def value_of(rule: Rule, seen: Observation) -> float | None:
     """Return the value that a rule is about, None while it is unknown."""
+    if rule.path:
+        return _of_path(rule, seen.numbers.get(rule.path, ()))
     if rule.subject == DOCTOR:
         least = Severity.ERROR if rule.value == "errors" else Severity.WARNING
         return float(sum(finding.severity >= least for finding in seen.findings))
@@ -45,6 +47,17 @@ def value_of(rule: Rule, seen: Observation) -> float | None:
                 return _of_input(rule.value, display, each, seen)
     display = next((each for each in seen.displays if each.display.name == rule.subject), None)
     return _of_display(rule.value, display, seen) if display else None
+
+
+def _of_path(rule: Rule, numbers: Sequence[float]) -> float | None:
+    """Return the first number that violates a rule, else the newest.
+
+    With a duration the newest counts, since the violation must last.
+    """
+    if not numbers:
+        return None
+    violating = () if rule.seconds else (each for each in numbers if not rule.holds(each))
+    return next(iter(violating), numbers[-1])
 
 
 def _of_display(value: str, display: DisplaySeen, seen: Observation) -> float | None:

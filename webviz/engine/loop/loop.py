@@ -37,6 +37,7 @@ from webviz.engine.parts.playback import REWOUND, PlaybackPart
 from webviz.engine.parts.plugins import PluginsPart
 from webviz.engine.parts.recording import RecordingPart
 from webviz.engine.parts.reports import ReportsPart
+from webviz.engine.parts.rule_numbers import RuleNumbersPart
 from webviz.engine.parts.selection import SelectionPart
 from webviz.engine.parts.session import SessionPart
 from webviz.engine.parts.settings import SettingsPart
@@ -153,11 +154,12 @@ class FrameLoop:
         )
         self._black_box = BlackBoxPart(core, self._settings, memory, control, self._displays.list)
         views = ViewsPart(core, self._settings, self._displays)
-        layouts = LayoutsPart(core, self._settings)
         first = [transforms, self._time, self._playback, self._displays, self._settings, views]
-        first.append(layouts)
+        first.append(LayoutsPart(core, self._settings))
         others, history, kept = self._other_parts(config, path, views, memory, autosave, session)
+        numbers = RuleNumbersPart(core, self._settings, lambda: self.doctor.rules)
         last = [
+            numbers,
             ReportsPart(core, self._files, control, self._examined, lambda: self._shown),
             SharingPart(core, self._files, control, lambda: self._shown, export),
             WhatIfPart(core, self._displays, services),
@@ -165,7 +167,7 @@ class FrameLoop:
         ]
         self._parts = Parts([*first, *others, *last], self._guard)
         self._do = history.noting(self._parts.do)
-        self.doctor = Doctor(core, self._displays, waiting)
+        self.doctor = Doctor(core, self._displays, numbers.numbers, waiting)
         """Finds the causes behind the statuses."""
         self._arrivals = Arrivals(core, self._time, transforms)
         self._showing = Showing(scene, views, self._guard)

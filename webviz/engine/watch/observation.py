@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import threading
 from collections import deque
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from webviz.api.status import Level
 from webviz.data.messages import MessageError, decode
-from webviz.data.messages.message_paths import MessagePath
-from webviz.data.messages.paths import PathError
+from webviz.engine.watch.path_numbers import PathNumbers
 from webviz.sources import Raw
 
 SPAN_S = 3.0
@@ -19,7 +18,6 @@ LEVEL_S = 2.0
 """Duration for which the level of a message counts."""
 MAX_UNREAD = 20
 """Messages of a topic whose numbers are not read yet; of more, the last count."""
-NS_PER_S = 1e9
 MAX_WAITING = 100
 """Messages of a topic whose level is not read yet."""
 DIAGNOSTICS, LOG = "diagnostic_msgs/msg/DiagnosticArray", "rcl_interfaces/msg/Log"
@@ -61,7 +59,7 @@ class TopicObserver:
         self._waiting: dict[str, deque[Raw]] = {}
         self._levels: dict[str, tuple[float, Level]] = {}
         self._typed: Mapping[str, str] = {}
-        self._paths: dict[str, _WatchedPath] = {}
+        self._paths: dict[str, PathNumbers] = {}
         self._unread: dict[str, deque[Raw]] = {}
 
     def observe(
@@ -80,7 +78,7 @@ class TopicObserver:
         self._typed = paths or {}
         if self._paths.keys() != self._typed.keys():
             known = self._paths
-            self._paths = {text: known.get(text) or _WatchedPath(text) for text in self._typed}
+            self._paths = {text: known.get(text) or PathNumbers(text) for text in self._typed}
         topics = {each.path.topic for each in self._paths.values()}
         with self._lock:
             self._counted, self._leveled = counted, leveled
@@ -144,27 +142,6 @@ class TopicObserver:
             if batch := batches[each.path.topic]:
                 each.read(self._typed[text], batch)
         return {text: each.numbers for text, each in self._paths.items() if each.numbers}
-
-
-class _WatchedPath:
-    """The numbers of a path in the last messages that had it."""
-
-    def __init__(self, text: str) -> None:
-        self.path = MessagePath(text)
-        self.numbers: Sequence[float] = ()
-        self._over_time: Callable[[float, float], float] | None = self.path.over_time()
-
-    def read(self, type_name: str, batch: Sequence[Raw]) -> None:
-        """Read messages; those that lack the number count as none."""
-        found: list[float] = []
-        for raw in batch:
-            try:
-                number = self.path.number(decode(type_name, raw.cdr))
-            except (MessageError, PathError):
-                continue
-            time_s = raw.received_ns / NS_PER_S
-            found.append(self._over_time(time_s, number) if self._over_time else number)
-        self.numbers = found
 
 
 def _level(type_name: str, raw: Raw) -> Level:

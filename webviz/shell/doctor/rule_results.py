@@ -40,7 +40,7 @@ class RuleResult:
     @property
     def problem(self) -> str:
         """The reason why the rule failed, a sentence; "" if it held."""
-        name = f"{self.rule.subject}.{self.rule.value}"
+        name = self.rule.about
         if self.violated is not None and self.violated.value is not None:
             value = self.rule.shown(self.violated.value)
             return f"{name} is {value} at {self.at_s:.1f} s, expected {self.rule.expectation}."
