@@ -9,6 +9,7 @@ import pytest
 from bench import Bench
 
 from webviz.api.errors import Error
+from webviz.api.status import Level, Status
 from webviz.data.messages import encode
 from webviz.engine.commands import (
     AddPanel,
@@ -18,15 +19,19 @@ from webviz.engine.commands import (
     SendGoal,
     SetPanelProperty,
 )
+from webviz.engine.commands.guard import Guard
+from webviz.engine.pipeline.own_names import own_names
 from webviz.engine.state import PanelTab, State
+from webviz.files.config import Config
 from webviz.page.recorded_ui import RecordedUi
 from webviz.panels.calling import ActionGoal, ServiceCall
 from webviz.panels.publish import PublishMessage
 from webviz.panels.sending import HISTORY, MAX_PRESETS, fields_of, template
 from webviz.panels.yaml_text import MAX_CHARACTERS, write_yaml
-from webviz.sources import Endpoint, Offer
+from webviz.sources import Endpoint, Offer, Publisher
 
 POSE, STRING = "geometry_msgs/msg/PoseStamped", "std_msgs/msg/String"
+RELIABLE = ("reliable", "volatile")
 TOPICS = {"/goal": (POSE,), "/name": (STRING,)}
 
 
@@ -50,12 +55,12 @@ def test_a_topic_that_is_only_read_has_the_type_of_its_subscriptions() -> None:
     offers = {"/goal_pose": Offer((), readers=(reader,))}
     opened.panel.show(State(topics={"/goal_pose": ()}, offers=offers))
     values = opened.ui.widgets["0"].values["values"]
-    assert (values["type"], values["names"]) == (POSE, ["/goal_pose"])
+    assert (values["about"], values["names"]) == (POSE, ["/goal_pose"])
 
 
 def test_a_form_is_made_from_the_definition_and_follows_the_yaml() -> None:
     opened = Opened(PublishMessage(topic="/goal"))
-    assert opened.show()["type"] == POSE
+    assert opened.show()["about"] == POSE
     assert opened.show()["fields"][3] == {"path": "pose.position.x", "text": "0.0"}
     opened.panel.use({"field": ["pose.position.x", "1.5"]}, 1)
     opened.panel.use({"field": ["header.frame_id", "true"]}, 1)
@@ -93,6 +98,14 @@ def test_what_does_not_fit_is_not_sent_and_stays_to_be_corrected(yaml: str, reas
     assert opened.sent == []
 
 
+def test_a_field_that_does_not_fit_is_corrected_in_the_form() -> None:
+    opened = Opened(ServiceCall(service="/light", service_type="std_srvs/srv/SetBool"))
+    opened.panel.use({"field": ["data", "maybe"]}, 1)
+    assert "expected bool" in opened.show()["problem"]
+    opened.panel.use({"field": ["data", "true"]}, 1)
+    assert (opened.show()["problem"], opened.show()["yaml"]) == ("", "data: true\n")
+
+
 def test_presets_are_properties_and_history_is_bounded() -> None:
     opened = Opened(PublishMessage(topic="/name", presets={"hello": "data: hello"}))
     opened.panel.use({"preset": "hello"}, 1)
@@ -122,6 +135,23 @@ def test_a_message_repeats_until_it_is_stopped_or_nobody_looks(
     assert not opened.show()["repeats"]
 
 
+def test_a_refused_message_is_not_repeated_and_its_reason_goes_with_the_next_edit() -> None:
+    opened = Opened(PublishMessage(topic="/name"))
+    opened.panel.use({"repeat": True}, 1)
+    opened.show()
+    opened.sent[0].report(Status(Level.ERROR, "Not allowed."))
+    shown = opened.show()
+    assert (shown["outcome"], shown["failed"], shown["repeats"]) == ("Not allowed.", True, False)
+    opened.panel.use({"yaml": "data: again"}, 1)
+    assert (opened.show()["outcome"], opened.show()["failed"]) == ("", False)
+
+
+def test_a_panel_of_the_config_may_publish_also_before_the_type_is_known() -> None:
+    panel = PublishMessage(topic="/later")
+    assert own_names(Config(panels=[panel]), Guard("", strict=True)).count("/later") == 1
+    assert "/later" not in own_names(Config(), Guard("", strict=True))
+
+
 def test_a_service_and_an_action_have_forms_of_their_requests() -> None:
     call = Opened(ServiceCall(service="/light", service_type="std_srvs/srv/SetBool"))
     call.panel.use({"field": ["data", "true"]}, 1)
@@ -135,11 +165,18 @@ def test_a_service_and_an_action_have_forms_of_their_requests() -> None:
     goal.panel.use({"field": ["max_undocking_time", "1"]}, 1)
     goal.panel.use({}, 1)
     assert isinstance(goal.sent[0], SendGoal)
+    unnamed = Opened(ActionGoal(action="/undock"))
+    server = Publisher("/dock", "nav2_msgs/action/UndockRobot_FeedbackMessage", *RELIABLE)
+    unnamed.panel.show(State(offers={"/undock/_action/feedback": Offer((server,))}))
+    shown = unnamed.ui.widgets["0"].values["values"]
+    assert (shown["about"], shown["names"]) == ("nav2_msgs/action/UndockRobot", ["/undock"])
+    unnamed.panel.use({}, 1)
+    assert unnamed.sent[0].request.type == "nav2_msgs/action/UndockRobot"
     for panel in (
         ServiceCall(service_type="no/srv/Such"),
         ActionGoal(action_type="no/action/Such"),
     ):
-        assert "No definition of no/" in Opened(panel).show()["outcome"]
+        assert "No definition of no/" in Opened(panel).show()["about"]
         with pytest.raises(Error, match="message type is unknown"):
             panel.use({}, 1)
 

@@ -14,7 +14,14 @@ pytest.importorskip("rclpy", reason="rclpy is not installed", exc_type=ImportErr
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 
-from webviz.data.messages import register, type_exists
+from webviz.data.messages import (
+    UnknownTypeError,
+    encode,
+    interfaces,
+    register,
+    type_exists,
+    typestore,
+)
 from webviz.ros.types import MessageTypeError, learn, message_class, service_class, type_hash
 from webviz.ros.types.composing import composed_message, composed_service
 from webviz.ros.types.wire import RawPayload
@@ -333,3 +340,12 @@ def test_a_real_service_and_a_composed_client_understand_each_other(ros):
     answer = future.result()
     assert isinstance(answer, RawPayload)
     assert answer.cdr[:21] == bytes([0, 1, 0, 0, 0, 0, 0, 0, 9, 0, 0, 0]) + b"was done\0"
+
+
+def test_a_form_of_an_installed_type_needs_no_text():
+    typestore.find_with(learn)
+    assert interfaces.action("test_msgs/action/Fibonacci").goal == "test_msgs/action/Fibonacci_Goal"
+    assert encode("test_msgs/action/Fibonacci_Goal", {"order": 5})
+    assert typestore.fields("test_msgs/msg/MultiNested")
+    with pytest.raises(UnknownTypeError, match=r"No definition of no_msgs/srv/Such is known\."):
+        interfaces.service("no_msgs/srv/Such")

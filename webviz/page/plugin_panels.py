@@ -12,6 +12,7 @@ from typing import Any, ClassVar
 
 import msgspec
 
+from webviz.api.errors import Error
 from webviz.api.panel import Panel
 from webviz.api.registry import broken_types, plugin_types
 from webviz.engine.commands import Command, Sender
@@ -254,6 +255,8 @@ class _Tab:
         """Do what a browser did; returns what went wrong, a sentence or ""."""
         try:
             widget.use(value, browser)
+        except Error as error:  # what the user can put right
+            return str(error)
         except (Exception, SystemExit) as error:  # a plug-in may raise anything
             return self._acts.note("act", error)
         return ""

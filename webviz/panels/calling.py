@@ -8,12 +8,15 @@ from webviz.api.declared import Prop
 from webviz.api.errors import Error
 from webviz.api.goal import goal_request
 from webviz.api.panel import Send, Ui
-from webviz.api.status import Status
+from webviz.api.status import Level, Status
 from webviz.data.messages import MessageError, interfaces, to_tree
 from webviz.engine.commands import CallService, SendGoal
 from webviz.panels.sending import SendingPanel
 
 TIMEOUT_S = 30.0
+FEEDBACK, MESSAGE = "/_action/feedback", "_FeedbackMessage"
+"""Ends of the topic of an action, and of its type."""
+REMEDY = "Enter its text as Definition in Properties."
 Definition = Annotated[str, Prop(help="Text of the definition, for types unknown to webviz.")]
 
 
@@ -41,17 +44,14 @@ class ServiceCall(SendingPanel):
 
     def show(self, state: Any) -> None:
         """Show the form and the response."""
+        about, request = self.service_type or "Enter the type of the service in Properties.", ""
         try:
-            request = (
-                interfaces.service(self.service_type, self.definition).request
-                if self.service_type
-                else ""
-            )
+            if self.service_type:
+                request = interfaces.service(self.service_type, self.definition).request
         except MessageError as error:
-            request = ""
-            self.say(str(error))
+            about = f"{error} {REMEDY}"
         form = {"verb": "Call", "name": self.service, "label": "Service", "names": []}
-        self.show_form(state, request, {**form, "response": self.response})
+        self.show_form(state, request, {**form, "about": about, "response": self.response})
 
     def act(self, value: Any, browser: int | None) -> None:
         """Call the service."""
@@ -59,21 +59,21 @@ class ServiceCall(SendingPanel):
         if not self.service:
             raise Error("No service is chosen. Enter its name.")
         self.response = None
-        self.say("Waiting ...")
+        self.report(Status(Level.OK, "Waiting ..."))
         call = CallService(
             self.service,
             self.service_type,
             values,
             self.definition,
             answered=self._take,
-            failed=self.say,
+            failed=lambda reason: self.report(Status(Level.ERROR, reason)),
             timeout_s=TIMEOUT_S,
         )
         self.send(call, browser)
 
     def _take(self, response: Any) -> None:
         self.response = to_tree(response)
-        self.say("Answered.")
+        self.report(Status(Level.OK, "Answered."))
 
 
 class ActionGoal(SendingPanel):
@@ -85,12 +85,16 @@ class ActionGoal(SendingPanel):
     target = "action"
 
     action: Annotated[str, Prop(help="Full name of the action.")] = ""
-    action_type: Annotated[str, Prop(help="Type, such as nav2_msgs/action/Spin.")] = ""
+    action_type: Annotated[
+        str,
+        Prop(help="Type, such as nav2_msgs/action/Spin; empty for that of the server."),
+    ] = ""
     definition: Definition = ""
 
     def build(self, ui: Ui, send: Send) -> None:
         """Show the form."""
         self.build_form(ui, send)
+        self.type = ""
 
     @property
     def uses(self) -> tuple[str, ...]:
@@ -99,25 +103,31 @@ class ActionGoal(SendingPanel):
 
     def show(self, state: Any) -> None:
         """Show the form."""
+        offered = actions_of(state)
+        self.type = self.action_type or offered.get(self.action, "")
+        about, goal = self.type or "No node offers this action. Start it, or choose another.", ""
         try:
-            goal = (
-                interfaces.action(self.action_type, self.definition).goal
-                if self.action_type
-                else ""
-            )
+            if self.type:
+                goal = interfaces.action(self.type, self.definition).goal
         except MessageError as error:
-            goal = ""
-            self.say(str(error))
-        form = {"verb": "Send goal", "name": self.action, "label": "Action", "names": []}
-        self.show_form(state, goal, form)
+            about = f"{error} {REMEDY}"
+        form = {"verb": "Send goal", "name": self.action, "label": "Action"}
+        self.show_form(state, goal, {**form, "names": sorted(offered)[:2000], "about": about})
 
     def act(self, value: Any, browser: int | None) -> None:
         """Send the goal."""
         values = self.values()
         if not self.action:
             raise Error("No action is chosen. Enter its name.")
-        request = goal_request(self.action, self.action_type, values, definition=self.definition)
-        self.send(SendGoal(request, f"panel {self.id}", self.name, self._report), browser)
+        request = goal_request(self.action, self.type, values, definition=self.definition)
+        self.send(SendGoal(request, f"panel {self.id}", self.name, self.report), browser)
 
-    def _report(self, outcome: Status) -> None:
-        self.say(outcome.text)
+
+def actions_of(state: Any) -> dict[str, str]:
+    """Return the types of the actions that nodes offer, by name: those of their feedback."""
+    feedback = {
+        topic.removesuffix(FEEDBACK): offer.publishers[0].type
+        for topic, offer in state.offers.items()
+        if topic.endswith(FEEDBACK) and offer.publishers
+    }
+    return {name: type_.removesuffix(MESSAGE) for name, type_ in feedback.items()}

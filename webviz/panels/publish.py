@@ -10,7 +10,7 @@ from typing import Annotated, Any
 from webviz.api.declared import Prop
 from webviz.api.errors import Error
 from webviz.api.panel import Send, Ui
-from webviz.api.status import Status
+from webviz.api.status import Level, Status
 from webviz.engine.commands import Publish
 from webviz.panels.sending import SendingPanel
 
@@ -47,6 +47,11 @@ class PublishMessage(SendingPanel):
         type_ = self.message_type or self.type_shown
         return {self.topic: type_} if self.topic.startswith("/") and type_ else {}
 
+    @property
+    def uses(self) -> tuple[str, ...]:
+        """The topic, also while its type is unknown."""
+        return (self.topic,) if self.topic.startswith("/") else ()
+
     def show(self, state: Any) -> None:
         """Show the form, and publish if it is time."""
         # A topic that is published by hand, such as /cmd_vel, often has subscriptions only.
@@ -66,7 +71,9 @@ class PublishMessage(SendingPanel):
             self._publish_or_stop()
         named = {name for name, found in state.topics.items() if found} | read.keys()
         topics = sorted(named)[:2000]
+        about = type_ or "Nothing publishes or reads this topic. Enter its type in Properties."
         form = {"verb": "Publish", "name": self.topic, "label": "Topic", "names": topics}
+        form["about"] = about if self.topic else "Enter a topic."
         self.show_form(state, type_, {**form, "repeats": self.is_repeating, "rate": self.rate})
 
     def act(self, value: Any, browser: int | None) -> None:
@@ -85,13 +92,15 @@ class PublishMessage(SendingPanel):
         try:
             self._publish()
         except Error as error:
-            self.is_repeating = False
-            self.say(str(error))
+            self.report(Status(Level.ERROR, str(error)))
 
     def _publish(self) -> None:
         values = self.values()
-        message = Publish(self.topic, self.type_shown, values, report=self._report)
+        message = Publish(self.topic, self.type_shown, values, report=self.report)
         self.send(message, self.sender)
 
-    def _report(self, outcome: Status) -> None:
-        self.say(outcome.text)
+    def report(self, outcome: Status) -> None:
+        """Show what became of a message; none is repeated after an error."""
+        if outcome.level is Level.ERROR:
+            self.is_repeating = False
+        super().report(outcome)

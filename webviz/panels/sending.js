@@ -4,9 +4,9 @@
 
 /**
  * @typedef {{
- *   verb: string, name: string, label: string, names: string[], type: string, yaml: string,
+ *   verb: string, name: string, label: string, names: string[], about: string, yaml: string,
  *   fields: {path: string, text: string}[], history: string[], presets: Record<string, string>,
- *   problem: string, outcome: string, repeats?: boolean, rate?: number, response?: any,
+ *   problem: string, outcome: string, failed: boolean, repeats?: boolean, rate?: number, response?: any,
  * }} Form
  */
 
@@ -17,6 +17,7 @@ const RULES = `
 .wv-sending-fields { display: grid; grid-template-columns: minmax(0, 1fr) minmax(0, 1fr); gap: 4px 8px; max-height: 40vh;
   overflow: auto; align-items: center }
 .wv-sending-said[data-level="error"] { color: var(--wv-error) }
+.wv-sending .wv-plugin-bar > select { flex: none; width: auto }
 `;
 
 let forms = 0;
@@ -37,7 +38,7 @@ export default function install({ el, messageRows, set, setText, style, widget }
       onchange: () => send({ name: name.value }),
     });
     const label = el("span", { class: "wv-quiet" });
-    const kind = el("div", { class: "wv-quiet" });
+    const about = el("div", { class: "wv-quiet" });
     const fields = el("div", { class: "wv-sending-fields" });
     /** @type {HTMLTextAreaElement} */
     const yaml = el("textarea", {
@@ -54,6 +55,7 @@ export default function install({ el, messageRows, set, setText, style, widget }
         type: "button",
         class: "wv-button",
         onclick: () => send({ repeat: !shown?.repeats }),
+        hidden: true,
       },
       "Repeat",
     );
@@ -120,7 +122,7 @@ export default function install({ el, messageRows, set, setText, style, widget }
       { class: "wv-sending" },
       el("label", { class: "wv-plugin-line" }, label, name),
       names,
-      kind,
+      about,
       fields,
       yaml,
       said,
@@ -138,10 +140,11 @@ export default function install({ el, messageRows, set, setText, style, widget }
       setText(label, form.label);
       set(name, { "aria-label": form.label });
       if (document.activeElement !== name) name.value = form.name;
-      setText(kind, form.type || "Enter the message type in Properties.");
+      setText(about, form.about);
       setText(go, form.verb);
-      setText(repeat, form.repeats ? "Stop" : `Repeat at ${form.rate ?? 0} Hz`);
       set(repeat, { hidden: form.rate === undefined, "aria-pressed": String(!!form.repeats) });
+      if (form.rate !== undefined)
+        setText(repeat, form.repeats ? "Stop" : `Repeat at ${form.rate} Hz`);
       if (JSON.stringify(old?.names) !== JSON.stringify(form.names))
         names.replaceChildren(...form.names.map((value) => el("option", { value })));
       if (JSON.stringify(old?.fields) !== JSON.stringify(form.fields)) showFields(form);
@@ -151,7 +154,7 @@ export default function install({ el, messageRows, set, setText, style, widget }
         JSON.stringify([form.history, form.presets]);
       if (!old || !isSame) showBefore(form);
       setText(said, form.problem || form.outcome);
-      set(said, { "data-level": form.problem ? "error" : null });
+      set(said, { "data-level": form.problem || form.failed ? "error" : null });
       set(response.element, { hidden: !form.response });
       response.show(form.response ?? null);
     }

@@ -13,6 +13,7 @@ import msgspec
 from webviz.api.declared import Prop
 from webviz.api.errors import Error
 from webviz.api.panel import Panel, Send, Ui
+from webviz.api.status import Level, Status
 from webviz.data.messages import MessageError, encode, message_class, typestore
 from webviz.data.messages.classes import attribute
 from webviz.data.names import readable
@@ -56,7 +57,7 @@ class SendingPanel(Panel):
         self.fields: list[dict[str, str]] = []
         self.history: deque[str] = deque(maxlen=HISTORY)
         self.problem = ""
-        self.outcome = ""
+        self.outcome = Status(Level.OK, "")
 
     def build_form(self, ui: Ui, send: Send) -> None:
         """Add the form."""
@@ -64,20 +65,27 @@ class SendingPanel(Panel):
         self.form = ui.widget("form", {}, self.use)
 
     def show_form(self, state: Any, type_: str, extra: Mapping[str, Any]) -> None:
-        """Show the form of a message type; `extra` is what else pages need."""
+        """Show the form of a message type.
+
+        Args:
+            state: of the viewer.
+            type_: of the message, "" if it is unknown.
+            extra: what else pages need: `verb` of the button, `name` and `label` of the target,
+                other `names` to choose from, and `about`, its type or why it has no form.
+        """
         self.id = next((tab.id for tab in state.panels if tab.panel is self), "")
         with self.lock:
             if type_ != self.type_shown:
                 self.type_shown = type_
                 self._use_defaults()
             values = {
-                "type": type_,
                 "yaml": self.text,
                 "fields": self.fields,
                 "history": list(self.history),
                 "presets": dict(list(self.presets.items())[:MAX_PRESETS]),
                 "problem": self.problem,
-                "outcome": self.outcome,
+                "outcome": self.outcome.text,
+                "failed": self.outcome.level is Level.ERROR,
                 **extra,
             }
         self.form.show(values)
@@ -100,6 +108,7 @@ class SendingPanel(Panel):
                 raise Error(f"There are {MAX_PRESETS} presets. Remove one in Properties first.")
             self.send(SetPanelProperty(self.id, "presets", presets), browser)
         elif "name" in value:
+            self.report(Status(Level.OK, ""))
             self.send(SetPanelProperty(self.id, self.target, str(value["name"])[:300]), browser)
         elif "reset" in value:
             with self.lock:
@@ -116,6 +125,7 @@ class SendingPanel(Panel):
         with self.lock:
             self.text = text
             self.problem = ""
+            self.outcome = Status(Level.OK, "")
             try:
                 self.fields = fields_of(self._values())
             except Error as error:
@@ -124,9 +134,9 @@ class SendingPanel(Panel):
     def edit_field(self, path: str, text: str) -> None:
         """Change one field of the form."""
         with self.lock:
-            values = self._values()
-        found = _assigned(values, path, text)
-        self.edit(write_yaml(found))
+            values = self._entered()  # another field may not fit yet
+            defaults = template(self.type_shown) if self.type_shown else {}
+        self.edit(write_yaml(_assigned(values, defaults, path, text)))
 
     def values(self) -> Mapping[str, Any]:
         """Return the values, checked.
@@ -141,16 +151,21 @@ class SendingPanel(Panel):
             self.history.append(self.text)
         return values
 
-    def say(self, outcome: str) -> None:
+    def report(self, outcome: Status) -> None:
         """Show what became of what was sent; from any thread."""
         with self.lock:
             self.outcome = outcome
 
-    def _values(self) -> Mapping[str, Any]:
+    def _entered(self) -> Mapping[str, Any]:
+        """Return the values of the text, which may not fit the type."""
         values = read_yaml(self.text)
         values = {} if values is None else values
         if not isinstance(values, Mapping):
             raise Error("Expected fields with values, such as `data: 5`.")
+        return values
+
+    def _values(self) -> Mapping[str, Any]:
+        values = self._entered()
         if not self.type_shown:
             raise Error("The message type is unknown. Choose another name, or enter the type.")
         try:
@@ -220,12 +235,15 @@ def _leaves(values: Mapping[str, Any], before: str) -> Iterator[tuple[str, str]]
             yield path, value if isinstance(value, str) else inline(value)
 
 
-def _assigned(values: Mapping[str, Any], path: str, text: str) -> dict[str, Any]:
-    """Values with another one at a path; texts stay texts."""
+def _assigned(
+    values: Mapping[str, Any], defaults: Mapping[str, Any], path: str, text: str
+) -> dict[str, Any]:
+    """Values with another one at a path; what is a text by default is one."""
     key, _, rest = path.partition(".")
     if key not in values:
         raise Error(f"`{path[:80]}` is no longer a field.")
-    before = values[key]
+    before, default = values[key], defaults.get(key, values[key])
     if rest and isinstance(before, Mapping):
-        return {**values, key: _assigned(before, rest, text)}
-    return {**values, key: text if isinstance(before, str) else read_yaml(text)}
+        inner = default if isinstance(default, Mapping) else {}
+        return {**values, key: _assigned(before, inner, rest, text)}
+    return {**values, key: text if isinstance(default, str) else read_yaml(text)}

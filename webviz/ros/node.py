@@ -23,6 +23,7 @@ from rclpy.signals import SignalHandlerOptions
 from rclpy.subscription import Subscription as RclpySubscription
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
+from webviz.data.messages import typestore
 from webviz.ros import qos
 from webviz.ros.control import ControlNode
 from webviz.ros.graph import RosGraph
@@ -75,6 +76,7 @@ class RosSource:
         self._heap = Heap()
         self.inbox = Inbox()
         self._context = Context()
+        typestore.find_with(learn)
         remove_abandoned()
         rclpy.init(
             args=list(args),

@@ -58,8 +58,11 @@ def service(type_name: str, text: str = "") -> Service:
         DefinitionError: the definition is invalid.
     """
     parts = Service(f"{type_name}_Request", f"{type_name}_Response")
+    text = text or SERVICES.get(type_name, "")
+    if not text and not typestore.type_exists(parts.request):
+        typestore.find(type_name)
     if not typestore.type_exists(parts.request):
-        texts = _split(type_name, text or SERVICES.get(type_name, ""), 2)
+        texts = _split(type_name, text, 2)
         for part, definition in zip(parts, texts, strict=True):
             typestore.declare(part, _fields(part, definition) or [_PLACEHOLDER])
     return _with_event(type_name, parts)
@@ -112,9 +115,12 @@ def action(type_name: str, text: str = "") -> Action:
     parts = Action(
         f"{type_name}_SendGoal", f"{type_name}_GetResult", f"{type_name}_FeedbackMessage", goal
     )
+    text = text or ACTIONS.get(type_name, "")
+    if not text and not typestore.type_exists(goal):
+        typestore.find(type_name)
     if typestore.type_exists(goal):
         return parts
-    texts = _split(type_name, text or ACTIONS.get(type_name, ""), 3)
+    texts = _split(type_name, text, 3)
     for part, definition in zip((goal, result, feedback), texts, strict=True):
         typestore.declare(part, _fields(part, definition) or [_PLACEHOLDER])
     goal_id = ("goal_id", (Nodetype.NAME, "unique_identifier_msgs/msg/UUID"))

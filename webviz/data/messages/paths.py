@@ -260,21 +260,29 @@ def as_number(value: Any) -> float | None:
 
 def numeric_paths(message: Any, most: int) -> list[str]:
     """Return the paths of the first numbers in a message, with some elements of each sequence."""
-    return list(islice(_numbers(None, message, "", MAX_DEPTH), most))
+    return list(islice(_leaves(None, message, "", MAX_DEPTH, with_texts=False), most))
 
 
-def _numbers(parent: Any, value: Any, path: str, depth: int) -> Iterator[str]:
-    if as_number(value) is not None:
+def leaf_paths(message: Any, most: int) -> list[str]:
+    """Return the paths of the first numbers and texts in a message, as `numeric_paths`."""
+    return list(islice(_leaves(None, message, "", MAX_DEPTH, with_texts=True), most))
+
+
+def _leaves(parent: Any, value: Any, path: str, depth: int, *, with_texts: bool) -> Iterator[str]:
+    if isinstance(value, str):
+        if with_texts:
+            yield path
+    elif as_number(value) is not None:
         yield path
-    elif depth == 0 or isinstance(value, str):
+    elif depth == 0:
         return
     elif names := field_names(value):
         for name in names:
             inner = f"{path}.{name}" if path else name
-            yield from _numbers(value, getattr(value, name), inner, depth - 1)
+            yield from _leaves(value, getattr(value, name), inner, depth - 1, with_texts=with_texts)
     elif hasattr(value, "__len__"):
         for key, item in zip(_keys(parent, value), islice(value, MAX_LISTED), strict=False):
-            yield from _numbers(None, item, f"{path}[{key}]", depth - 1)
+            yield from _leaves(None, item, f"{path}[{key}]", depth - 1, with_texts=with_texts)
 
 
 def _keys(parent: Any, value: Sequence[Any]) -> Iterable[str | int]:

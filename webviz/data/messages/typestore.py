@@ -7,7 +7,7 @@ the code that it generates from them, because definitions may come from untruste
 from __future__ import annotations
 
 import re
-from collections.abc import Container
+from collections.abc import Callable, Container
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -28,6 +28,9 @@ _IDL = re.compile(r"^={80}\nIDL: \S+$", re.MULTILINE)
 _PREPROCESSOR = re.compile(r"^[ \t]*#.*$", re.MULTILINE)
 """Lines that rosbags does not read; what they include follows in the definition."""
 _TYPE_NAME = re.compile(r"[A-Za-z]\w*/(?:msg|srv|action)/[A-Za-z]\w*", re.ASCII)
+
+
+_finders: list[Callable[[str], object]] = []
 
 
 class MessageField(NamedTuple):
@@ -71,6 +74,23 @@ def full_name(type_name: str) -> str:
             f"{type_name!r} is not a valid message type, such as sensor_msgs/msg/LaserScan."
         )
     return full
+
+
+def find_with(finder: Callable[[str], object]) -> None:
+    """Let a function register types whose definition is missing, such as those of a ROS workspace.
+
+    Args:
+        finder: called with the full name of a message, service or action type, in any thread; it
+            raises a `MessageError` if webviz cannot read the type.
+    """
+    if finder not in _finders:
+        _finders.append(finder)
+
+
+def find(type_name: str) -> None:
+    """Register a type whose definition is missing, if somebody knows it."""
+    for finder in _finders:
+        finder(full_name(type_name))
 
 
 def type_exists(type_name: str) -> bool:
@@ -207,7 +227,10 @@ def _check_closed(type_name: str, inside: tuple[str, ...]) -> None:
 
 
 def _definition(type_name: str) -> Any:
-    found = _store().fielddefs.get(full_name(type_name))
+    name = full_name(type_name)
+    if name not in _store().fielddefs:
+        find(name)
+    found = _store().fielddefs.get(name)
     if found is None:
         raise UnknownTypeError(f"No definition of the message type {type_name} is known.")
     return found
