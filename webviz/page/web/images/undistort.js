@@ -129,36 +129,98 @@ function trianglesOf({ rows, columns, places }) {
 export function straight(warp, place) {
   const [x, y] = place;
   if (x < 0 || y < 0 || x > 1 || y > 1) return null;
-  const share = sourceOf(warp, place);
+  const share = sourceOf(lensOf(warp), x, y);
   return share.every((each) => each >= 0 && each < 1) ? share : null;
+}
+
+/**
+ * The grid of a warp, quick to search.
+ *
+ * @typedef {{
+ *   rows: number, columns: number, places: Float64Array, nearby: Int32Array,
+ * }} Lens  `nearby` are corners of the grid by the cell of the image that they are seen in
+ */
+
+const CELLS = 32; // of the image along each side
+/** @type {WeakMap<PictureWarp, Lens>} */
+const lenses = new WeakMap();
+
+/**
+ * @param {PictureWarp} warp
+ * @returns {Lens}
+ */
+function lensOf(warp) {
+  let lens = lenses.get(warp);
+  if (!lens) {
+    const { rows, columns } = warp;
+    const places = Float64Array.from(warp.places, (place) => place ?? NaN);
+    lens = { rows, columns, places, nearby: nearbyOf(places) };
+    lenses.set(warp, lens);
+  }
+  return lens;
+}
+
+/** @param {number} share of the width or height of the image */
+const cellAt = (share) => Math.max(0, Math.min(CELLS - 1, Math.floor(share * CELLS)));
+
+/**
+ * A corner of the grid in or near each cell of the image.
+ *
+ * @param {Float64Array} places
+ */
+function nearbyOf(places) {
+  const nearby = new Int32Array(CELLS * CELLS).fill(-1);
+  /** @type {number[]} */
+  const known = [];
+  /**
+   * @param {number} cell
+   * @param {number} corner
+   */
+  const note = (cell, corner) => {
+    if (nearby[cell] >= 0) return;
+    nearby[cell] = corner;
+    known.push(cell);
+  };
+  for (let corner = 0; 2 * corner < places.length; corner++) {
+    const [u, v] = [places[2 * corner], places[2 * corner + 1]];
+    if (Number.isFinite(u + v)) note(cellAt(v) * CELLS + cellAt(u), corner);
+  }
+  for (const cell of known) {
+    // Cells without a corner have that of a neighbour.
+    const [row, column] = [Math.floor(cell / CELLS), cell % CELLS];
+    if (column > 0) note(cell - 1, nearby[cell]);
+    if (column + 1 < CELLS) note(cell + 1, nearby[cell]);
+    if (row > 0) note(cell - CELLS, nearby[cell]);
+    if (row + 1 < CELLS) note(cell + CELLS, nearby[cell]);
+  }
+  return nearby;
 }
 
 /**
  * The same without a limit, from the nearest cell of the grid; not a number beside what the lens sees.
  *
- * @param {PictureWarp} warp
- * @param {Vec2} place
+ * @param {Lens} lens
+ * @param {number} x
+ * @param {number} y
  * @returns {Vec2}
  */
-function sourceOf({ rows, columns, places }, [x, y]) {
+function sourceOf({ rows, columns, places }, x, y) {
   const [across, down] = [x * (columns - 1), y * (rows - 1)];
   const column = Math.max(0, Math.min(Math.floor(across), columns - 2));
   const row = Math.max(0, Math.min(Math.floor(down), rows - 2));
   const [u, v] = [across - column, down - row];
+  const a = 2 * (row * columns + column);
+  const c = a + 2 * columns;
   /** @param {0 | 1} axis */
-  const share = (axis) => {
-    /**
-     * @param {number} r
-     * @param {number} c
-     */
-    const at = (r, c) => places[2 * ((row + r) * columns + column + c) + axis] ?? NaN;
-    return (at(0, 0) * (1 - u) + at(0, 1) * u) * (1 - v) + (at(1, 0) * (1 - u) + at(1, 1) * u) * v;
-  };
+  const share = (axis) =>
+    (places[a + axis] * (1 - u) + places[a + 2 + axis] * u) * (1 - v) +
+    (places[c + axis] * (1 - u) + places[c + 2 + axis] * u) * v;
   return [share(0), share(1)];
 }
 
 const STEPS = 8;
 const SLOPE = 1e-3; // over which it is measured
+const CLOSE = 1e-7; // of the image: less than a thousandth of a pixel
 
 /**
  * The place of the undistorted image that shows a place of the image; the opposite of `straight`. Null
@@ -169,33 +231,22 @@ const SLOPE = 1e-3; // over which it is measured
  * @returns {Vec2 | null}
  */
 export function bent(warp, share) {
-  let [x, y] = nearest(warp, share);
+  const lens = lensOf(warp);
+  const corner = lens.nearby[cellAt(share[1]) * CELLS + cellAt(share[0])];
+  if (!(corner >= 0)) return null;
+  let x = (corner % lens.columns) / (lens.columns - 1);
+  let y = Math.floor(corner / lens.columns) / (lens.rows - 1);
   for (let step = 0; step < STEPS; step++) {
-    const [u, v] = sourceOf(warp, [x, y]);
-    const [uRight, vRight] = sourceOf(warp, [x + SLOPE, y]);
-    const [uDown, vDown] = sourceOf(warp, [x, y + SLOPE]);
-    const [a, b, c, d] = [uRight - u, uDown - u, vRight - v, vDown - v].map((each) => each / SLOPE);
-    const size = a * d - b * c;
+    const [u, v] = sourceOf(lens, x, y);
     const [du, dv] = [share[0] - u, share[1] - v];
+    if (Math.abs(du) < CLOSE && Math.abs(dv) < CLOSE) break;
+    const [uRight, vRight] = sourceOf(lens, x + SLOPE, y);
+    const [uDown, vDown] = sourceOf(lens, x, y + SLOPE);
+    const [a, b] = [(uRight - u) / SLOPE, (uDown - u) / SLOPE];
+    const [c, d] = [(vRight - v) / SLOPE, (vDown - v) / SLOPE];
+    const size = a * d - b * c;
     x += (d * du - b * dv) / size;
     y += (a * dv - c * du) / size;
   }
   return Number.isFinite(x) && Number.isFinite(y) ? [x, y] : null;
-}
-
-/**
- * The corner of the grid that is nearest to a place of the image.
- *
- * @param {PictureWarp} warp
- * @param {Vec2} share
- * @returns {Vec2}
- */
-function nearest({ rows, columns, places }, [x, y]) {
-  let [best, least] = [0, Infinity];
-  for (let i = 0; i < rows * columns; i++) {
-    const [u, v] = [places[2 * i] ?? NaN, places[2 * i + 1] ?? NaN];
-    const far = Math.hypot(u - x, v - y);
-    if (far < least) [best, least] = [i, far];
-  }
-  return [(best % columns) / (columns - 1), Math.floor(best / columns) / (rows - 1)];
 }
