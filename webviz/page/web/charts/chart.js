@@ -288,7 +288,7 @@ export function chart(_, send) {
 
   function readOut() {
     const time = cursor ?? Infinity;
-    setText(when, cursor === null ? "" : timeOfDay(cursor, true));
+    setText(when, cursor === null ? "" : timeOfDay(cursor, true).replace(/^.* /, ""));
     for (const curve of shown()) {
       const found = valueAt(curve, time);
       const text = !found
@@ -347,7 +347,8 @@ export function chart(_, send) {
       },
       icon("close", 12),
     );
-    const label = el("span", { class: "wv-chart-name" }, name);
+    const parts = name.split(/(?=[./[{])/).flatMap((part) => [el("wbr"), part]);
+    const label = el("span", { class: "wv-chart-name" }, parts);
     const line = el(
       "div",
       { class: "wv-chart-entry" },

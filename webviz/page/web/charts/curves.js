@@ -99,14 +99,49 @@ export function pairs(curve, across, range) {
  * @returns {Range}
  */
 export function extent(curves, range) {
-  let [low, high] = [Infinity, -Infinity];
+  /** @type {Range} */
+  const all = [Infinity, -Infinity];
   for (const curve of curves) {
-    visit(curve, range, (time, value) => {
-      if (value < low) low = value;
-      if (value > high) high = value;
-    });
+    const isInside = (/** @type {Piece} */ { times }) =>
+      times[0] >= range[0] && times[times.length - 1] <= range[1];
+    for (const piece of curve.pieces.filter(isInside)) {
+      const [low, high] = boundsOf(piece);
+      if (low <= high) [low, high].forEach((value) => widen(all, value));
+    }
+    const pieces = curve.pieces.filter((piece) => !isInside(piece));
+    visit({ ...curve, pieces }, range, (_, value) => widen(all, value));
   }
-  return [low, high];
+  return all;
+}
+
+/**
+ * Widens a range by a value; NaN is none.
+ *
+ * @param {Range} range
+ * @param {number} value
+ */
+function widen(range, value) {
+  if (value < range[0]) range[0] = value;
+  if (value > range[1]) range[1] = value;
+}
+
+/** @type {WeakMap<Piece, Range>} */
+const bounds = new WeakMap();
+
+/**
+ * The lowest and highest value of a piece, which is never changed.
+ *
+ * @param {Piece} piece
+ * @returns {Range}
+ */
+function boundsOf(piece) {
+  let known = bounds.get(piece);
+  if (!known) {
+    known = [Infinity, -Infinity];
+    for (const value of piece.values) widen(known, value);
+    bounds.set(piece, known);
+  }
+  return known;
 }
 
 /**
