@@ -79,6 +79,9 @@ def test_the_log_is_filtered_and_opened_and_leads_to_its_time(loop: Loop, tab: T
         assert follow.get_attribute("aria-pressed") == "true"
     kept = len(log.chunks) * 200
     assert 90_000 < kept <= 100_000
+    width = "(span) => span.clientWidth / span.parentElement.clientWidth"
+    share = newest.locator("span").last.evaluate(width)
+    assert share > 0.9, "in a narrow panel the text has a line of its own"
     tab.page.get_by_label("Lowest level").select_option("Error")
     tab.page.get_by_label("Node", exact=True).fill("BASE")
     tab.wait_for(lambda: tab.page.get_by_text("1 line", exact=True).count())
@@ -195,17 +198,28 @@ def test_a_parameter_is_set_by_enter(loop: Loop, tab: Tab) -> None:
     tab.wait_for(lambda: calls(loop)[-1:])
     assert calls(loop)[-1].service == "/base/list_parameters"
     row = {"range": "0 to 2", "about": HOSTILE, "locked": False}
-    panel.known = {f"speed_{i}": {"kind": 3, "value": 0.5, **row} for i in range(300)}
+    panel.known = {"on": {"kind": 1, "value": True, **row}}
+    panel.known |= {f"speed_{i}": {"kind": 3, "value": 0.5, **row} for i in range(300)}
     field = tab.page.get_by_role("textbox", name="speed_1", exact=True)
     tab.wait_for(lambda: field.count() == 1)
     assert "double · 0 to 2 · " in tab.text()
+    tab.page.get_by_role("combobox", name="on", exact=True).select_option("false")
+    tab.wait_for(lambda: calls(loop)[-1].service == "/base/set_parameters")
+    value = {"type": 1, "bool_value": False}
+    assert calls(loop)[-1].request == {"parameters": [{"name": "on", "value": value}]}
     field.fill("1e3")
     field.press("Enter")
-    tab.wait_for(lambda: calls(loop)[-1].service == "/base/set_parameters")
     value = {"type": 3, "double_value": 1000.0}
-    assert calls(loop)[-1].request == {"parameters": [{"name": "speed_1", "value": value}]}
+    entered = {"parameters": [{"name": "speed_1", "value": value}]}
+    tab.wait_for(lambda: calls(loop)[-1].request == entered)
     panel.refused = {"speed_1": "Too fast."}
     tab.wait_for(lambda: "Too fast." in tab.text())
+    assert field.input_value() == "1e3", "somebody may correct it"
+    field.blur()
+    assert field.input_value() == "0.5"
+    field.fill("7")
+    field.press("Escape")
+    assert field.input_value() == "0.5"
 
 
 def test_a_form_publishes_what_was_entered(loop: Loop, tab: Tab) -> None:
@@ -216,6 +230,16 @@ def test_a_form_publishes_what_was_entered(loop: Loop, tab: Tab) -> None:
     tab.page.get_by_label("History and presets").select_option("greeting")
     yaml = tab.page.get_by_label("YAML")
     tab.wait_for(lambda: yaml.input_value() == "data: hello")
+    field.fill(HOSTILE)
+    field.press("Enter")
+    tab.wait_for(lambda: HOSTILE in yaml.input_value())
+    yaml.fill("data: 5")
+    yaml.blur()
+    tab.wait_for(lambda: "expected text" in tab.text())
+    tab.button("Publish").click()
+    toast = tab.page.locator(".wv-toast")
+    tab.wait_for(lambda: toast.count() and "expected text" in toast.first.inner_text())
+    assert "failed" not in toast.first.inner_text(), "the panel is fine; the value is not"
     field.fill(HOSTILE)
     field.press("Enter")
     tab.wait_for(lambda: HOSTILE in yaml.input_value())

@@ -63,7 +63,7 @@ def test_the_graph_is_searched_and_a_topic_says_what_does_not_arrive(loop: Loop,
     }
     traffic = {"/scan": Traffic(9.98, 100.0, None)}
     open_panel(loop, tab, NodeGraph(), offers=offers, traffic=traffic)
-    tab.wait_for(lambda: label(tab) == "Graph: 7 boxes, 1 QoS mismatches")
+    tab.wait_for(lambda: label(tab) == "Graph: 7 boxes, 1 QoS mismatch")
     search = tab.page.get_by_label("Find nodes and topics")
     search.fill("SCAN")
     tab.wait_for(lambda: label(tab) == "Graph: 1 of 7")

@@ -102,7 +102,7 @@ def test_parameters_are_shown_set_refused_and_taken_back(opened: Any) -> None:
     panel.use({"set": ["speed", "1"]}, 1)
     assert node.values["speed"] == (3, 1.0)
     panel.use({"set": ["name", "new"]}, 1)
-    assert shown()["outcome"] == "0 parameters set, 1 refused by the node."
+    assert shown()["outcome"] == "The node refused name: No texts."
     assert [row["refused"] for row in shown()["rows"]] == ["No texts.", "", ""]
     assert shown()["undo"] == 1
     panel.use({"undo": True}, 1)
@@ -119,6 +119,7 @@ def test_a_file_sets_what_it_names_and_is_what_the_panel_saves(opened: Any) -> N
     )
     panel.use({"load": yaml.replace("b: 1", "b: 7") + "    other: 1\n"}, 1)
     assert node.values["a.b"] == (2, 7)
+    assert shown()["outcome"] == "3 parameters set. The node does not have other."
     assert flat(read_yaml(yaml)["/base"]["ros__parameters"]) == {
         "a.b": 1,
         "a.c": [1.0, math.inf],

@@ -133,6 +133,28 @@ def test_a_band_has_only_changes_and_a_bounded_number() -> None:
     assert values(shown(panel, 6 * SECOND))["tracks"][0]["times"] == [5.0]
 
 
+def test_bands_are_added_by_topic_and_field_and_removed() -> None:
+    panel, sent = StateTimeline(paths=["/t.data"]), list[Any]()
+    panel.build(RecordedUi(), lambda command, browser=None: sent.append(command))
+    panel.chooser.topic = "/t"
+    shown(panel)
+    assert set(panel.subscriptions()) == {"/t"}
+    panel.receive("/t", STATUS(values=[KEY(key="a")]), SECOND)
+    ui = RecordedUi()
+    panel.chooser.build(ui, "band")
+    shown(panel)
+    topics, fields = (ui.widgets[id_] for id_ in ("0", "1"))
+    assert fields.values["options"] == [
+        *("", "level", "name", "message", "hardware_id", "values[0].key", "values[0].value")
+    ]
+    fields.use("name", 1)
+    panel.use("/t.data", 1)
+    assert [each.value for each in sent] == [["/t.data", "/t.name"], []]
+    topics.use("", 1)
+    shown(panel)
+    assert fields.values["options"] == [""]
+
+
 def test_diagnostics_are_bounded_and_grow_stale() -> None:
     panel = built(Diagnostics())
     status = [STATUS(name=f"n: {i}", level=255, message="m" * 9999) for i in range(10**5)]

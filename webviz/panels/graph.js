@@ -135,7 +135,7 @@ export default function install(page) {
       const bad = drawing.links.filter(({ why }) => why).length;
       const sum = isFound
         ? `${all.filter(isFound).length} of ${all.length}`
-        : `${all.length} boxes${bad ? `, ${bad} QoS mismatches` : ""}`;
+        : `${all.length} boxes${bad ? `, ${bad} QoS mismatch${bad > 1 ? "es" : ""}` : ""}`;
       setText(count, sum);
       set(canvas, { "aria-label": `Graph: ${sum}` });
       const { context, width, height, color } = fitted(canvas);

@@ -12,13 +12,16 @@
 
 const LEVELS = ["Debug", "Info", "Warn", "Error", "Fatal"];
 const ROW_PX = 20;
+const TALL_PX = 36; // with the text below the rest
+const NARROW_PX = 480;
 const RULES = `
-.wv-log-row { display: flex; gap: 8px; height: 20px; align-items: center; padding-left: var(--wv-edge);
-  font: 12px/20px ui-monospace, "DejaVu Sans Mono", monospace; white-space: pre }
-.wv-log-row > :nth-child(1) { flex: none; width: 44px; color: var(--wv-level) }
-.wv-log-row > :nth-child(2) { flex: none; width: 86px; color: var(--wv-quiet) }
-.wv-log-row > :nth-child(3) { flex: 0 0 auto; max-width: 30%; color: var(--wv-quiet) }
-.wv-log-row > :nth-child(4) { flex: 1 }
+.wv-log-row { display: grid; grid-template-columns: 44px 86px minmax(0, 3fr) minmax(0, 10fr); column-gap: 8px;
+  height: 20px; align-content: center; padding-inline: var(--wv-edge);
+  font: 12px/16px ui-monospace, "DejaVu Sans Mono", monospace; white-space: pre }
+.wv-log-row > :nth-child(1) { color: var(--wv-level) }
+.wv-log-row > :nth-child(2), .wv-log-row > :nth-child(3) { color: var(--wv-quiet) }
+[data-narrow] > .wv-log-row { grid-template-columns: 44px 86px minmax(0, 1fr); height: 36px }
+[data-narrow] > .wv-log-row > :nth-child(4) { grid-column: 1 / -1 }
 .wv-log-detail { max-height: 35%; overflow: auto }
 .wv-log-detail pre { margin: 4px 0; white-space: pre-wrap; overflow-wrap: anywhere;
   font: 12px/1.45 ui-monospace, "DejaVu Sans Mono", monospace }
@@ -110,6 +113,14 @@ export default function install({
       },
       choose: open,
     });
+    const canvas = list.element.firstElementChild ?? list.element;
+    const sizes = new ResizeObserver(() => {
+      const isNarrow = list.element.clientWidth < NARROW_PX;
+      set(canvas, { "data-narrow": isNarrow });
+      list.resize(touchable(isNarrow ? TALL_PX : ROW_PX));
+      toEnd();
+    });
+    sizes.observe(list.element);
     let top = 0;
     list.element.addEventListener("scroll", () => {
       const { scrollTop, scrollHeight, clientHeight } = list.element;
@@ -247,6 +258,10 @@ export default function install({
       list.element,
       detail,
     );
-    return { element, update, close: list.close };
+    function close() {
+      sizes.disconnect();
+      list.close();
+    }
+    return { element, update, close };
   });
 }

@@ -19,6 +19,7 @@ const RULES = `
 .wv-parameter > :nth-child(2) { grid-row: span 2; align-self: center }
 .wv-parameter > :nth-child(3) { font-size: 12px; color: var(--wv-quiet) }
 .wv-parameter[data-level="error"] > :nth-child(3) { color: var(--wv-error) }
+.wv-parameter > [readonly] { border-color: transparent; background: none; color: var(--wv-quiet) }
 `;
 
 /** @param {Page} page */
@@ -65,11 +66,10 @@ export default function install({
       height: touchable(ROW_PX),
       make,
       update(element, /** @type {Row} */ row) {
-        const [name, input, about] = element.children;
+        const [name, , about] = element.children;
         setText(name, row.name);
-        const field = /** @type {HTMLInputElement} */ (input);
-        if (document.activeElement !== field) field.value = row.text;
-        set(field, { "aria-label": row.name, readonly: row.locked });
+        set(name, { "data-tip": row.name });
+        showValue(element, row);
         const texts = [row.kind, row.range, row.locked ? "read only" : "", row.about];
         setText(about, row.refused || texts.filter(Boolean).join(" · "));
         set(element, { "data-level": row.refused ? "error" : null });
@@ -78,20 +78,72 @@ export default function install({
     });
 
     function make() {
-      /** @type {HTMLInputElement} */
-      const input = el("input", {
-        class: "wv-field",
-        type: "text",
-        onchange: () => send({ set: [input.getAttribute("aria-label"), input.value] }),
-        onkeydown: (event) => event.stopPropagation(),
-      });
       return el(
         "div",
         { class: "wv-parameter" },
         el("span", { class: "wv-ellipsis" }),
-        input,
+        el("span"),
         el("span", { class: "wv-ellipsis" }),
       );
+    }
+
+    /**
+     * Shows the value of a parameter, unless somebody is entering another one.
+     *
+     * @param {Element} element
+     * @param {Row} row
+     */
+    function showValue(element, { name, kind, text, locked }) {
+      const isChoice = kind === "bool" && !locked;
+      const [, before] = element.children;
+      let field = /** @type {HTMLInputElement | HTMLSelectElement} */ (before);
+      if (field.matches("select") !== isChoice || !field.matches(".wv-field")) {
+        field = isChoice ? choiceOf(name) : fieldOf(name);
+        before.replaceWith(field);
+      }
+      if (document.activeElement !== field || isChoice) field.value = text;
+      field.dataset.text = text;
+      set(field, { readonly: locked });
+    }
+
+    /** @param {string} name */
+    function choiceOf(name) {
+      const options = ["true", "false"].map((value) => el("option", { value }, value));
+      /** @type {HTMLSelectElement} */
+      const choice = el(
+        "select",
+        {
+          class: "wv-field",
+          "aria-label": name,
+          onchange: () => send({ set: [name, choice.value] }),
+          onkeydown: (/** @type {KeyboardEvent} */ event) => event.stopPropagation(),
+        },
+        options,
+      );
+      return choice;
+    }
+
+    /** @param {string} name */
+    function fieldOf(name) {
+      /** @type {HTMLInputElement} */
+      const field = el("input", {
+        class: "wv-field",
+        type: "text",
+        "aria-label": name,
+        onchange: () => {
+          field.dataset.text = field.value; // until the node says what it has made of it
+          send({ set: [name, field.value] });
+        },
+        onblur: revert,
+        onkeydown: (/** @type {KeyboardEvent} */ event) => {
+          if (event.key === "Escape") revert();
+          event.stopPropagation();
+        },
+      });
+      function revert() {
+        field.value = field.dataset.text ?? "";
+      }
+      return field;
     }
 
     async function load() {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated, Any
 
 import msgspec
@@ -14,7 +14,7 @@ from webviz.api.errors import Error
 from webviz.api.panel import Panel, Send, Ui
 from webviz.data.names import readable
 from webviz.data.parameters import KINDS, Value, plain
-from webviz.data.words import counted
+from webviz.data.words import counted, joined, listed
 from webviz.engine.commands import CallService
 from webviz.panels.parameter_values import fitting, flat, of_node, parse, to_yaml
 from webviz.panels.yaml_text import inline, read_yaml
@@ -125,11 +125,11 @@ class Parameters(Panel):
             for name, value in found.items()
             if name in known
         }
-        if unknown := [name for name in found if name not in known]:
-            self.outcome = f"Unknown parameters were skipped: {', '.join(unknown[:5])[:200]}."
         if not changes:
             raise Error("The file has no parameter of this node. Choose another file or node.")
-        self.change(changes, browser)
+        unknown = [readable(name)[:60] for name in found if name not in known]
+        left_out = f"The node does not have {listed(unknown, 5)}." if unknown else ""
+        self.change(changes, browser, note=left_out)
 
     def change(
         self,
@@ -137,8 +137,16 @@ class Parameters(Panel):
         browser: int | None,
         *,
         is_undo: bool = False,
+        note: str = "",
     ) -> None:
-        """Set parameters; what the node accepts can be undone."""
+        """Set parameters; what the node accepts can be undone.
+
+        Args:
+            changes: types and values by name.
+            browser: that asks for it.
+            is_undo: whether it takes back others.
+            note: what else to say of the outcome, a sentence or "".
+        """
         node = self.chosen
         with self.lock:
             before = {
@@ -163,9 +171,7 @@ class Parameters(Panel):
                 self.refused = refused
                 if accepted and not is_undo:
                     self.steps = [*self.steps, (node, accepted)][-MAX_STEPS:]
-                said = f"{counted(len(results) - len(refused), 'parameter')} set"
-                also = f", {len(refused)} refused by the node" if refused else ""
-                self.outcome = f"{said}{also}."
+                self.outcome = joined(*_outcome(len(results) - len(refused), refused), note)
             self.refresh(browser)
 
         self._call(
@@ -272,6 +278,14 @@ class Parameters(Panel):
             ),
             browser,
         )
+
+
+def _outcome(taken: int, refused: Mapping[str, str]) -> Iterator[str]:
+    """Say how many parameters were set, and why the first of the others was not."""
+    if taken or not refused:
+        yield f"{counted(taken, 'parameter')} set."
+    if refused:
+        yield f"The node refused {listed([*refused], 1)}: {next(iter(refused.values()))}"
 
 
 def _range(descriptor: Any) -> str:

@@ -7,8 +7,8 @@
 const RULES = `
 .wv-states canvas { display: block; width: 100%; height: 28px; cursor: pointer; margin: 2px 0 }
 .wv-states > div { margin-bottom: 8px }
-.wv-states-name { display: flex; gap: 8px }
-.wv-states-name > :last-child { margin-left: auto }
+.wv-states-name { display: flex; gap: 8px; align-items: center }
+.wv-states-name > :nth-child(2) { flex: none; margin-left: auto }
 `;
 
 /**
@@ -23,7 +23,16 @@ function colorOf(text) {
 }
 
 /** @param {Page} page */
-export default function install({ el, fitted, set, setChildren, setText, style, ...page }) {
+export default function install({
+  el,
+  fitted,
+  iconButton,
+  set,
+  setChildren,
+  setText,
+  style,
+  ...page
+}) {
   const { timeOfDay, widget } = page;
   style("states", RULES);
   widget("states", (_, send) => {
@@ -31,7 +40,7 @@ export default function install({ el, fitted, set, setChildren, setText, style, 
     const empty = el(
       "div",
       { class: "wv-empty", role: "status" },
-      "No message paths. Add some below, in Properties.",
+      "Choose a topic and one of its fields.",
     );
     const place = el("div", { class: "wv-states" });
     /** @type {Map<string, ReturnType<typeof make>>} */
@@ -97,7 +106,13 @@ export default function install({ el, fitted, set, setChildren, setText, style, 
         element: el(
           "div",
           {},
-          el("div", { class: "wv-states-name" }, el("span", { class: "wv-ellipsis" }, name), said),
+          el(
+            "div",
+            { class: "wv-states-name" },
+            el("span", { class: "wv-ellipsis", "data-tip": name }, name),
+            said,
+            iconButton("close", `Remove ${name}`, () => send(name)),
+          ),
           canvas,
           problem,
         ),

@@ -11,8 +11,10 @@ import msgspec
 from webviz.api.declared import Prop
 from webviz.api.lookback import Lookback
 from webviz.api.panel import Panel, Send, Ui
-from webviz.data.messages.paths import as_number
+from webviz.data.messages.paths import as_number, leaf_paths
 from webviz.data.names import readable
+from webviz.engine.commands import SetPanelProperty
+from webviz.panels.field_chooser import FieldChooser
 from webviz.panels.reading import PathReading, subscribed, types_of
 from webviz.panels.seeking import seek_to
 
@@ -61,18 +63,23 @@ class StateTimeline(Panel):
 
     def __post_init__(self) -> None:
         """Without changes."""
+        self.id = ""
         self.types: Mapping[str, str] = {}
+        self.chooser = FieldChooser(leaf_paths, self._add)
         self.tracks: dict[str, _Track] = {}
         self.state: Any = None
 
     def build(self, ui: Ui, send: Send) -> None:
-        """Show the bands."""
+        """Show the bands, and two lists that add one."""
         self.send = send
-        self.bands = ui.widget("states", {}, self.seek)
+        self.bands = ui.widget("states", {}, self.use)
+        self.chooser.build(ui, "band")
 
     def subscriptions(self) -> Mapping[str, str]:
         """Return the topics of all paths."""
-        return subscribed((track.reading for track in self.tracks.values()), self.types)
+        wanted = subscribed((track.reading for track in self.tracks.values()), self.types)
+        offered = self.chooser.topic
+        return {**wanted, offered: self.types[offered]} if offered in self.types else wanted
 
     def lookback(self, topic: str) -> Lookback:
         """Return the messages of the window."""
@@ -80,6 +87,7 @@ class StateTimeline(Panel):
 
     def receive(self, topic: str, message: Any, received_ns: int) -> None:
         """Note what has changed."""
+        self.chooser.take(topic, message)
         for track in self.tracks.values():
             if track.reading.topic == topic:
                 track.add(message, received_ns / NS_PER_S)
@@ -97,7 +105,9 @@ class StateTimeline(Panel):
     def show(self, state: Any) -> None:
         """Show the bands."""
         self.state = state
+        self.id = next((tab.id for tab in state.panels if tab.panel is self), "")
         self.types = types_of(state)
+        self.chooser.offer(self.types)
         wanted = list(dict.fromkeys(self.paths))[:MAX_PATHS]
         self.tracks = {text: self.tracks.get(text) or _Track(text) for text in wanted}
         now_s = state.clock.ros_ns / NS_PER_S
@@ -116,9 +126,19 @@ class StateTimeline(Panel):
         ]
         self.bands.show({"start": start_s, "end": now_s, "tracks": tracks})
 
-    def seek(self, value: Any, browser: int | None) -> None:
-        """Go to a time in seconds."""
-        self.send(seek_to(self.state, round(float(value) * NS_PER_S)), browser)
+    def use(self, value: Any, browser: int | None) -> None:
+        """Remove a band, or go to a time in seconds."""
+        if isinstance(value, str):
+            self._set([path for path in self.paths if path != value], browser)
+        else:
+            self.send(seek_to(self.state, round(float(value) * NS_PER_S)), browser)
+
+    def _add(self, path: str, browser: int | None) -> None:
+        if path not in self.paths:
+            self._set([*self.paths, path], browser)
+
+    def _set(self, paths: list[str], browser: int | None) -> None:
+        self.send(SetPanelProperty(self.id, "paths", paths), browser)
 
 
 def _text(value: Any) -> str:

@@ -5,12 +5,16 @@
 /** @typedef {{key: string, cells: (number | string)[]}} Row */
 
 const ROW_PX = 22;
+const LETTERS = [6, 40]; // of a column that are reserved
+const SAMPLE = 50; // rows that its width follows from
 const RULES = `
 .wv-table { overflow-x: auto; flex: 1; min-height: 0; display: flex; flex-direction: column }
-.wv-table > * { min-width: calc(var(--wv-columns) * 90px) }
+.wv-table > * { min-width: var(--wv-least) }
 .wv-table > .wv-rows { overflow-x: hidden }
+.wv-table > .wv-table-row { flex: none; overflow: hidden; padding-right: var(--wv-gutter); scrollbar-gutter: stable;
+  scrollbar-width: thin }
 .wv-table-row { display: grid; height: 22px; align-items: center; column-gap: 8px;
-  grid-template-columns: repeat(var(--wv-columns), minmax(0, 1fr)) }
+  grid-template-columns: var(--wv-columns) }
 .wv-table-row > button { border: 0; padding: 0; background: none; color: var(--wv-quiet); font: inherit; font-size: 12px;
   text-align: left; cursor: pointer }
 .wv-table-row > [aria-sort="ascending"]::after { content: " ↑" / "" }
@@ -70,6 +74,17 @@ export default function install({
       download("table.csv", `${lines.join("\n")}\n`);
     });
 
+    /**
+     * The letters that a column needs.
+     *
+     * @param {string} name
+     * @param {number} column
+     */
+    function widthOf(name, column) {
+      const texts = rows.slice(0, SAMPLE).map(({ cells }) => textOf(cells[column] ?? "").length);
+      return Math.min(LETTERS[1], Math.max(LETTERS[0], name.length + 2, ...texts));
+    }
+
     /** @param {number} column */
     function sort(column) {
       [sorted, isUp] = [column, sorted === column ? !isUp : true];
@@ -117,7 +132,13 @@ export default function install({
             cells,
           }),
         );
-        host.style.setProperty("--wv-columns", String(Math.max(1, columns.length)));
+        const widths = columns.map(widthOf);
+        const least = widths.reduce((sum, width) => sum + width, 0);
+        host.style.setProperty(
+          "--wv-columns",
+          widths.map((w) => `minmax(${w}ch, ${w}fr)`).join(" "),
+        );
+        host.style.setProperty("--wv-least", `calc(${least}ch + ${8 * columns.length}px)`);
         setText(note, [`${rows.length} rows`, values.note].filter(Boolean).join(", "));
         setText(empty, values.problem ?? "");
         set(empty, { hidden: !values.problem });

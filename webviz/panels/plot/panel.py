@@ -14,17 +14,15 @@ from webviz.api.lookback import Lookback
 from webviz.api.panel import Panel, Send, Ui
 from webviz.data.messages.paths import numeric_paths
 from webviz.engine.commands import SetPanelProperty
+from webviz.panels.field_chooser import FieldChooser
 from webviz.panels.plot.series import Series
 from webviz.panels.seeking import NS_PER_S, seek_to
 
 MAX_CURVES = 16
 MAX_AXES = 4
 """Axes at the right that one curve has for itself."""
-MAX_FIELDS = 300
-"""Fields of a message that are offered."""
 CLOSED_S = 1.5
 """Without messages and calls of `show` for this long, nobody looked."""
-NOTHING = ""
 
 
 class Plot(Panel):
@@ -68,25 +66,19 @@ class Plot(Panel):
         self.state: Any = None
         self.series: dict[str, Series] = {}
         self.types: Mapping[str, str] = {}
-        self.topic = NOTHING
-        self.example: Any = None
+        self.chooser = FieldChooser(numeric_paths, self._add)
         self.active_s = 0.0
 
     def build(self, ui: Ui, send: Send) -> None:
         """Show the chart, and two lists that add a curve."""
         self.send = send
         self.chart = ui.chart(self._remove, self._seek)
-        self.topics = ui.choice(
-            "Topic", NOTHING, self._choose, "Topic with the values of a new curve."
-        )
-        self.fields = ui.choice(
-            "Add field", NOTHING, self._add, "Numeric fields of the newest message."
-        )
+        self.chooser.build(ui, "curve")
         self.note = ui.area()
 
     def subscriptions(self) -> Mapping[str, str]:
         """Return the topics of the curves, and the one whose fields are offered."""
-        wanted = {each.topic for each in self.series.values()} | {self.topic}
+        wanted = {each.topic for each in self.series.values()} | {self.chooser.topic}
         return {topic: self.types[topic] for topic in wanted if topic in self.types}
 
     def lookback(self, topic: str) -> Lookback:
@@ -96,8 +88,7 @@ class Plot(Panel):
     def receive(self, topic: str, message: Any, received_ns: int) -> None:
         """Add a value to each curve of a topic."""
         self.active_s = time.monotonic()
-        if topic == self.topic:
-            self.example = message
+        self.chooser.take(topic, message)
         for each in self.series.values():
             if each.topic == topic:
                 each.add(message, received_ns, by_stamp=self.time == "Header Stamp")
@@ -128,7 +119,7 @@ class Plot(Panel):
             if offer.publishers
         }
         self._follow()
-        self._offer()
+        self.chooser.offer(self.types)
         ends = [each.history.newest[0] for each in self.series.values() if each.history.newest]
         now_s = state.clock.ros_ns / 1e9
         if self.time == "Header Stamp" or not now_s:
@@ -169,18 +160,9 @@ class Plot(Panel):
     def _across(self) -> list[str]:
         return [self.across] if self.across else []
 
-    def _offer(self) -> None:
-        self.topics.offer([NOTHING, *sorted(self.types)], self.topic)
-        fields = [] if self.example is None else numeric_paths(self.example, MAX_FIELDS)
-        self.fields.offer([NOTHING, *fields], NOTHING)
-
-    def _choose(self, topic: str, browser: int | None) -> None:
-        self.topic, self.example = topic, None
-
-    def _add(self, field: str, browser: int | None) -> None:
-        text = f"{self.topic}.{field}"
-        if field and text not in self.curves:
-            self._set([*self.curves, text], browser)
+    def _add(self, path: str, browser: int | None) -> None:
+        if path not in self.curves:
+            self._set([*self.curves, path], browser)
 
     def _remove(self, name: str, browser: int | None) -> None:
         if name == self.across:
