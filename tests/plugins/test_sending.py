@@ -165,6 +165,13 @@ def test_a_service_and_an_action_have_forms_of_their_requests() -> None:
     goal.panel.use({"field": ["max_undocking_time", "1"]}, 1)
     goal.panel.use({}, 1)
     assert isinstance(goal.sent[0], SendGoal)
+    state = State(services={"/light": "std_srvs/srv/SetBool", "/a/list_parameters": "x/srv/Y"})
+    untyped = Opened(ServiceCall(service="/light"))
+    untyped.panel.show(state)
+    shown = untyped.ui.widgets["0"].values["values"]
+    assert (shown["about"], shown["names"]) == ("std_srvs/srv/SetBool", ["/light"])
+    untyped.panel.use({}, 1)
+    assert untyped.sent[0].type == "std_srvs/srv/SetBool"
     unnamed = Opened(ActionGoal(action="/undock"))
     server = Publisher("/dock", "nav2_msgs/action/UndockRobot_FeedbackMessage", *RELIABLE)
     unnamed.panel.show(State(offers={"/undock/_action/feedback": Offer((server,))}))

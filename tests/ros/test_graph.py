@@ -194,6 +194,7 @@ def test_a_service_answers(source: RosSource, peer: Peer) -> None:
     until(future.done, peer.turn)
     response = decode("std_srvs/srv/SetBool_Response", future.result())
     assert (response.success, response.message) == (True, "done")
+    until(lambda: source.graph.services().get("/switch") == "std_srvs/srv/SetBool", peer.turn)
 
 
 def test_a_service_that_no_node_offers_is_named(source: RosSource) -> None:

@@ -16,6 +16,16 @@ from webviz.panels.sending import SendingPanel
 TIMEOUT_S = 30.0
 FEEDBACK, MESSAGE = "/_action/feedback", "_FeedbackMessage"
 """Ends of the topic of an action, and of its type."""
+OF_PARAMETERS = (
+    "/describe_parameters",
+    "/get_parameter_types",
+    "/get_parameters",
+    "/get_type_description",
+    "/list_parameters",
+    "/set_parameters",
+    "/set_parameters_atomically",
+)
+"""Services that every node has; the panel Parameters calls them."""
 REMEDY = "Enter its text as Definition in Properties."
 Definition = Annotated[str, Prop(help="Text of the definition, for types unknown to webviz.")]
 
@@ -29,13 +39,17 @@ class ServiceCall(SendingPanel):
     target = "service"
 
     service: Annotated[str, Prop(help="Full name of the service.")] = ""
-    service_type: Annotated[str, Prop(help="Type, such as std_srvs/srv/SetBool.")] = ""
+    service_type: Annotated[
+        str,
+        Prop(help="Type, such as std_srvs/srv/SetBool; empty for that of the server."),
+    ] = ""
     definition: Definition = ""
 
     def build(self, ui: Ui, send: Send) -> None:
         """Show the form."""
         self.build_form(ui, send)
         self.response: Any = None
+        self.type = ""
 
     @property
     def uses(self) -> tuple[str, ...]:
@@ -44,13 +58,16 @@ class ServiceCall(SendingPanel):
 
     def show(self, state: Any) -> None:
         """Show the form and the response."""
-        about, request = self.service_type or "Enter the type of the service in Properties.", ""
+        self.type = self.service_type or state.services.get(self.service, "")
+        about = self.type or "No node offers this service. Start one, or choose another."
+        request = ""
         try:
-            if self.service_type:
-                request = interfaces.service(self.service_type, self.definition).request
+            if self.type:
+                request = interfaces.service(self.type, self.definition).request
         except MessageError as error:
             about = f"{error} {REMEDY}"
-        form = {"verb": "Call", "name": self.service, "label": "Service", "names": []}
+        names = sorted(name for name in state.services if not name.endswith(OF_PARAMETERS))
+        form = {"verb": "Call", "name": self.service, "label": "Service", "names": names[:2000]}
         self.show_form(state, request, {**form, "about": about, "response": self.response})
 
     def act(self, value: Any, browser: int | None) -> None:
@@ -62,7 +79,7 @@ class ServiceCall(SendingPanel):
         self.report(Status(Level.OK, "Waiting ..."))
         call = CallService(
             self.service,
-            self.service_type,
+            self.type,
             values,
             self.definition,
             answered=self._take,
@@ -105,7 +122,8 @@ class ActionGoal(SendingPanel):
         """Show the form."""
         offered = actions_of(state)
         self.type = self.action_type or offered.get(self.action, "")
-        about, goal = self.type or "No node offers this action. Start it, or choose another.", ""
+        about = self.type or "No node offers this action. Start one, or choose another."
+        goal = ""
         try:
             if self.type:
                 goal = interfaces.action(self.type, self.definition).goal

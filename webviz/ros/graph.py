@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
 from concurrent.futures import Future
 
 from rclpy.node import Node
@@ -29,6 +29,7 @@ class RosGraph:
         self._calls = Calls(node)
         self._goals = Goals(node, self._calls, self.call)
         self._nodes: tuple[str, ...] = ()
+        self._services: Mapping[str, str] = {}
 
     # From any thread
 
@@ -59,6 +60,10 @@ class RosGraph:
         """Full names of the nodes of the graph, sorted."""
         return self._nodes
 
+    def services(self) -> Mapping[str, str]:
+        """Types of the services of the graph by name, without those that actions consist of."""
+        return self._services
+
     # In the thread of the node
 
     def turn(self) -> bool:
@@ -67,9 +72,16 @@ class RosGraph:
         return self._calls.turn()
 
     def look(self) -> None:
-        """Refresh the node names."""
+        """Refresh the names of nodes and services."""
         names = self._node.get_node_names_and_namespaces()
         self._nodes = tuple(sorted(f"{space.rstrip('/')}/{name}" for name, space in names))
+        services = {
+            name: types[0]
+            for name, types in self._node.get_service_names_and_types()
+            if types and "/_action/" not in name
+        }
+        if services != self._services:
+            self._services = services
 
     def close(self) -> None:
         """Fail everything that is pending."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import fnmatch
 import functools
 import re
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
 from concurrent.futures import Future
 from dataclasses import dataclass
 
@@ -149,6 +149,10 @@ class Gate:
     def nodes(self) -> tuple[str, ...]:
         """Full names of the nodes of the graph, sorted; one for each node of the name."""
         return self._source.graph.nodes()
+
+    def services(self) -> Mapping[str, str]:
+        """Types of the services of the graph by name, as far as they are known."""
+        return self._source.graph.services()
 
     def _graph(self, name: str) -> Graph:
         """Return the graph for a name; one that refuses everything if nothing may be sent to it."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
 from concurrent.futures import Future
 from dataclasses import dataclass
 from typing import Protocol
@@ -106,6 +106,10 @@ class Graph(Protocol):
         """Full names of the nodes of the graph, sorted; one for each node of the name."""
         ...
 
+    def services(self) -> Mapping[str, str]:
+        """Types of the services of the graph by name, as far as they are known."""
+        ...
+
 
 class ReadOnly:
     """The graph of a read-only source.
@@ -139,6 +143,10 @@ class ReadOnly:
     def nodes(self) -> tuple[str, ...]:
         """None."""
         return ()
+
+    def services(self) -> Mapping[str, str]:
+        """None."""
+        return {}
 
 
 def _failed(reason: str) -> Future:

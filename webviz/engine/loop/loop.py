@@ -159,13 +159,12 @@ class FrameLoop:
         others, history, kept = self._other_parts(config, path, views, memory, autosave, session)
         numbers = RuleNumbersPart(core, self._settings, lambda: self.doctor.rules)
         last = [
-            numbers,
             ReportsPart(core, self._files, control, self._examined, lambda: self._shown),
             SharingPart(core, self._files, control, lambda: self._shown, export),
             WhatIfPart(core, self._displays, services),
             *(make(core) for make in parts),
         ]
-        self._parts = Parts([*first, *others, *last], self._guard)
+        self._parts = Parts([*first, *others, numbers, *last], self._guard)
         self._do = history.noting(self._parts.do)
         self.doctor = Doctor(core, self._displays, numbers.numbers, waiting)
         """Finds the causes behind the statuses."""

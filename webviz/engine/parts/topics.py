@@ -89,6 +89,7 @@ class TopicsPart(Part):
         return {
             "topics": self._types,
             "offers": offers,
+            "services": self.core.gate.services(),
             "traffic": self._traffic(),
             "inspected": {topic: self._look(topic) for topic in inspected},
         }

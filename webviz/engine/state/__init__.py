@@ -1,9 +1,9 @@
 """The state of a viewer, as pages and Python see it."""
 
+from webviz.engine.state.config_file import ConfigFile
 from webviz.engine.state.state import (
     Between,
     ClockRate,
-    ConfigFile,
     Driving,
     GoalProgress,
     Inspected,

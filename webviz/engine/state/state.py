@@ -17,6 +17,7 @@ from webviz.api.tool import Tool
 from webviz.api.views import View
 from webviz.data.messages.tree import Tree
 from webviz.data.transforms import Diagnosis
+from webviz.engine.state.config_file import ConfigFile
 from webviz.engine.state.latency import Latency
 from webviz.files.config import Settings
 from webviz.files.report import ReportedPick
@@ -65,23 +66,6 @@ class Row:
     def level(self) -> Level:
         """The worst of its statuses."""
         return worst(self.statuses.values())
-
-
-@dataclass(frozen=True)
-class ConfigFile:
-    """The file of the config.
-
-    Args:
-        path: of the file, "" if there is none.
-        is_changed: whether there are unsaved changes.
-        folder: base of relative paths.
-        others: names of all config files in the folder, sorted.
-    """
-
-    path: str = ""
-    is_changed: bool = False
-    folder: str = ""
-    others: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -330,6 +314,7 @@ class State:
         file: of the config.
         clock: the time.
         offers: publishers and QoS by topic name.
+        services: types of services by name, as far as the source knows them.
         bridges: to bridges; none without.
         traffic: by topic name, of the topics that are subscribed to.
         inspected: the inspected topics, by name.
@@ -366,9 +351,10 @@ class State:
     topics: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     statuses: Mapping[str, Status] = field(default_factory=dict)
     settings: Settings = field(default_factory=Settings)
-    file: ConfigFile = ConfigFile()
+    file: ConfigFile = field(default_factory=ConfigFile)
     clock: PanelTimes = PanelTimes()
     offers: Mapping[str, Offer] = field(default_factory=dict)
+    services: Mapping[str, str] = field(default_factory=dict)
     bridges: tuple[Bridge, ...] = ()
     traffic: Mapping[str, Traffic] = field(default_factory=dict)
     inspected: Mapping[str, Inspected] = field(default_factory=dict)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
 from concurrent.futures import Future
 from dataclasses import dataclass, field
 from typing import Any
@@ -72,6 +72,10 @@ class RememberingGraph:
     def nodes(self) -> tuple[str, ...]:
         """Return no nodes."""
         return ()
+
+    def services(self) -> Mapping[str, str]:
+        """Return no services."""
+        return {}
 
 
 def done(result: Any) -> Future[Any]:

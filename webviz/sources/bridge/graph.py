@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
 from concurrent.futures import Future
 from typing import Protocol, TypeVar
 
@@ -101,6 +101,10 @@ class BridgeGraph:
     def nodes(self) -> tuple[str, ...]:
         """Full names of the nodes of the graph, sorted."""
         return self._line.nodes
+
+    def services(self) -> Mapping[str, str]:
+        """None: bridges are only asked for what is called."""
+        return {}
 
     def _ask(
         self,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from concurrent.futures import Future, InvalidStateError
 from dataclasses import replace
 
@@ -76,6 +76,10 @@ class FleetGraph:
         for member in self._members:
             found += member.nodes()
         return tuple(sorted(found))
+
+    def services(self) -> Mapping[str, str]:
+        """Types of the services of the base; bridges are only asked for what is called."""
+        return self._base.services()
 
     def _member(self, name: str) -> FleetMember | None:
         return _member(name, self._members)

@@ -1,0 +1,22 @@
+"""The file of the config, as panels show it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class ConfigFile:
+    """The file of the config.
+
+    Args:
+        path: of the file, "" if there is none.
+        is_changed: whether there are unsaved changes.
+        folder: base of relative paths.
+        others: names of all config files in the folder, sorted.
+    """
+
+    path: str = ""
+    is_changed: bool = False
+    folder: str = ""
+    others: tuple[str, ...] = ()
