@@ -240,11 +240,11 @@ def test_a_form_publishes_what_was_entered(loop: Loop, tab: Tab) -> None:
     toast = tab.page.locator(".wv-toast")
     tab.wait_for(lambda: toast.count() and "expected text" in toast.first.inner_text())
     assert "failed" not in toast.first.inner_text(), "the panel is fine; the value is not"
-    field.fill(HOSTILE)
+    field.fill(f"{HOSTILE}!")
     field.press("Enter")
-    tab.wait_for(lambda: HOSTILE in yaml.input_value())
+    tab.wait_for(lambda: f"{HOSTILE}!" in yaml.input_value())
     tab.button("Publish").click()
     tab.wait_for(lambda: isinstance(loop.commands[-1], Publish))
     assert [each.values for each in loop.commands if isinstance(each, Publish)] == [
-        {"data": HOSTILE}
+        {"data": f"{HOSTILE}!"}
     ]
