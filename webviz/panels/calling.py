@@ -10,6 +10,7 @@ from webviz.api.goal import goal_request
 from webviz.api.panel import Send, Ui
 from webviz.api.status import Level, Status
 from webviz.data.messages import MessageError, interfaces, to_tree
+from webviz.data.words import joined
 from webviz.engine.commands import CallService, SendGoal
 from webviz.panels.sending import SendingPanel
 
@@ -65,7 +66,7 @@ class ServiceCall(SendingPanel):
             if self.type:
                 request = interfaces.service(self.type, self.definition).request
         except MessageError as error:
-            about = f"{error} {REMEDY}"
+            about = joined(str(error), REMEDY)
         names = sorted(name for name in state.services if not name.endswith(OF_PARAMETERS))
         form = {"verb": "Call", "name": self.service, "label": "Service", "names": names[:2000]}
         self.show_form(state, request, {**form, "about": about, "response": self.response})
@@ -128,7 +129,7 @@ class ActionGoal(SendingPanel):
             if self.type:
                 goal = interfaces.action(self.type, self.definition).goal
         except MessageError as error:
-            about = f"{error} {REMEDY}"
+            about = joined(str(error), REMEDY)
         form = {"verb": "Send goal", "name": self.action, "label": "Action"}
         self.show_form(state, goal, {**form, "names": sorted(offered)[:2000], "about": about})
 
