@@ -29,7 +29,7 @@ from program import PATIENCE_S, Program
 
 from tests.site.example import drive
 from webviz.files.opening import parse
-from webviz.shell.cli import program
+from webviz.shell.cli import ending, program
 from webviz.shell.report.making import make_report
 from webviz.shell.report.scenes import Pictured
 from webviz.shell.testing import header
@@ -64,6 +64,7 @@ def run(arguments: list[str], folder: Path, log: Path) -> None:
     file = os.open(log, os.O_WRONLY | os.O_CREAT)
     os.dup2(file, 1)
     os.dup2(file, 2)
+    ending.PATIENCE_S = PATIENCE_S  # a busy machine delays what is closed
     sys.argv = ["webviz", *arguments]
     program()
 

@@ -153,6 +153,7 @@ class AgentTools:
             raise Error(str(error)) from None
         assert isinstance(made, Command), "known"
         if refusal := caller.refusal(type(made)):
+            self._note(caller, f"was refused {command}")
             raise Error(refusal)
         self._begin(caller, f"{command} {dict(fields)}")
         answer = self._viewer.do(made, caller.sender())
