@@ -37,7 +37,8 @@ class NoTransforms(Check):
         if offers and not seen.is_recorded and all(offer.requested is None for offer in offers):
             return  # they have just been found
         nodes = seen.nodes_of("/tf") or seen.nodes_of("/tf_static")
-        is_harmless = any(seen.inputs()) and not any(each.display for each in explains)
+        has_data = seen.is_recorded or any(seen.inputs())
+        is_harmless = has_data and not any(each.display for each in explains)
         yield self.found(
             f"{nodes} publishes transforms, but none has arrived."
             if nodes
