@@ -117,6 +117,7 @@ def test_a_tooltip_appears_under_the_mouse_and_goes_with_it(tab: Tab) -> None:
     tip = tab.page.get_by_role("tooltip")
     tab.button("Commands").hover()
     playwright.expect(tip).to_have_text("CommandsCtrl+K")
+    playwright.expect(tip).to_have_css("pointer-events", "none")  # clicks go to what is below
     tab.page.mouse.move(500, 400)
     playwright.expect(tip).to_be_hidden()
 
