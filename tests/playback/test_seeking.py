@@ -77,22 +77,43 @@ class Total(Display):
         ctx.points("sum", [[sample.message, 0, 0]], (0, 0, 0), 0.1)
 
 
-def test_links_are_not_where_they_will_be(tmp_path: Path) -> None:
-    """A robot keeps links without transforms at their last pose, which may not be a later one."""
+def describe(bag: Bag) -> None:
+    """Add a robot with an arm, whose shape is a sphere, on its base."""
     urdf = (
         "<robot name='r'><link name='base'/><link name='arm'><visual><geometry>"
         "<sphere radius='0.1'/></geometry></visual></link><joint name='j' type='floating'>"
         "<parent link='base'/><child link='arm'/></joint></robot>"
     )
-    bag = strings(0, 4)
     bag.add("/robot_description", "std_msgs/msg/String", latched=True)
     bag.put(0, "/robot_description", {"data": urdf})
+
+
+def test_links_are_not_where_they_will_be(tmp_path: Path) -> None:
+    """A robot keeps links without transforms at their last pose, which may not be a later one."""
+    bag = strings(0, 4)
+    describe(bag)
     for at_s in (0.1, 2.0, 2.5):
         bag.transform(at_s, "map", "base")
     for at_s in (2.0, 2.5):
         bag.transform(at_s, "base", "arm")
     config = "fixed_frame: map\ndisplays: [{type: RobotModel}]\n"
     check_seeks(bag.write(tmp_path / "run"), config, times=[3.0, 1.0, 3.0])
+
+
+def test_links_whose_transforms_ended_long_before_stay_in_grey(tmp_path: Path) -> None:
+    bag = strings(0, 40)
+    describe(bag)
+    for step in range(80):
+        bag.transform(step / 2, "map", "base", x=step / 2)
+    for step in range(9):  # between two transforms of the base
+        bag.transform(step / 2 + 0.2, "base", "arm", x=1.0)
+    config = "fixed_frame: map\ndisplays: [{type: RobotModel}]\n"
+    path = bag.write(tmp_path / "run")
+    check_seeks(path, config, times=[35.0, 3.0, 20.0, 39.0, 30.0])
+    with contextlib.closing(BagViewer(path, config)) as viewer:
+        viewer.do(Seek(35.0))
+        (nodes,) = viewer.shown().values()
+        assert nodes
 
 
 def test_frames_whose_transforms_ended_long_before_are_known(tmp_path: Path) -> None:

@@ -61,6 +61,7 @@ class Frames:
         self._poses: dict[tuple[str, int], Pose | None] = {}
         self._all: FramePoses | None = None
         self._is_all_wanted = False
+        self._passed: dict[str, Pose] = {}
 
     @property
     def structure(self) -> object:
@@ -71,6 +72,8 @@ class Frames:
         """Return the frames of the next turn, reusing poses that did not change."""
         frames = Frames(self.buffer, fixed_frame, now_ns)
         frames._is_all_wanted = self._is_all_wanted
+        if fixed_frame == self.fixed_frame:
+            frames._passed = self._passed
         if (frames._version, fixed_frame) == (self._version, self.fixed_frame):
             frames._all = self._all
             frames._poses = {key: pose for key, pose in self._poses.items() if key[1] == 0}
@@ -94,6 +97,22 @@ class Frames:
         rows = zip(missing, positions.tolist(), wxyzs.tolist(), ok.tolist(), strict=True)
         for name, position, wxyz, is_ok in rows:
             self._poses[name, 0] = Pose(tuple(position), tuple(wxyz)) if is_ok else None
+
+    def pass_by(self) -> None:
+        """Remember where all frames are, at a moment that a seek passes without drawing it."""
+        poses = self._compute_all()
+        rows = zip(
+            poses.names, poses.positions.tolist(), poses.wxyzs.tolist(), poses.ok, strict=True
+        )
+        self._passed |= {name: Pose(tuple(at), tuple(wxyz)) for name, at, wxyz, ok in rows if ok}
+
+    def passed(self, frame: str) -> Pose | None:
+        """Return where a frame was when a seek passed it last, None if it passed none."""
+        return self._passed.get(frame)
+
+    def forget_passed(self) -> None:
+        """Forget what seeks passed, such as before one to an earlier time."""
+        self._passed.clear()
 
     def named(self, frame: str) -> str:
         """Return the name in the viewer of a frame that a message names."""

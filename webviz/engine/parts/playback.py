@@ -27,7 +27,7 @@ from webviz.engine.commands import (
 )
 from webviz.engine.commands.requests import Job
 from webviz.engine.parts.black_box import FOLDER
-from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.parts.part import Batches, Core, Handler, Part
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.playback import DisplayEvents, PlaybackControl
 from webviz.engine.state import Row
@@ -112,6 +112,11 @@ class PlaybackPart(Part):
             self._control.play()
         if self._control.advance(is_busy):
             self._start_over()
+
+    def take(self, batches: Batches) -> None:
+        """Remember where frames are while a seek passes them, since nothing is drawn."""
+        if self.is_seeking:
+            self.core.frames.pass_by()
 
     def state(self) -> Mapping[str, Any]:
         """Return the state of the control, and what is recorded when."""

@@ -58,6 +58,7 @@ class TransformsPart(Part):
     def reset(self) -> None:
         """Forget the moving transforms."""
         self._listener.reset()
+        self.core.frames.forget_passed()
         self._tree = None
 
     def state(self) -> Mapping[str, Any]:

@@ -256,6 +256,8 @@ class SceneDiff:
         if is_placed and placement.interval_s and rest > 0:
             return
         pose = _pose(placement, frames)
+        if pose is None and placement.keep_last and placement.frame and drawn.pose is None:
+            pose = frames.passed(placement.frame)
         if pose is None:
             stays = placement.keep_last and drawn.fixed_frame == frames.fixed_frame
             self._show(name, drawn, stays)

@@ -16,6 +16,8 @@ RECENT_NS = 15_000_000_000
 """Topics are read together if only messages that are younger are needed."""
 BEFORE_NS, AFTER_NS = 10_000_000_000, 3_000_000_000
 """An older message is placed with the transforms of this time around it."""
+AROUND_NS = 1_000_000_000
+"""Before and after the last transform of a frame, others are read, which place it."""
 MAX_OLD = 100
 """Older messages of a topic with transforms of their own; of more, all transforms since."""
 
@@ -120,7 +122,7 @@ class BagPast(Generic[C, M]):
         follow: list[C] = []
         together: list[C] = []
         alone: list[Iterator[M]] = []
-        placed = [(stamp_ns, stamp_ns) for stamp_ns in self._ended_ns]
+        placed = [(stamp_ns - AROUND_NS, stamp_ns + AROUND_NS) for stamp_ns in self._ended_ns]
         timed: list[tuple[int, int]] = []
         for topic, channels in self._channels.items():
             if channels[0].type in (TF, CLOCK) and not self._is_whole(topic):
