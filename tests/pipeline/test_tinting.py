@@ -97,5 +97,24 @@ def test_without_a_colour_only_opacities_change() -> None:
     faint = Tint(None, 0.5)
     assert faint(Points(ONE, RED, 0.1)) == Points(ONE, RED, 0.1, opacity=0.5)
     assert faint(Mesh(ONE, FACE, RED)) == Mesh(ONE, FACE, RED, 0.5)
-    labels = Labels(ONE, ("a",), 0.2)
-    assert faint(labels) == labels
+    assert faint(Labels(ONE, ("a",), 0.2)) == Labels(ONE, ("a",), 0.2, opacity=0.5)
+
+
+def test_transparent_arrows_are_a_mesh_of_the_same_extent_and_ids() -> None:
+    segments = np.array([[[0, 0, 0], [0, 0, 2]], [[1, 0, 0], [1, 0, 0]]], np.float32)
+    mesh = BLUE(Arrows(segments, RED, 0.1, 0.3, 0.5, ids=np.array([4, 9])))
+    assert isinstance(mesh, Mesh)
+    assert mesh.ids is not None
+    first, second = np.split(mesh.vertices, 2)
+    assert (second[:, 0] == 1).all(), "An arrow without a direction is flat, and finite."
+    np.testing.assert_allclose(
+        [first.min(axis=0), first.max(axis=0)], [[-0.3, -0.3, 0], [0.3, 0.3, 2]], atol=0.05
+    )
+    triangles = mesh.vertices[mesh.faces[mesh.ids == 4]].astype(np.float64)
+    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    volume = (triangles.mean(axis=1) * normals).sum() / 6
+    octagon = 8 * np.sin(np.pi / 4) / 2
+    assert volume == pytest.approx(octagon * (0.1**2 * 1.5 + 0.3**2 * 0.5 / 3), rel=1e-3)
+    np.testing.assert_array_equal(np.asarray(mesh.colors)[:, 3], 128)
+    opaque = Tint((0, 0, 255), 1.0)(Arrows(segments, RED, 0.1, 0.3, 0.5))
+    assert isinstance(opaque, Arrows)

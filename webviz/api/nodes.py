@@ -167,6 +167,7 @@ class Labels(_Node):
         colors: uint8 (N, 3), or one colour for all, drawn in 32 steps per channel; None contrasts
             with the theme of each page.
         ids: (N,), such as the index of each in the message; None numbers them from 0.
+        opacity: 0 to 1, drawn in steps of 1/4, of which 1/4 is the least.
     """
 
     positions: F32
@@ -175,6 +176,7 @@ class Labels(_Node):
     below: bool = False
     colors: U8 | Rgb | None = None
     ids: Ids | None = field(default=None, compare=False)
+    opacity: float = 1.0
 
 
 @dataclass(frozen=True, eq=False)

@@ -25,6 +25,7 @@ from webviz.api.nodes import (
 )
 from webviz.data.gltf import pack, unpack
 from webviz.data.rotations import matrices
+from webviz.engine.pipeline.arrow_mesh import arrow_mesh
 
 SHARE = 0.8
 """Of the tint in each colour: the rest still tells apart what has several."""
@@ -54,11 +55,12 @@ class Tint:
                 colors = None if own is None else self._mixed(own)
                 return replace(node, colors=colors, opacity=node.opacity * self.opacity)
             case Arrows():
-                return replace(node, colors=self._mixed(node.colors))
+                return self._arrows(node)
             case Axes():
                 return self._lines(node)
             case Labels():
-                return node if self.color is None else replace(node, colors=self.color)
+                colors = node.colors if self.color is None else self.color
+                return replace(node, colors=colors, opacity=node.opacity * self.opacity)
             case Mesh():
                 own = None if node.colors is None else self._faded(node.colors)
                 color, opacity = self._one(node.color), node.opacity * self.opacity
@@ -102,6 +104,14 @@ class Tint:
         faded[..., :3] = self._mixed(rgba[..., :3])
         faded[..., 3] = rgba[..., 3] * self.opacity
         return faded
+
+    def _arrows(self, arrows: Arrows) -> Arrows | Mesh:
+        colors = self._mixed(arrows.colors)
+        if self.opacity == 1.0:
+            return replace(arrows, colors=colors)
+        rgb = np.broadcast_to(np.asarray(colors, np.uint8), (len(arrows.segments), 3))
+        alpha = np.full((len(rgb), 1), round(255 * self.opacity), np.uint8)
+        return arrow_mesh(arrows, np.concatenate((rgb, alpha), axis=1))
 
     def _lines(self, axes: Axes) -> Lines:
         """Return axes as lines: viser's have fixed colours."""

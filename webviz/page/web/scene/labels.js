@@ -3,7 +3,7 @@
 // viser draws black letters on white boxes, from distance fields. Here the boxes are hidden, and the
 // letters have a colour and an outline that the same fields give, dark around light letters and light
 // around dark ones: legible on any ground, and covering no more of the scene than they need. The
-// colour is in the last bits of the height, see scene/labels.py. The render orders are those of viser's
+// colour and opacity are in the last bits of the height, see scene/labels.py. The render orders are those of viser's
 // renderOrders.ts; shaders and uniforms, LabelRenderer.tsx's. One code of a colour stands for that of
 // the theme.
 
@@ -19,12 +19,13 @@ const LETTERS = 10002;
 // Each letter is drawn in a quad without room for an outline; the atlas has it.
 /** @param {string} source */
 const widened = (source) =>
-  "uniform float uSdfRadius; uniform vec3 uTextColor; varying vec3 vColor;" +
+  "uniform float uSdfRadius; uniform vec3 uTextColor; varying vec3 vColor; varying float vOpacity;" +
   source.replace(
     "vec2 corner = position.xy;",
     `vec2 room = 0.5 * uSdfRadius / aRect.zw;
      vec2 corner = position.xy * (1.0 + 2.0 * room) - room;
      uint bits = floatBitsToUint(aParams.y);
+     vOpacity = 1.0 - float((bits >> 15) & 3u) / 4.0;
      uvec3 code = uvec3((bits >> 10) & 31u, (bits >> 5) & 31u, bits & 31u);
      vColor = code == uvec3(${constants.TEXT_CODE}) ? uTextColor : vec3(code) / 31.0;`,
   );
@@ -37,13 +38,14 @@ const OUTLINED = `
   varying vec2 vUv;
   varying float vAlpha;
   varying vec3 vColor;
+  varying float vOpacity;
 
   void main() {
     float inside = (texture2D(uAtlas, vUv).r - 0.5) * 2.0 * uSdfRadius;
     float pixel = 0.7071 * length(fwidth(vUv * uAtlasSize));
     float soft = clamp(0.6 * pixel, 1e-4, 0.4 * uSdfRadius);
     float outline = clamp(pixel, 0.15 * uSdfRadius, 0.9 * uSdfRadius - soft);
-    float alpha = vAlpha * smoothstep(-soft, soft, inside + outline);
+    float alpha = vAlpha * vOpacity * smoothstep(-soft, soft, inside + outline);
     if (alpha < 0.004) discard;
     float light = dot(vColor, vec3(0.299, 0.587, 0.114));
     vec3 around = vec3(light < 0.25 ? 0.75 : 0.0);
