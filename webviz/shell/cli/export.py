@@ -8,6 +8,7 @@ from typing import Annotated
 from cyclopts import App, Parameter
 
 from webviz.shell.cli.ending import INTERRUPTED, end_in_time, on_signal, say_end
+from webviz.shell.cli.ghost_options import GhostOptions
 from webviz.shell.cli.options import ConfigOptions, File, Size
 from webviz.shell.cli.progress import progress
 from webviz.shell.cli.screenshot_options import Seconds, Time
@@ -16,6 +17,7 @@ EXAMPLES = """\
 Examples:
   webviz export run.mcap -d lab.yaml -o run.html
   webviz export run.mcap -d lab.yaml --from 10 --to 40 -o run.html
+  webviz export today.mcap --ghost yesterday.mcap -o both.html
 
 """
 
@@ -24,7 +26,7 @@ app = App("export", help_epilogue=EXAMPLES)
 
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
-class ExportOptions(ConfigOptions):
+class ExportOptions(ConfigOptions, GhostOptions):
     """Options for the file to make."""
 
     output: Annotated[File, Parameter(alias="-o")]
@@ -41,7 +43,12 @@ class ExportOptions(ConfigOptions):
     """Limit of the file, such as 50MB: clouds are thinned, and large data shown less often."""
 
 
-@app.default
+def _check(bag: Path, *, options: ExportOptions) -> None:
+    """Raise ValueError for an invalid combination of arguments."""
+    options.check_ghost(has_bag=True)
+
+
+@app.default(validator=_check)
 def export(
     bag: Annotated[Path, Parameter(metavar="BAG", help="MCAP or db3 file, or rosbag2 folder.")],
     *,
@@ -61,17 +68,19 @@ def _make(bag: Path, options: ExportOptions) -> int:
     import sys
 
     from webviz.engine.pipeline import plugins
-    from webviz.shell.bag_source import bag_source
+    from webviz.shell.app.ghost_config import with_ghost
     from webviz.shell.export.export import export as write
     from webviz.shell.export.order import ExportOrder
 
     options.allow_meshes()
     for path in options.plugin:
         plugins.load(path)
-    with contextlib.closing(bag_source(bag)) as source:
+    with contextlib.closing(options.beside(bag)) as source:
         config = options.read(options.display_config, source)
         if options.fixed_frame:
             config.set_fixed_frame(options.fixed_frame)
+        if source.ghost:
+            config = with_ghost(config, source)
         shown = options.display_config
         order = ExportOrder(
             config,

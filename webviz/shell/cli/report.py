@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import App, Parameter, validators
 
 from webviz.shell.cli.ending import Stop, until_signal
+from webviz.shell.cli.ghost_options import GhostOptions
 from webviz.shell.cli.options import (
     ROS_ARGS_HELP,
     ConfigOptions,
@@ -40,7 +41,7 @@ app = App("report", help_epilogue=EXAMPLES + ROS_ARGS_HELP)
 
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
-class ReportOptions(ConfigOptions):
+class ReportOptions(ConfigOptions, GhostOptions):
     """Subject of the report, and the file."""
 
     output: Annotated[File | None, Parameter(alias="-o")] = None
@@ -73,6 +74,7 @@ def _check(
 ) -> None:
     """Raise ValueError for an invalid combination of arguments."""
     connect.check(options.bag is not None)
+    options.check_ghost(options.bag is not None)
     if options.bag is None:
         given = {"from": options.first != "start", "to": options.last != "end", "at": options.at}
         for flag, value in given.items():
@@ -95,8 +97,10 @@ def report(
 
     def work(stop: Stop) -> int:
         from webviz.engine.pipeline import plugins
+        from webviz.shell.app.ghost_config import with_ghost
         from webviz.shell.report.making import make_report
         from webviz.shell.report.scenes import reported_scene
+        from webviz.sources.bag.source import BagSource
 
         for path in options.plugin:
             plugins.load(path)
@@ -105,6 +109,8 @@ def report(
             config = options.read(options.display_config, source)
             if options.fixed_frame:
                 config.set_fixed_frame(options.fixed_frame)
+            if isinstance(source, BagSource) and source.ghost:
+                config = with_ghost(config, source)
             wants_picture = not (options.list or options.no_picture)
             with reported_scene(config, wants_picture) as (scene, problem):
                 if problem:
@@ -128,9 +134,7 @@ def report(
 
 
 def _source(options: ReportOptions, connect: ConnectOptions, ros: Sequence[str]) -> "Source":
-    from webviz.shell.bag_source import bag_source
-
     if options.bag is not None:
-        return bag_source(options.bag, ros_args=ros)
+        return options.beside(options.bag, ros)
     path = options.display_config
     return connect.source(ros, options.read(path) if path else None)

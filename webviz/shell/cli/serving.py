@@ -18,14 +18,11 @@ from webviz.files.sessions import Sessions, name_of
 from webviz.server.access.starting import link
 from webviz.shell.app.ghost_config import with_ghost
 from webviz.shell.app.viewer import Viewer
-from webviz.shell.bag_source import bag_source
 from webviz.shell.cli.ending import INTERRUPTED, Stop, say_end
 from webviz.shell.cli.links import show_links
 from webviz.shell.cli.options import ConnectOptions
-from webviz.shell.cli.viewing_options import BagOptions, ViewingOptions, align_of
+from webviz.shell.cli.viewing_options import BagOptions, ViewingOptions
 from webviz.sources import Source
-from webviz.sources.bag.ghost import Ghost
-from webviz.sources.bag.source import BagSource
 
 YOUNG_OBJECTS = 10_000
 """Garbage that the collector may leave before it runs: more objects than most messages make."""
@@ -59,7 +56,7 @@ def serve(
         The exit status.
     """
     template = options.template or standard
-    beside = _with_ghost(bag, ros)
+    beside = bag.beside(bag.bag, ros) if bag.ghost else None
 
     @functools.cache
     def read(path: Path | None, source: Source | None = None) -> Config:
@@ -166,14 +163,6 @@ def _announce(options: ViewingOptions, viewer: Viewer, note: str) -> None:
         address = next((link(viewer.url, token) for token in tokens), "") or viewer.url
         # Browsers in a terminal run until they are closed.
         threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
-
-
-def _with_ghost(bag: BagOptions, ros: Sequence[str]) -> BagSource | None:
-    """Return the bag with a second run beside it, None without one."""
-    if bag.ghost is None:
-        return None
-    ghost = Ghost(bag.ghost, align_of(bag.ghost_align), bag.ghost_difference)
-    return bag_source(bag.bag, ros_args=ros, ghost=ghost)
 
 
 def _sessions(options: ViewingOptions, template: Path | None, bag: BagOptions) -> Sessions:

@@ -38,11 +38,8 @@ def check(
     """Raise ValueError for an invalid combination of arguments."""
     if bag.paused and not bag.bag:
         raise ValueError("--paused needs --bag.")
-    if bag.ghost is None and (bag.ghost_align != "start" or bag.ghost_difference):
-        raise ValueError("--ghost-align and --ghost-difference need --ghost.")
     connect.check(bool(bag.bag))
-    if bag.ghost is not None and not bag.bag:
-        raise ValueError("--ghost needs --bag.")
+    bag.check_ghost(bool(bag.bag))
 
 
 def view(

@@ -1,6 +1,5 @@
 """The options of the commands that serve a page."""
 
-import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -9,57 +8,32 @@ import msgspec
 from cyclopts import Group, Parameter, validators
 
 from webviz.shell.cli.amounts import memory_of
+from webviz.shell.cli.ghost_options import GhostOptions
 from webviz.shell.cli.options import ConfigOptions, File, Flag, Repeatable
 
 if TYPE_CHECKING:
     from webviz.files.config import Config
     from webviz.sources import Source
-    from webviz.sources.bag.ghost import Align
 
 LOCAL = "127.0.0.1"
 BAG = Parameter(group=Group("A bag instead of live topics", sort_key=2))
 
 
-def align_of(text: str) -> "Align | float":
-    """Return the alignment of a second bag that an option names.
-
-    Raises:
-        ValueError: it is not one.
-    """
-    if text in ("start", "stamp", "path"):
-        return text
-    try:
-        seconds = float(text)
-    except ValueError:
-        seconds = math.nan
-    if not math.isfinite(seconds):
-        raise ValueError(f"{text} is not start, stamp, path or seconds.")
-    return seconds
-
-
-def _check_align(type_: object, text: str) -> None:
-    """Raise ValueError for what is not an alignment."""
-    align_of(text)
-
-
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
-class BagOptions:
+class _PlayedOptions:
     """The bag to play."""
 
     bag: Annotated[Repeatable[Path], BAG, Parameter(metavar="FILE", consume_multiple=1)] = ()
     """Play an MCAP or db3 file, a rosbag2 folder or ROS 1 bag; several are merged (repeatable)."""
     paused: Annotated[Flag, BAG] = False
     """Stay at the start of the bag, instead of playing once a browser connects."""
-    ghost: Annotated[Path | None, BAG, Parameter(metavar="FILE")] = None
-    """Show a second bag beside it, tinted, with topics in /ghost and transforms of its own."""
-    ghost_align: Annotated[
-        str, BAG, Parameter(metavar="ALIGN", validator=_check_align, show_default=False)
-    ] = "start"
-    """Times of the second bag: start (default), stamp, path (where the robots are closest), or
-    seconds after the start."""
-    ghost_difference: Annotated[str, BAG, Parameter(metavar="PATH", show_default=False)] = ""
-    """Also plot the difference of this number, such as /odom.twist.twist.linear.x."""
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class BagOptions(GhostOptions, _PlayedOptions):
+    """The bag to play, and a second one."""
 
 
 def _check_memory(type_: object, text: str) -> None:
