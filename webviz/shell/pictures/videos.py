@@ -22,6 +22,9 @@ ENCODERS = {
     "libaom-av1": ("-crf", "28", "-cpu-used", "6"),
 }
 """Encoders of H.264 and AV1 by preference, with their settings."""
+EVEN = "pad=ceil(iw/2)*2:ceil(ih/2)*2"
+MATRIX = "scale=out_color_matrix=bt709:out_range=tv"
+"""Players guess a matrix that is not stated by the height of the picture, and shift colours."""
 PATIENCE_S = 20.0
 MAX_REASON = 300
 """Characters of what ffmpeg says."""
@@ -81,7 +84,7 @@ def _ffmpeg(size: tuple[int, int], part: Path, fps: float, name: str) -> Iterato
         *("ffmpeg", "-hide_banner", "-loglevel", "error", "-nostdin", "-y"),
         *("-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{size[0]}x{size[1]}"),
         *("-r", f"{fps:g}", "-i", "pipe:0", "-an"),
-        *("-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"),
+        *("-vf", f"{EVEN},{MATRIX}", "-pix_fmt", "yuv420p", "-colorspace", "bt709"),
         *("-c:v", name, *ENCODERS[name], "-movflags", "+faststart"),
         *("-f", "mp4", f"file:{part}"),
     ]

@@ -78,7 +78,9 @@ function start() {
   recorder.addEventListener("error", () =>
     toast("The browser has stopped recording the video.", { level: "error" }),
   );
+  const ticking = setInterval(tellAll, PART_MS); // a scene at rest gives no data
   recorder.addEventListener("stop", () => {
+    clearInterval(ticking);
     for (const track of stream.getTracks()) track.stop();
     running = null;
     tellAll();
