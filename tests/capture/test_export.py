@@ -27,6 +27,7 @@ from drives import CONFIG, recorded
 from playwright.sync_api import expect
 
 import webviz
+from webviz.api.nodes import Pane
 from webviz.api.views import VIEW_TYPES, Rig, View, mimic, type_of
 from webviz.engine.commands import Seek
 from webviz.shell.cli import main as cli
@@ -299,26 +300,52 @@ def clouds(tmp_path_factory: pytest.TempPathFactory) -> Path:
     bag = Bag()
     bag.add("/points", "sensor_msgs/msg/PointCloud2", best_effort=True)
     bag.transform(0, "map", "lidar", static=True)
-    chance = np.random.default_rng(0)
     for step in range(10):
-        xyz = chance.uniform(-5.0, 5.0, (20_000, 3)).astype(np.float32)
-        bag.put(step / 10, "/points", cloud_of(xyz, START_NS + ns(step / 10)))
+        bag.put(step / 10, "/points", cloud_of(points(step), START_NS + ns(step / 10)))
     bag.write(folder / "run")
     (folder / "lab.yaml").write_text("fixed_frame: map\ndisplays:\n- {type: PointCloud2}\n")
     return folder
 
 
-def cloud_of(xyz: np.ndarray, stamp_ns: int) -> dict[str, Any]:
-    names = ("x", "y", "z")
-    fields = [{"name": n, "offset": 4 * i, "datatype": 7, "count": 1} for i, n in enumerate(names)]
+POINT = np.dtype(
+    [
+        ("x", "<f4"),
+        ("y", "<f4"),
+        ("z", "<f4"),
+        ("intensity", "<f4"),
+        ("rgb", "<u4"),
+        ("ring", "<u2"),
+    ]
+)
+DATATYPES = {"<f4": 7, "<u4": 6, "<u2": 4}
+
+
+def points(step: int) -> np.ndarray:
+    """20 000 points by chance, the first of which cannot be drawn."""
+    chance = np.random.default_rng(step)
+    made = np.empty(20_000, POINT)
+    for axis in "xyz":
+        made[axis] = chance.uniform(-5.0, 5.0, len(made))
+    made["x"][0] = np.nan
+    made["intensity"] = chance.integers(0, 256, len(made)) / np.float32(3.0)
+    made["rgb"] = chance.integers(0, 1 << 24, len(made))
+    made["ring"] = np.arange(len(made)) % 64
+    return made
+
+
+def cloud_of(made: np.ndarray, stamp_ns: int) -> dict[str, Any]:
+    fields = [
+        {"name": name, "offset": offset, "datatype": DATATYPES[dtype.str], "count": 1}
+        for name, (dtype, offset, *_) in (POINT.fields or {}).items()
+    ]
     return {
         "header": header("lidar", stamp_ns),
         "height": 1,
-        "width": len(xyz),
+        "width": len(made),
         "fields": fields,
-        "point_step": 12,
-        "row_step": xyz.nbytes,
-        "data": xyz.ravel().view(np.uint8),
+        "point_step": POINT.itemsize,
+        "row_step": made.nbytes,
+        "data": made.view(np.uint8),
     }
 
 
@@ -336,8 +363,47 @@ def test_a_file_keeps_its_limit_and_says_what_was_left_out(
     thinned, said = sizes["3MB"]
     assert thinned <= 3_000_000
     assert "Clouds keep at least one of" in said
+    assert "Values of selected points are missing between 0.0 and" in said
     assert cli([*arguments, "-o", str(clouds / "none.html"), "--max-size", "1kB"]) == 0
     assert "Choose a shorter span, or fewer displays." in capfd.readouterr().err
+
+
+def test_a_click_shows_the_values_of_a_point_of_a_large_cloud(
+    clouds: Path, browser: playwright.Browser
+) -> None:
+    path = clouds / "50MB.html"
+    if not path.exists():
+        arguments = [str(clouds / "run"), "-d", str(clouds / "lab.yaml"), "-o", str(path)]
+        assert cli(["export", *arguments]) == 0
+    with browser.new_context(viewport=SIZE, offline=True) as context:
+        file = OpenFile(context.new_page(), path)
+        file.seek(0.5)
+        page, made = file.page, points(5)
+        page.keyboard.press("s")
+        left, top, width, height = page.evaluate(BOX)
+        page.mouse.click(left + width / 2, top + height / 2)
+        shown = page.locator(".wv-selection")
+        expect(shown).to_contain_text(re.compile(r"Point \d+"))
+        number = int(re.findall(r"Point (\d+)", shown.inner_text())[0])
+        rows = shown.locator(".wv-field-row")
+        told = {
+            row.locator(".wv-field-name").inner_text(): row.locator(".wv-field-value").inner_text()
+            for row in rows.all()
+        }
+        point = made[number]
+        red, green, blue = (int(point["rgb"]) >> shift & 255 for shift in (16, 8, 0))
+        place = ", ".join(f"{point[axis]:.4f}" for axis in "xyz")
+        assert (
+            told
+            | {
+                "intensity": str(point["intensity"]),
+                "rgb": f"r {red}, g {green}, b {blue}",
+                "ring": str(point["ring"]),
+                "Position in lidar": f"{place} m",
+                "Points in the cloud": "20000",
+            }
+            == told
+        )
 
 
 @pytest.mark.parametrize(
@@ -370,7 +436,7 @@ HOSTILE = f"""\
 version: 1
 fixed_frame: map
 displays:
-- {{type: Image, topic: /image, name: "{EVIL}"}}
+- {{type: Image, topic: /image, annotations_topic: /found, name: "{EVIL}"}}
 - {{type: Marker, topic: /markers}}
 panels:
 - {{type: Plot, curves: ["/odom.pose.pose.position.x"]}}
@@ -378,11 +444,13 @@ panels:
 
 
 def hostile() -> Bag:
-    """Images, an odometry and markers whose texts are markup, every second one at no place."""
+    """Annotated images, an odometry and markers whose texts are markup, some at no place."""
     bag = Bag()
     bag.add("/image", "sensor_msgs/msg/Image")
+    bag.add("/found", "vision_msgs/msg/Detection2DArray")
     bag.add("/markers", "visualization_msgs/msg/Marker")
     bag.add("/odom", "nav_msgs/msg/Odometry")
+    bag.add("/rosout", "rcl_interfaces/msg/Log")
     bag.transform(0, "map", EVIL[:30], static=True)
     for step in range(20):
         about = header("map", START_NS + ns(step / 10))
@@ -390,10 +458,35 @@ def hostile() -> Bag:
         marker = {"ns": EVIL, "type": 9, "text": EVIL, "scale": {"z": 0.5}, "color": {"a": 1.0}}
         bag.put(step / 10, "/markers", {"header": about, "pose": place, **marker})
         bag.put(step / 10, "/odom", {"header": about, "pose": {"pose": place}})
-        pixels = np.full(12, 10 * step, np.uint8)
-        size = {"width": 2, "height": 2, "step": 6, "encoding": "rgb8"}
+        box = {
+            "center": {"position": {"x": 8.0, "y": 8.0}},
+            "size_x": 2.0 + step % 9,
+            "size_y": 12.0,
+        }
+        results = [{"hypothesis": {"class_id": f"{step}{EVIL}", "score": 0.5}}]
+        detection = {"bbox": box, "results": results}
+        bag.put(step / 10, "/found", {"header": about, "detections": [detection]})
+        bag.put(step / 10, "/rosout", {"level": 40, "name": EVIL, "msg": EVIL})
+        pixels = np.full(16 * 48, 10 * step, np.uint8)
+        size = {"width": 16, "height": 16, "step": 48, "encoding": "rgb8"}
         bag.put(step / 10, "/image", {"header": about, **size, "data": pixels})
     return bag
+
+
+MARKED_PIXELS = """() => {
+  const canvas = document.querySelector(".wv-pane-marks");
+  const { width, height } = canvas;
+  const { data } = canvas.getContext("2d").getImageData(0, 0, width, height);
+  return data.filter((byte) => byte).length;
+}"""
+
+
+def pane_of(viewer: BagViewer) -> Pane:
+    """The only pane that a viewer draws."""
+    shots = [shot for runner in viewer.loop.runners() for *_, shot in runner.shots()]
+    groups = [group for shot in shots for group in shot.groups.values()]
+    (pane,) = [node for each in groups for node in each.nodes.values() if isinstance(node, Pane)]
+    return pane
 
 
 def test_images_and_plots_are_in_the_file_and_no_text_becomes_markup(
@@ -417,9 +510,21 @@ def test_images_and_plots_are_in_the_file_and_no_text_becomes_markup(
 
     page.on("dialog", dismiss)
     opened = OpenFile(page, path)
+    with contextlib.closing(BagViewer(tmp_path / "run", HOSTILE)) as viewer:
+        for at_s in (1.5, 0.3):
+            opened.seek(at_s)
+            viewer.do(Seek(at_s))
+            (mark,) = pane_of(viewer).marks
+            assert f"{at_s * 10:.0f}</script>" in mark.about
+            page.locator(".wv-pane canvas").first.hover()
+            expect(page.locator(".wv-pane")).to_contain_text(mark.about)
+            assert page.evaluate(MARKED_PIXELS) > 0
     opened.seek(1.0)
     stamp = (START_NS + ns(1.0)) / 1e9
-    expect(page.locator(f".wv-pane[data-stamp='{stamp:.0f}']")).to_have_count(1)
+    pane = page.locator(f".wv-pane[data-stamp='{stamp:.0f}']")
+    expect(pane).to_have_count(1)
+    pane.locator("canvas").first.hover()
+    expect(pane).to_contain_text("rgb 100 100 100")
     page.evaluate("document.getElementById('wv-tab-plugin-Plot').click()")
     expect(page.locator(".wv-panel")).to_contain_text("/odom.pose.pose.position.x")
     context.close()

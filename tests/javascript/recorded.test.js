@@ -3,6 +3,7 @@ import { test } from "node:test";
 import { deflateSync } from "node:zlib";
 
 import { cellAt, cellDetails, indexAt } from "../../webviz/page/web/recorded/cells.js";
+import { columnDetails } from "../../webviz/page/web/recorded/columns.js";
 import { frameAt, shownAt } from "../../webviz/page/web/recorded/moments.js";
 import { changesBetween } from "../../webviz/page/web/recorded/scene_changes.js";
 
@@ -145,4 +146,36 @@ test("a cell has the place in the whole map, also if that is turned", () => {
     "Centre in map": "-24.6250, 53.3250, 0.0000 m",
     Resolution: "0.05 m",
   });
+});
+
+test("values of a point of a large cloud are told as in a viewer", () => {
+  const columns = {
+    noun: "Point",
+    values: [
+      ["intensity", { array: Float32Array.of(0, 0.1, 67), text: "{}" }],
+      ["rgb", { array: Uint8Array.of(0, 0, 0, 1, 2, 3, 4, 5, 6), text: "r {}, g {}, b {}" }],
+      ["Angle", { array: Float64Array.of(0, 0, NaN, 5.73, -Infinity, 2), text: "{} rad, {}°" }],
+      ["Points in the cloud", "9"],
+    ],
+    ids: Uint16Array.of(3, 5, 8),
+    position: "Position in lidar",
+    origin: [100, 0, 0],
+  };
+  assert.deepEqual(columnDetails(columns, 1, [1, 2, 3]), {
+    title: "Point 5",
+    fields: [
+      ["intensity", "0.1"],
+      ["rgb", "r 1, g 2, b 3"],
+      ["Angle", "nan rad, 5.73°"],
+      ["Points in the cloud", "9"],
+      ["Position in lidar", "101.0000, 2.0000, 3.0000 m"],
+    ],
+  });
+  assert.deepEqual(columnDetails(columns, 2, [0, 0, 0]).fields.slice(0, 3), [
+    ["intensity", "67.0"],
+    ["rgb", "r 4, g 5, b 6"],
+    ["Angle", "-inf rad, 2.0°"],
+  ]);
+  const leftOut = [["intensity", { array: new Float32Array(0), text: "{}" }]];
+  assert.equal(columnDetails({ ...columns, values: leftOut }, 1, [0, 0, 0]), null);
 });

@@ -8,10 +8,11 @@ def inspect(self, hit, ctx):
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from webviz.api.nodes import Arrows, Axes, Image, Instances, Labels, Lines, Node, Points, Pose
 from webviz.api.sample import Sample
@@ -90,6 +91,42 @@ class Cells:
     origin: Pose
     frame: str
     told: Sequence[str | int]
+
+
+class Column(NamedTuple):
+    """A value of all items of a node.
+
+    Attributes:
+        values: (N,) or (N, K) numbers in the order of the items of the node.
+        text: of a value, with a pair of braces for each of its K numbers.
+    """
+
+    values: NDArray[Any]
+    text: str = "{}"
+
+
+@dataclass(frozen=True, eq=False)
+class Columns:
+    """Details of all items of a node at once, where there is no display to ask.
+
+    Args:
+        noun: the title of an item is this and its id.
+        values: by name: columns, and texts that all items share.
+        position: name of the value that an item has by its position.
+        origin: that position is relative to this point, in metres.
+    """
+
+    noun: str
+    values: Mapping[str, Column | str] = field(default_factory=dict[str, Column | str])
+    position: str = "Position"
+    origin: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+
+def rows_of(node: Node) -> NDArray[np.intp]:
+    """Return the ids of the items of a node, int (N,), which are their rows in the message."""
+    ids = getattr(node, "ids", None)
+    items = getattr(node, fields(node)[0].name)
+    return np.arange(len(items)) if ids is None else ids
 
 
 def noun_of(node: Node) -> str:

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from webviz.api.picking import Column
 from webviz.data import messages
 from webviz.data.words import listed
 from webviz_displays.shared.geometry import FARTHEST, origin_near
@@ -159,6 +160,27 @@ class Cloud:
                 found[field.name] = ", ".join(f"{name} {value}" for name, value in named)
             else:
                 found[field.name] = values[0] if len(values) == 1 else values
+        return found
+
+    def columns(self, rows: NDArray[np.intp]) -> dict[str, Column | str]:
+        """All fields of some points by name, as `point` has them."""
+        found: dict[str, Column | str] = {}
+        for field in self._message.fields:
+            try:
+                offset, dtype = self._place(field.name)
+            except CloudError as error:
+                found[field.name] = str(error)
+                continue
+            if field.name in ("rgb", "rgba") and dtype.itemsize == 4:
+                bgra = self.quads(field.name)[rows].astype("<u4")[:, None].view(np.uint8)
+                names = field.name
+                channels = np.ascontiguousarray(bgra[:, [2, 1, 0, 3][: len(names)]])
+                found[field.name] = Column(channels, ", ".join(f"{name} {{}}" for name in names))
+            else:
+                size = max(field.count, 1)
+                whole = np.dtype([("values", dtype, (size,))])
+                values = self._view(whole, offset)[rows]["values"]
+                found[field.name] = Column(values, ", ".join(["{}"] * size))
         return found
 
     def _place(self, name: str) -> tuple[int, np.dtype[Any]]:

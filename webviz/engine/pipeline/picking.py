@@ -103,7 +103,7 @@ def found_in(shot: Shot, group_key: str, key: str, picks: Sequence[Pick]) -> dic
         return {pick[0]: found(node.ids[_face_at(node, pick[2])].item(), pick[2]) for pick in picks}
     if not isinstance(node, Items):
         return {pick[0]: found(None, pick[2]) for pick in picks}
-    rows = _drawn_rows(node)
+    rows = drawn_rows(node)
     count = _count(node) if rows is None else len(rows)
     picks = [pick for pick in picks if pick[1] is not None and 0 <= pick[1] < count]
     if not picks:
@@ -140,7 +140,7 @@ def every_item(shot: Shot, group_key: str, key: str, limit: int) -> Sequence[Fou
         return [found(None, (0.0, 0.0, 0.0))]
     if not isinstance(node, Items) or _count(node) > limit:
         return []
-    rows = _drawn_rows(node)
+    rows = drawn_rows(node)
     rows = np.arange(_count(node)) if rows is None else rows
     points = _positions(_only(node, rows)).astype(np.float64).tolist()
     return [found(*each) for each in zip(_ids(node, rows), points, strict=True)]
@@ -158,7 +158,7 @@ def _ids(node: Items, rows: NDArray[np.intp]) -> list[Any]:
     return node.ids[rows].tolist()
 
 
-def _drawn_rows(node: Items) -> NDArray[np.intp] | None:
+def drawn_rows(node: Items) -> NDArray[np.intp] | None:
     """Return the rows that browsers have, None for all; those that are not finite are not sent."""
     if isinstance(node, Points):
         return None

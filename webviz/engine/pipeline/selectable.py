@@ -4,36 +4,87 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from webviz.api.frames import Frames
 from webviz.api.nodes import Image, Node
-from webviz.api.picking import Details, Quantity
+from webviz.api.picking import Column, Columns, Details, Quantity
 from webviz.api.sample import Sample
 from webviz.data.rotations import matrices
 from webviz.data.transforms.errors import format_stamp
 from webviz.engine.pipeline.details import details_tree
-from webviz.engine.pipeline.picking import Found, every_item
+from webviz.engine.pipeline.picking import Found, Items, drawn_rows, every_item
 from webviz.engine.pipeline.runner import Runner
 
 MAX_ITEMS = 2000
-"""Of one node; the details of larger clouds would take more room than their points."""
+"""Of one node whose display is asked about each item; those of larger nodes come as columns."""
 MAX_OF_DISPLAY = 4000
 DIGITS = 4
 """Of numbers that are not integers: more would mostly be noise, which cannot be compressed."""
 
 Values = Mapping[str, Any]
 """Of one node: "#frame", "#stamp", and columns with the titles, "#titles", and values of its items,
-after a dot."""
+after a dot; or "#columns", see `ItemColumns`."""
+
+
+@dataclass(frozen=True, eq=False)
+class ItemColumns:
+    """Details of the items of a large node as arrays.
+
+    Args:
+        ids: of the items, None if these are their numbers.
+        columns: of them.
+    """
+
+    ids: NDArray[Any] | None
+    columns: Columns
+
+    def only(self, rows: NDArray[np.intp]) -> ItemColumns:
+        """Return those of some of the items."""
+        values = {
+            name: each._replace(values=each.values[rows]) if isinstance(each, Column) else each
+            for name, each in self.columns.values.items()
+        }
+        ids = rows if self.ids is None else self.ids[rows]
+        return ItemColumns(ids, replace(self.columns, values=values))
+
+
+@dataclass(frozen=True)
+class _Drawn:
+    """A node that is drawn.
+
+    Args:
+        path: group and key, in lines.
+        key: of the node.
+        node: itself.
+        samples: that it was drawn from.
+        frame: that it moves with, or the frame of its sample.
+        is_moving: whether its items are others at each time.
+        items: all, if these are not too many.
+    """
+
+    path: str
+    key: str
+    node: Node
+    samples: Sequence[Sample]
+    frame: str
+    is_moving: bool
+    items: Sequence[Found]
+
+    def is_in(self, other: _Drawn) -> bool:
+        """Return whether another one is drawn alike."""
+        return self.node is other.node and self.samples is other.samples
 
 
 class SelectableValues:
     """Keeps the details of all items, and makes anew those of what is drawn anew."""
 
     def __init__(self) -> None:
-        self._made: dict[tuple[str, str], tuple[Node, Sequence[Sample], Values]] = {}
+        self._made: dict[str, dict[str, tuple[_Drawn, Values]]] = {}
 
     def of(self, runner: Runner, frames: Frames) -> Mapping[str, Any]:
         """Return the details of a display, by group and key of its nodes and what it is, in lines.
@@ -43,54 +94,70 @@ class SelectableValues:
             frames: at the time that is shown.
         """
         room = MAX_OF_DISPLAY
-        told: dict[str, Any] = {}
-        for name, key, node, samples, items in _nodes(runner):
-            made = self._made.get((name, key))
-            if isinstance(node, Image) and node.palette is not None:
-                if made is None or made[0] is not node or made[1] is not samples:
-                    values = _cell_values(runner, key, samples, frames)
-                    made = self._made[name, key] = node, samples, values
-                told |= {f"{name}\n{key}\n{what}": value for what, value in made[2].items()}
-                continue
-            # What has no message, or follows a frame, is another at each time.
-            is_old = made is None or made[0] is not node or made[1] is not samples
-            if is_old or not samples or any(each.placement.frame for each in items[:1]):
-                room -= len(items)
-                if not items or room < 0:
-                    self._made.pop((name, key), None)
-                    continue
-                values = _values(runner, items, frames)
-                made = self._made[name, key] = node, samples, values
-            if made is not None:
-                told |= {f"{name}\n{key}\n{what}": value for what, value in made[2].items()}
-        return told
+        before, made = self._made.get(runner.id, {}), dict[str, tuple[_Drawn, Values]]()
+        for drawn in _nodes(runner):
+            known = before.get(drawn.path)
+            if known and drawn.is_in(known[0]) and not (drawn.is_moving and drawn.items):
+                made[drawn.path] = known
+            elif isinstance(drawn.node, Image):
+                made[drawn.path] = drawn, _cell_values(runner, drawn, frames)
+            elif drawn.items and len(drawn.items) <= room:
+                room -= len(drawn.items)
+                made[drawn.path] = drawn, _values(runner, drawn, frames)
+            elif drawn.samples:
+                made[drawn.path] = drawn, _column_values(runner, drawn, frames)
+        self._made[runner.id] = made
+        return {
+            f"{path}\n{what}": value
+            for path, (_, values) in made.items()
+            for what, value in values.items()
+        }
 
 
-def _nodes(runner: Runner) -> Iterator[tuple[str, str, Node, Sequence[Sample], Sequence[Found]]]:
+def _nodes(runner: Runner) -> Iterator[_Drawn]:
     for name, group, shot in runner.shots():
+        frame = shot.groups[group].placement.frame
+        own = shot.samples[-1].frame if shot.samples else ""
         for key, node in shot.groups[group].nodes.items():
-            yield name, key, node, shot.samples, every_item(shot, group, key, MAX_ITEMS)
+            items = every_item(shot, group, key, MAX_ITEMS)
+            is_moving = frame is not None or not shot.samples
+            yield _Drawn(f"{name}\n{key}", key, node, shot.samples, frame or own, is_moving, items)
 
 
-def _values(runner: Runner, items: Sequence[Found], frames: Frames) -> Values:
-    details = [runner.inspect(each, frames) for each in items]
+def _values(runner: Runner, drawn: _Drawn, frames: Frames) -> Values:
+    details = [runner.inspect(each, frames) for each in drawn.items]
     known = [each for each in details if each is not None]
     if not known:
         return {}
     names = dict.fromkeys(name for each in known for name in each.values)
-    hit = items[0].hit
-    stamp_ns = hit.sample.stamp_ns if hit.samples else 0
     return {
-        "#frame": hit.frame,
-        "#stamp": f"{format_stamp(stamp_ns)} s" if stamp_ns else "",
+        "#frame": drawn.frame,
+        "#stamp": _stamp(drawn),
         "#titles": _column(_titles(details)),
         **{f".{name}": _values_column(name, details) for name in names},
     }
 
 
-def _cell_values(runner: Runner, key: str, samples: Sequence[Sample], frames: Frames) -> Values:
+def _column_values(runner: Runner, drawn: _Drawn, frames: Frames) -> Values:
+    """Return the details of the items of a large node, of all at once."""
+    node = drawn.node
+    columns = runner.columns(node, drawn.samples[-1], frames) if isinstance(node, Items) else None
+    if columns is None or not isinstance(node, Items):
+        return {}
+    made = ItemColumns(node.ids, columns)
+    if (rows := drawn_rows(node)) is not None:
+        made = made.only(rows)
+    return {"#frame": drawn.frame, "#stamp": _stamp(drawn), "#columns": made}
+
+
+def _stamp(drawn: _Drawn) -> str:
+    stamp_ns = drawn.samples[-1].stamp_ns if drawn.samples else 0
+    return f"{format_stamp(stamp_ns)} s" if stamp_ns else ""
+
+
+def _cell_values(runner: Runner, drawn: _Drawn, frames: Frames) -> Values:
     """Return how the cells of an image are read: their values are in it."""
-    cells = runner.cells(key, frames)
+    cells = runner.cells(drawn.key, frames)
     if cells is None:
         return {}
     along, across, _ = matrices(cells.origin.wxyz).T.tolist()
@@ -103,9 +170,7 @@ def _cell_values(runner: Runner, key: str, samples: Sequence[Sample], frames: Fr
         "frame": cells.frame,
         "told": cells.told,
     }
-    stamp_ns = samples[-1].stamp_ns if samples else 0
-    stamp = f"{format_stamp(stamp_ns)} s" if stamp_ns else ""
-    return {"#frame": cells.frame, "#stamp": stamp, "#cells": grid}
+    return {"#frame": cells.frame, "#stamp": _stamp(drawn), "#cells": grid}
 
 
 def _titles(details: Iterable[Details | None]) -> list[str | None]:

@@ -112,7 +112,12 @@ class Sent:
 
 
 def frame(
-    display: str, number: int, pane: Pane, file: File | None, sent: Sent
+    display: str,
+    number: int,
+    pane: Pane,
+    file: File | None,
+    sent: Sent,
+    is_readable: bool = True,
 ) -> tuple[bytes, Sent]:
     """Return a message with a picture.
 
@@ -122,6 +127,7 @@ def frame(
         pane: with the picture.
         file: see `file_of`; None of a video, and of a picture that the page has.
         sent: what the page has.
+        is_readable: whether the page can ask for the values of pixels.
 
     Returns:
         The message, and what the page has with it; without a new packet of a video it is empty.
@@ -149,7 +155,7 @@ def frame(
         return _joined(head, data), sent
     head = replace(head, size=picture.size)
     if isinstance(picture, Pixels):
-        head = replace(head, legend=_legend(picture), readable=True)
+        head = replace(head, legend=_legend(picture), readable=is_readable)
     else:
         head = replace(head, swaps=picture.swaps_red_and_blue)
     warp = None

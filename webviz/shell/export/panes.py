@@ -52,7 +52,7 @@ class PaneTape:
                 is_whole, sent = True, Sent()
                 file = file_of(picture, factor_for(picture, WIDTH))
             self._marked[display] = 0 if is_whole else marked
-            data, self._sent[display] = frame(display, self._number, pane, file, sent)
+            data, self._sent[display] = frame(display, self._number, pane, file, sent, False)
             if data:
                 made[display] = data, is_whole
         return made

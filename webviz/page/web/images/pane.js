@@ -10,6 +10,7 @@ import { makeCamera } from "./camera.js";
 import * as frames from "./frames.js";
 import { drawMarks, markAt } from "./marks.js";
 import { makePicture } from "./picture.js";
+import { pixelText } from "./pixel_text.js";
 import { makeReadout } from "./readout.js";
 import { makeZoom } from "./zoom.js";
 
@@ -218,7 +219,7 @@ export function makePane(id, changed, withScene) {
     if (pixel && value.hidden) tell(pixel, "");
     value.hidden = !pixel;
     if (!pixel) return;
-    if (!last.readable) return tell(pixel, `rgb ${picture.colorAt(pixel).join(" ")}`);
+    if (!last.readable) return tell(pixel, pixelText(picture.colorAt(pixel), last.legend));
     const now = performance.now();
     clearTimeout(later);
     if (now - asked < READ_MS) {

@@ -2,6 +2,7 @@
 
 import { bufferOf, chunks, revived } from "./chunks.js";
 import { frameAt, lastUpTo, shownAt } from "./moments.js";
+import { COLUMNS } from "./columns.js";
 import { changesBetween } from "./scene_changes.js";
 import { switches } from "./switches.js";
 
@@ -218,7 +219,11 @@ export function player(about, sinks) {
         all.map(([, number]) => number),
       );
       return new Map(
-        all.map(([key, number]) => [key.slice(start.length), valueIn(of(number), number)]),
+        all.map(([key, number]) => {
+          const [what, chunk] = [key.slice(start.length), of(number)];
+          const value = valueIn(chunk, number);
+          return [what, what === COLUMNS ? revived(chunk, value) : value];
+        }),
       );
     },
     /**

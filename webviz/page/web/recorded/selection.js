@@ -1,6 +1,7 @@
 // The selection of a page that was exported: the recorded details of things, and what the scene has.
 
 import { cellAt, cellDetails, indexAt } from "./cells.js";
+import { COLUMNS, columnDetails } from "./columns.js";
 
 /** @import {DisplayRow} from "../contents.js" */
 /** @import {Column, NodeValues} from "./types.js" */
@@ -63,15 +64,19 @@ export function selection(rowOf, valuesOf, stamp, pictureOf) {
       const value = field.startsWith(".") ? cell(column, number ?? 0) : null;
       if (value !== undefined && value !== null) fields[field.slice(1)] = value;
     }
-    fields.Position = `${at.map((/** @type {number} */ each) => each.toFixed(4)).join(", ")} m`;
+    const columns = values.get(COLUMNS) && columnDetails(values.get(COLUMNS), number ?? 0, at);
+    if (columns) Object.assign(fields, Object.fromEntries(columns.fields));
+    else
+      fields.Position = `${at.map((/** @type {number} */ each) => each.toFixed(4)).join(", ")} m`;
     if (values.get("#frame")) fields.Frame = values.get("#frame");
     if (color) fields.Color = color.join(", ");
     if (row?.topics.length) fields.Topic = row.topics.join(", ");
     if (values.get("#stamp")) fields.Stamp = values.get("#stamp");
     fields.Time = stamp();
-    if (!values.size) fields.Values = MISSING;
+    if (!values.size || columns === null) fields.Values = MISSING;
     const plain = number === null ? key || name : `${key || "Item"} ${number}`.trim();
-    const title = mapCell?.title ?? cell(values.get("#titles"), number ?? 0) ?? plain;
+    const title =
+      mapCell?.title ?? columns?.title ?? cell(values.get("#titles"), number ?? 0) ?? plain;
     const thing = { display, name, title, tree: { fields }, note: "" };
     return { display, thing };
   }
