@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import base64
 import contextlib
+import re
+import zlib
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -16,6 +19,7 @@ from webviz.engine.commands import Seek
 from webviz.engine.loop import FrameLoop
 from webviz.files.config import Config
 from webviz.files.opening import parse
+from webviz.files.report import read_report
 from webviz.shell.app.ghost_config import OPACITY, with_ghost
 from webviz.shell.cli import main as cli
 from webviz.shell.testing import BagViewer, header
@@ -164,10 +168,44 @@ def test_malformed_messages_stay_as_they_are() -> None:
         assert len(shifted(TF, bytes(changed), 10**9)) == len(cdr)
 
 
+def test_a_report_of_two_runs_has_both_at_the_same_places(
+    runs: tuple[Path, Path], tmp_path: Path
+) -> None:
+    (config := tmp_path / "lab.yaml").write_text(CONFIG)
+    command = ["--bag", str(runs[0]), "-d", str(config), "--ghost", str(runs[1])]
+    zipped = tmp_path / "bug.zip"
+    made = ["report", *command, "--ghost-align", "path", "--at", "4", "--no-picture"]
+    assert cli([*made, "-o", str(zipped)]) == 0
+    (folder := tmp_path / "out").mkdir()
+    unpacked = read_report(zipped, folder)
+    assert unpacked.report.at_s == pytest.approx(4.0)
+    with viewer(runs, "path") as shown:
+        shown.do(Seek(4.0))
+        wanted = x_of(shown, "ghost/base")
+    with contextlib.closing(BagViewer(unpacked.bag, unpacked.config.read_text())) as shown:
+        shown.do(Seek(unpacked.report.at_s))
+        assert x_of(shown, "ghost/base") == pytest.approx(wanted)
+        assert [row.name for row in shown.rows][-1] == "Scan (ghost)"
+        assert DISTANCE in shown.source.offers()
+
+
+def test_two_runs_are_exported_with_their_distance(runs: tuple[Path, Path], tmp_path: Path) -> None:
+    path = tmp_path / "run.html"
+    command = ["export", str(runs[0]), "--ghost", str(runs[1]), "--ghost-align", "path"]
+    assert cli([*command, "--rate", "1", "-o", str(path)]) == 0
+    page = path.read_text()
+    chunks = re.findall(r'<script type="webviz/chunk">(.*?)</script>', page, re.DOTALL)
+    first = zlib.decompress(base64.b64decode(chunks[0]), wbits=31)
+    assert b"LaserScan (ghost)" in first
+    assert f"{DISTANCE}.data".encode() in first
+
+
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
         (["--ghost", "a.mcap"], "--ghost needs --bag."),
+        (["report", "--ghost", "a", "-o", "a.zip"], "--ghost needs --bag."),
+        (["export", "a", "--ghost-align", "path", "-o", "a.html"], "--ghost-align and"),
         (["--bag", "a", "--ghost-align", "path"], "--ghost-align and --ghost-difference need"),
         (["--bag", "a", "--ghost", "b", "--ghost-align", "x"], "x is not start, stamp, path or"),
     ],

@@ -17,7 +17,7 @@ from webviz.data.recordings import RecordedChannel
 from webviz.data.recordings.mcap_writing import McapFile
 from webviz.sources.bag.file import BagChannel, Recorded
 from webviz.sources.bag.files import BagFiles
-from webviz.sources.bag.ghost import Ghost, ghost_files
+from webviz.sources.bag.ghost import DIFFERENCE, DISTANCE, Ghost, ghost_files
 from webviz.sources.bag.log import LOG, ROSOUT
 from webviz.sources.bag.past import BagPast
 from webviz.sources.recording import Channels, Entry, ForwardClock, library
@@ -26,6 +26,9 @@ from webviz.sources.source import Subscription
 LOG_LINES = 200
 """The last lines of /rosout that a slice has as text."""
 CLOCK_TOPIC = "/clock"
+
+ALWAYS = (CLOCK_TOPIC, ROSOUT, DISTANCE, DIFFERENCE)
+"""Topics of each slice; a panel that is closed subscribes to nothing."""
 
 SliceMessage = tuple[RecordedChannel, int, bytes]
 """Channel, time of recording, and serialised message."""
@@ -154,7 +157,7 @@ class BagSlice:
         return self.shown_ns
 
     def _is_chosen(self, channel: BagChannel) -> bool:
-        if channel.topic in (CLOCK_TOPIC, ROSOUT):
+        if channel.topic in ALWAYS:
             return True
         subscription = self.wanted.get(channel.topic)
         return subscription is not None and subscription.type == channel.type
