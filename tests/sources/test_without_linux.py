@@ -7,7 +7,9 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
 from bags import Bag
+from bridges import foxglove_server
 
 ONLY_UNIX = (
     "fcntl",
@@ -20,6 +22,13 @@ ONLY_UNIX = (
     "pty",
     "rclpy",
 )
+ONLY_LINUX = (
+    *("epoll", "eventfd", "fork", "memfd_create", "pidfd_open", "sched_getaffinity"),
+    *("posix_fadvise", "copy_file_range", "splice", "getrandom", "O_PATH", "O_TMPFILE"),
+    *("SO_BINDTODEVICE", "SO_PEERCRED", "SO_MARK", "SO_REUSEPORT", "AF_NETLINK", "AF_PACKET"),
+    *("TCP_INFO", "TCP_QUICKACK", "TCP_CONGESTION", "TCP_USER_TIMEOUT", "TCP_MAXSEG"),
+)
+"""Names in os, select and socket."""
 PROGRAM = """
 import builtins
 import sys
@@ -38,8 +47,6 @@ from pathlib import Path
 import webviz
 import webviz.shell.cli.commands
 import webviz.shell.cli.serving
-import webviz.sources.bridge.source
-from webviz.sources.bridge.address import address
 from webviz.shell.app.bag_config import config_of
 from webviz.shell.bag_source import bag_source
 from webviz.engine.loop import FrameLoop
@@ -50,8 +57,41 @@ loop = FrameLoop(config_of(bag), bag, NoScene())
 loop.turn()
 print(*sorted(bag.offers()))
 loop.close()
-bridge = webviz.sources.bridge.source.BridgeSource(address("ws://127.0.0.1:9"))
-bridge.close()
+"""
+VIEWING = """
+import os
+import select
+import socket
+import sys
+import time
+
+import psutil  # which asks for names of its system
+
+for module in (os, select, socket):
+    for name in ONLY_LINUX:
+        vars(module).pop(name, None)
+
+import webviz
+from webviz.api.status import Level
+
+def is_drawn():
+    viewer.attend(60)
+    return len(viewer) == 2 and all(each.status.level is Level.OK for each in viewer)
+
+with webviz.Viewer(sys.argv[1], connect=sys.argv[2], port=0) as viewer:
+    until = time.monotonic() + 60
+    while not is_drawn() and time.monotonic() < until:
+        time.sleep(0.05)
+    print(*(each.status.level.name for each in viewer), viewer.statuses)
+"""
+VIEW = """\
+version: 1
+fixed_frame: odom
+robots:
+- {{namespace: r1, connection: "{0}", shared: [odom]}}
+displays:
+- {{type: LaserScan, topic: /scan}}
+- {{type: LaserScan, topic: /r1/scan}}
 """
 
 SITE = """
@@ -77,6 +117,18 @@ pathlib.Path.exists = lambda path, **more: (
     not str(path).startswith("/proc/") and exists(path, **more)
 )
 pathlib.Path.write_text = writing
+
+def absent(event, found):
+    if event != "open" or not str(found[0]).startswith(("/proc/", "/dev/shm")):
+        return
+    frame = sys._getframe(1)
+    while frame:
+        if frame.f_globals["__name__"].startswith("psutil"):
+            return
+        frame = frame.f_back
+    raise FileNotFoundError(str(found[0]))
+
+sys.addaudithook(absent)
 """
 LOADING = """
 from webviz_urdf.loading import Loading, LoadRequest
@@ -87,20 +139,32 @@ print(*robot.links)
 """
 
 
-def test_a_robot_is_loaded_without_modules_and_files_of_linux(tmp_path: Path) -> None:
-    # The process that loads robots is one of its own, which imports this, too.
+@pytest.fixture
+def environment(tmp_path: Path) -> dict[str, str]:
+    """The environment of a program without modules and files of Linux, and of all its processes."""
     site = tmp_path / "sitecustomize.py"
     site.write_text(f"BLOCKED = {ONLY_UNIX!r}\n{SITE}")
+    return {**os.environ, "PYTHONPATH": str(tmp_path)}
+
+
+def run(environment: dict[str, str], *words: str) -> str:
     done = subprocess.run(
-        [sys.executable, "-c", LOADING],
-        env={**os.environ, "PYTHONPATH": str(tmp_path)},
+        [sys.executable, *words],
+        env=environment,
         capture_output=True,
         text=True,
         timeout=120,
         check=False,
     )
     assert done.returncode == 0, done.stderr
-    assert done.stdout.split() == ["l"]
+    return done.stdout
+
+
+def test_a_robot_is_loaded_without_modules_and_files_of_linux(
+    environment: dict[str, str],
+) -> None:
+    # The process that loads robots is one of its own, which imports the same.
+    assert run(environment, "-c", LOADING).split() == ["l"]
 
 
 def test_a_bag_is_opened_without_modules_of_linux(tmp_path: Path) -> None:
@@ -108,12 +172,16 @@ def test_a_bag_is_opened_without_modules_of_linux(tmp_path: Path) -> None:
     bag.add("/words", "std_msgs/msg/String")
     bag.put(0.1, "/words", {"data": "hello"})
     path = bag.write(tmp_path / "run.mcap")
-    done = subprocess.run(
-        [sys.executable, "-c", PROGRAM, str(path), ",".join(ONLY_UNIX)],
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
-    assert done.stdout.split() == ["/words"]
+    modules = ",".join(ONLY_UNIX)
+    assert run({**os.environ}, "-c", PROGRAM, str(path), modules).split() == ["/words"]
+
+
+def test_bridges_are_shown_without_modules_files_and_calls_of_linux(
+    environment: dict[str, str], tmp_path: Path
+) -> None:
+    config = tmp_path / "robots.yaml"
+    program = f"ONLY_LINUX = {ONLY_LINUX!r}\n{VIEWING}"
+    with foxglove_server() as server:
+        config.write_text(VIEW.format(server.url))
+        said = run(environment, "-c", program, str(config), server.url)
+    assert said.startswith("OK OK"), said
