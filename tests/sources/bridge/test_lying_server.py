@@ -106,6 +106,15 @@ def test_definitions_of_all_channels_are_bounded(
     reader.until(lambda: len(reader.source.offers()) == 3)
 
 
+def nested(text: str, depth: int, names: str = "A") -> str:
+    """A definition of messages in messages, of which each level has the names of the next."""
+    parts = [text.format(0)]
+    for level in range(depth):
+        inner = text.format(level + 1) if level + 1 < depth else "uint8 x"
+        parts += [f"MSG: bad_msgs/{name}{level}\n{inner}" for name in names]
+    return f"\n{'=' * 80}\n".join(parts)
+
+
 @pytest.mark.parametrize(
     ("schema", "problem"),
     [
@@ -116,6 +125,9 @@ def test_definitions_of_all_channels_are_bounded(
         ("", "does not send the definition"),
         ("# " + "x" * (1 << 20), "longer than 1 MB"),
         ("(" * 50_000, "not valid .msg text"),
+        (nested("A{0} a\nA{0} b", 60), "more than 20000 fields"),
+        (nested("A{0} a\nB{0} b", 60, "AB"), "more than 20000 fields"),
+        (nested("A{0} a", 5000), "recursion"),
         (
             f"std_msgs/Header header\n{'=' * 80}\nMSG: std_msgs/Header\nuint8 x",
             "differs from ROS 2's",
@@ -198,6 +210,14 @@ def test_a_frame_above_all_limits_ends_the_connection(
     reader = liar(script)
     reader.until(lambda: "sent a frame above the limit" in reader.bridge.problem)
     reader.until(lambda: len(begun) >= 2)  # it is tried again
+
+
+def test_a_message_of_endless_empty_parts_ends_the_connection(liar: Callable[..., Reader]) -> None:
+    def script(connection: ServerConnection) -> None:
+        connection.send(iter(lambda: b"", None))
+
+    reader = liar(script)
+    reader.until(lambda: "a message in more than" in reader.bridge.problem)
 
 
 def test_a_text_above_its_limit_is_ignored(

@@ -27,6 +27,8 @@ _IDL = re.compile(r"^={80}\nIDL: \S+$", re.MULTILINE)
 """Precedes each IDL file of a definition."""
 _PREPROCESSOR = re.compile(r"^[ \t]*#.*$", re.MULTILINE)
 """Lines that rosbags does not read; what they include follows in the definition."""
+MAX_FIELDS = 20_000
+"""Of a message, those of nested messages included, each counted once in an array."""
 _TYPE_NAME = re.compile(r"[A-Za-z]\w*/(?:msg|srv|action)/[A-Za-z]\w*", re.ASCII)
 
 
@@ -176,8 +178,8 @@ def add(type_name: str, text: str, fixed: Container[str]) -> None:
     before = {key: known[key] for key in learnt if key in known}
     known.update(learnt)
     try:
-        _check_closed(name, ())
-    except MessageError:
+        _check(name, (), {})
+    except (MessageError, RecursionError):
         for key in learnt:
             del known[key]
         known.update(before)
@@ -216,14 +218,33 @@ def described(type_name: str) -> list[Any]:
     return _definition(type_name)[1]
 
 
-def _check_closed(type_name: str, inside: tuple[str, ...]) -> None:
-    """Raise unless all types that `type_name` contains are known and none contains itself."""
+def _check(type_name: str, inside: tuple[str, ...], counts: dict[str, int]) -> int:
+    """Return the number of fields of a type, those of its messages included.
+
+    Args:
+        type_name: of the type.
+        inside: types that contain it.
+        counts: those that are known, by type.
+
+    Raises:
+        DefinitionError: a type that it contains is unknown or contains itself, or the fields are
+            more than `MAX_FIELDS`: types that contain others twice have 2^n of them.
+    """
+    if type_name in counts:
+        return counts[type_name]
     if type_name in inside:
         raise DefinitionError(f"{type_name} cannot contain itself.")
     if type_name not in _store().fielddefs:
         raise DefinitionError(f"{inside[-1]} contains a {type_name}, whose definition is missing.")
-    for name in {field.base for field in fields(type_name) if field.is_message}:
-        _check_closed(name, (*inside, type_name))
+    count = 0
+    for field in fields(type_name):
+        count += 1
+        if field.is_message:
+            count += _check(field.base, (*inside, type_name), counts)
+        if count > MAX_FIELDS:
+            raise DefinitionError(f"{type_name} has more than {MAX_FIELDS} fields in all.")
+    counts[type_name] = count
+    return count
 
 
 def _definition(type_name: str) -> Any:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import time
 
 from websockets.asyncio.client import ClientConnection
+from websockets.frames import DATA_OPCODES, CloseCode, Frame
+from websockets.protocol import Event
 
 from webviz.sources.graph import NotConnected
 
@@ -12,6 +14,9 @@ STALLED_S = 1.0
 """Without any byte from the bridge, after which nothing is sent: it would arrive late."""
 MAX_UNSENT = 64 << 10
 """Bytes that may wait to be sent, beyond which nothing is."""
+MAX_PARTS = 10_000
+"""Frames of one message, as parts may be empty and so are not bounded by the size of a message."""
+TOO_MANY_PARTS = f"a message in more than {MAX_PARTS} parts"
 
 
 class BridgeConnection(ClientConnection):
@@ -21,6 +26,8 @@ class BridgeConnection(ClientConnection):
     """
 
     _heard_s = 0.0
+    _parts = 0
+    """Frames of the message that is under way."""
 
     @property
     def silent_s(self) -> float:
@@ -45,6 +52,16 @@ class BridgeConnection(ClientConnection):
         """Note the time."""
         self._heard_s = time.monotonic()
         super().data_received(data)
+
+    def process_event(self, event: Event) -> None:
+        """Take a frame, and refuse a message that never ends."""
+        if isinstance(event, Frame) and event.opcode in DATA_OPCODES:
+            self._parts = 0 if event.fin else self._parts + 1
+            if self._parts > MAX_PARTS:
+                self.protocol.fail(CloseCode.MESSAGE_TOO_BIG, TOO_MANY_PARTS)
+                self.transport.abort()
+                return
+        super().process_event(event)
 
 
 class Silent(Exception):

@@ -215,9 +215,15 @@ def _value(parameter: wire.ServerParameter) -> tuple[dict[str, Any], str]:
     try:
         kind, found = _known(value, type)
     except (TypeError, ValueError, OverflowError, binascii.Error):
-        text = printable(msgspec.json.encode(value).decode(), 300)
-        return {"type": STRING, "string_value": text}, "ROS has no type for this value."
+        return {"type": STRING, "string_value": _text(value)}, "ROS has no type for this value."
     return ({"type": kind, KINDS[kind][1]: found} if kind else {"type": 0}), ""
+
+
+def _text(value: Any) -> str:
+    try:
+        return printable(msgspec.json.encode(value).decode(), 300)
+    except RecursionError:
+        return "..."
 
 
 def _known(value: Any, type: str | None) -> tuple[int, Any]:
@@ -234,6 +240,8 @@ def _known(value: Any, type: str | None) -> tuple[int, Any]:
         case int() | float():
             return _number(value, type == "float64")
         case [_, *_]:
+            if any(isinstance(each, list | dict) for each in value):
+                raise TypeError
             kinds = {_known(each, None)[0] for each in value}
             if type == "float64_array" or kinds == {2, DOUBLE}:
                 return DOUBLES, [_number(each, True)[1] for each in value]

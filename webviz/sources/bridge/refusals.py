@@ -15,6 +15,7 @@ from websockets.exceptions import (
 
 from webviz.data.words import Problem, plain
 from webviz.sources.bridge.address import Address
+from webviz.sources.bridge.connection import TOO_MANY_PARTS
 from webviz.sources.inbox import MAX_TOTAL
 
 REMEDY = "Start the bridge on the robot, or check host and port."
@@ -88,6 +89,8 @@ def _status(error: InvalidStatus, place: str) -> Problem:
 
 def _closed(error: ConnectionClosed) -> str:
     closing, ours = error.rcvd, error.sent
+    if ours is not None and ours.reason == TOO_MANY_PARTS:
+        return f"The bridge sent {TOO_MANY_PARTS}."
     if ours is not None and ours.code == 1009 and not error.rcvd_then_sent:
         return f"The bridge sent a frame above the limit of {MAX_TOTAL >> 20} MB."
     if closing is None:
