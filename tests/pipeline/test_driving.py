@@ -347,6 +347,20 @@ def test_a_command_that_fails_is_reported_until_one_succeeds(
     assert lone.controllers.steer("tool", 2, STILL, None).problem == ""
 
 
+def test_a_robot_speeds_up_from_standstill_after_a_broken_link(lone: Lone) -> None:
+    def hold_until(condition: Callable[[], object]) -> None:
+        until(lambda: lone.steer(AHEAD) and condition())
+
+    hold_until(lambda: lone.speeds and lone.speeds[-1] == 0.5)
+    lone.outcome = NotConnected("The link to the bridge broke.")
+    made = lone.made
+    hold_until(lambda: lone.made > made + 3)
+    before = len(lone.speeds)
+    lone.outcome = None
+    hold_until(lambda: len(lone.speeds) > before)
+    assert lone.speeds[before] <= 2 * PERIOD_S * Teleop().acceleration
+
+
 def test_undo_of_a_property_changes_the_limits_of_the_next_moment(
     b: Any, hold: Callable[..., Hand]
 ) -> None:

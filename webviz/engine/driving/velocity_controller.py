@@ -105,6 +105,10 @@ class VelocityController:
             self._wanted = self._velocity = STILL
             self._tail = TAIL
 
+    def begin_again(self) -> None:
+        """Speed up from standstill, as a command has not reached the robot."""
+        self._velocity = STILL
+
     def step(self, now: float) -> Velocity | None:
         """Return the velocity to publish now; None at rest."""
         if now >= self.deadline:

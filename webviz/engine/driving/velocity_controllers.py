@@ -260,6 +260,10 @@ class VelocityControllers:
             return
         if error := sent.exception():
             self._problems[advertisement] = str(error)
+            with self._lock:
+                for controller in self._controllers.values():
+                    if controller.advertisement == advertisement:
+                        controller.begin_again()
         elif sent.result() == 0:
             self._problems[advertisement] = (
                 f"No subscription to {advertisement.topic} as "
