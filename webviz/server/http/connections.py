@@ -292,7 +292,7 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
         """Send a message, or fragments of one as they come, and measure when it arrives."""
         if isinstance(message, str | bytes):
             self.window.send(len(message))
-        await super().send(message, text)
+        await super().send(message, text=text)
         await self._ping()
 
     def write(self, frame: bytes) -> None:
