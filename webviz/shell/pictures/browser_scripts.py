@@ -42,7 +42,8 @@ COUNT_UNPACKING = """
 })();
 """
 
-# Everything in a frame except the rendering, since callbacks read and change nodes.
+# Everything in a frame except the rendering, since callbacks read and change nodes. Messages are
+# handled when they come, without a timer that runs while nothing does.
 HOLD = f"""async () => {{ {VISER}
   const gl = viser.gl();
   viser.canvas().style.visibility = "hidden";  // nor does the browser draw its page anew
@@ -52,7 +53,19 @@ HOLD = f"""async () => {{ {VISER}
     camera.updateMatrixWorld();
     scene.onBeforeRender(gl, scene, camera, null);
   }};
-  setInterval(() => viser.hasMessages() && viser.advance(), 4);
+  let isDue = false;
+  const look = () => {{
+    isDue = viser.hasMessages();
+    if (!isDue) return;
+    setTimeout(look, 4);  // also if the frame fails
+    viser.advance();
+  }};
+  viser.filterMessages((messages) => {{
+    if (!isDue) setTimeout(look);
+    isDue = true;
+    return messages;
+  }});
+  look();
 }}"""
 
 # Decoded data makes React render, whose effects may decode more. Hence wait for some quiet frames
