@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from pages import COARSE
 from program import Program
 from side import Side
 
@@ -28,7 +29,7 @@ def test_a_killed_viewer_restores_what_was_not_saved(
         return start(*arguments, env={"XDG_STATE_HOME": str(state)})
 
     viewer = begin()
-    page = open_page(viewer.url())
+    page = open_page(viewer.url(), resolution=COARSE)
     Side(page).select("Floor")
     page.tab.keyboard.press("F2")
     page.tab.keyboard.type("Ground")
@@ -38,7 +39,7 @@ def test_a_killed_viewer_restores_what_was_not_saved(
     assert viewer.end(signal.SIGKILL) == -signal.SIGKILL
 
     viewer = begin()
-    page = open_page(viewer.url())
+    page = open_page(viewer.url(), resolution=COARSE)
     viewer.wait_for(r"Restored 1 display of the last session. Start with --no-restore to see the")
     page.tab.get_by_text("Restored 1 display of the last session.").wait_for()
     tree = page.tab.get_by_role("tree")

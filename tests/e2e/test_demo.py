@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
+from pages import COARSE
 from program import Program
 from side import GLOBAL_OPTIONS, Side
 
@@ -233,7 +234,8 @@ def test_a_laser_that_is_moved_on_the_page_alone_is_found_again(
 ) -> None:
     choose_fixed_frame(page, "map")
     settled(page)
-    page = open_page(page.tab.url, 1200, 900)  # a page that is held has no place for a mouse
+    # A page that is held has no place for a mouse.
+    page = open_page(page.tab.url, 900, 700, COARSE)
     tab = page.tab
     tab.get_by_role("tab", name="TF", exact=True).click()
     tab.locator(".wv-frame", has_text="base_scan").click()
@@ -241,7 +243,6 @@ def test_a_laser_that_is_moved_on_the_page_alone_is_found_again(
     card = tab.get_by_role("region", name="What if")
 
     def fit() -> int:
-        page.draw()
         found = re.search(r"(\d+)% of \d+ points on walls of /map", card.inner_text())
         return int(found[1]) if found else -1
 
