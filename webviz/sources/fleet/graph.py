@@ -16,12 +16,12 @@ class FleetGraph:
     """Publishes and calls services by namespace; see `webviz.sources.Graph`.
 
     Args:
-        base: of all other names.
+        base: returns the graph of all other names, which may change.
     """
 
-    def __init__(self, base: Graph) -> None:
+    def __init__(self, base: Callable[[], Graph]) -> None:
         self._members: Sequence[FleetMember] = ()
-        self._base = base
+        self._newest_base = base
         self._advertised: Collection[Advertisement] = ()
 
     def follow(self, members: Sequence[FleetMember]) -> None:
@@ -80,6 +80,10 @@ class FleetGraph:
     def services(self) -> Mapping[str, str]:
         """Types of the services of the base; bridges are only asked for what is called."""
         return self._base.services()
+
+    @property
+    def _base(self) -> Graph:
+        return self._newest_base()
 
     def _member(self, name: str) -> FleetMember | None:
         return _member(name, self._members)

@@ -47,7 +47,8 @@ class FleetSource:
         self._refused: Sequence[Bridge] = ()
         """Robots of the config that cannot be connected."""
         self._wanted: Mapping[str, Subscription] = {}
-        self.graph = FleetGraph(ReadOnly(ALONE) if base is None else base.graph)
+        alone = ReadOnly(ALONE)
+        self.graph = FleetGraph(lambda: alone if base is None else base.graph)
         self._offers: tuple[list[Mapping[str, Offer]], Mapping[str, Offer]] = [], {}
         self.follow(robots)
 
