@@ -8,9 +8,10 @@ import io
 import socket
 import sys
 import threading
-from collections.abc import Awaitable, Callable, Iterator
+from collections.abc import Awaitable, Callable, Coroutine, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import httpx2
 import numpy as np
@@ -34,6 +35,7 @@ from webviz.shell.testing.source import HandFedSource
 
 SCAN = {"angle_max": 0.3, "angle_increment": 0.1, "range_max": 9.0, "ranges": [1.0, 2.0, 3.0, 2.0]}
 Call = Callable[..., str]
+T = TypeVar("T")
 
 
 @pytest.fixture
@@ -46,6 +48,12 @@ def tools(viewer: webviz.Viewer, journal: list[str]) -> AgentTools:
     return AgentTools(viewer, lambda who, text: journal.append(f"{who.name}: {text}"))
 
 
+def finished(work: Coroutine[Any, Any, T]) -> T:
+    """What asynchronous work returns; the browser of other tests has a loop in this thread."""
+    with ThreadPoolExecutor(1) as thread:
+        return thread.submit(asyncio.run, work).result()
+
+
 def asked(tools: AgentTools, role: Role, *calls: tuple[str, dict[str, Any]]) -> list[str]:
     """The answers to calls of one agent."""
 
@@ -55,7 +63,7 @@ def asked(tools: AgentTools, role: Role, *calls: tuple[str, dict[str, Any]]) -> 
             answers = [await client.call_tool(name, values) for name, values in calls]
             return [each.content[0].text for each in answers]  # pyright: ignore[reportAttributeAccessIssue]
 
-    return asyncio.run(work())
+    return finished(work())
 
 
 def publish(source: HandFedSource) -> None:
@@ -177,9 +185,9 @@ def test_over_http_a_token_gives_its_role_and_nothing_is_told_without(
             )
             return done.content[0].text  # pyright: ignore[reportAttributeAccessIssue]
 
-    assert "needs an operator" in asyncio.run(act(secrets["ada"]))
+    assert "needs an operator" in finished(act(secrets["ada"]))
     assert viewer.fixed_frame == "map"
-    assert asyncio.run(act(secrets["bob"])) == "Done."
+    assert finished(act(secrets["bob"])) == "Done."
     for headers in ({}, {"Authorization": "Bearer guessed"}, {"Authorization": secrets["bob"]}):
         answer = httpx2.post(url, headers=headers, json={"jsonrpc": "2.0", "id": 1, "method": "x"})
         assert (answer.status_code, "Bearer TOKEN" in answer.text) == (401, True)
@@ -216,4 +224,4 @@ def run(program: StdioServerParameters, work: Callable[[Client], Awaitable[Any]]
         async with Client(stdio_client(program)) as client:
             return await work(client)
 
-    return asyncio.run(talk())
+    return finished(talk())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import http.server
 import sys
@@ -10,11 +11,11 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import ModuleType
 
+import playwright.sync_api as playwright
 import pytest
 
 import webviz
 from webviz.shell.app.notebook import OF_NOTEBOOKS, embedders
-from webviz.shell.pictures.browser import launched
 from webviz.shell.testing.source import HandFedSource
 
 Refused = Callable[[Callable[[], object]], str]
@@ -33,17 +34,18 @@ def folder(tmp_path: Path) -> Iterator[tuple[Path, int]]:
     server.server_close()
 
 
-def test_a_page_that_may_embeds_the_viewer_and_others_do_not(folder: tuple[Path, int]) -> None:
+def test_a_page_that_may_embeds_the_viewer_and_others_do_not(
+    folder: tuple[Path, int], browser: playwright.Browser
+) -> None:
     path, port = folder
     origin = f"http://localhost:{port}"
     with (
         webviz.Viewer(port=0, source=HandFedSource(), embed_in=(origin,), token=True) as shown,
         webviz.Viewer(port=0, source=HandFedSource(), embed_in=()) as closed,
-        launched() as browser,
+        contextlib.closing(browser.new_page()) as page,
     ):
         (path / "open.html").write_text(shown._repr_html_())
         (path / "closed.html").write_text(f"<iframe src={closed.url!r}></iframe>")
-        page = browser.new_page()
         page.goto(f"{origin}/open.html")
         frame = page.wait_for_selector("iframe")
         assert frame is not None
