@@ -12,7 +12,7 @@ from webviz.api.robots import NamespacedRobot, robot_of
 from webviz.sources.bridge.address import Address, address, headers_of
 from webviz.sources.fleet.graph import FleetGraph
 from webviz.sources.fleet.member import FleetMember
-from webviz.sources.graph import ReadOnly
+from webviz.sources.graph import Graph, ReadOnly
 from webviz.sources.inbox import Inbox
 from webviz.sources.names import resolved
 from webviz.sources.source import Source, Subscription
@@ -48,7 +48,7 @@ class FleetSource:
         """Robots of the config that cannot be connected."""
         self._wanted: Mapping[str, Subscription] = {}
         alone = ReadOnly(ALONE)
-        self.graph = FleetGraph(lambda: alone if base is None else base.graph)
+        self._graph = FleetGraph(lambda: alone if base is None else base.graph)
         self._offers: tuple[list[Mapping[str, Offer]], Mapping[str, Offer]] = [], {}
         self.follow(robots)
 
@@ -69,8 +69,14 @@ class FleetSource:
         for member in known.values():
             member.leave()
         self._members, self._refused = members, refused
-        self.graph.follow(members)
+        self._graph.follow(members)
         self.want(self._wanted)
+
+    @property
+    def graph(self) -> Graph:
+        """The graph of all robots; without them, that of a base which can only be read."""
+        base = None if self._members or self._base is None else self._base.graph
+        return base if isinstance(base, ReadOnly) else self._graph
 
     @property
     def bridges(self) -> Sequence[Bridge]:
