@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
+import functools
 import signal
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -68,16 +68,17 @@ class Ended:
 
 @pytest.fixture
 def screenshot(
-    browser: playwright.Browser,
+    renderer: HeadlessRenderer,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     capfd: pytest.CaptureFixture[str],
 ) -> Iterator[Callable[..., Ended]]:
-    """Run `webviz screenshot` in this process, by the browser of all tests, in the test's folder.
+    """Run `webviz screenshot` in this process, by the tab of all pictures, in the test's folder.
 
-    To start Python and a browser takes longer than most pictures.
+    To start Python, a browser and a page takes longer than most pictures.
     """
-    monkeypatch.setattr(capture, "launched", lambda: contextlib.nullcontext(browser))
+    shared = functools.partial(capture.pictures, renderer=renderer)
+    monkeypatch.setattr(capture, "pictures", shared)
     monkeypatch.setenv("WEBVIZ_MESH_ROOT", "")  # what --mesh-root adds is taken back
     monkeypatch.chdir(tmp_path)
     handlers = {number: signal.getsignal(number) for number in SIGNALS}
