@@ -30,7 +30,7 @@ def recorded() -> Bag:
 
 
 TELLING = """
-import sys, threading
+import sys, threading, time
 
 def tell(viewer):
     def waits(frame):
@@ -38,7 +38,7 @@ def tell(viewer):
 
     def run():
         while not waits(sys._current_frames()[threading.main_thread().ident]):
-            pass
+            time.sleep(0.01)
         print(viewer.url, flush=True)
 
     threading.Thread(target=run, daemon=True).start()

@@ -94,7 +94,7 @@ def test_the_simulator_ends_when_the_viewer_is_killed(start: Callable[..., Progr
     for is_ready in (lambda program: program.url(), has_simulator):
         program = start("webviz", "demo", "--port", "0")
         while not is_ready(program):
-            time.sleep(0.01)
+            time.sleep(0.05)
         family = family_of(program)
         program.end(signal.SIGKILL)
         check_nothing_is_left(family)
