@@ -267,6 +267,26 @@ def test_refusals_are_explained(
     assert body in reader.bridge.problem
 
 
+def test_no_redirection_is_followed(liar: Callable[..., Reader], tmp_path: Path) -> None:
+    got: list[Request] = []
+
+    def steal(connection: ServerConnection, request: Request) -> None:
+        got.append(request)
+
+    def redirect(connection: ServerConnection, request: Request) -> Response:
+        response = connection.respond(http.HTTPStatus.FOUND, "")
+        response.headers["Location"] = f"{thief.bridge.name}/steal"
+        return response
+
+    thief = liar(lambda connection: None, process_request=steal)
+    first = liar(lambda connection: None, process_request=redirect)
+    file = tmp_path / "headers"
+    file.write_text("X-Token: secret\n")
+    with reading(first.bridge.name, headers=file) as reader:
+        reader.until(lambda: "answers with HTTP 302 instead" in reader.bridge.problem)
+    assert all(request.path != "/steal" for request in got)
+
+
 def test_tokens_are_sent_in_headers(liar: Callable[..., Reader], tmp_path: Path) -> None:
     got: list[str] = []
 

@@ -19,6 +19,12 @@ CLOSE_S = 1.0
 C = TypeVar("C", bound=BridgeConnection)
 
 
+class _Connect(connect):
+    def process_redirect(self, exc: Exception) -> Exception:
+        """Follow no redirection: headers with tokens are for the address that somebody gave."""
+        return exc
+
+
 @asynccontextmanager
 async def opened(address: Address, kind: type[C]) -> AsyncGenerator[C]:
     """Open a connection.
@@ -30,7 +36,7 @@ async def opened(address: Address, kind: type[C]) -> AsyncGenerator[C]:
     Raises:
         OSError, WebSocketException: it cannot be opened, or breaks.
     """
-    async with connect(
+    async with _Connect(
         address.url,
         subprotocols=OFFERED,  # pyright: ignore[reportArgumentType]
         additional_headers=address.headers,
