@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import threading
 import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, contextmanager
@@ -11,6 +12,8 @@ from typing import Any
 import pytest
 from bridges import SCAN, STRING, TF, FoxgloveServer, foxglove_server
 from processes import eventually
+from websockets.http11 import Request
+from websockets.sync.server import ServerConnection, serve
 
 from webviz.api.declared import Topic
 from webviz.api.robots import NamespacedRobot
@@ -164,3 +167,21 @@ def test_a_token_is_sent_to_the_robot_that_it_names_only() -> None:
     one = address("ws://one", environment=headers_of("fleet/r1", environment))
     two = address("ws://two", environment=headers_of("r2", environment))
     assert (one.headers, two.headers) == ([("A", "of r1")], [])
+
+
+def test_headers_go_to_the_addresses_of_the_start_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(f"{HEADERS}_R1", "X-Token: secret")
+    asked: list[tuple[str, bool]] = []
+
+    def note(connection: ServerConnection, request: Request) -> None:
+        asked.append((request.path, "X-Token" in request.headers))
+
+    server = serve(lambda connection: None, "127.0.0.1", 0, process_request=note)
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    url = f"ws://127.0.0.1:{server.socket.getsockname()[1]}"
+    with closing(FleetSource(_robots({"r1": f"{url}/known"}), None)) as source:
+        assert eventually(lambda: ("/known", True) in asked)
+        source.follow(_robots({"r1": f"{url}/other"}))
+        assert eventually(lambda: ("/other", False) in asked)
+    server.shutdown()
+    assert ("/other", True) not in asked

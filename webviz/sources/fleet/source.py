@@ -39,8 +39,11 @@ class FleetSource:
     """
 
     def __init__(self, robots: Sequence[NamespacedRobot], base: Source | None) -> None:
+        self._first = {(robot.name, robot.connection) for robot in _connected(robots)}
+        """The robots of the start with their connections: headers of the environment go only there,
+        since who opens a config later may not have written it."""
         for robot in _connected(robots):
-            _address(robot)  # before any thread is started
+            self._address(robot)  # before any thread is started
         self._base = base
         self.inbox = Inbox() if base is None else base.inbox
         self._members: Sequence[FleetMember] = ()
@@ -60,7 +63,7 @@ class FleetSource:
         for robot in _connected(robots):
             member = known.pop((robot.root, robot.connection), None)
             try:
-                member = member or FleetMember(robot, _address(robot), self.inbox, self.now_ns)
+                member = member or self._member(robot)
             except Error as error:
                 refused.append(Bridge(robot.name, problem=str(error), robot=robot.name))
                 continue
@@ -133,6 +136,15 @@ class FleetSource:
         if self._base is not None:
             self._base.close()
 
+    def _member(self, robot: NamespacedRobot) -> FleetMember:
+        return FleetMember(robot, self._address(robot), self.inbox, self.now_ns)
+
+    def _address(self, robot: NamespacedRobot) -> Address:
+        """Return the address of a robot's bridge; raises Error."""
+        is_known = (robot.name, robot.connection) in self._first
+        environment = headers_of(robot.name) if is_known else {}
+        return address(robot.connection or "", environment=environment)
+
     @property
     def _clock(self) -> Source | None:
         """The source whose simulated time counts, or any; None without robots and other topics."""
@@ -144,8 +156,3 @@ class FleetSource:
 
 def _connected(robots: Sequence[NamespacedRobot]) -> Sequence[NamespacedRobot]:
     return [robot for robot in robots if robot.connection]
-
-
-def _address(robot: NamespacedRobot) -> Address:
-    """Return the address of a robot's bridge; raises Error."""
-    return address(robot.connection or "", environment=headers_of(robot.name))
