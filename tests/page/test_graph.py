@@ -11,7 +11,7 @@ import pytest
 from tests.page.conftest import Loop, Tab
 from tests.page.test_daily_panels import open_panel
 from webviz.engine.state import Traffic
-from webviz.panels.graph import MAX_TOPICS, NodeGraph, mismatch
+from webviz.panels.graph import MAX_TOPICS, NodeGraph, mismatch, topic_of
 from webviz.sources import Endpoint, Offer, Publisher
 
 HOSTILE = "/<img src=x onerror=alert(1)>"
@@ -52,6 +52,12 @@ def test_a_mismatch_is_told_in_a_sentence() -> None:
     late = reader("/map", "best_effort", "transient_local")
     assert "asks for transient local, but /b offers volatile." in mismatch(late, [publisher("/b")])
     assert mismatch(late, []) == ""
+
+
+def test_an_end_without_a_node_is_a_program_or_behind_the_bridge() -> None:
+    behind = Publisher("", TYPE, "reliable", "volatile", is_qos_known=False)
+    found = topic_of("/scan", Offer((publisher(""), behind)), lambda name: False)
+    assert found["from"] == ["a DDS program", "the bridge"]
 
 
 def test_the_graph_is_searched_and_a_topic_says_what_does_not_arrive(loop: Loop, tab: Tab) -> None:

@@ -23,8 +23,6 @@ MAX_NAME = 256
 """Characters of a name."""
 PER_PART = 50
 """Topics that pages receive at once."""
-DDS = "a DDS program"
-"""Stands for programs without a ROS node."""
 
 
 class NodeGraph(Panel):
@@ -127,4 +125,4 @@ def _reasons(reader: Endpoint, writer: Endpoint) -> Iterator[str]:
 
 
 def _label(end: Endpoint) -> str:
-    return readable(end.node[:MAX_NAME]) or DDS
+    return readable(end.label[:MAX_NAME])
