@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
+import re
 import runpy
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import gallery
 import numpy as np
+import PIL.Image
 import pytest
 from bags import strings
 
@@ -148,6 +151,14 @@ def test_spawn_turtle_is_a_tool_that_calls_a_service_with_the_clicked_point(
 def test_every_example_is_listed() -> None:
     listed = (EXAMPLES / "README.md").read_text()
     assert all(f"[{path.name}]({path.name})" in listed for path in EXAMPLES.glob("*.py"))
+
+
+def test_examples_that_show_something_in_the_scene_have_their_pictures() -> None:
+    shown = re.findall(r"\(pictures/(\w+)\.webp\)", (EXAMPLES / "README.md").read_text())
+    assert sorted(shown) == sorted(path.stem for path in gallery.PLUGINS)
+    for name in shown:
+        with PIL.Image.open(gallery.PICTURES / f"{name}.webp") as picture:
+            assert picture.size == gallery.SHOWN, "run tests/support/gallery.py"
 
 
 @pytest.mark.parametrize(
