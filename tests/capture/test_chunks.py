@@ -72,7 +72,7 @@ def test_arrays_that_are_alike_are_compressed_side_by_side() -> None:
 
 def test_values_of_large_clouds_are_left_out_before_anything_else() -> None:
     chance = np.random.default_rng(0)
-    columns = Columns("Point", {"intensity": Column(chance.random(50_000))})
+    columns = Columns("Point {}", {"intensity": Column(chance.random(50_000))})
     key = "values:a", "group\nkey\n#columns"
     frames = [
         TapeFrame(at_s, at_s, SceneChange([], ()), {}, {key: ItemColumns(None, columns)}, {})

@@ -7,6 +7,7 @@ import pytest
 from built_in_checks import BuiltInChecks
 from display_messages import MESSAGES
 from display_scenes import scans
+from inspecting import check_columns
 
 from webviz.api.nodes import Instances, Lines, Points
 from webviz.shell.testing import check_details
@@ -378,3 +379,4 @@ def test_selecting_beam_of_a_scan(bench: Callable[..., Any]) -> None:
             "Beams in the scan": "5",
         },
     )
+    check_columns(at, "points")

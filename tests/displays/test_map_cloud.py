@@ -11,6 +11,7 @@ import photos
 import pytest
 from built_in_checks import BuiltInChecks
 from display_messages import MESSAGES
+from inspecting import check_columns
 from plain_scenes import in_moving_frame
 from rtabmap_scenes import (
     BOTH,
@@ -271,3 +272,4 @@ def test_selecting_point_of_a_map(bench: Callable[..., Any]) -> None:
         "Point of node 5",
         {"Seen": "500.000 s", "Points of the node": "3", "Intensity": "90.0"},
     )
+    check_columns(at, "points")

@@ -12,7 +12,7 @@ from display_messages import MESSAGES
 from display_scenes import clouds
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from inspecting import QUARTER
+from inspecting import QUARTER, check_columns
 
 from webviz.api.nodes import Instances, Lines, Points
 from webviz.data.messages import encode
@@ -504,6 +504,7 @@ def test_selecting_point_of_a_cloud(bench: Callable[..., Any]) -> None:
             "Position in lidar": {"fields": {"x": "7.0", "y": "8.0", "z": "0.1"}},
         },
     )
+    check_columns(at, "points")
 
 
 def test_selecting_point_of_a_thinned_cloud(bench: Callable[..., Any]) -> None:
@@ -530,3 +531,4 @@ def test_selecting_invisible_points_do_not_count(bench: Callable[..., Any]) -> N
     at.send(CLOUD, cloud(names, points), frame="lidar")
     at.turn()
     check_details(at.pick("points", 0), "Point 1", {"rgba": "r 0, g 255, b 0, a 255"})
+    check_columns(at, "points")

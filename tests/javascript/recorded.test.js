@@ -150,7 +150,7 @@ test("a cell has the place in the whole map, also if that is turned", () => {
 
 test("values of a point of a large cloud are told as in a viewer", () => {
   const columns = {
-    noun: "Point",
+    title: "Point {}",
     values: [
       ["intensity", { array: Float32Array.of(0, 0.1, 67), text: "{}" }],
       ["rgb", { array: Uint8Array.of(0, 0, 0, 1, 2, 3, 4, 5, 6), text: "r {}, g {}, b {}" }],

@@ -3,11 +3,17 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from webviz import Details, Display
+import numpy as np
 
+from webviz import Details, Display, Frames
+from webviz.api.picking import Column
+from webviz.engine.pipeline.details import details_tree
+
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 QUARTER = (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))
 POSE = {"position": {"x": 1.0, "y": 2.0}, "orientation": {"w": 1.0}}
 POSE_TOLD = {
@@ -34,3 +40,31 @@ def one_of(
     at.send(type_name, values, frame="odom")
     at.turn()
     return at.pick(key, number, point)
+
+
+def check_columns(at: Any, key: str) -> None:
+    """Check that the columns of a node have what is told of each of its items.
+
+    Args:
+        at: a bench that has drawn one message.
+        key: of the node.
+    """
+    node = at.nodes()[key]
+    sample = next(shot.samples[-1] for *_, shot in at.runner.shots() if shot.samples)
+    columns = at.runner.columns(node, sample, Frames(at.buffer, at.fixed_frame, at.now_ns))
+    ids = range(len(node.xyz)) if node.ids is None else node.ids
+    for number, id in enumerate(ids):
+        details = at.pick(key, number)
+        assert details.title == columns.title.replace("{}", str(id))
+        wanted = details_tree(details.values)["fields"]
+        found = {
+            name: value.text.format(*map(str, np.atleast_1d(value.values[number])))
+            if isinstance(value, Column)
+            else value
+            for name, value in columns.values.items()
+        }
+        wanted.pop(columns.position, None)  # which the page knows
+        assert found.keys() == wanted.keys()
+        for name, text in wanted.items():
+            assert NUMBER.sub("#", found[name]) == NUMBER.sub("#", text)
+            assert [*map(float, NUMBER.findall(found[name]))] == [*map(float, NUMBER.findall(text))]

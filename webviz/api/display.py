@@ -211,7 +211,7 @@ class Display(Declared, kw_only=True):
 
         A shared file has them for nodes with too many items to call `inspect` for each.
         """
-        return None if overrides(self, "inspect") else Columns(noun_of(node))
+        return None if overrides(self, "inspect") else Columns(f"{noun_of(node)} {{}}")
 
 
 D = TypeVar("D", bound=Display)

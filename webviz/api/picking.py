@@ -110,13 +110,13 @@ class Columns:
     """Details of all items of a node at once, where there is no display to ask.
 
     Args:
-        noun: the title of an item is this and its id.
+        title: of an item, with a pair of braces for its id.
         values: by name: columns, and texts that all items share.
         position: name of the value that an item has by its position.
         origin: that position is relative to this point, in metres.
     """
 
-    noun: str
+    title: str
     values: Mapping[str, Column | str] = field(default_factory=dict[str, Column | str])
     position: str = "Position"
     origin: tuple[float, float, float] = (0.0, 0.0, 0.0)

@@ -137,7 +137,7 @@ class LaserScan(PointsDisplay, Comparable, Sweep):
         if scan.time_increment:
             times_ms = np.round(1e3 * rows * scan.time_increment, 3)
             values["Time after the first beam"] = Column(times_ms, "{} ms")
-        return Columns("Beam", values | {"Beams in the scan": str(len(scan.ranges))})
+        return Columns("Beam {}", values | {"Beams in the scan": str(len(scan.ranges))})
 
     def _place(self, points: beams.BeamPoints, sample: Sample, ctx: Context) -> F64:
         """Return the points in the frame of the laser at the stamp."""

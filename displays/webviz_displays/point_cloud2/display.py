@@ -189,7 +189,7 @@ class CloudDisplay(PointsDisplay):
             values |= {"Row": Column(row), "Column": Column(column)}
         values["Points in the cloud"] = str(cloud.count)
         _, origin = cloud.positions()
-        return Columns("Point", values, f"Position in {sample.frame}", origin)
+        return Columns("Point {}", values, f"Position in {sample.frame}", origin)
 
     def _select(self, xyz: F32, state: _State, rests: bool) -> tuple[Rows | None, bool, str]:
         """Return the points to show.

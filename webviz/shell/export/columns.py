@@ -63,7 +63,7 @@ def encoded(each: ItemColumns, kind: str, buffers: Buffers) -> bytes:
         for name, value in columns.values.items()
     ]
     ids = None if each.ids is None else array("#ids", each.ids)
-    told = {"noun": columns.noun, "values": values, "ids": ids}
+    told = {"title": columns.title, "values": values, "ids": ids}
     place = {"position": columns.position, "origin": columns.origin}
     return msgspec.json.encode({**told, **place})
 

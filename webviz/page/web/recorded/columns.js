@@ -42,7 +42,7 @@ function shortest(value) {
  * @param {number} item
  * @param {Vec3} at its place in the node
  */
-export function columnDetails({ noun, values, ids, position, origin }, item, at) {
+export function columnDetails({ title, values, ids, position, origin }, item, at) {
   const columns = values.flatMap(([, value]) => (typeof value === "string" ? [] : [value.array]));
   if ([...columns, ...(ids ? [ids] : [])].some((array) => !array.length)) return null;
   /** @type {[string, string][]} */
@@ -55,5 +55,5 @@ export function columnDetails({ noun, values, ids, position, origin }, item, at)
   });
   const place = at.map((each, axis) => (each + origin[axis]).toFixed(4)).join(", ");
   fields.push([position, `${place} m`]);
-  return { title: `${noun} ${ids ? ids[item] : item}`, fields };
+  return { title: title.replace("{}", String(ids ? ids[item] : item)), fields };
 }

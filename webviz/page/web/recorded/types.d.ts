@@ -108,7 +108,7 @@ export type Numbers =
   | Int32Array;
 /** Details of all items of a large node; see webviz/shell/export/columns.py. */
 export interface ItemColumns {
-  noun: string;
+  title: string;
   values: [name: string, value: string | { array: Numbers; text: string }][];
   ids: Numbers | null;
   position: string;
