@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -15,6 +16,7 @@ from examining import HERE, look
 
 from webviz.api.finding import CauseLevel
 from webviz.api.rule import parse_rule
+from webviz.data.messages import encode
 from webviz.files.config import WatchRule
 from webviz.shell.cli import main
 from webviz.shell.testing.harness import Harness
@@ -22,7 +24,7 @@ from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Map
 from webviz_sim.pose import Pose2D
 
-SCAN = "sensor_msgs/msg/LaserScan"
+SCAN, NUMBER = "sensor_msgs/msg/LaserScan", "std_msgs/msg/Float64"
 
 
 @pytest.fixture
@@ -30,7 +32,7 @@ def run(tmp_path: Path) -> Path:
     """A bag whose scans stop for ten seconds."""
     bag = Bag()
     bag.add("/scan", SCAN)
-    bag.add("/charge", "std_msgs/msg/Float64")
+    bag.add("/charge", NUMBER)
     bag.transform(0.0, "base_link", "laser", static=True)
     for number in range(200):
         at_s = number / 10
@@ -159,3 +161,16 @@ def test_a_violated_rule_is_a_finding(webviz_harness: Callable[..., Harness]) ->
     assert finding.cause.endswith(", expected > 0.8.")
     look(stage, HERE)
     assert examining.examined(stage, CauseLevel.DATA) == {}
+
+
+def test_a_rule_of_a_running_viewer_reads_topics_that_no_display_shows(
+    webviz_harness: Callable[..., Harness],
+) -> None:
+    stage = webviz_harness(LaserScan(), fixed_frame="map")
+    stage.viewer.settings.watch = (WatchRule(rule="/charge.data > 0.2"),)
+    found: list[str] = []
+    for charged in (1.0, 0.1, 1.0):
+        cdr = encode(NUMBER, {"data": charged})
+        findings = stage.findings(publish=partial(stage.publish_bytes, "/charge", NUMBER, cdr))
+        found.append(" ".join(each.cause for each in findings if each.id == "DATA012"))
+    assert found == ["", "/charge.data is 0.1, expected > 0.2.", ""]
