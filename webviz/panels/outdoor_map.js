@@ -175,6 +175,7 @@ export default function install({ el, fitted, iconButton, set, setText, style, w
       const missing = wanted.filter((tile) => !tiles.has(tile.join("/")));
       const text = JSON.stringify(wanted);
       if (!address || !missing.length || text === asked) return;
+      if (canvas.closest(".wv-locked")) return; // those of others are shown
       asked = text;
       clearTimeout(timer);
       timer = setTimeout(() => send(wanted), ASK_MS);
