@@ -36,7 +36,7 @@ DRIVER = """
 import sys
 from webviz.shell.pictures.browser import Page, launched
 with launched() as browser:
-    tab = Page(browser, sys.argv[1], 600, 400).tab
+    tab = Page(browser, sys.argv[1], 600, 400, resolution=0.1).tab
     tab.keyboard.press("t")
     tab.locator(".wv-teleop").wait_for()
     tab.keyboard.down("w")
