@@ -26,7 +26,7 @@ class Block:
     line: int
     language: str
     title: str
-    """What its commands need that a test does not have; "" if tests run them."""
+    """Things that its commands need and a test does not have; "" if tests run them."""
     text: str
 
     def __str__(self) -> str:
