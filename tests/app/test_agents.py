@@ -49,7 +49,7 @@ def tools(viewer: webviz.Viewer, journal: list[str]) -> AgentTools:
 
 
 def finished(work: Coroutine[Any, Any, T]) -> T:
-    """What asynchronous work returns; the browser of other tests has a loop in this thread."""
+    """The outcome of asynchronous work; the browser of other tests has a loop in this thread."""
     with ThreadPoolExecutor(1) as thread:
         return thread.submit(asyncio.run, work).result()
 
