@@ -212,6 +212,20 @@ def test_panels_are_added_and_removed_and_their_properties_edited(loop: Loop, ta
     assert not tab.page.get_by_text("Properties", exact=True).is_visible(), "it has none"
 
 
+def test_the_list_of_commands_opens_and_adds_panels(loop: Loop, tab: Tab) -> None:
+    open_panel(loop, tab, Limited)
+    for words in ("panel topics", "panel limited"):
+        tab.page.keyboard.press("Control+k")
+        tab.page.get_by_role("combobox", name="Command").fill(words)
+        tab.page.keyboard.press("Enter")
+        opened = tab.page.get_by_role("tab", name=words.removeprefix("panel ").title())
+        tab.wait_for(lambda opened=opened: opened.get_attribute("aria-selected") == "true")
+    tab.page.keyboard.press("Control+k")
+    tab.page.get_by_role("combobox", name="Command").fill("add panel navigation")
+    tab.page.keyboard.press("Enter")
+    tab.wait_for_command(AddPanel("Nav2"))
+
+
 def test_a_button_that_fails_says_so_in_the_browser(
     loop: Loop, tab: Tab, caplog: pytest.LogCaptureFixture
 ) -> None:

@@ -17,7 +17,7 @@ import { optionList, search } from "./option_list.js";
  * @typedef {{stores: StoreName[], make(values: Values): Command[]}} Maker
  */
 
-const MAX_SHOWN = 60;
+const MAX_SHOWN = 100;
 const ORDER = ["Edit", "Displays", "Tools", "View", "File", "Time", "Help"];
 /** @type {StoreName[]} */
 const STORES = ["settings", "frames"];

@@ -8,6 +8,8 @@ import { onPanel, panels } from "../panels/panels.js";
 import { followPlugins } from "../panels/plugin.js";
 import { icon } from "../icons.js";
 import { recall, remember } from "../remember.js";
+import { provideFrom } from "./command_list.js";
+import { openPanel } from "./layout.js";
 import { openMenu, openMenuBelow } from "./menu.js";
 
 /** @import {PanelType} from "../contents.js" */
@@ -201,6 +203,22 @@ export function tabs() {
     ]);
   }
 
+  provideFrom([], () => [
+    ...[...panels, ...additional]
+      .filter(({ isOnDemand }) => !isOnDemand)
+      .map(({ name, title }) => ({
+        name: `Panel: ${title}`,
+        group: "Panels",
+        run: () => openPanel(name),
+      })),
+    ...types.map(({ type, title }) => ({
+      name: `Add panel: ${title}`,
+      icon: "plus",
+      group: "Panels",
+      needs: "AddPanel",
+      run: () => addPanel(type),
+    })),
+  ]);
   offer([]);
   onPanel(() => offer(additional));
   docks.onPlaced(() => offer(additional));
