@@ -131,12 +131,13 @@ def _marked(height: float, opacity: float, steps: U8) -> list[float]:
 
     viser's labels have no colour and no opacity. Their height reaches the shader as a float32,
     which labels.js makes use of: two bits for what is missing to full opacity, in quarters, and
-    five for each channel, which changes the height by less than 1.6 %.
+    five for each channel. The nearest height with these bits differs by 0.8 % at most.
     """
     red, green, blue = steps.astype(np.uint32).T
     missing = np.uint32(min(round(4 * (1.0 - opacity)), 3))
     (bits,) = np.array([height], np.float32).view(np.uint32)
-    marked = (bits & np.uint32(0xFFFE0000)) | missing << 15 | red << 10 | green << 5 | blue
+    mark = missing << 15 | red << 10 | green << 5 | blue
+    marked = (bits - mark + np.uint32(1 << 16)) & np.uint32(0xFFFE0000) | mark
     return marked.astype(np.uint32).view(np.float32).astype(np.float64).tolist()
 
 
