@@ -27,8 +27,7 @@ export function seeks(changed, isNow = () => false) {
     let sent = null;
     while (sent !== wanted) {
       sent = wanted;
-      const { level } = await (isNow(sent) ? returnToLive() : act("Seek", { at_s: sent }));
-      if (level === "error") break;
+      await (isNow(sent) ? returnToLive() : act("Seek", { at_s: sent }));
     }
     underway = false;
     wanted = null;
