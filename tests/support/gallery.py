@@ -29,12 +29,16 @@ EXAMPLES = ROOT / "displays/docs/examples"
 PICTURES = EXAMPLES / "pictures"
 PLUGINS = tuple(
     EXAMPLES / f"{name}.py"
-    for name in ("camera_view", "point_2d", "compass", "spawn_turtle", "keep_out")
+    for name in (
+        *("camera_view", "point_2d", "compass", "spawn_turtle", "keep_out"),
+        *("quiet_topics", "battery_dial", "speeding"),
+    )
 )
-"""Those that show something in the scene."""
+"""Those that show something on the page."""
 SIZE, SHOWN, QUALITY = (1100, 680), (468, 362), 70
 SCENE: playwright.FloatRect = {"x": 320, "y": 0, "width": 780, "height": 604}
 """Without panels and timeline."""
+PANEL: playwright.FloatRect = {"x": 0, "y": 0, "width": 468, "height": 362}
 DRIVE_S, STEP_S = 90.0, 0.05
 GROUND = 700, 460
 """Where a tool is used, in pixels of the page."""
@@ -51,6 +55,8 @@ displays:
 - {type: CameraView}
 - {type: PointDisplay, style: sphere}
 - {type: Compass}
+- {type: Odometry, keep: 1, enabled: false}
+- {type: Path}
 """
 
 
@@ -61,6 +67,8 @@ def run() -> Bag:
         "/camera/image_raw": "sensor_msgs/msg/Image",
         "/camera/camera_info": "sensor_msgs/msg/CameraInfo",
         "/point": POINT,
+        "/odom": "nav_msgs/msg/Odometry",
+        "/battery_state": "sensor_msgs/msg/BatteryState",
     }
     for topic, type_name in types.items():
         bag.add(topic, type_name)
@@ -76,6 +84,9 @@ def run() -> Bag:
         place = header("base_link", stamp)
         frame = {"header": place, "child_frame_id": "camera", "transform": mounted}
         bag.put(at_s, "/tf", {"transforms": [frame]})
+        fast = {"twist": {"linear": {"x": 1.8}}}
+        bag.put(at_s, "/odom", {"header": header("base_link", stamp), "twist": fast})
+        bag.put(at_s, "/battery_state", {"percentage": 0.62 - at_s / 1e3})
         bag.put(at_s, "/point", {"header": place, "x": 1.0, "y": 1.5})
     return bag
 
@@ -104,10 +115,10 @@ def fed(source: HandFedSource, bag: Bag) -> Iterator[None]:
         thread.join()
 
 
-def save(tab: playwright.Page, name: str) -> None:
+def save(tab: playwright.Page, name: str, clip: playwright.FloatRect = SCENE) -> None:
     """Write what the page shows."""
     tab.wait_for_timeout(1000)  # until tooltips and camera rest
-    picture = PIL.Image.open(io.BytesIO(tab.screenshot(clip=SCENE))).convert("RGB")
+    picture = PIL.Image.open(io.BytesIO(tab.screenshot(clip=clip))).convert("RGB")
     small = picture.resize(SHOWN, PIL.Image.Resampling.LANCZOS)
     small.save(PICTURES / f"{name}.webp", quality=QUALITY, method=6)
 
@@ -152,6 +163,17 @@ def take(tab: playwright.Page) -> None:
         tab.mouse.move(GROUND[0] + dx, GROUND[1] + dy)
     save(tab, "keep_out")
     tab.mouse.up()
+    tab.get_by_role("checkbox", name="Show Odometry").check()
+    for name, words, text in (
+        ("quiet_topics", "Panel: Quiet topics", "no messages"),
+        ("battery_dial", "Add panel: Battery", "warns below"),
+        ("speeding", "Doctor", "The robot drives at"),
+    ):
+        tab.keyboard.press("Control+k")
+        tab.get_by_role("combobox", name="Command").fill(words)
+        tab.keyboard.press("Enter")
+        tab.get_by_text(text).first.evaluate("(element) => element.scrollIntoView()")
+        save(tab, name, PANEL)
 
 
 if __name__ == "__main__":

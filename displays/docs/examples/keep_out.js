@@ -51,11 +51,8 @@ export default function install({
       }
       if (!corners.length) return false;
       if (event.type === "pointermove") add(event);
-      if (event.type === "pointerup" || event.type === "pointercancel") {
-        const points = corners;
-        clear();
-        if (event.type === "pointerup") done({ points });
-      }
+      if (event.type === "pointerup") done({ points: corners });
+      if (event.type === "pointerup" || event.type === "pointercancel") clear();
       return true;
     },
   }));
