@@ -19,7 +19,10 @@ channel.on("Done", (done) => {
   listeners.get(done.command)?.(done);
 });
 // Commands under way when the connection was lost are not answered any more.
-channel.onOpen(() => waiting.clear());
+channel.onOpen(() => {
+  for (const answer of waiting.values()) answer({ level: "error", text: "" });
+  waiting.clear();
+});
 
 /**
  * Sends a command with its fields. Resolves with `{level, text}` and what it made, such as `display`:
