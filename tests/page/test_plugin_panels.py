@@ -134,8 +134,9 @@ def open_panel(loop: Loop, tab: Tab, type_: type[Panel]) -> None:
 
 
 def test_a_panel_of_a_plug_in_has_a_tab_behind_those_of_webviz(loop: Loop, tab: Tab) -> None:
-    before = tabs(tab)
     loop.show(frames=("map", HOSTILE))
+    tab.wait_for(lambda: tabs(tab)[-1:] == ["Tools"])  # none of the test before
+    before = tabs(tab)
     open_panel(loop, tab, Frames)
     assert tabs(tab) == [*before, "Frames"]
     tab.wait_for(lambda: HOSTILE in tab.text())
