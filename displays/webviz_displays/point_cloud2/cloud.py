@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -145,13 +146,8 @@ class Cloud:
         """
         row, column = divmod(index, self._message.width)
         start = row * self._row_step + column * self._message.point_step
-        found: dict[str, object] = {}
-        for field in self._message.fields:
-            try:
-                offset, dtype = self._place(field.name)
-            except CloudError as error:
-                found[field.name] = str(error)
-                continue
+        found: dict[str, Any] = {}
+        for field, offset, dtype in self._places(found):
             values = np.ndarray(max(field.count, 1), dtype, self._message.data, start + offset)
             if field.name in ("rgb", "rgba") and dtype.itemsize == 4:
                 alpha, *channels = int(values.view(dtype.byteorder + "u4")[0]).to_bytes(4, "big")
@@ -164,24 +160,27 @@ class Cloud:
 
     def columns(self, rows: NDArray[np.intp]) -> dict[str, Column | str]:
         """All fields of some points by name, as `point` has them."""
-        found: dict[str, Column | str] = {}
-        for field in self._message.fields:
-            try:
-                offset, dtype = self._place(field.name)
-            except CloudError as error:
-                found[field.name] = str(error)
-                continue
+        found: dict[str, Any] = {}
+        for field, offset, dtype in self._places(found):
             if field.name in ("rgb", "rgba") and dtype.itemsize == 4:
+                letters = field.name
                 bgra = self.quads(field.name)[rows].astype("<u4")[:, None].view(np.uint8)
-                names = field.name
-                channels = np.ascontiguousarray(bgra[:, [2, 1, 0, 3][: len(names)]])
-                found[field.name] = Column(channels, ", ".join(f"{name} {{}}" for name in names))
+                channels = np.ascontiguousarray(bgra[:, [2, 1, 0, 3][: len(letters)]])
+                found[field.name] = Column(channels, ", ".join(f"{each} {{}}" for each in letters))
             else:
                 size = max(field.count, 1)
                 whole = np.dtype([("values", dtype, (size,))])
                 values = self._view(whole, offset)[rows]["values"]
                 found[field.name] = Column(values, ", ".join(["{}"] * size))
         return found
+
+    def _places(self, problems: dict[str, Any]) -> Iterator[tuple[Any, int, np.dtype[Any]]]:
+        """Yield the fields that can be read, with offset and type; note why others cannot."""
+        for field in self._message.fields:
+            try:
+                yield field, *self._place(field.name)
+            except CloudError as error:
+                problems[field.name] = str(error)
 
     def _place(self, name: str) -> tuple[int, np.dtype[Any]]:
         """Offset and type of a field."""
