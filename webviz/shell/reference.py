@@ -9,8 +9,8 @@ import typing
 from collections.abc import Callable, Iterator
 
 import msgspec
-from cyclopts import App
-from cyclopts.argument import ArgumentCollection
+from cyclopts import App, Group
+from cyclopts.argument import Argument, ArgumentCollection
 
 from webviz.files.config.schema import schema
 from webviz.files.rviz.docs import table
@@ -70,7 +70,7 @@ def _commands(app: App, words: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...
 
 
 def _options(arguments: ArgumentCollection, known: set[str]) -> Iterator[tuple[str, str, str]]:
-    for each in arguments:
+    for each in sorted(arguments, key=_place):
         # Assembled apart from the program, subcommands lack its rule against negative names.
         names = [each.names[0], *(name for name in each.names if name[:2] != "--")]
         shown = ", ".join(f"`{name}`" for name in dict.fromkeys(names))
@@ -80,6 +80,12 @@ def _options(arguments: ArgumentCollection, known: set[str]) -> Iterator[tuple[s
             is_given = isinstance(value, int | float | str) and not isinstance(value, bool)
             default = f"`{value}`" if has_default and is_given else ""
             yield shown, default, " ".join((each.parameter.help or "").split()).replace("|", "\\|")
+
+
+def _place(argument: Argument) -> int:
+    """Return the place of the group of an option, as in --help."""
+    groups = typing.cast(tuple[Group, ...], argument.parameter.group or ())  # once it is assembled
+    return min((group.sort_key or 0 for group in groups), default=0)
 
 
 def _shares(arguments: ArgumentCollection) -> bool:

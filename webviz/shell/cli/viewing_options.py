@@ -21,19 +21,13 @@ BAG = Parameter(group=Group("A bag instead of live topics", sort_key=2))
 
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
-class _PlayedOptions:
-    """The bag to play."""
+class BagOptions(GhostOptions):
+    """The bag to play, and a second one."""
 
     bag: Annotated[Repeatable[Path], BAG, Parameter(metavar="FILE", consume_multiple=1)] = ()
     """Play an MCAP or db3 file, a rosbag2 folder or ROS 1 bag; several are merged (repeatable)."""
     paused: Annotated[Flag, BAG] = False
     """Stay at the start of the bag, instead of playing once a browser connects."""
-
-
-@Parameter(name="*")
-@dataclass(frozen=True, kw_only=True)
-class BagOptions(GhostOptions, _PlayedOptions):
-    """The bag to play, and a second one."""
 
 
 def _check_memory(type_: object, text: str) -> None:
