@@ -68,7 +68,6 @@ def _make(bag: Path, options: ExportOptions) -> int:
     import sys
 
     from webviz.engine.pipeline import plugins
-    from webviz.shell.app.ghost_config import with_ghost
     from webviz.shell.export.export import export as write
     from webviz.shell.export.order import ExportOrder
 
@@ -76,11 +75,7 @@ def _make(bag: Path, options: ExportOptions) -> int:
     for path in options.plugin:
         plugins.load(path)
     with contextlib.closing(options.beside(bag)) as source:
-        config = options.read(options.display_config, source)
-        if options.fixed_frame:
-            config.set_fixed_frame(options.fixed_frame)
-        if source.ghost:
-            config = with_ghost(config, source)
+        config = options.config_of(source)
         shown = options.display_config
         order = ExportOrder(
             config,

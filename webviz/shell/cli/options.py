@@ -75,6 +75,22 @@ class ConfigOptions:
             report_unsupported(path, config.report)
         return override(config, self.set)
 
+    def config_of(self, source: "Source | None") -> "Config":
+        """Return the config to show of a source: in the given frame, with the second run of a bag.
+
+        Raises:
+            Error: see `read`.
+        """
+        from webviz.shell.app.ghost_config import with_ghost
+        from webviz.sources.bag.source import BagSource
+
+        config = self.read(self.display_config, source)
+        if self.fixed_frame:
+            config.set_fixed_frame(self.fixed_frame)
+        return (
+            with_ghost(config, source) if isinstance(source, BagSource) and source.ghost else config
+        )
+
     def allow_meshes(self) -> None:
         """Add the mesh roots to the environment variable.
 

@@ -97,20 +97,14 @@ def report(
 
     def work(stop: Stop) -> int:
         from webviz.engine.pipeline import plugins
-        from webviz.shell.app.ghost_config import with_ghost
         from webviz.shell.report.making import make_report
         from webviz.shell.report.scenes import reported_scene
-        from webviz.sources.bag.source import BagSource
 
         for path in options.plugin:
             plugins.load(path)
         options.allow_meshes()
         with contextlib.closing(_source(options, connect, ros)) as source:
-            config = options.read(options.display_config, source)
-            if options.fixed_frame:
-                config.set_fixed_frame(options.fixed_frame)
-            if isinstance(source, BagSource) and source.ghost:
-                config = with_ghost(config, source)
+            config = options.config_of(source)
             wants_picture = not (options.list or options.no_picture)
             with reported_scene(config, wants_picture) as (scene, problem):
                 if problem:

@@ -103,13 +103,7 @@ def _config(options: ScreenshotOptions, source: Source | None = None) -> Config:
     """Return the config to show; without one that of the topics of a bag."""
     from webviz.shell.pictures.capture import image_alone
 
-    if options.image:
-        config = image_alone(options.image)
-    else:
-        config = options.read(options.display_config, source)
-    if options.fixed_frame:
-        config.set_fixed_frame(options.fixed_frame)
-    return config
+    return image_alone(options.image) if options.image else options.config_of(source)
 
 
 def _times(options: ScreenshotOptions, source: BagSource) -> Sequence[At]:
