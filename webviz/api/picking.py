@@ -122,11 +122,15 @@ class Columns:
     origin: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
+def count_of(node: Node) -> int:
+    """Return the number of items of a node whose items are selected one by one."""
+    return len(getattr(node, fields(node)[0].name))
+
+
 def rows_of(node: Node) -> NDArray[np.intp]:
     """Return the ids of the items of a node, int (N,), which are their rows in the message."""
     ids = getattr(node, "ids", None)
-    items = getattr(node, fields(node)[0].name)
-    return np.arange(len(items)) if ids is None else ids
+    return np.arange(count_of(node)) if ids is None else ids
 
 
 def noun_of(node: Node) -> str:

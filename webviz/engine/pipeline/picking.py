@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from webviz.api.context import Group, Placement
 from webviz.api.frames import Frames, compose
 from webviz.api.nodes import Arrows, Axes, Instances, Labels, Lines, Mesh, Models, Points, Pose
-from webviz.api.picking import Hit
+from webviz.api.picking import Hit, count_of
 from webviz.api.sample import Sample
 from webviz.data.rotations import matrices
 from webviz.data.transforms.geometry import REACH_M
@@ -104,7 +104,7 @@ def found_in(shot: Shot, group_key: str, key: str, picks: Sequence[Pick]) -> dic
     if not isinstance(node, Items):
         return {pick[0]: found(None, pick[2]) for pick in picks}
     rows = drawn_rows(node)
-    count = _count(node) if rows is None else len(rows)
+    count = count_of(node) if rows is None else len(rows)
     picks = [pick for pick in picks if pick[1] is not None and 0 <= pick[1] < count]
     if not picks:
         return {}
@@ -138,23 +138,19 @@ def every_item(shot: Shot, group_key: str, key: str, limit: int) -> Sequence[Fou
 
     if isinstance(node, Mesh) and node.ids is None:
         return [found(None, (0.0, 0.0, 0.0))]
-    if not isinstance(node, Items) or _count(node) > limit:
+    if not isinstance(node, Items) or count_of(node) > limit:
         return []
     rows = drawn_rows(node)
-    rows = np.arange(_count(node)) if rows is None else rows
+    rows = np.arange(count_of(node)) if rows is None else rows
     points = _positions(_only(node, rows)).astype(np.float64).tolist()
     return [found(*each) for each in zip(_ids(node, rows), points, strict=True)]
-
-
-def _count(node: Items) -> int:
-    return len(getattr(node, fields(node)[0].name))
 
 
 def _ids(node: Items, rows: NDArray[np.intp]) -> list[Any]:
     if node.ids is None:
         return rows.tolist()
-    if len(node.ids) != _count(node):
-        raise ValueError(f"a node has {_count(node)} items, but {len(node.ids)} ids")
+    if len(node.ids) != count_of(node):
+        raise ValueError(f"a node has {count_of(node)} items, but {len(node.ids)} ids")
     return node.ids[rows].tolist()
 
 
@@ -171,7 +167,7 @@ def drawn_rows(node: Items) -> NDArray[np.intp] | None:
 
 def _only(node: N, rows: NDArray[np.intp]) -> N:
     """Return some of the items."""
-    count = _count(node)
+    count = count_of(node)
     values = {f.name: getattr(node, f.name) for f in fields(node)}
     arrays = {name: v for name, v in values.items() if isinstance(v, np.ndarray)}
     chosen = {name: v[rows] for name, v in arrays.items() if len(v) == count and name != "ids"}
