@@ -1,4 +1,4 @@
-"""Servers that break the Foxglove protocol."""
+"""Servers of bridges: the real one of Foxglove, and others that break the protocols."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
-from bridges import Reader, reading
+from bridges import FoxgloveServer, Reader, foxglove_server, reading
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.server import ServerConnection, serve
 
@@ -17,15 +17,23 @@ SDK = "foxglove.sdk.v1"
 Script = Callable[[ServerConnection], None]
 
 
+@pytest.fixture(scope="module")
+def server() -> Iterator[FoxgloveServer]:
+    """The real server of foxglove-sdk."""
+    with foxglove_server() as server:
+        yield server
+
+
 @pytest.fixture
 def liar() -> Iterator[Callable[..., Reader]]:
-    """Run a script for each connection, and read from it; a second fresh line proves it lives."""
+    """Run a script for each connection, and read from it; without a protocol as rosbridge does."""
     opened: list[Any] = []
 
     def liar(script: Script, protocol: str = SDK, **options: Any) -> Reader:
         def talk(connection: ServerConnection) -> None:
             try:
-                connection.send(json.dumps(INFO))
+                if protocol:
+                    connection.send(json.dumps(INFO))
                 script(connection)
                 for _ in connection:
                     pass

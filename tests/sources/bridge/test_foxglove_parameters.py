@@ -8,7 +8,7 @@ from concurrent.futures import Future
 from typing import Any
 
 import pytest
-from bridges import FoxgloveServer, Reader, foxglove_server, reading
+from bridges import FoxgloveServer, Reader, reading
 from websockets.sync.server import ServerConnection
 
 from webviz.data.messages import decode, encode, interfaces
@@ -18,12 +18,6 @@ from webviz.panels.parameters import Parameters
 from webviz.sources import NotConnected
 from webviz.sources.bridge import foxglove_parameters
 from webviz.sources.bridge.foxglove_parameters import SERVER
-
-
-@pytest.fixture(scope="module")
-def server() -> Iterator[FoxgloveServer]:
-    with foxglove_server() as server:
-        yield server
 
 
 @pytest.fixture

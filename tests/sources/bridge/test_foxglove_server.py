@@ -24,12 +24,6 @@ SET_MODE = "my_robot_msgs/srv/SetMode"
 CMD_VEL = Advertisement("/cmd_vel", "geometry_msgs/msg/Twist")
 
 
-@pytest.fixture(scope="module")
-def server() -> Iterator[FoxgloveServer]:
-    with foxglove_server() as server:
-        yield server
-
-
 @pytest.fixture
 def reader(server: FoxgloveServer) -> Iterator[Reader]:
     with reading(server.url) as reader:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import struct
-import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -24,8 +24,7 @@ from rosbridge_recording import (
     do_all,
     read,
 )
-from websockets.exceptions import ConnectionClosed
-from websockets.sync.server import ServerConnection, serve
+from websockets.sync.server import ServerConnection
 
 from webviz.data.messages import EncodeError, decode, encode, interfaces
 from webviz.sources.bridge import json_frames, rosapi, rosbridge, rosbridge_wire
@@ -176,33 +175,11 @@ def test_values_that_do_not_fit_are_refused(values: dict[str, Any]) -> None:
 
 # A server that lies
 
-Script = Callable[[ServerConnection], None]
-
 
 @pytest.fixture
-def liar() -> Iterator[Callable[[Script], Reader]]:
+def liar(liar: Callable[..., Reader]) -> Callable[[Callable[[ServerConnection], None]], Reader]:
     """Run a script for each connection, and read from it."""
-    opened: list[Any] = []
-
-    def liar(script: Script) -> Reader:
-        def talk(connection: ServerConnection) -> None:
-            try:
-                script(connection)
-                for _ in connection:
-                    pass
-            except ConnectionClosed:
-                return
-
-        server = serve(talk, "127.0.0.1", 0, compression=None, max_size=None)
-        threading.Thread(target=server.serve_forever, daemon=True).start()
-        reader = reading(f"ws://127.0.0.1:{server.socket.getsockname()[1]}")
-        opened.append((reader, server))
-        return reader.__enter__()
-
-    yield liar
-    for reader, server in opened:
-        reader.__exit__(None, None, None)
-        server.shutdown()
+    return functools.partial(liar, protocol="")
 
 
 def _serve(
