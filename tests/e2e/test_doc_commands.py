@@ -43,7 +43,7 @@ COMMANDS = {
     for words in block.commands()
     if not block.title and words[0] not in ("make", "export")
 }
-"""Where each command is found first."""
+"""The first place of each command, by its words."""
 EXAMINE = {"doctor", "frames", "test"}
 """Their exit status is 3 if there is a fault, such as that of a graph with a second viewer."""
 END = {*EXAMINE, "export", "screenshot", "record"}

@@ -148,7 +148,7 @@ test("a cell has the place in the whole map, also if that is turned", () => {
   });
 });
 
-test("values of a point of a large cloud are told as in a viewer", () => {
+test("a point of a large cloud has the values that a viewer shows", () => {
   const columns = {
     title: "Point {}",
     values: [

@@ -21,7 +21,7 @@ TURN = """async () => {
   const { controls } = await import("/webviz/viser_page.js");
   return Math.sin(controls().azimuthAngle);
 }"""
-"""Where the camera is, though the picture may not show it yet: 1 for -Y."""
+"""The direction of the camera, which the picture may not show yet: 1 from -Y."""
 AXES = "async () => (await import('/webviz/scene/view.js')).axes()"
 CENTER = (700, 400)
 

@@ -41,7 +41,7 @@ SCENE: playwright.FloatRect = {"x": 320, "y": 0, "width": 780, "height": 604}
 PANEL: playwright.FloatRect = {"x": 0, "y": 0, "width": 468, "height": 362}
 DRIVE_S, STEP_S = 90.0, 0.05
 GROUND = 700, 460
-"""Where a tool is used, in pixels of the page."""
+"""The point at which a tool is used, in pixels of the page."""
 OUTLINE = [(90 * math.sin(i / 3), 45 * (1 - math.cos(i / 3))) for i in range(17)]
 POINT = "rviz_plugin_tutorial_msgs/msg/Point2D"
 CONFIG = """\

@@ -43,7 +43,7 @@ def one_of(
 
 
 def check_columns(at: Any, key: str) -> None:
-    """Check that the columns of a node have what is told of each of its items.
+    """Check that the columns of a node have what `inspect` returns for each of its items.
 
     Args:
         at: a bench that has drawn one message.

@@ -348,10 +348,10 @@ class FoxgloveSession:
 
     def _readers(self, topic: str, type: str) -> tuple[Endpoint, ...] | None:
         names = self._graph.subscribers(topic)
+        if names is None:
+            return None
         make = functools.partial(Endpoint, is_qos_known=False)
-        return (
-            None if names is None else tuple(make(n, type, "reliable", "volatile") for n in names)
-        )
+        return tuple(make(name, type, "reliable", "volatile") for name in names)
 
     # Output
 

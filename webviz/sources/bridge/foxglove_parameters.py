@@ -28,7 +28,7 @@ SERVICES = frozenset(("list_parameters", "describe_parameters", "get_parameters"
 MAX_PARAMETERS = 10_000
 """Names that are remembered, of all nodes."""
 CHANGE_S = 0.5
-"""In which changes are told as one, since each makes readers ask for all values."""
+"""Changes within this time are reported together: each report makes readers ask for all values."""
 MAX_PENDING = 100
 """Requests whose answers are outstanding."""
 DOUBLE, STRING, DOUBLES = 3, 4, 8

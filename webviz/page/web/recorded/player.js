@@ -1,8 +1,8 @@
 // Shows a recorded run at a time, to viser's page and to whoever watches stores and pictures.
 
 import { bufferOf, chunks, revived } from "./chunks.js";
-import { frameAt, lastUpTo, shownAt } from "./moments.js";
 import { COLUMNS } from "./columns.js";
+import { frameAt, lastUpTo, shownAt } from "./moments.js";
 import { changesBetween } from "./scene_changes.js";
 import { switches } from "./switches.js";
 

@@ -3,9 +3,9 @@
 // viser draws black letters on white boxes, from distance fields. Here the boxes are hidden, and the
 // letters have a colour and an outline that the same fields give, dark around light letters and light
 // around dark ones: legible on any ground, and covering no more of the scene than they need. The
-// colour and opacity are in the last bits of the height, see scene/labels.py. The render orders are those of viser's
-// renderOrders.ts; shaders and uniforms, LabelRenderer.tsx's. One code of a colour stands for that of
-// the theme.
+// colour and opacity are in the last bits of the height, see scene/labels.py. The render orders are
+// those of viser's renderOrders.ts; shaders and uniforms, LabelRenderer.tsx's. One code of a colour
+// stands for that of the theme.
 
 import constants from "../constants.js";
 import { scheme } from "./scheme.js";
