@@ -1,7 +1,8 @@
-"""Counts, lists, problems and joins of sentences."""
+"""Counts, lists, problems and joins of sentences, and numbers that somebody entered."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -22,6 +23,15 @@ class Problem(NamedTuple):
 def counted(number: int, noun: str) -> str:
     """Return a count with its noun, such as "2 links"."""
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
+def number_in(text: str) -> float | None:
+    """Return the finite number that a text is, None if it is something else."""
+    try:
+        number = float(text)
+    except ValueError:
+        return None
+    return number if math.isfinite(number) else None
 
 
 def spaced(count: int) -> str:

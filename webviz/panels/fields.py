@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 from webviz.api.errors import Error
+from webviz.data.words import number_in
 
 
 def keep(value: Any, browser: int | None) -> None:
@@ -22,10 +22,7 @@ def finite(text: str, remedy: str) -> float:
     Raises:
         Error: it is not one.
     """
-    try:
-        number = float(text)
-    except ValueError:
-        number = math.nan
-    if not math.isfinite(number):
+    number = number_in(text)
+    if number is None:
         raise Error(f"`{text[:20]}` is not a number. {remedy}")
     return number

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+from webviz.data.words import number_in
 
 UNITS = {"kB": 10**3, "MB": 10**6, "GB": 10**9, "TB": 10**12}
 DURATIONS = {"min": 60.0, "s": 1.0}
@@ -40,8 +40,4 @@ def memory_of(text: str) -> dict[str, float]:
 
 def _number(text: str, unit: str) -> float | None:
     """Return a finite number before a unit, None if it is something else."""
-    try:
-        number = float(text.removesuffix(unit)) if text.endswith(unit) else math.nan
-    except ValueError:
-        return None
-    return number if math.isfinite(number) else None
+    return number_in(text.removesuffix(unit)) if text.endswith(unit) else None

@@ -1,12 +1,13 @@
 """The options for a second run beside a bag."""
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Group, Parameter
+
+from webviz.data.words import number_in
 
 if TYPE_CHECKING:
     from webviz.sources.bag.ghost import Align
@@ -23,11 +24,8 @@ def align_of(text: str) -> "Align | float":
     """
     if text in ("start", "stamp", "path"):
         return text
-    try:
-        seconds = float(text)
-    except ValueError:
-        seconds = math.nan
-    if not math.isfinite(seconds):
+    seconds = number_in(text)
+    if seconds is None:
         raise ValueError(f"{text} is not start, stamp, path or seconds.")
     return seconds
 

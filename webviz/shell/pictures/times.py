@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import Protocol
 
 from webviz.api.errors import Error
+from webviz.data.words import number_in
 
 At = float | str
 """Seconds from the start of a bag, a Unix time (above 1e9), "start" or "end"."""
@@ -40,11 +41,8 @@ def read_at(text: str) -> At:
     """
     if text in ("start", "end"):
         return text
-    try:
-        seconds = float(text)
-    except ValueError:
-        seconds = math.nan
-    if not math.isfinite(seconds):
+    seconds = number_in(text)
+    if seconds is None:
         raise TimeError(f"{text!r} is not a valid time. Give seconds, `start` or `end`.")
     return seconds
 
