@@ -15,6 +15,7 @@ import * as firstRun from "./first_run.js";
 import * as header from "./header.js";
 import * as history from "./history.js";
 import * as layout from "./layout.js";
+import { keepTextStill } from "./text_drag.js";
 import * as timeBar from "./time_bar.js";
 import { banner } from "../timeline/rewound.js";
 import { whatIf } from "../tools/what_if.js";
@@ -63,6 +64,7 @@ function build() {
   viser.reveal();
   tooltips.install(page);
   drop.install(page);
+  keepTextStill();
   firstRun.install(scene);
   layout.install();
 }
