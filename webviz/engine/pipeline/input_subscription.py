@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections import deque
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
@@ -160,7 +161,8 @@ class InputSubscription:
             last = topic_statistics.last
             if is_latched and last and raw.cdr == last.cdr:
                 continue  # delivered again, by a second publisher or a new subscription
-            topic_statistics.note(raw, clock, is_latched)
+            waited_s = _waited_s(raw, frames.now_ns, offer is not None and offer.is_recorded)
+            topic_statistics.note(raw, clock - waited_s, is_latched)
             message, lasts_ns = None, 0
             try:
                 header = peek_header(self.type, raw.cdr)
@@ -318,3 +320,11 @@ def input_subscriptions_of(
             problem = str(error)
         result[name] = InputSubscription(name, spec, topic, full, problem)
     return result
+
+
+def _waited_s(raw: Raw, now_ns: int, is_recorded: bool) -> float:
+    """Return how long ago a message arrived, such as before a pause.
+
+    That of a recording is due at its time, whenever it is read.
+    """
+    return (now_ns - raw.received_ns) / 1e9 if is_recorded else time.monotonic() - raw.arrived_s

@@ -5,7 +5,6 @@ from __future__ import annotations
 import difflib
 import functools
 import itertools
-import time
 from collections import deque
 from collections.abc import Mapping, Sequence
 
@@ -50,15 +49,20 @@ class TopicStatistics:
         self._times: deque[float] = deque(maxlen=50)
         self._others: tuple[Mapping[str, Offer], str] = {}, ""
 
-    def note(self, raw: Raw, clock: float, is_latched: bool) -> None:
-        """Count a message, which may have waited since it arrived, such as while paused.
+    def note(self, raw: Raw, arrived_s: float, is_latched: bool) -> None:
+        """Count a message.
 
         The bytes of a latched one are kept, to notice when it is delivered again.
+
+        Args:
+            raw: the message.
+            arrived_s: its arrival by the clock that `status` is asked with.
+            is_latched: whether the publisher repeats its last message.
         """
         self.last = raw if is_latched else Raw(b"", raw.received_ns, raw.arrived_s)
         self.count += 1
         self.size = len(raw.cdr)
-        self._times.append(clock - (time.monotonic() - raw.arrived_s))
+        self._times.append(arrived_s)
 
     def reset(self) -> None:
         """Forget all messages, such as after a jump of time."""
