@@ -2,15 +2,16 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import {
+  byAxis,
   csv,
   curvesOf,
   extent,
   pairs,
-  statistics,
-  valueAt,
   visit,
 } from "../../webviz/page/web/charts/curves.js";
+import { statistics, sumsText, valueAt, valueText } from "../../webviz/page/web/charts/readings.js";
 import { changed, numberText, roomy, share, ticks } from "../../webviz/page/web/charts/scale.js";
+import { boxBetween, boxed, panned, scaled, shareOf } from "../../webviz/page/web/charts/zoom.js";
 
 const LARGEST = Number.MAX_VALUE;
 const piece = (times, values) => ({ times, values });
@@ -144,4 +145,52 @@ test("CSV quotes names and leaves gaps out", () => {
   const curves = [{ name: 'a "b",ü', pieces: [piece([1, 2, 3], [1e308, NaN, Infinity])] }];
   assert.equal(csv(curves), 'curve,time (s),value\n"a ""b"",ü",1.000000,1e+308\n');
   assert.equal(csv([]), "curve,time (s),value\n");
+});
+
+test("curves stand at their axes, apart from the one in place of time", () => {
+  const curves = [2, 0, 1, 0, 2].map((axis, key) => ({ key, axis }));
+  const keys = ({ across, left, rights }) =>
+    [across?.key, left, ...rights].map((each) => (each?.map ? each.map(({ key }) => key) : each));
+  assert.deepEqual(keys(byAxis(curves, -1)), [undefined, [1, 3], [2], [0, 4]]);
+  assert.deepEqual(keys(byAxis(curves, 2)), [2, [1, 3], [0, 4]]);
+  assert.deepEqual(keys(byAxis([], 0)), [undefined, []]);
+});
+
+test("a legend reads values with their units, and says where there are none", () => {
+  const curve = { ...TWO, unit: "m/s" };
+  assert.equal(valueText(curve, 1.5), "6 m/s");
+  assert.equal(valueText(curve, Infinity), "no value");
+  assert.equal(valueText(curve, -1), "");
+  assert.equal(sumsText(curve, [0, 2]), "min 5, max 7, mean 6 m/s, 3 values");
+  assert.equal(sumsText(curve, [8, 9]), "No values in this span.");
+});
+
+const SHOWN = { times: [0, 10], values: [-1, 1] };
+const AREA = { left: 50, top: 10, width: 200, height: 100 };
+
+test("the wheel zooms times or values, and values that were zoomed stay so", () => {
+  const change = { around: 0, by: 0.5 };
+  assert.deepEqual(scaled(SHOWN, null, change, false), { times: [0, 5], values: null });
+  assert.deepEqual(scaled(SHOWN, SHOWN, change, false), { times: [0, 5], values: [-1, 1] });
+  assert.deepEqual(scaled(SHOWN, null, change, true), { times: [0, 10], values: [-1, 0] });
+});
+
+test("a zoom to hardly any time, or to far too much, is none", () => {
+  const short = { ...SHOWN, times: [5, 5 + 1.5e-6] };
+  assert.equal(scaled(short, null, { by: 0.5 }, false), null);
+  assert.equal(scaled({ ...SHOWN, times: [0, 9e5] }, null, { by: 1.2 }, false), null);
+  assert.equal(scaled({ ...SHOWN, times: [NaN, NaN] }, null, {}, false), null);
+});
+
+test("a drag moves times, and values if it goes up", () => {
+  assert.deepEqual(panned(SHOWN, [0.1, 0.5], false), { times: [-1, 9], values: null });
+  assert.deepEqual(panned(SHOWN, [0.1, 0.5], true), { times: [-1, 9], values: [-2, 0] });
+});
+
+test("a box is zoomed to in whatever direction it was drawn, unless it is a line", () => {
+  assert.deepEqual(boxed(SHOWN, [0.75, 0], [0.25, 0.5]), { times: [2.5, 7.5], values: [-1, 0] });
+  assert.equal(boxed(SHOWN, [0.2, 0.5], [0.8, 0.504]), null);
+  assert.deepEqual(shareOf([100, 35], AREA), [0.25, 0.75]);
+  const pixels = { left: 100, top: 60, width: 100, height: 50 };
+  assert.deepEqual(boxBetween([0.75, 0], [0.25, 0.5], AREA), pixels);
 });

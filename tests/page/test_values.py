@@ -125,7 +125,7 @@ def drag(tab: Any, start: tuple[float, float], end: tuple[float, float]) -> None
     tab.page.mouse.up()
 
 
-def test_curves_are_drawn_with_a_legend_and_gaps(plot: Any) -> None:
+def test_curves_are_drawn_with_gaps_and_a_legend_that_has_statistics(plot: Any) -> None:
     plot.wait_for(lambda: hue(plot, 0.95) == [0, 1])
     assert hue(plot, 0.71) == [0], "the second curve has a gap"
     assert hue(plot, 0.3) == [], "of the window of 30 s, the first 10 s are empty"
@@ -134,6 +134,12 @@ def test_curves_are_drawn_with_a_legend_and_gaps(plot: Any) -> None:
     plot.wait_for(lambda: legend(plot) != NEWEST)
     plot.page.mouse.move(0, 0)
     plot.wait_for(lambda: legend(plot) == NEWEST)
+    sums = plot.page.locator(".wv-chart-sums").last
+    assert sums.inner_text() == ""
+    plot.button("Statistics of the visible values").click()
+    plot.wait_for(lambda: sums.inner_text().startswith("min 0, max 0.999, mean 0.4"))
+    plot.button("Statistics of the visible values").click()
+    plot.wait_for(lambda: sums.inner_text() == "")
 
 
 def test_a_page_zooms_pans_and_resets_for_itself(plot: Any) -> None:
@@ -185,13 +191,3 @@ def test_a_field_is_plotted_from_its_row_and_removed_in_the_legend(
     plot.wait_for(lambda: SetPanelProperty("plot", "curves", curves) in plot.loop.commands)
     plot.button(f"Remove {CURVES[0]}").click()
     plot.wait_for(lambda: SetPanelProperty("plot", "curves", CURVES[1:]) in plot.loop.commands)
-
-
-def test_the_statistics_of_a_plot_are_of_what_is_in_sight(plot: Any) -> None:
-    sums = plot.page.locator(".wv-chart-sums").last
-    assert sums.inner_text() == ""
-    button = plot.button("Statistics of the visible values")
-    button.click()
-    plot.wait_for(lambda: sums.inner_text().startswith("min 0, max 0.999, mean 0.4"))
-    button.click()
-    plot.wait_for(lambda: sums.inner_text() == "")

@@ -23,6 +23,22 @@ export function curvesOf(facts, values, id, known) {
   });
 }
 
+/**
+ * Curves by their axis: at the left, at the right, and the one in place of time, null for none.
+ *
+ * @param {Curve[]} curves
+ * @param {number} key of the one in place of time
+ */
+export function byAxis(curves, key) {
+  const across = curves.find((curve) => curve.key === key) ?? null;
+  const others = curves.filter((curve) => curve !== across);
+  const axes = [...new Set(others.map(({ axis }) => axis))].toSorted((a, b) => a - b);
+  const [left, ...rights] = [0, ...axes.filter((axis) => axis > 0)].map((axis) =>
+    others.filter((curve) => curve.axis === axis),
+  );
+  return { across, left, rights };
+}
+
 // A piece that has not changed is the same object in the store.
 /**
  * @param {{start: number, times: number[], values: (number | null)[]}} part
@@ -142,44 +158,6 @@ function boundsOf(piece) {
     bounds.set(piece, known);
   }
   return known;
-}
-
-/**
- * The finite values of a curve in a range of time: their number, lowest, highest and mean.
- *
- * @param {Curve} curve
- * @param {Range} range
- */
-export function statistics(curve, range) {
-  let [count, low, high, mean] = [0, Infinity, -Infinity, 0];
-  visit(curve, range, (time, value) => {
-    if (!Number.isFinite(value) || time < range[0] || time > range[1]) return;
-    count += 1;
-    low = Math.min(low, value);
-    high = Math.max(high, value);
-    mean += value / count - mean / count; // a sum of large values overflows
-  });
-  return { count, low, high, mean };
-}
-
-/**
- * The newest value up to a time, null if there is none.
- *
- * @param {Curve} curve
- * @param {number} time
- */
-export function valueAt({ pieces }, time) {
-  for (const { times, values } of pieces.toReversed()) {
-    if (!times.length || times[0] > time) continue;
-    let [low, high] = [0, times.length - 1];
-    while (low < high) {
-      const middle = (low + high + 1) >> 1;
-      if (times[middle] <= time) low = middle;
-      else high = middle - 1;
-    }
-    return { time: times[low], value: values[low] };
-  }
-  return null;
 }
 
 /**

@@ -1,0 +1,86 @@
+// Gestures over the curves of a chart, which read out, pan, and zoom by the wheel, a box and keys.
+
+import { el } from "../dom.js";
+import { boxBetween, boxed, panned, scaled, shareOf } from "./zoom.js";
+
+/** @import {Area, Vec2} from "../types.js" */
+/** @import {Shown, Zoom} from "./zoom.js" */
+
+const WHEEL = 1.2;
+const CLICK_PX = 3;
+const UP_PX = 20; // of a drag, from which on it moves values, too
+/** @type {Record<string, {move?: number, by?: number}>} */
+const KEYS = {
+  ArrowLeft: { move: -0.1 },
+  ArrowRight: { move: 0.1 },
+  "+": { by: 1 / WHEEL },
+  "-": { by: WHEEL },
+};
+
+/**
+ * Listens to gestures over a canvas; returns the element of the box that is dragged.
+ *
+ * @param {HTMLCanvasElement} canvas
+ * @param {{
+ *   area: () => Area, shown: () => Shown, zoom: () => Zoom | null, setZoom: (zoom: Zoom | null) => void,
+ *   point: (share: number | null) => void, pause: () => void,
+ * }} chart `point` is told where the pointer is between the ends of time
+ */
+export function listenToGestures(canvas, { area, shown, zoom, setZoom, point, pause }) {
+  /** @type {{from: Vec2, shown: Shown, isBox: boolean, isFar: boolean} | null} */
+  let drag = null;
+  const box = el("div", { class: "wv-chart-box", hidden: true });
+
+  /** @param {MouseEvent} event */
+  function shareAt({ clientX, clientY }) {
+    const { left, top } = canvas.getBoundingClientRect();
+    return shareOf([clientX - left, clientY - top], area());
+  }
+
+  canvas.addEventListener("wheel", (event) => {
+    event.preventDefault();
+    const [x, y] = shareAt(event);
+    const isValues = event.shiftKey || x < 0;
+    // Browsers turn the wheel sideways with Shift.
+    const by = WHEEL ** Math.sign(event.deltaY || event.deltaX);
+    setZoom(scaled(shown(), zoom(), { around: isValues ? y : x, by }, isValues));
+  });
+  canvas.addEventListener("pointerdown", (event) => {
+    if (event.button !== 0) return;
+    canvas.setPointerCapture(event.pointerId);
+    drag = { from: shareAt(event), shown: shown(), isBox: event.shiftKey, isFar: false };
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    const to = shareAt(event);
+    if (!drag) return point(to[0] >= 0 && to[0] <= 1 ? to[0] : null);
+    const { from } = drag;
+    const { width, height } = area();
+    const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+    drag.isFar ||= Math.hypot(dx * width, dy * height) > CLICK_PX;
+    if (!drag.isFar) return;
+    if (!drag.isBox) {
+      const isUp = zoom()?.values != null || Math.abs(dy * height) > UP_PX;
+      return setZoom(panned(drag.shown, [dx, dy], isUp));
+    }
+    for (const [key, pixels] of Object.entries(boxBetween(from, to, area())))
+      box.style.setProperty(key, `${pixels}px`);
+    box.hidden = false;
+  });
+  canvas.addEventListener("pointerup", (event) => {
+    const zoomed = drag?.isBox && drag.isFar && boxed(drag.shown, drag.from, shareAt(event));
+    if (zoomed) setZoom(zoomed);
+    drag = null;
+    box.hidden = true;
+  });
+  canvas.addEventListener("pointerleave", () => point(null));
+  canvas.addEventListener("dblclick", () => setZoom(null));
+  canvas.addEventListener("keydown", (event) => {
+    if (KEYS[event.key]) setZoom(scaled(shown(), zoom(), KEYS[event.key], false));
+    else if (event.key === "Escape" && zoom()) setZoom(null);
+    else if (event.key === " ") pause();
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  });
+  return box;
+}

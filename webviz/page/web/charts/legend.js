@@ -1,0 +1,83 @@
+// The legend of a chart: what each curve is called, its value at a time, and sums of what is in sight.
+
+import { needs } from "../access.js";
+import { el, setChildren, setText } from "../dom.js";
+import { icon } from "../icons.js";
+import { sumsText, valueText } from "./readings.js";
+
+/** @import {Curve, Range} from "../types.js" */
+
+const HUES = [210, 28, 140, 0, 270, 180, 60, 320, 100, 240, 15, 160];
+
+/** @param {number} key of a curve */
+export const colorOf = (key) => `hsl(${HUES[key % HUES.length]} 75% 55%)`;
+
+/**
+ * A legend; `remove(name)` removes a curve.
+ *
+ * @param {(name: string) => unknown} remove
+ */
+export function makeLegend(remove) {
+  /** @type {Map<number, ReturnType<typeof entry>>} */
+  const entries = new Map();
+  const element = el("ul", { class: "wv-chart-legend" });
+
+  /** @param {Curve} curve */
+  function entry({ key, name }) {
+    const value = el("span", { class: "wv-number wv-chart-value" });
+    const problem = el("div", { class: "wv-chart-problem" });
+    const sums = el("div", { class: "wv-chart-sums wv-quiet wv-number" });
+    const swatch = el("span", { class: "wv-chart-swatch" });
+    swatch.style.background = colorOf(key);
+    const button = el(
+      "button",
+      {
+        type: "button",
+        class: "wv-icon",
+        "aria-label": `Remove ${name}`,
+        "data-tip": "Remove",
+        onclick: () => remove(name),
+      },
+      icon("close", 12),
+    );
+    const parts = name.split(/(?=[./[{])/).flatMap((part) => [el("wbr"), part]);
+    const line = el(
+      "div",
+      { class: "wv-chart-entry" },
+      swatch,
+      el("span", { class: "wv-chart-name" }, parts),
+      value,
+      needs("UseWidget", button),
+    );
+    return { element: el("li", {}, line, sums, problem), value, problem, sums };
+  }
+
+  return {
+    element,
+    /** @param {Curve[]} curves all that there are */
+    show(curves) {
+      for (const key of entries.keys())
+        if (!curves.some((curve) => curve.key === key)) entries.delete(key);
+      const children = curves.map((curve) => {
+        const made = entries.get(curve.key) ?? entry(curve);
+        entries.set(curve.key, made);
+        setText(made.problem, curve.problem);
+        return made.element;
+      });
+      setChildren(element, children);
+    },
+    /**
+     * @param {Curve[]} curves
+     * @param {number} time
+     * @param {Range | null} span of the statistics, null without them
+     */
+    read(curves, time, span) {
+      for (const curve of curves) {
+        const shown = entries.get(curve.key);
+        if (!shown) continue;
+        setText(shown.value, valueText(curve, time));
+        setText(shown.sums, span ? sumsText(curve, span) : "");
+      }
+    },
+  };
+}
