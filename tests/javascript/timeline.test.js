@@ -2,34 +2,98 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { offsetAfter } from "../../webviz/page/web/clock_offset.js";
-import { following, limited, zoomed } from "../../webviz/page/web/timeline/range.js";
+import { newest } from "../../webviz/page/web/newest.js";
+import { nearest, placeOf, shareAt, timeAt } from "../../webviz/page/web/timeline/axis.js";
+import {
+  boundsOf,
+  following,
+  limited,
+  rebounded,
+  zoomed,
+} from "../../webviz/page/web/timeline/range.js";
 import { agoText, atMoment, beforeText, isNow } from "../../webviz/page/web/timeline/moment.js";
 import { savedText } from "../../webviz/page/web/timeline/saved_text.js";
 import { parseTime } from "../../webviz/page/web/timeline/typed_time.js";
 
 test("a window stays within the recording and keeps its length", () => {
-  assert.deepEqual(limited([-5, 15], 100), [0, 20]);
-  assert.deepEqual(limited([90, 110], 100), [80, 100]);
-  assert.deepEqual(limited([-50, 150], 100), [0, 100]);
+  assert.deepEqual(limited([-5, 15], [0, 100]), [0, 20]);
+  assert.deepEqual(limited([90, 110], [0, 100]), [80, 100]);
+  assert.deepEqual(limited([-50, 150], [0, 100]), [0, 100]);
+  assert.deepEqual(limited([-50, 10], [-40, 20]), [-40, 20]);
 });
 
 test("a window is not shorter than a hundredth of a second, unless the recording is", () => {
-  const [from, to] = limited([50, 50], 100);
+  const [from, to] = limited([50, 50], [0, 100]);
   assert.ok(Math.abs(to - from - 0.01) < 1e-9);
-  assert.deepEqual(limited([0, 0], 0.005), [0, 0.005]);
-  assert.deepEqual(limited([0, 1], 0), [0, 0]);
+  assert.deepEqual(limited([0, 0], [0, 0.005]), [0, 0.005]);
+  assert.deepEqual(limited([0, 1], [0, 0]), [0, 0]);
 });
 
 test("zooming keeps what is under the pointer", () => {
-  const [from, to] = zoomed([0, 100], { around: 0.25, by: 0.5 }, 100);
-  assert.deepEqual([from, to], [12.5, 62.5]);
+  assert.deepEqual(zoomed([0, 100], { around: 0.25, by: 0.5 }, [0, 100]), [12.5, 62.5]);
+  assert.deepEqual(zoomed([12.5, 62.5], { around: 0.25, by: 2 }, [0, 100]), [0, 100]);
 });
 
 test("a window follows the head by whole windows", () => {
-  assert.deepEqual(following([0, 10], 5, 100), [0, 10]);
-  assert.deepEqual(following([0, 10], 27, 100), [20, 30]);
-  assert.deepEqual(following([20, 30], 3, 100), [0, 10]);
-  assert.deepEqual(following([0, 30], 99, 100), [70, 100]);
+  assert.deepEqual(following([0, 10], 5, [0, 100]), [0, 10]);
+  assert.deepEqual(following([0, 10], 27, [0, 100]), [20, 30]);
+  assert.deepEqual(following([20, 30], 3, [0, 100]), [0, 10]);
+  assert.deepEqual(following([0, 30], 99, [0, 100]), [70, 100]);
+  assert.deepEqual(following([-60, -50], -33, [-60, 0]), [-40, -30]);
+});
+
+test("a timeline shows a whole bag, and of live topics what the memory can hold", () => {
+  const bounds = (values) => boundsOf(new Map(Object.entries(values)));
+  assert.deepEqual(bounds({ is_live: null, duration: 5 }), [0, 5]);
+  assert.deepEqual(bounds({ is_live: null, duration: 0 }), [0, 0.01]);
+  const live = { is_live: true, duration: 100, first: 95, limit: 60 };
+  assert.deepEqual(bounds(live), [40, 100]);
+  assert.deepEqual(bounds({ ...live, is_live: false }), [95, 100]);
+});
+
+test("a window stays as time goes on, unless it was whole or its start is forgotten", () => {
+  assert.deepEqual(rebounded([2, 3], [0, 10], [0, 10], true), [2, 3]);
+  assert.deepEqual(rebounded([2, 3], [0, 10], [0, 20], true), [0, 20], "another bag");
+  assert.deepEqual(rebounded([2, 3], [0, 10], [1, 11], false), [2, 3]);
+  assert.deepEqual(rebounded([0, 10], [0, 10], [1, 11], false), [1, 11]);
+  assert.deepEqual(rebounded([2, 3], [0, 10], [2.5, 12.5], false), [2.5, 12.5]);
+});
+
+test("places and times of a timeline belong together", () => {
+  assert.equal(placeOf(25, [0, 100], 216), 58);
+  assert.equal(timeAt(58, [0, 100], 216), 25);
+  assert.equal(shareAt(8, 0), 0, "of one without a width");
+});
+
+test("the nearest mark within a few pixels is found, the first of equal ones", () => {
+  const place = ([x]) => x;
+  const marks = [
+    [10, "a"],
+    [13, "b"],
+    [13, "c"],
+    [30, "d"],
+  ];
+  assert.deepEqual(nearest(marks, place, 14), [13, "b"]);
+  assert.deepEqual(nearest(marks, place, 25), [30, "d"]);
+  assert.equal(nearest(marks, place, 24.9), null);
+});
+
+test("while a value is under way, only the newest of the others is kept", async () => {
+  const sent = [];
+  const arrived = [];
+  const sending = newest((value) => {
+    sent.push(value);
+    return new Promise((resolve) => arrived.push(resolve));
+  });
+  const done = sending.to(1);
+  for (const value of [2, 3]) sending.to(value);
+  assert.deepEqual([sent, sending.wanted()], [[1], 3]);
+  arrived[0]();
+  await Promise.resolve();
+  assert.deepEqual(sent, [1, 3]);
+  arrived[1]();
+  await done;
+  assert.equal(sending.wanted(), null);
 });
 
 test("typed times are seconds, minutes and hours, or a date", () => {

@@ -5,12 +5,13 @@
 import { needs } from "../access.js";
 import { el, set, setText } from "../dom.js";
 import { icon, iconButton } from "../icons.js";
+import { newest } from "../newest.js";
 import { download } from "../shell/download.js";
 import { timeOfDay } from "../shell/time_text.js";
 import { byAxis, csv, curvesOf, extent } from "./curves.js";
 import { draw, inside } from "./draw.js";
 import { listenToGestures } from "./gestures.js";
-import { hover, onHover, seeking } from "./hover.js";
+import { hover, onHover } from "./hover.js";
 import { colorOf, makeLegend } from "./legend.js";
 import { at, roomy } from "./scale.js";
 
@@ -93,7 +94,7 @@ export function chart(_, send) {
   );
   const observer = new ResizeObserver(later);
   observer.observe(canvas);
-  const go = seeking((time) => send(String(time)));
+  const seek = newest((time) => send(String(time)));
   const unshare = onHover((time) => {
     cursor = time;
     later();
@@ -160,7 +161,7 @@ export function chart(_, send) {
     const time = share === null || axes().across ? null : at(share, times());
     if (time === cursor) return;
     hover(time);
-    if (isPressed(follow) && time !== null) go(time);
+    if (isPressed(follow) && time !== null) seek.to(time);
   }
 
   /**

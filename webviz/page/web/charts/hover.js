@@ -1,4 +1,4 @@
-// The time that the pointer is at, shared by all charts of a page, and seeks to it.
+// The time that the pointer is at, shared by all charts of a page.
 
 /** @typedef {(time: number | null) => void} Listener */
 
@@ -18,26 +18,4 @@ export function hover(time) {
 export function onHover(listener) {
   listeners.add(listener);
   return () => listeners.delete(listener);
-}
-
-/**
- * A function that sends times one at a time: while one is under way, only the newest is kept.
- *
- * @param {(time: number) => unknown} send
- */
-export function seeking(send) {
-  /** @type {number | null} */
-  let wanted = null;
-  let isUnderway = false;
-  return async (/** @type {number} */ time) => {
-    wanted = time;
-    if (isUnderway) return;
-    isUnderway = true;
-    while (wanted !== null) {
-      const next = wanted;
-      wanted = null;
-      await send(next);
-    }
-    isUnderway = false;
-  };
 }

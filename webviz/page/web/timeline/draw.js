@@ -3,11 +3,11 @@
 import { share, ticks } from "../charts/scale.js";
 import { fitted } from "../charts/canvas.js";
 import { duration } from "../shell/time_text.js";
+import { MARGIN, placeOf } from "./axis.js";
 import { beforeText } from "./moment.js";
 
 /** @import {LoggedEvent, Range} from "../types.js" */
 
-export const MARGIN = 8;
 const TOP = 4;
 const BAR = 12;
 const PER_TICK = 90;
@@ -29,7 +29,7 @@ export function draw(
 ) {
   const { context, width, color } = fitted(canvas);
   /** @param {number} time */
-  const x = (time) => MARGIN + share(time, range) * (width - 2 * MARGIN);
+  const x = (time) => placeOf(time, range, width);
   context.fillStyle = color("line");
   context.fillRect(MARGIN, TOP, width - 2 * MARGIN, BAR);
   context.save();

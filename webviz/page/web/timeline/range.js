@@ -2,7 +2,7 @@
 
 import { changed } from "../charts/scale.js";
 
-/** @import {Range} from "../types.js" */
+/** @import {Moment, Range} from "../types.js" */
 
 const MIN_S = 0.01;
 
@@ -14,15 +14,29 @@ const MIN_S = 0.01;
 export const shownLength = (duration) => Math.max(duration, MIN_S);
 
 /**
- * A window within 0 and `duration` that is at least a hundredth of a second long.
+ * The first and the last second of a whole timeline: of live topics, what the memory can hold.
  *
- * @param {Range} range
- * @param {number} duration
+ * @param {Moment} recording
  * @returns {Range}
  */
-export function limited([first, last], duration) {
-  const length = Math.min(Math.max(last - first, Math.min(MIN_S, duration)), duration);
-  const from = Math.min(Math.max(first, 0), duration - length);
+export function boundsOf(recording) {
+  const last = recording.get("duration");
+  if (recording.get("is_live") === null) return [0, shownLength(last)];
+  const limit = recording.get("limit");
+  return [Math.min(recording.get("first"), recording.get("is_live") ? last - limit : last), last];
+}
+
+/**
+ * A window within the bounds that is at least a hundredth of a second long.
+ *
+ * @param {Range} range
+ * @param {Range} bounds
+ * @returns {Range}
+ */
+export function limited([first, last], [low, high]) {
+  const most = high - low;
+  const length = Math.min(Math.max(last - first, Math.min(MIN_S, most)), most);
+  const from = Math.min(Math.max(first, low), high - length);
   return [from, from + length];
 }
 
@@ -31,21 +45,42 @@ export function limited([first, last], duration) {
  *
  * @param {Range} range
  * @param {{around?: number, by?: number, move?: number}} change
- * @param {number} duration
+ * @param {Range} bounds
  */
-export const zoomed = (range, change, duration) => limited(changed(range, change), duration);
+export const zoomed = (range, change, bounds) => limited(changed(range, change), bounds);
 
 /**
  * The window moved on or back by whole windows, if a time is not in it.
  *
  * @param {Range} range
  * @param {number} time
- * @param {number} duration
+ * @param {Range} bounds
  * @returns {Range}
  */
-export function following([first, last], time, duration) {
+export function following([first, last], time, bounds) {
   if (time >= first && time <= last) return [first, last];
   const length = last - first;
-  const from = length * Math.floor(time / length);
-  return limited([from, from + length], duration);
+  const from = bounds[0] + length * Math.floor((time - bounds[0]) / length);
+  return limited([from, from + length], bounds);
 }
+
+/**
+ * The window within other bounds: all of them if it had all before, of another bag, or if its start is
+ * no longer there.
+ *
+ * @param {Range} range
+ * @param {Range} before
+ * @param {Range} bounds
+ * @param {boolean} isBag
+ * @returns {Range}
+ */
+export function rebounded(range, before, bounds, isBag) {
+  if (isSame(bounds, before)) return range;
+  return isBag || isSame(range, before) || bounds[0] > range[0] ? bounds : range;
+}
+
+/**
+ * @param {Range} a
+ * @param {Range} b
+ */
+export const isSame = (a, b) => a[0] === b[0] && a[1] === b[1];

@@ -16,7 +16,7 @@ import { track as makeTrack } from "./track.js";
 import { transport as makeTransport } from "./transport.js";
 import { parseTime } from "./typed_time.js";
 
-/** @import {LoggedEvent, Moment, ValuesOf} from "../types.js" */
+/** @import {LoggedEvent, Moment, Range, ValuesOf} from "../types.js" */
 
 const JUMP_S = 5;
 const TICK_MS = 200;
@@ -81,15 +81,16 @@ export function timeline(places) {
     ends = [
       watch("density", (density) => {
         const [first, last] = [density.get("first") ?? 0, density.get("last") ?? 0];
-        track.setCounts(density.get("counts") ?? [], [first, first + shownLength(last - first)]);
+        const counted = /** @type {Range} */ ([first, first + shownLength(last - first)]);
+        track.mark({ counts: density.get("counts") ?? [], counted });
       }),
       watch("bookmarks", (known) => {
         bookmarks.show(known.get("all") ?? []);
-        track.setBookmarks(known.get("all") ?? []);
+        track.mark({ bookmarks: known.get("all") ?? [] });
       }),
       watch("events", (known) => {
         events = byTime(known);
-        track.setEvents(events);
+        track.mark({ events });
       }),
     ];
     if (isBag()) begin();

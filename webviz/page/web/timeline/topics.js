@@ -2,10 +2,10 @@
 
 import { rowList } from "../controls/rows.js";
 import { el, set, setText } from "../dom.js";
-import { share } from "../charts/scale.js";
 import { watch } from "../stores.js";
 import { fitted } from "../charts/canvas.js";
-import { bars, MARGIN } from "./draw.js";
+import { placeOf } from "./axis.js";
+import { bars } from "./draw.js";
 
 /** @import {Range} from "../types.js" */
 /** @typedef {{key: string, counts: number[]}} Strip */
@@ -63,9 +63,9 @@ export function topics({ range, counted, step, toggled }) {
   function paint(canvas, counts) {
     const { context, height, color } = fitted(canvas);
     // As wide as the track, which has no scroll bar beside it.
-    const width = element.clientWidth - 2 * MARGIN;
+    const width = element.clientWidth;
     /** @param {number} time */
-    const x = (time) => MARGIN + share(time, range()) * width;
+    const x = (time) => placeOf(time, range(), width);
     bars(context, counts, {
       x,
       counted: counted(),
