@@ -1,14 +1,49 @@
-"""A display at work under a short name."""
+"""Displays at work under short names."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 import pytest
+
+from webviz.api.display import Display, inputs
+
+STRAIGHT = (0.0, 0.0, 0.0, 1.0)
+LEFT = (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))
+"""A quarter turn about z."""
 
 
 @pytest.fixture
 def bench(webviz_bench: Callable[..., Any]) -> Callable[..., Any]:
     """Make a `DisplayBench` of a display."""
     return webviz_bench
+
+
+@pytest.fixture
+def shown(bench: Callable[..., Any]) -> Callable[..., Any]:
+    """Make the bench of a display that has drawn messages in the frame odom, 10 m along x."""
+    return partial(_drawn, bench, STRAIGHT)
+
+
+@pytest.fixture
+def turned(bench: Callable[..., Any]) -> Callable[..., Any]:
+    """Make the bench as `shown`, with odom turned left by a quarter."""
+    return partial(_drawn, bench, LEFT)
+
+
+def _drawn(
+    bench: Callable[..., Any],
+    rotation: tuple[float, ...],
+    display: Display,
+    *messages: Mapping[str, Any],
+) -> Any:
+    at = bench(display)
+    at.transform("map", "odom", (10.0, 0.0, 0.0), rotation)
+    for values in messages:
+        at.send(inputs(display)[0][1].type, values, frame="odom")
+        at.turn()
+        at.settle()
+    return at

@@ -18,25 +18,9 @@ from webviz_displays.areas import GridCells, Polygon
 from webviz_displays.areas import grid_cells as grid_cells_module
 
 NAN = float("nan")
-QUARTER = (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))
-POLYGON, CELLS = "geometry_msgs/msg/PolygonStamped", "nav_msgs/msg/GridCells"
+CELLS = "nav_msgs/msg/GridCells"
 
 Benches = Callable[..., Any]
-
-
-@pytest.fixture
-def shown(bench: Benches) -> Callable[..., Any]:
-    """A bench that has drawn messages in the frame odom, which is 10 m along x and turned left."""
-
-    def make(display: Any, type_name: str, *messages: dict[str, Any]) -> Any:
-        made = bench(display)
-        made.transform("map", "odom", (10.0, 0.0, 0.0), QUARTER)
-        for each in messages:
-            made.send(type_name, each, frame="odom")
-            made.turn()
-        return made
-
-    return make
 
 
 def polygon(*points: tuple[float, float, float]) -> dict[str, Any]:
@@ -48,8 +32,8 @@ def cells(*centers: tuple[float, float, float], size: tuple[float, float]) -> di
     return {"cell_width": size[0], "cell_height": size[1], "cells": points}
 
 
-def test_a_polygon_is_a_closed_line(shown: Benches) -> None:
-    at = shown(Polygon(), POLYGON, polygon((0, 0, 0), (1, 0, 0), (1, 2, 0)))
+def test_a_polygon_is_a_closed_line(turned: Benches) -> None:
+    at = turned(Polygon(), polygon((0, 0, 0), (1, 0, 0), (1, 2, 0)))
     expected = [
         [(10, 0, 0), (10, 1, 0)],
         [(10, 1, 0), (8, 1, 0)],
@@ -70,23 +54,23 @@ def test_a_polygon_is_a_closed_line(shown: Benches) -> None:
     ],
 )
 def test_a_polygon_that_cannot_be_drawn_says_why(
-    shown: Benches, points: list[Any], level: str, text: str
+    turned: Benches, points: list[Any], level: str, text: str
 ) -> None:
-    at = shown(Polygon(), POLYGON, polygon(*points))
+    at = turned(Polygon(), polygon(*points))
     assert at.nodes() == {}
     said = at.statuses()["Polygon"]
     assert (said[0], said[1].startswith(text)) == (level, True)
 
 
-def test_former_polygons_stay(shown: Benches) -> None:
+def test_former_polygons_stay(turned: Benches) -> None:
     lines = [polygon((0, 0, 0), (x, 0, 0)) for x in (1.0, 2.0, 3.0)]
-    at = shown(Polygon(history_length=2), POLYGON, *lines)
+    at = turned(Polygon(history_length=2), *lines)
     spans = [np.ptp(node.segments, axis=(0, 1)).max() for _, _, node in at.scene.visible()]
     assert sorted(spans) == [2.0, 3.0]
 
 
-def test_a_cell_is_a_flat_rectangle_around_its_center(shown: Benches) -> None:
-    at = shown(GridCells(alpha=0.5), CELLS, cells((1, 0, 0.25), (2, 0, 0.25), size=(0.5, 0.25)))
+def test_a_cell_is_a_flat_rectangle_around_its_center(turned: Benches) -> None:
+    at = turned(GridCells(alpha=0.5), cells((1, 0, 0.25), (2, 0, 0.25), size=(0.5, 0.25)))
     node = at.nodes()["cells"]
     assert (node.color, node.opacity, len(node.faces)) == ((25, 255, 0), 0.5, 4)
     assert node.is_flat
@@ -98,16 +82,16 @@ def test_a_cell_is_a_flat_rectangle_around_its_center(shown: Benches) -> None:
 
 
 @pytest.mark.parametrize("size", [(0.0, 1.0), (1.0, -1.0), (NAN, 1.0), (1.0, math.inf)])
-def test_cells_without_a_size_are_an_error(shown: Benches, size: tuple[float, float]) -> None:
-    at = shown(GridCells(), CELLS, cells((1, 0, 0), size=size))
+def test_cells_without_a_size_are_an_error(turned: Benches, size: tuple[float, float]) -> None:
+    at = turned(GridCells(), cells((1, 0, 0), size=size))
     assert at.nodes() == {}
     assert at.statuses()["Cells"][0] == "ERROR"
 
 
 def test_cells_that_are_not_drawn_are_counted(
-    shown: Benches, monkeypatch: pytest.MonkeyPatch
+    turned: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    at = shown(GridCells(), CELLS, cells((NAN, 0, 0), (1, 0, 0), size=(1, 1)))
+    at = turned(GridCells(), cells((NAN, 0, 0), (1, 0, 0), size=(1, 1)))
     assert len(at.nodes()["cells"].faces) == 2
     assert at.statuses()["Cells"][1].startswith("1 of 2 cells are not finite")
     at.send(CELLS, cells(size=(1, 1)), frame="odom")

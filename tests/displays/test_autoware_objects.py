@@ -41,22 +41,7 @@ from webviz_displays.autoware.objects_look import (
     TrackedTexts,
 )
 
-TYPES = {DetectedObjects: DETECTED, TrackedObjects: TRACKED, PredictedObjects: PREDICTED}
 NAN = math.nan
-
-
-@pytest.fixture
-def shown(bench: Callable[..., Any]) -> Callable[..., Any]:
-    """A bench that has drawn objects in the frame odom, 10 m along x."""
-
-    def make(display: Any, values: dict[str, Any]) -> Any:
-        made = bench(display)
-        made.transform("map", "odom", (10.0, 0.0, 0.0))
-        made.send(TYPES[type(display)], values, frame="odom")
-        made.turn()
-        return made
-
-    return make
 
 
 def edges_of(at: Any, number: int, key: str = "shapes") -> np.ndarray:

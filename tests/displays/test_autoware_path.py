@@ -22,22 +22,8 @@ from webviz_displays.autoware.look import FootprintView, LaneView, PointView, Te
 NAN = math.nan
 
 
-@pytest.fixture
-def shown(bench: Callable[..., Any]) -> Callable[..., Any]:
-    """A bench that has drawn a path in the frame odom, 10 m along x."""
-
-    def make(values: dict[str, Any], cls: Any = AutowarePath, **properties: Any) -> Any:
-        made = bench(cls(**properties))
-        made.transform("map", "odom", (10.0, 0.0, 0.0))
-        made.send(TRAJECTORY if cls is AutowareTrajectory else PATH, values, frame="odom")
-        made.turn()
-        return made
-
-    return make
-
-
 def test_the_lane_is_as_wide_as_the_vehicle_and_coloured_by_velocity(shown: Callable) -> None:
-    at = shown(BOUNDED, view_path=LaneView(alpha=0.5))
+    at = shown(AutowarePath(view_path=LaneView(alpha=0.5)), BOUNDED)
     lane = at.nodes()["lane"]
     np.testing.assert_allclose(at.xyz("lane")[:2], [(10, -0.915, 0), (10, 0.915, 0)], atol=1e-6)
     assert lane.colors[0].tolist() == [63, 46, 227, 128]
@@ -56,22 +42,24 @@ def test_the_lane_is_as_wide_as_the_vehicle_and_coloured_by_velocity(shown: Call
 
 def test_velocities_are_heights_and_backwards_is_below(shown: Callable) -> None:
     way = planned((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), speeds=(1.0, -3.0))
-    at = shown({"points": way})
+    at = shown(AutowarePath(), {"points": way})
     np.testing.assert_allclose(at.xyz("velocity line")[0, :, 2], (0.3, -0.9), atol=1e-6)
     assert at.nodes()["velocity line"].colors[0, 1].tolist() == [0, 230, 120]
 
 
 def test_bounds_footprints_and_points(shown: Callable) -> None:
     at = shown(
-        BOUNDED,
-        view_footprint=FootprintView(
-            value=True,
-            vehicle_length=4.0,
-            vehicle_width=2.0,
-            rear_overhang=1.0,
-            offset_from_baselink=0.25,
+        AutowarePath(
+            view_footprint=FootprintView(
+                value=True,
+                vehicle_length=4.0,
+                vehicle_width=2.0,
+                rear_overhang=1.0,
+                offset_from_baselink=0.25,
+            ),
+            view_point=PointView(value=True, offset=0.5, radius=0.2),
         ),
-        view_point=PointView(value=True, offset=0.5, radius=0.2),
+        BOUNDED,
     )
     np.testing.assert_allclose(at.xyz("left bound")[0], [(10, 3, 0), (14, 3, 0)], atol=1e-6)
     outline = at.xyz("footprints")[:4, 0]
@@ -82,7 +70,7 @@ def test_bounds_footprints_and_points(shown: Callable) -> None:
 
 def test_numbers_stand_above_their_points(shown: Callable) -> None:
     texts = {f"view_text_{name}": TextView(value=True) for name in ("velocity", "slope", "time")}
-    at = shown(TIMED, AutowareTrajectory, **texts)
+    at = shown(AutowareTrajectory(**texts), TIMED)
     nodes = at.nodes()
     assert nodes["velocities"].texts == ("0.00", "1.00", "2.00", "3.00")
     assert nodes["slopes"].texts == ("0.10", "0.20", "0.00", "0.00")
@@ -104,13 +92,13 @@ def test_numbers_stand_above_their_points(shown: Callable) -> None:
 def test_an_empty_or_invalid_path_is_named(
     change: dict[str, Any], level: str, sentence: str, shown: Callable
 ) -> None:
-    at = shown(BOUNDED | change)
+    at = shown(AutowarePath(), BOUNDED | change)
     assert at.nodes() == {}
     assert at.statuses()["Path"] == (level, sentence)
 
 
 def test_an_invalid_bound_is_named_and_the_path_stays(shown: Callable) -> None:
-    at = shown(BOUNDED | {"left_bound": [{"x": NAN}]})
+    at = shown(AutowarePath(), BOUNDED | {"left_bound": [{"x": NAN}]})
     assert set(at.nodes()) == {"lane", "velocity line", "right bound"}
     sentence = "The left bound is not finite. Fix the planner."
     assert at.statuses()["Drivable area"] == ("ERROR", sentence)
@@ -120,7 +108,7 @@ def test_a_long_path_is_cut_with_a_warning(
     shown: Callable, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(path, "MAX_POINTS", 2)
-    at = shown({"points": WAY})
+    at = shown(AutowarePath(), {"points": WAY})
     assert len(at.nodes()["velocity line"].segments) == 1
     sentence = "Showing the first 2 points, 0.00 to 1.00 m/s; the path has 4."
     assert at.statuses()["Path"] == ("WARN", sentence)

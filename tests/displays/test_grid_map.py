@@ -26,21 +26,6 @@ NAN = math.nan
 Benches = Callable[..., Any]
 
 
-@pytest.fixture
-def shown(bench: Benches) -> Callable[..., Any]:
-    """A bench that has drawn messages in the frame odom, 10 m along x."""
-
-    def make(display: Any, *messages: dict[str, Any]) -> Any:
-        made = bench(display)
-        made.transform("map", "odom", (10.0, 0.0, 0.0))
-        for values in messages:
-            made.send(GRID_MAP, values, frame="odom")
-            made.turn()
-        return made
-
-    return make
-
-
 def corners(at: Any) -> dict[tuple[float, float, float], tuple[int, int, int]]:
     """The colours of the corners of the surface, by their places in the fixed frame."""
     xyz, colors = at.xyz("surface"), at.nodes()["surface"].colors[:, :3]

@@ -34,20 +34,6 @@ MEASURED = {
 ARROW = AccelerationSettings(enable_acceleration=True, acc_vector_scale=0.1)
 
 
-@pytest.fixture
-def shown(bench: Benches) -> Callable[..., Any]:
-    """A bench that has drawn a message of a sensor 10 m along x that is turned left."""
-
-    def make(display: Any, type_name: str, values: dict[str, Any]) -> Any:
-        made = bench(display)
-        made.transform("map", "sensor", (10.0, 0.0, 0.0), LEFT)
-        made.send(type_name, values, frame="sensor")
-        made.turn()
-        return made
-
-    return make
-
-
 def arrow(at: Any, key: str) -> tuple[np.ndarray, np.ndarray]:
     """Tail and tip of an arrow along its x axis or as it lies, in the fixed frame."""
     parts = [at.nodes()[f"{key}shafts"], at.nodes()[f"{key}heads"]]
@@ -56,8 +42,8 @@ def arrow(at: Any, key: str) -> tuple[np.ndarray, np.ndarray]:
     return shaft - way * parts[0].scales[0, 2] / 2, head + way * parts[1].scales[0, 2] / 2
 
 
-def test_the_orientation_is_in_the_fixed_frame_or_that_of_the_sensor(shown: Callable) -> None:
-    at = shown(Imu(), IMU, MEASURED)
+def test_the_orientation_is_in_the_fixed_frame_or_that_of_the_sensor(turned: Callable) -> None:
+    at = turned(Imu(), MEASURED)
     for is_fixed, expected in ((True, (ROOT, 0, 0, ROOT)), (False, (0, 0, 0, 1))):
         at.set("fixed_frame_orientation", is_fixed)
         turn = multiply(at.poses()["axes"].wxyz, at.nodes()["axes"].wxyzs[0])
@@ -66,18 +52,18 @@ def test_the_orientation_is_in_the_fixed_frame_or_that_of_the_sensor(shown: Call
     assert at.statuses()["Imu"] == ("OK", "Acceleration 3, 0, 4 m/s².")
 
 
-def test_the_box_has_its_size_and_turns(shown: Callable) -> None:
+def test_the_box_has_its_size_and_turns(turned: Callable) -> None:
     box = BoxSettings(enable_box=True, x_scale=2.0, z_scale=0.5, box_alpha=0.5)
-    at = shown(Imu(box_properties=box, axes_properties=AxesSettings(axes_scale=2.0)), IMU, MEASURED)
+    at = turned(Imu(box_properties=box, axes_properties=AxesSettings(axes_scale=2.0)), MEASURED)
     node = at.nodes()["box"]
     assert (node.scales.tolist(), node.opacity) == ([[2.0, 1.0, 0.5]], 0.5)
     np.testing.assert_allclose(node.wxyzs, [(ROOT, 0, 0, ROOT)], atol=1e-6)
     assert (at.nodes()["axes"].length, at.nodes()["axes"].radius) == (2.0, 0.1)
 
 
-def test_the_acceleration_is_turned_by_the_orientation(shown: Callable) -> None:
+def test_the_acceleration_is_turned_by_the_orientation(turned: Callable) -> None:
     """Its head of a scale follows the shaft of |a| scales."""
-    at = shown(Imu(acceleration_properties=ARROW), IMU, MEASURED)
+    at = turned(Imu(acceleration_properties=ARROW), MEASURED)
     tail, tip = arrow(at, "acceleration ")
     np.testing.assert_allclose(tail, (10, 0, 0), atol=1e-6)
     np.testing.assert_allclose(tip - tail, 0.6 * np.array((0, 0.6, 0.8)), atol=1e-6)
@@ -99,22 +85,22 @@ def test_the_acceleration_is_turned_by_the_orientation(shown: Callable) -> None:
     ],
 )
 def test_what_is_no_measurement_is_told(
-    shown: Callable, change: dict[str, Any], key: str, level: str
+    turned: Callable, change: dict[str, Any], key: str, level: str
 ) -> None:
-    at = shown(Imu(acceleration_properties=ARROW), IMU, MEASURED | change)
+    at = turned(Imu(acceleration_properties=ARROW), MEASURED | change)
     assert at.statuses()[key][0] == level
     assert (at.nodes() == {}) == (key == "Orientation" and level == "ERROR")
 
 
-def test_an_imu_with_nothing_enabled_says_so(shown: Callable) -> None:
-    at = shown(Imu(axes_properties=AxesSettings(enable_axes=False)), IMU, MEASURED)
+def test_an_imu_with_nothing_enabled_says_so(turned: Callable) -> None:
+    at = turned(Imu(axes_properties=AxesSettings(enable_axes=False)), MEASURED)
     assert at.nodes() == {}
     assert at.statuses()["Imu"][0] == "WARN"
 
 
-def test_a_field_is_an_arrow_of_one_length(shown: Callable) -> None:
+def test_a_field_is_an_arrow_of_one_length(turned: Callable) -> None:
     values = {"magnetic_field": {"x": 3e-200, "z": 4e-200}}
-    at = shown(Mag(scale=0.5), FIELD, values)
+    at = turned(Mag(scale=0.5), values)
     tail, tip = arrow(at, "")
     np.testing.assert_allclose(tail, (10, 0, 0), atol=1e-6)
     np.testing.assert_allclose(tip - tail, (0, 1.1, 0), atol=1e-6)
@@ -128,9 +114,9 @@ def test_a_field_is_an_arrow_of_one_length(shown: Callable) -> None:
     [({"x": NAN}, 1.0, "ERROR"), ({"z": 1.0}, 1.0, "WARN"), ({"x": 1.0}, 0.0, "WARN")],
 )
 def test_a_field_without_a_direction_says_so(
-    shown: Callable, field: dict[str, float], alpha: float, level: str
+    turned: Callable, field: dict[str, float], alpha: float, level: str
 ) -> None:
-    at = shown(Mag(alpha=alpha), FIELD, {"magnetic_field": field})
+    at = turned(Mag(alpha=alpha), {"magnetic_field": field})
     assert at.nodes() == {}
     assert at.statuses()["Field"][0] == level
 

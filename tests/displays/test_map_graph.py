@@ -16,25 +16,9 @@ from plain_scenes import in_moving_frame
 from webviz.shell.testing import check_details
 from webviz_displays.map_graph import MapGraph
 
-TYPE = "rtabmap_msgs/msg/MapGraph"
-
-
-@pytest.fixture
-def shown(bench: Callable[..., Any]) -> Callable[..., Any]:
-    """A bench that has drawn a graph in the frame odom, 10 m along x."""
-
-    def make(values: dict[str, Any], **properties: Any) -> Any:
-        made = bench(MapGraph(**properties))
-        made.transform("map", "odom", (10.0, 0.0, 0.0))
-        made.send(TYPE, values, frame="odom")
-        made.turn()
-        return made
-
-    return make
-
 
 def test_links_have_the_colours_of_their_types(shown: Callable) -> None:
-    at = shown(GRAPH)
+    at = shown(MapGraph(), GRAPH)
     np.testing.assert_allclose(at.xyz("links")[0], [(10, 0, 0), (11, 0, 0)], atol=1e-6)
     display = MapGraph()
     expected = [
@@ -64,12 +48,12 @@ def test_links_have_the_colours_of_their_types(shown: Callable) -> None:
 def test_what_is_not_drawn_is_said(
     change: dict[str, Any], level: str, sentence: str, shown: Callable
 ) -> None:
-    at = shown(GRAPH | change)
+    at = shown(MapGraph(), GRAPH | change)
     assert at.statuses()["Graph"] == (level, sentence)
 
 
 def test_alpha_0_hides_and_types_of_later_versions_are_drawn(shown: Callable) -> None:
-    at = shown({**GRAPH, "links": [{"from_id": 1, "to_id": 2, "type": 99}]})
+    at = shown(MapGraph(), {**GRAPH, "links": [{"from_id": 1, "to_id": 2, "type": 99}]})
     assert at.nodes()["links"].colors[0, 0].tolist() == [255, 0, 0]
     at.set("alpha", 0.0)
     assert at.nodes() == {}

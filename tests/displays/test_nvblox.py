@@ -24,21 +24,6 @@ TYPES = {
 NEAR, FAR = "region 0 0 0", "region 1 0 0"
 
 
-@pytest.fixture
-def shown(bench: Benches) -> Callable[..., Any]:
-    """A bench that draws messages in the frame odom, 10 m along x."""
-
-    def make(display: Any, *messages: dict[str, Any]) -> Any:
-        made = bench(display)
-        made.transform("map", "odom", (10.0, 0.0, 0.0))
-        for values in messages:
-            made.send(TYPES[type(display)], values, frame="odom")
-            made.turn()
-        return made
-
-    return make
-
-
 def block(x: int, part: dict[str, Any], **fields: Any) -> dict[str, Any]:
     """A message with one block."""
     return {**MESH, "block_indices": [{"x": x}], "blocks": [part], **fields}

@@ -35,24 +35,8 @@ from webviz_displays.octomap.voxels import is_exposed, voxels_of
 
 Benches = Callable[..., Any]
 Form = Callable[..., dict[str, Any]]
-QUARTER = (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))
 CUBE: list[Key] = list(product(range(-2, 2), range(-2, 2), range(-2, 2)))
 FORMS = pytest.mark.parametrize("form", [binary, full])
-
-
-@pytest.fixture
-def shown(bench: Benches) -> Callable[..., Any]:
-    """A bench that has drawn a tree in the frame odom, 10 m along x and turned left."""
-
-    def make(display: Any, values: dict[str, Any]) -> Any:
-        made = bench(display)
-        made.transform("map", "odom", (10.0, 0.0, 0.0), QUARTER)
-        made.send(OCTOMAP, values, frame="odom")
-        made.turn()
-        made.settle()
-        return made
-
-    return make
 
 
 def read(values: dict[str, Any]) -> Octree:
@@ -120,10 +104,10 @@ def test_a_voxel_is_hidden_only_if_the_others_cover_all_its_sides() -> None:
 
 
 @FORMS
-def test_occupied_voxels_are_boxes_in_the_frame_of_the_tree(shown: Callable, form: Form) -> None:
+def test_occupied_voxels_are_boxes_in_the_frame_of_the_tree(turned: Callable, form: Form) -> None:
     root = octree(CUBE)
     root.place((0, 0, 5), log_odds=-2.0)
-    at = shown(OccupancyGrid(), form(root, 0.5))
+    at = turned(OccupancyGrid(), form(root, 0.5))
     node = at.nodes()["voxels"]
     assert (node.shape, len(node.positions)) == ("box", 4**3 - 2**3)
     np.testing.assert_allclose(node.scales, 0.5)
@@ -138,8 +122,8 @@ def test_occupied_voxels_are_boxes_in_the_frame_of_the_tree(shown: Callable, for
     assert len(at.nodes()["voxels"].positions) == 57
 
 
-def test_depth_and_heights_limit_what_is_drawn(shown: Callable) -> None:
-    at = shown(OccupancyGrid(max_octree_depth=15), full(octree(CUBE), 1.0))
+def test_depth_and_heights_limit_what_is_drawn(turned: Callable) -> None:
+    at = turned(OccupancyGrid(max_octree_depth=15), full(octree(CUBE), 1.0))
     assert at.nodes()["voxels"].scales.tolist() == [[2.0] * 3] * 8
     at.set("max_octree_depth", 0)
     assert len(at.nodes()["voxels"].positions) == 56
@@ -152,11 +136,11 @@ def test_depth_and_heights_limit_what_is_drawn(shown: Callable) -> None:
     assert at.statuses()["Voxels"][0] == "WARN"
 
 
-def test_colors_are_by_height_probability_or_of_the_cells(shown: Callable) -> None:
+def test_colors_are_by_height_probability_or_of_the_cells(turned: Callable) -> None:
     root = Node()
     root.place((0, 0, 0), log_odds=0.0, color=(1, 2, 3))
     root.place((0, 0, 1), log_odds=100.0, color=(4, 5, 6))
-    at = shown(ColorOccupancyGrid(voxel_coloring="Cell Color"), full(root, 1.0, "ColorOcTree"))
+    at = turned(ColorOccupancyGrid(voxel_coloring="Cell Color"), full(root, 1.0, "ColorOcTree"))
     assert at.nodes()["voxels"].colors.tolist() == [[1, 2, 3], [4, 5, 6]]
     at.set("voxel_coloring", "Cell Probability")
     assert at.nodes()["voxels"].colors.tolist() == [[128, 128, 0], [0, 255, 0]]
@@ -175,19 +159,19 @@ def test_colors_are_by_height_probability_or_of_the_cells(shown: Callable) -> No
     [{"voxel_rendering": "Free Voxels"}, {"min_height": 90.0}, {"max_height": -90.0}],
 )
 def test_the_button_of_voxels_that_are_not_shown_shows_some(
-    shown: Callable, properties: dict[str, Any]
+    turned: Callable, properties: dict[str, Any]
 ) -> None:
     root = Node()
     root.place((0, 0, 0), log_odds=1.0)
-    at = shown(OccupancyGrid(**properties), full(root, 1.0))
+    at = turned(OccupancyGrid(**properties), full(root, 1.0))
     assert at.nodes() == {}
     at.press("Voxels")
     assert at.nodes()
 
 
-def test_too_many_voxels_are_merged(shown: Callable, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_too_many_voxels_are_merged(turned: Callable, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(seen_module, "MAX_VOXELS", 50)
-    at = shown(OccupancyGrid(), binary(octree(CUBE), 1.0))
+    at = turned(OccupancyGrid(), binary(octree(CUBE), 1.0))
     assert at.nodes()["voxels"].scales.tolist() == [[2.0] * 3] * 8
     level, text = at.statuses()["Voxels"]
     assert level == "WARN"
@@ -197,11 +181,11 @@ def test_too_many_voxels_are_merged(shown: Callable, monkeypatch: pytest.MonkeyP
 
 
 def test_a_map_of_too_many_cells_offers_the_depth_that_fits(
-    shown: Callable, monkeypatch: pytest.MonkeyPatch
+    turned: Callable, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(projection_module, "MAX_CELLS", 4)
     tree = binary(octree(CUBE), 1.0)
-    at = shown(OccupancyMap(), tree)
+    at = turned(OccupancyMap(), tree)
     assert "Lower Max. Octree Depth." in at.statuses()["Map"][1]
     remedy = at.remedy("Map")
     at.set(remedy.path, remedy.value)
@@ -235,9 +219,9 @@ FAULTS = {
 
 
 @pytest.mark.parametrize("case", FAULTS)
-def test_a_tree_that_cannot_be_read_says_why(shown: Callable, case: str) -> None:
+def test_a_tree_that_cannot_be_read_says_why(turned: Callable, case: str) -> None:
     values, reason = FAULTS[case]
-    at = shown(OccupancyGrid(), values)
+    at = turned(OccupancyGrid(), values)
     assert at.nodes() == {}
     level, text = at.statuses()["Octree"]
     assert level == "ERROR"
@@ -263,20 +247,20 @@ LARGE = full(octree(some_keys(6000)))
 
 
 def test_a_tree_that_takes_more_memory_than_there_is_is_refused(
-    shown: Callable, monkeypatch: pytest.MonkeyPatch
+    turned: Callable, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(octree_module, "_NODE_BYTES", DECODING.total)
-    level, text = shown(OccupancyGrid(), LARGE).statuses()["Octree"]
+    level, text = turned(OccupancyGrid(), LARGE).statuses()["Octree"]
     assert (level, "to decode; the limit is" in text) == ("ERROR", True), text
 
 
-def test_trees_are_held_in_memory_as_long_as_there_is_some_for_them(shown: Callable) -> None:
+def test_trees_are_held_in_memory_as_long_as_there_is_some_for_them(turned: Callable) -> None:
     class Robot:
         """Something large that is loaded."""
 
     robot = Robot()
     DECODING.hold(robot, DECODING.room - DECODING.least_room)
-    at = shown(OccupancyGrid(), LARGE)
+    at = turned(OccupancyGrid(), LARGE)
     level, text = at.statuses()["Octree"]
     assert (level, "0 MB of 450 MB are left. Publish a part" in text) == ("ERROR", True), text
     del robot

@@ -47,21 +47,6 @@ def odometry(
     return {"pose": {"pose": pose, "covariance": covariance.ravel()}}
 
 
-@pytest.fixture
-def shown(bench: Benches) -> Callable[..., Any]:
-    """A bench that has drawn odometry in the frame odom, which is 10 m along x and turned left."""
-
-    def make(*messages: dict[str, Any], **properties: Any) -> Any:
-        made = bench(Odometry(**properties))
-        made.transform("map", "odom", (10.0, 0.0, 0.0), about_z(np.pi / 2))
-        for each in messages:
-            made.send(ODOMETRY, each, frame="odom")
-        made.turn()
-        return made
-
-    return make
-
-
 def tails(bench: Any) -> list[list[float]]:
     return bench.nodes()["poses"].segments[:, 0].round(4).tolist()
 
@@ -71,8 +56,10 @@ def spans(node: Any) -> np.ndarray:
     return np.abs(matrices(node.wxyzs) * node.scales[:, None, :]).max(axis=2)
 
 
-def test_transparent_arrows_are_solids_of_the_same_size(shown: Benches) -> None:
-    nodes = shown(odometry(1), shape=PoseShape(alpha=0.5), covariance=Covariance(value=False))
+def test_transparent_arrows_are_solids_of_the_same_size(turned: Benches) -> None:
+    nodes = turned(
+        Odometry(shape=PoseShape(alpha=0.5), covariance=Covariance(value=False)), odometry(1)
+    )
     shafts, heads = nodes.nodes()["shafts"], nodes.nodes()["heads"]
     assert (shafts.shape, heads.shape) == ("cylinder", "cone")
     assert (shafts.opacity, heads.opacity, heads.colors) == (0.5, 0.5, (255, 25, 0))
@@ -82,8 +69,8 @@ def test_transparent_arrows_are_solids_of_the_same_size(shown: Benches) -> None:
     np.testing.assert_allclose(heads.scales, [(0.2, 0.2, 0.3)], atol=1e-6)
 
 
-def test_an_arrow_stands_for_each_pose_in_the_fixed_frame(shown: Benches) -> None:
-    bench = shown(odometry(1), odometry(2, turn=about_z(np.pi / 2)))
+def test_an_arrow_stands_for_each_pose_in_the_fixed_frame(turned: Benches) -> None:
+    bench = turned(Odometry(), odometry(1), odometry(2, turn=about_z(np.pi / 2)))
     node = bench.nodes()["poses"]
     expected = [[(10, 1, 0), (10, 2.3, 0)], [(10, 2, 0), (8.7, 2, 0)]]
     np.testing.assert_allclose(node.segments, expected, atol=1e-6)
@@ -91,52 +78,53 @@ def test_an_arrow_stands_for_each_pose_in_the_fixed_frame(shown: Benches) -> Non
     assert bench.statuses()["Pose"] == ("OK", "Showing 2 poses.")
 
 
-def test_radii_are_radii(shown: Benches) -> None:
+def test_radii_are_radii(turned: Benches) -> None:
     shape = PoseShape(shaft_radius=0.2, head_radius=0.4)
-    node = shown(odometry(), shape=shape).nodes()["poses"]
+    node = turned(Odometry(shape=shape), odometry()).nodes()["poses"]
     assert (node.shaft_radius, node.head_radius) == (0.2, 0.4)
 
 
-def test_axes_are_turned_as_the_robot(shown: Benches) -> None:
-    node = shown(odometry(turn=about_z(np.pi / 2)), shape=PoseShape(value="Axes")).nodes()["poses"]
+def test_axes_are_turned_as_the_robot(turned: Benches) -> None:
+    node = turned(
+        Odometry(shape=PoseShape(value="Axes")), odometry(turn=about_z(np.pi / 2))
+    ).nodes()["poses"]
     np.testing.assert_allclose(np.abs(node.wxyzs), [(0, 0, 0, 1)], atol=1e-6)
     assert (node.length, node.radius) == (1.0, 0.1)
 
 
-def test_a_pose_is_added_once_the_robot_moved_or_turned_enough(shown: Benches) -> None:
-    bench = shown(
+def test_a_pose_is_added_once_the_robot_moved_or_turned_enough(turned: Benches) -> None:
+    bench = turned(
+        Odometry(position_tolerance=0.5, angle_tolerance=0.2),
         odometry(0.0),
         odometry(0.25),
-        odometry(0.49),  # not far enough from 0
+        odometry(0.49),
         odometry(0.5),
         odometry(0.75),
         odometry(0.875, turn=about_z(0.19)),
         odometry(0.875, turn=about_z(0.21)),
-        position_tolerance=0.5,
-        angle_tolerance=0.2,
     )
     assert tails(bench) == [[10, 0, 0], [10, 0.5, 0], [10, 0.875, 0]]
 
 
-def test_the_sign_of_a_quaternion_is_no_turn(shown: Benches) -> None:
-    assert len(tails(shown(odometry(), odometry(turn=(0, 0, 0, -1))))) == 1
+def test_the_sign_of_a_quaternion_is_no_turn(turned: Benches) -> None:
+    assert len(tails(turned(Odometry(), odometry(), odometry(turn=(0, 0, 0, -1))))) == 1
 
 
-def test_without_tolerances_every_pose_is_added(shown: Benches) -> None:
+def test_without_tolerances_every_pose_is_added(turned: Benches) -> None:
     standing = [odometry()] * 5
-    assert len(tails(shown(*standing, position_tolerance=0.0))) == 5
+    assert len(tails(turned(Odometry(position_tolerance=0.0), *standing))) == 5
 
 
-def test_the_newest_poses_stay(shown: Benches) -> None:
-    bench = shown(*map(odometry, range(6)), keep=3)
+def test_the_newest_poses_stay(turned: Benches) -> None:
+    bench = turned(Odometry(keep=3), *map(odometry, range(6)))
     assert [y for _, y, _ in tails(bench)] == [3, 4, 5]
     bench.set("keep", 1)
     assert [y for _, y, _ in tails(bench)] == [5]
 
 
-def test_a_trail_that_grew_pose_by_pose_is_the_one_drawn_at_once(shown: Benches) -> None:
+def test_a_trail_that_grew_pose_by_pose_is_the_one_drawn_at_once(turned: Benches) -> None:
     poses = [odometry(float(x), 0.5 * x, about_z(0.3 * x)) for x in range(9)]
-    grown = shown(keep=4)
+    grown = turned(Odometry(keep=4))
     for number, pose in enumerate(poses):
         if number == 6:
             grown.fixed_frame = "odom"
@@ -144,7 +132,7 @@ def test_a_trail_that_grew_pose_by_pose_is_the_one_drawn_at_once(shown: Benches)
             grown.fixed_frame = "map"
         grown.send(ODOMETRY, pose, frame="odom")
         grown.turn()
-        at_once = shown(*poses[max(0, number - 3) : number + 1], keep=4)
+        at_once = turned(Odometry(keep=4), *poses[max(0, number - 3) : number + 1])
         at_once.fixed_frame = grown.fixed_frame
         at_once.turn()
         np.testing.assert_allclose(
@@ -152,21 +140,21 @@ def test_a_trail_that_grew_pose_by_pose_is_the_one_drawn_at_once(shown: Benches)
         )
 
 
-def test_keep_0_keeps_all(shown: Benches) -> None:
-    assert len(tails(shown(*map(odometry, range(150)), keep=0))) == 150
+def test_keep_0_keeps_all(turned: Benches) -> None:
+    assert len(tails(turned(Odometry(keep=0), *map(odometry, range(150))))) == 150
 
 
-def test_a_long_trail_is_one_node(shown: Benches) -> None:
+def test_a_long_trail_is_one_node(turned: Benches) -> None:
     off = Covariance(value=False)
-    bench = shown(*map(odometry, range(2000)), keep=0, covariance=off)
+    bench = turned(Odometry(keep=0, covariance=off), *map(odometry, range(2000)))
     assert {key: len(node.segments) for key, node in bench.nodes().items()} == {"poses": 2000}
 
 
 # Covariance
 
 
-def test_a_planar_covariance_is_an_ellipse_and_a_wedge(shown: Benches) -> None:
-    bench = shown(odometry(turn=about_z(np.pi / 2), covariance={"yaw": 0.01}))
+def test_a_planar_covariance_is_an_ellipse_and_a_wedge(turned: Benches) -> None:
+    bench = turned(Odometry(), odometry(turn=about_z(np.pi / 2), covariance={"yaw": 0.01}))
     assert bench.nodes().keys() == {"poses", "ellipses", "wedges"}
     wedge = bench.nodes()["wedges"]
     assert (wedge.color, wedge.opacity) == ((255, 255, 127), 0.5)
@@ -175,9 +163,11 @@ def test_a_planar_covariance_is_an_ellipse_and_a_wedge(shown: Benches) -> None:
     np.testing.assert_allclose(wedge.vertices, expected, atol=1e-6)
 
 
-def test_the_ellipse_lies_along_the_frame_and_the_wedge_along_the_robot(shown: Benches) -> None:
+def test_the_ellipse_lies_along_the_frame_and_the_wedge_along_the_robot(turned: Benches) -> None:
     # In odom the robot looks along y, and its position along x is uncertain; odom's x is map's y.
-    bench = shown(odometry(turn=about_z(np.pi / 2), covariance={"x": 4.0, "yaw": 0.01}))
+    bench = turned(
+        Odometry(), odometry(turn=about_z(np.pi / 2), covariance={"x": 4.0, "yaw": 0.01})
+    )
     ellipse = bench.nodes()["ellipses"]
     assert ellipse.shape == "cylinder"
     assert ellipse.positions[0] == pytest.approx((10, 0, 1e-3), abs=1e-6)
@@ -189,12 +179,12 @@ def test_the_ellipse_lies_along_the_frame_and_the_wedge_along_the_robot(shown: B
     assert tip == pytest.approx((10, 1, 1e-3), abs=1e-6)
 
 
-def test_a_covariance_in_space_is_an_ellipsoid_and_three_discs(shown: Benches) -> None:
+def test_a_covariance_in_space_is_an_ellipsoid_and_three_discs(turned: Benches) -> None:
     look = Covariance(
         position=PositionCovariance(scale=2.0), orientation=OrientationCovariance(color_style="RGB")
     )
     variances = {"x": 0.01, "y": 0.04, "z": 0.09, "roll": 0.01, "pitch": 0.01, "yaw": 0.01}
-    nodes = shown(odometry(covariance=variances), covariance=look).nodes()
+    nodes = turned(Odometry(covariance=look), odometry(covariance=variances)).nodes()
     ellipsoid, discs = nodes["ellipsoids"], nodes["discs"]
     assert (ellipsoid.shape, ellipsoid.colors, ellipsoid.opacity) == ("sphere", (204, 51, 204), 0.3)
     assert spans(ellipsoid)[0] == pytest.approx((0.8, 0.4, 1.2), rel=1e-5)
@@ -207,29 +197,29 @@ def test_a_covariance_in_space_is_an_ellipsoid_and_three_discs(shown: Benches) -
     np.testing.assert_allclose(spans(discs), expected, atol=1e-5)
 
 
-def test_correlated_and_mirrored_axes_make_an_ellipsoid_of_the_same_spread(shown: Benches) -> None:
+def test_correlated_and_mirrored_axes_make_an_ellipsoid_of_the_same_spread(turned: Benches) -> None:
     random = np.random.default_rng(2)
     for _ in range(20):
         root = random.normal(size=(3, 3)) * 0.3
         covariance = np.diag([0, 0, 0, 1e-4, 1e-4, 1e-4])
         covariance[:3, :3] = root @ root.T
-        node = shown(odometry(covariance=covariance)).nodes()["ellipsoids"]
+        node = turned(Odometry(), odometry(covariance=covariance)).nodes()["ellipsoids"]
         axes = matrices(node.wxyzs[0]) * node.scales[0] / 2
-        turned = np.array([(0, -1, 0), (1, 0, 0), (0, 0, 1)]) @ root
-        np.testing.assert_allclose(axes @ axes.T, turned @ turned.T, atol=1e-5)
+        in_map = np.array([(0, -1, 0), (1, 0, 0), (0, 0, 1)]) @ root
+        np.testing.assert_allclose(axes @ axes.T, in_map @ in_map.T, atol=1e-5)
 
 
-def test_covariances_are_drawn_for_the_newest_poses_only(shown: Benches) -> None:
+def test_covariances_are_drawn_for_the_newest_poses_only(turned: Benches) -> None:
     count = MAX_COVARIANCES + 20
-    bench = shown(*map(odometry, range(count)), keep=0)
+    bench = turned(Odometry(keep=0), *map(odometry, range(count)))
     assert len(tails(bench)) == count
     assert len(bench.nodes()["wedges"].faces) == MAX_COVARIANCES
     assert bench.statuses()["Covariance"][1].endswith(f"{MAX_COVARIANCES} of {count} covariances.")
 
 
-def test_a_covariance_that_is_none_is_left_out_and_named(shown: Benches) -> None:
+def test_a_covariance_that_is_none_is_left_out_and_named(turned: Benches) -> None:
     bad = odometry(1, covariance=np.full(36, NAN))
-    bench = shown(odometry(0), bad, odometry(2, covariance=-np.eye(6)))
+    bench = turned(Odometry(), odometry(0), bad, odometry(2, covariance=-np.eye(6)))
     assert len(tails(bench)) == 3
     assert len(bench.nodes()["wedges"].faces) == 1
     level, text = bench.statuses()["Covariance"]
@@ -238,17 +228,17 @@ def test_a_covariance_that_is_none_is_left_out_and_named(shown: Benches) -> None
 
 
 @pytest.mark.parametrize("size", [NAN, 1e300, -1.0])
-def test_a_bad_covariance_of_a_robot_at_rest_is_named(shown: Benches, size: float) -> None:
+def test_a_bad_covariance_of_a_robot_at_rest_is_named(turned: Benches, size: float) -> None:
     good, bad = odometry(covariance=np.eye(6)), odometry(covariance=np.eye(6) * size)
-    bench = shown(good, bad)
+    bench = turned(Odometry(), good, bad)
     level, text = bench.statuses()["Covariance"]
     assert level == "WARN"
     assert text.startswith("1 of 2 covariances are invalid and not drawn")
     assert len(bench.nodes()["ellipsoids"].positions) == 1
 
 
-def test_a_negative_variance_out_of_the_plane_counts_as_none_and_is_named(shown: Benches) -> None:
-    bench = shown(odometry(covariance=np.diag([1.0, 1.0, -1.0, 0.0, 0.0, 1.0])))
+def test_a_negative_variance_out_of_the_plane_counts_as_none_and_is_named(turned: Benches) -> None:
+    bench = turned(Odometry(), odometry(covariance=np.diag([1.0, 1.0, -1.0, 0.0, 0.0, 1.0])))
     assert "ellipses" in bench.nodes()
     level, text = bench.statuses()["Covariance"]
     assert level == "WARN"
@@ -271,9 +261,9 @@ def test_a_negative_variance_out_of_the_plane_counts_as_none_and_is_named(shown:
     ],
 )
 def test_a_bad_pose_is_named_and_the_trail_stays(
-    shown: Benches, message: dict[str, Any], words: str
+    turned: Benches, message: dict[str, Any], words: str
 ) -> None:
-    bench = shown(odometry(0), odometry(1), *[message] * 500)
+    bench = turned(Odometry(), odometry(0), odometry(1), *[message] * 500)
     assert tails(bench) == [[10, 0, 0], [10, 1, 0]]
     level, text = bench.statuses()["Message"]
     assert level == "ERROR"
@@ -283,12 +273,12 @@ def test_a_bad_pose_is_named_and_the_trail_stays(
     assert bench.statuses()["Pose"][0] == "OK"
 
 
-def test_a_nearly_normalized_quaternion_is_accepted(shown: Benches) -> None:
-    assert len(tails(shown(odometry(turn=(0, 0, 0, 1.004))))) == 1
+def test_a_nearly_normalized_quaternion_is_accepted(turned: Benches) -> None:
+    assert len(tails(turned(Odometry(), odometry(turn=(0, 0, 0, 1.004))))) == 1
 
 
-def test_only_bad_poses_draw_nothing(shown: Benches) -> None:
-    bench = shown(odometry(NAN))
+def test_only_bad_poses_draw_nothing(turned: Benches) -> None:
+    bench = turned(Odometry(), odometry(NAN))
     assert bench.nodes() == {}
     assert bench.statuses()["Message"][0] == "ERROR"
 

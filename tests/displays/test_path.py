@@ -10,7 +10,6 @@ from display_scenes import paths
 from webviz.shell.testing import check_details
 from webviz_displays.path import Path
 
-PATH = "nav_msgs/msg/Path"
 NAN, INF = float("nan"), float("inf")
 QUARTER = (0.0, 0.0, np.sqrt(0.5), np.sqrt(0.5))
 """90 degrees about z, xyzw."""
@@ -34,23 +33,8 @@ def path(*positions: tuple[float, ...], turn: tuple[float, ...] = (0, 0, 0, 1)) 
     }
 
 
-@pytest.fixture
-def shown(bench: Benches) -> Callable[..., Any]:
-    """A bench that has drawn paths in the frame odom, which is 10 m along x and turned left."""
-
-    def make(*paths: dict[str, Any], **properties: Any) -> Any:
-        made = bench(Path(**properties))
-        made.transform("map", "odom", (10.0, 0.0, 0.0), QUARTER)
-        for each in paths:
-            made.send(PATH, each, frame="odom")
-        made.turn()
-        return made
-
-    return make
-
-
-def test_poses_are_joined_in_the_frame_of_the_header(shown: Benches) -> None:
-    bench = shown(path((0, 0, 0), (1, 0, 0), (1, 2, 0)))
+def test_poses_are_joined_in_the_frame_of_the_header(turned: Benches) -> None:
+    bench = turned(Path(), path((0, 0, 0), (1, 0, 0), (1, 2, 0)))
     expected = [[(10, 0, 0), (10, 1, 0)], [(10, 1, 0), (8, 1, 0)]]
     np.testing.assert_allclose(bench.xyz("line"), expected, atol=1e-6)
     node = bench.nodes()["line"]
@@ -58,19 +42,19 @@ def test_poses_are_joined_in_the_frame_of_the_header(shown: Benches) -> None:
     assert bench.statuses()["Path"] == ("OK", "Showing 3 poses.")
 
 
-def test_the_offset_is_along_the_axes_of_the_fixed_frame(shown: Benches) -> None:
-    bench = shown(path((0, 0, 0), (1, 0, 0)), offset=(0.0, 0.5, 3.0))
+def test_the_offset_is_along_the_axes_of_the_fixed_frame(turned: Benches) -> None:
+    bench = turned(Path(offset=(0.0, 0.5, 3.0)), path((0, 0, 0), (1, 0, 0)))
     expected = [[(10, 0.5, 3), (10, 1.5, 3)]]
     np.testing.assert_allclose(bench.xyz("line"), expected, atol=1e-6)
 
 
-def test_billboards_have_a_width_in_metres(shown: Benches) -> None:
-    node = shown(path((0, 0, 0), (1, 0, 0)), line_style="Billboards").nodes()["line"]
+def test_billboards_have_a_width_in_metres(turned: Benches) -> None:
+    node = turned(Path(line_style="Billboards"), path((0, 0, 0), (1, 0, 0))).nodes()["line"]
     assert (node.width, node.unit) == (0.03, "m")
 
 
-def test_colour_and_alpha_change_what_is_drawn_already(shown: Benches) -> None:
-    bench = shown(path((0, 0, 0), (1, 0, 0)))
+def test_colour_and_alpha_change_what_is_drawn_already(turned: Benches) -> None:
+    bench = turned(Path(), path((0, 0, 0), (1, 0, 0)))
     bench.set("color", (248, 48, 48))
     assert bench.nodes()["line"].colors == (248, 48, 48)
     bench.set("alpha", 0.5)
@@ -78,27 +62,27 @@ def test_colour_and_alpha_change_what_is_drawn_already(shown: Benches) -> None:
 
 
 def test_of_a_path_of_very_many_poses_some_are_drawn_and_it_is_said(
-    shown: Benches, monkeypatch: pytest.MonkeyPatch
+    turned: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz_displays.path.MAX_POSES", 3)
-    bench = shown(path(*((x, 0, 0) for x in range(9))), pose_style="Axes")
+    bench = turned(Path(pose_style="Axes"), path(*((x, 0, 0) for x in range(9))))
     assert len(bench.nodes()["line"].segments) == 2
     assert len(bench.nodes()["poses"].positions) == 3
     level, text = bench.statuses()["Path"]
     assert (level, text) == ("WARN", "Showing 3 of 9 poses, evenly picked.")
 
 
-def test_the_newest_paths_stay_up_to_the_buffer_length(shown: Benches) -> None:
+def test_the_newest_paths_stay_up_to_the_buffer_length(turned: Benches) -> None:
     paths = [path((0, 0, i), (1, 0, i)) for i in range(4)]
-    bench = shown(*paths, buffer_length=3)
+    bench = turned(Path(buffer_length=3), *paths)
     heights = sorted(bench.xyz(key)[0, 0, 2] for key in bench.nodes())
     assert heights == [1, 2, 3]
     bench.set("buffer_length", 1)
     assert [bench.xyz(key)[0, 0, 2] for key in bench.nodes()] == [3]
 
 
-def test_arrows_point_along_x_of_each_pose(shown: Benches) -> None:
-    bench = shown(path((0, 0, 0), (5, 0, 0), turn=QUARTER), pose_style="Arrows")
+def test_arrows_point_along_x_of_each_pose(turned: Benches) -> None:
+    bench = turned(Path(pose_style="Arrows"), path((0, 0, 0), (5, 0, 0), turn=QUARTER))
     node = bench.nodes()["poses"]
     expected = [[(10, 0, 0), (9.7, 0, 0)], [(10, 5, 0), (9.7, 5, 0)]]
     np.testing.assert_allclose(bench.xyz("poses"), expected, atol=1e-6)
@@ -106,8 +90,8 @@ def test_arrows_point_along_x_of_each_pose(shown: Benches) -> None:
     assert node.colors == (255, 85, 255)
 
 
-def test_axes_are_turned_as_each_pose(shown: Benches) -> None:
-    bench = shown(path((1, 2, 3), turn=QUARTER), pose_style="Axes")
+def test_axes_are_turned_as_each_pose(turned: Benches) -> None:
+    bench = turned(Path(pose_style="Axes"), path((1, 2, 3), turn=QUARTER))
     np.testing.assert_allclose(bench.xyz("poses"), [(8, 1, 3)], atol=1e-6)
     node = bench.nodes()["poses"]  # two quarter turns, of odom and of the pose
     np.testing.assert_allclose(np.abs(node.wxyzs), [(0, 0, 0, 1)], atol=1e-6)
@@ -115,36 +99,36 @@ def test_axes_are_turned_as_each_pose(shown: Benches) -> None:
 
 
 def test_orientations_that_planners_leave_at_zero_are_drawn_unturned_and_named(
-    shown: Benches,
+    turned: Benches,
 ) -> None:
-    bench = shown(path((0, 0, 0), (1, 0, 0), turn=(0, 0, 0, 0)), pose_style="Arrows")
+    bench = turned(Path(pose_style="Arrows"), path((0, 0, 0), (1, 0, 0), turn=(0, 0, 0, 0)))
     np.testing.assert_allclose(bench.xyz("poses")[0, 1], (10, 0.3, 0), atol=1e-6)
     assert bench.statuses()["Orientation"][0] == "WARN"
     bench.set("pose_style", "None")
     assert "Orientation" not in bench.statuses()
 
 
-def test_unnormalized_orientations_are_normalized(shown: Benches) -> None:
-    bench = shown(path((0, 0, 0), turn=(0, 0, 0, 7)), pose_style="Arrows")
+def test_unnormalized_orientations_are_normalized(turned: Benches) -> None:
+    bench = turned(Path(pose_style="Arrows"), path((0, 0, 0), turn=(0, 0, 0, 7)))
     np.testing.assert_allclose(bench.xyz("poses")[0, 1], (10, 0.3, 0), atol=1e-6)
 
 
-def test_an_empty_path_is_named(shown: Benches) -> None:
-    bench = shown(path((0, 0, 0), (1, 0, 0)), path())
+def test_an_empty_path_is_named(turned: Benches) -> None:
+    bench = turned(Path(), path((0, 0, 0), (1, 0, 0)), path())
     assert bench.nodes() == {}
     assert bench.statuses()["Path"] == ("WARN", "The path is empty. Check the planner's log.")
 
 
-def test_a_single_pose_is_no_line(shown: Benches) -> None:
-    bench = shown(path((0, 0, 0)))
+def test_a_single_pose_is_no_line(turned: Benches) -> None:
+    bench = turned(Path(), path((0, 0, 0)))
     assert bench.statuses()["Path"][0] == "WARN"
     bench.set("pose_style", "Axes")
     assert bench.statuses()["Path"] == ("OK", "Showing 1 pose.")
 
 
 @pytest.mark.parametrize("bad", [NAN, INF, -INF, 1e300])
-def test_a_path_with_a_bad_position_is_refused_with_its_index(shown: Benches, bad: float) -> None:
-    bench = shown(path((0, 0, 0), (1, 0, 0), (2, bad, 0), (bad, 0, 0)))
+def test_a_path_with_a_bad_position_is_refused_with_its_index(turned: Benches, bad: float) -> None:
+    bench = turned(Path(), path((0, 0, 0), (1, 0, 0), (2, bad, 0), (bad, 0, 0)))
     assert bench.nodes() == {}
     level, text = bench.statuses()["Path"]
     assert level == "ERROR"
@@ -152,15 +136,15 @@ def test_a_path_with_a_bad_position_is_refused_with_its_index(shown: Benches, ba
     assert "1 more" in text
 
 
-def test_a_path_with_a_bad_orientation_is_refused(shown: Benches) -> None:
-    bench = shown(path((0, 0, 0), (1, 0, 0), turn=(0, 0, NAN, 1)))
+def test_a_path_with_a_bad_orientation_is_refused(turned: Benches) -> None:
+    bench = turned(Path(), path((0, 0, 0), (1, 0, 0), turn=(0, 0, NAN, 1)))
     assert bench.nodes() == {}
     assert bench.statuses()["Path"][1].startswith("Pose 0 of 2")
 
 
-def test_far_from_the_origin_a_path_keeps_its_millimetres(shown: Benches) -> None:
+def test_far_from_the_origin_a_path_keeps_its_millimetres(turned: Benches) -> None:
     east, north = 448_262.123, 5_411_932.456
-    bench = shown(path((east, north, 0), (east + 0.25, north, 0)))
+    bench = turned(Path(), path((east, north, 0), (east + 0.25, north, 0)))
     expected = [[(10 - north, east, 0), (10 - north, east + 0.25, 0)]]
     np.testing.assert_allclose(bench.xyz("line"), expected, atol=1e-4, rtol=0)
 

@@ -26,12 +26,8 @@ from webviz_displays.poses import (
 from webviz_displays.poses import pose_set as pose_sets
 
 NAN = float("nan")
-QUARTER = (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))
-"""90 degrees about z, xyzw."""
 POSE = "geometry_msgs/msg/PoseStamped"
-COVARIANT = "geometry_msgs/msg/PoseWithCovarianceStamped"
 ARRAY = "geometry_msgs/msg/PoseArray"
-PARTICLES = "nav2_msgs/msg/ParticleCloud"
 POINT = "geometry_msgs/msg/PointStamped"
 
 Benches = Callable[..., Any]
@@ -41,23 +37,8 @@ def pose(x: float, y: float = 0.0, turn: tuple[float, ...] = (0, 0, 0, 1)) -> di
     return {"position": {"x": x, "y": y}, "orientation": dict(zip("xyzw", turn, strict=True))}
 
 
-@pytest.fixture
-def shown(bench: Benches) -> Callable[..., Any]:
-    """A bench that has drawn messages in the frame odom, which is 10 m along x and turned left."""
-
-    def make(display: Any, type_name: str, *messages: dict[str, Any]) -> Any:
-        made = bench(display)
-        made.transform("map", "odom", (10.0, 0.0, 0.0), QUARTER)
-        for each in messages:
-            made.send(type_name, each, frame="odom")
-            made.turn()
-        return made
-
-    return make
-
-
-def test_a_pose_is_an_arrow_along_x_of_rvizs_size(shown: Benches) -> None:
-    at = shown(Pose(), POSE, {"pose": pose(1.0)})
+def test_a_pose_is_an_arrow_along_x_of_rvizs_size(turned: Benches) -> None:
+    at = turned(Pose(), {"pose": pose(1.0)})
     node = at.nodes()["poses"]
     np.testing.assert_allclose(at.xyz("poses"), [[(10, 1, 0), (10, 2.3, 0)]], atol=1e-6)
     assert (node.shaft_radius, node.head_radius, node.head_length) == (0.05, 0.1, 0.3)
@@ -79,16 +60,16 @@ def test_former_poses_stay_where_their_frame_was(bench: Benches) -> None:
     [((0, 0, 0, 0), "all zeros"), ((0, 0, 0, 7), "not normalised"), ((0, 0, 0, 1e200), "not norm")],
 )
 def test_a_quaternion_that_is_no_rotation_is_drawn_as_the_nearest_one(
-    shown: Benches, turn: tuple[float, ...], said: str
+    turned: Benches, turn: tuple[float, ...], said: str
 ) -> None:
-    at = shown(Pose(), POSE, {"pose": pose(0.0, turn=turn)})
+    at = turned(Pose(), {"pose": pose(0.0, turn=turn)})
     np.testing.assert_allclose(at.xyz("poses")[0, 1], (10, 1.3, 0), atol=1e-6)
     level, text = at.statuses()["Orientation"]
     assert (level, said in text) == ("WARN", True)
 
 
-def test_an_invalid_pose_is_named_and_the_former_ones_stay(shown: Benches) -> None:
-    at = shown(Pose(history_length=3), POSE, {"pose": pose(1.0)}, {"pose": pose(NAN)})
+def test_an_invalid_pose_is_named_and_the_former_ones_stay(turned: Benches) -> None:
+    at = turned(Pose(history_length=3), {"pose": pose(1.0)}, {"pose": pose(NAN)})
     assert len(at.xyz("poses")) == 1
     level, text = at.statuses()["Pose"]
     assert (level, "not finite: position (nan" in text) == ("ERROR", True)
@@ -98,11 +79,11 @@ def test_an_invalid_pose_is_named_and_the_former_ones_stay(shown: Benches) -> No
     assert at.statuses()["Pose"] == ("OK", "Showing 2 poses.")
 
 
-def test_a_covariance_surrounds_its_pose(shown: Benches) -> None:
+def test_a_covariance_surrounds_its_pose(turned: Benches) -> None:
     covariance = np.diag([4.0, 0.0, 0.0, 0.0, 0.0, 0.01]).ravel()
     invalid = {"pose": {"pose": pose(NAN), "covariance": covariance}}
     message = {"pose": {"pose": pose(1.0), "covariance": covariance}}
-    at = shown(PoseWithCovariance(history_length=2), COVARIANT, invalid, message)
+    at = turned(PoseWithCovariance(history_length=2), invalid, message)
     assert at.nodes().keys() == {"poses", "ellipses", "wedges"}
     ellipse = at.nodes()["ellipses"]
     np.testing.assert_allclose(at.xyz("ellipses"), [(10, 1, 1e-3)], atol=1e-6)
@@ -111,8 +92,8 @@ def test_a_covariance_surrounds_its_pose(shown: Benches) -> None:
     assert ellipse.ids.tolist() == at.nodes()["poses"].ids.tolist() == [1]
 
 
-def test_a_flat_arrow_is_three_lines_of_a_pixel(shown: Benches) -> None:
-    at = shown(PoseArray(arrow_length=2.0), ARRAY, {"poses": [pose(1.0), pose(3.0)]})
+def test_a_flat_arrow_is_three_lines_of_a_pixel(turned: Benches) -> None:
+    at = turned(PoseArray(arrow_length=2.0), {"poses": [pose(1.0), pose(3.0)]})
     node = at.nodes()["poses"]
     assert (node.width, node.unit, node.ids.tolist()) == (1.0, "px", [0, 0, 0, 1, 1, 1])
     expected = [
@@ -123,8 +104,8 @@ def test_a_flat_arrow_is_three_lines_of_a_pixel(shown: Benches) -> None:
     np.testing.assert_allclose(at.xyz("poses")[:3], expected, atol=1e-6)
 
 
-def test_an_array_of_solid_arrows_or_axes(shown: Benches) -> None:
-    at = shown(PoseArray(shape="Arrow (3D)"), ARRAY, {"poses": [pose(1.0)]})
+def test_an_array_of_solid_arrows_or_axes(turned: Benches) -> None:
+    at = turned(PoseArray(shape="Arrow (3D)"), {"poses": [pose(1.0)]})
     np.testing.assert_allclose(at.nodes()["shafts"].scales, [(0.02, 0.02, 0.23)], atol=1e-6)
     np.testing.assert_allclose(at.nodes()["heads"].scales, [(0.06, 0.06, 0.07)], atol=1e-6)
     np.testing.assert_allclose(at.xyz("heads"), [(10, 1.265, 0)], atol=1e-6)
@@ -132,8 +113,8 @@ def test_an_array_of_solid_arrows_or_axes(shown: Benches) -> None:
     assert (at.nodes()["poses"].length, at.nodes()["poses"].radius) == (0.3, 0.01)
 
 
-def test_poses_that_are_not_finite_are_left_out_and_counted(shown: Benches) -> None:
-    at = shown(PoseArray(), ARRAY, {"poses": [pose(NAN), pose(1.0), pose(1e300)]})
+def test_poses_that_are_not_finite_are_left_out_and_counted(turned: Benches) -> None:
+    at = turned(PoseArray(), {"poses": [pose(NAN), pose(1.0), pose(1e300)]})
     assert at.nodes()["poses"].ids.tolist() == [1, 1, 1]
     level, text = at.statuses()["Poses"]
     assert (level, text.startswith("2 of 3 poses are not finite")) == ("WARN", True)
@@ -142,9 +123,11 @@ def test_poses_that_are_not_finite_are_left_out_and_counted(shown: Benches) -> N
     assert at.statuses()["Poses"][0] == "WARN"
 
 
-def test_of_too_many_poses_some_are_picked(shown: Benches, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_of_too_many_poses_some_are_picked(
+    turned: Benches, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(pose_sets, "MAX_POSES", 10)
-    at = shown(PoseArray(shape="Axes"), ARRAY, {"poses": [pose(i) for i in range(100)]})
+    at = turned(PoseArray(shape="Axes"), {"poses": [pose(i) for i in range(100)]})
     ids = at.nodes()["poses"].ids
     assert (len(ids), set(ids // 10)) == (10, set(range(10)))
     assert at.statuses()["Poses"] == ("WARN", "Showing 10 of 100 poses, evenly picked.")
@@ -158,15 +141,15 @@ def particles(*weights: float) -> dict[str, Any]:
     ("weight", "length"), [(0.0, 0.02), (0.5, 0.16), (1.0, 0.3), (7.0, 0.3), (-1.0, 0.02)]
 )
 def test_the_length_of_a_particle_is_its_weight(
-    shown: Benches, weight: float, length: float
+    turned: Benches, weight: float, length: float
 ) -> None:
-    at = shown(ParticleCloud(), PARTICLES, particles(weight))
+    at = turned(ParticleCloud(), particles(weight))
     tail, tip = at.xyz("poses")[0]
     assert tip - tail == pytest.approx((0, length, 0), abs=1e-6)
 
 
-def test_solid_particles_have_the_proportions_of_rvizs(shown: Benches) -> None:
-    at = shown(ParticleCloud(shape="Arrow (3D)", max_arrow_length=1.0), PARTICLES, particles(1, 0))
+def test_solid_particles_have_the_proportions_of_rvizs(turned: Benches) -> None:
+    at = turned(ParticleCloud(shape="Arrow (3D)", max_arrow_length=1.0), particles(1, 0))
     heads, shafts = at.nodes()["heads"], at.nodes()["shafts"]
     np.testing.assert_allclose(heads.scales[0], (0.1304, 0.1304, 0.3043), atol=1e-6)
     np.testing.assert_allclose(shafts.scales[0], (0.0435, 0.0435, 0.6957), atol=1e-6)
@@ -179,14 +162,14 @@ def test_solid_particles_have_the_proportions_of_rvizs(shown: Benches) -> None:
     np.testing.assert_allclose(middles, [(0, 0.5, 0), (-0.5, 0, 0), (0, 0, 0.5)], atol=1e-6)
 
 
-def test_lengths_that_are_swapped_are_put_right(shown: Benches) -> None:
-    at = shown(ParticleCloud(min_arrow_length=0.5), PARTICLES, particles(1.0))
+def test_lengths_that_are_swapped_are_put_right(turned: Benches) -> None:
+    at = turned(ParticleCloud(min_arrow_length=0.5), particles(1.0))
     assert at.statuses()["Length"][0] == "WARN"
     at.press("Length")
 
 
-def test_weights_that_are_not_finite_count_as_none(shown: Benches) -> None:
-    at = shown(ParticleCloud(), PARTICLES, particles(NAN, 1.0))
+def test_weights_that_are_not_finite_count_as_none(turned: Benches) -> None:
+    at = turned(ParticleCloud(), particles(NAN, 1.0))
     assert at.xyz("poses")[0, 1] == pytest.approx((10, 0.02, 0), abs=1e-6)
     assert at.statuses()["Weight"][0] == "WARN"
 
@@ -208,13 +191,13 @@ def test_a_point_is_a_sphere_that_stays_where_its_frame_was(bench: Benches) -> N
     assert at.statuses()["Point"][0] == "ERROR"
 
 
-def test_far_from_the_origin_points_and_poses_keep_their_millimetres(shown: Benches) -> None:
+def test_far_from_the_origin_points_and_poses_keep_their_millimetres(turned: Benches) -> None:
     east = 448_262.123
-    at = shown(PointStamped(), POINT, {"point": {"x": east}})
+    at = turned(PointStamped(), {"point": {"x": east}})
     assert at.xyz("points")[0] == pytest.approx((10, east, 0), abs=1e-4)
-    at = shown(Pose(), POSE, {"pose": pose(east)})
+    at = turned(Pose(), {"pose": pose(east)})
     assert at.xyz("poses")[0, 0] == pytest.approx((10, east, 0), abs=1e-4)
-    at = shown(PoseArray(shape="Axes"), ARRAY, {"poses": [pose(east)]})
+    at = turned(PoseArray(shape="Axes"), {"poses": [pose(east)]})
     assert at.xyz("poses")[0] == pytest.approx((10, east, 0), abs=1e-4)
 
 

@@ -18,7 +18,6 @@ from webviz.shell.testing import check_details
 from webviz_displays.vectors import AccelStamped, Twist, TwistStamped, Wrench
 
 NAN = float("nan")
-QUARTER = (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))
 WRENCH = "geometry_msgs/msg/WrenchStamped"
 TWIST, ACCEL = "geometry_msgs/msg/TwistStamped", "geometry_msgs/msg/AccelStamped"
 
@@ -37,23 +36,8 @@ def twist(linear: dict[str, float], angular: dict[str, float]) -> dict[str, Any]
     return {"twist": {"linear": linear, "angular": angular}}
 
 
-@pytest.fixture
-def shown(bench: Benches) -> Callable[..., Any]:
-    """A bench that has drawn messages in the frame wrist, which is 10 m along x and turned left."""
-
-    def make(display: Any, type_name: str, *messages: dict[str, Any]) -> Any:
-        made = bench(display)
-        made.transform("map", "wrist", (10.0, 0.0, 0.0), QUARTER)
-        for each in messages:
-            made.send(type_name, each, frame="wrist")
-            made.turn()
-        return made
-
-    return make
-
-
-def test_a_force_is_an_arrow_from_the_origin_of_its_frame(shown: Benches) -> None:
-    at = shown(Wrench(), WRENCH, wrench(vector(x=0.5), vector()))
+def test_a_force_is_an_arrow_from_the_origin_of_its_frame(turned: Benches) -> None:
+    at = turned(Wrench(), wrench(vector(x=0.5), vector()))
     shaft, head = at.nodes()["force shafts"], at.nodes()["force heads"]
     # The scale is 2 m/N, and the head comes after the shaft.
     np.testing.assert_allclose(at.xyz("force shafts"), [(10, 0.5, 0)], atol=1e-6)
@@ -64,8 +48,8 @@ def test_a_force_is_an_arrow_from_the_origin_of_its_frame(shown: Benches) -> Non
     assert at.statuses()["Vectors"] == ("OK", "Force 0.5 N; torque 0 Nm, not drawn.")
 
 
-def test_a_torque_has_a_circle_around_its_arrow(shown: Benches) -> None:
-    at = shown(Wrench(arrow_width=0.2), WRENCH, wrench(vector(), vector(z=2.0)))
+def test_a_torque_has_a_circle_around_its_arrow(turned: Benches) -> None:
+    at = turned(Wrench(arrow_width=0.2), wrench(vector(), vector(z=2.0)))
     np.testing.assert_allclose(at.nodes()["torque shafts"].scales[0, 2], 4.0, atol=1e-6)
     circle = at.xyz("torque circles")
     assert (at.nodes()["torque circles"].width, len(circle)) == (pytest.approx(0.01), 28)
@@ -80,20 +64,20 @@ def test_a_torque_has_a_circle_around_its_arrow(shown: Benches) -> None:
     np.testing.assert_allclose(head.scales, [(0.04, 0.04, 0.02)], atol=1e-6)
 
 
-def test_a_small_force_is_drawn_although_rviz_hides_it(shown: Benches) -> None:
-    at = shown(Wrench(), WRENCH, wrench(vector(x=0.01), vector()))
+def test_a_small_force_is_drawn_although_rviz_hides_it(turned: Benches) -> None:
+    at = turned(Wrench(), wrench(vector(x=0.01), vector()))
     assert "force shafts" in at.nodes()
 
 
-def test_without_force_and_torque_there_is_nothing_to_draw(shown: Benches) -> None:
-    at = shown(Wrench(), WRENCH, wrench(vector(), vector()))
+def test_without_force_and_torque_there_is_nothing_to_draw(turned: Benches) -> None:
+    at = turned(Wrench(), wrench(vector(), vector()))
     assert at.nodes() == {}
     level, text = at.statuses()["Vectors"]
     assert (level, text.endswith("Both are zero, so there is no arrow.")) == ("WARN", True)
 
 
-def test_nan_is_an_error_or_zero(shown: Benches) -> None:
-    at = shown(Wrench(), WRENCH, wrench(vector(x=1.0, y=NAN), vector()))
+def test_nan_is_an_error_or_zero(turned: Benches) -> None:
+    at = turned(Wrench(), wrench(vector(x=1.0, y=NAN), vector()))
     assert at.nodes() == {}
     assert at.statuses()["Values"][0] == "ERROR"
     at.set("accept_nan_values", True)
@@ -101,8 +85,8 @@ def test_nan_is_an_error_or_zero(shown: Benches) -> None:
     np.testing.assert_allclose(at.xyz("force shafts"), [(10, 1, 0)], atol=1e-6)
 
 
-def test_a_force_too_large_to_be_drawn_is_an_error(shown: Benches) -> None:
-    at = shown(Wrench(), WRENCH, wrench(vector(x=1e300), vector(z=1.0)))
+def test_a_force_too_large_to_be_drawn_is_an_error(turned: Benches) -> None:
+    at = turned(Wrench(), wrench(vector(x=1e300), vector(z=1.0)))
     assert "force shafts" not in at.nodes()
     assert "torque shafts" in at.nodes()
     level, text = at.statuses()["Values"]
@@ -126,10 +110,10 @@ def test_former_vectors_stay_where_their_frame_was(bench: Benches) -> None:
     ],
 )
 def test_the_first_motion_is_drawn_at_once_unless_it_is_to_be_hidden(
-    shown: Benches, display: type, type_name: str, message: str, said: str
+    turned: Benches, display: type, type_name: str, message: str, said: str
 ) -> None:
     values = {message: {"linear": vector(x=0.2), "angular": vector(z=0.3)}}
-    at = shown(display(), type_name, values)
+    at = turned(display(), values)
     assert {"linear shafts", "angular shafts", "angular circles"} <= at.nodes().keys()
     assert at.statuses()["Vectors"] == ("OK", said)
     at.set("hide_small_values", True)  # 0.4 m and 0.6 m, of a width of 0.5 m

@@ -23,8 +23,6 @@ from webviz_displays.voxel_grid import VoxelGrid
 
 Benches = Callable[..., Any]
 Key = tuple[int, int, int]
-QUARTER = (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))
-GRID = "nav2_msgs/msg/VoxelGrid"
 COSTMAP, UPDATE = "nav2_msgs/msg/Costmap", "nav2_msgs/msg/CostmapUpdate"
 
 
@@ -47,23 +45,9 @@ def voxel_grid(
     } | fields
 
 
-@pytest.fixture
-def shown(bench: Benches) -> Callable[..., Any]:
-    """A bench that has drawn a grid in the frame odom, 10 m along x and turned left."""
-
-    def make(display: Any, values: dict[str, Any]) -> Any:
-        made = bench(display)
-        made.transform("map", "odom", (10.0, 0.0, 0.0), QUARTER)
-        made.send(GRID, values, frame="odom")
-        made.turn()
-        return made
-
-    return make
-
-
-def test_each_kind_of_voxel_has_its_boxes(shown: Callable) -> None:
+def test_each_kind_of_voxel_has_its_boxes(turned: Callable) -> None:
     values = voxel_grid((3, 2, 16), {(0, 0, 0), (2, 1, 15)}, {(1, 0, 4)})
-    at = shown(VoxelGrid(show_unknown=True, show_free=True), values)
+    at = turned(VoxelGrid(show_unknown=True, show_free=True), values)
     nodes = at.nodes()
     assert {key: len(node.positions) for key, node in nodes.items()} == {
         "marked": 2,
@@ -89,15 +73,15 @@ def test_each_kind_of_voxel_has_its_boxes(shown: Callable) -> None:
     assert at.nodes()
 
 
-def test_voxels_inside_others_are_not_sent(shown: Callable) -> None:
+def test_voxels_inside_others_are_not_sent(turned: Callable) -> None:
     block = set(product(range(1, 5), range(1, 5), range(4)))
-    at = shown(VoxelGrid(), voxel_grid((6, 6, 4), block))
+    at = turned(VoxelGrid(), voxel_grid((6, 6, 4), block))
     assert len(at.nodes()["marked"].positions) == 4**3 - 2**3
 
 
-def test_too_many_voxels_are_thinned_out(shown: Callable, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_too_many_voxels_are_thinned_out(turned: Callable, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(voxel_grid_module, "MAX_VOXELS", 5)
-    at = shown(VoxelGrid(), voxel_grid((3, 3, 1), set(product(range(3), range(3), [0]))))
+    at = turned(VoxelGrid(), voxel_grid((3, 3, 1), set(product(range(3), range(3), [0]))))
     assert len(at.nodes()["marked"].positions) == 5
     assert at.statuses()["Limit"][0] == "WARN"
 
@@ -114,9 +98,9 @@ def test_too_many_voxels_are_thinned_out(shown: Callable, monkeypatch: pytest.Mo
     ],
 )
 def test_a_grid_that_cannot_be_drawn_says_why(
-    shown: Callable, fields: dict[str, Any], reason: str
+    turned: Callable, fields: dict[str, Any], reason: str
 ) -> None:
-    at = shown(VoxelGrid(), voxel_grid((3, 2, 4), {(0, 0, 0)}, **fields))
+    at = turned(VoxelGrid(), voxel_grid((3, 2, 4), {(0, 0, 0)}, **fields))
     assert at.nodes() == {}
     level, text = at.statuses()["Voxels"]
     assert level == "ERROR"

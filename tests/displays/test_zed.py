@@ -18,24 +18,14 @@ from webviz_displays.zed import ZedOdDisplay, display
 from webviz_displays.zed.bodies import BODIES
 
 
-@pytest.fixture
-def shown(bench: Callable[..., Any]) -> Callable[..., Any]:
-    """A bench that has drawn objects in the frame camera, 10 m along x."""
-
-    def make(*objects: dict[str, Any], **properties: Any) -> Any:
-        made = bench(ZedOdDisplay(**properties))
-        made.transform("map", "camera", (10.0, 0.0, 0.0))
-        made.send(ZED_OBJECTS, {"objects": objects}, frame="camera")
-        made.turn()
-        return made
-
-    return make
+def scene(*objects: dict[str, Any]) -> dict[str, Any]:
+    return {"objects": objects}
 
 
 def test_boxes_have_the_colours_of_their_numbers_and_corners_those_of_tracking(
     shown: Callable,
 ) -> None:
-    at = shown(*ZED_SCENE["objects"])
+    at = shown(ZedOdDisplay(), ZED_SCENE)
     boxes, corners = at.nodes()["boxes"], at.nodes()["corners"]
     assert len(boxes.segments) == 2 * 12
     np.testing.assert_allclose(
@@ -56,7 +46,7 @@ def test_boxes_have_the_colours_of_their_numbers_and_corners_those_of_tracking(
 def test_skeletons_have_the_joints_of_their_format_without_those_that_are_not_seen(
     shown: Callable,
 ) -> None:
-    at = shown(ZED_CAR, ZED_PERSON)
+    at = shown(ZedOdDisplay(), scene(ZED_CAR, ZED_PERSON))
     joints, bones = at.nodes()["joints"], at.nodes()["bones"]
     assert len(joints.positions) == 17, "the left ear is not seen, and 52 are not in the format"
     assert len(bones.segments) == len(BODIES[0].bones) - 1 == 18
@@ -95,18 +85,25 @@ def test_every_bone_is_between_joints_of_its_format() -> None:
 def test_what_is_not_drawn_is_said(
     objects: list[Any], properties: dict[str, Any], sentence: str, shown: Callable
 ) -> None:
-    assert shown(*objects, **properties).statuses()["Objects"] == ("WARN", sentence)
+    at = shown(ZedOdDisplay(**properties), scene(*objects))
+    assert at.statuses()["Objects"] == ("WARN", sentence)
 
 
 def test_objects_out_of_sight_are_left_out_without_a_warning(shown: Callable) -> None:
-    at = shown(ZED_PERSON, ZED_CAR | {"tracking_state": 3}, ZED_CAR | {"label_id": -1})
+    at = shown(
+        ZedOdDisplay(),
+        scene(ZED_PERSON, ZED_CAR | {"tracking_state": 3}, ZED_CAR | {"label_id": -1}),
+    )
     assert at.nodes()["labels"].texts == ("Person-0",)
     assert at.statuses()["Objects"] == ("OK", "1 of 3 objects shown: 2 not tracked.")
 
 
 def test_boxes_without_corners_and_unknown_skeletons_are_named(shown: Callable) -> None:
     corners = [{"kp": (NAN, NAN, NAN)}] * 8
-    at = shown(ZED_CAR, ZED_PERSON | {"bounding_box_3d": {"corners": corners}, "body_format": 9})
+    at = shown(
+        ZedOdDisplay(),
+        scene(ZED_CAR, ZED_PERSON | {"bounding_box_3d": {"corners": corners}, "body_format": 9}),
+    )
     assert len(at.nodes()["boxes"].segments) == 12
     told = at.statuses()
     assert told["Boxes"] == ("WARN", "1 of 2 boxes left out: corners are missing or invalid.")
@@ -117,7 +114,7 @@ def test_too_many_objects_are_cut_with_a_warning(
     shown: Callable, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(display, "MAX_OBJECTS", 1)
-    at = shown(ZED_CAR, ZED_PERSON)
+    at = shown(ZedOdDisplay(), scene(ZED_CAR, ZED_PERSON))
     assert at.nodes()["labels"].texts == ("3-Vehicle [Car]",)
     assert at.statuses()["Objects"] == ("WARN", "1 of 2 objects shown: 1 too many.")
 
