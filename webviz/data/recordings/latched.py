@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import Generic, TypeVar
 
 from webviz.data.messages import MessageError, TFMessage, decode
+from webviz.data.messages.transform_layout import Layouts
 
 MOVING_TF, STATIC_TF = "tf", "tf_static"
 TF = "tf2_msgs/msg/TFMessage"
@@ -24,6 +25,7 @@ class LatchedMessages(Generic[T]):
 
     def __init__(self) -> None:
         self._topics: dict[str, dict[object, T]] = {}
+        self._layouts = Layouts()
 
     def __len__(self) -> int:
         return sum(len(own) for own in self._topics.values())
@@ -47,7 +49,7 @@ class LatchedMessages(Generic[T]):
         if not publishers:
             return False
         own = self._topics.setdefault(topic, {})
-        key = _publisher_of(topic, cdr)
+        key = self._publisher_of(topic, cdr)
         own.pop(key, None)
         own[key] = item
         most = MAX_LATCHED if has_transforms(topic) else min(publishers, MAX_LATCHED)
@@ -58,7 +60,7 @@ class LatchedMessages(Generic[T]):
     def remove(self, topic: str, cdr: bytes) -> None:
         """Forget a message that is kept."""
         own = self._topics[topic]
-        del own[_publisher_of(topic, cdr)]
+        del own[self._publisher_of(topic, cdr)]
         if not own:
             del self._topics[topic]
 
@@ -72,18 +74,24 @@ class LatchedMessages(Generic[T]):
         copy._topics = {topic: dict(own) for topic, own in self._topics.items()}
         return copy
 
+    def _publisher_of(self, topic: str, cdr: bytes) -> object:
+        """Return a key that tells apart messages of several publishers, even if bytes are equal.
 
-def has_transforms(topic: str) -> bool:
-    """Return whether the name of a topic, in any namespace, is that of transforms."""
-    return topic.rpartition("/")[2] in (MOVING_TF, STATIC_TF)
-
-
-def _publisher_of(topic: str, cdr: bytes) -> object:
-    """Return a key that tells apart messages of several publishers, even if bytes are equal."""
-    if has_transforms(topic):
+        That of transforms is their frames. It is asked for each /tf, so that nothing is decoded
+        whose frames are known.
+        """
+        if not has_transforms(topic):
+            return cdr
+        if (layout := self._layouts.of(cdr)) is not None:
+            return layout.children
         try:
             message: TFMessage = decode(TF, cdr)
         except MessageError:
             return cdr
+        self._layouts.learn(cdr, message)
         return frozenset(transform.child for transform in message.transforms)
-    return cdr
+
+
+def has_transforms(topic: str) -> bool:
+    """Return whether the name of a topic, in any namespace, is that of transforms."""
+    return topic.rpartition("/")[2] in (MOVING_TF, STATIC_TF)

@@ -10,11 +10,11 @@ from webviz.api.lookback import Lookback
 from webviz.api.robots import NamespacedRobot
 from webviz.api.status import Level, Status
 from webviz.data.messages import MessageError, TFMessage, decode
+from webviz.data.messages.transform_layout import Layouts, TransformBatch
 from webviz.data.transforms import TransformBuffer
 from webviz.data.transforms.buffer import MAX_FRAMES
 from webviz.data.transforms.clocks import clock_problem
 from webviz.data.words import joined
-from webviz.engine.pipeline.transform_layout import Layouts, TransformBatch
 from webviz.sources import Offer, Raw, Subscriber, Subscription
 
 TOPICS = {"tf": False, "tf_static": True}
@@ -126,7 +126,8 @@ class TransformListener:
 
     def _insert(self, topic: str, raw: Raw, is_static: bool, robot: NamespacedRobot | None) -> None:
         named = robot.frame if robot else _as_sent
-        if not is_static and (batch := self._layouts.read(raw.cdr)) is not None:
+        if not is_static and (layout := self._layouts.of(raw.cdr)) is not None:
+            batch = layout.read(raw.cdr)
             self._faults.pop(topic, None)
             names = self._names_of(topic, batch, robot)
             self._notice_time(names[0][1], batch.stamps_ns[0])

@@ -45,6 +45,8 @@ class TransformLayout:
 
     def __init__(self, cdr: bytes, message: TFMessage) -> None:
         self._names = [(t.parent, t.child) for t in message.transforms]
+        self.children = frozenset(child for _, child in self._names)
+        """Of all transforms."""
         stamps, numbers, pos = [], [], 8  # after the encapsulation and the count
         for parent, child in self._names:
             stamps.append(pos)
@@ -62,13 +64,15 @@ class TransformLayout:
         self._expected = _words(cdr)[self._fixed] if len(cdr) == pos else None
         self._head = cdr[:4]
 
-    def read(self, cdr: bytes) -> TransformBatch | None:
-        """Return the transforms of another message, None if its frames differ."""
+    def fits(self, cdr: bytes) -> bool:
+        """Return whether another message has the same frames."""
         if len(cdr) != self._size or cdr[:4] != self._head or self._expected is None:
-            return None
+            return False
+        return np.array_equal(_words(cdr)[self._fixed], self._expected)
+
+    def read(self, cdr: bytes) -> TransformBatch:
+        """Return the transforms of a message that it `fits`."""
         words = _words(cdr)
-        if not np.array_equal(words[self._fixed], self._expected):
-            return None
         seconds, nanoseconds = words[self._stamps].T
         stamps = seconds.view(np.int32) * np.int64(1_000_000_000) + nanoseconds
         poses = words[self._numbers].view(np.float64)
@@ -81,11 +85,11 @@ class Layouts:
     def __init__(self) -> None:
         self._by_size: dict[int, list[TransformLayout]] = {}
 
-    def read(self, cdr: bytes) -> TransformBatch | None:
-        """Return the transforms of a message, None if its layout is unknown."""
+    def of(self, cdr: bytes) -> TransformLayout | None:
+        """Return the layout of a message, None if it is unknown."""
         for layout in self._by_size.get(len(cdr), ()):
-            if (batch := layout.read(cdr)) is not None:
-                return batch
+            if layout.fits(cdr):
+                return layout
         return None
 
     def learn(self, cdr: bytes, message: TFMessage) -> None:

@@ -6,7 +6,7 @@ import random
 from typing import Any
 
 from webviz.data.messages import TFMessage, decode, encode
-from webviz.engine.pipeline.transform_layout import MAX_SIZES, MIN_TRANSFORMS, SAME_SIZE, Layouts
+from webviz.data.messages.transform_layout import MAX_SIZES, MIN_TRANSFORMS, SAME_SIZE, Layouts
 from webviz.shell.testing.messages import header
 
 TYPE = "tf2_msgs/msg/TFMessage"
@@ -44,8 +44,9 @@ def test_a_message_with_the_same_frames_is_read_as_it_is_decoded() -> None:
     for seed in range(1, 20):
         cdr = message(NAMES, seed)
         decoded: TFMessage = decode(TYPE, cdr)
-        batch = layouts.read(cdr)
-        assert batch is not None
+        layout = layouts.of(cdr)
+        assert layout is not None
+        batch = layout.read(cdr)
         assert batch.names == [(t.parent, t.child) for t in decoded.transforms]
         assert batch.stamps_ns == [t.stamp_ns for t in decoded.transforms]
         assert batch.poses.tolist() == [[*t.translation, *t.rotation] for t in decoded.transforms]
@@ -57,24 +58,26 @@ def test_other_frames_of_the_same_length_are_not_taken_for_the_same() -> None:
         names = list(NAMES)
         parent, child = names[place]
         names[place] = ("mop", child) if place % 2 else (parent, f"K{child[1:]}")
-        assert layouts.read(message(names)) is None
+        assert layouts.of(message(names)) is None
 
 
 def test_a_broken_message_is_left_to_the_decoder() -> None:
     cdr = message(NAMES)
     layouts = learnt(cdr)
-    assert layouts.read(cdr[:-4]) is None
-    assert layouts.read(cdr + b"\0\0\0\0") is None
-    assert layouts.read(b"\0\0" + cdr[2:]) is None  # big-endian
-    assert layouts.read(cdr[:4] + b"\xff" + cdr[5:]) is None  # another count
-    assert layouts.read(b"") is None
+    assert layouts.of(cdr[:-4]) is None
+    assert layouts.of(cdr + b"\0\0\0\0") is None
+    assert layouts.of(b"\0\0" + cdr[2:]) is None  # big-endian
+    assert layouts.of(cdr[:4] + b"\xff" + cdr[5:]) is None  # another count
+    assert layouts.of(b"") is None
 
 
 def test_names_that_are_not_utf_8_are_read_as_they_are_decoded() -> None:
     cdr = message(NAMES).replace("é".encode(), b"\xff\xfe")
-    batch = learnt(cdr).read(cdr)
+    layout = learnt(cdr).of(cdr)
     decoded: TFMessage = decode(TYPE, cdr)
-    assert batch is None or batch.names == [(t.parent, t.child) for t in decoded.transforms]
+    assert layout is None or layout.read(cdr).names == [
+        (t.parent, t.child) for t in decoded.transforms
+    ]
 
 
 def test_robots_of_a_fleet_are_all_known_up_to_a_bound() -> None:
@@ -82,7 +85,7 @@ def test_robots_of_a_fleet_are_all_known_up_to_a_bound() -> None:
     layouts = Layouts()
     for cdr in fleet:
         layouts.learn(cdr, decode(TYPE, cdr))
-    assert [layouts.read(cdr) is not None for cdr in fleet] == [True] * SAME_SIZE + [False]
+    assert [layouts.of(cdr) is not None for cdr in fleet] == [True] * SAME_SIZE + [False]
 
 
 def test_messages_of_many_sizes_are_known_and_all_forgotten_if_there_are_too_many() -> None:
@@ -93,11 +96,11 @@ def test_messages_of_many_sizes_are_known_and_all_forgotten_if_there_are_too_man
     layouts = Layouts()
     for cdr in sizes[:MAX_SIZES]:
         layouts.learn(cdr, decode(TYPE, cdr))
-    assert all(layouts.read(cdr) for cdr in sizes[:MAX_SIZES])
+    assert all(layouts.of(cdr) for cdr in sizes[:MAX_SIZES])
     layouts.learn(sizes[MAX_SIZES], decode(TYPE, sizes[MAX_SIZES]))
-    assert [layouts.read(cdr) is not None for cdr in sizes] == [False] * MAX_SIZES + [True]
+    assert [layouts.of(cdr) is not None for cdr in sizes] == [False] * MAX_SIZES + [True]
 
 
 def test_what_is_quickly_decoded_is_not_learnt() -> None:
     cdr = message(NAMES[1:])
-    assert learnt(cdr).read(cdr) is None
+    assert learnt(cdr).of(cdr) is None
