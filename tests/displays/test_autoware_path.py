@@ -69,7 +69,8 @@ def test_bounds_footprints_and_points(shown: Callable) -> None:
 
 
 def test_numbers_stand_above_their_points(shown: Callable) -> None:
-    texts = {f"view_text_{name}": TextView(value=True) for name in ("velocity", "slope", "time")}
+    names = ("velocity", "slope", "time")
+    texts: dict[str, Any] = {f"view_text_{name}": TextView(value=True) for name in names}
     at = shown(AutowareTrajectory(**texts), TIMED)
     nodes = at.nodes()
     assert nodes["velocities"].texts == ("0.00", "1.00", "2.00", "3.00")
