@@ -1,7 +1,17 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { foldable, layOut } from "../../webviz/panels/graph.js";
+import { foldable, layOut } from "../../webviz/panels/graph_layout.js";
+import {
+  boxAt,
+  centred,
+  finder,
+  foldsOf,
+  rateText,
+  sumText,
+  whole,
+  zoomed,
+} from "../../webviz/panels/graph_view.js";
 
 const topic = (name, from, to) => ({ name, type: "T", from, to: to.map((node) => [node, ""]) });
 const CHAIN = [
@@ -57,4 +67,59 @@ test("200 nodes and 2000 topics are laid out at once", () => {
   assert.equal(boxes.size, 2200);
   assert.ok(user < 2e6, `${user / 1000} ms of a processor`); // about 0.1 s
   assert.ok(layOut(topics, () => true).boxes.size <= 20);
+});
+
+test("a whole drawing is in the middle, never enlarged", () => {
+  const canvas = { width: 200, height: 100 };
+  assert.deepEqual(whole({ width: 400, height: 100 }, canvas), { x: 0, y: -50, scale: 0.5 });
+  assert.deepEqual(whole({ width: 100, height: 50 }, canvas), { x: -50, y: -25, scale: 1 });
+  assert.equal(whole({ width: 1e9, height: 1 }, canvas).scale, 0.02);
+});
+
+test("zooming keeps what is under the pointer, and a box that is found is in the middle", () => {
+  const look = { x: 10, y: 20, scale: 0.5 };
+  assert.deepEqual(zoomed(look, 2, 30, 40), { x: 40, y: 60, scale: 1 });
+  assert.equal(zoomed(look, 1e9, 0, 0).scale, 3);
+  const box = { x: 100, y: 82, width: 100 };
+  const size = { width: 80, height: 40 };
+  assert.deepEqual(centred(look, box, size), { x: 100, y: 75, scale: 0.8 });
+  assert.equal(centred({ ...look, scale: 2 }, box, size).scale, 2);
+});
+
+test("a box is hit within its edges", () => {
+  const boxes = new Map([["a", { x: 10, y: 10, width: 100 }]]);
+  const look = { x: 0, y: 0, scale: 0.5 };
+  for (const [x, y] of [
+    [5, 5],
+    [55, 23],
+  ])
+    assert.equal(boxAt(boxes, look, x, y), boxes.get("a"));
+  assert.equal(boxAt(boxes, look, 55, 24), undefined);
+  assert.equal(boxAt(boxes, look, 4, 5), undefined);
+});
+
+test("words find boxes and what is folded in them, and are counted", () => {
+  const drawing = layOut(CHAIN, () => false);
+  assert.equal(finder("  "), null);
+  assert.equal(sumText(drawing, finder("M AM")), "1 of 6");
+  assert.equal(sumText(drawing, null), "6 boxes");
+  drawing.links[0].why = "It does not arrive.";
+  assert.equal(sumText(drawing, null), "6 boxes, 1 QoS mismatch");
+  drawing.links[1].why = "Nor does it.";
+  assert.equal(sumText(drawing, null), "6 boxes, 2 QoS mismatches");
+  assert.ok(finder("inner")({ name: "/a", topics: ["/a/inner"] }));
+});
+
+test("the highest rate of several topics counts, with few digits", () => {
+  assert.equal(rateText([]), "");
+  assert.equal(rateText([0.2, 9.98]), "10 Hz");
+  assert.equal(rateText([2.512]), "2.5 Hz");
+  assert.equal(rateText([99.6]), "100 Hz");
+});
+
+test("a group is unfolded, and the innermost namespace that is open is folded", () => {
+  const [all, none] = [new Set(["/a", "/a/b"]), new Set()];
+  assert.deepEqual(foldsOf({ name: "/a", kind: "group" }, all, none), [["Unfold", "/a"]]);
+  assert.deepEqual(foldsOf({ name: "/a/b/x", kind: "topic" }, all, all), [["Fold /a/b", "/a/b"]]);
+  assert.deepEqual(foldsOf({ name: "/x", kind: "topic" }, all, all), []);
 });

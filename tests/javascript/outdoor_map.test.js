@@ -1,7 +1,16 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { mercator, tilesOf, unmercator } from "../../webviz/panels/outdoor_map.js";
+import {
+  mercator,
+  pixelOf,
+  placeAt,
+  tilesOf,
+  unmercator,
+  zoomed,
+} from "../../webviz/panels/outdoor_mercator.js";
+
+const SIZE = { width: 600, height: 400 };
 
 test("places are shares of the world in Web Mercator, and back", () => {
   assert.deepEqual(mercator([0, 0]), [0.5, 0.5]);
@@ -12,9 +21,23 @@ test("places are shares of the world in Web Mercator, and back", () => {
 });
 
 test("a map asks for what is in sight, its middle first, and for nothing beyond the world", () => {
-  const [first, ...rest] = tilesOf({ x: 0.6, y: 0.3, zoom: 3.2 }, 600, 400);
+  const [first, ...rest] = tilesOf({ x: 0.6, y: 0.3, zoom: 3.2 }, SIZE);
   assert.deepEqual(first, [3, 4, 2]);
   assert.ok(rest.length >= 3 && rest.length < 12);
-  assert.deepEqual(tilesOf({ x: 0.5, y: 0.5, zoom: 0 }, 3000, 3000), [[0, 0, 0]]);
-  assert.deepEqual(tilesOf({ x: 5, y: 5, zoom: 4 }, 300, 300), []);
+  assert.deepEqual(tilesOf({ x: 0.5, y: 0.5, zoom: 0 }, { width: 3000, height: 3000 }), [
+    [0, 0, 0],
+  ]);
+  assert.deepEqual(tilesOf({ x: 5, y: 5, zoom: 4 }, SIZE), []);
+});
+
+test("a map that is zoomed keeps what is under the pointer, and stops at its last level", () => {
+  const look = { x: 0.5, y: 0.25, zoom: 4 };
+  assert.deepEqual(pixelOf([0.5, 0.25], look, SIZE), [300, 200]);
+  const place = placeAt([100, 50], look, SIZE);
+  const near = zoomed(look, 1.5, [100, 50], SIZE);
+  assert.equal(near.zoom, 5.5);
+  const pixel = pixelOf(place, near, SIZE);
+  assert.ok(Math.hypot(pixel[0] - 100, pixel[1] - 50) < 1e-6, String(pixel));
+  assert.equal(zoomed(look, 99, [0, 0], SIZE).zoom, 21);
+  assert.equal(zoomed(look, -99, [0, 0], SIZE).zoom, 1);
 });

@@ -99,6 +99,29 @@ def test_a_module_that_fails_is_reported_and_the_page_goes_on(
         registry.register(str(path), {})
 
 
+def test_a_module_imports_others_beside_it(tab: Tab, tmp_path: Path) -> None:
+    path = tmp_path / "split.py"
+    path.write_text("from webviz import Display\nclass Split(Display):\n    module = 'split.js'\n")
+    for name, text in {
+        "split.js": "import { told } from './told.js';\nimport {\n  once,\n} from \"./once.js\";\n"
+        "export default ({ toast }) => toast(told + once.size);",
+        "told.js": 'import { once } from "./once.js";\nonce.add(1);\nexport const told = "Told ";',
+        "once.js": "export const once = new Set();",
+    }.items():
+        (tmp_path / name).write_text(text)
+    load(path)
+    try:
+        tab.wait_for(lambda: "Told 1" in tab.text())
+    finally:
+        registry.register(str(path), {})
+    (tmp_path / "once.js").write_text('import "./told.js";')
+    with pytest.raises(PluginError, match=r"its module .*told\.js imports itself"):
+        load(path)
+    (tmp_path / "once.js").unlink()
+    with pytest.raises(PluginError, match=r"cannot read its module .*once\.js: No such file"):
+        load(path)
+
+
 @pytest.mark.parametrize("value", [object(), float("nan"), "x" * MAX_HTML])
 def test_values_of_a_widget_are_json_of_limited_size(value: object) -> None:
     with pytest.raises(ValueError, match="JSON"):

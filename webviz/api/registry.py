@@ -13,7 +13,7 @@ from collections.abc import Mapping
 
 from webviz.api.declared import Declared, P
 from webviz.api.display import Display, inputs_of
-from webviz.api.modules import module_text
+from webviz.api.modules import module_texts
 
 _registered: dict[str, dict[str, type[Declared]]] = {}
 """Classes of every kind by owner and name."""
@@ -78,7 +78,7 @@ def _installed(kind: str) -> tuple[dict[str, type[Declared]], dict[str, str]]:
             cls = point.load()
             if issubclass(cls, Display):
                 inputs_of(cls)
-            module_text(cls)
+            module_texts(cls)
             types[point.name] = cls
         except Exception as error:  # plug-ins may raise anything
             broken[point.name] = f"{point.value} does not load: {type(error).__name__}: {error}"

@@ -23,7 +23,7 @@ from webviz.api.check_registry import checks_of, register_checks, registered_che
 from webviz.api.declared import Declared, P, make, set_property, to_values
 from webviz.api.display import Display, inputs_of
 from webviz.api.errors import Error
-from webviz.api.modules import module_text
+from webviz.api.modules import module_texts
 from webviz.api.properties import value_at
 from webviz.api.status import Level, Status
 from webviz.engine.commands import Command, ReloadPlugin
@@ -164,7 +164,7 @@ def _run(path: Path, code: Any, module: ModuleType) -> dict[str, type[Declared]]
         for cls in types.values():
             if issubclass(cls, Display):
                 inputs_of(cls)
-            module_text(cls)
+            module_texts(cls)
             make(cls, msgspec.to_builtins(cls()))  # defaults fit their own types and bounds
     except (Exception, SystemExit) as error:  # plug-ins may raise anything
         place = f"{path}:{line}" if (line := _line(path, error.__traceback__)) else str(path)

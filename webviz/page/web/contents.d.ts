@@ -335,7 +335,7 @@ export interface Stores {
   legend: { own: {  }; items: Scale };
   links: { own: {  }; items: ValidLink };
   message: { own: { message?: string | Record<string, unknown> | null; problem?: string; size?: number; received?: number }; items: never };
-  modules: { own: {  }; items: string };
+  modules: { own: {  }; items: Record<string, string> };
   panel: { own: { "/order": Array<string>; "/failure": string }; items: Record<string, unknown> };
   panel_properties: { own: { id?: string; type?: string; declared?: Array<DeclaredProperty>; [key: `value.${string}`]: unknown }; items: never };
   panels: { own: { "/order": Array<string>; "/types": Array<PanelType> }; items: string };

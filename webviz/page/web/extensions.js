@@ -105,32 +105,37 @@ function style(name, rules) {
   sheets.set(name, sheet);
 }
 
+const IMPORT = /^(import\b[^"';(]*)["']\.\/([^"'/]+)["']/gm; // as in webviz/api/modules.py
+
 export function install() {
   watch("modules", (modules, changed) => {
     for (const name of changed) {
-      const text = modules.get(name);
-      if (text !== undefined) add(name, text);
+      const texts = modules.get(name);
+      if (texts) add(name, Object.entries(texts));
     }
   });
 }
 
 /**
  * @param {string} name of the plug-in
- * @param {string} text of its module
+ * @param {[string, string][]} files names and texts of its module, the last, and those that it imports
  */
-async function add(name, text) {
-  const parts = [
-    text,
-    `\n//# sourceURL=${new URL(`webviz/plugin/${encodeURIComponent(name)}`, location.href)}`,
-  ];
-  const address = URL.createObjectURL(new Blob(parts, { type: "text/javascript" }));
+async function add(name, files) {
+  const folder = new URL(`webviz/plugin/${encodeURIComponent(name)}/`, location.href);
+  /** @type {Map<string, string>} */
+  const addresses = new Map();
+  for (const [file, source] of files) {
+    const text = source.replace(IMPORT, (_, words, other) => `${words}"${addresses.get(other)}"`);
+    const parts = [text, `\n//# sourceURL=${new URL(file, folder)}`];
+    addresses.set(file, URL.createObjectURL(new Blob(parts, { type: "text/javascript" })));
+  }
   try {
-    const { default: start } = await import(address);
+    const { default: start } = await import([...addresses.values()].at(-1) ?? "");
     await start(page);
   } catch (error) {
     console.info(error);
     toast(`The module of the ${name} failed: ${error}`, { level: "error" });
   } finally {
-    URL.revokeObjectURL(address);
+    for (const address of addresses.values()) URL.revokeObjectURL(address);
   }
 }

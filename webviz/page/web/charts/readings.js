@@ -1,4 +1,4 @@
-// What is read off curves: values at a time, and statistics.
+// Readings of curves: their values at a time, and statistics.
 
 import { visit } from "./curves.js";
 import { numberText, withUnit } from "./scale.js";

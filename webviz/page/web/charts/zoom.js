@@ -14,7 +14,7 @@ const LONGEST_S = 1e6;
 const LEAST_SHARE = 0.005; // of the area, for a box
 
 /**
- * Where a point of a canvas is in the area of the curves, from 0 to 1 each, y upwards.
+ * The place of a point of a canvas in the area of the curves, from 0 to 1 each, y upwards.
  *
  * @param {Vec2} point
  * @param {Area} area

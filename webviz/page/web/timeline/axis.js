@@ -1,4 +1,4 @@
-// Where times are in a timeline, in pixels from its left end. Without a document.
+// Places of times in a timeline, in pixels from its left end. Without a document.
 
 import { at, share } from "../charts/scale.js";
 

@@ -1,0 +1,42 @@
+// Drags, wheel and keys over a canvas that shows a part of something larger.
+
+/**
+ * Listens to a canvas. `move` gets pixels, and `click` what was no drag of `slack` pixels or more.
+ *
+ * @param {HTMLCanvasElement} canvas
+ * @param {{
+ *   wheel: (event: WheelEvent) => void, move: (dx: number, dy: number) => void,
+ *   keys: Record<string, () => void>, click?: (event: PointerEvent) => void, slack?: number,
+ * }} listeners
+ */
+export function listenToPanning(canvas, { wheel, move, keys, click = () => {}, slack = 0 }) {
+  /** @type {{x: number, y: number, isDrag: boolean} | null} */
+  let held = null;
+  canvas.addEventListener("wheel", (event) => {
+    event.preventDefault();
+    wheel(event);
+  });
+  canvas.addEventListener("pointerdown", (event) => {
+    if (event.button !== 0) return;
+    canvas.setPointerCapture(event.pointerId);
+    held = { x: event.clientX, y: event.clientY, isDrag: false };
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    if (!held) return;
+    const [dx, dy] = [event.clientX - held.x, event.clientY - held.y];
+    if (!held.isDrag && Math.hypot(dx, dy) < slack) return;
+    held = { x: event.clientX, y: event.clientY, isDrag: true };
+    move(dx, dy);
+  });
+  canvas.addEventListener("pointerup", (event) => {
+    if (held && !held.isDrag) click(event);
+    held = null;
+  });
+  canvas.addEventListener("pointercancel", () => (held = null));
+  canvas.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || !keys[event.key]) return;
+    keys[event.key]();
+    event.preventDefault();
+    event.stopPropagation();
+  });
+}
