@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { markAt } from "../../webviz/page/web/images/marks.js";
+import { markAt, zoomedPlaces } from "../../webviz/page/web/images/marks.js";
 
 const places = { at: (x, y) => [2 * x, 2 * y], scale: 2, width: 200 };
 const box = (about, left, top, right, bottom) => ({
@@ -17,4 +17,9 @@ test("the smallest box under the mouse is described, and nothing outside them al
   assert.equal(markAt(marks, places, [100, 100]), "room");
   assert.equal(markAt(marks, places, [100, 198]), "");
   assert.equal(markAt([], places, [0, 0]), "");
+});
+
+test("marks move with a picture that is zoomed", () => {
+  const { at, scale, width } = zoomedPlaces(places, 3, [-0.5, -0.25], 80);
+  assert.deepEqual([at(10, 10), scale, width], [[-40, 40], 6, 200]);
 });

@@ -121,6 +121,24 @@ export function markAt(marks, places, [x, y]) {
 }
 
 /**
+ * The places in a pane whose picture is zoomed.
+ *
+ * @param {Places} places without the zoom
+ * @param {number} zoom
+ * @param {Vec2} corner of the zoomed picture, as shares of the pane
+ * @param {number} height of the pane
+ * @returns {Places}
+ */
+export const zoomedPlaces = ({ at, scale, width }, zoom, [left, top], height) => ({
+  width,
+  scale: scale * zoom,
+  at(x, y) {
+    const [across, down] = at(x, y);
+    return [left * width + zoom * across, top * height + zoom * down];
+  },
+});
+
+/**
  * @param {Mark} mark
  * @param {Places} places
  */

@@ -2,12 +2,13 @@
 
 import { el, set, setChildren, setText } from "../dom.js";
 import { watch } from "../stores.js";
+import { colorBar } from "./color_bar.js";
 
 /** @import {Scale} from "../contents.js" */
 
 /**
- * @typedef {{title: HTMLElement, bar: HTMLElement, low: HTMLElement, label: HTMLElement,
- *   high: HTMLElement, element: HTMLElement, stops: string}} Card
+ * @typedef {{title: HTMLElement, bar: ReturnType<typeof colorBar>, low: HTMLElement,
+ *   label: HTMLElement, high: HTMLElement, element: HTMLElement}} Card
  */
 
 const MAX_CARDS = 4;
@@ -31,11 +32,11 @@ export function build() {
   /** @param {string} id */
   function add(id) {
     const title = el("div");
-    const bar = el("div", { class: "wv-legend-bar" });
+    const bar = colorBar();
     const [low, label, high] = [el("span"), el("span"), el("span")];
     const bounds = el("div", { class: "wv-legend-bounds" }, low, label, high);
-    const element = el("div", { class: "wv-card wv-legend" }, title, bar, bounds);
-    const card = { title, bar, low, label, high, element, stops: "" };
+    const element = el("div", { class: "wv-card wv-legend" }, title, bar.element, bounds);
+    const card = { title, bar, low, label, high, element };
     cards.set(id, card);
     return card;
   }
@@ -52,7 +53,5 @@ function show(card, { title, label, low, high, colors }) {
   setText(card.label, label);
   setText(card.low, String(low));
   setText(card.high, String(high));
-  const stops = colors.map((rgb) => `rgb(${rgb.join()})`).join();
-  if (card.stops !== stops) card.bar.style.background = `linear-gradient(to right, ${stops})`;
-  card.stops = stops;
+  card.bar.show(colors);
 }
