@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 from bags import START_NS, Bag, ns
+from drives import CELLS, grid
 
 from webviz.engine.loop import FrameLoop
 from webviz.files.opening import parse
@@ -23,12 +24,6 @@ displays:
 - {type: Map}
 - {type: Axes, reference_frame: base}
 """
-CELLS = 4
-
-
-def grid(value: int) -> dict:
-    info = {"resolution": 1.0, "width": CELLS, "height": CELLS, "origin": {"orientation": {"w": 1}}}
-    return {"header": header("map", START_NS), "info": info, "data": [value] * CELLS * CELLS}
 
 
 @pytest.fixture

@@ -11,7 +11,15 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import App, Parameter, validators
 
 from webviz.shell.cli.ending import Stop, until_signal
-from webviz.shell.cli.options import ROS_ARGS_HELP, ConnectOptions, File, Flag, Plugins, RosArgs
+from webviz.shell.cli.options import (
+    ROS_ARGS_HELP,
+    ConnectOptions,
+    File,
+    Flag,
+    Plugins,
+    RosArgs,
+    check_source,
+)
 from webviz.shell.cli.progress import progress
 
 if TYPE_CHECKING:
@@ -59,17 +67,7 @@ class DoctorOptions:
     """Explain a finding: what it is, why it matters, how to repair it; `all` lists all checks."""
 
 
-def _check(
-    *,
-    options: DoctorOptions = DoctorOptions(),
-    connect: ConnectOptions = ConnectOptions(),
-    **_: object,
-) -> None:
-    """Raise ValueError for an invalid combination of arguments."""
-    connect.check(options.bag is not None)
-
-
-@app.default(validator=_check)
+@app.default(validator=check_source)
 def doctor(
     *,
     options: DoctorOptions = DoctorOptions(),

@@ -11,7 +11,13 @@ from cyclopts import App, Parameter, validators
 
 from webviz.api.errors import Error
 from webviz.shell.cli.ending import Stop, until_signal
-from webviz.shell.cli.options import ROS_ARGS_HELP, ConnectOptions, File, RosArgs
+from webviz.shell.cli.options import (
+    ROS_ARGS_HELP,
+    ConnectOptions,
+    File,
+    RosArgs,
+    check_source,
+)
 from webviz.shell.cli.progress import progress
 from webviz.shell.cli.screenshot_options import Time
 
@@ -51,17 +57,7 @@ class FramesOptions:
     """Time to listen to live transforms."""
 
 
-def _check(
-    *,
-    options: FramesOptions = FramesOptions(),
-    connect: ConnectOptions = ConnectOptions(),
-    **_: object,
-) -> None:
-    """Raise ValueError for an invalid combination of arguments."""
-    connect.check(options.bag is not None)
-
-
-@app.default(validator=_check)
+@app.default(validator=check_source)
 def frames(
     *,
     options: FramesOptions = FramesOptions(),

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 from cyclopts import Parameter
 
@@ -143,6 +143,13 @@ class ConnectOptions:
         progress(f"connecting to {self.connect}" if self.connect else "starting ROS", 0.0)
         robots = config.settings.robots if config else ()
         return live_source(self.connect, self.connect_headers, ros, robots)
+
+
+def check_source(
+    *, options: Any = None, connect: ConnectOptions = ConnectOptions(), **_: object
+) -> None:
+    """Validate the arguments of a command whose options have a bag; raise ValueError if invalid."""
+    connect.check(options is not None and options.bag is not None)
 
 
 def report_unsupported(path: Path, sentences: Sequence[str]) -> None:
