@@ -61,7 +61,7 @@ from webviz.sources import Gate, Rights, Source
 from webviz.sources.rewindable import Rewindable
 from webviz.sources.switchable import Switchable
 
-IDLE_S = 0.5
+IDLE_S = 1.0
 """Interval of turns while nothing arrives: ages in statuses, frames that fade."""
 PANEL_S = 0.2
 """Interval of housekeeping: subscriptions, statuses, the panel."""
