@@ -255,7 +255,7 @@ class Running(PictureControls):
 
     @property
     def state(self) -> State:
-        """A read-only snapshot of all that the panel shows, at most half a second old."""
+        """A read-only snapshot of all that the panel shows, at most a second old."""
         return self._state
 
     def do(self, command: Command, sender: Sender = PROGRAM) -> str:
