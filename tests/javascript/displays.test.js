@@ -5,7 +5,9 @@ import { MIXED } from "../../webviz/page/web/controls/mixed.js";
 import { commonOf, filled, valuesOf } from "../../webviz/page/web/panels/displays/common.js";
 import {
   arrange,
+  editable,
   globalItem,
+  placeAmong,
   topmost,
   visible,
 } from "../../webviz/page/web/panels/displays/model.js";
@@ -47,6 +49,33 @@ test("rows with depths become a tree, and a group that is off switches off what 
   );
   assert.equal(deep.byId.get("y").parent, deep.byId.get("x"));
   assert.deepEqual(arrange(new Map()).items, []);
+});
+
+test("rows count their siblings, those on top with the global options", () => {
+  const place = (id) => Object.values(placeAmong(MODEL, MODEL.byId.get(id)));
+  assert.deepEqual(
+    [place("a"), place("d"), place("b")],
+    [
+      [2, 4],
+      [4, 4],
+      [1, 2],
+    ],
+  );
+  assert.deepEqual(placeAmong(MODEL, globalItem(null)), { position: 1, count: 4 });
+});
+
+test("one selected item is shown whatever it is, several only as far as they can be edited", () => {
+  const items = [
+    globalItem(null),
+    { id: "a", can_edit: true },
+    { id: "b", can_edit: true },
+    { id: "g", can_edit: true, isGroup: true },
+    { id: "x", can_edit: false },
+  ];
+  const chosen = (...wanted) => ids(editable(items, (id) => wanted.includes(id)));
+  for (const id of ["global", "a", "g", "x"]) assert.equal(chosen(id), id);
+  assert.equal(chosen("global", "a", "b", "g", "x"), "ab");
+  assert.equal(chosen(), "");
 });
 
 test("paths are of names, short and each its own", () => {

@@ -96,6 +96,30 @@ export function arrange(values) {
 export const siblings = (model, item) => item.parent?.children ?? model.top;
 
 /**
+ * The place of an item among its siblings, the first being 1, and their number.
+ *
+ * @param {Model} model
+ * @param {Item} item
+ */
+export function placeAmong(model, item) {
+  const among = siblings(model, item);
+  const above = item.parent ? 0 : 1; // the global options
+  const position = item.id === GLOBAL ? 1 : among.indexOf(item) + 1 + above;
+  return { position, count: among.length + above };
+}
+
+/**
+ * The item that is selected alone, or else the displays that can be edited together.
+ *
+ * @param {Item[]} items
+ * @param {(id: string) => boolean} isSelected
+ */
+export function editable(items, isSelected) {
+  const chosen = items.filter(({ id }) => isSelected(id));
+  return chosen.length > 1 ? chosen.filter((item) => item.can_edit && !item.isGroup) : chosen;
+}
+
+/**
  * True if an item is one of a set of ids, or in one.
  *
  * @param {Item} item

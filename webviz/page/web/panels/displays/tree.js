@@ -8,7 +8,8 @@ import * as actions from "./actions.js";
 import { listenToDrags } from "./drag.js";
 import * as folding from "./folding.js";
 import { listenToKeys } from "./keys.js";
-import { GLOBAL, arrange, globalItem, matches, siblings, visible } from "./model.js";
+import { GLOBAL, arrange, editable, globalItem, matches, placeAmong, visible } from "./model.js";
+import { HOVER_MS, listenToPointer } from "./pointer.js";
 import { rename } from "./rename.js";
 import { makeRow } from "./row.js";
 import * as selection from "./selection.js";
@@ -18,8 +19,6 @@ import { wordsOf } from "../../words.js";
 /** @import {Item, Model, Tree} from "./types.js" */
 
 const SCROLL_KEY = "displays.scroll";
-const HOVER_MS = 250;
-const SEEN_MS = 400; // a second click must find the row where the first one did
 const EMPTY = "No displays yet. Add one for a topic, the robot or a grid.";
 const NOT_FOUND = "No matching displays.";
 const GUESS = { status: 18, inside: 240 };
@@ -37,9 +36,6 @@ export function buildTree({ after, changed }) {
   let search = "";
   /** @type {Item[]} */
   let rows = [];
-  /** @type {string | null} */
-  let hovered = null;
-  let timer = 0;
   let isThere = false;
   let isKnown = false; // whether the viewer has said which displays there are
   /** @type {string | null} */
@@ -60,6 +56,8 @@ export function buildTree({ after, changed }) {
     isHeld: (/** @type {string} */ id) => id === selection.active(),
   });
 
+  const all = () => [global, ...model.items];
+
   /** @param {Item} item */
   function guess(item) {
     const status = item.line && item.isActive ? GUESS.status : 0;
@@ -68,23 +66,19 @@ export function buildTree({ after, changed }) {
 
   /** @param {Item} item */
   function look(item) {
-    const among = siblings(model, item);
-    const above = item.parent ? 0 : 1; // the global options
     const isAlone = selection.ids().size === 1 && selection.isSelected(item.id);
     return {
       isOpen: search && item.isGroup ? true : folding.isOpen(item),
       isSelected: selection.isSelected(item.id),
       isTabStop: item.id === selection.active(),
       enabled: actions.isEnabled(item),
-      hasRate: item.isActive && (isAlone || item.id === hovered),
-      position: item.id === GLOBAL ? 1 : among.indexOf(item) + 1 + above,
-      count: among.length + above,
+      hasRate: item.isActive && (isAlone || item.id === pointer.hovered()),
+      ...placeAmong(model, item),
     };
   }
 
   function refresh() {
-    const words = wordsOf(search);
-    const isGlobalShown = !words.length || matches(global, words);
+    const isGlobalShown = matches(global, wordsOf(search));
     rows = [...(isGlobalShown ? [global] : []), ...visible(model, folding.isOpen, search)];
     if (!rows.some(({ id }) => id === selection.active())) {
       selection.activate(
@@ -95,18 +89,12 @@ export function buildTree({ after, changed }) {
     const sentence = !model.items.length ? (isKnown ? EMPTY : "") : rows.length ? "" : NOT_FOUND;
     setText(none, sentence);
     set(none, { hidden: sentence === "" });
-    changed({ items: editable(), search });
-    selection.save([global, ...model.items]);
-  }
-
-  // What is selected alone, or else the displays that can be edited together.
-  function editable() {
-    const chosen = [global, ...model.items].filter(({ id }) => selection.isSelected(id));
-    return chosen.length > 1 ? chosen.filter((item) => item.can_edit && !item.isGroup) : chosen;
+    changed({ items: editable(all(), selection.isSelected), search });
+    selection.save(all());
   }
 
   function update() {
-    const items = [global, ...model.items];
+    const items = all();
     const hadFocus = canvas.contains(document.activeElement);
     const before = selection.active();
     folding.follow(items);
@@ -153,6 +141,7 @@ export function buildTree({ after, changed }) {
     model: () => model,
     rows: () => rows,
     refresh,
+    focus,
     showActive,
     rename: startRename,
     itemAt: (target) => {
@@ -183,85 +172,22 @@ export function buildTree({ after, changed }) {
       actions.openActions(x ?? left + 40, y ?? bottom, shared);
     },
     close() {
-      clearTimeout(timer);
       ends.forEach((end) => end());
       list.close();
     },
   };
 
-  /** @param {PointerEvent} event */
-  function onClick(event) {
-    const item = tree.itemAt(event.target);
-    const target = /** @type {Element} */ (event.target);
-    const part = target.closest("[data-part]")?.getAttribute("data-part");
-    if (!item || part === "box" || part === "remedy") return;
-    if (part === "fold") {
-      selection.activate(item.id);
-      tree.setOpen(item, !folding.isOpen(item));
-      return focus();
-    }
-    if (part === "more") return tree.openMenu(item.id, event.clientX, event.clientY);
-    if (event.detail > 1) return;
-    if (event.shiftKey) selection.extend(item.id, rows);
-    else if (event.ctrlKey || event.metaKey || selection.severalAtOnce()) selection.toggle(item.id);
-    else selection.choose(item.id);
-    refresh();
-    focus();
-    setTimeout(() => item.id === selection.active() && list.reveal(item.id), SEEN_MS);
-  }
-
-  /** @param {PointerEvent} event */
-  function onHover(event) {
-    const name = /** @type {Element} */ (event.target).closest(".wv-tree-name");
-    if (name)
-      set(name, { "data-tip": name.scrollWidth > name.clientWidth ? name.textContent : null });
-    clearTimeout(timer);
-    const id = event.pointerType === "mouse" ? (tree.itemAt(event.target)?.id ?? null) : null;
-    if (id === hovered) return;
-    timer = setTimeout(() => {
-      hovered = id;
-      refresh();
-    }, HOVER_MS);
-  }
-
-  set(canvas, {
-    onclick: onClick,
-    ondblclick: (event) => {
-      const item = tree.itemAt(event.target);
-      if (item && !event.target.closest("[data-part]")) startRename(item.id);
-    },
-    onchange: ({ target }) => {
-      const item = target.dataset.part === "box" && tree.itemAt(target);
-      if (!item) return;
-      selection.activate(item.id);
-      actions.setEnabled([item], target.checked, refresh);
-      focus();
-    },
-    oncontextmenu: (event) => {
-      const item = tree.itemAt(event.target);
-      if (!item) return;
-      event.preventDefault();
-      if (event.pointerType !== "touch") tree.openMenu(item.id, event.clientX, event.clientY);
-    },
-    onpointerover: onHover,
-    onpointerleave: onHover,
-    onfocusin: ({ target }) => {
-      const item = target.getAttribute("role") === "treeitem" && tree.itemAt(target);
-      if (item && item.id !== selection.active()) {
-        selection.activate(item.id);
-        refresh();
-      }
-    },
-  });
   let scrolled = 0;
   element.addEventListener("scroll", () => {
     clearTimeout(scrolled);
     scrolled = setTimeout(() => remember(SCROLL_KEY, Math.round(element.scrollTop)), HOVER_MS);
   });
+  const pointer = listenToPointer(canvas, tree);
   listenToKeys(canvas, tree);
   selection.onAdded(update);
   const ends = [
     () => selection.onAdded(() => {}),
+    pointer.end,
     listenToDrags(canvas, tree),
     watch("settings", (settings) => {
       global = globalItem(settings);

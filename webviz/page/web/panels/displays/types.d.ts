@@ -35,6 +35,8 @@ export interface Tree {
   model(): Model;
   rows(): Item[];
   refresh(): void;
+  /** Gives the focus to the row that keys act on. */
+  focus(): void;
   showActive(): void;
   /** Renames an item as soon as it is there; null none. */
   rename(id: string | null): void;
