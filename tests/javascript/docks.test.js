@@ -4,9 +4,13 @@ import { test } from "node:test";
 import {
   EMPTY,
   floated,
+  layoutOf,
   moved,
   namesOf,
+  placeOf,
   shared,
+  sized,
+  sizesIn,
   targetAt,
   without,
 } from "../../webviz/page/web/docks/places.js";
@@ -78,4 +82,20 @@ test("a row is entered between its panels", () => {
     (y) => targetAt(1100, y, { ...boxes, scene, beside, besideBoxes }).at,
   );
   assert.deepEqual(numbers, [0, 1, 2]);
+});
+
+test("a layout of the server is complete, and each panel has one place", () => {
+  assert.deepEqual(layoutOf(new Map()), EMPTY);
+  const layout = layoutOf(new Map([["below", [{ panel: "Log", weight: 1 }]]]));
+  assert.equal(placeOf(layout, "Log"), "below");
+  assert.equal(placeOf(layout, "Plot"), "tabs");
+});
+
+test("panels leave room to the scene, but beside it keep what can be read", () => {
+  const layout = { ...EMPTY, width: 700, height: 600 };
+  assert.deepEqual(sizesIn(layout, { width: 1000, height: 500 }), { width: 600, height: 350 });
+  assert.equal(sizesIn(layout, { width: 100, height: 500 }).width, 120);
+  assert.equal(sized(layout, "width", 300.4).width, 300);
+  assert.equal(sized(layout, "width", -5).width, 120);
+  assert.equal(sized(layout, "height", 1e9).height, 4000);
 });

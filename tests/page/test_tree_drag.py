@@ -112,16 +112,16 @@ def test_a_folded_group_opens_under_what_is_held_over_it(loop: Loop, tree: Tree)
 
 
 def test_the_list_scrolls_at_its_edges(loop: Loop, tree: Tree, make_row: MakeRow) -> None:
-    loop.show(*(make_row(f"row{i}") for i in range(80)))
+    loop.show(*(make_row(f"row{i}") for i in range(40)))
     tree.tab.wait_for(lambda: "row5" in tree.names())
     drag(tree, "row1", "row5", 0.5)
     box = tree.tab.page.locator(".wv-tree").bounding_box()
     assert box is not None
     tree.tab.page.mouse.move(100, box["y"] + box["height"] - 6)
     last = tree.tab.page.get_by_role("button", name="Add display", exact=False)
-    tree.tab.wait_for(lambda: "row79" in tree.names())
+    tree.tab.wait_for(lambda: "row39" in tree.names())
     playwright.expect(last.last).to_be_in_viewport()
-    tree.tab.page.mouse.move(100, at(tree, "row79", 0.8)[1])
+    tree.tab.page.mouse.move(100, at(tree, "row39", 0.8)[1])
     tree.tab.page.mouse.up()
     tree.tab.wait_for_command(MoveDisplay("row1", "", ""))
 

@@ -5,29 +5,32 @@ import { act } from "../act.js";
 import { el, setChildren } from "../dom.js";
 import { openMenuBelow } from "../shell/menu.js";
 import { watch } from "../stores.js";
+import { corner } from "./corner.js";
 import { draggable } from "./drag.js";
 import { makeFrame } from "./frame.js";
-import { EMPTY, floated, moved, namesOf, shared, without } from "./places.js";
+import {
+  EMPTY,
+  floated,
+  layoutOf,
+  moved,
+  namesOf,
+  placeOf,
+  shared,
+  sized,
+  sizesIn,
+  without,
+} from "./places.js";
 import { splitter } from "./splitter.js";
+import { alone, layoutName, openWindow } from "./windows.js";
 
 /** @import {Panel} from "../types.js" */
 /** @import {MenuItem} from "../shell/menu.js" */
 /** @import {Boxes, Layout, Target} from "./places.js" */
 /** @typedef {ReturnType<typeof makeFrame>} Frame */
 
-const MIN_WIDTH = 120;
-const MIN_HEIGHT = 80;
-const MAX_BESIDE = 0.6; // of what the tabs leave
-const MAX_BELOW = 0.7;
 const PLUGIN = "plugin-";
 
 const narrow = matchMedia("(max-width: 640px)");
-const asked = new URLSearchParams(location.search);
-/** The panel that is all that this window shows, "" for none. */
-const alone = asked.get("panel") ?? "";
-/** The saved layout of this window, "" for the one that browsers share. */
-const layoutName = asked.get("layout") ?? "";
-
 /** @type {Layout} */
 let layout = EMPTY;
 /** The one of all browsers, from which that of a watcher may differ. */
@@ -63,13 +66,7 @@ export function install(page) {
   document.body.classList.toggle("wv-alone", Boolean(alone));
   watch(layoutName ? `layout:${layoutName}` : "layout", (values) => {
     saved = values.get("saved") ?? [];
-    layout = common = {
-      beside: values.get("beside") ?? [],
-      below: values.get("below") ?? [],
-      over: values.get("over") ?? [],
-      width: values.get("width") ?? EMPTY.width,
-      height: values.get("height") ?? EMPTY.height,
-    };
+    layout = common = layoutOf(values);
     draw();
   });
   narrow.addEventListener("change", draw);
@@ -140,7 +137,7 @@ export function menuOf(panel) {
   /** @param {Target["place"]} place @param {string} label @returns {MenuItem} */
   const to = (place, label) => ({
     label,
-    checked: place === placeOf(name),
+    checked: place === placeOf(layout, name),
     run: () => {
       const at = place === "over" || place === "tabs" ? 0 : layout[place].length;
       arrange(moved(layout, name, { place, at, left: 0.6, top: 0.1 }));
@@ -163,19 +160,6 @@ export function menuOf(panel) {
 
 /** The saved layouts: names, and whether browsers show them. */
 export const savedLayouts = () => saved;
-
-/**
- * Opens another window of this viewer.
- *
- * @param {"panel" | "layout"} key
- * @param {string} name
- */
-export function openWindow(key, name) {
-  const address = new URL(location.href);
-  address.search = "";
-  address.searchParams.set(key, name);
-  window.open(address, "_blank", "popup,width=900,height=640");
-}
 
 /** Puts all panels back into the tabs. */
 export const clear = () => arrange({ ...layout, beside: [], below: [], over: [] });
@@ -201,16 +185,6 @@ function fill(name) {
   draw();
 }
 
-/**
- * @param {string} name
- * @returns {Target["place"]}
- */
-function placeOf(name) {
-  for (const place of /** @type {const} */ (["beside", "below", "over"]))
-    if (layout[place].some(({ panel }) => panel === name)) return place;
-  return "tabs";
-}
-
 function draw() {
   const known = new Map(panels.map((panel) => [nameOf(panel), panel]));
   const names = new Set(narrow.matches || alone ? [] : namesOf(layout));
@@ -232,7 +206,8 @@ function draw() {
   setChildren(below, row("below", belowBorder));
   // Not in place of each other, as the order is what lies on top: a moved element keeps its scroll.
   const over = names.size ? layout.over.filter(({ panel }) => frames.has(panel)) : [];
-  const isOut = full && frames.has(full) && (placeOf(full) === "tabs" || narrow.matches || alone);
+  const isOut =
+    full && frames.has(full) && (placeOf(layout, full) === "tabs" || narrow.matches || alone);
   setChildren(
     floats,
     [...over.map(({ panel }) => panel), ...(isOut ? [full] : [])].flatMap(
@@ -302,7 +277,16 @@ function make(panel, name) {
     drop: (target, grab) => drop(name, target, grab),
     touch: true,
   });
-  frame.element.append(corner(name, frame.element));
+  const resizing = corner(frame.element, {
+    move(width, height) {
+      const scene = floats.getBoundingClientRect();
+      const box = { width: width / scene.width, height: height / scene.height };
+      layout = floated(layout, name, box);
+      draw();
+    },
+    end: () => arrange(layout),
+  });
+  frame.element.append(resizing);
   frame.element.addEventListener("pointerdown", () => raise(name), { capture: true });
   return frame;
 }
@@ -320,35 +304,6 @@ function raise(name) {
 }
 
 /**
- * @param {string} name
- * @param {HTMLElement} element
- */
-function corner(name, element) {
-  /** @type {{x: number, y: number, width: number, height: number} | null} */
-  let start = null;
-  const made = el("div", { class: "wv-docked-corner", "aria-hidden": "true" });
-  made.addEventListener("pointerdown", (event) => {
-    const { offsetWidth: width, offsetHeight: height } = element;
-    start = { x: event.clientX, y: event.clientY, width, height };
-    made.setPointerCapture(event.pointerId);
-  });
-  made.addEventListener("pointermove", (event) => {
-    if (!start) return;
-    const scene = floats.getBoundingClientRect();
-    layout = floated(layout, name, {
-      width: (start.width + event.clientX - start.x) / scene.width,
-      height: (start.height + event.clientY - start.y) / scene.height,
-    });
-    draw();
-  });
-  made.addEventListener("pointerup", () => {
-    start = null;
-    arrange(layout);
-  });
-  return made;
-}
-
-/**
  * @param {"beside" | "below"} place
  * @param {string} panel
  * @param {string} next
@@ -356,7 +311,6 @@ function corner(name, element) {
 function between(place, panel, next) {
   const key = JSON.stringify([place, panel, next]);
   const size = place === "beside" ? "offsetHeight" : "offsetWidth";
-  let start = 0;
   /** @param {string} name */
   const length = (name) => frames.get(name)?.element[size] ?? 0;
   const known = splitters.get(key);
@@ -364,16 +318,13 @@ function between(place, panel, next) {
   const made = splitter({
     label: "Size of the panels",
     along: place === "beside" ? "y" : "x",
-    move(pixels) {
-      start ||= length(panel);
+    size: () => length(panel),
+    move(pixels, before) {
       const both = length(panel) + length(next);
-      if (both) layout = shared(layout, place, panel, next, (start + pixels) / both);
+      if (both) layout = shared(layout, place, panel, next, (before + pixels) / both);
       draw();
     },
-    end() {
-      start = 0;
-      arrange(layout);
-    },
+    end: () => arrange(layout),
   });
   splitters.set(key, made);
   return made;
@@ -387,28 +338,22 @@ function between(place, panel, next) {
  * @param {string} label
  */
 function border(along, key, label) {
-  let start = 0;
   return splitter({
     label,
     along,
-    move(pixels) {
-      start ||= key === "width" ? beside.offsetWidth : below.offsetHeight;
-      const least = key === "width" ? MIN_WIDTH : MIN_HEIGHT;
-      layout = { ...layout, [key]: Math.round(Math.max(least, Math.min(start - pixels, 4000))) };
+    size: () => (key === "width" ? beside.offsetWidth : below.offsetHeight),
+    move(pixels, before) {
+      layout = sized(layout, key, before - pixels);
       measure();
     },
-    end() {
-      start = 0;
-      arrange(layout);
-    },
+    end: () => arrange(layout),
   });
 }
 
 // As much as is left to the scene by what is not a panel.
 function measure() {
   const side = document.querySelector(".wv-side")?.clientWidth ?? 0;
-  const width = Math.min(layout.width, Math.max(MIN_WIDTH, MAX_BESIDE * (innerWidth - side)));
-  const height = Math.min(layout.height, MAX_BELOW * innerHeight);
+  const { width, height } = sizesIn(layout, { width: innerWidth - side, height: innerHeight });
   const style = document.documentElement.style;
   style.setProperty("--wv-beside", beside.hidden ? "0px" : `${Math.round(width)}px`);
   style.setProperty("--wv-below", below.hidden ? "0px" : `${Math.round(height)}px`);

@@ -4,7 +4,8 @@ import { act } from "../act.js";
 import { el } from "../dom.js";
 import { provide } from "../shell/commands.js";
 import { openDialog } from "../shell/dialog.js";
-import { clear, openWindow, savedLayouts } from "./docks.js";
+import { clear, savedLayouts } from "./docks.js";
+import { openWindow } from "./windows.js";
 
 /** @import {MenuItem} from "../shell/menu.js" */
 

@@ -18,12 +18,67 @@
 /** @type {Layout} */
 export const EMPTY = { beside: [], below: [], over: [], width: 340, height: 240 };
 
+const LEAST = { width: 120, height: 80 };
+const MOST = 4000;
+const MAX_BESIDE = 0.6; // of what the tabs leave
+const MAX_BELOW = 0.7;
 const EDGE = 0.22; // of the scene, where a panel is dropped beside or below it
 const FLOATING = { width: 0.35, height: 0.4 };
 
 /** @param {Layout} layout */
 export const namesOf = ({ beside, below, over }) =>
   [...beside, ...below, ...over].map(({ panel }) => panel);
+
+/**
+ * The layout of the store "layout", a Map.
+ *
+ * @param {{get(key: string): any}} values
+ * @returns {Layout}
+ */
+export const layoutOf = (values) => ({
+  beside: values.get("beside") ?? [],
+  below: values.get("below") ?? [],
+  over: values.get("over") ?? [],
+  width: values.get("width") ?? EMPTY.width,
+  height: values.get("height") ?? EMPTY.height,
+});
+
+/**
+ * The place of a panel.
+ *
+ * @param {Layout} layout
+ * @param {string} name
+ * @returns {Target["place"]}
+ */
+export function placeOf(layout, name) {
+  for (const place of /** @type {const} */ (["beside", "below", "over"]))
+    if (layout[place].some(({ panel }) => panel === name)) return place;
+  return "tabs";
+}
+
+/**
+ * The width of the panels beside the scene and the height of those below it, in a room of this size.
+ *
+ * @param {Layout} layout
+ * @param {{width: number, height: number}} room
+ */
+export const sizesIn = ({ width, height }, room) => ({
+  width: Math.min(width, Math.max(LEAST.width, MAX_BESIDE * room.width)),
+  height: Math.min(height, MAX_BELOW * room.height),
+});
+
+/**
+ * The layout with another width beside the scene, or height below it.
+ *
+ * @param {Layout} layout
+ * @param {"width" | "height"} key
+ * @param {number} pixels
+ * @returns {Layout}
+ */
+export const sized = (layout, key, pixels) => ({
+  ...layout,
+  [key]: Math.round(Math.max(LEAST[key], Math.min(pixels, MOST))),
+});
 
 /**
  * The layout without a panel.

@@ -5,14 +5,18 @@ import { el } from "../dom.js";
 const STEP = 16;
 
 /**
- * `move(pixels)` is called with the distance from where the drag began, `end()` after it.
+ * `move(pixels, before)` is called with the distance from where the drag began and the `size()` then,
+ * `end()` after it.
  *
- * @param {{label: string, along: "x" | "y", move(pixels: number): void, end(): void}} options
+ * @param {{
+ *   label: string, along: "x" | "y", size(): number, move(pixels: number, before: number): void,
+ *   end(): void,
+ * }} options
  * @returns {HTMLElement}
  */
-export function splitter({ label, along, move, end }) {
+export function splitter({ label, along, size, move, end }) {
   const isAcross = along === "x";
-  let start = 0;
+  let [start, before] = [0, 0];
   /** @param {PointerEvent} event */
   const at = (event) => (isAcross ? event.clientX : event.clientY);
   /** @param {KeyboardEvent} event */
@@ -22,7 +26,7 @@ export function splitter({ label, along, move, end }) {
     if (!change) return;
     event.preventDefault();
     event.stopPropagation(); // viser's camera turns by them
-    move(change);
+    move(change, size());
     end();
   };
   /** @type {HTMLElement} */
@@ -35,9 +39,10 @@ export function splitter({ label, along, move, end }) {
     onkeydown: step,
     onpointerdown: (event) => {
       bar.setPointerCapture(event.pointerId);
-      start = at(event);
+      [start, before] = [at(event), size()];
     },
-    onpointermove: (event) => bar.hasPointerCapture(event.pointerId) && move(at(event) - start),
+    onpointermove: (event) =>
+      bar.hasPointerCapture(event.pointerId) && move(at(event) - start, before),
     onpointerup: end,
   });
   return bar;

@@ -1,0 +1,28 @@
+// The corner of a panel over the scene, to be dragged for another size.
+
+import { el } from "../dom.js";
+
+/**
+ * `move(width, height)` is called with pixels, `end()` after the drag.
+ *
+ * @param {HTMLElement} element
+ * @param {{move(width: number, height: number): void, end(): void}} options
+ */
+export function corner(element, { move, end }) {
+  /** @type {{x: number, y: number} | null} */
+  let grab = null; // from the size to the pointer
+  const made = el("div", { class: "wv-docked-corner", "aria-hidden": "true" });
+  made.addEventListener("pointerdown", (event) => {
+    const { offsetWidth, offsetHeight } = element;
+    grab = { x: event.clientX - offsetWidth, y: event.clientY - offsetHeight };
+    made.setPointerCapture(event.pointerId);
+  });
+  made.addEventListener("pointermove", (event) => {
+    if (grab) move(event.clientX - grab.x, event.clientY - grab.y);
+  });
+  made.addEventListener("pointerup", () => {
+    grab = null;
+    end();
+  });
+  return made;
+}
