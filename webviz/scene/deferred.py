@@ -22,7 +22,7 @@ class DeferredMessages:
 
     def __init__(self) -> None:
         self.wake: Callable[[], None] = lambda: None
-        """Called in the thread when there is something to send."""
+        """Called in any thread when there is something to send."""
         self._pool = ThreadPoolExecutor(max_workers=1, thread_name_prefix="webviz-scene")
         self._jobs: dict[str, Future[None]] = {}
         self._made: dict[str, Callable[[], None]] = {}
