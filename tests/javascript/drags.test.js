@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { begin } from "../../webviz/page/web/handles/drags.js";
+import { heldText, helpOf } from "../../webviz/page/web/handles/help.js";
 
 const S = Math.SQRT1_2;
 const IDENTITY = [1, 0, 0, 0];
@@ -136,4 +137,17 @@ test("nothing moves along an axis that points to the camera, in a plane seen fro
   ]) {
     assert.equal(dragged(control, ORIGIN, ORIGIN, { to: [2, 3] }), null, control.mode);
   }
+});
+
+test("the hint of a handle names its buttons, and who drags it", () => {
+  const handle = { name: "Dock", holder: null, menu: [] };
+  const help = (more, control, refusal = "") => helpOf({ ...handle, ...more }, control, refusal);
+  assert.equal(help({}, { mode: "move_axis", help: "" }), "Dock Left-click: Move.");
+  assert.equal(
+    help({ menu: [{}], holder: 2 }, { mode: "rotate_axis", help: "Turn it." }),
+    "Turn it. Left-click: Rotate. Right-click: Show context menu. In use by browser 2.",
+  );
+  assert.equal(help({ menu: [{}] }, { mode: "menu", help: "" }), "Dock Left-click: Show menu.");
+  assert.equal(help({}, { mode: "button", help: "" }, "Only watching."), "Dock: Only watching.");
+  assert.equal(heldText(handle), "");
 });

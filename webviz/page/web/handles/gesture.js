@@ -9,13 +9,13 @@ import { canvas, eachFrame, requestRender } from "../viser_page.js";
 import * as aids from "./aids.js";
 import { axisOf, begin } from "./drags.js";
 import * as glow from "./glow.js";
+import { heldText, helpOf } from "./help.js";
 import * as known from "./known.js";
 import * as menu from "./menu.js";
 import * as poses from "./poses.js";
 import { frameNode, projectionOf } from "./projection.js";
 
 /** @import {Commands} from "../messages.js" */
-/** @import {HandleControl} from "../contents.js" */
 /** @import {Moved} from "./drags.js" */
 /** @import {Part} from "./known.js" */
 /** @import {Pose} from "./vectors.js" */
@@ -39,9 +39,6 @@ const VIBRATE_MS = 15;
 const CLICK_PX = 6;
 const BEFORE_PLACING = -1001;
 const KEEP_OPEN = { once: true, passive: false };
-/** @type {Partial<Record<HandleControl["mode"], string>>} */
-const DOES = { menu: "Show menu", button: "Activate" };
-const TURNS = /^rotate/;
 
 /** @type {Part | null} */
 let over = null; // what the pointer is on
@@ -128,10 +125,7 @@ function press(part, event) {
   const handle = known.all().get(part.id);
   const control = known.controlOf(part);
   if (!handle || !control) return false;
-  const refusal =
-    why("DragHandle") ||
-    handle.refusal ||
-    (handle.holder !== null && `In use by browser ${handle.holder}.`);
+  const refusal = why("DragHandle") || handle.refusal || heldText(handle);
   if (refusal) {
     tell("warn", refusal);
     return true;
@@ -362,14 +356,7 @@ function point(part) {
 function wordsOf(part) {
   const handle = known.all().get(part.id);
   const control = known.controlOf(part);
-  if (!handle || !control) return "";
-  const reason = why("DragHandle");
-  if (reason) return `${handle.name}: ${reason}`;
-  const { mode, help } = control;
-  const does = DOES[mode] ?? (TURNS.test(mode) ? "Rotate" : "Move");
-  const holder = handle.holder === null ? "" : `In use by browser ${handle.holder}.`;
-  const more = mode !== "menu" && handle.menu.length ? "Right-click: Show context menu." : "";
-  return [help || handle.name, `Left-click: ${does}.`, more, holder].filter(Boolean).join(" ");
+  return handle && control ? helpOf(handle, control, why("DragHandle")) : "";
 }
 
 /** @param {Drag} drag */

@@ -9,17 +9,14 @@ import { icon } from "../icons.js";
 import { watch } from "../stores.js";
 import { actions, item } from "./actions.js";
 import { command } from "./commands.js";
-import { ask, openDialog } from "./dialog.js";
 import { FIXED, follow } from "./follow.js";
 import { fold } from "./layout.js";
 import { openMenuBelow } from "./menu.js";
 import { fit } from "./overflow.js";
 import * as tools from "./tools.js";
+import { VIEW_TYPES, savedMenu, saveView, setType, typeMenu } from "./view_menus.js";
 
 /** @import {Choice} from "../types.js" */
-/** @import {MenuItem} from "./menu.js" */
-
-const VIEW_TYPES = ["Orbit", "XYOrbit", "ThirdPersonFollower", "FPS", "TopDownOrtho"];
 
 /** @type {{type: string, target: string, frame: string, frames: string[], views: string[]}} */
 const shown = { type: "", target: FIXED, frame: "", frames: [], views: [] };
@@ -39,9 +36,9 @@ export function install(places) {
     },
     icon("menu"),
   );
-  const type = button("orbit", "", "View", () => openMenuBelow(type, viewMenu()));
+  const type = button("orbit", "", "View", () => openMenuBelow(type, typeMenu(shown.type)));
   const views = button("bookmark", "Saved views", "Saved views", () =>
-    openMenuBelow(views, savedMenu()),
+    openMenuBelow(views, savedMenu(saved)),
   );
   const fixed = frameField("Fixed frame", "axes", () => shown.frame, fixedOptions, setFixed);
   needs("SetFixedFrame", fixed.element);
@@ -81,8 +78,8 @@ export function install(places) {
     { element: image, items: () => [item(actions.image)] },
     "wv-wrapped",
     { element: tools.icons, items: () => tools.iconItems() },
-    { element: views, items: () => savedMenu() },
-    { element: type, items: () => viewMenu() },
+    { element: views, items: () => savedMenu(saved) },
+    { element: type, items: () => typeMenu(shown.type) },
     "wv-stacked",
   ]);
   places.toolbar.append(element, tools.cards, tools.hint);
@@ -116,6 +113,14 @@ export function install(places) {
     update();
   });
   watchView(update);
+  addCommands(fixed.element, target.element);
+}
+
+/**
+ * @param {HTMLElement} fixed
+ * @param {HTMLElement} target
+ */
+function addCommands(fixed, target) {
   command({
     name: "Zero view",
     icon: "reset",
@@ -127,16 +132,22 @@ export function install(places) {
     name: "Follow frame…",
     icon: "follow",
     group: "View",
-    run: () => focusField(target.element),
+    run: () => focusField(target),
   });
   command({
     name: "Fixed frame…",
     icon: "axes",
     group: "View",
     needs: "SetFixedFrame",
-    run: () => focusField(fixed.element),
+    run: () => focusField(fixed),
   });
-  command({ name: "Save view…", icon: "save", group: "View", needs: "SaveView", run: saveView });
+  command({
+    name: "Save view…",
+    icon: "save",
+    group: "View",
+    needs: "SaveView",
+    run: () => saveView(saved),
+  });
   for (const name of VIEW_TYPES) {
     command({ name: `View: ${name}`, icon: "orbit", group: "View", run: () => setType(name) });
   }
@@ -162,8 +173,7 @@ function watchView(update) {
   if (channel.isOpen()) begin();
 }
 
-/** @param {string} value */
-const setType = (value) => act("ChangeView", { key: "type", value });
+const saved = () => shown.views;
 /** @param {string} frame */
 const setFixed = (frame) => act("SetFixedFrame", { frame });
 /** @returns {Choice[]} */
@@ -219,60 +229,6 @@ function frameField(label, iconName, value, options, change) {
 
 /** @param {HTMLElement} field */
 const focusField = (field) => field.querySelector("input")?.focus();
-
-/** @returns {(MenuItem | null)[]} */
-const viewMenu = () => [
-  ...VIEW_TYPES.map((name) => ({
-    label: name,
-    checked: shown.type === name,
-    run: () => setType(name),
-  })),
-  null,
-  { label: "Zero", icon: "reset", key: "z", run: () => act("ResetView") },
-];
-
-/** @returns {(MenuItem | null)[]} */
-const savedMenu = () => [
-  ...shown.views.map((name) => ({
-    label: name,
-    icon: "eye",
-    run: () => act("ShowView", { view: name }),
-  })),
-  ...(shown.views.length ? [null] : []),
-  { label: "Save this view…", icon: "save", needs: "SaveView", run: saveView },
-  {
-    label: "Start with this view",
-    icon: "play",
-    needs: "StartWithView",
-    run: () => act("StartWithView"),
-  },
-];
-
-async function saveView() {
-  const numbers = Array.from({ length: shown.views.length + 1 }, (_, index) => `View ${index + 1}`);
-  const input = el("input", {
-    class: "wv-field",
-    type: "text",
-    "aria-label": "Name",
-    autofocus: true,
-  });
-  input.value = numbers.find((name) => !shown.views.includes(name)) ?? "";
-  input.select();
-  const accept = async () => {
-    const name = input.value.trim();
-    return (
-      name !== "" &&
-      (!shown.views.includes(name) || ask(`Replace the view ${name}?`, { confirm: "Replace" }))
-    );
-  };
-  const buttons = [
-    { label: "Cancel", value: null },
-    { label: "Save", value: true, primary: true, accept },
-  ];
-  if (await openDialog({ title: "Save this view", content: input, buttons })) {
-    act("SaveView", { name: input.value.trim() });
-  }
-}
 
 /**
  * Arrow keys go from button to button; a field keeps them.
