@@ -1,14 +1,13 @@
 // A pane: the picture of one display, its title, and the value under the mouse.
 
-import { fitted } from "../charts/canvas.js";
 import { el, set, setText } from "../dom.js";
 import { sanitized } from "../sanitize.js";
 import { recall, remember } from "../remember.js";
 import { makeCamera } from "./camera.js";
 import * as frames from "./frames.js";
-import { drawMarks, markAt, zoomedPlaces } from "./marks.js";
 import { makeHead } from "./pane_head.js";
 import { makeLegend } from "./pane_legend.js";
+import { marksOver } from "./pane_marks.js";
 import { makePicture } from "./picture.js";
 import { makeReading } from "./pixel_reading.js";
 import { makeReadout } from "./readout.js";
@@ -40,17 +39,15 @@ export function makePane(id, changed, withScene) {
   const picture = (withScene ? makeCamera : makePicture)(canvas, { drawn, fail });
   const head = makeHead({ toggle, toggleFull, unzoom: zoom.reset });
   const problem = el("div", { class: "wv-pane-problem" });
-  const reading = makeReading(id, canvas, { picture, header: () => last, aboutAt });
+  const reading = makeReading(id, canvas, {
+    picture,
+    header: () => last,
+    aboutAt: (mouse) => marks.textAt(mouse),
+  });
   const legend = makeLegend();
-  const overlay = el("canvas", { class: "wv-pane-marks" });
-  const body = el(
-    "div",
-    { class: "wv-pane-body" },
-    canvas,
-    problem,
-    reading.element,
-    legend.element,
-  );
+  const content = [canvas, problem, reading.element, legend.element];
+  const body = el("div", { class: "wv-pane-body" }, content);
+  const marks = marksOver(canvas, body, { picture, zoom });
   const element = el("section", { class: "wv-pane", tabindex: -1 }, head.element, body);
 
   let title = "";
@@ -91,7 +88,7 @@ export function makePane(id, changed, withScene) {
 
   function zoomed() {
     head.showZoom(zoom.zoom());
-    showMarks();
+    marks.redraw();
     frames.refresh(); // a larger picture has more to show
   }
 
@@ -125,33 +122,6 @@ export function makePane(id, changed, withScene) {
   }
   const ticking = setInterval(tellRate, RATE_MS);
 
-  /** The places of the pixels of the picture in the body. */
-  function places() {
-    const { clientWidth: width, clientHeight: height } = body;
-    return zoomedPlaces(picture.placeIn(width, height), zoom.zoom(), zoom.corner(), height);
-  }
-
-  function showMarks() {
-    const marks = last.marks ?? [];
-    if (!marks.length) return overlay.remove();
-    if (!overlay.isConnected) canvas.after(overlay);
-    if (!body.clientWidth || !picture.size()[0]) return;
-    drawMarks(fitted(overlay).context, marks, places());
-  }
-  const resized = new ResizeObserver(showMarks);
-  resized.observe(body);
-
-  /**
-   * The text about the mark under the mouse.
-   *
-   * @param {{clientX: number, clientY: number}} mouse
-   */
-  function aboutAt({ clientX, clientY }) {
-    if (!last.marks?.length) return "";
-    const { left, top } = body.getBoundingClientRect();
-    return markAt(last.marks, places(), [clientX - left, clientY - top]);
-  }
-
   function drawn() {
     times.push(performance.now());
     if (failed) fail("");
@@ -176,7 +146,7 @@ export function makePane(id, changed, withScene) {
       if (header.mime === TEXT) return takeText(header, data);
       await picture.take(header, data);
       last = header;
-      showMarks();
+      marks.show(header.marks ?? []);
       element.dataset.stamp = String(header.stamp);
       legend.show(header.legend);
       reading.read();
@@ -226,7 +196,7 @@ export function makePane(id, changed, withScene) {
     },
     close() {
       clearInterval(ticking);
-      resized.disconnect();
+      marks.close();
       reading.close();
       picture.close();
       readout?.close();

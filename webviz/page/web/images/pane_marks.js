@@ -1,0 +1,52 @@
+// The canvas of marks over the picture of a pane.
+
+import { fitted } from "../charts/canvas.js";
+import { el } from "../dom.js";
+import { drawMarks, markAt, zoomedPlaces } from "./marks.js";
+
+/** @import {Mark} from "../messages.js" */
+/** @import {Picture} from "./picture.js" */
+/** @import {makeZoom} from "./zoom.js" */
+
+/**
+ * Returns `{show(marks), redraw(), textAt(mouse), close()}`; the canvas is there while there are marks.
+ *
+ * @param {HTMLCanvasElement} canvas of the picture
+ * @param {HTMLElement} body that it fills
+ * @param {{picture: Picture, zoom: ReturnType<typeof makeZoom>}} shown
+ */
+export function marksOver(canvas, body, { picture, zoom }) {
+  const overlay = el("canvas", { class: "wv-pane-marks" });
+  /** @type {Mark[]} */
+  let marks = [];
+
+  function places() {
+    const { clientWidth: width, clientHeight: height } = body;
+    return zoomedPlaces(picture.placeIn(width, height), zoom.zoom(), zoom.corner(), height);
+  }
+
+  function redraw() {
+    if (!marks.length) return overlay.remove();
+    if (!overlay.isConnected) canvas.after(overlay);
+    if (!body.clientWidth || !picture.size()[0]) return;
+    drawMarks(fitted(overlay).context, marks, places());
+  }
+  const resized = new ResizeObserver(redraw);
+  resized.observe(body);
+
+  return {
+    /** @param {Mark[]} next */
+    show(next) {
+      marks = next;
+      redraw();
+    },
+    redraw,
+    /** @param {{clientX: number, clientY: number}} mouse */
+    textAt({ clientX, clientY }) {
+      if (!marks.length) return "";
+      const { left, top } = body.getBoundingClientRect();
+      return markAt(marks, places(), [clientX - left, clientY - top]);
+    },
+    close: () => resized.disconnect(),
+  };
+}
