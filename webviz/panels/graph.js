@@ -3,7 +3,8 @@
 import { about } from "./graph_detail.js";
 import { draw, svgOf } from "./graph_drawing.js";
 import { boxesOf, foldable, layOut } from "./graph_layout.js";
-import { boxAt, centred, finder, foldsOf, rateText, sumText, whole, zoomed } from "./graph_view.js";
+import { makeSearch } from "./graph_search.js";
+import { boxAt, centred, foldsOf, rateText, sumText, whole, zoomed } from "./graph_view.js";
 import { listenToPanning } from "./panning.js";
 
 /** @import {Page} from "../page/web/extensions.js" */
@@ -39,7 +40,6 @@ function graph(page) {
   /** @type {Look | null} */
   let moved = null; // null until somebody moves or zooms: all is in sight
   let chosen = "";
-  let hit = -1;
   let request = 0;
   /** @type {Map<string, number>} */
   let rates = new Map();
@@ -48,18 +48,18 @@ function graph(page) {
 
   const empty = el("div", { class: "wv-empty", role: "status" });
   const canvas = el("canvas", { class: "wv-graph-canvas", role: "img", tabindex: 0 });
-  const search = el("input", {
-    class: "wv-field",
-    type: "search",
-    placeholder: "Find nodes and topics",
-    "aria-label": "Find nodes and topics",
-    oninput: () => ((hit = -1), soon()),
-    onkeydown: (/** @type {KeyboardEvent} */ event) => event.key === "Enter" && goOn(event),
+  const search = makeSearch(page, {
+    boxes: () => drawing.boxes.values(),
+    changed: soon,
+    goTo(box) {
+      look(centred(seen(), box, size()));
+      choose(box.key);
+    },
   });
   const count = el("span", { class: "wv-quiet", role: "status" });
   const detail = el("div", { class: "wv-plugin-detail wv-graph-detail", hidden: true });
   const bar = [
-    search,
+    search.element,
     iconButton("fold", "Fold or unfold all namespaces", foldAll),
     iconButton("focus", "Show all (0)", () => look(null)),
     iconButton("download", "Download as SVG", () => download("graph.svg", picture())),
@@ -69,7 +69,10 @@ function graph(page) {
   const seen = () => moved ?? whole(drawing, size());
   /** @type {RateOf} */
   const rateOf = (names) => rateText([...names].flatMap((name) => rates.get(name) ?? []));
-  const soon = () => (request ||= requestAnimationFrame(show));
+
+  function soon() {
+    request ||= requestAnimationFrame(show);
+  }
 
   /** @param {Look | null} next */
   function look(next) {
@@ -89,23 +92,12 @@ function graph(page) {
   function show() {
     request = 0;
     if (!canvas.clientWidth) return;
-    const isFound = finder(search.value);
+    const isFound = search.isFound();
     const sum = sumText(drawing, isFound);
     setText(count, sum);
     set(canvas, { "aria-label": `Graph: ${sum}` });
     const { context, width, height, color } = fitted(canvas);
     draw(context, drawing, { look: seen(), width, height, color, isFound, chosen, rateOf });
-  }
-
-  /** @param {KeyboardEvent} event */
-  function goOn(event) {
-    event.preventDefault();
-    const isFound = finder(search.value);
-    const all = isFound ? [...drawing.boxes.values()].filter(isFound) : [];
-    if (!all.length) return;
-    hit = (hit + (event.shiftKey ? -1 : 1) + all.length) % all.length;
-    look(centred(seen(), all[hit], size()));
-    choose(all[hit].key);
   }
 
   /** @param {string} key */

@@ -3,11 +3,12 @@
 import { act } from "../act.js";
 import { wallNow } from "../clock.js";
 import { copy } from "../clipboard.js";
-import { isTyping, provide } from "../shell/commands.js";
+import { provide } from "../shell/commands.js";
 import { toast } from "../shell/toasts.js";
 import { watch } from "../stores.js";
 import { bookmarks as bookmarkMenu } from "./bookmarks.js";
-import { byTime, eventCommand } from "./events.js";
+import { timeCommands } from "./commands.js";
+import { byTime } from "./events.js";
 import { atMoment, isNow, isRewound } from "./moment.js";
 import { shownLength } from "./range.js";
 import { seeks } from "./seeks.js";
@@ -18,7 +19,6 @@ import { parseTime } from "./typed_time.js";
 
 /** @import {LoggedEvent, Moment, Range, ValuesOf} from "../types.js" */
 
-const JUMP_S = 5;
 const TICK_MS = 200;
 
 /**
@@ -130,86 +130,21 @@ export function timeline(places) {
     show();
   });
 
-  const isFree = () => {
-    const focused = document.activeElement;
-    return (
-      !isTyping({ target: focused }) &&
-      !focused?.closest("button, [role=option], [role=treeitem], .wv-rows")
-    );
-  };
-  /** @param {number} seconds */
-  const jump = (seconds) =>
-    seek.to(
-      Math.max(recording.get("first"), Math.min(position() + seconds, recording.get("duration"))),
-    );
-  const among = { all: () => events, seek, position };
-  const back = {
-    name: `${JUMP_S} s back`,
-    key: "Shift+ArrowLeft",
-    needs: "Seek",
-    run: () => jump(-JUMP_S),
-    repeats: true,
-  };
-  const previous = eventCommand(false, among);
-  /**
-   * @template T
-   * @param {T} one
-   */
-  const about = (one) => ({ ...one, group: "Time", isKeyHere: isFree });
-  const commands = [
-    {
-      name: "Play or pause the recording",
-      icon: "play",
-      key: " ",
-      needs: "Pause",
-      run: places.toggle,
-    },
-    {
-      name: "Next message",
-      icon: "step",
-      key: "ArrowRight",
-      needs: "StepMessage",
-      run: () => step.run(true),
-      repeats: true,
-    },
-    {
-      name: "Previous message",
-      icon: "step-back",
-      key: "ArrowLeft",
-      needs: "StepMessage",
-      run: () => step.run(false),
-      repeats: true,
-    },
-    {
-      name: `${JUMP_S} s on`,
-      key: "Shift+ArrowRight",
-      needs: "Seek",
-      run: () => jump(JUMP_S),
-      repeats: true,
-    },
-    back,
-    {
-      name: "Start of the recording",
-      key: "Home",
-      needs: "Seek",
-      run: () => seek.to(recording.get("first")),
-    },
-    {
-      name: "End of the recording",
-      key: "End",
-      needs: "Seek",
-      run: () => seek.to(recording.get("duration")),
-    },
-    eventCommand(true, among),
-    previous,
-    { name: "Add bookmark…", icon: "flag", key: "b", needs: "SaveBookmark", run: bookmarks.add },
-  ].map(about);
-  const ofBags = [{ name: "Copy link to this moment", icon: "copy", run: copyLink }].map(about);
-  const ofAll = about({ name: "Topics of the timeline", icon: "list", run: topics.toggle });
+  const { ofRecordings, ofBags, ofLive, ofAll } = timeCommands({
+    recording: () => recording,
+    seek,
+    position,
+    events: () => events,
+    play: places.toggle,
+    step: step.run,
+    addBookmark: bookmarks.add,
+    copyLink,
+    showTopics: topics.toggle,
+  });
   provide(() => {
     if (!values) return [];
-    if (isBag()) return [...commands, ...ofBags, ofAll];
-    return isRewound(values) ? [...commands, ofAll] : [about(back), about(previous), ofAll];
+    if (isBag()) return [...ofRecordings, ...ofBags, ...ofAll];
+    return [...(isRewound(values) ? ofRecordings : ofLive), ...ofAll];
   });
 
   return {
