@@ -38,9 +38,9 @@ def examined(stage: Harness, seconds: float = 1.1) -> dict[str, Finding]:
     return examining.examined(stage, CauseLevel.TIME, seconds)
 
 
-def scans(stage: Harness, stamp_ns: Callable[[int], int], count: int = 6) -> None:
+def scans(stage: Harness, stamp_ns: Callable[[int], int]) -> None:
     """Publish scans, stamped as a function of the time."""
-    for _ in range(count):
+    for _ in range(6):
         stage.source.now += SECOND // 4
         stage.clock += 0.25
         sec, nanosec = divmod(stamp_ns(stage.source.now), SECOND)

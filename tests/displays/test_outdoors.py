@@ -44,11 +44,11 @@ def geo_path(*places: tuple[float, float]) -> dict[str, Any]:
 PATHS = {PATH: geo_path((48.1, 11.5), (48.101, 11.5), (48.101, 11.502))}
 
 
-def write_tiles(folder: Path, blocks: int = 1) -> Path:
+def write_tiles(folder: Path) -> Path:
     """Tiles around HERE in grey, as files."""
     file = io.BytesIO()
     PIL.Image.fromarray(np.full((8, 8, 3), 90, np.uint8)).save(file, "PNG")
-    for x, y in TilePlane(HERE, ZOOM).around(blocks):
+    for x, y in TilePlane(HERE, ZOOM).around(1):
         path = folder / f"{ZOOM}/{x}/{y}.png"
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(file.getvalue())

@@ -115,9 +115,9 @@ def test_topics_without_a_publisher_are_said() -> None:
     assert Bench(topics=["/fix"]).show()["problem"] == "No place yet on /fix."
 
 
-def png(folder: Path, name: str, color: int = 90) -> bytes:
+def png(folder: Path, name: str) -> bytes:
     made = io.BytesIO()
-    PIL.Image.new("RGB", (8, 8), (color, color, color)).save(made, "PNG")
+    PIL.Image.new("RGB", (8, 8), (90, 90, 90)).save(made, "PNG")
     (folder / name).parent.mkdir(parents=True, exist_ok=True)
     (folder / name).write_bytes(made.getvalue())
     return made.getvalue()

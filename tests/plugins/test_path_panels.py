@@ -25,12 +25,12 @@ ARRAY = message_class("diagnostic_msgs/msg/DiagnosticArray")
 KEY = message_class("diagnostic_msgs/msg/KeyValue")
 
 
-def built(panel: Any, ros_ns: int = 100 * SECOND) -> Any:
+def built(panel: Any) -> Any:
     """A panel that has shown a viewer with one topic."""
     ui = RecordedUi()
     panel.build(ui, lambda *_: None)
     panel.own = next(each for each in ui.widgets.values() if isinstance(each, CustomWidget))
-    return shown(panel, ros_ns)
+    return shown(panel)
 
 
 def shown(panel: Any, ros_ns: int = 100 * SECOND) -> Any:

@@ -81,8 +81,8 @@ def heard(source: RosSource, topic: str = "/words") -> list[str]:
     return [decode(STRING, raw.cdr).data for raw in source.inbox.drain().get(topic, ())]
 
 
-def requested(source: RosSource, topic: str = "/words") -> tuple[str, str] | None:
-    offer = source.offers().get(topic)
+def requested(source: RosSource) -> tuple[str, str] | None:
+    offer = source.offers().get("/words")
     return offer.requested if offer and offer.publishers else None
 
 

@@ -17,6 +17,8 @@ SIDES = 20
 """Of circles."""
 STEP = math.radians(10.0)
 """Largest angle between points of an arc."""
+ARROWHEAD = 0.5
+"""Length of the sides of an arrowhead, metres."""
 MIN_WIDTH, WIDTH_SHARE = 0.1, 0.05
 """Length of the bars at the ends of an interval of angles: metres at least, and of its radius."""
 
@@ -86,11 +88,11 @@ def interval(middle: float, half: float, radius: float) -> F64:
     )
 
 
-def arrowheads(points: F64, yaws: F64, length: float = 0.5) -> F64:
+def arrowheads(points: F64, yaws: F64) -> F64:
     """Triangles (3 N, 2, 3) at points (N, 3), whose tips look along `yaws` (N,) in radians."""
     opening = math.pi * 5.5 / 6.0
     sides = [
-        points + length * np.column_stack((np.cos(a), np.sin(a), np.zeros(len(a))))
+        points + ARROWHEAD * np.column_stack((np.cos(a), np.sin(a), np.zeros(len(a))))
         for a in (yaws + opening, yaws - opening)
     ]
     corners = np.stack((points, *sides), axis=1)

@@ -108,13 +108,8 @@ def named(name: str) -> str:
     return f"'{name[: LONGEST_NAME - 3]}...'" if len(name) > LONGEST_NAME else f"'{name}'"
 
 
-def body_of(message: Any, frame: str | None = None) -> Body | None:
-    """Return a moveit_msgs/CollisionObject, None if its pose is invalid.
-
-    Args:
-        message: the object.
-        frame: instead of that in its header.
-    """
+def body_of(message: Any) -> Body | None:
+    """Return a moveit_msgs/CollisionObject, None if its pose is invalid."""
     at, turn = message.pose.position, message.pose.orientation
     pose = pose_of((at.x, at.y, at.z), (turn.w, turn.x, turn.y, turn.z))
     if pose is None:
@@ -139,7 +134,7 @@ def body_of(message: Any, frame: str | None = None) -> Body | None:
     return Body(
         message.id,
         message.type.key[:LONGEST_NAME],
-        (message.header.frame_id if frame is None else frame).lstrip("/"),
+        message.header.frame_id.lstrip("/"),
         pose,
         solids,
         vertices,

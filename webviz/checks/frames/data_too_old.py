@@ -35,6 +35,5 @@ class DataTooOld(Check):
                 subject=reason.link or reason.frame,
                 severity=Severity.ERROR,
                 evidence={"frame": reason.frame, "link": reason.link},
-                command="",
                 explains=(symptom,),
             )

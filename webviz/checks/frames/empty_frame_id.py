@@ -28,7 +28,7 @@ class EmptyFrameId(Check):
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each such frame."""
         for symptom, reason in seen.lost(Kind.EMPTY_FRAME):
-            if not (seen.fixed_frame):
+            if not seen.fixed_frame:
                 continue
             yield self.found(
                 "The messages of a display have no frame id.",
@@ -36,6 +36,5 @@ class EmptyFrameId(Check):
                 subject=reason.link or reason.frame,
                 severity=Severity.ERROR,
                 evidence={"display": symptom.display},
-                command="",
                 explains=(symptom,),
             )

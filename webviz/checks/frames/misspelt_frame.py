@@ -28,7 +28,7 @@ class MisspeltFrame(Check):
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each such frame."""
         for symptom, reason in seen.lost(Kind.UNKNOWN_FRAME):
-            if not (reason.near):
+            if not reason.near:
                 continue
             yield self.found(
                 f'The frame "{reason.frame}" does not exist, but "{reason.near}" does.',
@@ -36,6 +36,5 @@ class MisspeltFrame(Check):
                 subject=reason.link or reason.frame,
                 severity=Severity.ERROR,
                 evidence={"frame": reason.frame, "nearest": reason.near},
-                command="",
                 explains=(symptom,),
             )

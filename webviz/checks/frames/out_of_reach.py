@@ -33,6 +33,5 @@ class OutOfReach(Check):
                 subject=reason.link or reason.frame,
                 severity=Severity.ERROR,
                 evidence={"frame": reason.frame},
-                command="",
                 explains=(symptom,),
             )

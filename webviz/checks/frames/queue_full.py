@@ -34,6 +34,5 @@ class QueueFull(Check):
                 subject=reason.link or reason.frame,
                 severity=Severity.ERROR,
                 evidence={"frame": reason.frame, "filter_size": reason.filter_size},
-                command="",
                 explains=(symptom,),
             )

@@ -13,7 +13,13 @@ from typing import Any
 
 import numpy as np
 
-from webviz.data.messages.paths import MAX_LENGTH, FieldPath, PathError, as_number
+from webviz.data.messages.paths import (
+    MAX_LENGTH,
+    FieldPath,
+    PathError,
+    as_number,
+    required_number,
+)
 from webviz.data.messages.units import unit_of
 
 FUNCTIONS: Mapping[str, Callable[[float], float]] = {
@@ -114,9 +120,7 @@ class MessagePath:
 
         See `FieldPath.number`.
         """
-        if (number := as_number(self.one(message))) is None:
-            raise PathError(f"`{self.text}` is not a number. Choose one of its parts.")
-        return number
+        return required_number(self.one(message), self.text)
 
     def unit(self, type_name: str) -> str:
         """Return the unit of the values, "" if the type of the messages states none."""
@@ -154,9 +158,7 @@ class MessagePath:
     def _calculated(self, value: Any) -> float:
         if self._geometry:
             value = _geometry(self._geometry, value, self.text)
-        number = as_number(value)
-        if number is None:
-            raise PathError(f"`{self.text}` is not a number. Choose one of its parts.")
+        number = required_number(value, self.text)
         for function in self._functions:
             number = function(number)
         return number

@@ -160,9 +160,7 @@ class FieldPath:
         Raises:
             PathError: as `one`, or it is not a number.
         """
-        if (number := as_number(self.one(message))) is None:
-            raise PathError(f"`{self.text}` is not a number. Choose one of its parts.")
-        return number
+        return required_number(self.one(message), self.text)
 
     def _taken(self, found: Iterable[_Found], step: _Step) -> Iterator[_Found]:
         """Yield the values a step leads to from those found so far."""
@@ -256,6 +254,13 @@ def as_number(value: Any) -> float | None:
     if isinstance(value, bool | int | float | np.number | np.bool_):
         return float(value)
     return value.ns / 1e9 if isinstance(value, Time | Duration) else None
+
+
+def required_number(value: Any, path: str) -> float:
+    """Return the value of a path as a number; raises PathError if it is not one."""
+    if (number := as_number(value)) is None:
+        raise PathError(f"`{path}` is not a number. Choose one of its parts.")
+    return number
 
 
 def numeric_paths(message: Any, most: int) -> list[str]:
