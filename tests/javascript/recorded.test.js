@@ -4,7 +4,7 @@ import { deflateSync } from "node:zlib";
 
 import { cellAt, cellDetails, indexAt } from "../../webviz/page/web/recorded/cells.js";
 import { columnDetails } from "../../webviz/page/web/recorded/columns.js";
-import { frameAt, shownAt } from "../../webviz/page/web/recorded/moments.js";
+import { frameAt, shownAt, within } from "../../webviz/page/web/recorded/moments.js";
 import { changesBetween } from "../../webviz/page/web/recorded/scene_changes.js";
 
 const create = (number, node) => ({ number, node, key: `create:${node}`, phase: "create" });
@@ -178,4 +178,16 @@ test("a point of a large cloud has the values that a viewer shows", () => {
   ]);
   const leftOut = [["intensity", { array: new Float32Array(0), text: "{}" }]];
   assert.equal(columnDetails({ ...columns, values: leftOut }, 1, [0, 0, 0]), null);
+});
+
+test("a group is a display with those that follow it and are deeper", () => {
+  const depths = { a: 0, g: 0, b: 1, c: 2, d: 0 };
+  const rows = new Map([
+    ["order", Object.keys(depths)],
+    ...Object.entries(depths).map(([id, depth]) => [id, { depth }]),
+  ]);
+  assert.deepEqual(within(rows, "g"), ["g", "b", "c"]);
+  assert.deepEqual(within(rows, "b"), ["b", "c"]);
+  assert.deepEqual(within(rows, "d"), ["d"]);
+  assert.deepEqual(within(new Map(), "d"), []);
 });

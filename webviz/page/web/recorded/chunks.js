@@ -37,9 +37,7 @@ export function about() {
   return /** @type {About} */ (JSON.parse(new TextDecoder().decode(bytesOf(element))));
 }
 
-/**
- * The chunks of the file: `load(number)` unpacks one, and `at(number)` is one that is unpacked.
- */
+/** The chunks of the file: a function that unpacks the one of a number, if it is not unpacked. */
 export function chunks() {
   const packed = [...document.querySelectorAll('script[type="webviz/chunk"]')];
   /** @type {Map<number, Chunk>} */
@@ -79,8 +77,7 @@ export function chunks() {
     return chunk;
   }
 
-  /** @param {number} number */
-  async function load(number) {
+  return async (/** @type {number} */ number) => {
     const known = at(number) ?? underway.get(number);
     if (known) return known;
     const promise = unpack(number);
@@ -90,9 +87,7 @@ export function chunks() {
     } finally {
       underway.delete(number);
     }
-  }
-
-  return { load, at };
+  };
 }
 
 /**

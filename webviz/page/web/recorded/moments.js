@@ -66,3 +66,19 @@ export function shownAt(chunk, frame) {
   }
   return shown;
 }
+
+/**
+ * The ids of a display and of those in it, if it is a group.
+ *
+ * @param {Map<string, any>} rows the store of displays
+ * @param {string} display
+ * @returns {string[]}
+ */
+export function within(rows, display) {
+  /** @type {string[]} */
+  const order = rows.get("order") ?? [];
+  const first = order.indexOf(display);
+  const depth = rows.get(display)?.depth ?? 0;
+  const end = order.findIndex((id, at) => at > first && rows.get(id).depth <= depth);
+  return order.slice(first, end < 0 ? undefined : end);
+}

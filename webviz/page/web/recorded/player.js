@@ -1,13 +1,13 @@
 // Shows a recorded run at a time, to viser's page and to whoever watches stores and pictures.
 
-import { bufferOf, chunks, revived } from "./chunks.js";
+import { archive } from "./archive.js";
 import { COLUMNS } from "./columns.js";
-import { frameAt, lastUpTo, shownAt } from "./moments.js";
+import { frameAt, shownAt, within } from "./moments.js";
 import { changesBetween } from "./scene_changes.js";
 import { switches } from "./switches.js";
 
 /** @import {ViserMessage} from "../types.js" */
-/** @import {About, Chunk, ChunkIndex, Known, Shown} from "./types.js" */
+/** @import {About, Known, Shown} from "./types.js" */
 
 /**
  * @typedef {{
@@ -23,34 +23,15 @@ const ROWS = "displays";
 const NOTHING = { ros: 0, scene: new Set(), stores: new Map(), panes: new Map() };
 
 /**
- * A message as viser's page expects it.
- *
- * @param {Chunk} chunk
- * @param {number} number
- * @returns {ViserMessage}
- */
-const made = (chunk, number) =>
-  revived(chunk, chunk.messages.items[number - chunk.messages.first][3]);
-
-/**
- * @param {Chunk} chunk
- * @param {number} number
- */
-function valueIn({ values: { first, items, places, shared } }, number) {
-  const item = /** @type {any} */ (items[places[number - first]]);
-  if (!item?.__each) return item;
-  return { each: item.__each.map((/** @type {number} */ one) => shared[one]) };
-}
-
-/**
- * Returns `{show(at), ros(), watch(store), unwatch(store), enable(display, enabled), repeat(display)}`.
+ * Returns `{show(at), ros(), watch(store), unwatch(store), enable(display, enabled), repeat(display)}`, and
+ * what reads the moment that is shown.
  *
  * @param {About} about
  * @param {Sinks} sinks
  */
 export function player(about, sinks) {
   const { index } = about;
-  const { load, at: unpacked } = chunks();
+  const run = archive(index);
   let shown = NOTHING;
   let place = ""; // the chunk and the frame that are shown
   /** @type {Map<number, Known>} */
@@ -61,52 +42,20 @@ export function player(about, sinks) {
   const watched = new Set();
   const switched = switches();
 
-  /**
-   * The number of the chunk that has a message, value or picture.
-   *
-   * @param {"message" | "value" | "picture"} kind
-   * @param {number} number
-   */
-  const home = (kind, number) =>
-    lastUpTo(index, (/** @type {ChunkIndex} */ each) => each[kind], number);
-
-  /**
-   * The chunks that have all of some messages, values or pictures.
-   *
-   * @param {"message" | "value" | "picture"} kind
-   * @param {Iterable<number>} numbers
-   * @returns {Promise<(number: number) => Chunk>}
-   */
-  async function homes(kind, numbers) {
-    /** @type {Map<number, Chunk>} */
-    const found = new Map();
-    for (const number of numbers) {
-      const chunk = home(kind, number);
-      if (!found.has(chunk)) found.set(chunk, unpacked(chunk) ?? (await load(chunk)));
-    }
-    return (number) => /** @type {Chunk} */ (found.get(home(kind, number)));
-  }
-
   /** @param {Shown} next */
   async function sceneMessages(next) {
-    const fresh = [...next.scene].filter((number) => !known.has(number));
-    const of = await homes("message", fresh);
-    /** @type {Map<number, Known>} */
-    const all = new Map();
-    for (const number of [...next.scene].sort((a, b) => a - b)) {
-      let message = known.get(number);
-      if (!message) {
-        const { first, items } = of(number).messages;
-        const [key, node, phase] = items[number - first];
-        message = { number, key, node, phase };
-      }
-      all.set(number, message);
-    }
+    const numbers = [...next.scene].sort((a, b) => a - b);
+    const fresh = await run.facts(numbers.filter((number) => !known.has(number)));
+    const facts = new Map([
+      ...known,
+      ...fresh.map((one) => /** @type {const} */ ([one.number, one])),
+    ]);
+    const all = new Map(
+      numbers.map((number) => [number, /** @type {Known} */ (facts.get(number))]),
+    );
     const { gone, wanted } = changesBetween(known.values(), all.values());
-    const from = await homes("message", wanted);
     const removals = gone.map((name) => ({ type: "RemoveSceneNodeMessage", name, owner: "" }));
-    const messages = wanted.map((number) => made(from(number), number));
-    return { all, messages: [...removals, ...messages] };
+    return { all, messages: [...removals, ...(await run.messages(wanted))] };
   }
 
   /**
@@ -116,22 +65,17 @@ export function player(about, sinks) {
    * @param {Iterable<string>} names
    */
   async function storeValues(next, names) {
-    const wanted = [...names].map((name) => [name, next.stores.get(name) ?? new Map()]);
-    const numbers = wanted.flatMap(([, content]) => [
-      .../** @type {Map<string, number>} */ (content).values(),
-    ]);
-    const of = await homes("value", new Set(numbers));
-    /** @param {number} number */
-    const value = (number) => valueIn(of(number), number);
+    const wanted = [...names].map((name) => ({
+      name,
+      numbers: [...(next.stores.get(name) ?? [])],
+    }));
+    const value = await run.values(
+      wanted.flatMap(({ numbers }) => numbers.map(([, number]) => number)),
+    );
     return new Map(
-      wanted.map(([name, content]) => [
-        /** @type {string} */ (name),
-        new Map(
-          [.../** @type {Map<string, number>} */ (content)].map(([key, number]) => [
-            key,
-            value(number),
-          ]),
-        ),
+      wanted.map(({ name, numbers }) => [
+        name,
+        new Map(numbers.map(([key, number]) => [key, value(number)])),
       ]),
     );
   }
@@ -164,13 +108,7 @@ export function player(about, sinks) {
    * @param {string} display
    */
   async function showPicture(next, display) {
-    const numbers = next.panes.get(display) ?? [];
-    const of = await homes("picture", numbers);
-    const makers = numbers.map((number) => () => {
-      const chunk = of(number);
-      return bufferOf(chunk, chunk.pictures.items[number - chunk.pictures.first]);
-    });
-    sinks.pictures(display, makers);
+    sinks.pictures(display, await run.pictures(next.panes.get(display) ?? []));
   }
 
   /**
@@ -181,7 +119,7 @@ export function player(about, sinks) {
   async function show(at) {
     const [number, frame] = frameAt(index, at);
     if (place === `${number}.${frame}`) return;
-    const next = shownAt(unpacked(number) ?? (await load(number)), frame);
+    const next = shownAt(await run.chunk(number), frame);
     const { all, messages } = await sceneMessages(next);
     const stores = await storeValues(next, watched);
     const before = shown;
@@ -192,7 +130,7 @@ export function player(about, sinks) {
       const isSame = before.panes.get(display)?.join() === next.panes.get(display)?.join();
       if (!isSame) await showPicture(next, display);
     }
-    if (number + 1 < index.length) load(number + 1);
+    run.prepare(number + 1);
   }
 
   return {
@@ -214,15 +152,11 @@ export function player(about, sinks) {
      */
     async read(store, start) {
       const all = [...(shown.stores.get(store) ?? [])].filter(([key]) => key.startsWith(start));
-      const of = await homes(
-        "value",
-        all.map(([, number]) => number),
-      );
+      const value = await run.values(all.map(([, number]) => number));
       return new Map(
         all.map(([key, number]) => {
-          const [what, chunk] = [key.slice(start.length), of(number)];
-          const value = valueIn(chunk, number);
-          return [what, what === COLUMNS ? revived(chunk, value) : value];
+          const what = key.slice(start.length);
+          return [what, value(number, what === COLUMNS)];
         }),
       );
     },
@@ -233,13 +167,9 @@ export function player(about, sinks) {
      * @returns {Promise<Uint8Array | null>}
      */
     async picture(isWanted) {
-      const numbers = [...known.values()].filter((one) => isWanted(one.node));
-      const of = await homes(
-        "message",
-        numbers.map(({ number }) => number),
-      );
-      for (const { number } of numbers.reverse()) {
-        const message = made(of(number), number);
+      const sent = [...known.values()].filter((one) => isWanted(one.node));
+      const messages = await run.messages(sent.map(({ number }) => number));
+      for (const message of messages.reverse()) {
         const data = message.updates?._data ?? message.props?._data;
         if (data) return data;
       }
@@ -250,15 +180,7 @@ export function player(about, sinks) {
      *
      * @param {string} display
      */
-    within(display) {
-      const rows = values.get(ROWS) ?? new Map();
-      /** @type {string[]} */
-      const order = rows.get("order") ?? [];
-      const first = order.indexOf(display);
-      const depth = rows.get(display)?.depth ?? 0;
-      const end = order.findIndex((id, at) => at > first && rows.get(id).depth <= depth);
-      return order.slice(first, end < 0 ? undefined : end);
-    },
+    within: (display) => within(values.get(ROWS) ?? new Map(), display),
     /** @param {string} name */
     async watch(name) {
       watched.add(name);
@@ -280,9 +202,7 @@ export function player(about, sinks) {
       const problem = switched.set(display, enabled);
       if (problem) throw new Error(problem);
       const { messages, numbers } = switched.difference(known.values());
-      const of = await homes("message", numbers);
-      const recorded = numbers.map((number) => made(of(number), number));
-      sinks.scene([...messages, ...recorded]);
+      sinks.scene([...messages, ...(await run.messages(numbers))]);
       showStores(await storeValues(shown, watched));
     },
     /** @param {string} display */

@@ -1,0 +1,112 @@
+// Everything that was recorded, by number; chunks are unpacked as they are needed.
+
+import { bufferOf, chunks, revived } from "./chunks.js";
+import { lastUpTo } from "./moments.js";
+
+/** @import {ViserMessage} from "../types.js" */
+/** @import {Chunk, ChunkIndex, Known} from "./types.js" */
+
+/** @typedef {"message" | "value" | "picture"} Kind */
+
+/**
+ * A value of a store, which shares parts with others.
+ *
+ * @param {Chunk} chunk
+ * @param {number} number
+ */
+function valueIn({ values: { first, items, places, shared } }, number) {
+  const item = /** @type {any} */ (items[places[number - first]]);
+  if (!item?.__each) return item;
+  return { each: item.__each.map((/** @type {number} */ one) => shared[one]) };
+}
+
+/**
+ * Returns `{chunk(number), prepare(number), facts(numbers), messages(numbers), values(numbers), pictures(numbers)}`.
+ *
+ * @param {ChunkIndex[]} index
+ */
+export function archive(index) {
+  const chunk = chunks();
+
+  /**
+   * The number of the chunk that has a message, value or picture.
+   *
+   * @param {Kind} kind
+   * @param {number} number
+   */
+  const home = (kind, number) => lastUpTo(index, (each) => each[kind], number);
+
+  /**
+   * The chunks that have all of some messages, values or pictures.
+   *
+   * @param {Kind} kind
+   * @param {number[]} numbers
+   * @returns {Promise<(number: number) => Chunk>}
+   */
+  async function homes(kind, numbers) {
+    /** @type {Map<number, Chunk>} */
+    const found = new Map();
+    for (const place of new Set(numbers.map((number) => home(kind, number))))
+      found.set(place, await chunk(place));
+    return (number) => /** @type {Chunk} */ (found.get(home(kind, number)));
+  }
+
+  return {
+    chunk,
+    /** @param {number} number of a chunk that will be needed soon */
+    prepare: (number) => number < index.length && chunk(number),
+    /**
+     * The nodes, keys and phases of messages.
+     *
+     * @param {number[]} numbers
+     * @returns {Promise<Known[]>}
+     */
+    async facts(numbers) {
+      const of = await homes("message", numbers);
+      return numbers.map((number) => {
+        const { first, items } = of(number).messages;
+        const [key, node, phase] = items[number - first];
+        return { number, key, node, phase };
+      });
+    },
+    /**
+     * Messages as viser's page expects them.
+     *
+     * @param {number[]} numbers
+     * @returns {Promise<ViserMessage[]>}
+     */
+    async messages(numbers) {
+      const of = await homes("message", numbers);
+      return numbers.map((number) => {
+        const { first, items } = of(number).messages;
+        return revived(of(number), items[number - first][3]);
+      });
+    },
+    /**
+     * A function of the number of a value; it revives the value if it has arrays.
+     *
+     * @param {number[]} numbers
+     * @returns {Promise<(number: number, hasArrays?: boolean) => any>}
+     */
+    async values(numbers) {
+      const of = await homes("value", numbers);
+      return (number, hasArrays = false) => {
+        const value = valueIn(of(number), number);
+        return hasArrays ? revived(of(number), value) : value;
+      };
+    },
+    /**
+     * Functions that make the messages of pictures.
+     *
+     * @param {number[]} numbers
+     * @returns {Promise<(() => ArrayBuffer)[]>}
+     */
+    async pictures(numbers) {
+      const of = await homes("picture", numbers);
+      return numbers.map((number) => () => {
+        const { first, items } = of(number).pictures;
+        return bufferOf(of(number), items[number - first]);
+      });
+    },
+  };
+}
