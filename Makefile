@@ -1,5 +1,5 @@
-# `make` sets up .venv, `make test` checks and tests everything in it, first what takes a minute,
-# `make quick` and `make check` at once, then what opens browsers and ROS graphs.
+# `make` sets up .venv, `make test` checks and tests everything in it: `make slow` opens browsers and
+# ROS graphs; `make quick` and `make check` take the processors while it waits for them.
 SHELL := /bin/bash
 .DEFAULT_GOAL := install
 
@@ -40,14 +40,14 @@ FIRST := $(addprefix tests/,benchmarks e2e testing sim page capture)
 SLOW := $(FIRST) $(filter-out $(FIRST) $(QUICK),$(patsubst %/,%,$(wildcard tests/*/)))
 
 # $(call run,OPTIONS,TESTS): a busy machine delays threads, browsers and ROS graphs, so what fails
-# runs once more, alone.
+# runs once more, one after another.
 define run
-$(PYTEST) $(1) --cache-clear $(2) || { [ $$? = 1 ] && \
-	echo "Running the failed tests once more, alone: a busy machine may have delayed them." && \
-	$(PYTEST) -n 0 --last-failed --maxfail 3 $(2); }
+$(PYTEST) -o cache_dir=.pytest_cache/$@ $(1) --cache-clear $(2) || { [ $$? = 1 ] && \
+	echo "Running the failed tests once more: a busy machine may have delayed them." && \
+	$(PYTEST) -o cache_dir=.pytest_cache/$@ -n 0 --last-failed --maxfail 3 $(2); }
 endef
 
-.PHONY: install test quick check bench soak attack mutants browser docs site release
+.PHONY: install test quick slow check bench soak attack mutants browser docs site release
 
 install: $(VENV)/ready
 
@@ -56,12 +56,17 @@ ifdef ARGS
 	@$(MAKE) --no-print-directory check
 	@$(PYTEST) -n 2 $(ARGS)
 else
-	@$(MAKE) --no-print-directory -j2 check quick
-	@$(call run,-n $(WAITING) --no-loadscope-reorder,$(SLOW))
+	@$(MAKE) --no-print-directory -j3 slow nice-quick nice-check
 endif
+
+nice-%:
+	@nice $(MAKE) --no-print-directory $*
 
 quick: $(VENV)/ready-to-test
 	@$(call run,-n 2,$(QUICK))
+
+slow: $(VENV)/ready-to-test
+	@$(call run,-n $(WAITING) --no-loadscope-reorder,$(SLOW))
 
 check: $(VENV)/ready-to-check
 	@$(VENV)/bin/ruff check
