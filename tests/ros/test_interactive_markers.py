@@ -115,11 +115,11 @@ def test_updates_are_applied_in_order_and_gaps_ask_again(
     connected(viewer, 2)
 
 
-def test_ten_thousand_markers_are_drawn_while_the_frame_loop_goes_on(
+def test_thousands_of_markers_are_drawn_while_the_frame_loop_goes_on(
     webviz_viewer: Callable[..., LiveViewer], serve: Callable[..., MarkerServer]
 ) -> None:
     """Each status is one that the loop shows between two turns."""
-    count = 10_000
+    count = 3_000
     viewer = webviz_viewer(InteractiveMarkers(interactive_markers_namespace="/arm"))
     server = serve("/arm", *(boxed(f"n{n}", float(n)) for n in range(count)))
     viewer.wait_for(lambda: "Loading the markers" in status(viewer), lambda: status(viewer))
@@ -132,7 +132,7 @@ def test_ten_thousand_markers_are_drawn_while_the_frame_loop_goes_on(
     connected(viewer, count - 1)
     keys = [key.split("/")[1] for key in viewer.nodes() if key.startswith("c0/")]
     assert len(keys) == count - 1
-    assert [position(viewer, f"m{n}")[0] for n in (1, 9, 10_000)] == [0.0, -8.0, 9999.0]
+    assert [position(viewer, f"m{n}")[0] for n in (1, 9, count)] == [0.0, -8.0, count - 1.0]
 
 
 def test_faulty_servers_are_reported_and_the_rest_is_shown(
