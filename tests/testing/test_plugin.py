@@ -27,6 +27,10 @@ def test_axes_that_are_masked(webviz_harness):
     stage = webviz_harness("robot.yaml", size=(200, 150))
     stage.check_picture("masked", mask=[(20, 0, 190, 150)])
 """
+NEW = """\
+def test_new(webviz_harness):
+    webviz_harness("robot.yaml").check_picture("new")
+"""
 
 
 @pytest.fixture
@@ -52,13 +56,6 @@ def run(package: pytest.Pytester, *arguments: str) -> pytest.RunResult:
 def test_pictures_are_made_pass_fail_and_are_masked(
     package: pytest.Pytester,
 ) -> None:
-    result = run(package)
-    result.assert_outcomes(failed=2)
-    result.stdout.fnmatch_lines(
-        ["E *AssertionError: test/pictures/axes.png is missing. Run pytest with --update-pic*"]
-    )
-    assert list(package.path.rglob("*.png")) == []
-
     run(package, "--update-pictures").assert_outcomes(passed=2)
     pictures = package.path / "test/pictures"
     assert sorted(path.name for path in pictures.iterdir()) == ["axes.png", "masked.png"]
@@ -67,8 +64,13 @@ def test_pictures_are_made_pass_fail_and_are_masked(
     package.makeini("[pytest]\nwebviz_pictures = reference\n")
     config = package.path / "test/robot.yaml"
     config.write_text(CONFIG.replace("length: 2.0", "length: 1.0"))
+    (package.path / "test/test_new.py").write_text(NEW)
     result = run(package)
-    result.assert_outcomes(failed=1, passed=1)
+    result.assert_outcomes(failed=2, passed=1)
+    result.stdout.fnmatch_lines(
+        ["E *AssertionError: reference/new.png is missing. Run pytest with --update-pictures*"]
+    )
+    assert not (package.path / "reference/new.png").exists()
     result.stdout.fnmatch_lines(
         [
             "E *AssertionError: * % of the picture differ from reference/axes.png. See "
