@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 import types
 import typing
@@ -101,6 +102,7 @@ RULES = (
 """Rules whose keys go together."""
 
 
+@functools.cache
 def structs(cls: type[msgspec.Struct]) -> st.SearchStrategy[dict[str, Any]]:
     if cls is WatchRule:
         return st.sampled_from(RULES).map(dict)
