@@ -56,6 +56,7 @@ def test_a_display_is_added_by_topic_changed_saved_and_comes_back(
     start("webviz_sim")
     viewer = start("webviz", "--port", "0", "-d", str(config))
     page = open_page(viewer.url(), 1000, 700, 0.3)
+    page.hold()
     side, tab = Side(page), page.tab
     blank = picture(page)
     assert colors(blank) == 1
@@ -81,12 +82,15 @@ def test_a_display_is_added_by_topic_changed_saved_and_comes_back(
     assert "color_scheme: costmap" in (tmp_path / "lab.yaml").read_text()
     assert config.read_text() == EMPTY
     tab.reload()
+    tab.wait_for_function("window.webviz?.hasView()")
+    page.hold()
     side.select("Map")
     page.wait_for(lambda: (picture(page) == changed).all(), "the same picture", 60)
     assert viewer.end() == 0
 
     again = start("webviz", "--port", "0", "-d", str(tmp_path / "lab.yaml"))
     page = open_page(again.url(), 1000, 700, 0.3)
+    page.hold()
     side = Side(page)
     side.select("Map")
     side.wait_for("248 x 168 cells")
