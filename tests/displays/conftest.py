@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any
 
 import pytest
+from inspecting import QUARTER
 
 from webviz.api.display import Display, inputs
 
 STRAIGHT = (0.0, 0.0, 0.0, 1.0)
-LEFT = (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))
-"""A quarter turn about z."""
 
 
 @pytest.fixture
@@ -31,7 +29,7 @@ def shown(bench: Callable[..., Any]) -> Callable[..., Any]:
 @pytest.fixture
 def turned(bench: Callable[..., Any]) -> Callable[..., Any]:
     """Make the bench as `shown`, with odom turned left by a quarter."""
-    return partial(_drawn, bench, LEFT)
+    return partial(_drawn, bench, QUARTER)
 
 
 def _drawn(

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
 from display_messages import MESSAGES
-from inspecting import one_of
 from plain_scenes import in_moving_frame
 
 from webviz.shell.testing import check_details
@@ -126,22 +125,22 @@ class TestPolygon(BuiltInChecks):
         )(bench)
 
 
-def test_selecting_last_side_of_a_polygon(bench: Callable[..., Any]) -> None:
+def test_selecting_last_side_of_a_polygon(turned: Callable[..., Any]) -> None:
     points = np.array([(0, 0, 0), (3, 0, 0), (3, 4, 0)], np.float32)
     values = {"polygon": {"points": points}}
     check_details(
-        one_of(bench, Polygon(), "geometry_msgs/msg/PolygonStamped", values, "outline", 2),
+        turned(Polygon(), values).pick("outline", 2),
         "Side 2",
         {"Length": "5 m", "Points in the polygon": "3"},
     )
 
 
-def test_selecting_cell_of_a_grid(bench: Callable[..., Any]) -> None:
+def test_selecting_cell_of_a_grid(turned: Callable[..., Any]) -> None:
     cells = np.array([(math.nan, 0, 0), (0, 0, 0), (1, 0, 0)], np.float64)
     values = {"cell_width": 1.0, "cell_height": 0.5, "cells": cells}
     clicked = (1.25, 0.125, 0.0)
     check_details(
-        one_of(bench, GridCells(), "nav_msgs/msg/GridCells", values, "cells", None, clicked),
+        turned(GridCells(), values).pick("cells", None, clicked),
         "Cell 2",
         {"Size": "1 m x 0.5 m", "Cells in the message": "3"},
     )

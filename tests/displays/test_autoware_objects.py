@@ -26,7 +26,6 @@ from autoware_scenes import (
 )
 from built_in_checks import BuiltInChecks
 from display_messages import MESSAGES
-from inspecting import one_of
 from plain_scenes import in_moving_frame
 
 from webviz.shell.testing import check_details
@@ -198,9 +197,9 @@ class TestTrackedObjects(BuiltInChecks):
         in_moving_frame(TRACKED, ALL_FOLLOWED)(bench)
 
 
-def test_selecting_pedestrian_of_autoware(bench: Callable[..., Any]) -> None:
+def test_selecting_pedestrian_of_autoware(turned: Callable[..., Any]) -> None:
     check_details(
-        one_of(bench, TrackedObjects(), TRACKED, FOLLOWED, "shapes", 30),
+        turned(TrackedObjects(), FOLLOWED).pick("shapes", 30),
         "PEDESTRIAN 1111",
         {"Probability": "75 %", "Size": "0.5 x 0.5 x 1 m", "Speed": "2.00 m/s", "Id": "11" * 16},
     )

@@ -12,7 +12,6 @@ from autoware_scenes import BOUNDED, PASSED, PATH, POSE, TIMED, TRAJECTORY, WAY,
 from autoware_scenes import POSE as POSE_STAMPED
 from built_in_checks import BuiltInChecks
 from display_messages import MESSAGES
-from inspecting import one_of
 from plain_scenes import in_moving_frame
 
 from webviz.shell.testing import check_details
@@ -154,9 +153,9 @@ class TestPoseHistory(BuiltInChecks):
         in_moving_frame(POSE, *PASSED * 110)(bench)
 
 
-def test_selecting_point_of_a_trajectory(bench: Callable[..., Any]) -> None:
+def test_selecting_point_of_a_trajectory(turned: Callable[..., Any]) -> None:
     check_details(
-        one_of(bench, AutowareTrajectory(), TRAJECTORY, TIMED, "velocity line", 2),
+        turned(AutowareTrajectory(), TIMED).pick("velocity line", 2),
         "Point 2 of 4",
         {
             "Velocity": "2 m/s",

@@ -13,7 +13,6 @@ import pytest
 from built_in_checks import BuiltInChecks
 from display_messages import MESSAGES
 from grid_maps import GRID_MAP, grid_map
-from inspecting import one_of
 from mapping_scenes import terrain
 from plain_scenes import in_moving_frame
 
@@ -204,12 +203,12 @@ class TestGridMap(BuiltInChecks):
         in_moving_frame(GRID_MAP, terrain(), terrain())(bench)
 
 
-def test_selecting_cell_of_a_grid_map(bench: Callable[..., Any]) -> None:
+def test_selecting_cell_of_a_grid_map(turned: Callable[..., Any]) -> None:
     """Rows are along -x."""
     layers = {"elevation": lambda x, y: x, "variance": lambda x, y: 0.25}
     values = grid_map(layers, (3, 4), 0.5, (1, 2))
     check_details(
-        one_of(bench, GridMap(), GRID_MAP, values, "surface", None, (0.4, -0.7, 0.5)),
+        turned(GridMap(), values).pick("surface", None, (0.4, -0.7, 0.5)),
         "Cell 0, 3",
         {"elevation": "0.5", "variance": "0.25", "Size of a cell": "0.5 m"},
     )

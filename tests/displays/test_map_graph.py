@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
 from display_messages import MESSAGES
-from inspecting import one_of
 from mapping_scenes import GRAPH
 from plain_scenes import in_moving_frame
 
@@ -68,9 +67,9 @@ class TestMapGraph(BuiltInChecks):
         in_moving_frame("rtabmap_msgs/msg/MapGraph", GRAPH)(bench)
 
 
-def test_selecting_link_of_a_graph(bench: Callable[..., Any]) -> None:
+def test_selecting_link_of_a_graph(turned: Callable[..., Any]) -> None:
     check_details(
-        one_of(bench, MapGraph(), "rtabmap_msgs/msg/MapGraph", GRAPH, "links", 3),
+        turned(MapGraph(), GRAPH).pick("links", 3),
         "Link 1 to 3",
         {"Type": "2, local loop closure"},
     )

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
 from display_messages import MESSAGES
-from inspecting import one_of
 from mapping_scenes import MESH, VOXELS
 from plain_scenes import in_moving_frame
 
@@ -136,10 +135,9 @@ class TestNvbloxVoxelBlockLayer(BuiltInChecks):
         in_moving_frame("nvblox_msgs/msg/VoxelBlockLayer", VOXELS)(bench)
 
 
-def test_selecting_voxel_of_nvblox(bench: Callable[..., Any]) -> None:
-    type_name = "nvblox_msgs/msg/VoxelBlockLayer"
+def test_selecting_voxel_of_nvblox(turned: Callable[..., Any]) -> None:
     check_details(
-        one_of(bench, NvbloxVoxelBlockLayer(), type_name, VOXELS, "region 0 0 0", 1),
+        turned(NvbloxVoxelBlockLayer(), VOXELS).pick("region 0 0 0", 1),
         "Voxel",
         {"Edge": "0.1 m"},
     )

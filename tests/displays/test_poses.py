@@ -11,7 +11,7 @@ import pytest
 from built_in_checks import BuiltInChecks
 from display_messages import MESSAGES
 from inspecting import POSE as INSPECTED_POSE
-from inspecting import POSE_TOLD, one_of
+from inspecting import POSE_TOLD
 from plain_scenes import COVARIANCE, at, in_moving_frame, turned
 
 from webviz.data.rotations import matrices
@@ -265,23 +265,20 @@ class TestPoseWithCovariance(BuiltInChecks):
         )(bench)
 
 
-def test_selecting_pose(bench: Callable[..., Any]) -> None:
+def test_selecting_pose(turned: Callable[..., Any]) -> None:
     check_details(
-        one_of(
-            bench, Pose(), "geometry_msgs/msg/PoseStamped", {"pose": INSPECTED_POSE}, "poses", 0
-        ),
+        turned(Pose(), {"pose": INSPECTED_POSE}).pick("poses", 0),
         "Pose 0",
         {"Pose in odom": POSE_TOLD},
     )
 
 
-def test_selecting_pose_with_covariance(bench: Callable[..., Any]) -> None:
+def test_selecting_pose_with_covariance(turned: Callable[..., Any]) -> None:
     values = {
         "pose": {"pose": INSPECTED_POSE, "covariance": np.diag([0.04, 0, 0, 0, 0, 1]).ravel()}
     }
-    type_name = "geometry_msgs/msg/PoseWithCovarianceStamped"
     check_details(
-        one_of(bench, PoseWithCovariance(), type_name, values, "ellipses", 0),
+        turned(PoseWithCovariance(), values).pick("ellipses", 0),
         "Pose 0",
         {
             "Pose in odom": POSE_TOLD,
@@ -290,31 +287,31 @@ def test_selecting_pose_with_covariance(bench: Callable[..., Any]) -> None:
     )
 
 
-def test_selecting_pose_of_an_array(bench: Callable[..., Any]) -> None:
+def test_selecting_pose_of_an_array(turned: Callable[..., Any]) -> None:
     """The last line of the second arrow."""
     values = {"poses": [{"position": {"x": math.nan}}, INSPECTED_POSE]}
     check_details(
-        one_of(bench, PoseArray(), "geometry_msgs/msg/PoseArray", values, "poses", 2),
+        turned(PoseArray(), values).pick("poses", 2),
         "Pose 1",
         {"Pose in odom": POSE_TOLD, "Poses in the message": "2"},
     )
 
 
-def test_selecting_particle(bench: Callable[..., Any]) -> None:
+def test_selecting_particle(turned: Callable[..., Any]) -> None:
     """The y axis of the second."""
     values = {"particles": [{"pose": INSPECTED_POSE, "weight": w} for w in (0.25, 0.75)]}
     cloud = ParticleCloud(shape="Axes")
     check_details(
-        one_of(bench, cloud, "nav2_msgs/msg/ParticleCloud", values, "poses", 4),
+        turned(cloud, values).pick("poses", 4),
         "Particle 1",
         {"Weight": "0.75", "Particles in the message": "2"},
     )
 
 
-def test_selecting_point(bench: Callable[..., Any]) -> None:
+def test_selecting_point(turned: Callable[..., Any]) -> None:
     values = {"point": {"x": 1.0, "y": 2.5}}
     check_details(
-        one_of(bench, PointStamped(), "geometry_msgs/msg/PointStamped", values, "points", 0),
+        turned(PointStamped(), values).pick("points", 0),
         "Point 0",
         {"Point in odom": {"fields": {"x": "1", "y": "2.5", "z": "0"}}},
     )

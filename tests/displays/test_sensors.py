@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
 from display_messages import MESSAGES
-from inspecting import one_of
 from plain_scenes import in_moving_frame, old_clouds
 
 from webviz.data.rotations import matrices
@@ -200,10 +199,10 @@ class TestTemperature(BuiltInChecks):
         )(bench)
 
 
-def test_selecting_cone_of_a_range(bench: Callable[..., Any]) -> None:
+def test_selecting_cone_of_a_range(turned: Callable[..., Any]) -> None:
     values = {"radiation_type": 1, "field_of_view": 0.5, "max_range": 4.0, "range": 0.7}
     check_details(
-        one_of(bench, Range(), "sensor_msgs/msg/Range", values, "cone", 0),
+        turned(Range(), values).pick("cone", 0),
         "Range 0",
         {
             "Range": "0.7 m",
@@ -214,21 +213,21 @@ def test_selecting_cone_of_a_range(bench: Callable[..., Any]) -> None:
     )
 
 
-def test_selecting_temperature(bench: Callable[..., Any]) -> None:
+def test_selecting_temperature(turned: Callable[..., Any]) -> None:
     values = {"temperature": 21.5, "variance": 0.25}
     check_details(
-        one_of(bench, Temperature(), "sensor_msgs/msg/Temperature", values, "points", 0),
+        turned(Temperature(), values).pick("points", 0),
         "Temperature 0",
         {"Value": "21.5 °C", "Standard deviation": "0.5 °C"},
     )
 
 
-def test_selecting_point_of_an_older_cloud(bench: Callable[..., Any]) -> None:
+def test_selecting_point_of_an_older_cloud(turned: Callable[..., Any]) -> None:
     channels = [{"name": "ring", "values": [3.0, 5.0]}]
     values = {"points": np.array([(math.nan, 0, 0), (1, 2, 3)], np.float32), "channels": channels}
     cloud = PointCloud(color_transformer="FlatColor")
     check_details(
-        one_of(bench, cloud, "sensor_msgs/msg/PointCloud", values, "points", 0),
+        turned(cloud, values).pick("points", 0),
         "Point 1",
         {"ring": "5.0", "Points in the cloud": "2"},
     )

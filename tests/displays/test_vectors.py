@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
 from display_messages import MESSAGES
-from inspecting import one_of
 from plain_scenes import MOTION, in_moving_frame, velocity
 from plain_scenes import NAN as SCENE_NAN
 
@@ -19,7 +18,6 @@ from webviz_displays.vectors import AccelStamped, Twist, TwistStamped, Wrench
 
 NAN = float("nan")
 WRENCH = "geometry_msgs/msg/WrenchStamped"
-TWIST, ACCEL = "geometry_msgs/msg/TwistStamped", "geometry_msgs/msg/AccelStamped"
 
 Benches = Callable[..., Any]
 
@@ -103,14 +101,14 @@ def test_former_vectors_stay_where_their_frame_was(bench: Benches) -> None:
 
 
 @pytest.mark.parametrize(
-    ("display", "type_name", "message", "said"),
+    ("display", "message", "said"),
     [
-        (TwistStamped, TWIST, "twist", "Linear 0.2 m/s; angular 0.3 rad/s."),
-        (AccelStamped, ACCEL, "accel", "Linear 0.2 m/s²; angular 0.3 rad/s²."),
+        (TwistStamped, "twist", "Linear 0.2 m/s; angular 0.3 rad/s."),
+        (AccelStamped, "accel", "Linear 0.2 m/s²; angular 0.3 rad/s²."),
     ],
 )
 def test_the_first_motion_is_drawn_at_once_unless_it_is_to_be_hidden(
-    turned: Benches, display: type, type_name: str, message: str, said: str
+    turned: Benches, display: type, message: str, said: str
 ) -> None:
     values = {message: {"linear": vector(x=0.2), "angular": vector(z=0.3)}}
     at = turned(display(), values)
@@ -196,11 +194,10 @@ class TestWrench(BuiltInChecks):
         )(bench)
 
 
-def test_selecting_torque(bench: Callable[..., Any]) -> None:
+def test_selecting_torque(turned: Callable[..., Any]) -> None:
     values = {"wrench": {"force": {"x": 1.5}, "torque": {"z": -2.0}}}
-    type_name = "geometry_msgs/msg/WrenchStamped"
     check_details(
-        one_of(bench, Wrench(), type_name, values, "torque circles", 5),
+        turned(Wrench(), values).pick("torque circles", 5),
         "Wrench 0",
         {"Force in odom": "1.5, 0, 0 N", "Torque in odom": "0, 0, -2 Nm"},
     )

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
 from display_messages import MESSAGES
-from inspecting import one_of
 from perception_scenes import NAN, ZED_CAR, ZED_OBJECTS, ZED_PERSON, ZED_SCENE
 from plain_scenes import in_moving_frame
 
@@ -127,9 +126,9 @@ class TestZedOdDisplay(BuiltInChecks):
         in_moving_frame(ZED_OBJECTS, ZED_SCENE)(bench)
 
 
-def test_selecting_car_of_a_zed_camera(bench: Callable[..., Any]) -> None:
+def test_selecting_car_of_a_zed_camera(turned: Callable[..., Any]) -> None:
     check_details(
-        one_of(bench, ZedOdDisplay(), ZED_OBJECTS, ZED_SCENE, "boxes", 3),
+        turned(ZedOdDisplay(), ZED_SCENE).pick("boxes", 3),
         "3-Vehicle [Car]",
         {
             "Kind": "Vehicle > Car",

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
 
-from webviz import Details, Display, Frames
+from webviz import Frames
 from webviz.api.picking import Column
 from webviz.engine.pipeline.details import details_tree
 
@@ -23,23 +22,6 @@ POSE_TOLD = {
         "Roll, pitch, yaw": "0.00, 0.00, 0.00 °",
     }
 }
-
-
-def one_of(
-    bench: Callable[..., Any],
-    display: Display,
-    type_name: str,
-    values: Mapping[str, Any],
-    key: str,
-    number: int | None,
-    point: Any = None,
-) -> Details:
-    """An item of a node of a message in the frame odom."""
-    at = bench(display)
-    at.transform("map", "odom", (10.0, 0.0, 0.0), QUARTER)
-    at.send(type_name, values, frame="odom")
-    at.turn()
-    return at.pick(key, number, point)
 
 
 def check_columns(at: Any, key: str) -> None:
