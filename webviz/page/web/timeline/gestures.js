@@ -8,9 +8,13 @@ import { eventText } from "./events.js";
 import { makeLabel } from "./label.js";
 import { zoomed } from "./range.js";
 
-/** @import {Range} from "../types.js" */
+/** @import {LoggedEvent, Range} from "../types.js" */
 /** @import {Seeks} from "./seeks.js" */
-/** @import {Marks} from "./track.js" */
+
+/**
+ * @typedef {{counts: number[], counted: Range, bookmarks: [string, number][], events: LoggedEvent[]}} Marks
+ *   `counted` are the seconds that the counts are of, `events` are of `events.js`
+ */
 
 const WHEEL = 1.25;
 const MIN_SPAN_PX = 4;

@@ -7,13 +7,9 @@ import { listenToTrack } from "./gestures.js";
 import { beforeText } from "./moment.js";
 import { boundsOf, following, isSame, rebounded } from "./range.js";
 
-/** @import {LoggedEvent, Moment, Range} from "../types.js" */
+/** @import {Moment, Range} from "../types.js" */
+/** @import {Marks} from "./gestures.js" */
 /** @import {Seeks} from "./seeks.js" */
-
-/**
- * @typedef {{counts: number[], counted: Range, bookmarks: [string, number][], events: LoggedEvent[]}} Marks
- *   `counted` are the seconds that the counts are of, `events` are of `events.js`
- */
 
 /**
  * Returns `{element, range(), counted(), length(), show(recording), mark(marks)}`: `seek` is of `seeks.js`,
