@@ -7,7 +7,6 @@ import dataclasses
 import logging
 import time
 from datetime import UTC, datetime, timedelta
-from pathlib import Path
 from typing import get_origin, get_type_hints
 
 import msgspec
@@ -122,9 +121,7 @@ def test_a_websocket_needs_a_cookie(house: House, path: str) -> None:
 
 
 @pytest.mark.parametrize("role", list(Role))
-def test_everything_that_a_page_sends_is_held_against_its_role(
-    house: House, role: Role, caplog: pytest.LogCaptureFixture
-) -> None:
+def test_everything_that_a_page_sends_is_held_against_its_role(house: House, role: Role) -> None:
     guest = house.enter(role)
     assert guest.receive("You") == {"type": "You", "role": role.label, "name": f"some {role.label}"}
     for command, required in rules.COMMANDS.items():
@@ -257,7 +254,7 @@ def test_what_was_sent_before_a_token_was_revoked_counts_no_more(house: House) -
     assert house.reached[seen:] == ["Save"]
 
 
-def test_an_expired_token_closes_its_pages(tmp_path: Path) -> None:
+def test_an_expired_token_closes_its_pages() -> None:
     now = datetime.now(UTC)
     clock = [now]
     token = make("a", Role.WATCHER, now, days=1.0)

@@ -264,9 +264,7 @@ def test_a_peer_that_cannot_be_reached_is_one_sentence(
         assert "\x1b" not in said
 
 
-def test_nothing_passes_through_a_shell_unquoted(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_nothing_passes_through_a_shell_unquoted(tmp_path: Path) -> None:
     ssh = tmp_path / "ssh"
     ssh.write_text(f'#!/bin/sh\nprintf "%s\\n" "$@" > {tmp_path}/said\n')
     ssh.chmod(0o755)

@@ -61,7 +61,6 @@ TOPICS = {
     "/tf": "tf2_msgs/msg/TFMessage",
     "/tf_static": "tf2_msgs/msg/TFMessage",
 }
-RCLPYS_OWN = ("use_sim_time", "start_type_description_service")
 RECORDED = ["/odom", "/scan", "/tf", "/tf_static", "/map"]
 
 

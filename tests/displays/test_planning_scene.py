@@ -26,7 +26,6 @@ Benches = Callable[..., Any]
 SCENE = "moveit_msgs/msg/PlanningScene"
 TOPIC = "/monitored_planning_scene"
 NAN = float("nan")
-NO_CORNER = np.array([[0, 1, 3]], np.uint32)
 UNTURNED = {"w": 1.0}
 ADD, REMOVE, APPEND, MOVE = range(4)
 

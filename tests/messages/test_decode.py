@@ -221,7 +221,7 @@ def test_large_arrays_are_read_only_views_of_the_received_bytes(rosbags_store, r
         assert not array.flags.writeable
 
 
-def test_arrays_in_the_other_byte_order_are_native_and_read_only_too(rosbags_store, plain):
+def test_arrays_in_the_other_byte_order_are_native_and_read_only_too(rosbags_store):
     path = _path(rosbags_store, ["map", "map"])
     cdr = bytes(rosbags_store.serialize_cdr(path, "nav_msgs/msg/Path", little_endian=False))
     poses = decode("nav_msgs/msg/Path", cdr).poses

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import Any
 
@@ -22,7 +21,6 @@ from webviz_displays.moveit import (
 from webviz_displays.moveit.properties import PlannedPath, PlanningRequest, SceneRobot
 
 LENGTHS = (0.5, 0.4, 0.3)
-ROLL = math.pi / 2
 
 
 def arm() -> str:
@@ -130,7 +128,6 @@ SHOWN = {
     "highlight_links": [{"id": "part1", "color": {"r": 1.0, "g": 0.1, "b": 0.1, "a": 1.0}}],
 }
 URDF = Topic("/robot_description")
-STATES = Topic("/display_robot_state")
 
 
 def test_each_display_has_a_picture_of_its_own(webviz_harness: Callable[..., Harness]) -> None:

@@ -58,7 +58,6 @@ displays:
 """
 """Displays that do not depend on how long something is ago."""
 PUBLISHER = Publisher("/planner", PATH, "reliable", "volatile")
-TURNS = 10_000
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3])

@@ -100,7 +100,7 @@ def test_a_world_without_room_has_no_paths(draw):
     assert planner.roomy_pose() is None
 
 
-def test_places_to_visit_are_apart_and_in_every_room(building, planner):
+def test_places_to_visit_are_apart_and_in_every_room(planner):
     places = planner.spread(Pose2D(), 12)
     assert len(places) == 12
     gaps = [math.dist(a[:2], b[:2]) for a in places for b in places if a is not b]

@@ -125,9 +125,7 @@ def test_a_mesh_that_needs_more_memory_than_loading_may_take_is_missing(start, t
     assert robot.links["last"].visuals
 
 
-def test_a_mesh_that_needs_more_than_usual_is_loaded_with_more(
-    start, tmp_path, slow_dae, monkeypatch
-):
+def test_a_mesh_that_needs_more_than_usual_is_loaded_with_more(start, slow_dae, monkeypatch):
     monkeypatch.setattr(loading, "USUAL_MEMORY", 30_000_000)
     assert not start(with_mesh(slow_dae))[1].result(60).missing
     assert processes() == []  # it would keep what it has taken

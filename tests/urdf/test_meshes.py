@@ -265,7 +265,7 @@ def test_archives_are_refused_and_the_formats_named(tmp_path, one_mesh, name):
     assert "Convert it to one of dae, stl, obj" in missing.reason
 
 
-def test_a_mesh_of_too_many_bytes_or_triangles_is_missing(tmp_path, one_mesh, stl, monkeypatch):
+def test_a_mesh_of_too_many_bytes_or_triangles_is_missing(one_mesh, stl, monkeypatch):
     monkeypatch.setattr(meshes, "MAX_TRIANGLES", 11)
     assert "has 12 triangles; the limit is 11" in one_mesh(stl).missing[0].reason
     with stl.open("ab") as file:

@@ -36,8 +36,6 @@ VALUES = "values:"
 OF_EACH_DISPLAY = ("properties", "rate", "statuses")
 OF_EACH_PANEL = ("panel", "panel_properties")
 OF_EACH_TOOL = ("tool",)
-ABOUT_ALL = ("bookmarks", "density", "events", "recorded")
-"""Stores about the whole recording, of which the last values are kept."""
 
 Changes = Mapping[tuple[str, str], msgspec.Raw | None]
 """New values by store and key, None for those that are gone."""
