@@ -78,7 +78,7 @@ test("a whole drawing is in the middle, never enlarged", () => {
 
 test("zooming keeps what is under the pointer, and a box that is found is in the middle", () => {
   const look = { x: 10, y: 20, scale: 0.5 };
-  assert.deepEqual(zoomed(look, 2, 30, 40), { x: 40, y: 60, scale: 1 });
+  assert.deepEqual(zoomed(look, 4, 30, 40), { x: 55, y: 80, scale: 2 });
   assert.equal(zoomed(look, 1e9, 0, 0).scale, 3);
   const box = { x: 100, y: 82, width: 100 };
   const size = { width: 80, height: 40 };
