@@ -32,8 +32,8 @@ unexport PYTHONDONTWRITEBYTECODE
 # Neither a browser nor a ROS graph.
 QUICK := $(wildcard tests/test_*.py) $(addprefix tests/,access config displays images messages pipeline \
 	rviz sources transforms views)
-# Processes for the others, one more than processors: they wait for browsers and ROS graphs.
-WAITING := 3
+# Processes for the others, twice as many as processors: they wait for browsers and ROS graphs.
+WAITING := 4
 # A long file that comes last would leave one of the processes without work.
 FIRST := $(addprefix tests/,benchmarks e2e testing sim page capture)
 # Each folder by itself: a folder that holds others takes their place in the order.
