@@ -169,9 +169,14 @@ def test_a_deadline_that_nobody_meets(
     publisher = robot.create_publisher(PoseStamped, "/pose", slow)
     listener = robot.create_subscription(PoseStamped, "/pose", print, quick)
     viewer = webviz_viewer(TF())
-    found = wait_for(viewer, "GRAPH014 /pose")["GRAPH014 /pose"]
-    assert found.cause == (
+    wait_for(viewer, "GRAPH014 /pose")
+    cause = (
         "/robot receives nothing on /pose: it asks for a deadline of 0.1 s, and /robot offers 1 s."
+    )
+    # DDS tells the names of nodes somewhat later than their endpoints.
+    viewer.wait_for(
+        lambda: live_findings(viewer, CauseLevel.GRAPH)["GRAPH014 /pose"].cause == cause,
+        lambda: f"It found {live_findings(viewer, CauseLevel.GRAPH)}.",
     )
     robot.destroy_publisher(publisher)
     publisher = robot.create_publisher(PoseStamped, "/pose", quick)

@@ -201,7 +201,9 @@ class RosSource:
                 infos = self._node.get_publishers_info_by_topic(topic)
                 publishers = tuple(sorted(map(_publisher, infos), key=lambda p: (p.node, p.type)))
             readers = known.readers if known else ()
-            if len(readers) != subscribers or topic in self._held or is_due:
+            # The node of a reader is known somewhat later than the reader itself.
+            is_known = len(readers) == subscribers and all(each.node for each in readers)
+            if not is_known or topic in self._held or is_due:
                 found = self._node.get_subscriptions_info_by_topic(topic)
                 readers = tuple(sorted(map(_endpoint, found), key=lambda each: each.node))
             held = self._held.get(topic)

@@ -20,9 +20,10 @@ export function corner(element, { move, end }) {
   made.addEventListener("pointermove", (event) => {
     if (grab) move(event.clientX - grab.x, event.clientY - grab.y);
   });
-  made.addEventListener("pointerup", () => {
-    grab = null;
-    end();
-  });
+  for (const over of ["pointerup", "pointercancel"])
+    made.addEventListener(over, () => {
+      grab = null;
+      end();
+    });
   return made;
 }
