@@ -10,6 +10,7 @@ from webviz.data.messages import interfaces, register, type_exists
 
 _SEPARATOR = "=" * 80
 _PRIMITIVES = {"boolean": "bool", "octet": "byte", "float": "float32", "double": "float64"}
+_PARTS = {"srv": ("_Request", "_Response"), "action": ("_Goal", "_Result", "_Feedback")}
 _REPEATED = re.compile(
     r"sequence<(?P<inner>[^,]+)(?:, (?P<bound>\d+))?>|(?P<item>.+)\[(?P<size>\d+)\]"
 )
@@ -19,13 +20,17 @@ def learn(type_name: str) -> None:
     """Register an installed message, service or action type with decoder and encoder.
 
     Args:
-        type_name: such as "my_msgs/msg/Wheel" or "my_msgs/action/Dock". Types that are known
-            already or not installed are ignored.
+        type_name: such as "my_msgs/msg/Wheel" or "my_msgs/action/Dock", which stands for its parts,
+            as each of them does for the whole. Types that are known already or not installed are
+            ignored.
 
     Raises:
         DefinitionError: the type contains something that webviz cannot decode, such as a wstring.
     """
     package, kind, name = type_name.split("/")
+    for part in _PARTS.get(kind, ()):
+        name = name.removesuffix(part)
+    type_name = f"{package}/{kind}/{name}"
     try:
         cls = getattr(importlib.import_module(f"{package}.{kind}"), name, None)
     except ModuleNotFoundError:
