@@ -128,7 +128,7 @@ def _median(row: Mapping[str, Any], name: str) -> float | None:
 
 
 def _short(value: float | None) -> str:
-    return "" if value is None else f"{value:.2g}" if abs(value) < 100 else f"{value:.0f}"
+    return "" if value is None else f"{value:.2g}" if abs(value) < 99.5 else f"{value:.0f}"
 
 
 def main() -> None:
