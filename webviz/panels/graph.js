@@ -5,7 +5,6 @@ import { draw, svgOf } from "./graph_drawing.js";
 import { boxesOf, foldable, layOut } from "./graph_layout.js";
 import { makeSearch } from "./graph_search.js";
 import { boxAt, centred, foldsOf, rateText, sumText, whole, zoomed } from "./graph_view.js";
-import { listenToPanning } from "./panning.js";
 
 /** @import {Page} from "../page/web/extensions.js" */
 /** @import {Topic} from "./graph_layout.js" */
@@ -30,7 +29,8 @@ export default function install(page) {
 
 /** @param {Page} page */
 function graph(page) {
-  const { download, el, fitted, iconButton, set, setText, svgElement, watch } = page;
+  const { download, el, fitted, iconButton, listenToPanning, set, setText, svgElement, watch } =
+    page;
   /** @type {Topic[]} */
   let topics = [];
   let given = ""; // of which topics the drawing is

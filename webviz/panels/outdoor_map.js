@@ -11,7 +11,6 @@ import {
   unmercator,
   zoomed,
 } from "./outdoor_mercator.js";
-import { listenToPanning } from "./panning.js";
 
 /** @import {Page} from "../page/web/extensions.js" */
 /** @import {Line, Track} from "./outdoor_drawing.js" */
@@ -40,7 +39,7 @@ export default function install(page) {
  * @param {Page} page
  * @param {(tiles: Tile[]) => unknown} send
  */
-function outdoorMap({ el, fitted, iconButton, set, setText }, send) {
+function outdoorMap({ el, fitted, iconButton, listenToPanning, set, setText }, send) {
   const images = makeImages(soon);
   /** @type {Line[]} */
   let tracks = [];

@@ -13,6 +13,7 @@ import { foldByKey } from "./panels/folds.js";
 import { messageRows } from "./panels/message_rows.js";
 import { panel } from "./panels/panels.js";
 import { widget } from "./panels/plugin_widgets.js";
+import { listenToPanning } from "./panning.js";
 import { groundAt, onCanvas, planeAt, surfaceAt } from "./scene/ground.js";
 import { download } from "./shell/download.js";
 import { timeOfDay } from "./shell/time_text.js";
@@ -51,6 +52,7 @@ const page = Object.freeze({
   iconButton,
   indent,
   keyOf,
+  listenToPanning,
   makeLayer,
   messageRows,
   needs,

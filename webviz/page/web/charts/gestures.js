@@ -24,7 +24,7 @@ const KEYS = {
  * @param {{
  *   area: () => Area, shown: () => Shown, zoom: () => Zoom | null, setZoom: (zoom: Zoom | null) => void,
  *   point: (share: number | null) => void, pause: () => void,
- * }} chart `point` is told where the pointer is between the ends of time
+ * }} chart `point` gets the share of the time axis left of the pointer, null when it is not over it
  */
 export function listenToGestures(canvas, { area, shown, zoom, setZoom, point, pause }) {
   /** @type {{from: Vec2, shown: Shown, isBox: boolean, isFar: boolean} | null} */
@@ -35,6 +35,11 @@ export function listenToGestures(canvas, { area, shown, zoom, setZoom, point, pa
   function shareAt({ clientX, clientY }) {
     const { left, top } = canvas.getBoundingClientRect();
     return shareOf([clientX - left, clientY - top], area());
+  }
+
+  function end() {
+    drag = null;
+    box.hidden = true;
   }
 
   canvas.addEventListener("wheel", (event) => {
@@ -69,9 +74,9 @@ export function listenToGestures(canvas, { area, shown, zoom, setZoom, point, pa
   canvas.addEventListener("pointerup", (event) => {
     const zoomed = drag?.isBox && drag.isFar && boxed(drag.shown, drag.from, shareAt(event));
     if (zoomed) setZoom(zoomed);
-    drag = null;
-    box.hidden = true;
+    end();
   });
+  canvas.addEventListener("pointercancel", end);
   canvas.addEventListener("pointerleave", () => point(null));
   canvas.addEventListener("dblclick", () => setZoom(null));
   canvas.addEventListener("keydown", (event) => {

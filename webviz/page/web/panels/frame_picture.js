@@ -1,6 +1,7 @@
 // The tree of frames as a picture, in a dialog: moved by dragging, zoomed by the wheel, searched.
 
 import { el, set, setText } from "../dom.js";
+import { listenToPanning } from "../panning.js";
 import { openDialog } from "../shell/dialog.js";
 import { watch } from "../stores.js";
 import { wordsOf } from "../words.js";
@@ -16,8 +17,6 @@ const WHEEL_STEP = 0.002;
 const KEY_STEP = 1.3;
 const MOVE_PX = 60;
 const CLICK_PX = 4;
-/** @type {Record<string, [number, number]>} */
-const MOVES = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 const HINT = "Drag to pan, scroll to zoom, 0 to fit. Click a frame for details.";
 
 /**
@@ -39,8 +38,6 @@ export async function openFramePicture(detailOf) {
   let chosen = "";
   let hit = -1;
   let request = 0;
-  /** @type {{x: number, y: number, isDrag: boolean} | null} */
-  let held = null;
 
   const canvas = el("canvas", {
     class: "wv-frame-canvas",
@@ -160,45 +157,30 @@ export async function openFramePicture(detailOf) {
     goTo(found[hit]);
   }
 
-  canvas.addEventListener(
-    "wheel",
-    (event) => {
-      event.preventDefault();
-      zoom(2 ** (-event.deltaY * WHEEL_STEP), event.offsetX, event.offsetY);
-    },
-    { passive: false },
-  );
-  canvas.addEventListener("pointerdown", (event) => {
-    if (event.button !== 0) return;
-    canvas.setPointerCapture(event.pointerId);
-    held = { x: event.clientX, y: event.clientY, isDrag: false };
-  });
-  canvas.addEventListener("pointermove", (event) => {
-    if (!held) return;
-    const [dx, dy] = [held.x - event.clientX, held.y - event.clientY];
-    if (!held.isDrag && Math.hypot(dx, dy) < CLICK_PX) return;
-    held = { x: event.clientX, y: event.clientY, isDrag: true };
-    move(dx, dy);
-  });
-  canvas.addEventListener("pointerup", (event) => {
-    const wasClick = held && !held.isDrag;
-    held = null;
-    if (!wasClick || !drawing) return;
+  /** @param {PointerEvent} event */
+  function choose(event) {
+    if (!drawing) return;
     const [x, y] = [look.x + event.offsetX / look.scale, look.y + event.offsetY / look.scale];
     chosen = boxAt(drawing, x, y)?.name ?? "";
     if (!chosen) setText(detail, HINT);
     soon();
-  });
-  canvas.addEventListener("pointercancel", () => (held = null));
-  canvas.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const step = MOVES[event.key];
-    if (step) move(step[0] * MOVE_PX, step[1] * MOVE_PX);
-    else if (event.key === "+" || event.key === "=") zoom(KEY_STEP);
-    else if (event.key === "-") zoom(1 / KEY_STEP);
-    else if (event.key === "0") showAll();
-    else return;
-    event.preventDefault();
+  }
+
+  listenToPanning(canvas, {
+    wheel: ({ deltaY, offsetX, offsetY }) => zoom(2 ** (-deltaY * WHEEL_STEP), offsetX, offsetY),
+    move: (dx, dy) => move(-dx, -dy),
+    keys: {
+      ArrowLeft: () => move(-MOVE_PX, 0),
+      ArrowRight: () => move(MOVE_PX, 0),
+      ArrowUp: () => move(0, -MOVE_PX),
+      ArrowDown: () => move(0, MOVE_PX),
+      "+": () => zoom(KEY_STEP),
+      "=": () => zoom(KEY_STEP),
+      "-": () => zoom(1 / KEY_STEP),
+      0: showAll,
+    },
+    click: choose,
+    slack: CLICK_PX,
   });
 
   const sizes = new ResizeObserver(soon);
