@@ -31,6 +31,8 @@ def panel(tab: Tab) -> Iterator[Tab]:
     tab.wait_for_command(InspectTransforms(tree=True))
     yield tab
     tab.show_tab("Displays")
+    # Else the next test may open it before anybody noticed.
+    tab.wait_for_command(InspectTransforms(tree=False))
 
 
 def rows(tab: Tab) -> list[str]:
