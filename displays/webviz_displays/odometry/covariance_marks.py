@@ -43,7 +43,7 @@ _RGB = ((255, 0, 0), (0, 255, 0), (0, 0, 255))
 def draw_covariances(
     look: Covariance, newest: Sequence[F64], poses: PoseTrail, group: Group, ctx: Context, ids: Ids
 ) -> None:
-    """Draw the covariances of the newest poses, if they are switched on, and report invalid ones.
+    """Draw the covariances of the newest poses, and report invalid ones.
 
     Args:
         look: properties.
@@ -53,8 +53,6 @@ def draw_covariances(
         ctx: collects statuses.
         ids: (N,), of the poses.
     """
-    if not look.value:
-        return
     rows, total = np.array(newest), len(poses.positions)
     given, ok = read(rows)
     negative = has_negative_variance(rows)

@@ -88,8 +88,9 @@ class Odometry(Display, Selective):
         group = ctx.follow(None, offset=Pose(origin))
         poses = replace(poses, positions=poses.positions - origin)
         draw_poses(self.shape, poses, group, ctx, path="shape.alpha")
-        rows = [sample.message.pose.covariance for sample in samples[-MAX_COVARIANCES:]]
-        draw_covariances(self.covariance, rows, poses, group, ctx, np.arange(len(samples)))
+        if self.covariance.value:
+            rows = [sample.message.pose.covariance for sample in samples[-MAX_COVARIANCES:]]
+            draw_covariances(self.covariance, rows, poses, group, ctx, np.arange(len(samples)))
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
         """Return a message; the wedges are one mesh, which does not know of its messages."""

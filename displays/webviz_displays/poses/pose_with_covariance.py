@@ -34,8 +34,9 @@ class PoseWithCovariance(PoseDisplay):
         self, samples: Sequence[Sample], poses: PoseTrail, group: Group, ctx: Context, ids: Ids
     ) -> None:
         """Draw the covariances of the newest poses."""
-        rows = [sample.message.pose.covariance for sample in samples[-MAX_COVARIANCES:]]
-        draw_covariances(self.covariance, rows, poses, group, ctx, ids)
+        if self.covariance.value:
+            rows = [sample.message.pose.covariance for sample in samples[-MAX_COVARIANCES:]]
+            draw_covariances(self.covariance, rows, poses, group, ctx, ids)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
         """Return the pose and its covariance.

@@ -109,6 +109,14 @@ class InputSubscription:
         """Return whether the newest message waits for its transform."""
         return len(self._filter) > 0 and self._newest > self._newest_placed
 
+    def is_idle(self, offer: Offer | None) -> bool:
+        """Return whether `take` has nothing to do unless messages have arrived.
+
+        Args:
+            offer: publishers and QoS of the topic.
+        """
+        return offer is self._followed and not self._filter and not self._filter.is_stuck
+
     def subscription(self, lookback: Lookback, is_placed: bool) -> Subscription:
         """Return the subscription of the topic.
 

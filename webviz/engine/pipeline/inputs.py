@@ -95,14 +95,12 @@ class Inputs:
         arrived: list[tuple[str, Arrival]] = []
         duration_ns = self._duration_ns if self._sweep else None
         for name, input_subscription in active.items():
-            raws, offer = (
-                batches.get(input_subscription.name, ()),
-                offers.get(input_subscription.name),
-            )
-            arrivals = input_subscription.take(
-                raws, frames, offer, clock, self.waits(name), duration_ns
-            )
-            arrived += [(name, arrival) for arrival in arrivals]
+            raws = batches.get(input_subscription.name, ())
+            offer = offers.get(input_subscription.name)
+            if raws or not input_subscription.is_idle(offer):
+                waits = self.waits(name)
+                arrivals = input_subscription.take(raws, frames, offer, clock, waits, duration_ns)
+                arrived += [(name, arrival) for arrival in arrivals]
         arrived.sort(key=lambda item: item[1].raw.received_ns)
         synchronizer = self._synchronizer = self._renewed(active)
         if synchronizer is None:
