@@ -120,9 +120,10 @@ def completed(cls: type[Declared], values: Mapping[str, Any]) -> dict[str, Any]:
 def _defaults(cls: type[Declared]) -> dict[str, Any]:
     """Return the defaults of properties by name.
 
-    Msgspec evaluates annotations anew for each call.
+    `msgspec.structs.fields` knows them too, but evaluates all annotations.
     """
-    return {field.name: field.default for field in msgspec.structs.fields(cls)}
+    fields, defaults = cls.__struct_fields__, cls.__struct_defaults__
+    return dict(zip(fields[len(fields) - len(defaults) :], defaults, strict=True))
 
 
 def set_property(declared: Declared, path: str, value: Any) -> None:

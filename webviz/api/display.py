@@ -29,7 +29,7 @@ from webviz.api.lookback import Lookback
 from webviz.api.nodes import Node
 from webviz.api.picking import Cells, Columns, Details, Hit, noun_of
 from webviz.api.ports import Input, Namespace
-from webviz.api.properties import properties_of
+from webviz.api.properties import ports_of
 
 if TYPE_CHECKING:
     from webviz.api.context import Context
@@ -229,8 +229,7 @@ def inputs_of(cls: type[Display]) -> dict[str, Input]:
     Raises:
         TypeError: its `sync` names something that is not an input.
     """
-    ports = {each.path: each.port for each in properties_of(cls)}
-    found = {path: port for path, port in ports.items() if isinstance(port, Input)}
+    found = {name: port for name, port in ports_of(cls).items() if isinstance(port, Input)}
     for name in cls.sync.inputs if cls.sync else ():
         if name not in found:
             raise TypeError(f"{cls.__name__}.sync: '{name}' is not an input of the display")

@@ -77,6 +77,16 @@ def properties_of(cls: type[msgspec.Struct]) -> tuple[Property, ...]:
     return tuple(sorted(found, key=lambda each: each.path not in FIRST))
 
 
+def ports_of(cls: type[msgspec.Struct]) -> dict[str, Input | Output]:
+    """Return the inputs and outputs of a class by property, in the order of declaration.
+
+    A viewer needs those of all displays to start, and to describe all their types takes longer.
+    """
+    hints = typing.get_type_hints(cls, include_extras=True)
+    known = {name: _known(hints[name]) for name in cls.__struct_fields__}
+    return {name: said["port"] for name, said in known.items() if "port" in said}
+
+
 def bare(hint: Any) -> Any:
     """Return a type without its annotations."""
     while typing.get_origin(hint) is Annotated:

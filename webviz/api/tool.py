@@ -30,7 +30,7 @@ from webviz.api.former_names import former_names
 from webviz.api.frames import Frames
 from webviz.api.goal import GoalRequest, goal_request, nothing
 from webviz.api.ports import Output
-from webviz.api.properties import properties_of
+from webviz.api.properties import ports_of
 from webviz.api.status import Level, Status
 from webviz.api.vehicle import Vehicle
 from webviz.data.messages import encode, interfaces
@@ -305,8 +305,7 @@ class Tool(Declared, kw_only=True):
 @functools.cache
 def outputs_of(cls: type[Tool]) -> dict[str, Output]:
     """Return the outputs of a tool class by property name, in the order of declaration."""
-    ports = {each.path: each.port for each in properties_of(cls)}
-    return {path: port for path, port in ports.items() if isinstance(port, Output)}
+    return {name: port for name, port in ports_of(cls).items() if isinstance(port, Output)}
 
 
 def outputs(tool: Tool) -> list[tuple[str, Output, Topic]]:
