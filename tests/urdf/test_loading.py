@@ -5,6 +5,7 @@ from __future__ import annotations
 import gc
 import json
 import os
+import pickle
 import signal
 import time
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -91,6 +92,7 @@ def test_a_process_gives_the_same_robot_and_is_kept_for_the_next(start, tmp_path
     (process,) = processes()
     start(BOX)[1].result(60)
     assert processes() == [process]
+    assert b"trimesh" not in pickle.dumps(expected)  # which viewers would import, and scipy
 
 
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGSTOP])

@@ -62,8 +62,9 @@ def cylinder(radius: float, length: float) -> MeshPart:
 
 
 def _part(vertices: np.ndarray, faces: np.ndarray, uvs: np.ndarray | None = None) -> MeshPart:
+    # Plain arrays: viewers would import trimesh, and scipy with it, to receive one of theirs.
     return MeshPart(
-        vertices.astype(np.float32),
-        faces.astype(np.uint32),
-        uvs=None if uvs is None else uvs.astype(np.float32),
+        np.asarray(vertices, np.float32),
+        np.asarray(faces, np.uint32),
+        uvs=None if uvs is None else np.asarray(uvs, np.float32),
     )
