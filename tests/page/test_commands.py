@@ -19,7 +19,6 @@ from webviz.commands import (
     ResetView,
     Save,
     SaveImage,
-    Sender,
     SetFixedFrame,
     ShowView,
     Undo,
@@ -182,17 +181,6 @@ def test_the_camera_stays_when_a_key_is_a_command(tab: Tab) -> None:
     assert tab.page.evaluate(eye) == before
 
 
-def test_an_image_is_of_the_browser_that_asks(
-    tab: Tab, loop: Loop, open_tab: Callable[[], Tab]
-) -> None:
-    other = open_tab()
-    run(other, "save image")
-    other.wait_for_command(SaveImage())
-    browser = other.page.evaluate("window.webviz.browser")
-    assert loop.senders[-1] == Sender(browser)
-    assert browser != tab.page.evaluate("window.webviz.browser")
-
-
 def steps(*labels: str, browser: int | None = None, first: int = 1) -> tuple[Step, ...]:
     """Steps with these labels, the newest first."""
     made = [Step(first + index, label, browser) for index, label in enumerate(labels)]
@@ -283,15 +271,6 @@ def test_toasts_are_few_and_leave_the_pointer_to_the_scene(tab: Tab) -> None:
     for _ in range(3):
         toasts.get_by_role("button", name="Dismiss").first.click()
     assert toasts.count() == 0
-
-
-def test_a_page_that_joins_is_not_told_of_old_steps(
-    tab: Tab, loop: Loop, open_tab: Callable[[], Tab], make_row: Callable[..., Row]
-) -> None:
-    loop.show(make_row("a"), history=UndoHistory(steps("Move Path", browser=10**6, first=3001)))
-    other = open_tab()
-    other.wait_for(lambda: not other.button("Undo").is_disabled())
-    assert "in another browser" not in other.text()
 
 
 def test_displays_are_selected_and_looked_at_by_name(

@@ -9,7 +9,7 @@ import playwright.sync_api as playwright
 import pytest
 from pages import COARSE
 
-from tests.page.conftest import Loop, Tab, open_page
+from tests.page.conftest import Tab
 from webviz.engine.state import Row, State
 from webviz.scene.server import Server
 from webviz.server.channel.messages import Shell
@@ -95,10 +95,7 @@ def offer(node: str) -> Offer:
     return Offer((Publisher(node, "std_msgs/msg/String", "reliable", "volatile"),))
 
 
-def test_the_scene_below_the_first_hint_takes_the_mouse_and_its_button_closes_it(
-    tab: Tab, open_tab: Callable[..., Tab]
-) -> None:
-    tab = open_tab()
+def test_the_scene_below_the_first_hint_takes_the_mouse_and_its_button_closes_it(tab: Tab) -> None:
     card = tab.page.get_by_role("region", name="Nothing is published")
     tab.wait_for(card.is_visible)
     box = card.get_by_text("Start your robot").bounding_box()
@@ -107,10 +104,21 @@ def test_the_scene_below_the_first_hint_takes_the_mouse_and_its_button_closes_it
     assert tab.page.evaluate(hit, [box["x"] + 5, box["y"] + 5]) == "CANVAS"
     card.get_by_role("button", name="Close").click()
     playwright.expect(card).to_have_count(0)
-    tab.page.reload()
-    tab.page.get_by_role("tablist").first.wait_for()
-    tab.wait_for(lambda: tab.page.locator(".wv-file").inner_text() == "webviz")
-    assert card.count() == 0
+    assert tab.page.evaluate("localStorage.getItem('webviz.knows-first-run')") == "true"
+
+
+def test_a_new_page_shows_nothing_before_it_is_ours_and_no_hint_that_was_closed(
+    tab: Tab, server: Server
+) -> None:
+    tab.page.evaluate("localStorage.setItem('webviz.knows-first-run', 'true')")
+    page = tab.page.context.new_page()
+    page.add_init_script(WATCH)
+    page.goto(f"http://127.0.0.1:{server.get_port()}/?fixedDpr={COARSE}")
+    page.get_by_role("tablist").first.wait_for()
+    assert page.evaluate("[...window.seen]") == []
+    tab.wait_for(lambda: page.locator(".wv-file").inner_text() == "webviz")
+    assert page.get_by_role("region", name="Nothing is published").count() == 0
+    page.close()
 
 
 def test_a_tooltip_appears_under_the_mouse_and_goes_with_it(tab: Tab) -> None:
@@ -169,17 +177,6 @@ def test_nothing_changes_on_the_page_while_nothing_changes(tab: Tab) -> None:
 
     # What was sent before still arrives on a slow machine.
     tab.wait_for(lambda: changes() == [])
-
-
-def test_nothing_is_seen_before_the_page_is_ours(
-    browser: playwright.Browser, server: Server, shared_loop: Loop
-) -> None:
-    page = open_page(browser)
-    page.add_init_script(WATCH)
-    page.goto(f"http://127.0.0.1:{server.get_port()}/?fixedDpr={COARSE}")
-    page.get_by_role("tablist").first.wait_for()
-    assert page.evaluate("[...window.seen]") == []
-    page.context.close()
 
 
 EDGES = """() => {

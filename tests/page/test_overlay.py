@@ -9,7 +9,7 @@ import msgspec
 import numpy as np
 import pytest
 
-from tests.page.conftest import Loop, Tab
+from tests.page.conftest import HEIGHT, WIDTH, Loop, Tab
 from webviz.api.bridge import Bridge
 from webviz.api.context import ColorScale
 from webviz.api.nodes import Points, Pose
@@ -158,14 +158,15 @@ def test_what_is_under_the_resting_mouse_is_named(
     scene.flush()
 
 
-def test_the_hint_for_the_mouse_leaves_room_for_the_scale(open_tab: Callable[..., Tab]) -> None:
-    tab = open_tab(820, 600)
+def test_the_hint_for_the_mouse_leaves_room_for_the_scale(tab: Tab) -> None:
+    tab.page.set_viewport_size({"width": 820, "height": 600})
     scale = tab.page.locator(".wv-scale")
     tab.wait_for(scale.is_visible)
     hint, bar = tab.page.locator(".wv-pointer").bounding_box(), scale.bounding_box()
     assert hint is not None
     assert bar is not None
     assert hint["x"] + hint["width"] < bar["x"]
+    tab.page.set_viewport_size({"width": WIDTH, "height": HEIGHT})
 
 
 def test_rates_are_told_and_explained_on_a_click(tab: Tab) -> None:

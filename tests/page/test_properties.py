@@ -473,8 +473,7 @@ def test_what_is_wrong_with_the_viewer_is_said_above(options: Pane) -> None:
     assert options.row("fixed_frame").get_attribute("data-changed") is not None
 
 
-def test_words_of_labels_stay_whole_in_a_panel_of_320_pixels(open_tab: Callable[..., Tab]) -> None:
-    tab = open_tab()
+def test_words_of_labels_stay_whole_in_a_panel_of_320_pixels(tab: Tab) -> None:
     tab.loop.show(Row("a", "PointCloud2", PointCloud2(name="a"), "a", {}))
     tree = Tree(tab)
     tree.click("a")

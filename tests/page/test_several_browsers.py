@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 
+import playwright.sync_api as playwright
 import pytest
 
 from tests.page.conftest import Tab
 from tests.page.properties_pane import Pane
-from webviz.engine.state import Row
+from tests.page.trees import Tree, group
+from webviz.api.views import FPS, TopDownOrtho
+from webviz.engine.commands import InspectTopics, SaveImage, Sender
+from webviz.engine.state import Inspected, Row, Step, UndoHistory
 from webviz.scene.server import Server
+from webviz.sources import Offer, Publisher
 
 MakeRow = Callable[..., Row]
 OpenTab = Callable[[], Tab]
@@ -76,14 +82,63 @@ def test_a_field_that_was_left_or_has_the_focus_shows_what_another_has_entered(
     mine.wait_for_value("count", "8")
 
 
-def test_a_browser_that_comes_late_sees_how_things_are(
+def test_a_browser_that_comes_late_sees_how_things_are_and_asks_for_itself(
     mine: Pane, open_tab: OpenTab, make_row: MakeRow
 ) -> None:
-    mine.tab.loop.show(make_row("a", count=8, filled=False), fixed_frame="odom")
+    steps = UndoHistory((Step(3001, "Move Path", 10**6),))
+    row = make_row("a", count=8, filled=False)
+    mine.tab.loop.show(row, fixed_frame="odom", history=steps)
     mine.wait_for_value("count", "8")
-    late = Pane(open_tab()).mount()
+    tab = open_tab()
+    late = Pane(tab).mount()
     late.wait_for_value("count", "8")
     assert not late.field("filled").is_checked()
+    tab.wait_for(lambda: not tab.button("Undo").is_disabled())
+    assert "in another browser" not in tab.text(), "of old steps"
+    tab.page.keyboard.press("Control+k")
+    tab.page.get_by_role("dialog", name="Commands").get_by_role("combobox").fill("save image")
+    tab.page.keyboard.press("Enter")
+    tab.wait_for_command(SaveImage())
+    asking, watching = (each.page.evaluate("webviz.browser") for each in (late, mine))
+    assert tab.loop.senders[-1] == Sender(asking)
+    assert asking != watching
+
+
+def test_two_who_select_and_fold_do_so_for_themselves(
+    tab: Tab, other_tab: Tab, make_row: MakeRow
+) -> None:
+    tree, other = Tree(tab), Tree(other_tab)
+    tab.loop.show(group("g"), replace(make_row("a"), depth=1), make_row("b"))
+    tree.wait_for_names("g", "a", "b")
+    other.wait_for_names("g", "a", "b")
+    tree.click("b")
+    other.click("a")
+    other.fold("g")
+    other.wait_for_names("g", "b")
+    assert tree.names() == ["g", "a", "b"]
+    assert tree.selected() == ["b"]
+    tab.loop.show(group("g"), replace(make_row("a"), depth=1), make_row("b", name="renamed"))
+    tree.wait_for_names("g", "a", "renamed")
+    assert tree.selected() == ["renamed"]
+    tab.loop.show(group("g"))
+    tree.wait_for_names("g")
+    assert tree.selected() == []
+
+
+def test_two_who_look_have_views_of_their_own_with_their_numbers(tab: Tab, other_tab: Tab) -> None:
+    mine, yours = (each.page.evaluate("webviz.browser") for each in (tab, other_tab))
+    tab.loop.show(views={mine: TopDownOrtho(scale=62.3), yours: FPS(yaw=1.25)})
+    for each, seen, unseen, path, value in (
+        (tab, "Scale", "Position", "scale", "62.3"),
+        (other_tab, "Position", "Scale", "yaw", "1.25"),
+    ):
+        each.show_tab("Views")
+        panel = each.page.locator("#wv-panel")
+        playwright.expect(panel).to_contain_text(seen)
+        playwright.expect(panel).not_to_contain_text(unseen)
+        field = panel.locator(f"[data-path='{path}'] input")
+        playwright.expect(field).to_have_value(value)
+        each.show_tab("Displays")
 
 
 def test_a_browser_that_was_cut_off_comes_back_to_how_things_are_now(
@@ -101,3 +156,26 @@ def test_a_browser_that_was_cut_off_comes_back_to_how_things_are_now(
     mine.wait_for_value("count", "9")
     mine.enter("count", "4")
     mine.wait_for_set("count", 4)
+
+
+def test_two_who_look_into_topics_choose_for_themselves_until_one_leaves(
+    tab: Tab, other_tab: Tab
+) -> None:
+    """The last test of this module, since the other one is gone then."""
+    publisher = Publisher("/driver", "std_msgs/msg/String", "reliable", "volatile")
+    tab.loop.show(offers=dict.fromkeys(("/scan", "/map"), Offer((publisher,))))
+    for each, topic in ((other_tab, "/map"), (tab, "/scan")):
+        each.show_tab("Topics")
+        each.page.locator(".wv-cell-name").get_by_text(topic, exact=True).click()
+    tab.wait_for_command(InspectTopics(frozenset({"/scan", "/map"})))
+    found = {"/scan": {"mine": "1"}, "/map": {"yours": "2"}}
+    tab.loop.show(
+        inspected={name: Inspected("x", {"fields": each}) for name, each in found.items()}
+    )
+    tab.wait_for(lambda: "mine" in tab.text())
+    other_tab.wait_for(lambda: "yours" in other_tab.text())
+    assert "yours" not in tab.text()
+    other_tab.page.close()
+    tab.wait_for_command(InspectTopics(frozenset({"/scan"})))
+    tab.page.locator(".wv-inspected").get_by_role("button", name="Close").click()
+    tab.wait_for_command(InspectTopics(frozenset()))

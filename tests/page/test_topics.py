@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Annotated
 
 import numpy as np
 import pytest
 
-from tests.page.conftest import HEIGHT, Loop, Tab
+from tests.page.conftest import HEIGHT, WIDTH, Loop, Tab
 from webviz.api import registry
 from webviz.api.declared import Topic
 from webviz.api.display import Display, Input
@@ -81,11 +81,10 @@ def test_a_topic_has_its_facts_in_a_row(loop: Loop, panel: Tab) -> None:
     assert "2 pubs 0 subs" in row(panel, HOSTILE)
 
 
-def test_a_wide_panel_has_all_columns(loop: Loop, open_tab: Callable[..., Tab]) -> None:
-    wide = open_tab(1300)
+def test_a_wide_panel_has_all_columns(loop: Loop, panel: Tab) -> None:
+    wide = panel
     wide.page.evaluate("async () => (await import('/webviz/remember.js')).remember('width', 850)")
     wide.page.set_viewport_size({"width": 1310, "height": HEIGHT})
-    wide.show_tab("Topics")
     loop.show(
         offers={"/scan": Offer((SCAN,), subscribers=1)},
         traffic={"/scan": Traffic(10.04, 45_300.0, 0.0061)},
@@ -93,6 +92,8 @@ def test_a_wide_panel_has_all_columns(loop: Loop, open_tab: Callable[..., Tab]) 
     wide.wait_for(lambda: "best effort, volatile" in row(wide, "/scan"))
     assert row(wide, "/scan").endswith("10.0 Hz 45.0 kB/s 6 ms")
     assert wide.page.locator(".wv-topic").bounding_box()["height"] == 26  # pyright: ignore[reportOptionalSubscript]
+    wide.page.evaluate("localStorage.removeItem('webviz.width')")
+    wide.page.set_viewport_size({"width": WIDTH, "height": HEIGHT})
 
 
 def test_topics_are_found_by_name_and_type(loop: Loop, panel: Tab) -> None:
@@ -188,30 +189,6 @@ def test_why_there_is_no_message_is_said(loop: Loop, panel: Tab) -> None:
     choose(panel, "/text")
     loop.show(inspected={"/text": Inspected(problem=f"No message has arrived yet. {HOSTILE}")})
     panel.wait_for(lambda: f"No message has arrived yet. {HOSTILE}" in panel.text())
-
-
-def test_two_browsers_look_into_different_topics(
-    loop: Loop, panel: Tab, open_tab: Callable[[], Tab]
-) -> None:
-    show(loop, scan=(SCAN,), map=(MAP,))
-    other = open_tab()
-    other.show_tab("Topics")
-    choose(other, "/map")
-    choose(panel, "/scan")
-    panel.wait_for_command(InspectTopics(frozenset({"/scan", "/map"})))
-    loop.show(
-        inspected={
-            "/scan": Inspected("x", {"fields": {"mine": "1"}}),
-            "/map": Inspected("x", {"fields": {"yours": "2"}}),
-        }
-    )
-    panel.wait_for(lambda: "mine" in panel.text())
-    other.wait_for(lambda: "yours" in other.text())
-    assert "yours" not in panel.text()
-    other.page.context.close()
-    panel.wait_for_command(InspectTopics(frozenset({"/scan"})))
-    panel.page.locator(".wv-inspected").get_by_role("button", name="Close").click()
-    panel.wait_for_command(InspectTopics(frozenset()))
 
 
 def test_a_panel_that_is_closed_looks_into_nothing(loop: Loop, panel: Tab) -> None:

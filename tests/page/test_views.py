@@ -58,19 +58,6 @@ def views(tab: Tab) -> Pane:
     return pane.open()
 
 
-def test_a_browser_sees_its_own_view_with_its_numbers(
-    views: Pane, open_tab: Callable[..., Tab]
-) -> None:
-    other = Pane(open_tab())
-    changed = {views.id: TopDownOrtho(scale=62.3), other.id: FPS(yaw=1.25)}
-    views.tab.loop.show(views=changed)
-    other.open()
-    views.tab.wait_for(lambda: "Scale" in views.text() and "Distance" not in views.text())
-    other.tab.wait_for(lambda: "Position" in other.text() and "Scale" not in other.text())
-    assert views.field("scale").input_value() == "62.3"
-    assert other.field("yaw").input_value() == "1.25"
-
-
 def test_the_numbers_follow_the_camera_but_not_while_one_types(views: Pane) -> None:
     views.tab.loop.show(views={views.id: Orbit(distance=3.25, yaw=0.1234567)})
     views.tab.wait_for(lambda: views.field("distance").input_value() == "3.25")

@@ -17,10 +17,9 @@ from typing import Any
 import building
 import numpy as np
 import PIL.Image
-import playwright.sync_api as playwright
 import pytest
 
-from tests.page.conftest import Loop, Tab, open_page
+from tests.page.conftest import Loop, Tab
 from tests.page.trees import group
 from webviz.api.declared import Topic
 from webviz.api.nodes import Image, Points, Pose
@@ -213,21 +212,32 @@ def shared_loop(server: Server) -> Loop:
     return Loop(server)
 
 
-@pytest.fixture
-def open_still(open_tab: Callable[..., Tab]) -> Callable[..., Tab]:
-    """Open tabs in which no time passes."""
-
-    def open_still(size: tuple[int, int], **options: Any) -> Tab:
-        return still(open_tab(*size, **FINE, **options, resolution=1))
-
-    return open_still
-
-
-@pytest.fixture
-def still_server(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.fixture(scope="module", autouse=True)
+def still_server() -> Iterator[None]:
     """Let the server's clock stand still, too, by which pages say how long something is ago."""
     clock = SimpleNamespace(time=lambda: START_NS / 1e9, monotonic=time.monotonic)
-    monkeypatch.setattr(greeting, "time", clock)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(greeting, "time", clock)
+        yield
+
+
+@pytest.fixture(scope="module")
+def shared_desk(open_lasting_tab: Callable[..., Tab], still_server: None) -> Tab:
+    """A tab in which no time passes."""
+    return still(open_lasting_tab(*DESK, **FINE, color_scheme="dark", resolution=1))
+
+
+@pytest.fixture
+def desk(shared_desk: Tab) -> Tab:
+    """The tab as it was at first."""
+    tab = shared_desk
+    tab.loop.state = State()
+    tab.show_tab("Displays")
+    tab.wait_for(lambda: tab.page.get_by_role("treeitem").count() == 1)  # so none is selected
+    show(tab)
+    tab.page.mouse.move(5, 795)
+    tab.page.evaluate("document.activeElement.blur()")
+    return tab
 
 
 def still(tab: Tab) -> Tab:
@@ -266,9 +276,9 @@ def capture(tab: Tab) -> Pixels:
 
 
 def test_the_page_is_as_in_its_pictures_and_a_missing_row_or_another_color_shows(
-    open_still: Callable[..., Tab], references: ReferenceImages
+    desk: Tab, references: ReferenceImages
 ) -> None:
-    tab = open_still(DESK, color_scheme="dark")
+    tab = desk
     tab.wait_for(lambda: tab.page.get_by_role("treeitem").count() == 7)
     dark = references.check("dark", capture(tab), tolerance=TOLERANCE)
 
@@ -299,12 +309,11 @@ def test_the_page_is_as_in_its_pictures_and_a_missing_row_or_another_color_shows
     tab.wait_for(lambda: tab.page.get_by_role("option", name="/scan").count() == 1)
     tab.page.mouse.move(5, 5)
     references.check("timeline", capture(tab), tolerance=TOLERANCE)
+    tab.button("Topics").click()
 
 
-def test_live_topics_that_are_recorded_and_rewound(
-    open_still: Callable[..., Tab], references: ReferenceImages, still_server: None
-) -> None:
-    tab = open_still(DESK, color_scheme="dark")
+def test_live_topics_that_are_recorded_and_rewound(desk: Tab, references: ReferenceImages) -> None:
+    tab = desk
     tab.page.evaluate(HEARD)
     tab.loop.state = replace(tab.loop.state, **LIVE)
     tab.wait_for(lambda: tab.page.get_by_role("button", name="Stop recording").count() == 1)
@@ -320,9 +329,10 @@ def test_live_topics_that_are_recorded_and_rewound(
 
 
 def test_on_a_phone_the_scene_is_free_until_the_side_lies_over_it(
-    open_still: Callable[..., Tab], references: ReferenceImages, still_server: None
+    open_tab: Callable[..., Tab], references: ReferenceImages
 ) -> None:
-    phone = open_still(PHONE, has_touch=True, is_mobile=True, color_scheme="dark")
+    options = {"has_touch": True, "is_mobile": True, "color_scheme": "dark"}
+    phone = still(open_tab(*PHONE, **FINE, **options, resolution=1))
     references.check("phone", capture(phone), tolerance=TOLERANCE)
 
     phone.page.evaluate(HEARD)
@@ -347,17 +357,14 @@ HEARD = """async () => {
 
 
 def test_a_lost_connection_greys_the_page_and_says_so(
-    browser: playwright.Browser, references: ReferenceImages
+    desk: Tab, server: Server, references: ReferenceImages
 ) -> None:
-    server = open_server(port=0)
-    draw(server)
-    page = open_page(browser, *DESK, **FINE, color_scheme="dark")
-    tab = Tab(page, server, Loop(server), resolution=1)
-    still(tab)
-    tab.wait_for(lambda: tab.page.get_by_role("treeitem").count() == 7)
-    tab.page.evaluate(HEARD)  # in the frozen time
+    """The last test of this module, since the server is gone then."""
+    desk.wait_for(lambda: desk.page.get_by_role("treeitem").count() == 7)
+    desk.page.evaluate(HEARD)  # in the frozen time
     server.stop()
-    tab.page.evaluate("setTime(1_764_000_012_000)")
-    tab.page.locator(".wv-contact").wait_for()
-    references.check("connection_lost", capture(tab), tolerance=TOLERANCE)
-    tab.page.context.close()
+    desk.page.evaluate("setTime(1_764_000_012_000)")
+    desk.page.locator(".wv-contact").wait_for()
+    references.check("connection_lost", capture(desk), tolerance=TOLERANCE)
+    desk.page.close()
+    desk.errors.clear()  # Chromium's, that there is nobody
