@@ -57,6 +57,12 @@ def tab(tab: Any, pictures: Pictures) -> Iterator[Any]:
     pictures.remove("Depth")
 
 
+@pytest.fixture(scope="module")
+def other(open_lasting_tab: Callable[..., Any]) -> Any:
+    """Another tab, which draws the scene at the size of the page."""
+    return open_lasting_tab(700, 560, resolution=1.0)
+
+
 def pixels(values: NDArray[Any], encoding: str, tone: Tone | None = None, stamp: int = 1) -> Pane:
     height, width = values.shape[:2]
     data = np.frombuffer(np.ascontiguousarray(values).tobytes(), np.uint8)
@@ -375,7 +381,7 @@ def test_on_a_phone_images_are_below_the_scene(tab: Any) -> None:
 
 
 def test_the_scene_is_over_the_image_where_the_camera_sees_it(
-    scene: ViserScene, pictures: Pictures, open_tab: Callable[..., Any]
+    scene: ViserScene, pictures: Pictures, other: Any
 ) -> None:
     # Points along rays of the rectified camera, and the pixels in which OpenCV sees them.
     chosen = {"red": (2, (255, 0, 0)), "green": (3, (0, 255, 0)), "blue": (1, (0, 0, 255))}
@@ -431,7 +437,6 @@ def test_the_scene_is_over_the_image_where_the_camera_sees_it(
             for name in names
         )
 
-    other = open_tab(resolution=1.0)
     rows = [Row(name.title(), "Grid", Grid(name=name.title()), name.title(), {}) for name in chosen]
     other.loop.show(Row("Camera", "Camera", Camera(name="Camera"), "Camera", {}), *rows)
     try:
@@ -564,10 +569,7 @@ def test_a_picture_that_is_decoded_later_is_not_drawn_over_a_newer_one(
     assert near(shown(tab, "Color"), (100, 100, 100), 3)
 
 
-def test_two_pages_and_a_flood_leave_no_queue(
-    tab: Any, pictures: Pictures, open_tab: Callable[..., Any]
-) -> None:
-    other = open_tab()
+def test_two_pages_and_a_flood_leave_no_queue(tab: Any, pictures: Pictures, other: Any) -> None:
     other.wait_for(lambda: shown(other, "Color") and shown(other, "Depth"))
     flood = threading.Thread(target=_flood, args=(pictures,))
     flood.start()

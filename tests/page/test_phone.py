@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import playwright.sync_api as playwright
 import pytest
 
 from tests.page.conftest import Tab
-from webviz.commands import Save
+from tests.page.test_rewinding import SHORT
+from tests.page.test_rewinding import show as show_ago
+from tests.page.test_teleop import card, open_card, wait_for_share
+from tests.page.test_timeline import show as show_recording
+from tests.page.test_toolbar import GOAL, POINT, overflow, toolbar
+from webviz.api.vehicle import STILL
+from webviz.commands import Save, SaveMemory
 from webviz.data.messages import LaserScan, to_tree
 from webviz.data.transforms import Diagnosis, FrameReport
 from webviz.engine.state import ConfigFile, Inspected, Row
@@ -149,3 +156,83 @@ def test_dialogs_fit(phone: Tab) -> None:
     assert box["x"] >= 0
     assert box["x"] + box["width"] <= WIDTH
     assert phone.page.evaluate("document.documentElement.scrollWidth") == WIDTH
+
+
+@pytest.mark.parametrize("width", [360, 390, 430])
+def test_everything_is_inside_the_toolbar(phone: Tab, width: int) -> None:
+    phone.page.set_viewport_size({"width": width, "height": HEIGHT})
+    phone.wait_for(lambda: phone.page.evaluate("innerWidth") == width)
+    phone.loop.show(tools=(GOAL, POINT), frames=("base_link", "map"), fixed_frame="map")
+    bar = toolbar(phone)
+    more = bar.get_by_role("button", name="More")
+    phone.wait_for(lambda: bar.get_by_role("button", name="2D Goal Pose").is_visible())
+    phone.wait_for(more.is_visible)
+    assert overflow(bar) == []
+    playwright.expect(bar.get_by_role("combobox", name="Follow")).to_be_in_viewport(ratio=1)
+    rates = phone.page.locator(".wv-top-right").bounding_box()
+    box = bar.bounding_box()
+    assert box is not None
+    assert rates is not None
+    assert box["x"] + box["width"] <= width
+    assert rates["y"] >= box["y"] + box["height"]
+
+
+def right_edges(phone: Tab, *names: str) -> list[float]:
+    """Of buttons."""
+    boxes = [phone.button(name).bounding_box() for name in names]
+    return [box["x"] + box["width"] if box else 999.0 for box in boxes]
+
+
+def test_the_track_and_buttons_of_a_recording_are_within_the_width(phone: Tab) -> None:
+    show_recording(phone.loop)
+    phone.wait_for(lambda: phone.page.locator(".wv-track").count() == 1)
+    names = ("Play", "Previous message", "Next message", "Rate", "Loop", "Topics")
+    assert max(right_edges(phone, *names)) <= WIDTH
+    box = phone.page.get_by_label("Go to time").bounding_box()
+    assert box
+    assert box["x"] + box["width"] <= WIDTH
+
+
+def test_what_just_happened_can_be_saved(phone: Tab) -> None:
+    memory = replace(SHORT, seconds=42.0)
+    show_ago(phone.loop, None, memory)
+    phone.wait_for(lambda: phone.button("Save last 42 s").is_visible())
+    assert max(right_edges(phone, "Pause", "Topics", "Record", "Save last 42 s")) <= WIDTH
+    show_ago(phone.loop, 12.4, memory)
+    phone.wait_for(lambda: phone.button("Live (L)").is_visible())
+    assert max(right_edges(phone, "Next message", "Live (L)", "Save last 42 s")) <= WIDTH
+    phone.button("Save last 42 s").click()
+    phone.wait_for_command(SaveMemory())
+
+
+def test_fingers_drive_ahead_and_sideways(phone: Tab) -> None:
+    open_card(phone, lateral=0.5)
+    box = card(phone).bounding_box()
+    assert box is not None
+    assert box["x"] >= 0
+    assert box["x"] + box["width"] <= WIDTH
+    session = phone.page.context.new_cdp_session(phone.page)
+
+    def touch(kind: str, *targets: tuple[str, float]) -> None:
+        points = []
+        for name, up in targets:
+            place = phone.page.locator(name).bounding_box()
+            assert place is not None
+            x, y = place["x"] + place["width"] / 2, place["y"] + place["height"] / 2
+            points.append({"x": x, "y": y - up, "id": len(points)})
+        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+    touch("touchStart", (".wv-stick", 0))
+    touch("touchMove", (".wv-stick", 300))
+    wait_for_share(phone, 1, 0, 0)
+    touch("touchEnd")
+    wait_for_share(phone, *STILL)
+    left = phone.button("Drive to the left")
+    playwright.expect(left).to_be_visible()
+    assert min((left.bounding_box() or {}).get(side, 0) for side in ("width", "height")) >= 40
+    touch("touchStart", ("[aria-label='Drive to the left']", 0))
+    wait_for_share(phone, 0, 1, 0)
+    touch("touchEnd")
+    wait_for_share(phone, *STILL)
+    phone.page.keyboard.press("Escape")
+    playwright.expect(card(phone)).to_have_count(0)

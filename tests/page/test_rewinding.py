@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import time
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,7 +12,7 @@ from playwright.sync_api import expect
 
 from tests.page.conftest import Loop, Tab
 from webviz.api.status import Level
-from webviz.engine.commands import OpenRecording, ReturnToLive, SaveMemory, Seek
+from webviz.engine.commands import OpenRecording, ReturnToLive, Seek
 from webviz.engine.state import PanelTimes
 from webviz.sources.past_state import (
     BlackBoxState,
@@ -83,26 +82,6 @@ def test_a_drag_leads_into_the_past_and_back_to_now(loop: Loop, live: Tab) -> No
     live.page.mouse.move(box["x"] + box["width"] - 9, y)
     live.page.mouse.up()
     live.wait_for(lambda: loop.commands[-1] == ReturnToLive())
-
-
-def test_a_phone_can_save_what_just_happened(
-    loop: Loop, live: Tab, open_tab: Callable[..., Tab]
-) -> None:
-    phone = open_tab(390, 844, has_touch=True, is_mobile=True)
-    memory = replace(SHORT, seconds=42.0)
-    show(loop, None, memory)
-    phone.wait_for(lambda: phone.button("Save last 42 s").is_visible())
-
-    def edges(*names: str) -> list[float]:
-        boxes = [phone.button(name).bounding_box() for name in names]
-        return [box["x"] + box["width"] if box else 999.0 for box in boxes]
-
-    assert max(edges("Pause", "Topics", "Record", "Save last 42 s")) <= 390
-    show(loop, 12.4, memory)
-    phone.wait_for(lambda: phone.button("Live (L)").is_visible())
-    assert max(edges("Next message", "Live (L)", "Save last 42 s")) <= 390
-    phone.button("Save last 42 s").click()
-    phone.wait_for_command(SaveMemory())
 
 
 def test_a_typed_number_is_seconds_ago(loop: Loop, live: Tab) -> None:

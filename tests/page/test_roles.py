@@ -84,13 +84,13 @@ def toasts(tab: Tab) -> playwright.Locator:
 def test_a_link_leaves_no_token_in_the_address_nor_for_scripts(
     house: House, browser: playwright.Browser
 ) -> None:
-    with browser.new_context() as context:
+    with browser.new_context(java_script_enabled=False) as context:  # of the page, not of this test
         page = context.new_page()
         # From another site: its cookie would not be sent after a plain redirect.
         page.set_content(f'<a href="{link(house.url, house.tokens[Role.WATCHER])}">Watch</a>')
         page.click("a")
         page.wait_for_url(f"{house.url}/")
-        page.wait_for_function("document.querySelector('#root')")
+        page.locator("#root").wait_for(state="attached")
         assert page.evaluate("document.cookie") == ""
         assert page.evaluate("document.referrer") == ""
         cookies = context.cookies()

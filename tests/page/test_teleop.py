@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 import playwright.sync_api as playwright
 import pytest
@@ -130,38 +130,6 @@ def test_the_stick_drives_by_mouse_with_a_share_of_the_limits(driver: Tab) -> No
     wait_for_share(driver, 0, 0, -1)
     mouse.up()
     wait_for_share(driver, *STILL)
-
-
-def test_fingers_drive_ahead_and_sideways_on_a_phone(open_tab: Callable[..., Tab]) -> None:
-    phone = open_tab(390, 844, has_touch=True, is_mobile=True)
-    open_card(phone, lateral=0.5)
-    box = card(phone).bounding_box()
-    assert box is not None
-    assert box["x"] >= 0
-    assert box["x"] + box["width"] <= 390
-    session = phone.page.context.new_cdp_session(phone.page)
-
-    def touch(kind: str, *targets: tuple[str, float]) -> None:
-        points = []
-        for name, up in targets:
-            place = phone.page.locator(name).bounding_box()
-            assert place is not None
-            x, y = place["x"] + place["width"] / 2, place["y"] + place["height"] / 2
-            points.append({"x": x, "y": y - up, "id": len(points)})
-        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
-
-    touch("touchStart", (".wv-stick", 0))
-    touch("touchMove", (".wv-stick", 300))
-    wait_for_share(phone, 1, 0, 0)
-    touch("touchEnd")
-    wait_for_share(phone, *STILL)
-    left = phone.button("Drive to the left")
-    playwright.expect(left).to_be_visible()
-    assert min((left.bounding_box() or {}).get(side, 0) for side in ("width", "height")) >= 40
-    touch("touchStart", ("[aria-label='Drive to the left']", 0))
-    wait_for_share(phone, 0, 1, 0)
-    touch("touchEnd")
-    wait_for_share(phone, *STILL)
 
 
 def test_a_gamepad_drives_once_its_stick_has_been_in_its_middle(driver: Tab) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 
 import playwright.sync_api as playwright
@@ -170,29 +169,6 @@ def test_what_does_not_fit_is_in_a_menu_but_frames_and_tools_stay(
         playwright.expect(box).to_be_in_viewport(ratio=1)
     for tool in (GOAL, POINT):
         playwright.expect(bar.get_by_role("button", name=tool.name)).to_be_in_viewport(ratio=1)
-
-
-@pytest.fixture(scope="module")
-def phone(open_lasting_tab: Callable[..., Tab]) -> Tab:
-    return open_lasting_tab(390, 780, has_touch=True, is_mobile=True)
-
-
-@pytest.mark.parametrize("width", [360, 390, 430])
-def test_on_a_phone_everything_is_inside_the_bar(wide: Tab, phone: Tab, width: int) -> None:
-    phone.page.set_viewport_size({"width": width, "height": 780})
-    phone.wait_for(lambda: phone.page.evaluate("innerWidth") == width)
-    bar = toolbar(phone)
-    more = bar.get_by_role("button", name="More")
-    phone.wait_for(lambda: bar.get_by_role("button", name="2D Goal Pose").is_visible())
-    phone.wait_for(more.is_visible)
-    assert overflow(bar) == []
-    playwright.expect(bar.get_by_role("combobox", name="Follow")).to_be_in_viewport(ratio=1)
-    rates = phone.page.locator(".wv-top-right").bounding_box()
-    box = bar.bounding_box()
-    assert box is not None
-    assert rates is not None
-    assert box["x"] + box["width"] <= width
-    assert rates["y"] >= box["y"] + box["height"]
 
 
 def overflow(bar: playwright.Locator) -> list[str]:
