@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 
 import playwright.sync_api as playwright
 import pytest
@@ -14,7 +13,6 @@ import webviz
 from webviz.files.config import Config
 from webviz.files.opening import parse
 from webviz.shell.pictures.browser import Page
-from webviz.shell.testing.source import HandFedSource
 
 CONFIG = """
 displays:
@@ -24,15 +22,21 @@ displays:
 """
 
 
-@pytest.fixture
-def pages(browser: playwright.Browser) -> Iterator[list[Page]]:
+@pytest.fixture(scope="module")
+def viewer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[webviz.Viewer]:
+    """A viewer of a bag."""
+
     def read(*_: object) -> Config:
         return parse(CONFIG, "x.yaml")
 
-    with (
-        webviz.Viewer(port=0, source=HandFedSource(), read=read) as viewer,
-        open_pages(browser, viewer.url, 900, 600) as opened,
-    ):
+    bag = recorded(duration_s=20.0).write(tmp_path_factory.mktemp("bags") / "run")
+    with webviz.Viewer(port=0, bag=bag, read=read) as viewer:
+        yield viewer
+
+
+@pytest.fixture(scope="module")
+def pages(browser: playwright.Browser, viewer: webviz.Viewer) -> Iterator[list[Page]]:
+    with open_pages(browser, viewer.url, 900, 600) as opened:
         yield opened
 
 
@@ -73,34 +77,28 @@ def test_each_takes_back_their_own_and_delete_is_about_what_came_back(pages: lis
 
 
 def test_both_drag_the_head_at_once_and_end_at_the_same_moment(
-    browser: playwright.Browser, tmp_path: Path
+    viewer: webviz.Viewer, pages: list[Page]
 ) -> None:
-    def read(*_: object) -> Config:
-        return parse("displays: [{type: LaserScan}]", "x.yaml")
+    tracks = [page.tab.get_by_role("slider", name="recording") for page in pages]
+    boxes = [track.bounding_box() for track in tracks]
+    for step in range(12):
+        for page, box, share in zip(
+            pages, boxes, (0.1 + 0.05 * step, 0.9 - 0.05 * step), strict=True
+        ):
+            assert box is not None
+            page.tab.mouse.move(box["x"] + share * box["width"], box["y"] + box["height"] / 2)
+            if step == 0:
+                page.tab.mouse.down()
+    for page in pages:
+        page.tab.mouse.up()
 
-    bag = recorded(duration_s=20.0).write(tmp_path / "run")
-    with (
-        webviz.Viewer(port=0, bag=bag, read=read) as viewer,
-        open_pages(browser, viewer.url, 900, 600) as (mine, theirs),
-    ):
-        tracks = [page.tab.get_by_role("slider", name="recording") for page in (mine, theirs)]
-        boxes = [track.bounding_box() for track in tracks]
-        pages = [(page, box) for page, box in zip((mine, theirs), boxes, strict=True) if box]
-        for step in range(12):
-            for page, box in pages:
-                share = 0.1 + 0.05 * step if page is mine else 0.9 - 0.05 * step
-                page.tab.mouse.move(box["x"] + share * box["width"], box["y"] + box["height"] / 2)
-                if step == 0:
-                    page.tab.mouse.down()
-        for page, _ in pages:
-            page.tab.mouse.up()
+    def shown() -> list[float]:
+        """The positions of the viewer and of both pages."""
+        values = [float(track.get_attribute("aria-valuenow") or -1.0) for track in tracks]
+        return [round(viewer.position, 2), *(round(value, 2) for value in values)]
 
-        def shown() -> list[float]:
-            """The positions of the viewer and of both pages."""
-            values = [float(track.get_attribute("aria-valuenow") or -1.0) for track in tracks]
-            return [round(viewer.position, 2), *(round(value, 2) for value in values)]
-
-        mine.wait_for(lambda: len(set(shown())) == 1, "one moment")
-        assert 6.0 < viewer.position < 14.0, "where one of them let go"
-        tracks[1].click(position={"x": 20.0, "y": 5.0})
-        mine.wait_for(lambda: viewer.position < 2.0 and len(set(shown())) == 1, "the next seek")
+    mine = pages[0]
+    mine.wait_for(lambda: len(set(shown())) == 1, "one moment")
+    assert 6.0 < viewer.position < 14.0, "where one of them let go"
+    tracks[1].click(position={"x": 20.0, "y": 5.0})
+    mine.wait_for(lambda: viewer.position < 2.0 and len(set(shown())) == 1, "the next seek")

@@ -10,6 +10,7 @@ from pathlib import Path
 import playwright.sync_api as playwright
 import pytest
 from drives import CONFIG, recorded
+from pages import COARSE
 from playwright.sync_api import expect
 
 import webviz
@@ -96,7 +97,7 @@ def test_a_click_shares_the_moment_and_the_view(
     with webviz.Viewer(tmp_path / "lab.yaml", port=0, bag=tmp_path / "run") as viewer:
         viewer.seek(AT_S)
         page = context.new_page()
-        page.goto(viewer.url)
+        page.goto(f"{viewer.url}/?fixedDpr={COARSE}")
         page.wait_for_function("window.webviz?.hasView()")
         page.get_by_role("button", name="Share this moment").click()
         dialog = page.get_by_role("dialog")
@@ -110,7 +111,7 @@ def test_a_click_shares_the_moment_and_the_view(
         with page.expect_download() as again:
             page.get_by_role("button", name="Download").click()
         assert again.value.suggested_filename == path.name
-    page.goto(path.as_uri())
+    page.goto(f"{path.as_uri()}?fixedDpr={COARSE}")
     page.wait_for_function("window.webviz?.hasView()")
     expect(page.get_by_label("Go to time")).to_have_value(f"0:00:0{AT_S:.3f}")
     expect(page.get_by_role("button", name="Share this moment")).to_be_hidden()

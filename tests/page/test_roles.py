@@ -9,6 +9,7 @@ from pathlib import Path
 
 import playwright.sync_api as playwright
 import pytest
+from pages import COARSE
 from playwright.sync_api import expect
 
 from tests.page.conftest import Loop, Tab, open_page
@@ -257,7 +258,7 @@ def test_the_owner_ends_visits_and_revokes_links(house: House) -> None:
     end("End visit", "End")
     expect(watcher.page.locator("body")).to_contain_text("The owner has ended your visit.")
     owner.wait_for(lambda: row.count() == 0)
-    watcher.page.goto(house.url)
+    watcher.page.goto(f"{house.url}/?fixedDpr={COARSE}")
     owner.wait_for(lambda: row.count() == 1)
     end("Revoke link", "Revoke")
     expect(toasts(owner)).to_contain_text("Revoked the link of the watcher.")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 
 import numpy as np
@@ -13,16 +14,14 @@ from webviz.api.views import Orbit
 from webviz.shell.pictures.headless_renderer import HeadlessRenderer
 
 
-@pytest.mark.parametrize("height", [200, 400])
-def test_a_point_has_its_edge_in_metres(browser: playwright.Browser, height: int) -> None:
-    renderer = HeadlessRenderer(browser, 300, height)
-    try:
+def test_a_point_has_its_edge_in_metres(browser: playwright.Browser) -> None:
+    with contextlib.closing(HeadlessRenderer(browser, 300, 200)) as renderer:
         renderer.look(Orbit(distance=4.0))
         renderer.scene.upsert("g", "point", Points(np.zeros((1, 3), np.float32), (255, 0, 0), 0.5))
         renderer.scene.flush()
-        red = renderer.capture()[..., 0] > 150
-    finally:
-        renderer.close()
-    pixels_per_metre = height / 2 / math.tan(math.pi / 8) / 4.0
-    for along in (0, 1):
-        assert np.ptp(np.nonzero(red)[along]) + 1 == pytest.approx(0.5 * pixels_per_metre, abs=1)
+        for height in (200, 400):
+            renderer.resize(300, height)
+            red = renderer.capture()[..., 0] > 150
+            edge = 0.5 * height / 2 / math.tan(math.pi / 8) / 4.0
+            for along in (0, 1):
+                assert np.ptp(np.nonzero(red)[along]) + 1 == pytest.approx(edge, abs=1)

@@ -19,14 +19,20 @@ BESIDE = (-2.0, 2.5, 0.0)
 """A place of the scene where nothing is."""
 
 
+@pytest.fixture(scope="module")
+def second(tab: View, browser: playwright.Browser) -> Iterator[View]:
+    """A second page of the scene."""
+    second = View(browser, tab.scene)
+    yield second
+    second.close()
+    tab.wait_for(lambda: len(tab.scene.link.server.get_clients()) == 1)
+
+
 @pytest.fixture
-def other(view: View, browser: playwright.Browser) -> Iterator[View]:
-    """A second page of the scene, with a light theme."""
-    other = View(browser, view.scene)
-    other.tab.emulate_media(color_scheme="light")
-    yield other
-    other.close()
-    view.wait_for(lambda: len(view.scene.link.server.get_clients()) == 1)
+def other(second: View, view: View) -> View:
+    """The second page, with a light theme."""
+    second.tab.emulate_media(color_scheme="light")
+    return second
 
 
 def look(view: View, place: tuple[float, float, float], wanted: Rgb) -> None:
