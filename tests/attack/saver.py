@@ -1,7 +1,7 @@
 """The process whose children save: a line in for each, what became of the file out.
 
-It has a single thread, so that it can fork; each child is killed with SIGKILL, or has a limit for
-the size of its files, as if the disk were full.
+It has a single thread, so that it can fork, and saves nothing itself, which takes another. Children
+are killed with SIGKILL, or have a limit for the size of their files, as if the disk were full.
 """
 
 from __future__ import annotations
@@ -49,21 +49,23 @@ def is_whole(path: Path) -> bool:
     return found == text(int(found.split("\n", 1)[0][2:]))
 
 
-def child(how: str, path: Path, number: int) -> None:
-    """Save until killed, or once on a full disk; never returns."""
+def started(how: str, path: Path, number: int) -> int:
+    """Fork a child that saves until killed, or once, on a full disk or not; its process id."""
+    if pid := os.fork():
+        return pid
     status = 1
     try:
         if how == "full":
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
             resource.setrlimit(resource.RLIMIT_FSIZE, (LIMIT, LIMIT))
-            try:
-                save(path, number + 1)
-            except Error:
-                status = REFUSED
-        else:
+        try:
             while True:
                 number += 1
                 save(path, number)
+                if how != "kill":
+                    break
+        except Error:
+            status = REFUSED
     finally:
         os._exit(status)
 
@@ -71,11 +73,9 @@ def child(how: str, path: Path, number: int) -> None:
 def outcome(how: str, delay_s: float, path: Path, number: int) -> str:
     """Let a child save, and look at what it leaves; "refused", "survived" or what is wrong."""
     if not path.exists():
-        save(path, number)
+        os.waitpid(started("first", path, number), 0)
     before = path.read_bytes()
-    pid = os.fork()
-    if pid == 0:
-        child(how, path, number)
+    pid = started(how, path, number)
     if how == "kill":
         time.sleep(delay_s)
         os.kill(pid, signal.SIGKILL)
