@@ -12,7 +12,7 @@ from side_by_side.memory import soak
 from side_by_side.scenes import SCENES
 from side_by_side.systems.registry import SYSTEMS
 
-SECONDS = 60.0
+SECONDS = 40.0
 MAX_MB_PER_MIN = 15.0
 """A leak of one stream's messages would be 20 (scans) to 77 MB a minute (costmaps). Heaps that
 settle down after the warm-up were seen to add 2 (README)."""

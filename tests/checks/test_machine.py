@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import os
 import socket
 import subprocess
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import msgspec
@@ -16,37 +17,68 @@ from webviz.engine.doctor.environment import look_around
 from webviz.shell.doctor.examination import examine_machine
 from webviz.shell.doctor.report import DoctorReport
 
-EXAMINE = """
+EXAMINER = """
+import ctypes, json, subprocess, sys
+from multiprocessing import get_context
 from webviz.engine.doctor.environment import look_around
 from webviz.shell.doctor.examination import examine_machine
-from webviz.shell.doctor.report import to_json
-print(to_json(examine_machine(look_around())))
+
+NEW_MOUNTS, NEW_PROCESSES, NEW_NETWORK = 0x00020000, 0x20000000, 0x40000000
+patience_s = float(sys.argv[1])
+Process = get_context("fork").Process
+
+
+def examine(commands):
+    for each in (["mount", "-t", "proc", "none", "/proc"], ["sh", "-ec", commands]):
+        subprocess.run(each, stdin=subprocess.DEVNULL, check=True, timeout=patience_s)
+    found = examine_machine(look_around()).findings
+    print(json.dumps({each.id: each.severity for each in found}), flush=True)
+
+
+def enter(commands):
+    assert ctypes.CDLL(None).unshare(NEW_MOUNTS | NEW_PROCESSES | NEW_NETWORK) == 0
+    # All processes end with the first one of their namespace.
+    first = Process(target=examine, args=(commands,))
+    first.start()
+    first.join()
+    sys.exit(first.exitcode)
+
+
+for line in sys.stdin:
+    each = Process(target=enter, args=(json.loads(line),))
+    each.start()
+    each.join()
+    if each.exitcode:
+        print("the commands or the examination failed", flush=True)
 """
+"""Examines the machine in namespaces of their own, each after the commands of a line."""
 PATIENCE_S = 120.0
 OWN = ("ROS", "RMW", "FASTRTPS", "FASTDDS", "CYCLONEDDS", "AMENT", "ZENOH")
 
 
-def in_namespaces(commands: str) -> Mapping[str, str]:
-    """The findings of a program in namespaces of its own, by id, with their severity.
-
-    Args:
-        commands: of a shell, which are run there before.
-    """
-    # All processes end with the first one of their namespace.
-    script = f'{commands}\n"$0" -c "$1"'
-    program = ["unshare", "-rnmpf", "--mount-proc", "--kill-child", "sh", "-ec", script]
+@pytest.fixture(scope="module")
+def examiner() -> Iterator[subprocess.Popen[str]]:
+    assert can_unshare(), "This machine has no network namespaces for users."
     # Other tests of this process set variables of ROS.
     bare = {name: value for name, value in os.environ.items() if not name.startswith(OWN)}
-    done = subprocess.run(
-        [*program, sys.executable, EXAMINE],
-        capture_output=True,
-        text=True,
-        check=True,
-        env=bare,
-        timeout=PATIENCE_S,
-    )
-    report = msgspec.json.decode(done.stdout, type=DoctorReport)
-    return {each.id: each.severity for each in report.findings}
+    program = ["unshare", "-rm", sys.executable, "-c", EXAMINER, str(PATIENCE_S)]
+    pipe = subprocess.PIPE
+    with subprocess.Popen(program, stdin=pipe, stdout=pipe, text=True, env=bare) as process:
+        yield process
+
+
+def in_namespaces(examiner: subprocess.Popen[str], commands: str) -> Mapping[str, str]:
+    """The findings in namespaces of their own, by id, with their severity.
+
+    Args:
+        examiner: imports what it needs only once.
+        commands: of a shell, which are run there before.
+    """
+    assert examiner.stdin is not None
+    assert examiner.stdout is not None
+    examiner.stdin.write(f"{json.dumps(commands)}\n")
+    examiner.stdin.flush()
+    return json.loads(examiner.stdout.readline())
 
 
 def examined() -> Mapping[str, str]:
@@ -245,10 +277,9 @@ LOADED = "until grep -q librmw_fast /proc/$node/maps; do sleep 0.05; done"
         ),
     ],
 )
-def test_namespaces(id: str, faulty: str, cured: str) -> None:
-    assert can_unshare(), "This machine has no network namespaces for users."
-    assert id in in_namespaces(faulty)
-    assert id not in in_namespaces(cured)
+def test_namespaces(examiner: subprocess.Popen[str], id: str, faulty: str, cured: str) -> None:
+    assert id in in_namespaces(examiner, faulty)
+    assert id not in in_namespaces(examiner, cured)
 
 
 def can_unshare() -> bool:

@@ -22,7 +22,7 @@ from side_by_side.scenes import SCENES, Scene
 from side_by_side.systems.registry import SYSTEMS, System
 from side_by_side.watchers import ViserWatcher
 
-WARM_UP_S = 30.0
+WARM_UP_S = 10.0
 """Buffers of every size have been needed once by then."""
 
 
