@@ -11,6 +11,7 @@ import building
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
+from pages import COARSE
 
 from webviz.api import registry
 from webviz.api.finding import CauseLevel, Finding, Severity
@@ -67,7 +68,7 @@ class Room:
     def __init__(self, viewer: Running, source: HandFedSource, browser: playwright.Browser) -> None:
         self.viewer = viewer
         self.source = source
-        self.page = Page(browser, viewer.url, 600, 500)
+        self.page = Page(browser, viewer.url, 600, 500, resolution=COARSE)
         self.page.wait_for(lambda: viewer.state.views, "the report of its view")
 
     def found(self) -> Mapping[str, Finding]:

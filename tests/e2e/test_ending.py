@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 import pty
 import random
@@ -67,31 +66,45 @@ def check_nothing_is_left(family: list[psutil.Process], files: Iterable[Path] = 
     assert [file for file in files if file.exists()] == []
 
 
+def check_end(program: Program, number: signal.Signals, when: str) -> str:
+    """End the demo by a signal: one line, and nothing is left; returns the line."""
+    family = family_of(program)
+    files = shared_memory(family)
+    status = program.end(number)
+    output = re.sub("webviz: (open|only ROS nodes) .*\n", "", program.output())
+    assert output in LINES, when
+    assert status == (0 if "stopped" in output else 130), when
+    check_nothing_is_left(family, files)
+    return output
+
+
+def begin(start: Callable[..., Program]) -> Program:
+    """Start the demo, to the point from which it hears signals."""
+    program = start("webviz", "demo", "--port", "0")
+    while not has_handlers(program):
+        time.sleep(0.001)
+    return program
+
+
+@pytest.fixture(scope="module")
+def start_s(start: Callable[..., Program]) -> float:
+    """Seconds that the demo takes to start here; it then ends as it should."""
+    program, began = begin(start), time.monotonic()
+    assert b"<html" in urllib.request.urlopen(program.url(), timeout=60).read()
+    assert has_simulator(program)
+    taken = time.monotonic() - began
+    assert "stopped" in check_end(program, signal.SIGTERM, "once it has started")
+    return taken
+
+
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_at_any_moment_of_its_start_ends_the_demo_with_one_line_and_leaves_nothing(
-    start: Callable[..., Program], number: signal.Signals
+    start: Callable[..., Program], start_s: float, number: signal.Signals
 ) -> None:
-    start_s = math.inf
-    for share in (1.0, 0.0, random.random()):
-        delay = share * start_s
-        program = start("webviz", "demo", "--port", "0")
-        while not has_handlers(program):
-            time.sleep(0.001)
-        began = time.monotonic()
-        if delay < math.inf:
-            time.sleep(delay)
-        else:
-            assert b"<html" in urllib.request.urlopen(program.url(), timeout=60).read()
-            assert has_simulator(program)
-            start_s = time.monotonic() - began
-        family = family_of(program)
-        files = shared_memory(family)
-        status = program.end(number)
-        output = re.sub("webviz: (open|only ROS nodes) .*\n", "", program.output())
-        assert output in LINES, f"after {delay:.3f} s"
-        assert status == (0 if "stopped" in output else 130), f"after {delay:.3f} s"
-        assert "stopped" in output or delay < math.inf
-        check_nothing_is_left(family, files)
+    for delay in (0.0, random.random() * start_s):
+        program = begin(start)
+        time.sleep(delay)
+        check_end(program, number, f"after {delay:.3f} s")
 
 
 def test_the_simulator_ends_when_the_viewer_is_killed(start: Callable[..., Program]) -> None:

@@ -53,7 +53,7 @@ def make_robot(ros_env: dict[str, str]) -> Iterator[Callable[..., Robot]]:
 @pytest.fixture(scope="module")
 def lasting(view: Callable[..., Page]) -> Page:
     """The page of all tests whose viewer goes by the computer's clock."""
-    page = view(CONFIG)
+    page = view(CONFIG, resolution=0.4)
     Side(page).select(GLOBAL_OPTIONS)
     return page
 
@@ -116,7 +116,7 @@ def wait_for(page: Page, *words: str, seconds: float = 60.0) -> None:
 def test_with_use_sim_time_it_waits_for_the_clock_follows_it_and_shows_each_loop(
     make_robot: Callable[..., Robot], view: Callable[..., Page]
 ) -> None:
-    page = view(CONFIG, "--ros-args", "-p", "use_sim_time:=true")
+    page = view(CONFIG, "--ros-args", "-p", "use_sim_time:=true", resolution=0.4)
     Side(page).select(GLOBAL_OPTIONS)
     wait_for(page, "Waiting for /clock: use_sim_time is set, but it has no publisher")
     player = make_robot("player")

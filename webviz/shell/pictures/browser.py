@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import contextlib
+import functools
 import io
 import os
 import shutil
@@ -66,6 +67,8 @@ HOW_TO_GET_ONE = (
 
 PATIENCE_S = 60.0
 """For what a page does at once on a machine that does nothing else."""
+SHORTEST_PAUSE_S, LONGEST_PAUSE_S = 0.05, 0.25
+"""Between two looks at a page for a state that is waited for."""
 SMALLEST, LARGEST = 16, 8192
 """Edges of a picture in pixels; browsers without a GPU cannot draw larger ones."""
 
@@ -211,11 +214,13 @@ class Page:
         Raises:
             TimeoutError: it does not hold within `seconds`.
         """
-        deadline = time.monotonic() + seconds
-        while time.monotonic() < deadline:
+        start = time.monotonic()
+        while (waited := time.monotonic() - start) < seconds:
             if result := condition():
                 return result
-            self._alive(lambda: self.tab.wait_for_timeout(50))
+            # What takes long is looked at less often, which leaves it the processor.
+            pause_s = min(max(SHORTEST_PAUSE_S, 0.1 * waited), LONGEST_PAUSE_S)
+            self._alive(functools.partial(self.tab.wait_for_timeout, 1000.0 * pause_s))
         raise TimeoutError(f"not within {seconds:g} s: {what}")
 
     def draw(self, count: int = 3) -> None:
