@@ -54,7 +54,7 @@ CLOSED = "ws://127.0.0.1:1"
 ELSEWHERE = {"0.0.0.0": "127.0.0.1", "ws://robot:8765": CLOSED, "ws://robot:9090": CLOSED}
 """Addresses of other machines, and what a test puts in their place."""
 AT_ONCE = 4
-DRIVE_S, SHORT_S = 14.0, 0.4
+DRIVE_S, SHORT_S = 6.0, 0.4
 
 
 def run(arguments: list[str], folder: Path, log: Path) -> None:

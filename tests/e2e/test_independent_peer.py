@@ -14,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from pages import COARSE
 from program import Program
 from side import Side
 
@@ -166,6 +167,7 @@ def test_it_sees_everything_the_peer_publishes(
     peer: Program, url: str, open_page: Callable[..., Page]
 ) -> None:
     page = open_page(url)
+    page.hold()
     page.wait_for(lambda: count(page, (255, 0, 255)) > 300, "the scan", 60)
     page.wait_for(lambda: count(page, (255, 255, 0)) > 100, "the path")
     page.wait_for(lambda: count(page, (255, 255, 255)) > 10_000, "the map")
@@ -178,7 +180,7 @@ def test_it_sees_everything_the_peer_publishes(
 def test_the_peer_receives_what_tools_and_sliders_send_from_the_page(
     echo: Program, describing: Program, url: str, open_page: Callable[..., Page]
 ) -> None:
-    page = open_page(url)
+    page = open_page(url, resolution=COARSE)
     answer = page.tab.locator(".wv-hint")
     page.tab.get_by_role("button", name="2D Goal Pose").wait_for(timeout=60_000)
 

@@ -53,7 +53,7 @@ def test_a_display_is_added_by_topic_changed_saved_and_comes_back(
 ) -> None:
     config = tmp_path / "empty.yaml"
     config.write_text(EMPTY)
-    start("webviz_sim")
+    start("webviz_sim", "--ros-args", "-p", "tour:=false")
     viewer = start("webviz", "--port", "0", "-d", str(config))
     page = open_page(viewer.url(), 1000, 700, 0.3)
     page.hold()

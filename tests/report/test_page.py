@@ -8,6 +8,7 @@ from pathlib import Path
 import playwright.sync_api as playwright
 import pytest
 import stories
+from pages import COARSE
 from playwright.sync_api import expect
 
 import webviz
@@ -75,6 +76,7 @@ def test_a_report_of_the_page_opens_as_it_was(
         assert viewer.position == pytest.approx(AT_S)
         assert isinstance(viewer.view, Orbit)
         assert viewer.view.distance == pytest.approx(6.0, rel=1e-3)
-        with contextlib.closing(Page(browser, viewer.url, 1100, 700)) as page:
+        again = Page(browser, viewer.url, 1100, 700, resolution=COARSE)
+        with contextlib.closing(again) as page:
             page.wait_for(lambda: any(viewer.state.selected.values()), "the selection", 40.0)
             assert page.errors == []
