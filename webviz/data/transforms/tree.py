@@ -60,6 +60,7 @@ class FrameTree:
             cache = self.caches.get(source)
             return cache.newest_stamp if cache else 0
         caches = self.caches
+        longest = self._longest()
         ancestors: dict[str, int | None] = {}  # -> newest common time from source up to there
         common: int | None = None
         frame = source
@@ -73,7 +74,7 @@ class FrameTree:
                 return common or 0
             ancestors.setdefault(frame, common)
             depth += 1
-            if depth > MAX_DEPTH:
+            if depth > longest:
                 raise self._loop()
         common = None
         frame = target
@@ -91,7 +92,7 @@ class FrameTree:
             if frame == source:
                 return common or 0
             depth += 1
-            if depth > MAX_DEPTH:
+            if depth > longest:
                 raise self._loop()
         raise unconnected(target, source)
 
@@ -107,6 +108,7 @@ class FrameTree:
         if stamp_ns == 0:
             stamp_ns = self.latest_common_time(target, source)
         caches = self.caches
+        longest = self._longest()
         stale: Cache | None = None
         pose = IDENTITY
         frame = source
@@ -121,7 +123,7 @@ class FrameTree:
             pose = sample[0] if pose is IDENTITY else compose(sample[0], pose)
             frame = sample[1]
             depth += 1
-            if depth > MAX_DEPTH:
+            if depth > longest:
                 raise self._loop()
         top = frame
         target_pose = IDENTITY
@@ -136,7 +138,7 @@ class FrameTree:
             target_pose = sample[0] if target_pose is IDENTITY else compose(sample[0], target_pose)
             frame = sample[1]
             depth += 1
-            if depth > MAX_DEPTH:
+            if depth > longest:
                 raise self._loop()
         if frame != top:
             if stale is not None:
@@ -197,6 +199,10 @@ class FrameTree:
                 parent = cache.parent or "NO_PARENT"
                 lines.append(f"Frame {name} exists with parent {parent}.\n")
         return "".join(lines)
+
+    def _longest(self) -> int:
+        """Return the number of steps after which a walk is in a loop, or counts as one."""
+        return min(MAX_DEPTH, len(self.caches))
 
     def _loop(self) -> LookupException:
         return LookupException(
