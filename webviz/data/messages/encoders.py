@@ -24,6 +24,8 @@ from webviz.data.messages.typestore import MessageField, fields, full_name
 Write = Callable[[bytearray, Any], None]
 """Appends a value to a message."""
 
+MAX_ALIGNMENT = 8
+"""Bytes, of the largest primitives."""
 _ABSENT = object()
 _SEQUENCES = (Sequence, np.ndarray, PoseSequence, PoseStampedSequence, JointTrajectoryPointSequence)
 _COUNT = Struct("<I").pack
@@ -57,10 +59,12 @@ def encoder(type_name: str) -> Write:
         UnknownTypeError: No definition of the type, or of one it holds, is known.
     """
     name = full_name(type_name)
-    steps = [(field.name, attribute(field.name), _writer(field)) for field in fields(name)]
+    defaults = message_class(name)()
     names = [field.name for field in fields(name)]
     attributes = [attribute(name) for name in names]
-    defaults = message_class(name)()
+    writers = [_writer(field) for field in fields(name)]
+    absent = [_constant(w, getattr(defaults, a)) for w, a in zip(writers, attributes, strict=True)]
+    steps = list(zip(names, attributes, writers, absent, strict=True))
 
     def write(out: bytearray, message: Any) -> None:
         if isinstance(message, FrameTransform):
@@ -72,15 +76,30 @@ def encoder(type_name: str) -> Write:
             raise Misfit(_no_field(name, unknown[0], names))
         if not is_mapping and not all(hasattr(message, each) for each in attributes):
             raise _expected(f"a mapping or a {name}", message)
-        for field, python_name, write_field in steps:
+        for field, python_name, write_field, bytes_at in steps:
             value = message.get(field, _ABSENT) if is_mapping else getattr(message, python_name)
+            if value is _ABSENT:
+                out += bytes_at(len(out) % MAX_ALIGNMENT)
+                continue
             try:
-                write_field(out, getattr(defaults, python_name) if value is _ABSENT else value)
+                write_field(out, value)
             except Misfit as misfit:
                 misfit.path.append(field)
                 raise
 
     return write
+
+
+def _constant(write: Write, value: Any) -> Callable[[int], bytes]:
+    """Return the bytes of a value that stays, by the offset whose padding they begin with."""
+
+    @cache
+    def bytes_at(offset: int) -> bytes:
+        out = bytearray(offset)
+        write(out, value)
+        return bytes(out[offset:])
+
+    return bytes_at
 
 
 def _writer(field: MessageField) -> Write:
