@@ -64,12 +64,11 @@ def test_every_option_of_a_command_exists_and_fits_the_config(
             options.read(options.display_config)
 
 
-@pytest.mark.parametrize(
-    "arguments", sorted({words for _, words in commands("make")}), ids=" ".join
-)
-def test_every_target_of_make_exists(arguments: tuple[str, ...]) -> None:
+def test_every_target_of_make_exists() -> None:
+    named = {word for _, words in commands("make") for word in words}
+    assert named
     planned = subprocess.run(
-        ["make", "--dry-run", *arguments],
+        ["make", "--dry-run", *sorted(named)],
         cwd=ROOT,
         capture_output=True,
         text=True,
