@@ -241,7 +241,7 @@ def test_the_page_is_one_file_that_may_load_nothing_from_elsewhere(server: Serve
     assert headers["X-Content-Type-Options"] == "nosniff"
     policy = headers["Content-Security-Policy"]
     assert "default-src 'none'" in policy
-    assert "script-src 'self' 'unsafe-inline' 'unsafe-eval' blob:;" in policy
+    assert "script-src 'self' 'unsafe-inline' 'unsafe-eval' blob: data:;" in policy
     assert int(headers["Content-Length"]) == len(page)
     assert b"$MODULES" not in page
     assert not re.search(rb"<(script|link)[^>]* (src|href)=.webviz/", page)

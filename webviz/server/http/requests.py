@@ -112,7 +112,7 @@ def add_policy(
     headers["Content-Security-Policy"] = "; ".join(
         (
             "default-src 'none'",
-            "script-src 'self' 'unsafe-inline' 'unsafe-eval' blob:",
+            "script-src 'self' 'unsafe-inline' 'unsafe-eval' blob: data:",
             "worker-src blob:",
             "style-src 'self' 'unsafe-inline'",
             "img-src data: blob:",

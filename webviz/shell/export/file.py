@@ -15,7 +15,7 @@ from webviz.server.http.viser_page import client_page, with_head
 POLICY = "; ".join(
     (
         "default-src 'none'",
-        "script-src 'unsafe-inline' 'unsafe-eval' blob:",
+        "script-src 'unsafe-inline' 'unsafe-eval' blob: data:",
         "worker-src blob:",
         "style-src 'unsafe-inline'",
         "img-src data: blob:",
