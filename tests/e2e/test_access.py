@@ -1,4 +1,4 @@
-"""`webviz --token` and `webviz token` as a user starts them."""
+"""`webviz --token` as a user starts it, and `webviz token` beside it."""
 
 from __future__ import annotations
 
@@ -13,20 +13,24 @@ from pathlib import Path
 import pytest
 from program import Program
 
+from webviz.shell.cli import main
+
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 
 
-def token(env: dict[str, str], *arguments: str, status: int = 0) -> str:
-    """Return the output of `webviz token`."""
-    done = subprocess.run(
-        [sys.executable, "-m", "webviz", "token", *arguments],
-        env=env,
-        capture_output=True,
-        text=True,
-        timeout=120,
-    )
-    assert done.returncode == status, done.stderr
-    return done.stdout + done.stderr
+@pytest.fixture
+def token(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> Callable[..., str]:
+    """Return the output of `webviz token`, for a user of their own."""
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
+
+    def token(*arguments: str, status: int = 0) -> str:
+        assert main(["token", *arguments]) == status
+        said = capsys.readouterr()
+        return said.out + said.err
+
+    return token
 
 
 def ask(url: str, path: str = "/", cookie: str = "") -> http.client.HTTPResponse:
@@ -40,23 +44,22 @@ def ask(url: str, path: str = "/", cookie: str = "") -> http.client.HTTPResponse
 
 
 def test_tokens_from_first_start_to_revocation(
-    start: Callable[..., Program], ros_env: dict[str, str], tmp_path: Path
+    start: Callable[..., Program], token: Callable[..., str], tmp_path: Path
 ) -> None:
     own = {"XDG_CONFIG_HOME": str(tmp_path)}
-    env = {**ros_env, **own}
     viewer = start("webviz", "--token", "--port", "0", env=own)
     url = viewer.url()
     viewer.wait_for("Run `webviz token list --links` in a terminal")
     file = tmp_path / "webviz" / "tokens.json"
     assert file.stat().st_mode & 0o777 == 0o600
     assert ask(url).status == 403
-    made = token(env, "make", "Ada", "--role", "operator", "--days", "1", "--url", url)
+    made = token("make", "Ada", "--role", "operator", "--days", "1", "--url", url)
     assert "▀" in made  # the QR code
-    listed = token(env, "list", "--links")
+    listed = token("list", "--links")
     assert set(re.findall(r"http://[^/]+", listed)) == {url}
     secrets = re.findall(r"\?\w+=(\S+)", listed)
     assert len(secrets) == 4
-    assert not [secret for secret in secrets if secret in token(env, "list")]
+    assert not [secret for secret in secrets if secret in token("list")]
     (path,) = re.findall(r"/\?operate=\S+", made)
 
     def enter() -> http.client.HTTPResponse:
@@ -68,9 +71,9 @@ def test_tokens_from_first_start_to_revocation(
 
     cookie = enter().headers["Set-Cookie"].partition(";")[0]
     assert ask(url, cookie=cookie).status == 200
-    assert "already" in token(env, "make", "Ada", status=1)
-    assert "No token is named 'Ad'" in token(env, "revoke", "Ad", status=1)
-    assert token(env, "revoke", "Ada") == "webviz: revoked Ada.\n"
+    assert "already" in token("make", "Ada", status=1)
+    assert "No token is named 'Ad'" in token("revoke", "Ad", status=1)
+    assert token("revoke", "Ada") == "webviz: revoked Ada.\n"
     deadline = time.monotonic() + 60.0
     while ask(url, cookie=cookie).status != 403:
         assert time.monotonic() < deadline
@@ -82,10 +85,10 @@ def test_tokens_from_first_start_to_revocation(
 
 
 def test_a_file_that_others_may_read_stops_the_start(
-    ros_env: dict[str, str], tmp_path: Path
+    ros_env: dict[str, str], token: Callable[..., str], tmp_path: Path
 ) -> None:
     env = {**ros_env, "XDG_CONFIG_HOME": str(tmp_path)}
-    token(env, "make", "Ada")
+    token("make", "Ada")
     file = tmp_path / "webviz" / "tokens.json"
     file.chmod(0o644)
     done = subprocess.run(

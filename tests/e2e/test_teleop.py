@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import signal
-import subprocess
-import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 import playwright.sync_api as playwright
-import psutil
 import pytest
 from pages import COARSE, open_pages
+from processes import command_lines, send
 from program import Program
 
 pytest.importorskip("rclpy", reason="needs rclpy")
@@ -27,21 +25,11 @@ import webviz
 from webviz.commands import AddDisplay
 from webviz.files.config import Config
 from webviz.files.opening import parse
-from webviz.shell.pictures.browser import Page
+from webviz.shell.pictures.browser import FLAGS, Page, executable_of
 
 PATIENCE_S = 60.0
 FULL = 0.5
 """The highest speed of the tool in m/s."""
-DRIVER = """
-import sys
-from webviz.shell.pictures.browser import Page, launched
-with launched() as browser:
-    tab = Page(browser, sys.argv[1], 600, 400, resolution=0.1).tab
-    tab.keyboard.press("t")
-    tab.locator(".wv-teleop").wait_for()
-    tab.keyboard.down("w")
-    tab.wait_for_timeout(600_000)
-"""
 
 
 class Robot:
@@ -268,19 +256,15 @@ def test_zeros_are_the_last_after_a_browser_was_killed_and_after_the_viewer_was_
     said_on_consoles: list[str],
 ) -> None:
     program = start("webviz", "--port", "0")
-    command = [sys.executable, "-c", DRIVER, program.url()]
-    driver = subprocess.Popen(command, stderr=subprocess.DEVNULL)
-    try:
-        until(lambda: robot.speeds()[-1:] == [FULL])
-        for process in reversed(psutil.Process(driver.pid).children(recursive=True)):
-            if process.is_running():
-                process.kill()
-        until(robot.has_stopped)
-    finally:
-        driver.kill()
-        driver.wait()
+    url, kind, before = program.url(), browser.browser_type, {*command_lines()}
+    other = kind.launch(executable_path=executable_of(kind), args=[*FLAGS])
+    driver = Page(other, url, 600, 400, resolution=COARSE)
+    choose(driver, robot)
+    hold(driver, robot)
+    send(signal.SIGKILL, {*command_lines()} - before)
+    until(robot.has_stopped)
     robot.heard.clear()
-    page = Page(browser, program.url(), 600, 400, resolution=COARSE)
+    page = Page(browser, url, 600, 400, resolution=COARSE)
     choose(page, robot)
     hold(page, robot)
     assert program.end(signal.SIGTERM) == 0
