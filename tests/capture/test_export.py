@@ -24,6 +24,7 @@ import playwright.sync_api as playwright
 import pytest
 from bags import START_NS, Bag, ns
 from drives import CONFIG, recorded
+from pages import COARSE
 from playwright.sync_api import expect
 
 import webviz
@@ -44,7 +45,7 @@ from webviz.shell.testing import BagViewer, header
 from webviz_displays.map import Map
 
 TIMES = (1.0, 4.5, 0.5, 5.0, 2.0, 0.0)
-SIZE: playwright.ViewportSize = {"width": 800, "height": 500}
+SIZE: playwright.ViewportSize = {"width": 800, "height": 420}
 
 MIMIC = """async (cases) => {
   const { mimic } = await import(new URL("webviz/recorded/view_math.js", location.href));
@@ -71,14 +72,15 @@ class OpenFile:
     Args:
         page: an empty one.
         path: of the file.
+        resolution: pixels of the scene per pixel of the page.
     """
 
-    def __init__(self, page: playwright.Page, path: Path) -> None:
+    def __init__(self, page: playwright.Page, path: Path, resolution: float = 1.0) -> None:
         self.page = page
         self.requests: list[str] = []
         page.on("request", lambda request: self.requests.append(request.url))
         page.add_init_script(COUNT_UNPACKING)
-        page.goto(f"{path.as_uri()}?fixedDpr=1")  # also if the machine is slow
+        page.goto(f"{path.as_uri()}?fixedDpr={resolution}")  # also if the machine is slow
         page.wait_for_function("window.webviz?.hasView()")
 
     def seek(self, at_s: float) -> None:
@@ -295,12 +297,12 @@ def test_a_click_shows_the_values_of_a_point(file: OpenFile) -> None:
 
 @pytest.fixture(scope="module")
 def clouds(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A bag of clouds by chance, 3 MB in a second, and a config that shows them."""
+    """A bag of clouds by chance, 2 MB in half a second, and a config that shows them."""
     folder = tmp_path_factory.mktemp("clouds")
     bag = Bag()
     bag.add("/points", "sensor_msgs/msg/PointCloud2", best_effort=True)
     bag.transform(0, "map", "lidar", static=True)
-    for step in range(10):
+    for step in range(5):
         bag.put(step / 10, "/points", cloud_of(points(step), START_NS + ns(step / 10)))
     bag.write(folder / "run")
     (folder / "lab.yaml").write_text("fixed_frame: map\ndisplays:\n- {type: PointCloud2}\n")
@@ -377,8 +379,8 @@ def test_a_click_shows_the_values_of_a_point_of_a_large_cloud(
         assert cli(["export", *arguments]) == 0
     with browser.new_context(viewport=SIZE, offline=True) as context:
         file = OpenFile(context.new_page(), path)
-        file.seek(0.5)
-        page, made = file.page, points(5)
+        file.seek(0.4)
+        page, made = file.page, points(4)
         page.keyboard.press("s")
         left, top, width, height = page.evaluate(BOX)
         page.mouse.click(left + width / 2, top + height / 2)
@@ -509,7 +511,7 @@ def test_images_and_plots_are_in_the_file_and_no_text_becomes_markup(
         dialog.dismiss()
 
     page.on("dialog", dismiss)
-    opened = OpenFile(page, path)
+    opened = OpenFile(page, path, COARSE)
     with contextlib.closing(BagViewer(tmp_path / "run", HOSTILE)) as viewer:
         for at_s in (1.5, 0.3):
             opened.seek(at_s)

@@ -27,8 +27,10 @@ from webviz.sources.bag.file import Recorded
 from webviz.sources.bag.source import BagSource
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
-@pytest.mark.parametrize("storage", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
+@pytest.mark.parametrize(
+    ("storage", "seed"),
+    [(StoragePlugin.MCAP, 1), (StoragePlugin.MCAP, 2), (StoragePlugin.SQLITE3, 3)],
+)
 def test_a_seek_shows_what_playing_shows(tmp_path: Path, storage: StoragePlugin, seed: int) -> None:
     path = recorded(seed).write(tmp_path / "run", storage)
     check_seeks(path, CONFIG, count=8, seed=seed)
