@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import product
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -19,7 +20,8 @@ from rtabmap_scenes import map_data, rgbd
 from webviz import Display
 from webviz.api.display import inputs_of
 from webviz.api.views import Orbit
-from webviz.shell.testing import Harness, turned
+from webviz.shell.testing import TOLERANCE, Harness, share_of_difference, turned
+from webviz.shell.testing.comparing import load
 from webviz_displays.areas import GridCells, Polygon
 from webviz_displays.autoware import (
     AutowarePath,
@@ -387,6 +389,7 @@ def test_each_display_has_a_picture_of_its_own(webviz_harness: Callable[..., Har
     shown = (case.display for case in CASES)
     seen = webviz_harness(*shown, Grid(plane_cell_count=4), view=view)
     seen.transform("map", "sensor")
+    without = seen.picture()
     for case in CASES:
         name = type(case.display).__name__
         seen.set("enabled", True, name)
@@ -399,5 +402,7 @@ def test_each_display_has_a_picture_of_its_own(webviz_harness: Callable[..., Har
             seen.publish(topic, spec.type, values, frame=frame)
             seen.turn()
         seen.wait_until_drawn(name)
-        seen.check_picture(f"{case.picture}/default")
+        seen.check_picture(f"{case.picture}/default", each_display=False)
+        picture = load(Path(__file__).parent / case.picture / "default.png")
+        assert share_of_difference(picture, without) > TOLERANCE, f"{name} is not to be seen"
         seen.set("enabled", False, name)

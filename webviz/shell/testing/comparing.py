@@ -51,15 +51,20 @@ def difference_image(actual: Pixels, reference: Pixels) -> Pixels:
 def _steps(actual: Pixels, reference: Pixels) -> NDArray[np.int16]:
     """Return the blurred difference of each pixel, ignoring the few colours of the reference."""
     stored = np.asarray(_of_few_colors(actual).convert("RGB"))
-    return np.minimum(_difference(actual, reference), _difference(stored, reference))
+    wanted = _blurred(reference)
+    steps = (np.abs(_blurred(each) - wanted) for each in (actual, stored))
+    return np.minimum(*map(_largest, steps))
 
 
-def _difference(one: Pixels, other: Pixels) -> NDArray[np.int16]:
-    a, b = (
-        np.asarray(PIL.Image.fromarray(p).filter(PIL.ImageFilter.BoxBlur(1)), np.int16)
-        for p in (one, other)
-    )
-    return np.abs(a - b).max(axis=2)
+def _blurred(pixels: Pixels) -> NDArray[np.int16]:
+    blur = PIL.ImageFilter.BoxBlur(1)
+    return np.asarray(PIL.Image.fromarray(pixels).filter(blur), np.int16)
+
+
+def _largest(steps: NDArray[np.int16]) -> NDArray[np.int16]:
+    """Return the largest of three, which `max` along so short an axis takes twenty times as long."""
+    red, green, blue = np.moveaxis(steps, 2, 0)
+    return np.maximum(np.maximum(red, green), blue)
 
 
 def _of_few_colors(pixels: Pixels) -> PIL.Image.Image:
