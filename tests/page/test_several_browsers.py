@@ -11,9 +11,10 @@ import pytest
 from tests.page.conftest import Tab
 from tests.page.properties_pane import Pane
 from tests.page.trees import Tree, group
+from webviz.api.status import Level, Status
 from webviz.api.views import FPS, TopDownOrtho
-from webviz.engine.commands import InspectTopics, SaveImage, Sender
-from webviz.engine.state import Inspected, Row, Step, UndoHistory
+from webviz.engine.commands import InspectTopics, SaveImage, Sender, UseTool
+from webviz.engine.state import Inspected, Row, Step, ToolButton, UndoHistory
 from webviz.scene.server import Server
 from webviz.sources import Offer, Publisher
 
@@ -156,6 +157,27 @@ def test_a_browser_that_was_cut_off_comes_back_to_how_things_are_now(
     mine.wait_for_value("count", "9")
     mine.enter("count", "4")
     mine.wait_for_set("count", 4)
+
+
+def test_two_who_use_tools_select_them_and_are_answered_for_themselves(
+    tab: Tab, other_tab: Tab
+) -> None:
+    tab.loop.show(tools=(ToolButton("goal", "Goal", "Sends a goal.", "g", "pose"),))
+    for each in (tab, other_tab):
+        each.wait_for(lambda each=each: each.button("Goal").is_visible())
+    tab.button("Goal").click()
+    playwright.expect(tab.button("Goal")).to_have_attribute("aria-pressed", "true")
+    playwright.expect(other_tab.button("Goal")).to_have_attribute("aria-pressed", "false")
+    tab.page.mouse.move(600, 500)
+    tab.page.mouse.down()
+    tab.page.mouse.move(640, 500)
+    tab.page.mouse.up()
+    tab.wait_for(lambda: [type(each) for each in tab.loop.commands] == [UseTool])
+    (used,) = tab.loop.commands
+    assert isinstance(used, UseTool)
+    used.report(Status(Level.OK, "Published."))
+    tab.wait_for(lambda: tab.page.locator(".wv-hint").inner_text() == "Published.")
+    assert other_tab.page.locator(".wv-hint").inner_text() == ""
 
 
 def test_two_who_look_into_topics_choose_for_themselves_until_one_leaves(

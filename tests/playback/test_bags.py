@@ -10,11 +10,11 @@ from pathlib import Path
 
 import pytest
 from bags import START_NS, Bag, ns, strings
-from playwright.sync_api import Browser
 from processes import eventually
 from rosbags.rosbag2 import StoragePlugin
 
 import webviz
+from tests.scene.conftest import Peer
 from webviz.api.views import Orbit
 from webviz.data.messages import encode
 from webviz.shell.app.bag_config import config_of, fixed_frame_of, robot_frame_of
@@ -189,14 +189,14 @@ def test_a_bag_needs_no_ros(tmp_path: Path) -> None:
     assert (done.stdout, done.stderr) == ("odom\n", "")
 
 
-def test_it_plays_once_a_browser_connects(tmp_path: Path, browser: Browser) -> None:
+def test_it_plays_once_a_browser_connects(tmp_path: Path) -> None:
     path = strings(0, 1, 2).write(tmp_path / "run")
     with webviz.Viewer(bag=path, port=0, autoplay=True) as viewer:
         assert viewer.position == 0.0
-        page = browser.new_page()
-        page.goto(viewer.url)
+        peer = Peer(viewer._scene.link.server)
+        peer.look()
         assert eventually(lambda: viewer.position == 2.0)
-        page.close()
+        peer.close()
 
 
 MISTAKES = [
