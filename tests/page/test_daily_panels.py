@@ -137,7 +137,7 @@ def test_diagnostics_are_a_tree_with_the_worst_first(loop: Loop, tab: Tab) -> No
     tab.wait_for(lambda: tab.page.get_by_label("2 values").count() == 1)
     loop.show(offers=offers, clock=PanelTimes(ros_ns=99 * SECOND))
     tab.wait_for(lambda: rows.nth(0).get_attribute("data-level") == "idle")
-    report(99, "1", count=10**5)
+    report(99, "1", count=2 * MAX_STATUSES)
     tab.wait_for(lambda: f"the limit is {MAX_STATUSES}" in tab.text())
 
 

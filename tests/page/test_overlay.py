@@ -62,7 +62,7 @@ def test_the_view_is_as_before_when_a_lost_connection_is_back(tab: Tab, server: 
           (function look() {
             const turned = Math.abs(viser.controls().azimuthAngle - before);
             window.turned = Math.max(window.turned, turned);
-            requestAnimationFrame(look);
+            if (!window.isBack) requestAnimationFrame(look);
           })();
           on("StartView", () => { window.isBack = true; });
         }"""

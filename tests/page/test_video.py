@@ -9,7 +9,11 @@ from playwright.sync_api import expect
 from tests.page.conftest import Tab
 
 SPIN = """() => {
-  const draw = () => { window.__viserMutable.requestRender?.(); requestAnimationFrame(draw); };
+  window.spins = true;
+  const draw = () => {
+    window.__viserMutable.requestRender?.();
+    if (window.spins) requestAnimationFrame(draw);
+  };
   draw();
 }"""
 
@@ -25,6 +29,7 @@ def test_a_video_of_the_scene_is_saved_by_the_browser(tab: Tab, tmp_path: Path) 
     with tab.page.expect_download() as found:
         stop.click()
     expect(stop).to_be_hidden()
+    tab.page.evaluate("window.spins = false")
     path = tmp_path / found.value.suggested_filename
     found.value.save_as(path)
     assert path.suffix in (".mp4", ".webm")

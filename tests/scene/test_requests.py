@@ -12,6 +12,7 @@ import playwright.sync_api as playwright
 import pytest
 import viser
 import websockets.sync.server
+from pages import COARSE
 
 from webviz.scene import ViserScene
 from webviz.server.http.rate_limited_log import rate_limited_log
@@ -93,7 +94,7 @@ def test_the_page_cannot_be_embedded_and_sends_no_referrer(ask: Ask) -> None:
 def test_another_site_cannot_show_the_page_in_a_frame_nor_hold_its_window(
     browser: playwright.Browser, server: viser.ViserServer, scene: ViserScene
 ) -> None:
-    url = f"http://127.0.0.1:{server.get_port()}/"
+    url = f"http://127.0.0.1:{server.get_port()}/?fixedDpr={COARSE}"
     tab = browser.new_page()
     tab.route(
         "http://trap.example/**",
@@ -124,7 +125,8 @@ def test_a_link_cannot_make_the_page_obey_another_server(
         threading.Thread(target=other.serve_forever).start()
         port = other.socket.getsockname()[1]
         page = browser.new_page()
-        page.goto(f"http://127.0.0.1:{server.get_port()}/?websocket=ws://127.0.0.1:{port}")
+        link = f"?fixedDpr={COARSE}&websocket=ws://127.0.0.1:{port}"
+        page.goto(f"http://127.0.0.1:{server.get_port()}/{link}")
         # It connects to one server only: to this one, although the link names another.
         wait_until(lambda: len(server.get_clients()) == 1)
         page.close()

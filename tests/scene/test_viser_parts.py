@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import functools
 import re
 from pathlib import Path
 
@@ -43,6 +44,7 @@ def of_python(text: str) -> set[str]:
     return imported | (attributes if is_viser else set()) | set(IN_PAGE.findall(text))
 
 
+@functools.cache
 def found() -> dict[str, set[str]]:
     """Parts that are used, by file."""
     reaches: dict[str, set[str]] = {}
@@ -50,7 +52,8 @@ def found() -> dict[str, set[str]]:
         for file in (ROOT / folder).rglob("*"):
             if file.suffix in (".py", ".js", ".ts", ".html"):
                 text = file.read_text("utf-8")
-                parts = of_python(text) if file.suffix == ".py" else set(IN_PAGE.findall(text))
+                has_viser = file.suffix == ".py" and "viser" in text
+                parts = of_python(text) if has_viser else set(IN_PAGE.findall(text))
                 if parts:
                     reaches[file.relative_to(ROOT).as_posix()] = parts
     return reaches
