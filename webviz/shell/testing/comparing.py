@@ -62,7 +62,7 @@ def _blurred(pixels: Pixels) -> NDArray[np.int16]:
 
 
 def _largest(steps: NDArray[np.int16]) -> NDArray[np.int16]:
-    """Return the largest of three, which `max` along so short an axis takes twenty times as long."""
+    """Return the largest of three; `max` along so short an axis takes twenty times as long."""
     red, green, blue = np.moveaxis(steps, 2, 0)
     return np.maximum(np.maximum(red, green), blue)
 
