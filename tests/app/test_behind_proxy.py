@@ -12,6 +12,7 @@ import playwright.sync_api as playwright
 import pytest
 import viser
 from certificates import authority, certificate
+from pages import COARSE
 from proxies import running
 
 import webviz
@@ -59,10 +60,11 @@ def test_page_websockets_and_uploads_work_below_a_path(
             900,
             500,
             cookie=(cookie_name, value),
+            resolution=COARSE,
         )
         names = page.tab.get_by_role("treeitem")
         page.wait_for(lambda: names.filter(has_text="Grid").count() > 0, "the tree")
-        assert page.tab.url == f"https://localhost:{port}/robot1/?fixedDpr=1"
+        assert page.tab.url == f"https://localhost:{port}/robot1/?fixedDpr={COARSE}"
         assert page.evaluate("() => isSecureContext")
 
         page.tab.keyboard.press("Control+o")

@@ -18,6 +18,7 @@ import webviz
 from webviz.shell.app.notebook import OF_NOTEBOOKS, embedders
 from webviz.shell.testing.source import HandFedSource
 
+SIZE: playwright.ViewportSize = {"width": 400, "height": 300}
 Refused = Callable[[Callable[[], object]], str]
 
 
@@ -42,7 +43,7 @@ def test_a_page_that_may_embeds_the_viewer_and_others_do_not(
     with (
         webviz.Viewer(port=0, source=HandFedSource(), embed_in=(origin,), token=True) as shown,
         webviz.Viewer(port=0, source=HandFedSource(), embed_in=()) as closed,
-        contextlib.closing(browser.new_page()) as page,
+        contextlib.closing(browser.new_page(viewport=SIZE)) as page,
     ):
         (path / "open.html").write_text(shown._repr_html_())
         (path / "closed.html").write_text(f"<iframe src={closed.url!r}></iframe>")

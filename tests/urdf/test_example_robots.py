@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from importlib import metadata
 from pathlib import Path
 from xml.etree import ElementTree
@@ -31,7 +32,9 @@ pytestmark = pytest.mark.skipif(
 )
 
 
+@functools.lru_cache(maxsize=2)
 def load(file: str):
+    """Load one; the last two are kept for the tests that follow."""
     assert ROBOTS is not None
     return load_file(ROBOTS / file)
 
@@ -77,16 +80,22 @@ def extents(robot, as_trimesh) -> np.ndarray:
     [
         # Files named .DAE; without the pedestal's feet.
         ("baxter_description/urdf/baxter.urdf", 1.78),
-        # Binary .STL, the right side mirrored; 1.75 m by its maker.
-        ("talos_data/robots/talos_reduced.urdf", 1.75),
         # COLLADA with seven colours; wrist at 0.333 + 0.316 + 0.384 m by its maker.
         ("panda_description/urdf/panda.urdf", 1.033 + 0.07),
+        # Binary .STL, the right side mirrored; 1.75 m by its maker.
+        ("talos_data/robots/talos_reduced.urdf", 1.75),
         # COLLADA with textures, scaled by the description; legs straight down.
         ("anymal_c_simple_description/urdf/anymal.urdf", 0.9),
     ],
 )
 def test_robots_are_as_tall_as_the_real_ones(file, height, as_trimesh):
     assert extents(load(file), as_trimesh)[2] == pytest.approx(height, rel=0.1)
+
+
+def test_the_textures_of_anymal_are_kept():
+    robot = load("anymal_c_simple_description/urdf/anymal.urdf")
+    nodes = [shape.node for link in robot.links.values() for shape in link.visuals]
+    assert sum(isinstance(node, Glb) and b"image/jpeg" in node.data for node in nodes) == 45
 
 
 def test_mirrored_meshes_of_talos_are_not_inside_out(as_trimesh):
@@ -103,9 +112,3 @@ def test_materials_that_allegro_defines_in_one_link_colour_the_others():
     colors = [node.color for node in nodes if isinstance(node, Mesh)]
     assert len(colors) == 21
     assert (255, 0, 0) not in colors
-
-
-def test_the_textures_of_anymal_are_kept():
-    robot = load("anymal_c_simple_description/urdf/anymal.urdf")
-    nodes = [shape.node for link in robot.links.values() for shape in link.visuals]
-    assert sum(isinstance(node, Glb) and b"image/jpeg" in node.data for node in nodes) == 45
