@@ -134,7 +134,7 @@ def builtins(config: Config) -> Any:
 
 
 @pytest.mark.parametrize("name", TYPES)
-@settings(deadline=None, max_examples=40, suppress_health_check=[HealthCheck.too_slow])
+@settings(deadline=None, max_examples=15, suppress_health_check=[HealthCheck.too_slow])
 @given(data=st.data())
 def test_every_value_of_every_display_comes_back(name: str, data: st.DataObject) -> None:
     display = data.draw(displays(TYPES[name]))
