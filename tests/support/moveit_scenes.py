@@ -184,6 +184,7 @@ def plan_task(bench: Any) -> None:
         shown.use_sim_time or shown.paused or shown.loop_animation
     ):
         while "Point 8 of 8" not in bench.statuses()["Path"][1]:  # in 0.4 s
+            time.sleep(0.01)
             bench.turn()
 
 
