@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from webviz import Context, Display, Pose, Prop, Sample, compose
 from webviz.data.rotations import matrices, normalized, w_first
 from webviz_displays.shared.colors import Alpha
-from webviz_displays.shared.geometry import LONGEST, is_drawable, origin_near
+from webviz_displays.shared.geometry import BOX_EDGES, LONGEST, is_drawable, origin_near
 from webviz_displays.shared.opaque import opaque
 
 F64 = NDArray[np.float64]
@@ -31,12 +31,6 @@ CORNERS = np.array(
     ]
 )
 """(8, 3), of a box with edges of 1."""
-EDGES = np.array(
-    [(i, (i + 1) % 4) for i in range(4)]
-    + [(4 + i, 4 + (i + 1) % 4) for i in range(4)]
-    + [(i, 4 + i) for i in range(4)]
-)
-"""(12, 2), of corners."""
 
 
 class BoxesDisplay(Display):
@@ -89,9 +83,9 @@ class BoxesDisplay(Display):
         palette = np.array(colors, np.uint8)[rows]
         if self.only_edge:
             corners = np.einsum("nij,nkj->nki", matrices(wxyzs), CORNERS * sizes[:, None])
-            segments = (corners + (centers - origin)[:, None])[:, EDGES].reshape(-1, 2, 3)
-            ends = np.repeat(palette, 2 * len(EDGES), axis=0).reshape(-1, 2, 3)
-            ids = np.repeat(rows, len(EDGES))
+            segments = (corners + (centers - origin)[:, None])[:, BOX_EDGES].reshape(-1, 2, 3)
+            ends = np.repeat(palette, 2 * len(BOX_EDGES), axis=0).reshape(-1, 2, 3)
+            ids = np.repeat(rows, len(BOX_EDGES))
             group.lines("edges", segments, ends, self.line_width, "m", ids, self.alpha)
         else:
             group.instances(

@@ -19,6 +19,13 @@ FARTHEST = 1e9
 LONGEST = 1e6
 """Metres; larger sizes of arrows and other marks would overflow float32 with their scales."""
 
+BOX_EDGES = np.array(
+    [(i, (i + 1) % 4) for i in range(4)]
+    + [(4 + i, 4 + (i + 1) % 4) for i in range(4)]
+    + [(i, 4 + i) for i in range(4)]
+)
+"""(12, 2), of the corners of a box: those above, those below, and between them."""
+
 Metres = Annotated[float, Prop(gt=0, unit="m")]
 """A size, for a `Prop` that says of what."""
 

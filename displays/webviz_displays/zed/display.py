@@ -23,7 +23,7 @@ from webviz import (
     compose,
 )
 from webviz.data.words import counted
-from webviz_displays.shared.geometry import LONGEST, is_drawable, origin_near
+from webviz_displays.shared.geometry import BOX_EDGES, LONGEST, is_drawable, origin_near
 from webviz_displays.zed.bodies import BODIES
 
 F64 = NDArray[np.float64]
@@ -42,13 +42,6 @@ TRACKING = ("off", "tracked", "searching", "terminated")
 """By `tracking_state`."""
 TRACKING_COLORS = ((0, 0, 0), (0, 255, 0), (128, 89, 0), (255, 255, 255))
 """Colours of corners, by `tracking_state`."""
-
-EDGES = np.array(
-    [(i, (i + 1) % 4) for i in range(4)]
-    + [(4 + i, 4 + (i + 1) % 4) for i in range(4)]
-    + [(i, 4 + i) for i in range(4)]
-)
-"""(12, 2), of the corners of a box: those above, those below, and between them."""
 
 
 class ZedOdDisplay(Display):
@@ -124,7 +117,7 @@ class ZedOdDisplay(Display):
         if not len(rows):
             return
         states = np.array([_state_of(each) for each in found], np.intp)[ok]
-        self._lines("boxes", corners[:, EDGES], colors[ok], rows, self.link_size, group)
+        self._lines("boxes", corners[:, BOX_EDGES], colors[ok], rows, self.link_size, group)
         group.instances(
             "corners",
             "sphere",
