@@ -36,9 +36,6 @@ const wrapped = (angle) => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI
 /** @param {number} value @param {number} low @param {number} high */
 const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
 
-/** The types of views. */
-export const TYPES = ["Orbit", "XYOrbit", "ThirdPersonFollower", "FPS", "TopDownOrtho"];
-
 /** @type {Record<string, Partial<View>>} */
 const DEFAULTS = {
   FPS: { yaw: 0, pitch: 0, position: [5, 5, 10] },

@@ -2,8 +2,9 @@
 
 import * as placing from "../scene/view.js";
 import { toThree } from "../scene/fixed_frame.js";
+import { VIEW_TYPES } from "../shell/view_menus.js";
 import * as viser from "../viser_page.js";
-import { cameraOf, focus, mimic, TYPES, viewOf, zeroView } from "./view_math.js";
+import { cameraOf, focus, mimic, viewOf, zeroView } from "./view_math.js";
 
 /** @import {PlaceCamera} from "../messages.js" */
 /** @import {Three, Vec3} from "../types.js" */
@@ -105,7 +106,7 @@ export function views(about, place, changed) {
       const view = now();
       const { height } = size();
       if (key === "type") {
-        if (!TYPES.includes(value)) throw new Error(`Unknown view type \`${value}\`.`);
+        if (!VIEW_TYPES.includes(value)) throw new Error(`Unknown view type \`${value}\`.`);
         show(mimic(view, rigOf(view.type, frame), value, frame, rigOf(value, frame), height));
       } else if (key === "target_frame") {
         const { type } = view;
@@ -137,7 +138,7 @@ export function views(about, place, changed) {
       ]);
       return {
         declared: about.view_forms[type] ?? [],
-        types: TYPES,
+        types: VIEW_TYPES,
         ...Object.fromEntries(told),
       };
     },
