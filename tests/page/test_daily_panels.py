@@ -51,8 +51,10 @@ def offered(**types: str) -> dict[str, Offer]:
 def open_panel(loop: Loop, tab: Tab, panel: Panel, **changes: Any) -> None:
     """Open a panel in its tab, with these changes of the viewer's state."""
     name = type(panel).__name__
+    heads = tab.page.get_by_role("tab", name=panel.name, exact=True)
+    tab.wait_for(lambda: heads.count() == 0)  # that of a test before
     loop.show(panels=(PanelTab(f"of {name}", name, panel),), **changes)
-    tab.wait_for(lambda: tab.page.get_by_role("tab", name=panel.name, exact=True).count())
+    tab.wait_for(lambda: heads.count() == 1)
     tab.show_tab(panel.name)
     tab.wait_for(lambda: tab.page.locator(".wv-plugin-widgets > *").count() > 0)
 
