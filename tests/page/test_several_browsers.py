@@ -135,10 +135,9 @@ def test_two_who_look_have_views_of_their_own_with_their_numbers(tab: Tab, other
     ):
         each.show_tab("Views")
         panel = each.page.locator("#wv-panel")
-        playwright.expect(panel).to_contain_text(seen)
-        playwright.expect(panel).not_to_contain_text(unseen)
-        field = panel.locator(f"[data-path='{path}'] input")
-        playwright.expect(field).to_have_value(value)
+        each.wait_for(lambda text=panel.inner_text, seen=seen: seen in text())
+        assert unseen not in panel.inner_text()
+        assert panel.locator(f"[data-path='{path}'] input").input_value() == value
         each.show_tab("Displays")
 
 
