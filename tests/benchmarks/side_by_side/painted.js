@@ -37,7 +37,10 @@
   function markOf(node, unturned, depth) {
     if (node.matricesTexture) {
       const values = node.matricesTexture._data;
-      return Math.abs(values[14] - depth) < EXACT ? values[12] : null;
+      for (let i = 12; i < values.length; i += 16) {
+        if (Math.abs(values[i + 2] - depth) < EXACT) return values[i];
+      }
+      return null;
     }
     const { elements } = unturned.clone().multiply(node.matrixWorld);
     return Math.abs(elements[14] - depth) < EXACT ? elements[12] : null;
