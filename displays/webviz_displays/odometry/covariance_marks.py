@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Context, Group, Mesh
+from webviz import Context, Group, Mesh, Sample
 from webviz.data.rotations import from_matrices
 from webviz_displays.odometry.covariance import (
     LARGEST,
@@ -41,19 +41,27 @@ _RGB = ((255, 0, 0), (0, 255, 0), (0, 0, 255))
 
 
 def draw_covariances(
-    look: Covariance, newest: Sequence[F64], poses: PoseTrail, group: Group, ctx: Context, ids: Ids
+    look: Covariance,
+    samples: Sequence[Sample],
+    poses: PoseTrail,
+    group: Group,
+    ctx: Context,
+    ids: Ids,
 ) -> None:
-    """Draw the covariances of the newest poses, and report invalid ones.
+    """Draw the covariances of the newest poses, if they are switched on, and report invalid ones.
 
     Args:
         look: properties.
-        newest: those of the last poses (36,) as messages have them, at most `MAX_COVARIANCES`.
-        poses: N poses in the coordinates of the group, oldest first.
+        samples: of N messages with a PoseWithCovariance named `pose`, oldest first.
+        poses: theirs, in the coordinates of the group.
         group: where to draw.
         ctx: collects statuses.
         ids: (N,), of the poses.
     """
-    rows, total = np.array(newest), len(poses.positions)
+    if not look.value:
+        return
+    newest = [sample.message.pose.covariance for sample in samples[-MAX_COVARIANCES:]]
+    rows, total = np.array(newest), len(samples)
     given, ok = read(rows)
     negative = has_negative_variance(rows)
     if not ok.all():

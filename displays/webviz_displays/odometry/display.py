@@ -23,7 +23,7 @@ from webviz import (
     Topic,
 )
 from webviz.data.words import counted
-from webviz_displays.odometry.covariance_marks import MAX_COVARIANCES, draw_covariances
+from webviz_displays.odometry.covariance_marks import draw_covariances
 from webviz_displays.odometry.details import details
 from webviz_displays.odometry.lookback import TrailRule, kept_poses
 from webviz_displays.odometry.poses import fault
@@ -88,9 +88,7 @@ class Odometry(Display, Selective):
         group = ctx.follow(None, offset=Pose(origin))
         poses = replace(poses, positions=poses.positions - origin)
         draw_poses(self.shape, poses, group, ctx, path="shape.alpha")
-        if self.covariance.value:
-            rows = [sample.message.pose.covariance for sample in samples[-MAX_COVARIANCES:]]
-            draw_covariances(self.covariance, rows, poses, group, ctx, np.arange(len(samples)))
+        draw_covariances(self.covariance, samples, poses, group, ctx, np.arange(len(samples)))
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
         """Return a message; the wedges are one mesh, which does not know of its messages."""

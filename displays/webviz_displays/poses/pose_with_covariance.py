@@ -7,7 +7,7 @@ from typing import Annotated
 
 from webviz import Context, Details, Group, Hit, Input, Prop, Sample, Topic
 from webviz.api.nodes import Ids
-from webviz_displays.odometry.covariance_marks import MAX_COVARIANCES, draw_covariances
+from webviz_displays.odometry.covariance_marks import draw_covariances
 from webviz_displays.odometry.details import covariance_details
 from webviz_displays.poses.pose_display import PoseDisplay
 from webviz_displays.shared.pose_history import PoseOf, PoseTrail
@@ -34,9 +34,7 @@ class PoseWithCovariance(PoseDisplay):
         self, samples: Sequence[Sample], poses: PoseTrail, group: Group, ctx: Context, ids: Ids
     ) -> None:
         """Draw the covariances of the newest poses."""
-        if self.covariance.value:
-            rows = [sample.message.pose.covariance for sample in samples[-MAX_COVARIANCES:]]
-            draw_covariances(self.covariance, rows, poses, group, ctx, ids)
+        draw_covariances(self.covariance, samples, poses, group, ctx, ids)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
         """Return the pose and its covariance.
