@@ -291,13 +291,16 @@ def can_unshare() -> bool:
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root can give files to another user")
 def test_segments_of_another_user() -> None:
     path = Path("/dev/shm") / f"fastrtps_{os.getpid()}_webviz_test"
+    gone = path.with_name(f"{path.name}_gone")  # after it was listed, as that of a node that ends
     path.touch()
+    gone.symlink_to("nowhere")
     try:
         assert "SHM001" not in examined()
         os.chown(path, 65534, -1)
         assert "SHM001" in examined()
     finally:
         path.unlink()
+        gone.unlink()
 
 
 SATURATE = """

@@ -142,13 +142,8 @@ def _multicast_returns() -> bool | None:
 def _shared_memory() -> SharedMemory | None:
     try:
         status = os.statvfs(SHM)
-        own = os.geteuid()
-        foreign = [
-            path.name
-            for pattern in SEGMENTS
-            for path in SHM.glob(pattern)
-            if path.stat().st_uid != own
-        ]
+        segments = (path for pattern in SEGMENTS for path in SHM.glob(pattern))
+        foreign = [path.name for path in segments if _is_foreign(path)]
     except OSError:
         return None
     locks = [path.name for path in SHM.glob(LOCKS)]
@@ -157,6 +152,14 @@ def _shared_memory() -> SharedMemory | None:
     return SharedMemory(
         size, free, tuple(sorted(foreign)), tuple(sorted(stale)), programs_apart(SHM)
     )
+
+
+def _is_foreign(path: Path) -> bool:
+    """Return whether a file belongs to another user; one that is gone meanwhile does not."""
+    try:
+        return path.stat().st_uid != os.geteuid()
+    except FileNotFoundError:
+        return False
 
 
 def _receive_buffer() -> int:
