@@ -33,7 +33,7 @@ SENSOR = ("best_effort", "volatile")
     ],
 )
 def test_profiles_are_read_as_recorders_write_them(text: str, profiles: list[Any]) -> None:
-    assert profiles_of(text) == profiles
+    assert [*profiles_of(text)] == profiles
 
 
 def test_profiles_are_bounded() -> None:
@@ -42,4 +42,4 @@ def test_profiles_are_bounded() -> None:
 
 def test_profiles_that_are_written_are_read_again() -> None:
     publishers = [Publisher("/a", "", *LATCHED), Publisher("/b", "", *SENSOR)]
-    assert profiles_of(text_of(publishers)) == [(*LATCHED, 0), (*SENSOR, 0)]
+    assert profiles_of(text_of(publishers)) == ((*LATCHED, 0), (*SENSOR, 0))

@@ -5,6 +5,7 @@ Recorders other than rosbag2 write only some policies. The messages of such bags
 
 from __future__ import annotations
 
+import functools
 import io
 from collections.abc import Iterable
 from typing import Any, NamedTuple
@@ -25,7 +26,9 @@ class BagProfile(NamedTuple):
     depth: int
 
 
-def profiles_of(text: str) -> list[BagProfile]:
+# Most topics of a bag have one of a few texts, each of which takes more than a millisecond.
+@functools.lru_cache(maxsize=32)
+def profiles_of(text: str) -> tuple[BagProfile, ...]:
     """Return the profiles of a topic.
 
     Args:
@@ -36,11 +39,11 @@ def profiles_of(text: str) -> list[BagProfile]:
         unreadable.
     """
     if not text or len(text) > MAX_TEXT:
-        return []
+        return ()
     try:
-        return [_profile(given) for given in YAML(typ="safe").load(text)[:MAX_PROFILES]]
+        return tuple(map(_profile, YAML(typ="safe").load(text)[:MAX_PROFILES]))
     except Exception:  # of YAML, or of wrong types
-        return []
+        return ()
 
 
 def _profile(given: dict[str, Any]) -> BagProfile:
