@@ -25,6 +25,7 @@ from std_msgs.msg import String
 from std_srvs.srv import Empty
 
 from webviz.ros.types import message_class
+from webviz_sim.node import main
 from webviz_sim.options import BUILDING, OPTIONS
 from webviz_sim.pose import Pose2D
 from webviz_sim.raycast import cast_rays
@@ -382,16 +383,6 @@ def test_a_clock_of_its_own_starts_at_zero_and_stamps_everything(sim, robot):
     assert set(np.diff(stamps)) == {20_000_000}
 
 
-def run(*args, code="from webviz_sim.node import main; raise SystemExit(main())"):
-    return subprocess.run(
-        [sys.executable, "-c", code, *args],
-        env=environment(),
-        capture_output=True,
-        text=True,
-        timeout=60,
-    )
-
-
 def test_sigterm_ends_it_with_status_0(sim, robot):
     process = sim()
     odometry = robot.listen("/odom", Odometry)
@@ -401,13 +392,32 @@ def test_sigterm_ends_it_with_status_0(sim, robot):
     assert process.returncode == 0
 
 
-def test_a_params_file_sets_parameters(robot, tmp_path):
+@pytest.fixture
+def refused(capfd):
+    """Run the simulator in this process, where it must not start."""
+    handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+
+    def refused(*args):
+        try:
+            status = main([*args])
+        except SystemExit as exit:
+            status = exit.code
+        printed = capfd.readouterr()
+        assert "Traceback" not in printed.err
+        return status, printed.out, printed.err
+
+    yield refused
+    for number, handler in handlers.items():
+        signal.signal(number, handler)
+
+
+def test_a_params_file_sets_parameters(refused, tmp_path):
     path = tmp_path / "params.yaml"
     path.write_text("/sim:\n  ros__parameters:\n    scan_rate: 3\n    scan_beams: 0\n")
-    result = run("--ros-args", "--params-file", str(path))
-    assert result.returncode == 1
+    status, _, errors = refused("--ros-args", "--params-file", str(path))
+    assert status == 1
     refusal = "Invalid parameter: Parameter scan_beams out of range. Min: 1, Max: 20000, value: 0"
-    assert refusal in result.stderr
+    assert refusal in errors
 
 
 @pytest.mark.parametrize(
@@ -423,25 +433,21 @@ def test_a_params_file_sets_parameters(robot, tmp_path):
         (["--fault", "laser_yaw=9"], 2, "laser_yaw must be between -3.14159 and 3.14159"),
     ],
 )
-def test_wrong_arguments_end_in_one_sentence(args, status, sentence):
-    result = run(*args)
-    assert result.returncode == status
-    assert sentence in result.stderr
-    assert "Traceback" not in result.stderr
+def test_wrong_arguments_end_in_one_sentence(refused, args, status, sentence):
+    ended, _, errors = refused(*args)
+    assert ended == status
+    assert sentence in errors
 
 
-def test_help_lists_the_parameters():
-    result = run("--help")
-    assert result.returncode == 0
-    assert "stamped_cmd_vel" in result.stdout
+def test_help_lists_the_parameters(refused):
+    status, output, _ = refused("--help")
+    assert status == 0
+    assert "stamped_cmd_vel" in output
 
 
-def test_without_rclpy_it_says_how_to_get_it():
-    code = (
-        "import sys; sys.modules['rclpy'] = None\n"
-        "from webviz_sim.node import main; raise SystemExit(main())"
-    )
-    result = run(code=code)
-    assert result.returncode == 1
-    assert result.stderr.count("\n") == 1
-    assert 'pip install "ros-webviz[ros]"' in result.stderr
+def test_without_rclpy_it_says_how_to_get_it(refused, monkeypatch):
+    monkeypatch.setitem(sys.modules, "rclpy", None)
+    status, _, errors = refused()
+    assert status == 1
+    assert errors.count("\n") == 1
+    assert 'pip install "ros-webviz[ros]"' in errors
