@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 import textwrap
 from pathlib import Path
 from typing import Any
@@ -120,6 +121,7 @@ Unheard Of: 2001-01-01
 """
 
 
+@functools.cache
 def again(text: str) -> str:
     """The text after import, a save as YAML, and export."""
     config, _ = rviz.read(text, "x.rviz")
