@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Iterator, Sequence
 
 from webviz.api.capabilities import ProtocolClient, capability
@@ -39,14 +38,8 @@ def own_names(config: Config, guard: Guard) -> tuple[str, ...]:
     names = {name for name in names if PATTERN.isdisjoint(name)}
     for base in (Panel, Display):
         for name, cls in plugin_types(base).items():
-            names |= guard.attempt(name, frozenset[str](), _default_names, cls)
+            names |= guard.attempt(name, set[str](), lambda cls=cls: _names_of(make(cls, {})))
     return tuple(sorted(names - {""}))
-
-
-@functools.lru_cache(maxsize=256)
-def _default_names(cls: type[Panel | Display]) -> frozenset[str]:
-    """Return the names of a type's default properties, which hundreds of types have."""
-    return frozenset(_names_of(make(cls, {})))
 
 
 def _names_of(plugin: Plugin) -> set[str]:
