@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from typing import Annotated, Literal, NamedTuple
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -44,7 +44,6 @@ class _Texture(NamedTuple):
     picture: Pixels | Encoded
 
 
-@dataclass
 class _State(ImageState):
     """Kept between images.
 
@@ -54,8 +53,8 @@ class _State(ImageState):
         shown: what is drawn.
     """
 
-    textures: Newest[_Texture] = field(default_factory=Newest[_Texture])
-    poses: dict[int, Pose] = field(default_factory=dict)
+    textures: Newest[_Texture] = msgspec.field(default_factory=Newest[_Texture])
+    poses: dict[int, Pose] = msgspec.field(default_factory=dict)
     shown: _Texture | None = None
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import Annotated, Any
 
 import msgspec
@@ -17,16 +16,15 @@ MAX_FIELDS = 100
 SECOND = 1_000_000_000
 
 
-@dataclass
-class _State:
+class _State(msgspec.Struct):
     """Kept between messages."""
 
     newest: Pane | None = None
     shown: Pane | None = None
     shown_ns: int = 0
     settings: tuple[Any, ...] = ()
-    paths: list[FieldPath] = field(default_factory=list)
-    problems: list[str] = field(default_factory=list)
+    paths: list[FieldPath] = msgspec.field(default_factory=list)
+    problems: list[str] = msgspec.field(default_factory=list)
     """Of the paths themselves, whatever the message is."""
 
 

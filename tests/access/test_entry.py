@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import contextlib
-import dataclasses
 import logging
 import time
 from datetime import UTC, datetime, timedelta
-from typing import get_origin, get_type_hints
+from typing import get_origin
 
 import msgspec
 import pytest
@@ -171,14 +170,11 @@ FIELDS: dict[str, dict[str, object]] = {
 def some_fields(command: type[Command]) -> dict[str, object]:
     """Values for the fields that a command needs."""
     plain: dict[object, object] = {float: 1.0, int: 1, bool: True, tuple: []}
-    hints = get_type_hints(command)
-    needed = [
-        field.name
-        for field in dataclasses.fields(command)  # pyright: ignore[reportArgumentType]
-        if field.default is field.default_factory is dataclasses.MISSING
-        and field.name not in NOT_OF_PAGES
-    ]
-    kinds = {name: get_origin(hints[name]) or hints[name] for name in needed}
+    kinds = {
+        field.name: get_origin(field.type) or field.type
+        for field in msgspec.structs.fields(command)
+        if field.required and field.name not in NOT_OF_PAGES
+    }
     return FIELDS.get(command.__name__) or {n: plain.get(k, "a") for n, k in kinds.items()}
 
 
@@ -375,7 +371,7 @@ def test_one_address_has_a_limit(house: House, monkeypatch: pytest.MonkeyPatch) 
 def test_a_role_has_a_rate_of_messages(
     house: House, monkeypatch: pytest.MonkeyPatch, role: Role
 ) -> None:
-    slow = {each: dataclasses.replace(LIMITS[each], messages_per_second=2.0) for each in Role}
+    slow = {each: msgspec.structs.replace(LIMITS[each], messages_per_second=2.0) for each in Role}
     monkeypatch.setattr("webviz.server.http.connections.LIMITS", {**LIMITS, role: slow[role]})
     guest, owner = house.enter(role), house.enter(Role.OWNER)
 

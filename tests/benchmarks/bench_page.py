@@ -23,10 +23,10 @@ import time
 import timeit
 from collections.abc import Iterator
 from concurrent.futures import Future
-from dataclasses import replace
 
 import msgspec
 import playwright.sync_api as playwright
+from msgspec.structs import replace
 
 from webviz.api.declared import make
 from webviz.api.registry import display_types

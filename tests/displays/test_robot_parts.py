@@ -1,11 +1,11 @@
 """Drawn parts of a robot and their appearance, by the user's choices."""
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 from webviz import Arrows, Axes, Glb
 from webviz_displays.robot_model.parts import (

@@ -6,12 +6,12 @@ import queue
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Future
 from contextlib import contextmanager
-from dataclasses import replace
 from typing import Annotated, Any, Literal
 
 import msgspec
 import playwright.sync_api as playwright
 import pytest
+from msgspec.structs import replace
 from pages import COARSE
 
 from webviz.api.declared import Color, Prop, Topic, set_property

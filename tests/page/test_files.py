@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import playwright.sync_api as playwright
 import pytest
+from msgspec.structs import replace
 
 from tests.page.conftest import Loop, Tab
 from webviz.commands import Export, Load, Open, Save

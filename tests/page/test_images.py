@@ -222,7 +222,7 @@ def test_a_pane_says_what_its_display_misses_and_goes_with_it(tab: Any) -> None:
     missing = Status(Level.WARN, "No publisher on /camera. Start it.")
     rows = [
         *tab.loop.state.rows,
-        replace(row("Gone"), statuses={"Topic": missing}),
+        msgspec.structs.replace(row("Gone"), statuses={"Topic": missing}),
     ]
     tab.loop.show(*rows)
     tab.wait_for(lambda: "No publisher on /camera" in tab.text())

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Callable
-from dataclasses import replace
 
-import msgspec
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 from tests.page.conftest import HEIGHT, WIDTH, Loop, Tab
 from webviz.api.bridge import Bridge
@@ -114,7 +114,7 @@ def test_legends_say_what_colors_stand_for_and_of_which_topic(
 
 
 def test_the_place_under_the_mouse_is_told(tab: Tab, loop: Loop) -> None:
-    settings = msgspec.structs.replace(loop.state.settings, fixed_frame="odom")
+    settings = replace(loop.state.settings, fixed_frame="odom")
     loop.show(settings=settings)
     tab.button("Look from Z").dispatch_event("click")
     tab.wait_for(lambda: tab.page.evaluate(AXES)[2][2] > 0.999)
@@ -199,13 +199,15 @@ def test_the_page_names_its_bridge_and_says_when_it_is_not_live(tab: Tab, loop: 
     tab.wait_for(card.is_visible)
     assert card.text_content() == "ws://robot:8765"
     thinned = "The link carries 1.5 Mbit/s, so webviz thins /points to 0.13 Hz."
-    loop.state = replace(loop.state, bridges=(replace(up, remarks=(thinned,)),))
+    loop.state = replace(loop.state, bridges=(dataclasses.replace(up, remarks=(thinned,)),))
     tab.wait_for(lambda: card.text_content() == f"ws://robot:8765 · {thinned}")
     problem = "Nothing listens on <b>robot</b>:8765."
-    loop.state = replace(loop.state, bridges=(replace(up, is_up=False, problem=problem),))
+    loop.state = replace(
+        loop.state, bridges=(dataclasses.replace(up, is_up=False, problem=problem),)
+    )
     tab.wait_for(lambda: card.text_content() == "ws://robot:8765 · not live")
     assert card.get_attribute("data-tip") == problem
-    fleet = [replace(up, robot=f"r{n}") for n in range(1, 11)]
-    fleet[3] = replace(fleet[3], is_up=False, problem=problem)
+    fleet = [dataclasses.replace(up, robot=f"r{n}") for n in range(1, 11)]
+    fleet[3] = dataclasses.replace(fleet[3], is_up=False, problem=problem)
     loop.state = replace(loop.state, bridges=tuple(fleet))
     tab.wait_for(lambda: card.all_text_contents() == ["9 robots connected", "r4 · not live"])

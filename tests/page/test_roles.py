@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
 import playwright.sync_api as playwright
 import pytest
+from msgspec.structs import replace
 from pages import COARSE
 from playwright.sync_api import expect
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import playwright.sync_api as playwright
 import pytest
+from msgspec.structs import replace
 
 from tests.page.conftest import Tab
 from webviz.api.views import FPS, Orbit

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 import pytest
+from msgspec.structs import replace
 
 from tests.page.conftest import Loop, Tab
 from webviz.data.transforms import Diagnosis, FrameReport

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any
 
 import playwright.sync_api as playwright
 import pytest
+from msgspec.structs import replace
 
 from tests.page.conftest import Loop, Tab
 from tests.page.trees import Tree, group, height_of
@@ -86,7 +87,10 @@ def test_one_cause_stands_on_top_with_a_button_that_solves_it(
     cause = Status(Level.ERROR, text, OtherFixedFrame("odom"), reason=reason)
     names = ("Map", "Scan", "Robot")
     loop.show(
-        *(make_row(name, statuses={"Transform": replace(cause, remedy=None)}) for name in names),
+        *(
+            make_row(name, statuses={"Transform": dataclasses.replace(cause, remedy=None)})
+            for name in names
+        ),
         statuses={"Fixed Frame": cause},
     )
     tree.tab.wait_for(lambda: tree.tab.text().count(cause.text) == 1)
@@ -491,7 +495,11 @@ def test_after_a_lost_connection_names_say_what_was_selected_and_folded(
     }""")
     cut_off(tree.tab, server)
     tree.tab.wait_for(lambda: page.evaluate("window.isKeptOut"))
-    rows = (make_row("b", name="new"), group("g"), replace(make_row("x", name="a"), depth=1))
+    rows = (
+        make_row("b", name="new"),
+        group("g"),
+        replace(make_row("x", name="a"), depth=1),
+    )
     loop.show(*rows, make_row("a", name="b"))
     page.evaluate("() => { window.WebSocket = window.KeptWebSocket; }")
     # The settings come first: the page must not take the displays of before for those of now.

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Callable
-from dataclasses import replace
 
 import msgspec
 import pytest
+from msgspec.structs import replace
 from shown_stores import shown_by
 
 from webviz.api.declared import Topic
@@ -57,7 +58,7 @@ def test_a_cause_that_the_viewer_names_is_said_once_and_its_remedy_offered_every
 ) -> None:
     reason = Explanation(Kind.UNKNOWN_FIXED_FRAME, "Fixed frame does not exist.")
     cause = Status(Level.ERROR, reason.sentence, OtherFixedFrame("odom"), reason)
-    given_up = replace(reason, sentence=f"{reason.sentence} 3 messages were given up.")
+    given_up = dataclasses.replace(reason, sentence=f"{reason.sentence} 3 messages were given up.")
     own = Status(Level.ERROR, given_up.sentence, reason=given_up)
     few = Status(Level.ERROR, "0 of 3 links.")  # first, and because of the cause
     rows = (

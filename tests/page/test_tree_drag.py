@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any
 
 import playwright.sync_api as playwright
 import pytest
+from msgspec.structs import replace
 
 from tests.page.conftest import Loop, Tab
 from tests.page.trees import Tree, group

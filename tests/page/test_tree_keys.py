@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import playwright.sync_api as playwright
 import pytest
+from msgspec.structs import replace
 
 from tests.page.conftest import Loop, Tab
 from tests.page.trees import Tree, group

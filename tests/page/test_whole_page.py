@@ -9,7 +9,6 @@ import io
 import math
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -18,6 +17,7 @@ import building
 import numpy as np
 import PIL.Image
 import pytest
+from msgspec.structs import replace
 
 from tests.page.conftest import Loop, Tab
 from tests.page.trees import group

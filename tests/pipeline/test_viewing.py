@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from typing import Any
 
 import pytest
 from bench import Bench
+from msgspec.structs import replace
 
 from webviz.api.status import Level
 from webviz.api.views import (

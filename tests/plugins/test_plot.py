@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 import tracemalloc
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 from webviz.api.errors import Error
 from webviz.data.messages import Header, JointState, String, Time

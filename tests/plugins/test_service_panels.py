@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from collections.abc import Callable
 from typing import Any
 
+import msgspec
 import pytest
 
 from webviz.api.errors import Error
@@ -252,7 +252,7 @@ def test_the_solution_to_play_is_chosen_among_those_of_the_stages() -> None:
     row = Row("d1", "MotionPlanningTasks", display, "Tasks", {})
     assert "No task received" in shown(row)
     offered = {"solution": {"7: pick": 7}, "stages": {"1 pick": 1}, "failed": {"1 pick": 4}}
-    text = shown(dataclasses.replace(row, offered=offered))
+    text = shown(msgspec.structs.replace(row, offered=offered))
     assert all(each in text for each in ("7: pick", "1 pick", "4", "Newest"))
     choice = next(w for w in ui.widgets.values() if w.values.get("label") == "Solution")
     choice.use("7: pick", 3)

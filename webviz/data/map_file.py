@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
@@ -19,8 +19,7 @@ class MapFileError(ValueError):
     """A map cannot be read; the text is one sentence that says why."""
 
 
-@dataclass(frozen=True)
-class MapFile:
+class MapFile(msgspec.Struct, frozen=True):
     """The content of a map's files."""
 
     cells: NDArray[np.int8]

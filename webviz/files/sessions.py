@@ -9,7 +9,6 @@ import logging
 import os
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -54,8 +53,7 @@ class Base(msgspec.Struct, frozen=True):
         return Base(digest, values.get("fixed_frame", ""))
 
 
-@dataclass(frozen=True)
-class Session:
+class Session(msgspec.Struct, frozen=True):
     """The content of a session file.
 
     Args:
@@ -128,8 +126,7 @@ class Claim:
         os.close(self._lock)
 
 
-@dataclass(frozen=True)
-class Sessions:
+class Sessions(msgspec.Struct, frozen=True):
     """The session files of a user's viewers.
 
     Args:

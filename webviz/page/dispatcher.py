@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import dataclasses
 import functools
 import time
 from collections import deque
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
-from typing import Any, get_type_hints
+from typing import Any
 
 import msgspec
 
@@ -138,8 +137,7 @@ def command_of(name: str, arguments: dict[str, Any], **own: Any) -> object:
     except (msgspec.ValidationError, RecursionError) as error:
         raise ValueError(f"Not done: {error}.") from error
     _refuse_endless({key: value for key, value in arguments.items() if key not in LARGE})
-    names = {field.name for field in dataclasses.fields(class_)}
-    return class_(**values, **{key: value for key, value in own.items() if key in names})
+    return class_(**values, **{key: own[key] for key in own if key in class_.__struct_fields__})
 
 
 def _refuse_endless(arguments: dict[str, Any]) -> None:
@@ -178,17 +176,10 @@ def _forms() -> dict[str, tuple[type[Any], Any]]:
 
 
 def _form(class_: type[Any]) -> Any:
-    hints = get_type_hints(class_, include_extras=True)
     fields: list[Any] = []
-    for field in dataclasses.fields(class_):
-        if field.name in NOT_OF_PAGES:
+    for each in msgspec.structs.fields(class_):
+        if each.name in NOT_OF_PAGES:
             continue
-        kind = hints[field.name]
-        if field.default is not dataclasses.MISSING:
-            fields.append((field.name, kind, field.default))
-        elif field.default_factory is not dataclasses.MISSING:
-            factory = msgspec.field(default_factory=field.default_factory)
-            fields.append((field.name, kind, factory))
-        else:
-            fields.append((field.name, kind))
+        own = {"default": each.default, "default_factory": each.default_factory}
+        fields.append((each.name, each.type, msgspec.field(**own)))
     return msgspec.defstruct(class_.__name__, fields, forbid_unknown_fields=True, kw_only=True)

@@ -5,7 +5,8 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from concurrent.futures import Future
-from dataclasses import dataclass
+
+import msgspec
 
 from webviz.engine.commands import Command, DragHandle, Sender
 from webviz.page.asked import Asked
@@ -14,8 +15,7 @@ FORGOTTEN_S = 10.0
 """After which the drag of a silent browser is forgotten."""
 
 
-@dataclass
-class _Hand:
+class _Hand(msgspec.Struct):
     """Drag of one browser.
 
     Args:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Annotated, Any
+
+import msgspec
 
 from webviz.api.declared import Prop
 from webviz.api.panel import Panel, Send, Ui
@@ -25,8 +26,7 @@ MAX_NAME, MAX_MESSAGE, MAX_KEY, MAX_VALUE = 200, 300, 60, 120
 NS_PER_S = 1e9
 
 
-@dataclass
-class _Known:
+class _Known(msgspec.Struct):
     """A status.
 
     Args:

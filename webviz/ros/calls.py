@@ -5,9 +5,9 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from concurrent.futures import Future
-from dataclasses import dataclass
 from typing import Any
 
+import msgspec
 from rclpy.client import Client
 from rclpy.node import Node
 
@@ -22,8 +22,7 @@ WAIT_S = 2.0
 when the node has ended."""
 
 
-@dataclass(eq=False)
-class _Call:
+class _Call(msgspec.Struct, eq=False):
     """A pending service call.
 
     Args:

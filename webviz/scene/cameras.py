@@ -5,9 +5,9 @@ from __future__ import annotations
 import itertools
 import threading
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TypeVar
 
+import msgspec
 import numpy as np
 import viser
 
@@ -33,8 +33,7 @@ ASSUMED_PX = 800.0
 """Height of a picture before the page reports it; the page corrects the distance."""
 
 
-@dataclass
-class _Browser:
+class _Browser(msgspec.Struct):
     """The camera of a browser.
 
     Args:

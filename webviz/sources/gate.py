@@ -7,7 +7,8 @@ import functools
 import re
 from collections.abc import Callable, Collection, Mapping
 from concurrent.futures import Future
-from dataclasses import dataclass
+
+import msgspec
 
 from webviz.sources.graph import Advertisement, Goal, Graph, ReadOnly
 from webviz.sources.source import Source
@@ -21,8 +22,7 @@ AllowList = tuple[str, ...]
 """Names of topics, services and actions, in which `*` stands for any characters."""
 
 
-@dataclass(frozen=True)
-class Rights:
+class Rights(msgspec.Struct, frozen=True):
     """Rights to publish, call and send, as decided where the viewer was started.
 
     Args:

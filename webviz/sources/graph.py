@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
 from concurrent.futures import Future
-from dataclasses import dataclass
 from typing import Protocol
+
+import msgspec
 
 from webviz.api.errors import Error
 from webviz.api.offer import Durability, Reliability
@@ -31,8 +32,7 @@ class Missing(NotConnected):
         self.cause = cause
 
 
-@dataclass(frozen=True)
-class Advertisement:
+class Advertisement(msgspec.Struct, frozen=True):
     """A topic to publish, with its type and the offered QoS.
 
     Args:
@@ -48,8 +48,7 @@ class Advertisement:
     depth: int = 5
 
 
-@dataclass(frozen=True)
-class Goal:
+class Goal(msgspec.Struct, frozen=True):
     """A goal that was sent to an action.
 
     Args:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
+
+import msgspec
 
 from webviz.api.status import Level
 
 
-@dataclass(frozen=True, kw_only=True)
-class PlaybackState:
+class PlaybackState(msgspec.Struct, frozen=True, kw_only=True):
     """The recording that is played; see `webviz.engine.playback`.
 
     Args:
@@ -45,8 +45,7 @@ class PlaybackState:
     counted: tuple[float, float] | None = None
 
 
-@dataclass(frozen=True)
-class Event:
+class Event(msgspec.Struct, frozen=True):
     """A warning or an error at a moment of a recording.
 
     Args:
@@ -62,8 +61,7 @@ class Event:
     text: str
 
 
-@dataclass(frozen=True)
-class MemoryState:
+class MemoryState(msgspec.Struct, frozen=True):
     """The memory of live topics.
 
     Args:
@@ -79,8 +77,7 @@ class MemoryState:
     pinned: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True)
-class SavedMoment:
+class SavedMoment(msgspec.Struct, frozen=True):
     """A recording that a rule made.
 
     Args:
@@ -92,8 +89,7 @@ class SavedMoment:
     size: int
 
 
-@dataclass(frozen=True)
-class BlackBoxState:
+class BlackBoxState(msgspec.Struct, frozen=True):
     """Recordings that rules made.
 
     Args:
@@ -105,8 +101,7 @@ class BlackBoxState:
     saving: str = ""
 
 
-@dataclass(frozen=True)
-class SharingState:
+class SharingState(msgspec.Struct, frozen=True):
     """Files that share the shown moment.
 
     Args:
@@ -121,8 +116,7 @@ class SharingState:
     text: str = ""
 
 
-@dataclass(frozen=True, kw_only=True)
-class RecordingState:
+class RecordingState(msgspec.Struct, frozen=True, kw_only=True):
     """A recording of live topics that goes on.
 
     Args:

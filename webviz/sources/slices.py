@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Protocol
+
+import msgspec
 
 from webviz.api.declared import Topic
 from webviz.api.errors import Error
@@ -104,8 +106,7 @@ class MemorySlice:
         return self._at_ns
 
 
-@dataclass(frozen=True)
-class BagSlice:
+class BagSlice(msgspec.Struct, frozen=True):
     """A span of bags: the subscribed topics, and what displays need of the time before.
 
     Args:
@@ -180,11 +181,10 @@ class BagSlice:
     ) -> SliceMessage:
         channel = channels[recorded.topic, recorded.type].written
         name = self.renamed.get(recorded.topic, recorded.topic)
-        return replace(channel, topic=name), stamp_ns, recorded.cdr
+        return msgspec.structs.replace(channel, topic=name), stamp_ns, recorded.cdr
 
 
-@dataclass(frozen=True)
-class WrittenSlice:
+class WrittenSlice(msgspec.Struct, frozen=True):
     """A slice that was written.
 
     Args:

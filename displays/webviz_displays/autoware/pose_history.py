@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from typing import Annotated
 
 import msgspec
@@ -45,11 +44,12 @@ class LineView(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     )
 
 
-@dataclass
-class _State:
+class _State(msgspec.Struct):
     """The poses so far."""
 
-    trail: GrowingTrail = field(default_factory=lambda: GrowingTrail(lambda message: message.pose))
+    trail: GrowingTrail = msgspec.field(
+        default_factory=lambda: GrowingTrail(lambda message: message.pose)
+    )
 
 
 class PoseHistory(Display, Selective):

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -24,8 +24,7 @@ KNOWN = 2
 """`orientation_availability` of an object whose front is known."""
 
 
-@dataclass(frozen=True, eq=False)
-class SeenObject:
+class SeenObject(msgspec.Struct, frozen=True, eq=False):
     """An object that can be drawn.
 
     Args:

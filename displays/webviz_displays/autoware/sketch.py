@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,8 +19,7 @@ THIN = 0.05
 """Height of ellipses, metres."""
 
 
-@dataclass
-class ObjectSketch:
+class ObjectSketch(msgspec.Struct):
     """Items of all objects, each with a colour and the number of its object.
 
     Args:
@@ -31,10 +29,10 @@ class ObjectSketch:
         ellipses: position, deviations and angle, and opacity.
     """
 
-    lines: dict[str, list[tuple[F64, Rgb, int]]] = field(default_factory=dict)
-    texts: list[tuple[F64, str, Rgb, int]] = field(default_factory=list)
-    solids: list[tuple[SeenObject, Rgb]] = field(default_factory=list)
-    ellipses: list[tuple[F64, tuple[float, float, float], float, Rgb, int]] = field(
+    lines: dict[str, list[tuple[F64, Rgb, int]]] = msgspec.field(default_factory=dict)
+    texts: list[tuple[F64, str, Rgb, int]] = msgspec.field(default_factory=list)
+    solids: list[tuple[SeenObject, Rgb]] = msgspec.field(default_factory=list)
+    ellipses: list[tuple[F64, tuple[float, float, float], float, Rgb, int]] = msgspec.field(
         default_factory=list
     )
 

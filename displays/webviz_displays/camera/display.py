@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from typing import Annotated, Any, Literal
 
 import msgspec
@@ -21,7 +20,6 @@ BESIDE = Remedy("camera_info_topic.name", "", "Use camera_info beside the images
 _RECTIFIED = re.compile(r"(?:^|[/_])rect[^/]*(?:/[^/]*)?$")
 
 
-@dataclass
 class _State(AnnotatedState):
     """Kept between images.
 
@@ -33,10 +31,10 @@ class _State(AnnotatedState):
         annotations: the newest.
     """
 
-    infos: Infos = field(default_factory=Infos)
-    poses: dict[int, Pose] = field(default_factory=dict)
+    infos: Infos = msgspec.field(default_factory=Infos)
+    poses: dict[int, Pose] = msgspec.field(default_factory=dict)
     warp: tuple[tuple[Lens, CameraModel], Warp | None] | None = None
-    annotations: Annotations = field(default_factory=Annotations)
+    annotations: Annotations = msgspec.field(default_factory=Annotations)
 
 
 class Camera(AnnotatedImage):

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from typing import Annotated
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -39,15 +39,14 @@ Cells = tuple[NDArray[np.uint8], tuple[int, int]]
 """RGBA (H, W, 4), and the full size of the image."""
 
 
-@dataclass
-class _State:
+class _State(msgspec.Struct):
     """Kept between messages.
 
     Args:
         cells: of the images.
     """
 
-    cells: Newest[Cells] = field(default_factory=Newest[Cells])
+    cells: Newest[Cells] = msgspec.field(default_factory=Newest[Cells])
 
 
 class CameraInfo(Display):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import partial
 from typing import Annotated, Literal
 
@@ -36,8 +35,7 @@ from webviz_displays.shared.points_display import BY_INTENSITY, PointsDisplay
 U8 = NDArray[np.uint8]
 
 
-@dataclass(frozen=True)
-class _Drawn:
+class _Drawn(msgspec.Struct, frozen=True):
     """The points of an image as they were drawn.
 
     Args:
@@ -55,8 +53,7 @@ class _Drawn:
     scale: ColorScale | None
 
 
-@dataclass
-class _State:
+class _State(msgspec.Struct):
     """Kept between messages.
 
     Args:
@@ -67,11 +64,13 @@ class _State:
         drawn: the clouds as they were drawn, until something that they depend on changes.
     """
 
-    newest: Newest[tuple[int, DepthPoints]] = field(default_factory=Newest[tuple[int, DepthPoints]])
-    hidden: Hidden = field(default_factory=Hidden)
-    clouds: dict[int, DepthPoints] = field(default_factory=dict)
-    poses: dict[int, Pose] = field(default_factory=dict)
-    drawn: dict[int, _Drawn] = field(default_factory=dict)
+    newest: Newest[tuple[int, DepthPoints]] = msgspec.field(
+        default_factory=Newest[tuple[int, DepthPoints]]
+    )
+    hidden: Hidden = msgspec.field(default_factory=Hidden)
+    clouds: dict[int, DepthPoints] = msgspec.field(default_factory=dict)
+    poses: dict[int, Pose] = msgspec.field(default_factory=dict)
+    drawn: dict[int, _Drawn] = msgspec.field(default_factory=dict)
 
 
 class DepthCloud(PointsDisplay):

@@ -8,10 +8,10 @@ GridMapMath.cpp; grid_map_ros, GridMapMsgHelpers.hpp.)
 from __future__ import annotations
 
 import difflib
-from dataclasses import dataclass
 from math import isfinite
 from typing import Any
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -42,8 +42,7 @@ class GridMapFault(ValueError):
         self.remedy = remedy
 
 
-@dataclass(frozen=True, eq=False)
-class Layers:
+class Layers(msgspec.Struct, frozen=True, eq=False):
     """A grid map whose layers are read when they are needed.
 
     Args:

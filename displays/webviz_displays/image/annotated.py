@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Annotated, Any
+
+import msgspec
 
 from webviz import Context, Input, Pane, Prop, Sample, Topic
 from webviz.api.pictures import Mark, Picture
@@ -18,8 +19,7 @@ TOLERANCE_S = 1.0
 """By how much the stamps of an image and of its annotations may differ."""
 
 
-@dataclass(frozen=True)
-class Annotations:
+class Annotations(msgspec.Struct, frozen=True):
     """The newest messages with annotations: stamp, message and type of each, the newest last."""
 
     newest: tuple[tuple[int, Any, str], ...] = ()
@@ -46,7 +46,6 @@ class Annotations:
         return message, type_name, (stamp - stamp_ns) / 1e9 if stamp and stamp_ns else 0.0
 
 
-@dataclass
 class AnnotatedState(ImageState):
     """Kept between images.
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import Annotated, Literal
+
+import msgspec
 
 from webviz import Context, Display, Input, Pane, Prop, Remedy, Sample, Topic
 from webviz.api.pictures import Encoded, Pixels
@@ -15,8 +16,7 @@ from webviz_displays.image.range import RunningRange
 MAX_WINDOW = 100
 
 
-@dataclass
-class ImageState:
+class ImageState(msgspec.Struct):
     """Kept between images.
 
     Args:
@@ -25,8 +25,10 @@ class ImageState:
     """
 
     number: int = 0
-    decompressed: Newest[tuple[int, RawImage]] = field(default_factory=Newest[tuple[int, RawImage]])
-    range: RunningRange = field(default_factory=RunningRange)
+    decompressed: Newest[tuple[int, RawImage]] = msgspec.field(
+        default_factory=Newest[tuple[int, RawImage]]
+    )
+    range: RunningRange = msgspec.field(default_factory=RunningRange)
     pane: Pane | None = None
 
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import Annotated, Any
+
+import msgspec
 
 from webviz import Context, Input, Lookback, Pane, Prop, Sample, Topic
 from webviz.api.pictures import Picture, Video
@@ -18,12 +20,11 @@ from webviz_displays.image.annotated import (
 )
 
 
-@dataclass(frozen=True)
-class _ImageHeld:
+class _ImageHeld(msgspec.Struct, frozen=True):
     """The newest image, whose message may be a clip, and the newest annotations."""
 
     image: Sample | None = None
-    annotations: Annotations = field(default_factory=Annotations)
+    annotations: Annotations = msgspec.field(default_factory=Annotations)
 
     @property
     def newest(self) -> Sample | None:
@@ -62,12 +63,12 @@ class Image(AnnotatedImage):
         """Return the newest image or all packets of a video since its last key frame, annotated."""
         held: _ImageHeld = state or _ImageHeld()
         if name == INPUT:
-            return replace(held, annotations=held.annotations.taken(sample))
+            return msgspec.structs.replace(held, annotations=held.annotations.taken(sample))
         if sample.type in video.TYPES:
             before = held.image.message if held.image else None
             clip = video.extended(before if isinstance(before, video.Clip) else None, sample)
             sample = replace(sample, message=clip)
-        return replace(held, image=sample)
+        return msgspec.structs.replace(held, image=sample)
 
     def draw(self, sample: Sample, ctx: Context) -> None:
         """Show the newest image, and what is annotated there."""

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,8 +16,7 @@ from webviz.data.memory import DECODING, OverBudgetError
 RAW, COMPRESSED = "sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"
 
 
-@dataclass(frozen=True)
-class Decompression:
+class Decompression(msgspec.Struct, frozen=True):
     """An image that has to be decompressed."""
 
     start: Callable[[], RawImage]

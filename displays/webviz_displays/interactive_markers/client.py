@@ -10,8 +10,9 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable
 from concurrent.futures import CancelledError, Future
-from dataclasses import dataclass, field
 from typing import Literal
+
+import msgspec
 
 from webviz import Error, Level, Status
 from webviz.api.connection import GraphConnection, ReceivedMessages
@@ -40,8 +41,7 @@ MAX_WAITING_BYTES = 64_000_000
 State = Literal["searching", "asking", "reading", "running"]
 
 
-@dataclass
-class Client:
+class Client(msgspec.Struct):
     """Follows one server.
 
     Args:
@@ -56,12 +56,12 @@ class Client:
     """Why it had to ask again, or could not, a sentence."""
     gaps: int = 0
     """Number of gaps in the sequence of updates."""
-    _received: ReceivedMessages = field(default_factory=ReceivedMessages)
+    _received: ReceivedMessages = msgspec.field(default_factory=ReceivedMessages)
     _answer: Future[bytes] | None = None
     _reading: Future[ServerMessage] | None = None
     """The answer or the first update; those after it wait, as their order matters."""
     _next_s: float = 0.0
-    _waiting: deque[bytes] = field(default_factory=deque)
+    _waiting: deque[bytes] = msgspec.field(default_factory=deque)
     """Updates that are not read yet."""
     _early: int = 0
     """Number of waiting updates that came before the answer, which may include them."""

@@ -6,9 +6,10 @@ Rules and sizes are those of interactive_markers' tools.cpp, which clients of RO
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, get_args
 
+import msgspec
 import numpy as np
 
 from webviz import Pose
@@ -44,8 +45,7 @@ FAR = "Its pose or scale is not finite, or too large. Correct the server."
 Wxyz = tuple[float, float, float, float]
 
 
-@dataclass(frozen=True, eq=False)
-class CompleteControl:
+class CompleteControl(msgspec.Struct, frozen=True, eq=False):
     """A control with all that it needs.
 
     Args:
@@ -59,8 +59,7 @@ class CompleteControl:
     shapes: MarkerSequence
 
 
-@dataclass(frozen=True, eq=False)
-class Completed:
+class Completed(msgspec.Struct, frozen=True, eq=False):
     """An interactive marker with all that it needs.
 
     Args:
@@ -87,8 +86,7 @@ class Completed:
     problems: tuple[str, ...]
 
 
-@dataclass(frozen=True)
-class RefusedMarker:
+class RefusedMarker(msgspec.Struct, frozen=True):
     """An interactive marker that cannot be shown.
 
     Args:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import secrets
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Annotated
+
+import msgspec
 
 from webviz import (
     Context,
@@ -41,8 +42,7 @@ from webviz_displays.interactive_markers.statuses import report
 NO_NAMESPACE = "No namespace. Choose that of an interactive marker server."
 
 
-@dataclass
-class _State:
+class _State(msgspec.Struct):
     """State kept between calls.
 
     Args:
@@ -55,7 +55,7 @@ class _State:
     server: InteractiveMarkerServer | None = None
     problem: str = NO_NAMESPACE
     refusal: str = ""
-    token: str = field(default_factory=lambda: secrets.token_hex(4))
+    token: str = msgspec.field(default_factory=lambda: secrets.token_hex(4))
     reported: tuple[object, Mapping[str, Status]] = (None, {})
     """The last statuses, and when they were made of what."""
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Set
-from dataclasses import dataclass, replace
 
 import msgspec
 import numpy as np
+from msgspec.structs import replace
 
 from webviz import Axes, Context, Frames, Group, Instances, Labels, Level, Node, Pose, compose
 from webviz.data.messages.markers import Content, Marker, MarkerSequence
@@ -34,8 +34,7 @@ TITLE = "title"
 """Ends the key of the group with the title."""
 
 
-@dataclass(frozen=True)
-class MarkerLook:
+class MarkerLook(msgspec.Struct, frozen=True):
     """Properties of everything drawn besides controls.
 
     Args:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence, Set
-from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
+
+import msgspec
+from msgspec.structs import replace
 
 from webviz.data.messages import decode
 from webviz_displays.interactive_markers.completion import (
@@ -22,8 +24,7 @@ MAX_MARKERS = 10_000
 """Markers of a server, and new poses of a message."""
 
 
-@dataclass(frozen=True)
-class News:
+class News(msgspec.Struct, frozen=True):
     """Changes of the markers of a server.
 
     Args:
@@ -34,8 +35,8 @@ class News:
         is_all: whether these are all markers.
     """
 
-    markers: Mapping[str, Completed | RefusedMarker] = field(default_factory=dict)
-    poses: Mapping[str, Place | None] = field(default_factory=dict)
+    markers: Mapping[str, Completed | RefusedMarker] = msgspec.field(default_factory=dict)
+    poses: Mapping[str, Place | None] = msgspec.field(default_factory=dict)
     erased: Set[str] = frozenset()
     ignored: int = 0
     is_all: bool = False

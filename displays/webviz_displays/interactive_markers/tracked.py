@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import msgspec
 
 from webviz import Frames, Pose, compose
 from webviz_displays.interactive_markers.completion import Completed
 
 
-@dataclass(frozen=True)
-class Place:
+class Place(msgspec.Struct, frozen=True):
     """A pose in a frame.
 
     Args:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import functools
 import math
-from dataclasses import dataclass
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -24,8 +24,7 @@ MAX_BEAMS = 100_000
 """Drawn of one scan, twenty times as many as any laser has; they take 25 ms of the frame loop."""
 
 
-@dataclass(frozen=True)
-class BeamPoints:
+class BeamPoints(msgspec.Struct, frozen=True):
     """The beams of a scan that hit something.
 
     Args:

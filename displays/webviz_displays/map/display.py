@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Annotated, Any, Literal
 
+import msgspec
 import numpy as np
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from webviz import (
@@ -43,8 +44,7 @@ BEHIND = 100_000
 """Layers that `draw_behind` lowers a map by: more than any config has displays."""
 
 
-@dataclass(frozen=True)
-class MapStyle:
+class MapStyle(msgspec.Struct, frozen=True):
     """Mapping from the cells of a tile to a picture.
 
     Args:
@@ -64,8 +64,7 @@ class MapStyle:
         return (self.resolution, self.layer) == (other.resolution, other.layer)
 
 
-@dataclass(frozen=True)
-class Folded:
+class Folded(msgspec.Struct, frozen=True):
     """A map with all its updates.
 
     Args:
@@ -89,8 +88,7 @@ Tile = tuple[NDArray[np.int8], Image]
 """The cells of a tile, and how they were drawn."""
 
 
-@dataclass
-class _State:
+class _State(msgspec.Struct):
     """State drawn last.
 
     Args:
@@ -101,7 +99,7 @@ class _State:
     """
 
     look: MapStyle | None = None
-    tiles: dict[Corner, Tile] = field(default_factory=dict)
+    tiles: dict[Corner, Tile] = msgspec.field(default_factory=dict)
     grid: TiledGrid | None = None
     at_stamp: tuple[tuple[str, str, int], Pose] | None = None
 

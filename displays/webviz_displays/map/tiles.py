@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
 from math import isfinite
 from typing import Any
 
+import msgspec
 import numpy as np
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from webviz import Pose, Remedy
@@ -43,8 +44,7 @@ class GridFault(ValueError):
         self.remedy = remedy
 
 
-@dataclass(frozen=True, eq=False)
-class TiledGrid:
+class TiledGrid(msgspec.Struct, frozen=True, eq=False):
     """A whole occupancy grid.
 
     Args:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -48,8 +48,7 @@ CloudHeight = Annotated[float, Prop(ge=-999, le=999, unit="m")]
 BY_DATA = Remedy("color_transformer", "Auto", "Choose by the data")
 
 
-@dataclass
-class _State:
+class _State(msgspec.Struct):
     """The last drawing.
 
     Args:

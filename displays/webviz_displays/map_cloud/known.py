@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -23,8 +23,7 @@ MAX_NODES = 10_000
 """Poses and nodes that are held."""
 
 
-@dataclass(frozen=True, eq=False)
-class KnownMap:
+class KnownMap(msgspec.Struct, frozen=True, eq=False):
     """All nodes that are known.
 
     Args:
@@ -40,12 +39,12 @@ class KnownMap:
         problem: why the newest graph cannot be read, "" if it can.
     """
 
-    ids: NDArray[np.int64] = field(default_factory=lambda: np.empty(0, np.int64))
-    positions: F64 = field(default_factory=lambda: np.empty((0, 3)))
-    wxyzs: F64 = field(default_factory=lambda: np.empty((0, 4)))
-    clouds: Mapping[int, NodeCloud] = field(default_factory=dict)
-    stamps: Mapping[int, float] = field(default_factory=dict)
-    faults: Mapping[int, str] = field(default_factory=dict)
+    ids: NDArray[np.int64] = msgspec.field(default_factory=lambda: np.empty(0, np.int64))
+    positions: F64 = msgspec.field(default_factory=lambda: np.empty((0, 3)))
+    wxyzs: F64 = msgspec.field(default_factory=lambda: np.empty((0, 4)))
+    clouds: Mapping[int, NodeCloud] = msgspec.field(default_factory=dict)
+    stamps: Mapping[int, float] = msgspec.field(default_factory=dict)
+    faults: Mapping[int, str] = msgspec.field(default_factory=dict)
     received: frozenset[int] = frozenset()
     points: int = 0
     dropped: int = 0

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 from typing import Any
 
+import msgspec
 import numpy as np
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from webviz import Pose
@@ -30,8 +31,7 @@ BY_CHANNELS = {2: 1, 3: 5}
 """The formats of scans that name none."""
 
 
-@dataclass(frozen=True)
-class CloudSettings:
+class CloudSettings(msgspec.Struct, frozen=True):
     """Choice of the points of a node.
 
     Args:
@@ -51,8 +51,7 @@ class CloudSettings:
     ceiling: float
 
 
-@dataclass(frozen=True, eq=False)
-class NodeCloud:
+class NodeCloud(msgspec.Struct, frozen=True, eq=False):
     """The points of a node.
 
     Args:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass, field
 from typing import Any
 
+import msgspec
 import numpy as np
 
 from webviz.data.messages.markers import Marker, MarkerArray, MarkerSequence
@@ -19,8 +19,7 @@ def name_of(key: Key) -> str:
     return f"{key[0]}/{key[1]}"
 
 
-@dataclass
-class Effect:
+class Effect(msgspec.Struct):
     """The net effect of a message: nothing is drawn before all its markers are processed.
 
     Args:
@@ -32,12 +31,12 @@ class Effect:
         unknown: actions that there are not.
     """
 
-    added: dict[str, dict[int, int]] = field(default_factory=dict)
-    deleted: set[Key] = field(default_factory=set)
-    deleted_namespaces: set[str] = field(default_factory=set)
+    added: dict[str, dict[int, int]] = msgspec.field(default_factory=dict)
+    deleted: set[Key] = msgspec.field(default_factory=set)
+    deleted_namespaces: set[str] = msgspec.field(default_factory=set)
     deletes_all: bool = False
-    duplicates: list[Key] = field(default_factory=list)
-    unknown: list[int] = field(default_factory=list)
+    duplicates: list[Key] = msgspec.field(default_factory=list)
+    unknown: list[int] = msgspec.field(default_factory=list)
 
     def doomed(self, known: Collection[Key]) -> list[Key]:
         """Return the known markers that are deleted for good."""

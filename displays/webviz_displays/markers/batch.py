@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
+import msgspec
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -20,8 +20,7 @@ OPAQUE = 0.9998
 """Alphas from this value on are drawn opaque, as in RViz."""
 
 
-@dataclass(frozen=True, eq=False)
-class MarkerBatch:
+class MarkerBatch(msgspec.Struct, frozen=True, eq=False):
     """Markers to draw, in the coordinates of one group.
 
     Args:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Set
-from dataclasses import dataclass, field
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -28,8 +28,7 @@ Place = tuple[str, tuple[float, float, float]]
 """The frame that a group follows, "" for the fixed frame, and its origin there."""
 
 
-@dataclass(frozen=True, eq=False)
-class Block:
+class Block(msgspec.Struct, frozen=True, eq=False):
     """The nodes of some rows.
 
     Args:
@@ -40,8 +39,8 @@ class Block:
         left_out: how many markers are in places beyond `MAX_PLACES`.
     """
 
-    nodes: Mapping[Place, Mapping[str, Node]] = field(default_factory=dict)
-    faults: Mapping[int, tuple[Level, str]] = field(default_factory=dict)
+    nodes: Mapping[Place, Mapping[str, Node]] = msgspec.field(default_factory=dict)
+    faults: Mapping[int, tuple[Level, str]] = msgspec.field(default_factory=dict)
     shown: int = 0
     requests: Set[LoadRequest] = frozenset()
     left_out: int = 0

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from typing import Annotated
 
 import msgspec
@@ -28,8 +27,7 @@ MAX_NAMES = 1000
 """Namespaces that get a switch in the page."""
 
 
-@dataclass
-class _State:
+class _State(msgspec.Struct):
     """State of what is drawn.
 
     Args:
@@ -40,9 +38,9 @@ class _State:
     """
 
     store: Store | None = None
-    blocks: Blocks = field(default_factory=Blocks)
-    assets: Assets = field(default_factory=Assets)
-    switches: dict[str, bool] = field(default_factory=dict)
+    blocks: Blocks = msgspec.field(default_factory=Blocks)
+    assets: Assets = msgspec.field(default_factory=Assets)
+    switches: dict[str, bool] = msgspec.field(default_factory=dict)
     readout: tuple[int, dict[str, Status]] = (-1, {})
 
 

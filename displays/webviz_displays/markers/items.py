@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+import msgspec
 import numpy as np
 
 from webviz.data.rotations import matrices
@@ -13,8 +12,7 @@ _MANY = 4
 """Markers above which they are moved together."""
 
 
-@dataclass(frozen=True, eq=False)
-class Items:
+class Items(msgspec.Struct, frozen=True, eq=False):
     """The points of several markers, one after another.
 
     Args:

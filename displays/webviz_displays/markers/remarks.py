@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
 from typing import TypeVar
+
+import msgspec
 
 from webviz_displays.markers.actions import Key
 
@@ -13,8 +14,7 @@ REMEMBERED = 500
 SECOND = 1_000_000_000
 
 
-@dataclass(frozen=True)
-class Gone:
+class Gone(msgspec.Struct, frozen=True):
     """A marker that was there.
 
     Args:
@@ -33,8 +33,7 @@ class Gone:
         return f"{seconds:.0f} s ago" if seconds >= 1.0 else "just now"
 
 
-@dataclass
-class Remarks:
+class Remarks(msgspec.Struct):
     """For statuses.
 
     Args:
@@ -46,11 +45,11 @@ class Remarks:
         overflow: how many markers were refused since there are too many.
     """
 
-    refused: dict[Key, str] = field(default_factory=dict)
-    gone: dict[int, Gone] = field(default_factory=dict)
-    tilted: set[Key] = field(default_factory=set)
-    duplicates: list[Key] = field(default_factory=list)
-    unknown_actions: list[int] = field(default_factory=list)
+    refused: dict[Key, str] = msgspec.field(default_factory=dict)
+    gone: dict[int, Gone] = msgspec.field(default_factory=dict)
+    tilted: set[Key] = msgspec.field(default_factory=set)
+    duplicates: list[Key] = msgspec.field(default_factory=list)
+    unknown_actions: list[int] = msgspec.field(default_factory=list)
     overflow: int = 0
 
     def refuse(self, key: Key, why: str) -> None:

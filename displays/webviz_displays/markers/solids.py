@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
 
+import msgspec
 import numpy as np
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from webviz import Instances, Node, Rgb, Shape, Solid
@@ -33,8 +34,7 @@ _X_TO_Y_TO_Z = np.full(4, 0.5)
 _HALF_ABOUT_X = np.array((0.0, 1.0, 0.0, 0.0))
 
 
-@dataclass(frozen=True, eq=False)
-class Solids:
+class Solids(msgspec.Struct, frozen=True, eq=False):
     """Solids of one shape.
 
     Args:

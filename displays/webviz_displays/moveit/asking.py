@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from concurrent.futures import CancelledError, Future
-from dataclasses import dataclass, field
+
+import msgspec
 
 from webviz import Context, Error
 from webviz.api.connection import GraphConnection
@@ -20,8 +21,7 @@ MAX_TRIES = 12
 """Then only messages are shown; many robots publish scenes without that service."""
 
 
-@dataclass
-class Asking:
+class Asking(msgspec.Struct):
     """The answer of move_group, once it came.
 
     Args:
@@ -36,7 +36,7 @@ class Asking:
     _answer: Future[bytes] | None = None
     _received: bytes | None = None
     _next_s: float = 0.0
-    _tries: int = field(default=0)
+    _tries: int = msgspec.field(default=0)
 
     def step(self, namespace: str, connection: GraphConnection, ctx: Context) -> None:
         """Ask, or take the answer."""

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
+import msgspec
 import numpy as np
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from webviz import Pose, Solid
@@ -52,8 +53,7 @@ class Primitives(NamedTuple):
     scales: F64
 
 
-@dataclass(frozen=True, eq=False)
-class Body:
+class Body(msgspec.Struct, frozen=True, eq=False):
     """A collision object.
 
     Args:
@@ -76,7 +76,7 @@ class Body:
     solids: Mapping[Solid, Primitives]
     vertices: F32
     faces: NDArray[np.uint32]
-    subframes: Mapping[str, Pose] = field(default_factory=dict)
+    subframes: Mapping[str, Pose] = msgspec.field(default_factory=dict)
     faults: tuple[str, ...] = ()
     size: int = 0
 

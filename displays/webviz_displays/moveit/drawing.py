@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import zlib
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import NamedTuple
 
+import msgspec
 import numpy as np
 
 from webviz import Context, Details, Hit, Mesh, Node, Pose, Rgb, Solid
@@ -122,8 +122,7 @@ def _solids(shown: Sequence[ShownObject]) -> list[Solids]:
     return found
 
 
-@dataclass
-class HeldObjects:
+class HeldObjects(msgspec.Struct):
     """Objects attached to a robot.
 
     Args:
@@ -132,9 +131,9 @@ class HeldObjects:
         holders: links by the id of the object.
     """
 
-    places: Places = field(default_factory=Places)
-    owners: Mapping[str, object] = field(default_factory=dict)
-    holders: dict[str, str] = field(default_factory=dict)
+    places: Places = msgspec.field(default_factory=Places)
+    owners: Mapping[str, object] = msgspec.field(default_factory=dict)
+    holders: dict[str, str] = msgspec.field(default_factory=dict)
 
     def draw(
         self, scene: KnownScene, links: Links, rgba: Rgba, frame: str, prefix: str, ctx: Context

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+
+import msgspec
 
 from webviz import Frames, Pose, compose
 from webviz_displays.moveit.bodies import Body
@@ -20,8 +21,7 @@ Links = Mapping[str, Pose]
 _HERE = Pose()
 
 
-@dataclass
-class Places:
+class Places(msgspec.Struct):
     """The places of objects, as far as they are known.
 
     Args:
@@ -29,8 +29,8 @@ class Places:
         held: of attached objects in the frame of their link, with the object.
     """
 
-    world: dict[str, tuple[Body, Pose]] = field(default_factory=dict)
-    held: dict[str, tuple[Body, Pose]] = field(default_factory=dict)
+    world: dict[str, tuple[Body, Pose]] = msgspec.field(default_factory=dict)
+    held: dict[str, tuple[Body, Pose]] = msgspec.field(default_factory=dict)
 
     def update(self, scene: KnownScene, frame: str, links: Links, frames: Frames) -> list[Body]:
         """Place what is new; the objects whose frame is unknown."""

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -21,8 +21,7 @@ F64 = NDArray[np.float64]
 NO_POSES: Mapping[str, Pose] = {}
 
 
-@dataclass(frozen=True)
-class JointValues:
+class JointValues(msgspec.Struct, frozen=True):
     """The state of a robot's joints.
 
     Args:
@@ -32,8 +31,8 @@ class JointValues:
         faults: why some of them are left out, sentences.
     """
 
-    positions: Mapping[str, float] = field(default_factory=dict)
-    poses: Mapping[str, Pose] = field(default_factory=dict)
+    positions: Mapping[str, float] = msgspec.field(default_factory=dict)
+    poses: Mapping[str, Pose] = msgspec.field(default_factory=dict)
     frame: str = ""
     faults: tuple[str, ...] = ()
 
@@ -97,8 +96,7 @@ def pose_of(position: Iterable[float], wxyz: Iterable[float]) -> Pose | None:
     return pose if is_valid else None
 
 
-@dataclass(frozen=True, eq=False)
-class Stance:
+class Stance(msgspec.Struct, frozen=True, eq=False):
     """Where the links of a robot are.
 
     Args:

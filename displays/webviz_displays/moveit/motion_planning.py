@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Annotated, Any
 
+import msgspec
 import numpy as np
+from msgspec.structs import replace
 
 from webviz import (
     Context,
@@ -49,8 +51,7 @@ Triple = tuple[float, float, float]
 _STATE = "moveit_msgs/msg/RobotState"
 
 
-@dataclass(frozen=True)
-class Plans:
+class Plans(msgspec.Struct, frozen=True):
     """Messages received about scene and plans.
 
     Args:
@@ -59,7 +60,7 @@ class Plans:
         ends: joints that programs gave for the start and the goal, by the name of the input.
     """
 
-    received: ReceivedPlanningScene = field(default_factory=ReceivedPlanningScene)
+    received: ReceivedPlanningScene = msgspec.field(default_factory=ReceivedPlanningScene)
     path: Any = None
     ends: tuple[tuple[str, JointValues], ...] = ()
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any, Literal
 
+import msgspec
 import numpy as np
 
 from webviz import Context, Details, Frames, Hit, Pose, Remedy, compose
@@ -28,8 +28,7 @@ Rendering = Literal["Occupied Voxels", "Free Voxels", "All Voxels", "Disabled"]
 Coloring = Literal["Z-Axis", "Cell Probability"]
 
 
-@dataclass(frozen=True, eq=False)
-class _Read:
+class _Read(msgspec.Struct, frozen=True, eq=False):
     """Result of a worker.
 
     Args:
@@ -43,8 +42,7 @@ class _Read:
     fault: str = ""
 
 
-@dataclass
-class Octomap:
+class Octomap(msgspec.Struct):
     """The octomap that is drawn.
 
     Args:

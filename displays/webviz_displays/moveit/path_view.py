@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import Any
+
+import msgspec
 
 from webviz import Context, Details, Hit, Remedy, Rgb
 from webviz.data.words import counted, joined, listed
@@ -24,8 +26,7 @@ NAMED = 5
 PREFIX = "path "
 
 
-@dataclass(frozen=True)
-class Playback:
+class Playback(msgspec.Struct, frozen=True):
     """Playback of a path, from the properties of a display.
 
     Args:
@@ -82,8 +83,7 @@ def playback_of(path: Any, attached: Rgb = ATTACHED, above: str = "") -> Playbac
     )
 
 
-@dataclass
-class PathView:
+class PathView(msgspec.Struct):
     """The path that a display shows.
 
     Args:
@@ -92,9 +92,9 @@ class PathView:
     """
 
     robots: Robots
-    player: Player = field(default_factory=Player)
-    held: HeldObjects = field(default_factory=HeldObjects)
-    _trail: PathTrail = field(default_factory=PathTrail)
+    player: Player = msgspec.field(default_factory=Player)
+    held: HeldObjects = msgspec.field(default_factory=HeldObjects)
+    _trail: PathTrail = msgspec.field(default_factory=PathTrail)
     _made: tuple[Any, Poser, JointPath] | None = None
 
     @property

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -21,8 +21,7 @@ MAX_POINTS = 100_000
 """Of a path; further ones are left out."""
 
 
-@dataclass(frozen=True, eq=False)
-class JointPath:
+class JointPath(msgspec.Struct, frozen=True, eq=False):
     """States of a robot over time.
 
     Args:

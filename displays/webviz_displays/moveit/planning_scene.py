@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Annotated
+
+import msgspec
+from msgspec.structs import replace
 
 from webviz import (
     Context,
@@ -34,8 +37,7 @@ from webviz_displays.moveit.scene import SINCE_WHOLE, KnownScene, updated
 from webviz_displays.moveit.world import DrawnWorld, look_of
 
 
-@dataclass(frozen=True)
-class ReceivedPlanningScene:
+class ReceivedPlanningScene(msgspec.Struct, frozen=True):
     """Messages received about a scene.
 
     Args:

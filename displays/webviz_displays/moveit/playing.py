@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import NamedTuple
 
+import msgspec
 import numpy as np
 
 from webviz_displays.moveit.paths import JointPath
@@ -52,8 +52,7 @@ def speed_of(text: str) -> Speed | None:
     return Speed(value, 0.0) if words[-1] == "x" else Speed(0.0, value)
 
 
-@dataclass
-class Player:
+class Player(msgspec.Struct):
     """Plays the newest path.
 
     Args:

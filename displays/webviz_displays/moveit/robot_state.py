@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from typing import Annotated, Any
 
 import msgspec
@@ -28,8 +27,7 @@ from webviz_displays.moveit.scene import KnownScene, updated_state
 from webviz_displays.moveit.world import report_names
 
 
-@dataclass(frozen=True)
-class ReceivedRobotState:
+class ReceivedRobotState(msgspec.Struct, frozen=True):
     """Messages received about a robot state.
 
     Args:
@@ -45,12 +43,11 @@ class ReceivedRobotState:
     is_hidden: bool = False
 
 
-@dataclass
-class RobotStateDrawing:
+class RobotStateDrawing(msgspec.Struct):
     """State of what is drawn."""
 
-    robots: Robots = field(default_factory=Robots)
-    held: HeldObjects = field(default_factory=HeldObjects)
+    robots: Robots = msgspec.field(default_factory=Robots)
+    held: HeldObjects = msgspec.field(default_factory=HeldObjects)
 
 
 class RobotState(Display):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 import msgspec
 
@@ -20,8 +20,7 @@ NAMED = 5
 """Links whose poses are reported."""
 
 
-@dataclass(frozen=True, eq=False)
-class PosedRobot:
+class PosedRobot(msgspec.Struct, frozen=True, eq=False):
     """A loaded robot.
 
     Args:
@@ -35,8 +34,7 @@ class PosedRobot:
     poser: Poser
 
 
-@dataclass(frozen=True)
-class RobotLook:
+class RobotLook(msgspec.Struct, frozen=True):
     """Appearance of a robot.
 
     Args:
@@ -51,10 +49,10 @@ class RobotLook:
     visual: bool = True
     collision: bool = False
     alpha: float = 1.0
-    links: Mapping[str, LinkSettings] = field(default_factory=dict)
+    links: Mapping[str, LinkSettings] = msgspec.field(default_factory=dict)
     all_links: bool = True
     color: Rgb | None = None
-    colors: Mapping[str, tuple[Rgb, float]] = field(default_factory=dict)
+    colors: Mapping[str, tuple[Rgb, float]] = msgspec.field(default_factory=dict)
 
     @property
     def choices(self) -> Choices:
@@ -72,8 +70,7 @@ class RobotLook:
         return self.colors[link][0] if link in self.colors else self.color
 
 
-@dataclass
-class Robots:
+class Robots(msgspec.Struct):
     """The robots of one display.
 
     Args:
@@ -86,12 +83,12 @@ class Robots:
         trails_frame: fixed frame.
     """
 
-    loading: Loadings = field(default_factory=dict)
+    loading: Loadings = msgspec.field(default_factory=dict)
     model: PosedRobot | None = None
-    paint: Paint = field(default_factory=Paint)
-    owners: dict[str, tuple[str, str]] = field(default_factory=dict)
-    placed: dict[str, tuple[str, Pose]] = field(default_factory=dict)
-    trails: Trails = field(default_factory=Trails)
+    paint: Paint = msgspec.field(default_factory=Paint)
+    owners: dict[str, tuple[str, str]] = msgspec.field(default_factory=dict)
+    placed: dict[str, tuple[str, Pose]] = msgspec.field(default_factory=dict)
+    trails: Trails = msgspec.field(default_factory=Trails)
     trails_frame: str = ""
 
     def progress(self) -> object:

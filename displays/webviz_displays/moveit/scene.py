@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
 from typing import Any
+
+import msgspec
+from msgspec.structs import replace
 
 from webviz import Lookback, Pose
 from webviz_displays.moveit.bodies import Body, body_of, named
@@ -24,16 +26,14 @@ LONGEST_KEY = 10_000
 Rgba = tuple[float, float, float, float]
 
 
-@dataclass(frozen=True, eq=False)
-class Attached:
+class Attached(msgspec.Struct, frozen=True, eq=False):
     """An object that a link holds; its pose is that in the frame of the link."""
 
     link: str
     body: Body
 
 
-@dataclass(frozen=True, eq=False)
-class KnownScene:
+class KnownScene(msgspec.Struct, frozen=True, eq=False):
     """Known state of a scene. Mappings that a message does not change stay the same objects.
 
     Args:
@@ -56,14 +56,14 @@ class KnownScene:
     robot: str = ""
     frame: str = ""
     is_whole: bool = False
-    joints: JointValues = field(default_factory=JointValues)
-    objects: Mapping[str, Body] = field(default_factory=dict)
+    joints: JointValues = msgspec.field(default_factory=JointValues)
+    objects: Mapping[str, Body] = msgspec.field(default_factory=dict)
     gone: frozenset[str] = frozenset()
-    attached: Mapping[str, Attached] = field(default_factory=dict)
+    attached: Mapping[str, Attached] = msgspec.field(default_factory=dict)
     loose: frozenset[str] = frozenset()
-    colors: Mapping[str, Rgba] = field(default_factory=dict)
+    colors: Mapping[str, Rgba] = msgspec.field(default_factory=dict)
     octomap: Any = None
-    transforms: Mapping[str, Pose] = field(default_factory=dict)
+    transforms: Mapping[str, Pose] = msgspec.field(default_factory=dict)
     faults: tuple[str, ...] = ()
 
     def over(self, base: KnownScene) -> KnownScene:

@@ -5,8 +5,9 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Sequence
 from concurrent.futures import CancelledError, Future
-from dataclasses import dataclass, field
 from typing import Any
+
+import msgspec
 
 from webviz import Context, Details, Error, Hit
 from webviz.api.connection import GraphConnection
@@ -26,8 +27,7 @@ MAX_PARTS = 1000
 """Trajectories of a solution; further ones are left out."""
 
 
-@dataclass(frozen=True, eq=False)
-class SolutionPath:
+class SolutionPath(msgspec.Struct, frozen=True, eq=False):
     """The trajectories of a solution, with the fields of a moveit_msgs/DisplayTrajectory."""
 
     model_id: str
@@ -35,8 +35,7 @@ class SolutionPath:
     trajectory: Sequence[Any]
 
 
-@dataclass(frozen=True, eq=False)
-class KnownSolution:
+class KnownSolution(msgspec.Struct, frozen=True, eq=False):
     """A solution that can be played.
 
     Args:
@@ -90,8 +89,7 @@ def known(message: Any) -> KnownSolution:
     return KnownSolution(message, path, starts, scenes)
 
 
-@dataclass
-class SolutionRequest:
+class SolutionRequest(msgspec.Struct):
     """Asks the program that plans for a solution.
 
     Args:
@@ -141,8 +139,7 @@ def _solution_of(answer: bytes) -> Any:
     return decode(f"{SERVICE}_Response", answer).solution
 
 
-@dataclass
-class ShownMarkers:
+class ShownMarkers(msgspec.Struct):
     """Markers of a solution.
 
     Args:
@@ -150,9 +147,9 @@ class ShownMarkers:
     """
 
     key: object = None
-    _store: Store = field(default_factory=Store)
-    _blocks: Blocks = field(default_factory=Blocks)
-    _assets: Assets = field(default_factory=Assets)
+    _store: Store = msgspec.field(default_factory=Store)
+    _blocks: Blocks = msgspec.field(default_factory=Blocks)
+    _assets: Assets = msgspec.field(default_factory=Assets)
 
     def version(self, ctx: Context) -> object:
         """Return what changes when something else is to be drawn."""

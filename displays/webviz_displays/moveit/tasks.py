@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
+
+import msgspec
+from msgspec.structs import replace
 
 MAX_TASKS = 20
 """Of programs that plan; the oldest are forgotten."""
@@ -33,8 +35,7 @@ class TaskStage(NamedTuple):
     time_s: float = 0.0
 
 
-@dataclass(frozen=True, eq=False)
-class KnownTasks:
+class KnownTasks(msgspec.Struct, frozen=True, eq=False):
     """Messages received about tasks.
 
     Args:
@@ -45,8 +46,8 @@ class KnownTasks:
     """
 
     description: str | None = None
-    plans: Mapping[str, Any] = field(default_factory=dict)
-    statistics: Mapping[str, Any] = field(default_factory=dict)
+    plans: Mapping[str, Any] = msgspec.field(default_factory=dict)
+    statistics: Mapping[str, Any] = msgspec.field(default_factory=dict)
     solution: Any = None
 
     def with_message(self, name: str, message: Any) -> KnownTasks:

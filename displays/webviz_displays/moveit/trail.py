@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
+import msgspec
 import numpy as np
 
 from webviz import Context, Details, Glb, Hit, Instances, Mesh, Models, Node, Pose, Shape
@@ -21,19 +20,18 @@ MAX_STATES = 100
 KEY = "trail "
 
 
-@dataclass
-class PathTrail:
+class PathTrail(msgspec.Struct):
     """Where the robot was on its path.
 
     Args:
         owners: link of each node by its key.
     """
 
-    owners: dict[str, str] = field(default_factory=dict)
+    owners: dict[str, str] = msgspec.field(default_factory=dict)
     _of: tuple[JointPath, int] | None = None
-    _rows: list[int] = field(default_factory=list)
-    _poses: dict[str, tuple[F64, F64]] = field(default_factory=dict)
-    _made: dict[int, tuple[Node, Shape | tuple[bytes, ...]]] = field(default_factory=dict)
+    _rows: list[int] = msgspec.field(default_factory=list)
+    _poses: dict[str, tuple[F64, F64]] = msgspec.field(default_factory=dict)
+    _made: dict[int, tuple[Node, Shape | tuple[bytes, ...]]] = msgspec.field(default_factory=dict)
 
     def draw(
         self,

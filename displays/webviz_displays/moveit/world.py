@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+
+import msgspec
 
 from webviz import Context, Details, Hit, Pose
 from webviz.data.words import counted, joined, listed
@@ -31,8 +32,7 @@ NOTHING = DrawnObjects((), {})
 NO_LINKS: Mapping[str, Pose] = {}
 
 
-@dataclass(frozen=True, eq=False)
-class _Look:
+class _Look(msgspec.Struct, frozen=True, eq=False):
     """Inputs that the nodes of objects depend on.
 
     Args:
@@ -60,8 +60,7 @@ class _Look:
         )
 
 
-@dataclass
-class DrawnWorld:
+class DrawnWorld(msgspec.Struct):
     """Drawn part of a scene.
 
     Args:
@@ -74,10 +73,10 @@ class DrawnWorld:
     """
 
     robots: Robots
-    owners: Mapping[str, object] = field(default_factory=dict)
-    held: HeldObjects = field(default_factory=HeldObjects)
-    octomap: Octomap = field(default_factory=Octomap)
-    scene: KnownScene = field(default_factory=KnownScene)
+    owners: Mapping[str, object] = msgspec.field(default_factory=dict)
+    held: HeldObjects = msgspec.field(default_factory=HeldObjects)
+    octomap: Octomap = msgspec.field(default_factory=Octomap)
+    scene: KnownScene = msgspec.field(default_factory=KnownScene)
     frame: str = ""
     _look: _Look | None = None
     _made: tuple[_Look | None, DrawnObjects] = None, NOTHING

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from typing import Annotated, ClassVar
+
+import msgspec
 
 from webviz import Context, Display, Lookback, Node, Prop, Remedy, Sample
 from webviz.data.words import counted
@@ -16,11 +17,10 @@ EDGE = 4
 """Blocks along the edge of a node."""
 
 
-@dataclass
-class _State:
+class _State(msgspec.Struct):
     """State of what is drawn: blocks and their node, by region."""
 
-    drawn: dict[Key, tuple[Sequence[MapBlock], Node]] = field(default_factory=dict)
+    drawn: dict[Key, tuple[Sequence[MapBlock], Node]] = msgspec.field(default_factory=dict)
 
 
 class NvbloxDisplay(Display):

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
 from typing import Any
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -22,8 +22,7 @@ MAX_POINTS = 3_000_000
 """Corners or voxels that are held; 48 MB."""
 
 
-@dataclass(frozen=True, eq=False)
-class MapBlock:
+class MapBlock(msgspec.Struct, frozen=True, eq=False):
     """A part of the map.
 
     Args:
@@ -37,8 +36,7 @@ class MapBlock:
     faces: NDArray[np.uint32]
 
 
-@dataclass(frozen=True, eq=False)
-class Layer:
+class Layer(msgspec.Struct, frozen=True, eq=False):
     """All blocks that are known.
 
     Args:
@@ -52,9 +50,9 @@ class Layer:
 
     block_m: float = 0.0
     voxel_m: float = 0.0
-    blocks: Mapping[Key, MapBlock] = field(default_factory=dict)
+    blocks: Mapping[Key, MapBlock] = msgspec.field(default_factory=dict)
     points: int = 0
-    faults: Mapping[Key, str] = field(default_factory=dict)
+    faults: Mapping[Key, str] = msgspec.field(default_factory=dict)
     dropped: int = 0
 
     def merged(self, message: Any) -> Layer:

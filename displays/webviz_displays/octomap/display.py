@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import Annotated, Any, Literal
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -42,8 +42,7 @@ _NOUNS: dict[Rendering, str] = {
 }
 
 
-@dataclass(frozen=True, eq=False)
-class _Known:
+class _Known(msgspec.Struct, frozen=True, eq=False):
     """Octree read last, so that a change of colour does not read it again.
 
     Args:
@@ -63,8 +62,7 @@ class _Known:
     fault: str = ""
 
 
-@dataclass
-class _State:
+class _State(msgspec.Struct):
     """Kept between messages, of which a large one may be drawn in a thread beside a small one.
 
     Args:
@@ -72,7 +70,7 @@ class _State:
         drawn: the tree and what is drawn of it.
     """
 
-    known: _Known = field(default_factory=_Known)
+    known: _Known = msgspec.field(default_factory=_Known)
     drawn: tuple[Octree, VisibleVoxels] | None = None
 
 

@@ -11,9 +11,9 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -54,8 +54,7 @@ class OctreeFault(ValueError):
     """A tree that cannot be read; the text says why."""
 
 
-@dataclass(frozen=True, eq=False)
-class Octree:
+class Octree(msgspec.Struct, frozen=True, eq=False, weakref=True):
     """All nodes of a tree, those of one depth after those of the depth above.
 
     Args:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -25,8 +25,7 @@ _HUES = 0.96
 _STOPS = 7
 
 
-@dataclass(frozen=True)
-class VoxelChoice:
+class VoxelChoice(msgspec.Struct, frozen=True):
     """Selection of the voxels of a tree.
 
     Args:
@@ -41,8 +40,7 @@ class VoxelChoice:
     high: float
 
 
-@dataclass(frozen=True, eq=False)
-class VisibleVoxels:
+class VisibleVoxels(msgspec.Struct, frozen=True, eq=False):
     """The voxels that can be seen from outside.
 
     Args:

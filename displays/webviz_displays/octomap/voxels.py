@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,8 +14,7 @@ _X = sum(1 << (3 * bit) for bit in range(LEVELS))
 """The bits of x in a Morton code; those of y and z are one and two places higher."""
 
 
-@dataclass(frozen=True, eq=False)
-class Voxels:
+class Voxels(msgspec.Struct, frozen=True, eq=False):
     """Boxes of an octree.
 
     Args:

@@ -10,7 +10,8 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from webviz.data import messages
 from webviz_displays.odometry.poses import TrailPlace, fault, has_moved, place_of
@@ -23,8 +24,7 @@ MAX_CANDIDATES = 60
 """Of a robot at rest, every message may be the first of a trail: it is skipped."""
 
 
-@dataclass(frozen=True)
-class TrailRule:
+class TrailRule(msgspec.Struct, frozen=True):
     """The poses that are kept.
 
     Args:

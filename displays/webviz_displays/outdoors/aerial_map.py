@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from typing import Annotated
 
+import msgspec
 import numpy as np
 
 from webviz import Context, Details, Display, Hit, Image, Lookback, Pose, Prop, Sample, Topic
@@ -22,8 +22,7 @@ MAX_BLOCKS = 8
 """17 x 17 tiles, 76 MB of pixels (the limit of rviz_satellite)."""
 
 
-@dataclass
-class _State:
+class _State(msgspec.Struct):
     """Kept between fixes.
 
     Args:
@@ -33,7 +32,7 @@ class _State:
     """
 
     loading: TileLoading | None = None
-    drawn: dict[Tile, Image] = field(default_factory=dict)
+    drawn: dict[Tile, Image] = msgspec.field(default_factory=dict)
     look: tuple[object, ...] = ()
 
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
 from typing import TypeVar
+
+import msgspec
 
 from webviz import Context
 from webviz.data.disk import DiskThreads
@@ -25,8 +26,7 @@ T = TypeVar("T")
 _disk = DiskThreads(16)
 
 
-@dataclass
-class TileLoading:
+class TileLoading(msgspec.Struct):
     """The tiles of one source.
 
     Args:
@@ -40,8 +40,8 @@ class TileLoading:
     address: str
     timeout_s: float
     source: TileSource | None = None
-    tiles: dict[Tile, Cells | None] = field(default_factory=dict)
-    failures: dict[Tile, str] = field(default_factory=dict)
+    tiles: dict[Tile, Cells | None] = msgspec.field(default_factory=dict)
+    failures: dict[Tile, str] = msgspec.field(default_factory=dict)
 
     def load(self, wanted: Sequence[Tile], ctx: Context) -> bool:
         """Go on with loading what is wanted, in this order, and forget the rest.

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import Annotated, Any, Literal
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -39,8 +39,7 @@ WHITE = (255, 255, 255)
 BY_FIELDS = Remedy("color_transformer", "Auto", "Choose by the fields")
 
 
-@dataclass
-class _State:
+class _State(msgspec.Struct):
     """The clouds that are drawn.
 
     Args:
@@ -53,7 +52,7 @@ class _State:
         resting: number of a cloud that no other follows, None if one does.
     """
 
-    clouds: dict[int, int] = field(default_factory=dict)
+    clouds: dict[int, int] = msgspec.field(default_factory=dict)
     shares: int = 1
     held: int = POINTS_HELD
     newest: int | None = None

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Annotated, Literal
 
 import numpy as np
+from msgspec.structs import replace
 
 from webviz import Color, Context, Details, Display, Group, Hit, Pose, Prop, Sample, Topic
 from webviz.api.nodes import Ids

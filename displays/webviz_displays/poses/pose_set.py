@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Annotated, Literal
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -47,8 +47,7 @@ _WINGS = np.array(((0.0, 0.0), (1.0, 0.0), (0.75, 0.2), (0.75, -0.2)))
 _AXES = np.array(((255, 0, 0), (0, 255, 0), (0, 0, 255)), np.uint8)
 
 
-@dataclass(frozen=True)
-class PoseSet:
+class PoseSet(msgspec.Struct, frozen=True):
     """The poses of a message that are drawn.
 
     Args:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
 
+import msgspec
 import numpy as np
+from msgspec.structs import replace
 
 from webviz import Sample
 from webviz.data import messages
@@ -16,8 +17,7 @@ MAX_JOINTS = 10_000
 """Joints whose positions are remembered; further names are ignored."""
 
 
-@dataclass(frozen=True)
-class ReceivedRobot:
+class ReceivedRobot(msgspec.Struct, frozen=True):
     """Messages received about a robot.
 
     Args:
@@ -27,7 +27,7 @@ class ReceivedRobot:
     """
 
     description: str | None = None
-    positions: Mapping[str, float] = field(default_factory=dict)
+    positions: Mapping[str, float] = msgspec.field(default_factory=dict)
     fault: str = ""
 
     def with_sample(self, name: str, sample: Sample) -> ReceivedRobot:

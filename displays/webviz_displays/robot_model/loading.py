@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
+
+import msgspec
 
 from webviz import Context
 from webviz.data.disk import DiskThreads
@@ -18,8 +19,7 @@ DISK_S = 5.0
 _disk = DiskThreads(16)
 
 
-@dataclass(frozen=True)
-class Written:
+class Written(msgspec.Struct, frozen=True):
     """When a file was last written, as the disk said.
 
     Args:

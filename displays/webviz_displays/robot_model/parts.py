@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Annotated
 
 import msgspec
@@ -51,8 +51,7 @@ class JointSettings(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fi
     ] = False
 
 
-@dataclass(frozen=True)
-class Choices:
+class Choices(msgspec.Struct, frozen=True):
     """Settings of a robot.
 
     Args:
@@ -77,8 +76,7 @@ class Choices:
         return self.links.get(link) or LinkSettings(enabled=self.all_links)
 
 
-@dataclass(frozen=True, eq=False)
-class LinkNode:
+class LinkNode(msgspec.Struct, frozen=True, eq=False):
     """A node on a link.
 
     Args:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+import msgspec
 
 from webviz import Frames
 from webviz.data.transforms import Explanation
@@ -13,8 +13,7 @@ from webviz_displays.shared.trails import Trails
 from webviz_urdf import Robot
 
 
-@dataclass(frozen=True, eq=False)
-class LoadedRobot:
+class LoadedRobot(msgspec.Struct, frozen=True, eq=False):
     """A loaded robot.
 
     Args:
@@ -35,8 +34,7 @@ class LoadedRobot:
         return [link for link in self.shown if pose(link, frames) is None]
 
 
-@dataclass
-class RobotDrawing:
+class RobotDrawing(msgspec.Struct):
     """The robot that is shown, and what follows from it.
 
     Args:
@@ -53,14 +51,14 @@ class RobotDrawing:
         placer: places the robot by its joints.
     """
 
-    loading: Loadings = field(default_factory=dict)
-    written: Written = field(default_factory=Written)
+    loading: Loadings = msgspec.field(default_factory=dict)
+    written: Written = msgspec.field(default_factory=Written)
     model: LoadedRobot | None = None
     grey: set[str] | None = None
-    paint: Paint = field(default_factory=Paint)
-    reasons: dict[str, Explanation] = field(default_factory=dict)
+    paint: Paint = msgspec.field(default_factory=Paint)
+    reasons: dict[str, Explanation] = msgspec.field(default_factory=dict)
     reasons_of: tuple[list[str], int] | None = None
-    trails: Trails = field(default_factory=Trails)
+    trails: Trails = msgspec.field(default_factory=Trails)
     trails_frame: str = ""
-    owners: dict[str, str] = field(default_factory=dict)
+    owners: dict[str, str] = msgspec.field(default_factory=dict)
     placer: JointPlacer | None = None

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields
 from math import isfinite
 from typing import Any
 
+import msgspec
 import numpy as np
+from msgspec.structs import astuple
 from numpy.typing import NDArray
 
 from webviz import Sample
@@ -25,8 +26,7 @@ UNIT_TOLERANCE = 0.01
 """Tolerance of the squared length of a quaternion around 1 (RViz's constant)."""
 
 
-@dataclass(frozen=True)
-class PoseTrail:
+class PoseTrail(msgspec.Struct, frozen=True):
     """Poses of N samples in the fixed frame.
 
     Args:
@@ -47,7 +47,7 @@ class PoseTrail:
 
     def __getitem__(self, rows: Any) -> PoseTrail:
         """Return some of the poses."""
-        return PoseTrail(*(getattr(self, f.name)[rows] for f in fields(PoseTrail)))
+        return PoseTrail(*(value[rows] for value in astuple(self)))
 
 
 def fault(pose: messages.Pose) -> str:
@@ -83,12 +83,8 @@ class GrowingTrail:
             self._trail = trail(samples, self._pose_of)
         elif first or known < len(samples):
             new = trail(samples[known:], self._pose_of)
-            self._trail = PoseTrail(
-                *(
-                    np.concatenate((getattr(self._trail, f.name)[first:], getattr(new, f.name)))
-                    for f in fields(PoseTrail)
-                )
-            )
+            both = zip(astuple(self._trail), astuple(new), strict=True)
+            self._trail = PoseTrail(*(np.concatenate((old[first:], more)) for old, more in both))
         self._samples = list(samples)
         return self._trail
 

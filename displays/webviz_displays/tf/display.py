@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from typing import Annotated
 
 import msgspec
@@ -47,8 +46,7 @@ READ_OUT = 20
 """Frames whose pose is reported."""
 
 
-@dataclass(eq=False)
-class _Known:
+class _Known(msgspec.Struct, eq=False):
     """State derived from the names and the shape of the tree."""
 
     version: tuple[object, int]
@@ -58,8 +56,7 @@ class _Known:
     tree: str
 
 
-@dataclass(frozen=True)
-class _Tick:
+class _Tick(msgspec.Struct, frozen=True):
     """Nodes and statuses of one tick, reused by ticks that draw nothing new."""
 
     now_ns: int
@@ -67,8 +64,7 @@ class _Tick:
     statuses: dict[str, Status]
 
 
-@dataclass
-class _State:
+class _State(msgspec.Struct):
     """State derived from properties, names and time.
 
     Args:
@@ -82,11 +78,11 @@ class _State:
     """
 
     fixed_frame: str = ""
-    ages: Ages = field(default_factory=Ages)
-    filter: FrameFilter = field(default_factory=lambda: FrameFilter(None, None, {}, True))
+    ages: Ages = msgspec.field(default_factory=Ages)
+    filter: FrameFilter = msgspec.field(default_factory=lambda: FrameFilter(None, None, {}, True))
     known: _Known | None = None
     last: _Tick | None = None
-    reasons: dict[str, Explanation] = field(default_factory=dict)
+    reasons: dict[str, Explanation] = msgspec.field(default_factory=dict)
     reasons_of: tuple[bytes, int] | None = None
 
 

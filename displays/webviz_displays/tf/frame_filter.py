@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Protocol
 
+import msgspec
 import numpy as np
 import re2  # pyright: ignore[reportMissingTypeStubs]
 from numpy.typing import NDArray
@@ -44,8 +44,7 @@ def compiled(text: str) -> Pattern:
         raise PatternFault(reason.decode(errors="replace")) from None
 
 
-@dataclass(frozen=True, eq=False)
-class FrameFilter:
+class FrameFilter(msgspec.Struct, frozen=True, eq=False):
     """A user's choice of frames.
 
     Args:

@@ -6,8 +6,7 @@ sorted by a browser, and made anew for each new opacity, so they are kept apart 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -32,8 +31,7 @@ _FRESH_ARROW: tuple[Rgb, Rgb] = ((204, 204, 76), (255, 26, 153))
 """The same as they are drawn."""
 
 
-@dataclass(frozen=True, eq=False)
-class Marks:
+class Marks(msgspec.Struct, frozen=True, eq=False):
     """The frames to draw.
 
     Args:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Annotated
 
 import msgspec
@@ -48,8 +47,7 @@ MAX_NAMES = 1000
 Joints = Mapping[str, TurningJoint]
 
 
-@dataclass(frozen=True)
-class _Waiting:
+class _Waiting(msgspec.Struct, frozen=True):
     """A message with the frames that it needs at its stamp."""
 
     number: int
@@ -57,8 +55,7 @@ class _Waiting:
     frames: tuple[str, ...]
 
 
-@dataclass
-class _State:
+class _State(msgspec.Struct):
     """State of what is drawn and what waits.
 
     Args:
@@ -68,10 +65,10 @@ class _State:
         joints: of the robot.
     """
 
-    waiting: list[_Waiting] = field(default_factory=list)
+    waiting: list[_Waiting] = msgspec.field(default_factory=list)
     ready: int = -1
-    efforts: dict[str, float] = field(default_factory=dict)
-    joints: Joints = field(default_factory=dict)
+    efforts: dict[str, float] = msgspec.field(default_factory=dict)
+    joints: Joints = msgspec.field(default_factory=dict)
 
 
 class Effort(Display):

@@ -5,15 +5,14 @@ Numbers of joints are those of the SDK's BODY_18, BODY_34, BODY_38 and BODY_70.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import pairwise
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
 
-@dataclass(frozen=True, eq=False)
-class Skeleton:
+class Skeleton(msgspec.Struct, frozen=True, eq=False):
     """A format of skeletons.
 
     Args:

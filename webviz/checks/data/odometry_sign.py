@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any
+
+import msgspec
 
 from webviz.api.check import Check
 from webviz.api.finding import Finding
@@ -78,8 +79,7 @@ class OdometrySign(Check):
                 self._wrong[key] = self._wrong.get(key, 0) + 1 if moved * told < 0.0 else 0
 
 
-@dataclass(frozen=True)
-class _Motion:
+class _Motion(msgspec.Struct, frozen=True):
     """Pose and twist of an odometry in s, m, rad, m/s and rad/s."""
 
     at_s: float

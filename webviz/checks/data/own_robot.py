@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -25,8 +25,7 @@ SAME = 0.8
 """Share of the near beams that stay near while the robot moves, if it is the robot itself."""
 
 
-@dataclass(frozen=True)
-class _Seen:
+class _Seen(msgspec.Struct, frozen=True):
     """A scan: ranges in metres, the beams that are near, and those that measure anything."""
 
     ranges: NDArray[np.float64]

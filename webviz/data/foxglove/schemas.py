@@ -7,9 +7,9 @@ import importlib.util
 import json
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
+import msgspec
 import numpy as np
 
 from webviz.data.foxglove.scene import header, markers_of, pose_of, time_of
@@ -32,8 +32,7 @@ class ConversionError(ValueError):
     """A message is not of its schema, or has no equal in ROS; one sentence."""
 
 
-@dataclass(frozen=True)
-class Conversion:
+class Conversion(msgspec.Struct, frozen=True):
     """The way from a schema to a message of ROS.
 
     Args:

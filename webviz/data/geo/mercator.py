@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+
+import msgspec
 
 from webviz.data.geo.wgs84 import EQUATORIAL_RADIUS, Geodetic, radii
 
@@ -12,8 +13,7 @@ MAX_LATITUDE = math.degrees(math.atan(math.sinh(math.pi)))
 MAX_ZOOM = 22
 
 
-@dataclass(frozen=True)
-class TilePlane:
+class TilePlane(msgspec.Struct, frozen=True):
     """Tiles of one zoom level around a place.
 
     The projection is conformal on a sphere only: at 60 degrees, a map would be 0.5 % too long from

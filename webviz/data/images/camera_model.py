@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Any
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,8 +18,7 @@ NARROWEST, WIDEST = 1e-6, 1e4
 """Metres that an image may span 1 m ahead of its camera, and be beside its axis."""
 
 
-@dataclass(frozen=True)
-class CameraModel:
+class CameraModel(msgspec.Struct, frozen=True):
     """A camera without distortion, in its optical frame: x to the right, y down, z ahead.
 
     Args:

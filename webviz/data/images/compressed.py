@@ -6,8 +6,8 @@ import contextlib
 import io
 import struct
 from collections.abc import Iterator
-from dataclasses import dataclass
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
@@ -25,8 +25,7 @@ _PNG16_BYTES = 6
 """Per pixel, measured."""
 
 
-@dataclass(frozen=True)
-class CompressedInfo:
+class CompressedInfo(msgspec.Struct, frozen=True):
     """Declared content of a compressed image.
 
     Args:

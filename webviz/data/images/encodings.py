@@ -5,9 +5,9 @@ from __future__ import annotations
 import difflib
 import functools
 import re
-from dataclasses import dataclass
 from typing import Literal
 
+import msgspec
 import numpy as np
 
 from webviz.data.images.errors import ImageError
@@ -15,8 +15,7 @@ from webviz.data.images.errors import ImageError
 Order = Literal["plain", "rgb", "bgr", "bayer", "uyvy", "yuyv", "nv21", "nv24"]
 
 
-@dataclass(frozen=True)
-class PixelLayout:
+class PixelLayout(msgspec.Struct, frozen=True):
     """Layout of the pixels of an encoding in the bytes of an image.
 
     Args:

@@ -6,9 +6,9 @@ description of `projectPoints`, equidistant is `fisheye::projectPoints`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -30,8 +30,7 @@ _TURNED = 0.01
 """By how much the columns of a rotation may differ from perpendicular unit vectors."""
 
 
-@dataclass(frozen=True)
-class Lens:
+class Lens(msgspec.Struct, frozen=True):
     """Lens of a camera before its image is rectified.
 
     Args:

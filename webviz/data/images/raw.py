@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -24,8 +24,7 @@ _STRIP_ROWS = 128
 _NATIVE_BIG = np.dtype(np.uint16).newbyteorder("=") == np.dtype(">u2")
 
 
-@dataclass(frozen=True, eq=False)
-class RawImage:
+class RawImage(msgspec.Struct, frozen=True, eq=False, weakref=True):
     """An image as in sensor_msgs/Image, checked: its bytes hold what its fields say.
 
     Args:

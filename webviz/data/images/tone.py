@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import functools
 import math
-from dataclasses import dataclass
 from typing import Any
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,8 +18,7 @@ U8 = NDArray[np.uint8]
 _STRIP_ROWS = 256
 
 
-@dataclass(frozen=True)
-class Tone:
+class Tone(msgspec.Struct, frozen=True):
     """Mapping from values to colours.
 
     Args:

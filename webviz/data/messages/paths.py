@@ -10,10 +10,10 @@ import math
 import operator
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import islice
 from typing import Any
 
+import msgspec
 import numpy as np
 
 from webviz.data.messages.classes import attribute
@@ -59,16 +59,14 @@ class NothingMatches(PathError):
     """No element of a message matches a filter or slice, which may be different in the next."""
 
 
-@dataclass(frozen=True)
-class _Slice:
+class _Slice(msgspec.Struct, frozen=True):
     """Elements from the first to the last, both included."""
 
     first: int
     last: int
 
 
-@dataclass(frozen=True)
-class _Filter:
+class _Filter(msgspec.Struct, frozen=True):
     """A condition of elements."""
 
     path: FieldPath

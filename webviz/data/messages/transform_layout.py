@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,8 +20,7 @@ SAME_SIZE = 4
 _NATIVE = b"\0\1" if sys.byteorder == "little" else b"\0\0"
 
 
-@dataclass(frozen=True)
-class TransformBatch:
+class TransformBatch(msgspec.Struct, frozen=True):
     """The transforms of a message.
 
     Args:

@@ -5,9 +5,10 @@ from __future__ import annotations
 import contextlib
 import heapq
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
+
+from msgspec.structs import replace
 
 from webviz.data.recordings.metadata import METADATA, read_metadata
 from webviz.data.recordings.opening import open_file

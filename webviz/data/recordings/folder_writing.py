@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import msgspec
 from ruamel.yaml import YAML
 
 from webviz.data.messages import UnknownTypeError, type_hash
@@ -35,8 +36,7 @@ class RecordingLimits:
     total_bytes: int = 0
 
 
-@dataclass(frozen=True)
-class _Written:
+class _Written(msgspec.Struct, frozen=True):
     """A file that is complete."""
 
     path: Path

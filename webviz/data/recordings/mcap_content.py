@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
-from dataclasses import dataclass
 
+import msgspec
 import numpy as np
 import numpy.typing as npt
 
@@ -13,8 +13,7 @@ SMALL = 16 << 10
 """Bytes of a message. Transforms and scans have less, images and clouds more."""
 
 
-@dataclass(frozen=True)
-class ChunkContent:
+class ChunkContent(msgspec.Struct, frozen=True):
     """Messages in the order of the file.
 
     Args:

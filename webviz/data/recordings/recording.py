@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass, field
 from typing import Any, NamedTuple, Protocol
 
+import msgspec
 import numpy as np
 import numpy.typing as npt
 
@@ -17,8 +17,7 @@ class RecordingError(Exception):
     """A recording cannot be opened; one sentence with a remedy."""
 
 
-@dataclass(frozen=True)
-class RecordedChannel:
+class RecordedChannel(msgspec.Struct, frozen=True):
     """Messages of one type on one topic.
 
     Args:
@@ -50,8 +49,7 @@ class RecordedMessage(NamedTuple):
     data: bytes
 
 
-@dataclass(frozen=True)
-class TimeParts:
+class TimeParts(msgspec.Struct, frozen=True):
     """Equal parts of a span of time.
 
     Args:
@@ -131,8 +129,7 @@ class Recording(Protocol):
         ...
 
 
-@dataclass
-class Losses:
+class Losses(msgspec.Struct):
     """Parts of a recording that cannot be read.
 
     Args:
@@ -145,9 +142,9 @@ class Losses:
 
     unit: str
     how: str
-    skipped: dict[Any, str] = field(default_factory=dict)
-    others: list[str] = field(default_factory=list)
-    notes: list[str] = field(default_factory=list)
+    skipped: dict[Any, str] = msgspec.field(default_factory=dict)
+    others: list[str] = msgspec.field(default_factory=list)
+    notes: list[str] = msgspec.field(default_factory=list)
 
     @property
     def is_unfinished(self) -> bool:

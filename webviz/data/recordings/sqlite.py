@@ -8,11 +8,12 @@ import sqlite3
 import time
 from collections import Counter, deque
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import msgspec
 import numpy as np
+from msgspec.structs import replace
 
 from webviz.data.recordings.metadata import recorded_counts
 from webviz.data.recordings.recording import (
@@ -56,8 +57,7 @@ class _Row(NamedTuple):
     data: Any
 
 
-@dataclass(frozen=True)
-class _Query:
+class _Query(msgspec.Struct, frozen=True):
     """Messages to read.
 
     Args:

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from enum import StrEnum
 from itertools import islice, pairwise
 from math import dist
+
+import msgspec
 
 from webviz.data.transforms.cache import Cache, TimeCache
 from webviz.data.transforms.geometry import PACKED
@@ -37,8 +38,7 @@ class ConflictKind(StrEnum):
     TWO_PUBLISHERS = "two publishers"
 
 
-@dataclass(frozen=True)
-class Conflict:
+class Conflict(msgspec.Struct, frozen=True):
     """One sign.
 
     Attributes:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import islice, pairwise
+
+import msgspec
 
 from webviz.data.transforms.buffer import TransformBuffer
 from webviz.data.transforms.cache import Cache, TimeCache
@@ -21,8 +22,7 @@ STALE_PERIODS = 5
 """A moving frame is stale after a second and five of its periods without a transform."""
 
 
-@dataclass(frozen=True)
-class FrameReport:
+class FrameReport(msgspec.Struct, frozen=True):
     """One child frame.
 
     Attributes:
@@ -56,8 +56,7 @@ class FrameReport:
     parents: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True)
-class Diagnosis:
+class Diagnosis(msgspec.Struct, frozen=True):
     """The tree as a whole.
 
     Attributes:

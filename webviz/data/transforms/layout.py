@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+
+import msgspec
 
 from webviz.data.transforms.diagnosis import Diagnosis, FrameReport
 
 
-@dataclass(frozen=True)
-class FramePlace:
+class FramePlace(msgspec.Struct, frozen=True):
     """The place of a frame in the picture.
 
     Attributes:
@@ -22,8 +22,7 @@ class FramePlace:
     row: float
 
 
-@dataclass(frozen=True)
-class Edge:
+class Edge(msgspec.Struct, frozen=True):
     """A transform from a parent to a child.
 
     Attributes:
@@ -36,8 +35,7 @@ class Edge:
     is_extra: bool = False
 
 
-@dataclass(frozen=True)
-class TreeLayout:
+class TreeLayout(msgspec.Struct, frozen=True):
     """The layout of a tree.
 
     Attributes:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from itertools import pairwise
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -34,8 +34,7 @@ ARRAYS_PAY_FROM = 75
 """Links, or frames, from which numpy is faster than floats (measured: see the benchmark)."""
 
 
-@dataclass(frozen=True)
-class FramesIn:
+class FramesIn(msgspec.Struct, frozen=True):
     """The poses of frames in one target frame.
 
     Attributes:
@@ -58,20 +57,19 @@ class FramesIn:
         return cls(frames, rows[:3].T.copy(), rows[3:].T.copy(), stamps_ns, ~np.isnan(rows[6]))
 
 
-@dataclass
-class _Links:
+class _Links(msgspec.Struct):
     """Links at some time, each once, a link's parent before it; from a top down to the frames.
 
     A top is a root, or the frame below a link that has no data at the time.
     """
 
-    starts: list[PoseTuple] = field(default_factory=list)
-    ends: list[PoseTuple] = field(default_factory=list)
+    starts: list[PoseTuple] = msgspec.field(default_factory=list)
+    ends: list[PoseTuple] = msgspec.field(default_factory=list)
     """The same object as in `starts` if no interpolation is needed."""
-    ratios: list[float] = field(default_factory=list)
-    parents: list[int] = field(default_factory=list)
-    depths: list[int] = field(default_factory=list)
-    tops: list[int] = field(default_factory=list)
+    ratios: list[float] = msgspec.field(default_factory=list)
+    parents: list[int] = msgspec.field(default_factory=list)
+    depths: list[int] = msgspec.field(default_factory=list)
+    tops: list[int] = msgspec.field(default_factory=list)
 
     def chain(self, tree: FrameTree, frame: str, stamp_ns: int, known: dict[str, int]) -> int:
         """Add the link that ends in a frame and all above it; its number, -1 for a loop.

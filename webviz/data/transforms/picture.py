@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import unicodedata
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from xml.sax.saxutils import escape
+
+import msgspec
 
 from webviz.data.transforms.diagnosis import Diagnosis, FrameReport, facts
 from webviz.data.transforms.layout import Edge, FramePlace, TreeLayout, lay_out
@@ -38,8 +39,7 @@ path { fill: none; stroke: #0969da; stroke-width: 1.6 }
 """
 
 
-@dataclass(frozen=True)
-class TreePicture:
+class TreePicture(msgspec.Struct, frozen=True):
     """A drawn tree.
 
     Args:

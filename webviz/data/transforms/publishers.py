@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import msgspec
 
 from webviz.data.transforms.cache import ParentedPose
 
@@ -14,8 +14,7 @@ MAX_REPLACED = 8
 """Claims remembered per frame."""
 
 
-@dataclass(frozen=True)
-class Contest:
+class Contest(msgspec.Struct, frozen=True):
     """Two alternating claims to one frame.
 
     Attributes:

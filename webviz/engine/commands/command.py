@@ -2,11 +2,13 @@
 
 from dataclasses import dataclass, field
 
+import msgspec
+
 MAX_PRIORITY = 3
 
 
-class Command:
-    """Base of all commands; each is a frozen dataclass that one part of the viewer handles."""
+class Command(msgspec.Struct, frozen=True):
+    """Base of all commands; one part of the viewer handles each."""
 
     @property
     def label(self) -> str:

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import Future
-from dataclasses import dataclass, field
 from typing import Any
+
+import msgspec
 
 from webviz.api.handles import Drag
 from webviz.engine.commands.command import Command, ignore
 from webviz.engine.state.trace import Trace
 
 
-@dataclass(frozen=True)
-class SetProperty(Command):
+class SetProperty(Command, frozen=True):
     """Change a property of a display; nested ones have a dotted path, such as `topic.name`."""
 
     display: str
@@ -21,8 +21,7 @@ class SetProperty(Command):
     value: Any
 
 
-@dataclass(frozen=True)
-class AddDisplay(Command):
+class AddDisplay(Command, frozen=True):
     """Add a display at the end of the list, or of a group.
 
     Args:
@@ -33,20 +32,18 @@ class AddDisplay(Command):
     """
 
     type: str
-    values: dict[str, Any] = field(default_factory=dict)
+    values: dict[str, Any] = msgspec.field(default_factory=dict)
     group: str = ""
     made: Callable[[str], None] = ignore
 
 
-@dataclass(frozen=True)
-class RemoveDisplay(Command):
+class RemoveDisplay(Command, frozen=True):
     """Remove a display, or a group with its contents."""
 
     display: str
 
 
-@dataclass(frozen=True)
-class DuplicateDisplay(Command):
+class DuplicateDisplay(Command, frozen=True):
     """Add a copy of a display, or of a group with its contents, after it.
 
     Args:
@@ -58,15 +55,13 @@ class DuplicateDisplay(Command):
     made: Callable[[str], None] = ignore
 
 
-@dataclass(frozen=True)
-class ResetDisplay(Command):
+class ResetDisplay(Command, frozen=True):
     """Give the properties of a display their defaults, but for its name, switch and topics."""
 
     display: str
 
 
-@dataclass(frozen=True)
-class MoveDisplay(Command):
+class MoveDisplay(Command, frozen=True):
     """Move a display or a group in the list.
 
     Args:
@@ -80,8 +75,7 @@ class MoveDisplay(Command):
     before: str = ""
 
 
-@dataclass(frozen=True)
-class TraceDisplay(Command):
+class TraceDisplay(Command, frozen=True):
     """Trace the next sample that a display draws.
 
     Args:
@@ -93,8 +87,7 @@ class TraceDisplay(Command):
     answer: Future[Trace]
 
 
-@dataclass(frozen=True)
-class DragHandle(Command):
+class DragHandle(Command, frozen=True):
     """Do something with a handle; see `webviz.api.handles.Drag`.
 
     Args:

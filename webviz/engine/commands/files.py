@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path, PurePath
 
 from webviz.data.words import counted
@@ -11,12 +10,11 @@ from webviz.engine.commands.command import Command
 from webviz.files.config import Config
 
 
-class FileCommand(Command):
+class FileCommand(Command, frozen=True):
     """A command that reads or writes a config; these run in a thread, in order."""
 
 
-@dataclass(frozen=True)
-class Open(FileCommand):
+class Open(FileCommand, frozen=True):
     """Replace the current config by that of a file."""
 
     path: str
@@ -27,8 +25,7 @@ class Open(FileCommand):
         return f"Open {PurePath(self.path).name}"
 
 
-@dataclass(frozen=True)
-class Load(FileCommand):
+class Load(FileCommand, frozen=True):
     """Replace the current config by that of a text.
 
     Args:
@@ -45,8 +42,7 @@ class Load(FileCommand):
         return f"Open {self.name}"
 
 
-@dataclass(frozen=True)
-class Restore(Command):
+class Restore(Command, frozen=True):
     """Show the unsaved changes of the last session; undo brings back the config as it is saved.
 
     Args:
@@ -68,8 +64,7 @@ class Restore(Command):
         return counted(len(self.config.displays), "display")
 
 
-@dataclass(frozen=True)
-class Save(FileCommand):
+class Save(FileCommand, frozen=True):
     """Save the current config to a file; "" is the file it came from."""
 
     path: str = ""
@@ -80,15 +75,13 @@ class Save(FileCommand):
         return f"Save as {PurePath(self.path).name}"
 
 
-@dataclass(frozen=True)
-class WriteDisplays(FileCommand):
+class WriteDisplays(FileCommand, frozen=True):
     """Answer with the text that a config file has of displays, and of all that is in groups."""
 
     displays: tuple[str, ...]
 
 
-@dataclass(frozen=True)
-class Export(FileCommand):
+class Export(FileCommand, frozen=True):
     """Pass on the current config as text, such as for a download.
 
     Args:

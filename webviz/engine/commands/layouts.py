@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from webviz.engine.commands.command import Command
 from webviz.files.config.layout import Layout
 
 
-@dataclass(frozen=True)
-class SetLayout(Command):
+class SetLayout(Command, frozen=True):
     """Arrange the panels in all browsers.
 
     Args:
@@ -21,15 +18,13 @@ class SetLayout(Command):
     name: str = ""
 
 
-@dataclass(frozen=True)
-class SaveLayout(Command):
+class SaveLayout(Command, frozen=True):
     """Save the layout under a name; replaces a saved layout of that name."""
 
     name: str
 
 
-@dataclass(frozen=True)
-class RemoveLayout(Command):
+class RemoveLayout(Command, frozen=True):
     """Remove a saved layout."""
 
     name: str

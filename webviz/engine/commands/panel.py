@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import Any
+
+import msgspec
 
 from webviz.engine.commands.command import Command
 
 
-@dataclass(frozen=True)
-class Refresh(Command):
+class Refresh(Command, frozen=True):
     """Update panels at once, such as after another tab was selected."""
 
 
-@dataclass(frozen=True)
-class AddPanel(Command):
+class AddPanel(Command, frozen=True):
     """Add a panel of a plug-in behind the others.
 
     Args:
@@ -23,18 +22,16 @@ class AddPanel(Command):
     """
 
     type: str
-    values: dict[str, Any] = field(default_factory=dict)
+    values: dict[str, Any] = msgspec.field(default_factory=dict)
 
 
-@dataclass(frozen=True)
-class RemovePanel(Command):
+class RemovePanel(Command, frozen=True):
     """Remove a panel of a plug-in, by its id or name."""
 
     panel: str
 
 
-@dataclass(frozen=True)
-class SetPanelProperty(Command):
+class SetPanelProperty(Command, frozen=True):
     """Change a property of a panel of a plug-in; nested ones have a dotted path.
 
     Args:
@@ -48,8 +45,7 @@ class SetPanelProperty(Command):
     value: Any
 
 
-@dataclass(frozen=True)
-class OpenPanels(Command):
+class OpenPanels(Command, frozen=True):
     """Say which panels of plug-ins are open in any browser; the others rest.
 
     Args:

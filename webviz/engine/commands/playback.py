@@ -6,44 +6,36 @@ past, these commands are refused.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from webviz.engine.commands.command import Command
 
 
-@dataclass(frozen=True)
-class Play(Command):
+class Play(Command, frozen=True):
     """Play from the position, at the end of the span from its start; `Pause` stops it."""
 
 
-@dataclass(frozen=True)
-class Seek(Command):
+class Seek(Command, frozen=True):
     """Show the recording at a time; answered when the scene shows it."""
 
     at_s: float
 
 
-@dataclass(frozen=True)
-class ReturnToLive(Command):
+class ReturnToLive(Command, frozen=True):
     """Show what arrives again, instead of the past of live topics or a recording."""
 
 
-@dataclass(frozen=True)
-class SetRate(Command):
+class SetRate(Command, frozen=True):
     """Set how fast to play: seconds of the recording per second, 0 is as fast as possible."""
 
     rate: float
 
 
-@dataclass(frozen=True)
-class SetLoop(Command):
+class SetLoop(Command, frozen=True):
     """Choose whether the span starts over at its end."""
 
     loop: bool = True
 
 
-@dataclass(frozen=True)
-class SelectSpan(Command):
+class SelectSpan(Command, frozen=True):
     """Choose the part of the recording to play; without times, all of it.
 
     Args:
@@ -55,8 +47,7 @@ class SelectSpan(Command):
     last_s: float | None = None
 
 
-@dataclass(frozen=True)
-class SaveBookmark(Command):
+class SaveBookmark(Command, frozen=True):
     """Give a moment of the recording a name, in place of a moment of that name.
 
     Args:
@@ -68,15 +59,13 @@ class SaveBookmark(Command):
     at_s: float | None = None
 
 
-@dataclass(frozen=True)
-class RemoveBookmark(Command):
+class RemoveBookmark(Command, frozen=True):
     """Remove a bookmark."""
 
     name: str
 
 
-@dataclass(frozen=True)
-class StepMessage(Command):
+class StepMessage(Command, frozen=True):
     """Pause, and show the recording at the next or previous message of a topic.
 
     Args:

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from webviz.engine.commands.files import FileCommand
 
 
-@dataclass(frozen=True)
-class OpenRecording(FileCommand):
+class OpenRecording(FileCommand, frozen=True):
     """Play a recording in the place of live topics, until `ReturnToLive`.
 
     Args:
@@ -18,8 +15,7 @@ class OpenRecording(FileCommand):
     path: str
 
 
-@dataclass(frozen=True)
-class StartRecording(FileCommand):
+class StartRecording(FileCommand, frozen=True):
     """Record all topics that are subscribed to, until `StopRecording`.
 
     Args:
@@ -30,13 +26,11 @@ class StartRecording(FileCommand):
     path: str = ""
 
 
-@dataclass(frozen=True)
-class StopRecording(FileCommand):
+class StopRecording(FileCommand, frozen=True):
     """Complete the recording."""
 
 
-@dataclass(frozen=True)
-class SaveMemory(FileCommand):
+class SaveMemory(FileCommand, frozen=True):
     """Write the last seconds of what was subscribed to, with the latched messages before them.
 
     Args:

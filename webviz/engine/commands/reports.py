@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from webviz.engine.commands.command import Command
 from webviz.engine.commands.files import FileCommand
 from webviz.engine.commands.selection import Picks
 from webviz.files.report import ReportedPick
 
 
-@dataclass(frozen=True)
-class ListReport(FileCommand):
+class ListReport(FileCommand, frozen=True):
     """Answer with what a bug report would contain, one member per line.
 
     Args:
@@ -21,8 +18,7 @@ class ListReport(FileCommand):
     with_names: bool = False
 
 
-@dataclass(frozen=True)
-class SaveReport(FileCommand):
+class SaveReport(FileCommand, frozen=True):
     """Write a bug report of the moment that is shown.
 
     Args:
@@ -38,8 +34,7 @@ class SaveReport(FileCommand):
     path: str = ""
 
 
-@dataclass(frozen=True)
-class RestoreSelection(Command):
+class RestoreSelection(Command, frozen=True):
     """Let pages that join select what was selected when a report was made."""
 
     picks: tuple[ReportedPick, ...]

@@ -7,8 +7,9 @@ import functools
 import queue
 from collections.abc import Callable
 from concurrent.futures import Future, wait
-from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
+
+import msgspec
 
 from webviz.api.errors import Error
 from webviz.data.disk import in_thread
@@ -30,8 +31,7 @@ class Refused(Error):
     """A command was refused; one sentence says why."""
 
 
-@dataclass(frozen=True)
-class Job(Generic[T]):
+class Job(msgspec.Struct, Generic[T], frozen=True):
     """The slow part of a command: the disk, or a long text.
 
     Args:

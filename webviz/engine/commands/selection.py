@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import msgspec
 
 from webviz.engine.commands.command import Command
 
@@ -17,8 +17,7 @@ along an arrow); and the colour of a point, None if all have the same.
 """
 
 
-@dataclass(frozen=True)
-class Picks:
+class Picks(msgspec.Struct, frozen=True):
     """Things of one node.
 
     Args:
@@ -31,8 +30,7 @@ class Picks:
     items: tuple[Pick, ...]
 
 
-@dataclass(frozen=True)
-class Select(Command):
+class Select(Command, frozen=True):
     """Select things for the browser that sends this, in place of its previous selection.
 
     Args:
@@ -46,15 +44,13 @@ class Select(Command):
     total: int = 0
 
 
-@dataclass(frozen=True)
-class Identify(Command):
+class Identify(Command, frozen=True):
     """Answer with one line about a thing, "" if it does not exist any more."""
 
     picks: Picks
 
 
-@dataclass(frozen=True)
-class InspectSelections(Command):
+class InspectSelections(Command, frozen=True):
     """Report on what browsers have selected.
 
     Args:

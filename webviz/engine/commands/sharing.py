@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from webviz.engine.commands.command import Command
 
 
-@dataclass(frozen=True)
-class ListMoment(Command):
+class ListMoment(Command, frozen=True):
     """Answer with what `ShareMoment` would write, one line per part."""
 
 
-@dataclass(frozen=True)
-class ShareMoment(Command):
+class ShareMoment(Command, frozen=True):
     """Begin to write the moment that is shown, and the time around it, as one HTML file.
 
     Args:
@@ -23,6 +19,5 @@ class ShareMoment(Command):
     path: str = ""
 
 
-@dataclass(frozen=True)
-class StopSharing(Command):
+class StopSharing(Command, frozen=True):
     """Stop writing such a file, and remove it."""

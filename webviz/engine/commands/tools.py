@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import Any
 
 from webviz.api.goal import GoalRequest
@@ -16,8 +15,7 @@ def unheard(topic: str, type: str, values: Mapping[str, Any]) -> None:
     """Ignore a message that was published."""
 
 
-@dataclass(frozen=True)
-class UseTool(Command):
+class UseTool(Command, frozen=True):
     """Let a tool act on a finished gesture; see `webviz.api.tool.Gesture`.
 
     Args:
@@ -37,8 +35,7 @@ class UseTool(Command):
     published: Callable[[str, str, Mapping[str, Any]], None] = unheard
 
 
-@dataclass(frozen=True)
-class SetToolProperty(Command):
+class SetToolProperty(Command, frozen=True):
     """Change a property of a tool; nested ones have a dotted path, such as `topic.name`."""
 
     tool: str
@@ -46,22 +43,19 @@ class SetToolProperty(Command):
     value: Any
 
 
-@dataclass(frozen=True)
-class CancelGoal(Command):
+class CancelGoal(Command, frozen=True):
     """Ask the server of a goal to end it; see `webviz.engine.state.GoalProgress`."""
 
     goal: str
 
 
-@dataclass(frozen=True)
-class DismissGoal(Command):
+class DismissGoal(Command, frozen=True):
     """Stop showing a goal that has ended."""
 
     goal: str
 
 
-@dataclass(frozen=True)
-class Publish(Command):
+class Publish(Command, frozen=True):
     """Publish a message.
 
     Args:
@@ -79,8 +73,7 @@ class Publish(Command):
     latched: bool = False
 
 
-@dataclass(frozen=True)
-class SendGoal(Command):
+class SendGoal(Command, frozen=True):
     """Send a goal to an action instead of the previous one of the same sender.
 
     Args:
@@ -96,8 +89,7 @@ class SendGoal(Command):
     report: Callable[[Status], None] = ignore
 
 
-@dataclass(frozen=True)
-class CallService(Command):
+class CallService(Command, frozen=True):
     """Call a service.
 
     Args:

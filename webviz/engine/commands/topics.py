@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from webviz.engine.commands.command import Command
 
 
-@dataclass(frozen=True)
-class InspectTopic(Command):
+class InspectTopic(Command, frozen=True):
     """Follow a topic that need not be shown: its rate and its last message; "" is none.
 
     Programs and plug-ins follow one at a time, besides those that pages follow.
@@ -17,22 +14,19 @@ class InspectTopic(Command):
     topic: str
 
 
-@dataclass(frozen=True)
-class InspectTopics(Command):
+class InspectTopics(Command, frozen=True):
     """Follow exactly these topics for all pages; the viewer itself keeps count of who looks."""
 
     topics: frozenset[str]
 
 
-@dataclass(frozen=True)
-class InspectLatency(Command):
+class InspectLatency(Command, frozen=True):
     """Trace samples of all displays while a page shows their latencies."""
 
     is_wanted: bool = True
 
 
-@dataclass(frozen=True)
-class InspectTransforms(Command):
+class InspectTransforms(Command, frozen=True):
     """Report on the transforms while they are shown.
 
     Args:
@@ -44,8 +38,7 @@ class InspectTransforms(Command):
     between: frozenset[tuple[str, str]] = frozenset()
 
 
-@dataclass(frozen=True)
-class LookUpTransform(Command):
+class LookUpTransform(Command, frozen=True):
     """Answer with the newest transform between two frames, in words."""
 
     target: str

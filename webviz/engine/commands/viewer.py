@@ -2,48 +2,41 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
 from webviz.api.declared import Color
 from webviz.engine.commands.command import Command
 
 
-@dataclass(frozen=True)
-class SetFixedFrame(Command):
+class SetFixedFrame(Command, frozen=True):
     """Set the frame that everything is drawn in."""
 
     frame: str
 
 
-@dataclass(frozen=True)
-class SetBackground(Command):
+class SetBackground(Command, frozen=True):
     """Set the background colour; None follows the theme of each page."""
 
     color: Color | None
 
 
-@dataclass(frozen=True)
-class SetFrameRate(Command):
+class SetFrameRate(Command, frozen=True):
     """Set the maximum number of scene updates per second."""
 
     hz: float
 
 
-@dataclass(frozen=True)
-class Reset(Command):
+class Reset(Command, frozen=True):
     """Discard transforms and messages, as RViz's Reset does."""
 
 
-@dataclass(frozen=True)
-class Pause(Command):
+class Pause(Command, frozen=True):
     """Pause or resume; messages wait while paused."""
 
     paused: bool = True
 
 
-@dataclass(frozen=True)
-class Undo(Command):
+class Undo(Command, frozen=True):
     """Take back the newest steps that changed displays, tools, settings or saved views.
 
     Args:
@@ -55,8 +48,7 @@ class Undo(Command):
     own: bool = False
 
 
-@dataclass(frozen=True)
-class Redo(Command):
+class Redo(Command, frozen=True):
     """Do again what was taken back.
 
     Args:
@@ -68,8 +60,7 @@ class Redo(Command):
     own: bool = False
 
 
-@dataclass(frozen=True)
-class ReloadPlugin(Command):
+class ReloadPlugin(Command, frozen=True):
     """Reload a plug-in file after it was saved."""
 
     path: Path

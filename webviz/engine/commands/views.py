@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 from webviz.api.views import View
 from webviz.engine.commands.command import Command
 
 
-class ViewCommand(Command):
+class ViewCommand(Command, frozen=True):
     """A command for views.
 
     It acts on the browser with the id `browser`; without one, on the browser that sends it, or on
@@ -17,8 +16,7 @@ class ViewCommand(Command):
     """
 
 
-@dataclass(frozen=True)
-class ShowView(ViewCommand):
+class ShowView(ViewCommand, frozen=True):
     """Show a view.
 
     Args:
@@ -30,8 +28,7 @@ class ShowView(ViewCommand):
     browser: int | None = None
 
 
-@dataclass(frozen=True)
-class ChangeView(ViewCommand):
+class ChangeView(ViewCommand, frozen=True):
     """Change a property of the current view, with as little camera movement as possible.
 
     Args:
@@ -45,15 +42,13 @@ class ChangeView(ViewCommand):
     browser: int | None = None
 
 
-@dataclass(frozen=True)
-class ResetView(ViewCommand):
+class ResetView(ViewCommand, frozen=True):
     """Reset the view to the defaults of its type, as RViz's Zero does."""
 
     browser: int | None = None
 
 
-@dataclass(frozen=True)
-class FocusDisplay(ViewCommand):
+class FocusDisplay(ViewCommand, frozen=True):
     """Fit the view to everything that a display or group draws.
 
     Args:
@@ -65,8 +60,7 @@ class FocusDisplay(ViewCommand):
     browser: int | None = None
 
 
-@dataclass(frozen=True)
-class FocusFrame(ViewCommand):
+class FocusFrame(ViewCommand, frozen=True):
     """Look at the origin of a frame, from the same direction.
 
     Args:
@@ -78,8 +72,7 @@ class FocusFrame(ViewCommand):
     browser: int | None = None
 
 
-@dataclass(frozen=True)
-class SaveView(ViewCommand):
+class SaveView(ViewCommand, frozen=True):
     """Save the current view under a name.
 
     Args:
@@ -93,23 +86,20 @@ class SaveView(ViewCommand):
     view: View | None = None
 
 
-@dataclass(frozen=True)
-class RenameView(ViewCommand):
+class RenameView(ViewCommand, frozen=True):
     """Rename a saved view."""
 
     name: str
     new_name: str
 
 
-@dataclass(frozen=True)
-class RemoveView(ViewCommand):
+class RemoveView(ViewCommand, frozen=True):
     """Remove a saved view."""
 
     name: str
 
 
-@dataclass(frozen=True)
-class StartWithView(ViewCommand):
+class StartWithView(ViewCommand, frozen=True):
     """Make the current view the default of browsers and screenshots.
 
     Args:
@@ -121,8 +111,7 @@ class StartWithView(ViewCommand):
     view: View | str | None = None
 
 
-@dataclass(frozen=True)
-class SaveImage(ViewCommand):
+class SaveImage(ViewCommand, frozen=True):
     """Let a browser download its picture as a PNG.
 
     Args:

@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from webviz.engine.commands.command import Command
 
 
-@dataclass(frozen=True)
-class TryFrame(Command):
+class TryFrame(Command, frozen=True):
     """Take hold of a static frame; another one that is tried returns to its place."""
 
     frame: str
 
 
-@dataclass(frozen=True)
-class FindFrame(Command):
+class FindFrame(Command, frozen=True):
     """Move the tried frame to where its laser scan fits the map best."""
 
 
-@dataclass(frozen=True)
-class EndTrial(Command):
+class EndTrial(Command, frozen=True):
     """Return the tried frame to where its transforms have it."""

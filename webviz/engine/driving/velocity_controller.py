@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+
+import msgspec
 
 from webviz.api.vehicle import STILL, Vehicle, Velocity
 from webviz.sources.graph import Advertisement
@@ -18,8 +19,7 @@ TAIL = 5
 """Zeros that end a drive, in case that one of them is lost."""
 
 
-@dataclass(frozen=True)
-class DrivingAnswer:
+class DrivingAnswer(msgspec.Struct, frozen=True):
     """Answer to a browser about its velocity controller.
 
     Args:

@@ -6,8 +6,9 @@ import threading
 import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
-from dataclasses import replace
 from pathlib import Path
+
+from msgspec.structs import replace
 
 from webviz.api.nodes import POINTS_HELD
 from webviz.api.robots import NamespacedRobot, robots_of
@@ -154,8 +155,8 @@ class FrameLoop:
         )
         self._black_box = BlackBoxPart(core, self._settings, memory, control, self._displays.list)
         views = ViewsPart(core, self._settings, self._displays)
-        first = [transforms, self._time, self._playback, self._displays, self._settings, views]
-        first.append(LayoutsPart(core, self._settings))
+        first = [transforms, self._time, self._playback, self._displays, self._settings]
+        first += [views, LayoutsPart(core, self._settings)]
         others, history, kept = self._other_parts(config, path, views, memory, autosave, session)
         numbers = RuleNumbersPart(core, self._settings, lambda: self.doctor.rules)
         last = [
@@ -356,14 +357,12 @@ class FrameLoop:
         """Return a snapshot for a panel, as of the last turn."""
         state, statuses = self._parts.state(), self._parts.statuses()
         self._black_box.look(state.rows, self.doctor.verdicts)
-        seen = replace(
-            state,
-            statuses=statuses | failures(self._guard.crashes) | self._showing.statuses,
-            warned=self._playback.warned(state.rows),
-        )
-        findings = self._guard.attempt("Doctor", (), self.doctor.examine, seen)
+        statuses = statuses | failures(self._guard.crashes) | self._showing.statuses
+        warned = self._playback.warned(state.rows)
+        seen = replace(state, statuses=statuses, warned=warned)
         doctor = self.doctor
-        return replace(seen, findings=findings, found=doctor.events, examined_ns=doctor.examined_ns)
+        found = self._guard.attempt("Doctor", (), doctor.examine, seen)
+        return replace(seen, findings=found, found=doctor.events, examined_ns=doctor.examined_ns)
 
     def is_busy(self) -> bool:
         """Return whether a display is loading something that it has not drawn yet."""

@@ -7,10 +7,11 @@ import re
 import time
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Future
-from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 from typing import Any
+
+import msgspec
 
 from webviz.api.declared import Topic
 from webviz.api.errors import Error
@@ -51,8 +52,7 @@ GIGABYTE = 10**9
 LIMIT = "which is the limit. Delete recordings, or raise watch_limits.gigabytes."
 
 
-@dataclass
-class _Saving:
+class _Saving(msgspec.Struct):
     """A recording that is being made."""
 
     title: str

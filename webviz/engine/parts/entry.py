@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import msgspec
 
 from webviz.api.display import Display
 from webviz.api.group import DisplayGroup
@@ -10,8 +10,7 @@ from webviz.engine.pipeline import Runner
 from webviz.files.config import Unreadable
 
 
-@dataclass(eq=False)
-class Entry:
+class Entry(msgspec.Struct, eq=False):
     """One line of the list.
 
     Args:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
+
+import msgspec
 
 from webviz.api.errors import Error
 from webviz.api.frames import is_placeable
@@ -20,8 +22,7 @@ SILENCE_S = 3.0
 """After which a browser that holds a handle is taken to be gone; it reports every half second."""
 
 
-@dataclass
-class _Hold:
+class _Hold(msgspec.Struct):
     """A handle in the hands of a browser.
 
     Args:

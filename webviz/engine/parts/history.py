@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
 from typing import Any
+
+import msgspec
+from msgspec.structs import replace
 
 from webviz.engine.commands import Command, Redo, Restore, Sender, Undo
 from webviz.engine.commands.requests import Job
@@ -23,8 +25,7 @@ SAME_S = 1.5
 Do = Callable[[Command, Sender], str | Job[Any]]
 
 
-@dataclass(frozen=True)
-class _Done:
+class _Done(msgspec.Struct, frozen=True):
     """A step, and the moments around it."""
 
     step: Step

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import fields
 from typing import Any
 
 from webviz.api.errors import Error
@@ -15,7 +14,7 @@ from webviz.engine.parts.part import Batches, Handler, Part, overrides
 from webviz.engine.state import State
 from webviz.sources import Subscription, merged
 
-_FIELDS = {field.name for field in fields(State)}
+_FIELDS = set(State.__struct_fields__)
 _HOOKS = ("subscriptions", "take", "reset", "keep_up", "state", "statuses", "close")
 
 

@@ -11,7 +11,6 @@ import platform
 import tempfile
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -64,8 +63,7 @@ PACKAGES = ("ros-webviz", "viser", "numpy", "mcap", "msgspec", "rosbags")
 VARIABLES = ("ROS_DISTRO", "RMW_IMPLEMENTATION")
 
 
-@dataclass(frozen=True)
-class _Moment:
+class _Moment(msgspec.Struct, frozen=True):
     """All that a report is made of, as it was when it was asked for."""
 
     part: Slice

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
 from typing import Any
+
+import msgspec
 
 from webviz.api.errors import Error
 from webviz.api.picking import Details
@@ -30,8 +31,7 @@ GONE = "It has been replaced since the click. Click again."
 REPLACED = "A newer message has replaced this one; the values are those of the selected message."
 
 
-@dataclass(frozen=True)
-class _Selected:
+class _Selected(msgspec.Struct, frozen=True):
     """One thing, and the display that drew it."""
 
     runner: Runner
@@ -43,8 +43,7 @@ class _Selected:
         return not self.found.hit.samples
 
 
-@dataclass
-class _Selection:
+class _Selection(msgspec.Struct):
     """Selection of one browser.
 
     Args:
@@ -54,9 +53,9 @@ class _Selection:
         told_at: when that was made, None if it is out of date.
     """
 
-    things: dict[int, _Selected] = field(default_factory=dict)
+    things: dict[int, _Selected] = msgspec.field(default_factory=dict)
     total: int = 0
-    told: Mapping[str, Any] = field(default_factory=dict)
+    told: Mapping[str, Any] = msgspec.field(default_factory=dict)
     told_at: float | None = None
 
 
@@ -188,7 +187,11 @@ class SelectionPart(Part):
         info["count"] = len(selection.things)
         if sum(each.count for each in counted.values()) > 1:
             info["displays"] = [
-                {"name": each.name, "count": each.count, "ranges": list(map(asdict, each.ranges()))}
+                {
+                    "name": each.name,
+                    "count": each.count,
+                    "ranges": list(map(msgspec.structs.asdict, each.ranges())),
+                }
                 for each in counted.values()
             ]
         return {**told, "/info": info}

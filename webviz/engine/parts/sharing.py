@@ -7,9 +7,10 @@ import tempfile
 import threading
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future, wait
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
+
+import msgspec
 
 from webviz.api.errors import Error
 from webviz.api.status import Level
@@ -37,8 +38,7 @@ _exports = DiskThreads(8)
 """For files that take minutes to be made."""
 
 
-@dataclass(frozen=True)
-class SharedMoment:
+class SharedMoment(msgspec.Struct, frozen=True):
     """A recording to make a file of.
 
     Args:
@@ -75,8 +75,7 @@ class Exporter(Protocol):
         ...
 
 
-@dataclass
-class _Running:
+class _Running(msgspec.Struct):
     """An export that goes on."""
 
     stopped: threading.Event

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -14,8 +13,7 @@ from webviz.api.properties import properties_of
 from webviz.files.config import Settings, Template, Unreadable
 
 
-@dataclass(frozen=True)
-class Snapshot:
+class Snapshot(msgspec.Struct, frozen=True):
     """One entry of the list of displays, one tool or one panel.
 
     Args:
@@ -56,8 +54,7 @@ def made_anew(kept: Snapshot) -> Declared | Unreadable:
     return make(kept.class_, dict(kept.values))
 
 
-@dataclass(frozen=True)
-class Origin:
+class Origin(msgspec.Struct, frozen=True):
     """Where a config comes from.
 
     Args:
@@ -71,8 +68,7 @@ class Origin:
     templates: tuple[Template, ...] = ()
 
 
-@dataclass(frozen=True)
-class Moment:
+class Moment(msgspec.Struct, frozen=True):
     """All that undo brings back.
 
     Args:
@@ -83,15 +79,14 @@ class Moment:
         origin: of all of them.
     """
 
-    settings: Settings = field(default_factory=Settings)
-    displays: Mapping[str, Snapshot] = field(default_factory=dict)
-    tools: Mapping[str, Snapshot] = field(default_factory=dict)
-    panels: Mapping[str, Snapshot] = field(default_factory=dict)
+    settings: Settings = msgspec.field(default_factory=Settings)
+    displays: Mapping[str, Snapshot] = msgspec.field(default_factory=dict)
+    tools: Mapping[str, Snapshot] = msgspec.field(default_factory=dict)
+    panels: Mapping[str, Snapshot] = msgspec.field(default_factory=dict)
     origin: Origin = Origin()
 
 
-@dataclass(frozen=True)
-class Difference:
+class Difference(msgspec.Struct, frozen=True):
     """Actions between two moments.
 
     Args:

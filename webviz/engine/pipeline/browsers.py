@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Protocol
+
+import msgspec
 
 from webviz.api.browser import BrowserSeen
 
 
-@dataclass(frozen=True)
-class Painted:
+class Painted(msgspec.Struct, frozen=True):
     """The answer of a browser to a probe; times are monotonic, in seconds.
 
     Args:

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Future
-from dataclasses import dataclass, field
 from typing import Any, TypeVar
+
+import msgspec
 
 from webviz.api.connection import ReceivedMessages
 from webviz.api.declared import Topic
@@ -22,8 +23,7 @@ MAX_BYTES = 64 << 20
 """Of these messages; the newest is kept, however large, if it is the only one."""
 
 
-@dataclass
-class _Line:
+class _Line(msgspec.Struct):
     """A topic that is listened to.
 
     Args:
@@ -34,7 +34,7 @@ class _Line:
     """
 
     subscription: Subscription
-    waiting: deque[bytes] = field(default_factory=deque)
+    waiting: deque[bytes] = msgspec.field(default_factory=deque)
     has_gap: bool = True
     is_open: bool = True
 

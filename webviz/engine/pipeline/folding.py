@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import copy
+import dataclasses
 from collections import Counter, deque
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future
-from dataclasses import dataclass, replace
 from typing import Any
+
+import msgspec
+from msgspec.structs import replace
 
 from webviz.api.display import Display
 from webviz.api.sample import Sample
@@ -20,8 +23,7 @@ MAX_BYTES = 64 << 20
 """Of messages that wait while another is merged; the newest waits however large it is."""
 
 
-@dataclass(frozen=True)
-class Received:
+class Received(msgspec.Struct, frozen=True):
     """A message, or a set of them.
 
     Args:
@@ -96,7 +98,7 @@ class Folding:
             self._judged(received.sample.input, refusal)
             if folded is not None and folded is not CRASHED and not refusal:
                 self._state = folded
-                yield replace(received, sample=replace(received.sample, message=folded))
+                yield replace(received, sample=dataclasses.replace(received.sample, message=folded))
 
 
 def _merged(display: Display, received: Received, state: Any) -> Any:
@@ -116,4 +118,4 @@ def _decoded(received: Received) -> Received | MessageError:
         message = decode(sample.type, received.raw.cdr)
     except MessageError as error:
         return error
-    return replace(received, sample=replace(sample, message=message))
+    return replace(received, sample=dataclasses.replace(sample, message=message))

@@ -6,7 +6,9 @@ import heapq
 import itertools
 import weakref
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
+
+import msgspec
 
 from webviz.api.display import Keep
 from webviz.api.frames import Frames, compose
@@ -39,8 +41,7 @@ class HistoryBudget:
             excess -= largest.shrink(excess)
 
 
-@dataclass
-class Held:
+class Held(msgspec.Struct):
     """A sample and where it is drawn.
 
     Args:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
 from typing import Any, TypeVar
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -31,8 +32,7 @@ Items = Points | Lines | Arrows | Axes | Labels | Instances | Models
 N = TypeVar("N", bound=Items)
 
 
-@dataclass(frozen=True, eq=False)
-class Shot:
+class Shot(msgspec.Struct, frozen=True, eq=False):
     """Picture drawn by one call of a hook.
 
     Args:
@@ -46,8 +46,7 @@ class Shot:
     fixed_frame: str
 
 
-@dataclass(frozen=True, eq=False)
-class Found:
+class Found(msgspec.Struct, frozen=True, eq=False):
     """Something that was selected, and where it is.
 
     Args:

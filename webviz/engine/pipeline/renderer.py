@@ -6,8 +6,9 @@ import copy
 import functools
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future
-from dataclasses import dataclass
 from typing import Any
+
+import msgspec
 
 from webviz.api.context import ColorScale, Context, Placement
 from webviz.api.display import Display, overrides
@@ -31,8 +32,7 @@ Look = tuple[Sample, int]
 """A sample, and a number that changes with everything else that its drawing depends on."""
 
 
-@dataclass(frozen=True)
-class _DrawJob:
+class _DrawJob(msgspec.Struct, frozen=True):
     """A sample that is drawn in a worker.
 
     Args:

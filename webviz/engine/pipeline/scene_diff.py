@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
 from typing import Protocol
+
+import msgspec
 
 from webviz.api.context import Context, Group, Placement
 from webviz.api.frames import Frames, compose
@@ -43,8 +44,7 @@ class SceneWriter(Protocol):
         ...
 
 
-@dataclass
-class _Drawn:
+class _Drawn(msgspec.Struct):
     """A group in the scene.
 
     Args:
@@ -64,8 +64,7 @@ class _Drawn:
     visible: bool | None = None
 
 
-@dataclass
-class _Followers:
+class _Followers(msgspec.Struct):
     """Groups that follow one frame in the same way.
 
     Args:
@@ -76,7 +75,7 @@ class _Followers:
     """
 
     placement: Placement
-    groups: list[tuple[str, _Drawn]] = field(default_factory=list)
+    groups: list[tuple[str, _Drawn]] = msgspec.field(default_factory=list)
     pose: Pose | None = None
     fixed_frame: str = ""
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -31,8 +32,7 @@ Values = Mapping[str, Any]
 after a dot; or "#columns", see `ItemColumns`."""
 
 
-@dataclass(frozen=True, eq=False)
-class ItemColumns:
+class ItemColumns(msgspec.Struct, frozen=True, eq=False):
     """Details of the items of a large node as arrays.
 
     Args:
@@ -53,8 +53,7 @@ class ItemColumns:
         return ItemColumns(ids, replace(self.columns, values=values))
 
 
-@dataclass(frozen=True)
-class _Drawn:
+class _Drawn(msgspec.Struct, frozen=True):
     """A node that is drawn.
 
     Args:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+
+import msgspec
 
 from webviz.api.nodes import POINTS_HELD
 from webviz.api.robots import NamespacedRobot
@@ -16,8 +17,7 @@ from webviz.engine.state.trace import Tracer
 from webviz.sources import Gate
 
 
-@dataclass(frozen=True)
-class Services:
+class Services(msgspec.Struct, frozen=True):
     """Shared by all runners.
 
     Args:
@@ -39,9 +39,9 @@ class Services:
     resolve: Callable[[str], str]
     strict: bool = False
     clock: Callable[[], float] = time.monotonic
-    tracer: Tracer = field(default_factory=lambda: Tracer(time.monotonic))
+    tracer: Tracer = msgspec.field(default_factory=lambda: Tracer(time.monotonic))
     gate: Gate | None = None
     wake: Callable[[], None] = lambda: None
     robots: Callable[[], Sequence[NamespacedRobot]] = tuple
-    points: PointBudget = field(default_factory=lambda: PointBudget(lambda: POINTS_HELD))
-    histories: HistoryBudget = field(default_factory=HistoryBudget)
+    points: PointBudget = msgspec.field(default_factory=lambda: PointBudget(lambda: POINTS_HELD))
+    histories: HistoryBudget = msgspec.field(default_factory=HistoryBudget)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
 
+import msgspec
 import numpy as np
 
 from webviz.api.picking import Quantity
@@ -15,8 +15,7 @@ MAX_NAMES = 20
 """Values of one display of which there are statistics."""
 
 
-@dataclass(frozen=True)
-class Range:
+class Range(msgspec.Struct, frozen=True):
     """The extent of one value over several items.
 
     Args:
@@ -32,8 +31,7 @@ class Range:
     mean: float
 
 
-@dataclass
-class Statistics:
+class Statistics(msgspec.Struct):
     """Count and extents of the selected items of one display.
 
     Args:
@@ -43,7 +41,7 @@ class Statistics:
 
     name: str
     count: int = 0
-    _values: dict[tuple[str, str], list[float]] = field(default_factory=dict)
+    _values: dict[tuple[str, str], list[float]] = msgspec.field(default_factory=dict)
 
     def add(self, values: Mapping[str, object], position: tuple[str, Position] | None) -> None:
         """Add an item.

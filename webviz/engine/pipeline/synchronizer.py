@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Generic, TypeVar
+
+import msgspec
 
 P = TypeVar("P")
 
@@ -12,8 +13,7 @@ MAX_BYTES = 64 << 20
 """Of the messages of an input that wait; the newest waits, however large."""
 
 
-@dataclass(frozen=True)
-class Gap:
+class Gap(msgspec.Struct, frozen=True):
     """Why the newest message of one input is in no set.
 
     Args:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -35,8 +36,7 @@ GAMMA = 2.2
 """Of sRGB, about."""
 
 
-@dataclass(frozen=True)
-class Tint:
+class Tint(msgspec.Struct, frozen=True):
     """Mixes a colour into nodes and makes them transparent.
 
     Args:

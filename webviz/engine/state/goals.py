@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import CancelledError, Future
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from webviz.api.errors import Error
 from webviz.api.goal import GoalRequest

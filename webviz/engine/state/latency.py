@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import msgspec
 
 
-@dataclass(frozen=True)
-class Stage:
+class Stage(msgspec.Struct, frozen=True):
     """One step of samples on their way, in seconds.
 
     Args:
@@ -21,8 +20,7 @@ class Stage:
     p99: float
 
 
-@dataclass(frozen=True)
-class BrowserLatency:
+class BrowserLatency(msgspec.Struct, frozen=True):
     """The rest of the way, to the screen of one browser.
 
     Args:
@@ -43,8 +41,7 @@ class BrowserLatency:
     bytes_per_s: float
 
 
-@dataclass(frozen=True)
-class Latency:
+class Latency(msgspec.Struct, frozen=True):
     """The last samples of a display.
 
     Args:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any, Literal
+
+import msgspec
 
 from webviz.api.bridge import Bridge
 from webviz.api.context import ColorScale
@@ -32,8 +33,7 @@ from webviz.sources.past_state import (
 )
 
 
-@dataclass(frozen=True)
-class Row:
+class Row(msgspec.Struct, frozen=True):
     """One display in the list.
 
     Args:
@@ -59,7 +59,7 @@ class Row:
     enabled: bool = True
     color_scale: ColorScale | None = None
     revision: int = 0
-    offered: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
+    offered: Mapping[str, Mapping[str, int]] = msgspec.field(default_factory=dict)
     attribution: str = ""
 
     @property
@@ -68,8 +68,7 @@ class Row:
         return worst(self.statuses.values())
 
 
-@dataclass(frozen=True)
-class ClockRate:
+class ClockRate(msgspec.Struct, frozen=True):
     """Rate of ROS time, for pages that count by themselves.
 
     Args:
@@ -86,8 +85,7 @@ class ClockRate:
         return self.ros_ns + (wall_s - self.wall_s) * self.rate * 1e9
 
 
-@dataclass(frozen=True)
-class PanelTimes:
+class PanelTimes(msgspec.Struct, frozen=True):
     """The times of RViz's Time panel.
 
     Args:
@@ -110,8 +108,7 @@ class PanelTimes:
     clock_hz: float = 0.0
 
 
-@dataclass(frozen=True)
-class Traffic:
+class Traffic(msgspec.Struct, frozen=True):
     """Traffic of a topic over the last seconds.
 
     Args:
@@ -124,8 +121,7 @@ class Traffic:
     delay_s: float | None = None
 
 
-@dataclass(frozen=True)
-class Inspected:
+class Inspected(msgspec.Struct, frozen=True):
     """The inspected topic.
 
     Args:
@@ -143,8 +139,7 @@ class Inspected:
     received_s: float = 0.0
 
 
-@dataclass(frozen=True)
-class Between:
+class Between(msgspec.Struct, frozen=True):
     """The transform between two frames, at the newest time that all links between them have.
 
     Args:
@@ -160,8 +155,7 @@ class Between:
     problem: str = ""
 
 
-@dataclass(frozen=True)
-class ToolButton:
+class ToolButton(msgspec.Struct, frozen=True):
     """One tool in the toolbar.
 
     Args:
@@ -190,11 +184,10 @@ class ToolButton:
     asks: bool = False
     refusal: str = ""
     several: tuple[str, ...] = ()
-    tool: Tool = field(default_factory=Tool)
+    tool: Tool = msgspec.field(default_factory=Tool)
 
 
-@dataclass(frozen=True)
-class PanelTab:
+class PanelTab(msgspec.Struct, frozen=True):
     """One panel of a plug-in.
 
     Args:
@@ -208,8 +201,7 @@ class PanelTab:
     panel: Panel
 
 
-@dataclass(frozen=True)
-class GoalProgress:
+class GoalProgress(msgspec.Struct, frozen=True):
     """A goal that a tool sent to an action.
 
     Args:
@@ -231,12 +223,11 @@ class GoalProgress:
     poses: Sequence[tuple[float, float, float, float]] = ()
     phase: Literal["sending", "active", "canceling", "ended"] = "sending"
     status: Status | None = None
-    values: Mapping[str, str] = field(default_factory=dict)
+    values: Mapping[str, str] = msgspec.field(default_factory=dict)
     can_dismiss: bool = False
 
 
-@dataclass(frozen=True)
-class Driving:
+class Driving(msgspec.Struct, frozen=True):
     """A vehicle that browsers attend to.
 
     Args:
@@ -252,8 +243,7 @@ class Driving:
     problem: str = ""
 
 
-@dataclass(frozen=True)
-class Step:
+class Step(msgspec.Struct, frozen=True):
     """Something that was changed.
 
     Args:
@@ -271,8 +261,7 @@ class Step:
     restored: str = ""
 
 
-@dataclass(frozen=True)
-class WhatIf:
+class WhatIf(msgspec.Struct, frozen=True):
     """A static frame that is tried in another pose.
 
     Args:
@@ -288,20 +277,18 @@ class WhatIf:
     parent: str
     position: tuple[float, float, float]
     rpy: tuple[float, float, float]
-    fits: Mapping[str, tuple[float, int, str]] = field(default_factory=dict)
+    fits: Mapping[str, tuple[float, int, str]] = msgspec.field(default_factory=dict)
     browser: int | None = None
 
 
-@dataclass(frozen=True)
-class UndoHistory:
+class UndoHistory(msgspec.Struct, frozen=True):
     """Undo and redo steps, each with the newest first."""
 
     undo: tuple[Step, ...] = ()
     redo: tuple[Step, ...] = ()
 
 
-@dataclass(frozen=True, kw_only=True)
-class State:
+class State(msgspec.Struct, frozen=True, kw_only=True):
     """A viewer at one moment; each part fills in the fields that it owns.
 
     Args:
@@ -348,28 +335,30 @@ class State:
     rows: tuple[Row, ...] = ()
     fixed_frame: str = Settings().fixed_frame
     frames: tuple[str, ...] = ()
-    topics: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-    statuses: Mapping[str, Status] = field(default_factory=dict)
-    settings: Settings = field(default_factory=Settings)
-    file: ConfigFile = field(default_factory=ConfigFile)
+    topics: Mapping[str, tuple[str, ...]] = msgspec.field(default_factory=dict)
+    statuses: Mapping[str, Status] = msgspec.field(default_factory=dict)
+    settings: Settings = msgspec.field(default_factory=Settings)
+    file: ConfigFile = msgspec.field(default_factory=ConfigFile)
     clock: PanelTimes = PanelTimes()
-    offers: Mapping[str, Offer] = field(default_factory=dict)
-    services: Mapping[str, str] = field(default_factory=dict)
+    offers: Mapping[str, Offer] = msgspec.field(default_factory=dict)
+    services: Mapping[str, str] = msgspec.field(default_factory=dict)
     bridges: tuple[Bridge, ...] = ()
-    traffic: Mapping[str, Traffic] = field(default_factory=dict)
-    inspected: Mapping[str, Inspected] = field(default_factory=dict)
+    traffic: Mapping[str, Traffic] = msgspec.field(default_factory=dict)
+    inspected: Mapping[str, Inspected] = msgspec.field(default_factory=dict)
     transforms: Diagnosis | None = None
-    between: Mapping[tuple[str, str], Between] = field(default_factory=dict)
+    between: Mapping[tuple[str, str], Between] = msgspec.field(default_factory=dict)
     latencies: tuple[Latency, ...] = ()
-    views: Mapping[int, View] = field(default_factory=dict)
+    views: Mapping[int, View] = msgspec.field(default_factory=dict)
     tools: tuple[ToolButton, ...] = ()
     panels: tuple[PanelTab, ...] = ()
     goals: tuple[GoalProgress, ...] = ()
-    driving: Mapping[str, Driving] = field(default_factory=dict)
-    handles: Mapping[tuple[str, str], tuple[Handle, int | None]] = field(default_factory=dict)
+    driving: Mapping[str, Driving] = msgspec.field(default_factory=dict)
+    handles: Mapping[tuple[str, str], tuple[Handle, int | None]] = msgspec.field(
+        default_factory=dict
+    )
     history: UndoHistory = UndoHistory()
     playback: PlaybackState | None = None
-    recorded: Mapping[str, Sequence[int]] = field(default_factory=dict)
+    recorded: Mapping[str, Sequence[int]] = msgspec.field(default_factory=dict)
     logged: Sequence[Event] = ()
     warned: Sequence[Event] = ()
     findings: Sequence[Finding] = ()
@@ -380,7 +369,7 @@ class State:
     black_box: BlackBoxState | None = None
     sharing: SharingState | None = None
     what_if: WhatIf | None = None
-    selected: Mapping[int, Mapping[int, tuple[str, bool]]] = field(default_factory=dict)
-    selections: Mapping[int, Mapping[str, Any]] = field(default_factory=dict)
+    selected: Mapping[int, Mapping[int, tuple[str, bool]]] = msgspec.field(default_factory=dict)
+    selections: Mapping[int, Mapping[str, Any]] = msgspec.field(default_factory=dict)
     reported: tuple[ReportedPick, ...] = ()
-    more: Mapping[str, Any] = field(default_factory=dict)
+    more: Mapping[str, Any] = msgspec.field(default_factory=dict)

@@ -7,7 +7,8 @@ import time
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Future
-from dataclasses import dataclass
+
+import msgspec
 
 from webviz.api.errors import Error
 from webviz.api.sample import Sample
@@ -17,8 +18,7 @@ MAX_ASKED = 100
 _UNTIMED = contextlib.nullcontext()
 
 
-@dataclass(frozen=True)
-class Trace:
+class Trace(msgspec.Struct, frozen=True):
     """The times of one sample on its way to the browsers, in nanoseconds of ROS time.
 
     From its arrival on they advance with the wall clock, so that a paused or slow simulation hides
@@ -57,8 +57,7 @@ class Trace:
         return ", ".join(f"{name} {(ns - first) / 1e6:+.1f} ms" for name, ns in known.items())
 
 
-@dataclass
-class _Begun:
+class _Begun(msgspec.Struct):
     """A sample on its way; times are monotonic, in seconds."""
 
     sample: Sample

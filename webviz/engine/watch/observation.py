@@ -5,7 +5,8 @@ from __future__ import annotations
 import threading
 from collections import deque
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+
+import msgspec
 
 from webviz.api.status import Level
 from webviz.data.messages import MessageError, decode
@@ -25,8 +26,7 @@ LEVEL_TYPES = (DIAGNOSTICS, LOG)
 LOG_WARN, LOG_ERROR = 30, 40
 
 
-@dataclass(frozen=True)
-class WatchedMoment:
+class WatchedMoment(msgspec.Struct, frozen=True):
     """A moment, as far as rules are about it.
 
     Args:
@@ -40,11 +40,11 @@ class WatchedMoment:
     """
 
     at_s: float
-    displays: Mapping[str, Level] = field(default_factory=dict)
-    rates: Mapping[str, float] = field(default_factory=dict)
-    levels: Mapping[str, Level] = field(default_factory=dict)
-    numbers: Mapping[str, Sequence[float]] = field(default_factory=dict)
-    kept: Mapping[str, bool | None] = field(default_factory=dict)
+    displays: Mapping[str, Level] = msgspec.field(default_factory=dict)
+    rates: Mapping[str, float] = msgspec.field(default_factory=dict)
+    levels: Mapping[str, Level] = msgspec.field(default_factory=dict)
+    numbers: Mapping[str, Sequence[float]] = msgspec.field(default_factory=dict)
+    kept: Mapping[str, bool | None] = msgspec.field(default_factory=dict)
 
 
 class TopicObserver:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from webviz.api.status import Level
 from webviz.engine.watch.observation import WatchedMoment
@@ -53,8 +54,7 @@ def holds(rule: WatchRule, now: WatchedMoment) -> bool | None:
     return None if level is None else level >= (Level.ERROR if least == "error" else Level.WARN)
 
 
-@dataclass
-class _State:
+class _State(msgspec.Struct):
     """One rule; times are monotonic, in seconds."""
 
     since_s: float | None = None

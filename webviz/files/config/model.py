@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from typing import Annotated, Any
 
 import msgspec
@@ -95,8 +94,7 @@ class Settings(msgspec.Struct, forbid_unknown_fields=True):
     ] = {}  # msgspec copies it
 
 
-@dataclass
-class Unreadable:
+class Unreadable(msgspec.Struct):
     """A display, tool or panel that cannot be used; saving keeps its entry unchanged.
 
     Args:
@@ -131,8 +129,7 @@ class Unreadable:
         return entry.get("Enabled", entry.get("Value", False)) is True
 
 
-@dataclass
-class Branch:
+class Branch(msgspec.Struct):
     """A group and its displays, in order."""
 
     group: DisplayGroup
@@ -159,8 +156,7 @@ def all_panels() -> list[PanelItem]:
     return [make(cls, {}) for _, cls in types if not cls.on_request]
 
 
-@dataclass
-class Config:
+class Config(msgspec.Struct):
     """A whole config.
 
     Args:
@@ -172,11 +168,11 @@ class Config:
         templates: of displays and tools, which are saved again as they were read.
     """
 
-    settings: Settings = field(default_factory=Settings)
-    displays: list[Item] = field(default_factory=list)
-    tools: list[ToolItem] = field(default_factory=all_tools)
-    panels: list[PanelItem] = field(default_factory=all_panels)
-    report: list[str] = field(default_factory=list)
+    settings: Settings = msgspec.field(default_factory=Settings)
+    displays: list[Item] = msgspec.field(default_factory=list)
+    tools: list[ToolItem] = msgspec.field(default_factory=all_tools)
+    panels: list[PanelItem] = msgspec.field(default_factory=all_panels)
+    report: list[str] = msgspec.field(default_factory=list)
     templates: tuple[Template, ...] = ()
 
     def set_fixed_frame(self, frame: str) -> None:

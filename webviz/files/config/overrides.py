@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NoReturn
@@ -76,8 +75,10 @@ class _Assignment:
     def applied(self, config: Config) -> Config:
         steps = self._path[1:]
         if (key := str(self._path[0])) in _LISTS:
-            return dataclasses.replace(config, **{key: self._in_list(getattr(config, key), steps)})
-        return dataclasses.replace(config, settings=self._in_settings(config.settings))
+            return msgspec.structs.replace(
+                config, **{key: self._in_list(getattr(config, key), steps)}
+            )
+        return msgspec.structs.replace(config, settings=self._in_settings(config.settings))
 
     def _in_settings(self, settings: Settings) -> Settings:
         key = str(self._path[0])

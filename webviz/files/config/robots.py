@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
+
+import msgspec
 
 PLACE = "{robot}"
 """Stands for the namespace of a robot in names and topics."""
@@ -13,8 +14,7 @@ Repetition = tuple[int, Any, str]
 """An entry: its place in the file, the entry itself, and the robot that it is for, or ""."""
 
 
-@dataclass(frozen=True)
-class Template:
+class Template(msgspec.Struct, frozen=True):
     """An entry that was repeated.
 
     Args:

@@ -11,9 +11,9 @@ import functools
 import io
 import json
 import re
-from dataclasses import dataclass
 from typing import Any
 
+import msgspec
 from ruamel.yaml import YAML
 from ruamel.yaml.composer import Composer
 from ruamel.yaml.error import YAMLError
@@ -143,8 +143,7 @@ def _refuse_too_large(where: str, values: int, depth: int, characters: int = 0) 
         raise ConfigError(f"{where} is nested deeper than {MAX_DEPTH} levels.")
 
 
-@dataclass(frozen=True)
-class Location:
+class Location(msgspec.Struct, frozen=True):
     """Where a value stands, for sentences: `lab.yaml:12: displays[2].size`.
 
     Args:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 
 import msgspec
@@ -110,8 +109,7 @@ class BugReport(msgspec.Struct, frozen=True, kw_only=True):
         return (self.at_ns - self.first_ns) / 1e9
 
 
-@dataclass(frozen=True)
-class UnpackedReport:
+class UnpackedReport(msgspec.Struct, frozen=True):
     """A report whose slice and config are files.
 
     Args:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from typing import Any, TypeGuard
 
 import msgspec
@@ -29,15 +28,14 @@ NO_DISPLAY = f"unsupported display class; {KEPT}"
 NO_PROPERTY = f"unsupported; {KEPT}"
 
 
-@dataclass
-class Kept:
+class Kept(msgspec.Struct):
     """The unsupported parts of a file's displays.
 
     Args:
         entries: class, name and the keys that writing the display does not restore, in order.
     """
 
-    entries: list[Tree] = field(default_factory=list)
+    entries: list[Tree] = msgspec.field(default_factory=list)
 
     def take(self, cls: str, name: str) -> Tree:
         """Return the first entry of a class and name that is not taken yet, else an empty one."""

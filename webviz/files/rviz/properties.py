@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-from dataclasses import dataclass
 from typing import Any
 
 import msgspec
@@ -18,8 +17,7 @@ COMMON = ("name", "enabled")
 """Properties of every display or tool; RViz keeps them apart from the others."""
 
 
-@dataclass(frozen=True)
-class RvizProperty:
+class RvizProperty(msgspec.Struct, frozen=True):
     """A property on both sides.
 
     Args:

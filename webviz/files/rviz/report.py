@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+
+import msgspec
 
 NAMED = 4
 """Places listed in a sentence; the rest is counted."""
 
 
-@dataclass(frozen=True)
-class Note:
+class Note(msgspec.Struct, frozen=True):
     """A part of a file that is not shown as written.
 
     Args:
@@ -25,13 +25,12 @@ class Note:
     reason: str
 
 
-@dataclass
-class Report:
+class Report(msgspec.Struct):
     """Notes, and per kind the numbers of things found and carried over."""
 
-    notes: list[Note] = field(default_factory=list)
-    total: Counter[str] = field(default_factory=Counter)
-    carried: Counter[str] = field(default_factory=Counter)
+    notes: list[Note] = msgspec.field(default_factory=list)
+    total: Counter[str] = msgspec.field(default_factory=Counter)
+    carried: Counter[str] = msgspec.field(default_factory=Counter)
 
     def note(self, place: str, what: str, reason: str) -> None:
         """Report something that is not carried over unchanged."""

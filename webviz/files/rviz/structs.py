@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import typing
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from typing import Any, Literal
 
 import msgspec
@@ -27,8 +26,7 @@ intensities of scans `intensities`.
 """
 
 
-@dataclass
-class Reading:
+class Reading(msgspec.Struct):
     """The result of reading a tree.
 
     Args:
@@ -36,8 +34,8 @@ class Reading:
         faults: paths of invalid values, with the reason.
     """
 
-    used: set[Path] = field(default_factory=set)
-    faults: list[tuple[Path, str]] = field(default_factory=list)
+    used: set[Path] = msgspec.field(default_factory=set)
+    faults: list[tuple[Path, str]] = msgspec.field(default_factory=list)
 
     def struct(self, cls: type[msgspec.Struct], tree: Tree, above: Path = ()) -> dict[str, Any]:
         """Plain values for `cls` from a tree; `above` is its path in the display's tree."""

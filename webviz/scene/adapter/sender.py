@@ -5,8 +5,8 @@ from __future__ import annotations
 import asyncio
 import threading
 from collections.abc import AsyncGenerator, Callable, Mapping, Sequence
-from dataclasses import dataclass
 
+import msgspec
 import websockets.asyncio.server as websocket
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 from viser.infra._messages import Message
@@ -174,8 +174,7 @@ class SceneSender:
         self._go_on()
 
 
-@dataclass
-class _Browser:
+class _Browser(msgspec.Struct):
     """A browser that is served.
 
     Args:

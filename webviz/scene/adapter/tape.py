@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
+import msgspec
 import viser
 from viser import _messages as wire
 from viser.infra._infra import ClientId
@@ -17,8 +17,7 @@ NOT_RECORDED = (wire.RunJavascriptMessage,)
 """Scripts, which a file does not need and should not contain."""
 
 
-@dataclass(frozen=True)
-class SceneMessage:
+class SceneMessage(msgspec.Struct, frozen=True):
     """A message of the scene.
 
     Args:
@@ -38,8 +37,7 @@ class SceneMessage:
     buffers: Sequence[memoryview]
 
 
-@dataclass(frozen=True)
-class SceneChange:
+class SceneChange(msgspec.Struct, frozen=True):
     """Messages that came, and numbers of those that a browser that joins would not get any more."""
 
     added: Sequence[SceneMessage]

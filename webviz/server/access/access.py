@@ -6,9 +6,10 @@ import logging
 import math
 import os
 from collections.abc import Callable
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
+
+import msgspec
 
 from webviz.data.disk import DiskThreads
 from webviz.server.access import token_file
@@ -24,8 +25,7 @@ MAX_MISSED = 5
 """Looks in a row that the file does not respond to, upon which the log says so."""
 
 
-@dataclass(frozen=True)
-class Grant:
+class Grant(msgspec.Struct, frozen=True):
     """Rights of a connection.
 
     Args:

@@ -7,8 +7,9 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
 from datetime import UTC, datetime
+
+import msgspec
 
 from webviz.server.access.visitors import Visitor
 
@@ -19,8 +20,7 @@ MAX_TEXT = 200
 """Characters of an entry; it may quote the name of a file or topic."""
 
 
-@dataclass(frozen=True)
-class JournalEntry:
+class JournalEntry(msgspec.Struct, frozen=True):
     """Something that was done.
 
     Args:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import html
 import http
 from collections.abc import Iterator
-from dataclasses import dataclass
 from urllib.parse import parse_qsl, urlencode
 
+import msgspec
 from websockets.datastructures import Headers
 
 from webviz.server.access.access import Access, Grant
@@ -40,8 +40,7 @@ class NoCookies(Exception):
     """A browser keeps no cookies, without which no link lets in."""
 
 
-@dataclass(frozen=True)
-class Welcome:
+class Welcome(msgspec.Struct, frozen=True):
     """The response to a valid link.
 
     Args:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import ipaddress
 from collections.abc import Iterable
-from dataclasses import dataclass
 
+import msgspec
 from websockets.datastructures import Headers
 
 from webviz.api.errors import Error
@@ -13,8 +13,7 @@ from webviz.api.errors import Error
 Address = ipaddress.IPv4Address | ipaddress.IPv6Address
 
 
-@dataclass(frozen=True)
-class Caller:
+class Caller(msgspec.Struct, frozen=True):
     """Where a request comes from, and how the browser addressed the server."""
 
     address: str

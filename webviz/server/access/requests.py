@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Annotated, Literal
 
 import msgspec
 
 
-@dataclass(frozen=True)
-class Invite:
+class Invite(msgspec.Struct, frozen=True):
     """Make a link for somebody else; the answer has the `link` and its QR `code`.
 
     Args:
@@ -25,8 +23,7 @@ class Invite:
     url: Annotated[str, msgspec.Meta(max_length=300, pattern="^https?://")]
 
 
-@dataclass(frozen=True)
-class Dismiss:
+class Dismiss(msgspec.Struct, frozen=True):
     """End the visit of somebody else.
 
     Args:
@@ -38,8 +35,7 @@ class Dismiss:
     revokes: bool
 
 
-@dataclass(frozen=True)
-class Revoke:
+class Revoke(msgspec.Struct, frozen=True):
     """End a link, and all visits by it.
 
     Args:
@@ -49,8 +45,7 @@ class Revoke:
     name: Annotated[str, msgspec.Meta(max_length=100)]
 
 
-@dataclass(frozen=True)
-class UseWidget:
+class UseWidget(msgspec.Struct, frozen=True):
     """Use a widget in a plug-in's panel.
 
     Args:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import enum
-from dataclasses import dataclass
+
+import msgspec
 
 
 class Role(enum.IntEnum):
@@ -31,8 +32,7 @@ LINKS = {"watch": Role.WATCHER, "operate": Role.OPERATOR, "own": Role.OWNER}
 """The parameter of a link that carries a token, by which people see what the link is for."""
 
 
-@dataclass(frozen=True)
-class Limits:
+class Limits(msgspec.Struct, frozen=True):
     """Limits of one connection.
 
     Args:

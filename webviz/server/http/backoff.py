@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Hashable
-from dataclasses import dataclass
+
+import msgspec
 
 FIRST_S = 10.0
 """Seconds to stay away after the first time; each further time takes twice as long."""
@@ -13,8 +14,7 @@ FORGIVEN_S = 600.0
 MAX_REMEMBERED = 1024
 
 
-@dataclass(frozen=True)
-class _Absence:
+class _Absence(msgspec.Struct, frozen=True):
     """A time to stay away.
 
     Args:

@@ -12,9 +12,9 @@ import functools
 import http
 import ssl
 from collections.abc import Awaitable, Callable, Sequence
-from dataclasses import dataclass
 from typing import Any
 
+import msgspec
 import viser
 import websockets.asyncio.server as websocket
 from websockets.http11 import Request, Response
@@ -34,8 +34,7 @@ Handler = Callable[[websocket.ServerConnection], Awaitable[None]]
 ServeFile = Callable[[Connection, Request], Response | None]
 
 
-@dataclass
-class RequestGuard:
+class RequestGuard(msgspec.Struct):
     """Checks in front of viser's server.
 
     Args:

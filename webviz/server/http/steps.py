@@ -6,9 +6,9 @@ import functools
 import gzip
 import http
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
 from typing import Protocol
 
+import msgspec
 from websockets.http11 import Request, Response
 
 from webviz.server.access import login
@@ -22,8 +22,7 @@ from webviz.server.http.viser_page import with_head
 HTML = "text/html; charset=utf-8"
 
 
-@dataclass
-class Visit:
+class Visit(msgspec.Struct):
     """A request on its way.
 
     Args:
@@ -55,8 +54,7 @@ class Visit:
         return is_upgrade(self.request) and self.path == CHANNEL
 
 
-@dataclass(frozen=True)
-class Reply:
+class Reply(msgspec.Struct, frozen=True):
     """An answer.
 
     Args:
@@ -67,7 +65,7 @@ class Reply:
 
     status: http.HTTPStatus
     body: bytes = b""
-    headers: dict[str, str] = field(default_factory=dict[str, str])
+    headers: dict[str, str] = msgspec.field(default_factory=dict[str, str])
 
 
 Step = Callable[[Visit], Reply | None]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import struct
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
 import msgspec
 import numpy as np
@@ -92,8 +91,7 @@ class PictureHeader(msgspec.Struct, frozen=True, kw_only=True):
     is_same: bool | UnsetType = UNSET
 
 
-@dataclass(frozen=True)
-class Sent:
+class Sent(msgspec.Struct, frozen=True):
     """Pictures, packets and warps that a page has already.
 
     Args:

@@ -7,8 +7,10 @@ import threading
 import time
 from collections import deque
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass, field, replace
 from functools import partial
+
+import msgspec
+from msgspec.structs import replace
 
 from webviz.api.nodes import Pane
 from webviz.api.pictures import Encoded, Pixels, Video
@@ -31,16 +33,14 @@ MAX_SHRINK = 8
 log = logging.getLogger("webviz")
 
 
-@dataclass(frozen=True)
-class _Shown:
+class _Shown(msgspec.Struct, frozen=True):
     """Picture a display shows now, and its number."""
 
     number: int
     pane: Pane
 
 
-@dataclass
-class _Look:
+class _Look(msgspec.Struct):
     """A page that shows the picture of a display.
 
     Args:
@@ -55,8 +55,8 @@ class _Look:
 
     width: int
     sent: int = 0
-    has: Sent = field(default_factory=Sent)
-    waiting: deque[int] = field(default_factory=deque)
+    has: Sent = msgspec.field(default_factory=Sent)
+    waiting: deque[int] = msgspec.field(default_factory=deque)
     is_busy: bool = False
     turn: bool = False
     shrink: int = 1

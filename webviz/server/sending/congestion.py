@@ -18,7 +18,8 @@ import contextlib
 import time
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
+
+import msgspec
 
 QUEUE_S = 0.1
 """Seconds by which what is on its way may delay what comes after it."""
@@ -39,8 +40,7 @@ REST_S = 5.0
 """Seconds between pings while little is sent."""
 
 
-@dataclass(frozen=True, eq=False)
-class SentMarker:
+class SentMarker(msgspec.Struct, frozen=True, eq=False):
     """A ping on its way.
 
     Args:

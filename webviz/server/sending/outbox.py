@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any, Protocol, TypeVar
 
+import msgspec
 import numpy as np
 
 from webviz.server.sending.congestion import CongestionControl
@@ -297,8 +298,7 @@ class Outbox:
         return []
 
 
-@dataclass(frozen=True)
-class _Begun:
+class _Begun(msgspec.Struct, frozen=True):
     """A message of which pieces are sent; `is_whole` if the browser has a thinned version."""
 
     number: int

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any, Protocol
 
+import msgspec
 import numpy as np
 
 ALIGNMENT = 8
@@ -30,8 +30,7 @@ class Update(Protocol):
         ...
 
 
-@dataclass(frozen=True)
-class Piece:
+class Piece(msgspec.Struct, frozen=True):
     """A part of the bytes of a message.
 
     Args:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+
+import msgspec
 
 from webviz.engine.commands import Command, Sender
 from webviz.server.access.roles import Role
@@ -14,8 +15,7 @@ BROWSER = -1
 """Stands for the browser of an agent, which has none: files are those that pages may open."""
 
 
-@dataclass(frozen=True)
-class AgentCaller:
+class AgentCaller(msgspec.Struct, frozen=True):
     """An agent.
 
     Args:

@@ -75,7 +75,9 @@ class Examination:
         results: RuleResults | None = None,
     ) -> None:
         # Those of the config would save a recording in the working folder.
-        config = replace(config, settings=msgspec.structs.replace(config.settings, watch=()))
+        config = msgspec.structs.replace(
+            config, settings=msgspec.structs.replace(config.settings, watch=())
+        )
         self._results = results
         self._rounds = 0
         self._began_s = time.monotonic()

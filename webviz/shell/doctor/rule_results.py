@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from xml.etree import ElementTree
+
+import msgspec
 
 from webviz.api.rule import Rule, Verdict
 from webviz.files.config import WatchRule
 
 
-@dataclass
-class RuleResult:
+class RuleResult(msgspec.Struct):
     """A rule over an examination.
 
     Args:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+import msgspec
 import numpy as np
 
 from webviz.server.sending.thinning import chosen
@@ -15,8 +14,7 @@ SHUFFLED_BYTES = 256
 and so on, which compresses floats by a third more."""
 
 
-@dataclass(frozen=True)
-class _Buffer:
+class _Buffer(msgspec.Struct, frozen=True):
     """Bytes of a chunk.
 
     Args:

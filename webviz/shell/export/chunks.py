@@ -6,7 +6,6 @@ import json
 import math
 import zlib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any
 
 import msgspec
@@ -31,8 +30,7 @@ class _Column(msgspec.Struct):
     each: list[msgspec.Raw]
 
 
-@dataclass
-class TapeChunk:
+class TapeChunk(msgspec.Struct):
     """Some seconds of a run.
 
     Args:
@@ -44,13 +42,15 @@ class TapeChunk:
     first_message: int
     first_value: int
     first_picture: int
-    start: Mapping[str, Any] = field(default_factory=dict[str, Any])
-    messages: list[Any] = field(default_factory=list[Any])
-    values: list[tuple[str, msgspec.Raw]] = field(default_factory=list[tuple[str, msgspec.Raw]])
-    pictures: list[int] = field(default_factory=list[int])
-    frames: list[Any] = field(default_factory=list[Any])
-    buffers: Buffers = field(default_factory=Buffers)
-    shared: dict[bytes, int] = field(default_factory=dict[bytes, int])
+    start: Mapping[str, Any] = msgspec.field(default_factory=dict[str, Any])
+    messages: list[Any] = msgspec.field(default_factory=list[Any])
+    values: list[tuple[str, msgspec.Raw]] = msgspec.field(
+        default_factory=list[tuple[str, msgspec.Raw]]
+    )
+    pictures: list[int] = msgspec.field(default_factory=list[int])
+    frames: list[Any] = msgspec.field(default_factory=list[Any])
+    buffers: Buffers = msgspec.field(default_factory=Buffers)
+    shared: dict[bytes, int] = msgspec.field(default_factory=dict[bytes, int])
     json_bytes: int = 0
     has_clouds: bool = False
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
+
+import msgspec
 
 from webviz.shell.export.about import about
 from webviz.shell.export.file import RunFile
@@ -16,8 +17,7 @@ from webviz.shell.export.tape import Tape
 from webviz.shell.pictures.files import writing
 
 
-@dataclass(frozen=True)
-class ExportedFile:
+class ExportedFile(msgspec.Struct, frozen=True):
     """A file that was made.
 
     Args:

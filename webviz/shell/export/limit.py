@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+import msgspec
 
 MAX_EVERY = 16
 """First the values of large clouds are left out. Then at least one of so many of their points is
@@ -12,8 +12,7 @@ RESERVE = 400_000
 """Bytes for what comes at the end of the file."""
 
 
-@dataclass
-class SizeLimit:
+class SizeLimit(msgspec.Struct):
     """Shares the room of a file among its seconds.
 
     Args:
@@ -27,8 +26,10 @@ class SizeLimit:
     """Of how many points of clouds one is kept."""
     skip: int = 1
     """Of how many versions of a large cloud, map, mesh or picture one is kept."""
-    _without_columns: list[tuple[float, float]] = field(default_factory=list[tuple[float, float]])
-    _thinned: list[tuple[float, float, int, int]] = field(
+    _without_columns: list[tuple[float, float]] = msgspec.field(
+        default_factory=list[tuple[float, float]]
+    )
+    _thinned: list[tuple[float, float, int, int]] = msgspec.field(
         default_factory=list[tuple[float, float, int, int]]
     )
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import msgspec
 
 from webviz.api.errors import Error
 from webviz.files.config import Config
@@ -14,8 +14,7 @@ RATE_HZ = 10.0
 MAX_BYTES = 50_000_000
 
 
-@dataclass(frozen=True)
-class ExportOrder:
+class ExportOrder(msgspec.Struct, frozen=True):
     """A file to make.
 
     Args:

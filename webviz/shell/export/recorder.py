@@ -7,7 +7,8 @@ import itertools
 import math
 import time
 from collections.abc import Callable, Collection, Iterator, Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from webviz.api.frames import Frames
 from webviz.api.views import FIXED_FRAME
@@ -66,8 +67,7 @@ class RecordedScene(ViserScene):
         return False
 
 
-@dataclass(frozen=True)
-class ExportSpan:
+class ExportSpan(msgspec.Struct, frozen=True):
     """Part of a bag to record.
 
     Args:

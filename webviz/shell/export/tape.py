@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import msgspec
@@ -23,8 +22,7 @@ MAX_KNOWN = 100_000
 """Values that are recognised when they come again."""
 
 
-@dataclass(frozen=True)
-class TapeFrame:
+class TapeFrame(msgspec.Struct, frozen=True):
     """A moment of a run.
 
     Args:
@@ -45,8 +43,7 @@ class TapeFrame:
     pictures: Mapping[str, tuple[bytes, bool] | None]
 
 
-@dataclass(frozen=True)
-class ChunkIndex:
+class ChunkIndex(msgspec.Struct, frozen=True):
     """Facts about a chunk for the page before it unpacks it.
 
     Args:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from webviz.data.transforms import Diagnosis, TransformBuffer, diagnose, tree_text
 from webviz.engine.pipeline.listener import TransformListener
@@ -19,8 +20,7 @@ Progress = Callable[[str, float], object]
 """Called with what is done and the share of it that is."""
 
 
-@dataclass(frozen=True)
-class TreeRead:
+class TreeRead(msgspec.Struct, frozen=True):
     """The tree of transforms at a time.
 
     Args:

@@ -7,8 +7,9 @@ import contextlib
 import time
 from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 from pathlib import Path
+
+import msgspec
 
 from webviz.api.declared import make
 from webviz.api.display import Display
@@ -34,8 +35,7 @@ SIZE = (1280, 720)
 TIMEOUT_S = 20.0
 
 
-@dataclass(frozen=True, eq=False)
-class Picture:
+class Picture(msgspec.Struct, frozen=True, eq=False):
     """A picture of one view at one time.
 
     Args:
@@ -57,8 +57,7 @@ class Picture:
         return dict(self.shown.statuses)
 
 
-@dataclass(frozen=True, eq=False)
-class Capture:
+class Capture(msgspec.Struct, frozen=True, eq=False):
     """The pictures of one run, ordered by time and view."""
 
     pictures: tuple[Picture, ...]
@@ -79,8 +78,7 @@ class Capture:
         return all(picture.shown.is_ok for picture in self.pictures)
 
 
-@dataclass(frozen=True)
-class Order:
+class Order(msgspec.Struct, frozen=True):
     """The pictures to make; see `capture`.
 
     Args:

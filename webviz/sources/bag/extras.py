@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+
+import msgspec
 
 from webviz.api.errors import Error
 from webviz.api.offer import Publisher
@@ -23,8 +24,7 @@ class ExtraError(Error):
     """A map or transform cannot be used."""
 
 
-@dataclass(frozen=True)
-class Extra:
+class Extra(msgspec.Struct, frozen=True):
     """One latched message.
 
     Args:

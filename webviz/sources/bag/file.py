@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple
+
+import msgspec
+from msgspec.structs import replace
 
 from webviz.api.errors import Error
 from webviz.api.offer import Publisher
@@ -34,8 +36,7 @@ class Recorded(NamedTuple):
     stamp_ns: int
 
 
-@dataclass(frozen=True)
-class BagChannel:
+class BagChannel(msgspec.Struct, frozen=True):
     """Messages of one type on one topic.
 
     Args:

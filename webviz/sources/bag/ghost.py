@@ -6,12 +6,13 @@ import heapq
 import math
 import struct
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
+import msgspec
 import numpy as np
 import numpy.typing as npt
+from msgspec.structs import replace
 
 from webviz.api.errors import Error
 from webviz.api.offer import Publisher
@@ -44,8 +45,7 @@ Align = Literal["stamp", "start", "path"]
 Floats = npt.NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class Ghost:
+class Ghost(msgspec.Struct, frozen=True):
     """A second run to show beside a bag.
 
     Args:
@@ -198,8 +198,7 @@ def ghost_files(paths: Sequence[Path], ghost: Ghost) -> list[GhostFile | Numbers
     return [GhostFile(ghost.path, offset_ns, offset_ns + ros_ns), *numbers]
 
 
-@dataclass(frozen=True)
-class Track:
+class Track(msgspec.Struct, frozen=True):
     """The path of a robot.
 
     Args:

@@ -7,8 +7,9 @@ import random
 import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
-from dataclasses import dataclass
 from pathlib import Path
+
+import msgspec
 
 from webviz.api.status import Level
 from webviz.data.disk import in_thread
@@ -35,8 +36,7 @@ PATIENCE_S = 10.0
 """For reading them."""
 
 
-@dataclass(frozen=True)
-class BagLog:
+class BagLog(msgspec.Struct, frozen=True):
     """The log of a bag.
 
     Args:

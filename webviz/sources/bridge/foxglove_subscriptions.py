@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterator
-from dataclasses import dataclass
+
+import msgspec
 
 MAX_ENDED = 100
 """Ended subscriptions whose messages are still taken."""
 
 
-@dataclass(frozen=True)
-class ChannelSubscription:
+class ChannelSubscription(msgspec.Struct, frozen=True):
     """A subscription.
 
     Args:

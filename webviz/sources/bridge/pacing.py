@@ -12,7 +12,8 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, field
+
+import msgspec
 
 from webviz.sources.source import Subscription
 
@@ -83,8 +84,7 @@ def is_thinnable(wish: Subscription) -> bool:
     )
 
 
-@dataclass
-class Flow:
+class Flow(msgspec.Struct):
     """A topic whose messages are large, or do not fit among the small ones.
 
     Args:
@@ -102,7 +102,7 @@ class Flow:
     is latched; or messages are rare."""
     count: int = 0
     """Messages of the last turn."""
-    arrived: deque[float] = field(default_factory=lambda: deque(maxlen=50))
+    arrived: deque[float] = msgspec.field(default_factory=lambda: deque(maxlen=50))
     """Moments of arrival."""
 
     @property

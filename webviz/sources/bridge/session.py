@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from concurrent.futures import Future
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Protocol
+
+import msgspec
 
 from webviz.api.bridge import BridgeParameters
 from webviz.api.offer import Durability, Endpoint, Offer, Publisher
@@ -17,8 +19,7 @@ class WireError(ValueError):
     """A frame is not of the protocol; one sentence."""
 
 
-@dataclass(frozen=True)
-class CarriedTopic:
+class CarriedTopic(msgspec.Struct, frozen=True):
     """A topic that the bridge offers.
 
     Args:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Callable, Collection, Mapping, Sequence
 from concurrent.futures import Future, InvalidStateError
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from webviz.api.robots import robot_of
 from webviz.sources.fleet.member import FleetMember
