@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 import importlib
-import importlib.metadata
 import itertools
 import logging
 import pkgutil
@@ -12,6 +11,7 @@ from collections.abc import Iterator, Sequence
 from types import ModuleType
 
 from webviz.api.check import Check
+from webviz.api.entry_points import installed
 from webviz.api.finding import CauseLevel
 
 GROUP = "webviz.checks"
@@ -82,9 +82,8 @@ def _installed() -> Sequence[type[Check]]:
     whose id is taken.
     """
     found: dict[str, type[Check]] = {}
-    points = importlib.metadata.entry_points(group=GROUP)
     # webviz's own come first, so that no other package takes their ids.
-    for point in sorted(points, key=lambda point: (point.value != GROUP, point.name)):
+    for point in sorted(installed(GROUP), key=lambda point: (point.value != GROUP, point.name)):
         try:
             classes = [check for module in _modules(point.load()) for check in checks_of(module)]
         except Exception as error:  # plug-ins may raise anything

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import functools
+import inspect
+import sys
+import types
 import typing
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -82,9 +85,29 @@ def ports_of(cls: type[msgspec.Struct]) -> dict[str, Input | Output]:
 
     A viewer needs those of all displays to start, and to describe all their types takes longer.
     """
-    hints = typing.get_type_hints(cls, include_extras=True)
-    known = {name: _known(hints[name]) for name in cls.__struct_fields__}
+    known = {name: _known(hint) for name, hint in _hints(cls).items()}
     return {name: said["port"] for name, said in known.items() if "port" in said}
+
+
+def _hints(cls: type[msgspec.Struct]) -> dict[str, Any]:
+    """Return the types of a class's fields with their annotations."""
+    found: dict[str, Any] = {}
+    for base in reversed(cls.__mro__):
+        found |= _own_hints(base)
+    return {name: found[name] for name in cls.__struct_fields__}
+
+
+@functools.cache
+def _own_hints(cls: type) -> dict[str, Any]:
+    """Return those of the fields that a class adds.
+
+    `typing.get_type_hints` evaluates those of a base class again for each class derived from it.
+    """
+    names = getattr(cls, "__struct_fields__", ())
+    own = {name: hint for name, hint in inspect.get_annotations(cls).items() if name in names}
+    module = vars(sys.modules[cls.__module__])
+    like = types.SimpleNamespace(__annotations__=own)
+    return typing.get_type_hints(like, module, dict(vars(cls)), include_extras=True)
 
 
 def bare(hint: Any) -> Any:
@@ -97,7 +120,7 @@ def bare(hint: Any) -> Any:
 def _properties(cls: type[msgspec.Struct], prefix: str, group: str) -> tuple[Property, ...]:
     info = msgspec.inspect.type_info(cls)
     assert isinstance(info, msgspec.inspect.StructType)
-    hints = typing.get_type_hints(cls, include_extras=True)
+    hints = _hints(cls)
     known = {field.name: _known(hints[field.name]) for field in info.fields}
     found = []
     for field in info.fields:

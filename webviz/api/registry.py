@@ -8,11 +8,11 @@ theirs as entry points of the group `webviz.displays`, `webviz.tools` or `webviz
 from __future__ import annotations
 
 import functools
-import importlib.metadata
 from collections.abc import Mapping
 
 from webviz.api.declared import Declared, P
 from webviz.api.display import Display, inputs_of
+from webviz.api.entry_points import installed
 from webviz.api.modules import module_texts
 
 _registered: dict[str, dict[str, type[Declared]]] = {}
@@ -72,8 +72,7 @@ def register(owner: str, types: Mapping[str, type[Declared]]) -> None:
 def _installed(kind: str) -> tuple[dict[str, type[Declared]], dict[str, str]]:
     types: dict[str, type[Declared]] = {}
     broken: dict[str, str] = {}
-    points = importlib.metadata.entry_points(group=entry_point_group(kind))
-    for point in sorted(points, key=lambda p: p.name):
+    for point in sorted(installed(entry_point_group(kind)), key=lambda p: p.name):
         try:
             cls = point.load()
             if issubclass(cls, Display):

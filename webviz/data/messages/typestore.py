@@ -57,10 +57,21 @@ class MessageField(NamedTuple):
 
 @cache
 def _store() -> Any:
-    store = get_typestore(Stores.ROS2_JAZZY)
-    for type_name, text in DEFINITIONS.items():
-        store.fielddefs.update(get_types_from_msg(text, type_name))
-    return store
+    return get_typestore(Stores.ROS2_JAZZY)
+
+
+def _known(name: str) -> Any:
+    """Return the definition of a type by its full name, None if there is none.
+
+    Those of `DEFINITIONS` are parsed when they are needed: all of them take a tenth of a start.
+    """
+    known = _store().fielddefs
+    if name not in known and name in DEFINITIONS:
+        parsed = get_types_from_msg(DEFINITIONS[name], name)[name]
+        for field in filter(lambda field: field.is_message, _fields_of(parsed)):
+            _known(field.base)  # they are looked for in the store
+        known[name] = parsed
+    return known.get(name)
 
 
 @cache
@@ -98,7 +109,7 @@ def find(type_name: str) -> None:
 def type_exists(type_name: str) -> bool:
     """Return whether messages of this type can be decoded."""
     try:
-        return full_name(type_name) in _store().fielddefs
+        return _known(full_name(type_name)) is not None
     except UnknownTypeError:
         return False
 
@@ -234,7 +245,7 @@ def _check(type_name: str, inside: tuple[str, ...], counts: dict[str, int]) -> i
         return counts[type_name]
     if type_name in inside:
         raise DefinitionError(f"{type_name} cannot contain itself.")
-    if type_name not in _store().fielddefs:
+    if _known(type_name) is None:
         raise DefinitionError(f"{inside[-1]} contains a {type_name}, whose definition is missing.")
     count = 0
     for field in fields(type_name):
@@ -249,10 +260,9 @@ def _check(type_name: str, inside: tuple[str, ...], counts: dict[str, int]) -> i
 
 def _definition(type_name: str) -> Any:
     name = full_name(type_name)
-    if name not in _store().fielddefs:
+    if _known(name) is None:
         find(name)
-    found = _store().fielddefs.get(name)
-    if found is None:
+    if (found := _known(name)) is None:
         raise UnknownTypeError(f"No definition of the message type {type_name} is known.")
     return found
 

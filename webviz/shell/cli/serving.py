@@ -59,14 +59,14 @@ def serve(
     beside = bag.beside(bag.bag, ros) if bag.ghost else None
 
     @functools.cache
-    def read(path: Path | None, source: Source | None = None) -> Config:
+    def read(path: Path | None, source: Source | None) -> Config:
         config = options.read(path or template, beside or source)
         return with_ghost(config, beside) if beside else config
 
     if (options.display_config or options.template) and not options.plugin:
         # Report errors before imports that take seconds. With plug-ins the viewer reads the file
         # later, once it has loaded the displays that the file may name.
-        read(options.display_config)
+        read(options.display_config, None)
     options.allow_meshes()
     _import_slow_parts()
     is_shown = False
@@ -131,7 +131,7 @@ def _viewer(
 def _import_slow_parts() -> None:
     """Import what a viewer needs, to keep the time short in which a signal finds it half made."""
     display_types()
-    type_exists("std_msgs/msg/Header")  # reads the definitions of all messages
+    type_exists("std_msgs/msg/Header")  # reads the definitions of ROS
     import webviz.page.pages
     import webviz.scene
     import webviz.shell.pictures.snapshots
