@@ -104,7 +104,8 @@ def make(cls: type[P], values: dict[str, Any]) -> P:
     Raises:
         msgspec.ValidationError: a value is invalid; the text ends with its path.
     """
-    declared = msgspec.convert(completed(cls, values), cls, strict=True)
+    # To convert to a class takes milliseconds the first time.
+    declared = msgspec.convert(completed(cls, values), cls, strict=True) if values else cls()
     _check_finite(declared, "$")
     declared.name = readable(declared.name) or default_name(cls)
     return declared

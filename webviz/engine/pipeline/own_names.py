@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from webviz.api.capabilities import ProtocolClient, capability
+from webviz.api.declared import make
 from webviz.api.display import Display
 from webviz.api.panel import Panel
 from webviz.api.registry import plugin_types
@@ -37,7 +38,7 @@ def own_names(config: Config, guard: Guard) -> tuple[str, ...]:
     names = {name for name in names if PATTERN.isdisjoint(name)}
     for base in (Panel, Display):
         for name, cls in plugin_types(base).items():
-            names |= guard.attempt(name, set[str](), lambda cls=cls: _names_of(cls()))
+            names |= guard.attempt(name, set[str](), lambda cls=cls: _names_of(make(cls, {})))
     return tuple(sorted(names - {""}))
 
 
