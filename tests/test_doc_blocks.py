@@ -1,6 +1,6 @@
 """Commands, configs and programs in the documentation are valid.
 
-`tests/e2e/test_doc_commands.py` runs the commands, `tests/e2e/test_doc_programs.py` the programs.
+`tests/e2e/test_docs.py` runs the commands and programs.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""The commands of the documentation, run as they stand there.
+"""The commands and programs of the documentation, run as they stand there.
 
 A block whose title says what it needs, such as an apt ROS 2, is not run. A process that imported
-webviz is forked for each command, which takes a third of the time of starting anew, and runs the
-program as its script would.
+webviz is forked for each, which takes a third of the time of starting anew, and runs a command as
+its script would.
 """
 
 from __future__ import annotations
@@ -20,16 +20,16 @@ from collections.abc import Iterator, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 
+import forked
 import pytest
 import stories
-from bags import START_NS, ns
+from bags import START_NS, Bag, ns
 from certificates import certificate
-from doc_blocks import CONFIG, ROOT, blocks
-from program import PATIENCE_S, Program
+from doc_blocks import CONFIG, ROOT, Block, blocks
+from program import Program
 
 from tests.site.example import drive
 from webviz.files.opening import parse
-from webviz.shell.cli import ending, program
 from webviz.shell.report.making import make_report
 from webviz.shell.report.scenes import Pictured
 from webviz.shell.testing import header
@@ -44,6 +44,12 @@ COMMANDS = {
     if not block.title and words[0] not in ("make", "export")
 }
 """The first place of each command, by its words."""
+PROGRAMS = [
+    each
+    for each in blocks("python")
+    if "webviz.Viewer(" in each.text and "import webviz" in each.text  # not cells of notebooks
+]
+TESTS = [each for each in blocks("python") if "\ndef test_" in each.text]
 EXAMINE = {"doctor", "frames", "test"}
 """Their exit status is 3 if there is a fault, such as that of a graph with a second viewer."""
 END = {*EXAMINE, "export", "screenshot", "record"}
@@ -55,28 +61,41 @@ ELSEWHERE = {"0.0.0.0": "127.0.0.1", "ws://robot:8765": CLOSED, "ws://robot:9090
 """Addresses of other machines, and what a test puts in their place."""
 AT_ONCE = 4
 DRIVE_S, SHORT_S = 6.0, 0.4
+TELLING = """
+import sys, threading, time
+
+def tell(viewer):
+    def waits(frame):
+        return frame and (frame.f_code.co_name == "result" or waits(frame.f_back))
+
+    def run():
+        while not waits(sys._current_frames()[threading.main_thread().ident]):
+            time.sleep(0.01)
+        print("open", viewer.url, flush=True)
+
+    threading.Thread(target=run, daemon=True).start()
+"""
+"""Begins a program that prints the address once Ctrl-C reaches it in `wait`."""
+TESTING = """
+from pathlib import Path
+import pytest
+
+Path("test_robot.py").write_text(TEXT)
+assert pytest.main(["-p", "no:cacheprovider", "--update-pictures", "test_robot.py"]) == 0
+assert {path.name for path in Path("pictures").iterdir()} == {"scan.png", "costs.png"}
+"""
+"""Runs the tests of a package that are in `TEXT`."""
 
 
-def run(arguments: list[str], folder: Path, log: Path) -> None:
-    """Do what the script `webviz` does, in a folder, with its output in a file."""
-    os.chdir(folder)
-    os.environ["XDG_STATE_HOME"] = str(log.parent)  # nothing is restored
-    file = os.open(log, os.O_WRONLY | os.O_CREAT)
-    os.dup2(file, 1)
-    os.dup2(file, 2)
-    ending.PATIENCE_S = PATIENCE_S  # a busy machine delays what is closed
-    sys.argv = ["webviz", *arguments]
-    program()
-
-
-def outcome(words: tuple[str, ...], made: Path, folder: Path) -> tuple[int | None, str]:
-    """Run a command beside the files that pages name, with Ctrl-C where it runs until then.
+def outcome(work: tuple[str, ...] | str, made: Path, folder: Path) -> tuple[int | None, str]:
+    """Run a command or a program beside the files that pages name; Ctrl-C ends what would run on.
 
     Returns:
         Its exit status, and what it printed.
     """
     here = folder / "here"
     here.mkdir()
+    words = () if isinstance(work, str) else work
     written = {after for before, after in itertools.pairwise(words) if before == "-o"}
     for path in made.iterdir():
         if path.name not in written:
@@ -84,10 +103,11 @@ def outcome(words: tuple[str, ...], made: Path, folder: Path) -> tuple[int | Non
     log = folder / "output.txt"
     log.touch()
     context = multiprocessing.get_context("forkserver")
-    process = context.Process(target=run, args=(on_this_machine(words), here, log))
+    does = work if isinstance(work, str) else on_this_machine(work)
+    process = context.Process(target=forked.run, args=(does, here, log))
     process.start()
     assert process.pid is not None
-    deadline = time.monotonic() + PATIENCE_S
+    deadline = time.monotonic() + forked.PATIENCE_S
     try:
         while process.is_alive() and time.monotonic() < deadline:
             if BUSY.search(log.read_text()):
@@ -132,6 +152,10 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
         (folder / f"{name}.mcap").symlink_to(recorded)
     bag.messages = [each for each in bag.messages if each[0] < SHORT_S]
     bag.write(folder / "run")
+    long = Bag()
+    for at_s in range(21):
+        long.transform(at_s, "map", "odom")
+    long.write(folder / "long")
     (folder / "lab.yaml").write_text(CONFIG.text)
     (folder / "nav2.yaml").write_text(f"{CONFIG.text}watch: [{{rule: Scan.walls > 0.8}}]\n")
     for name in ("nav2.rviz", "nav2_default_view.rviz"):
@@ -146,32 +170,51 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+def program_of(block: Block) -> str:
+    """A program that says when Ctrl-C may come; the default port may be taken, the run is long."""
+    shown = block.text.replace('Viewer("lab.yaml"', 'Viewer("lab.yaml", port=0')
+    shown = shown.replace('bag="run.mcap"', 'bag="long"')
+    return TELLING + shown.replace("viewer.wait()", "tell(viewer)\n    viewer.wait()")
+
+
+def package_of(block: Block) -> str:
+    """A program that runs the tests for a package."""
+    return f"TEXT = {block.text!r}\n{TESTING}"
+
+
+WORK = {
+    **COMMANDS,
+    **{program_of(block): str(block) for block in PROGRAMS},
+    **{package_of(block): str(block) for block in TESTS},
+}
+
+
 @pytest.fixture(scope="module")
 def outcomes(
     made: Path, ros_env: dict[str, str], tmp_path_factory: pytest.TempPathFactory
-) -> Iterator[Mapping[tuple[str, ...], Future[tuple[int | None, str]]]]:
-    """Of all commands, several of which run at once, beside a simulated robot."""
+) -> Iterator[Mapping[tuple[str, ...] | str, Future[tuple[int | None, str]]]]:
+    """Of all commands and programs, several of which run at once, beside a simulated robot."""
     multiprocessing.set_forkserver_preload(["warm"])
     robot = Program([sys.executable, "-m", "webviz_sim"], ros_env, made / "robot.txt")
     try:
         with pytest.MonkeyPatch.context() as patch, ThreadPoolExecutor(AT_ONCE) as pool:
             patch.setenv("PYTHONPATH", str(ROOT / "tests/support"))
             yield {
-                words: pool.submit(outcome, words, made, tmp_path_factory.mktemp("command"))
-                for words in COMMANDS
+                work: pool.submit(outcome, work, made, tmp_path_factory.mktemp("work"))
+                for work in WORK
             }
     finally:
         robot.end()
 
 
-@pytest.mark.parametrize("words", COMMANDS, ids=COMMANDS.values())
-def test_a_command_does_its_work(
-    words: tuple[str, ...],
-    outcomes: Mapping[tuple[str, ...], Future[tuple[int | None, str]]],
+@pytest.mark.parametrize("work", WORK, ids=WORK.values())
+def test_a_command_or_program_does_its_work(
+    work: tuple[str, ...] | str,
+    outcomes: Mapping[tuple[str, ...] | str, Future[tuple[int | None, str]]],
 ) -> None:
-    status, output = outcomes[words].result()
+    status, output = outcomes[work].result()
     expected = {0}
-    if {*words[1:2]} & EXAMINE:
+    if not isinstance(work, str) and {*work[1:2]} & EXAMINE:
         expected |= {1, 3} if "This machine is busy" in output else {3}
     assert status in expected, output
     assert "Traceback" not in output
