@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import sys
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from logging.handlers import QueueHandler
+from queue import SimpleQueue
 from typing import Any
 
 import playwright.sync_api as playwright
 import pytest
 from program import Program
 
+import webviz
 from webviz.shell.pictures.browser import Page
 from webviz.shell.testing.domain import isolated_domain
 
@@ -43,31 +48,32 @@ def start(
 
 @pytest.fixture(scope="module")
 def view(
-    start: Callable[..., Program],
-    browser: playwright.Browser,
-    tmp_path_factory: pytest.TempPathFactory,
+    ros_env: dict[str, str], browser: playwright.Browser, tmp_path_factory: pytest.TempPathFactory
 ) -> Iterator[Callable[..., Page]]:
     """Start a viewer with a config, and open a page that draws only when it is looked at.
 
     A graphics card in software is slow. Neither the page nor the viewer may have failed in the end.
     """
-    opened: list[tuple[Page, Program]] = []
+    pages: list[Page] = []
+    failures = SimpleQueue[logging.LogRecord]()
+    log = QueueHandler(failures)
+    log.setLevel(logging.ERROR)
 
     def view(config: str, *arguments: str, height: int = 500, resolution: float = 1.0) -> Page:
         path = tmp_path_factory.mktemp("config") / "config.yaml"
         path.write_text(config)
-        program = start("webviz", "-d", str(path), "--port", "0", *arguments)
-        page = Page(browser, program.url(), 900, height, resolution=resolution)
-        opened.append((page, program))
-        page.hold()
-        return page
+        viewer = viewers.enter_context(webviz.Viewer(path, port=0, ros_args=arguments))
+        pages.append(Page(browser, viewer.url, 900, height, resolution=resolution))
+        viewers.callback(pages[-1].close)
+        pages[-1].hold()
+        return pages[-1]
 
-    yield view
-    assert [page.errors for page, _ in opened] == [[]] * len(opened)
-    for page, program in opened:
-        page.close()
-        assert program.end() == 0, program.output()
-        assert "Traceback" not in program.output()
+    with ExitStack() as viewers:
+        logging.getLogger("webviz").addHandler(log)
+        viewers.callback(logging.getLogger("webviz").removeHandler, log)
+        yield view
+    assert [page.errors for page in pages] == [[]] * len(pages)
+    assert failures.empty(), failures.get()
 
 
 @pytest.fixture

@@ -113,37 +113,6 @@ def wait_for(page: Page, *words: str, seconds: float = 60.0) -> None:
     Side(page).wait_for(*words, seconds=seconds)
 
 
-def test_with_use_sim_time_it_waits_for_the_clock_follows_it_and_shows_each_loop(
-    make_robot: Callable[..., Robot], view: Callable[..., Page]
-) -> None:
-    page = view(CONFIG, "--ros-args", "-p", "use_sim_time:=true", resolution=0.4)
-    Side(page).select(GLOBAL_OPTIONS)
-    wait_for(page, "Waiting for /clock: use_sim_time is set, but it has no publisher")
-    player = make_robot("player")
-    bag = Bag(player, 100, with_clock=True)
-    bag.play(0.0, 1.0)
-    topics = ("/clock", "/tf", "/scan")
-    page.wait_for(lambda: all(map(player.node.count_subscribers, topics)), "the viewer listens")
-    bag.play(1.0, 3.0)
-    page.wait_for(lambda: 2.5 < scan_at(page) < 3.1, "the scan at the end of the bag")
-    assert has_map(page)
-    assert "Waiting" not in page.text()
-
-    wait_for(page, "Simulated time has stopped at 103.0 s: /player is paused")
-    Side(page).select("LaserScan")
-    wait_for(page, "Transform OK")
-    assert "No message for" not in page.text()
-    assert 2.5 < scan_at(page) < 3.1
-    assert has_map(page)
-
-    bag.play(0.0, 1.0)  # the bag loops
-    page.wait_for(lambda: 0.5 < scan_at(page) < 1.1, "the scan of the new loop")
-    wait_for(page, "Transform OK")
-    Side(page).select(GLOBAL_OPTIONS)
-    wait_for(page, "Time went back by", "s: everything was reset.")
-    page.wait_for(lambda: has_map(page), "the latched map again")
-
-
 def test_a_bag_that_loops_without_a_clock_is_reset_by_itself(
     make_robot: Callable[..., Robot], page: Page
 ) -> None:
@@ -216,3 +185,34 @@ def test_two_moving_publishers_with_different_parents_are_reported_until_one_sto
     wait_for(page, '"odom" changed its parent', '"map" and "world"', "/tf: /amcl, /slam")
     second.links = {}
     page.wait_for(lambda: "changed its parent" not in page.text(), "that it clears", 60)
+
+
+def test_with_use_sim_time_it_waits_for_the_clock_follows_it_and_shows_each_loop(
+    make_robot: Callable[..., Robot], view: Callable[..., Page]
+) -> None:
+    page = view(CONFIG, "--ros-args", "-p", "use_sim_time:=true", resolution=0.4)
+    Side(page).select(GLOBAL_OPTIONS)
+    wait_for(page, "Waiting for /clock: use_sim_time is set, but it has no publisher")
+    player = make_robot("player")
+    bag = Bag(player, 100, with_clock=True)
+    bag.play(0.0, 1.0)
+    topics = ("/clock", "/tf", "/scan")
+    page.wait_for(lambda: all(map(player.node.count_subscribers, topics)), "the viewer listens")
+    bag.play(1.0, 3.0)
+    page.wait_for(lambda: 2.5 < scan_at(page) < 3.1, "the scan at the end of the bag")
+    assert has_map(page)
+    assert "Waiting" not in page.text()
+
+    wait_for(page, "Simulated time has stopped at 103.0 s: /player is paused")
+    Side(page).select("LaserScan")
+    wait_for(page, "Transform OK")
+    assert "No message for" not in page.text()
+    assert 2.5 < scan_at(page) < 3.1
+    assert has_map(page)
+
+    bag.play(0.0, 1.0)  # the bag loops
+    page.wait_for(lambda: 0.5 < scan_at(page) < 1.1, "the scan of the new loop")
+    wait_for(page, "Transform OK")
+    Side(page).select(GLOBAL_OPTIONS)
+    wait_for(page, "Time went back by", "s: everything was reset.")
+    page.wait_for(lambda: has_map(page), "the latched map again")
