@@ -280,24 +280,6 @@ def test_a_finger_that_rests_opens_the_menu_and_one_that_moves_drags(
     page.wait_for(lambda: page.tab.locator(".wv-menu").count() == 0, "no menu")
 
 
-def test_a_browser_that_leaves_during_a_drag_lets_go(
-    page: Page, pages: list[Page], viewer: webviz.Viewer, server: MarkerServer
-) -> None:
-    other = pages[1]
-    look_at(other, viewer, 3.0, 3.0)
-    x, y = pose(other, "simple_2")[0][:2]
-    other.tab.mouse.move(*on_screen(other, (x, y, 0.2)))
-    other.tab.mouse.down()
-    other.tab.mouse.move(*on_screen(other, (x - 0.5, y, 0.2)), steps=4)
-    page.wait_for(lambda: known(page)["simple_2"]["holder"] is not None, "the holder")
-    other.tab.reload()
-    page.wait_for(lambda: known(page)["simple_2"]["holder"] is None, "the release")
-    assert wait_for(page, server, UP)[-1].marker_name == "simple_2"
-    other.tab.mouse.up()
-    other.wait_for(lambda: len(known(other)) == 13, "all markers again", 60)
-    other.tab.evaluate("document.body.classList.add('wv-folded')")
-
-
 def test_buttons_and_menus_report_clicks_and_no_shell_command_is_offered(
     page: Page, viewer: webviz.Viewer, server: MarkerServer
 ) -> None:
@@ -414,3 +396,18 @@ def test_controls_that_face_the_camera_do_so_in_every_view(
         viewer.do(ShowView(checked_view({"type": "Orbit", **view})))
         page.draw()
         page.wait_for(lambda: axes() == wanted, "facing the camera")
+
+
+def test_a_browser_that_leaves_during_a_drag_lets_go(
+    page: Page, pages: list[Page], viewer: webviz.Viewer, server: MarkerServer
+) -> None:
+    other = pages[1]
+    look_at(other, viewer, 3.0, 3.0)
+    x, y = pose(other, "simple_2")[0][:2]
+    other.tab.mouse.move(*on_screen(other, (x, y, 0.2)))
+    other.tab.mouse.down()
+    other.tab.mouse.move(*on_screen(other, (x - 0.5, y, 0.2)), steps=4)
+    page.wait_for(lambda: known(page)["simple_2"]["holder"] is not None, "the holder")
+    other.close()
+    page.wait_for(lambda: known(page)["simple_2"]["holder"] is None, "the release")
+    assert wait_for(page, server, UP)[-1].marker_name == "simple_2"
