@@ -212,32 +212,20 @@ def test_numbers_of_the_robot_are_plotted_and_read(page: Page, viewer: webviz.Vi
     page.tab.get_by_text("Remove panel").click()
 
 
-def test_a_server_that_ends_during_a_goal_and_one_that_is_not_there_are_named(
-    page: Page, pages: list[Page], robot: Program, viewer: webviz.Viewer
+def test_servers_that_are_killed_while_they_cancel_end_or_are_not_there_are_named(
+    page: Page,
+    pages: list[Page],
+    robot: Program,
+    start_robot: Callable[[], Program],
+    viewer: webviz.Viewer,
 ) -> None:
-    drag(page, FAR, 0.0)
-    until(page, "Distance left")
-    robot.end(signal.SIGINT)
-    until(pages[1], "The node that offered /navigate_to_pose has ended. Start Nav2's bt_navigator")
-    with pytest.raises(
-        webviz.Error, match=r"No node offers /navigate_to_pose\. Start Nav2's bt_nav"
-    ):
-        viewer.tool("Nav2 Goal").send(0.0, 0.0)
-
-
-def test_a_goal_of_a_server_that_is_killed_while_it_cancels_ends_and_the_next_is_cancelled(
-    pages: list[Page], robot: Program, start_robot: Callable[[], Program], viewer: webviz.Viewer
-) -> None:
-    robot.end()
-    robot, page = start_robot(), pages[0]
-    page.wait_for(lambda: "/odom" in viewer.topics, "the robot", 60)
     drag(page, FAR, 0.0)
     until(page, "Distance left")
     robot.process.send_signal(signal.SIGSTOP)
     button(page, "Cancel").click()
     page.wait_for(button(page, "Cancel").is_disabled, "the request to cancel")
     robot.end(signal.SIGKILL)
-    start_robot()
+    robot = start_robot()
     # Cancel works again, as nobody answered; the server that runs now does not know the goal.
     ended = "no longer knows this goal. Send it again.", "has ended. Start Nav2's bt_nav"
     cancel = page.tab.locator(".wv-goal .wv-button:enabled:visible")
@@ -253,3 +241,12 @@ def test_a_goal_of_a_server_that_is_killed_while_it_cancels_ends_and_the_next_is
     until(page, "Distance left")
     button(page, "Cancel").click()
     until(page, "Cancelled.")
+
+    drag(page, FAR, 0.0)
+    until(page, "Distance left")
+    robot.end(signal.SIGINT)
+    until(pages[1], "The node that offered /navigate_to_pose has ended. Start Nav2's bt_navigator")
+    with pytest.raises(
+        webviz.Error, match=r"No node offers /navigate_to_pose\. Start Nav2's bt_nav"
+    ):
+        viewer.tool("Nav2 Goal").send(0.0, 0.0)
