@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -11,8 +9,8 @@ from typing import Any
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
-from program import Program
 
+import webviz
 from webviz.shell.pictures.browser import Page
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
@@ -33,25 +31,17 @@ GREEN, MAGENTA = (25, 255, 0), (255, 0, 255)
 
 
 @pytest.fixture
-def viewer(plugin: Any, webviz_domain: int, tmp_path: Path) -> Iterator[Program]:
+def page(
+    plugin: Any, webviz_domain: int, tmp_path: Path, browser: playwright.Browser
+) -> Iterator[Page]:
+    """Of a viewer with the plug-in."""
     config = tmp_path / "fence.yaml"
     config.write_text(CONFIG)
-    arguments = ["--plugin", str(plugin.path), "-d", str(config), "--port", "0"]
-    env = {
-        **os.environ,
-        "PYTHONUNBUFFERED": "1",
-    }
-    program = Program([sys.executable, "-m", "webviz", *arguments], env, tmp_path / "log.txt")
-    yield program
-    assert program.end() == 0, program.output()
-    assert "Traceback" not in program.output()
-
-
-@pytest.fixture
-def page(viewer: Program, browser: playwright.Browser) -> Iterator[Page]:
-    page = Page(browser, viewer.url(), 900, 500)
-    yield page
-    page.close()
+    with webviz.Viewer(config, port=0, plugins=[plugin.path]) as viewer:
+        page = Page(browser, viewer.url, 900, 500)
+        page.hold()
+        yield page
+        page.close()
     assert page.errors == []
 
 
@@ -84,7 +74,7 @@ def is_drawn(page: Page, rgb: tuple[int, int, int]) -> bool:
 
 
 def test_the_picture_follows_the_file_on_every_save(
-    page: Page, plugin: Any, viewer: Program, publish: Callable[[], None]
+    page: Page, plugin: Any, publish: Callable[[], None], caplog: pytest.LogCaptureFixture
 ) -> None:
     def published_and_drawn() -> bool:
         publish()
@@ -96,9 +86,10 @@ def test_the_picture_follows_the_file_on_every_save(
     page.wait_for(lambda: is_drawn(page, MAGENTA), "the outline in the new colour")
     plugin.edit(("def draw(self", "def draw(self("))
     sentence = "is not valid Python"
-    viewer.wait_for(sentence)
+    page.wait_for(lambda: sentence in caplog.text, "the mistake in the log")
     page.wait_for(lambda: sentence in page.text(), "the mistake in the panel")
     assert is_drawn(page, MAGENTA)
     plugin.edit(("def draw(self(", "def draw(self"), ("Colour of the", "Paint of the"))
     page.wait_for(lambda: sentence not in page.text(), "a panel without complaint")
     assert is_drawn(page, MAGENTA)
+    assert "Traceback" not in caplog.text
