@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import os
 import re
-import signal
 import subprocess
 import sys
 import venv
 from collections.abc import Callable
 from pathlib import Path
 
-import psutil
 import pytest
-from processes import command_lines, send
+from processes import command_lines
 from program import Program
 
 from webviz.shell.cli import main as cli
@@ -125,18 +123,6 @@ def test_bad_ros_arguments_are_one_sentence() -> None:
     sentence = refused("--port", "0", "--ros-args", "-r", "nonsense").splitlines()[-1]
     assert sentence.startswith("webviz: ROS did not start: ")
     assert "/src/" not in sentence
-
-
-def test_ctrl_c_in_a_terminal_reaches_both_processes_and_ends_cleanly(
-    start: Callable[..., Program],
-) -> None:
-    pytest.importorskip("rclpy", reason="needs rclpy")
-    program = start("webviz", "demo", "--port", "0")
-    program.wait_for("ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET shows it to all others")
-    main = psutil.Process(program.process.pid)
-    send(signal.SIGINT, (*main.children(recursive=True), main))
-    assert program.process.wait(60) == 0, program.output()
-    assert "Traceback" not in program.output()
 
 
 def test_a_simulator_that_dies_ends_the_demo_with_a_reason(start: Callable[..., Program]) -> None:

@@ -66,11 +66,22 @@ def check_nothing_is_left(family: list[psutil.Process], files: Iterable[Path] = 
     assert [file for file in files if file.exists()] == []
 
 
-def check_end(program: Program, number: signal.Signals, when: str) -> str:
-    """End the demo by a signal: one line, and nothing is left; returns the line."""
+def check_end(
+    program: Program, number: signal.Signals, when: str, *, in_terminal: bool = False
+) -> str:
+    """End the demo by a signal: one line, and nothing is left; returns the line.
+
+    Args:
+        program: the demo.
+        number: of the signal.
+        when: it is sent.
+        in_terminal: whether it reaches all processes, as Ctrl-C in a terminal does.
+    """
     family = family_of(program)
     files = shared_memory(family)
-    status = program.end(number)
+    for each in family if in_terminal else family[:1]:
+        each.send_signal(number)
+    status = program.process.wait(PATIENCE_S)
     output = re.sub("webviz: (open|only ROS nodes) .*\n", "", program.output())
     assert output in LINES, when
     assert status == (0 if "stopped" in output else 130), when
@@ -88,12 +99,14 @@ def begin(start: Callable[..., Program]) -> Program:
 
 @pytest.fixture(scope="module")
 def start_s(start: Callable[..., Program]) -> float:
-    """Seconds that the demo takes to start here; it then ends as it should."""
+    """Seconds that the demo takes to start here; Ctrl-C in a terminal then ends it."""
     program, began = begin(start), time.monotonic()
     assert b"<html" in urllib.request.urlopen(program.url(), timeout=60).read()
+    program.wait_for("ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET shows it to all others")
     assert has_simulator(program)
     taken = time.monotonic() - began
-    assert "stopped" in check_end(program, signal.SIGTERM, "once it has started")
+    ended = check_end(program, signal.SIGINT, "once it has started", in_terminal=True)
+    assert "stopped" in ended
     return taken
 
 
@@ -120,13 +133,10 @@ def test_the_simulator_ends_when_the_viewer_is_killed(start: Callable[..., Progr
 def test_a_simulator_that_has_to_be_killed_leaves_nothing(start: Callable[..., Program]) -> None:
     program = start("webviz", "demo", "--port", "0")
     program.url()
-    family = family_of(program)
-    (simulator,) = (each for each in family if "webviz_sim" in each.cmdline())
-    files = shared_memory(family)
+    (simulator,) = (each for each in family_of(program) if "webviz_sim" in each.cmdline())
     assert shared_memory([simulator])
     simulator.suspend()  # as one that is busy
-    program.end(signal.SIGTERM)
-    check_nothing_is_left(family, files)
+    assert "stopped" in check_end(program, signal.SIGTERM, "beside a simulator that is busy")
 
 
 def test_a_closed_terminal_ends_the_demo_cleanly(ros_env: dict[str, str]) -> None:
