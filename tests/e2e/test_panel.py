@@ -1,14 +1,16 @@
-"""Add a display by its topic, change it, save, come back: the same picture."""
+"""A display is added, changed and saved: it comes back, as does what a crash left unsaved."""
 
 from __future__ import annotations
 
 import contextlib
 import os
+import signal
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
 import photos
+import playwright.sync_api as playwright
 import pytest
 from numpy.typing import NDArray
 from program import Program
@@ -48,24 +50,27 @@ def colors(pixels: Pixels) -> int:
     return int((counts > pixels.size / 3000).sum())
 
 
-def test_a_display_is_added_by_topic_changed_saved_and_comes_back(
+def test_what_is_added_and_saved_comes_back_and_what_a_kill_left_unsaved_is_restored(
     start: Callable[..., Program], open_page: Callable[..., Page], tmp_path: Path
 ) -> None:
-    config = tmp_path / "empty.yaml"
+    """One tab sees three viewers on one port."""
+    config, lab, state = tmp_path / "empty.yaml", tmp_path / "lab.yaml", tmp_path / "state"
     config.write_text(EMPTY)
+
+    def view(path: Path, port: int) -> Program:
+        arguments = ("webviz", "--port", str(port), "-d", str(path))
+        return start(*arguments, env={"XDG_STATE_HOME": str(state)})
+
     start("webviz_sim", "--ros-args", "-p", "tour:=false")
-    viewer = start("webviz", "--port", "0", "-d", str(config))
-    page = open_page(viewer.url(), 1000, 700, 0.3)
+    viewer = view(config, 0)
+    page = open_page(url := viewer.url(), 1000, 700, 0.3)
     page.hold()
     side, tab = Side(page), page.tab
+    port, dialog = int(url.rpartition(":")[2]), tab.get_by_role("dialog")
     blank = picture(page)
     assert colors(blank) == 1
 
-    tab.get_by_role("button", name="Add display").click()
-    dialog = tab.get_by_role("dialog")
-    dialog.get_by_role("tab", name="By topic").click()
-    dialog.get_by_role("option", name="/map").first.click(timeout=60_000)
-    dialog.get_by_role("button", name="Add", exact=True).click()
+    add(tab, "/map Map")
     side.select("Map")
     side.wait_for("Map: 248 x 168 cells")
     page.wait_for(lambda: page.draw() or colors(page.pixels()) >= 3, "the map")
@@ -79,32 +84,56 @@ def test_a_display_is_added_by_topic_changed_saved_and_comes_back(
     dialog.get_by_role("textbox").fill("lab")
     dialog.get_by_role("button", name="Save", exact=True).click()
     page.wait_for(lambda: "Saved lab.yaml." in page.text(), "the answer")
-    assert "color_scheme: costmap" in (tmp_path / "lab.yaml").read_text()
+    saved = lab.read_text()
+    assert "color_scheme: costmap" in saved
     assert config.read_text() == EMPTY
     tab.reload()
     tab.wait_for_function("window.webviz?.hasView()")
     page.hold()
     side.select("Map")
     page.wait_for(lambda: (picture(page) == changed).all(), "the same picture", 60)
+
+    with camera(np.full((24, 32, 3), BRICK, np.uint8)):
+        add(tab, "/camera/image_raw Image")
+        pane = tab.get_by_label("Image /camera/image_raw", exact=True)
+        canvas = pane.locator("canvas")
+        page.wait_for(lambda: np.abs(canvas.evaluate(MIDDLE) - BRICK).max() < 4, "the image", 60)
+    side.select("Map")
+    tab.keyboard.press("Delete")
+    page.wait_for(lambda: page.draw() or colors(page.pixels()) == 1, "nothing")
     assert viewer.end() == 0
 
-    again = start("webviz", "--port", "0", "-d", str(tmp_path / "lab.yaml"))
-    page = open_page(again.url(), 1000, 700, 0.3)
-    page.hold()
-    side = Side(page)
+    viewer = view(lab, port)
+    pane.wait_for(state="detached")
+    page.wait_for(lambda: (picture(page) == changed).all(), "the same picture", 60)
     side.select("Map")
     side.wait_for("248 x 168 cells")
-    page.wait_for(lambda: (picture(page) == changed).all(), "the same picture", 60)
-    with camera(np.full((24, 32, 3), BRICK, np.uint8)):
-        tab = page.tab
-        tab.get_by_role("button", name="Add display").click()
-        dialog = tab.get_by_role("dialog")
-        dialog.get_by_role("tab", name="By topic").click()
-        option = dialog.get_by_role("option", name="/camera/image_raw Image", exact=True)
-        option.click(timeout=60_000)
-        dialog.get_by_role("button", name="Add", exact=True).click()
-        canvas = tab.get_by_label("Image /camera/image_raw", exact=True).locator("canvas")
-        page.wait_for(lambda: np.abs(canvas.evaluate(MIDDLE) - BRICK).max() < 4, "the image", 60)
+
+    tab.keyboard.press("F2")
+    tab.keyboard.type("Ground")
+    tab.keyboard.press("Enter")
+    page.wait_for(lambda: any(state.rglob("lab-*.yaml")), "the session")
+    assert viewer.end(signal.SIGKILL) == -signal.SIGKILL
+
+    viewer = view(lab, port)
+    viewer.wait_for(r"Restored 1 display of the last session. Start with --no-restore to see the")
+    tab.get_by_text("Restored 1 display of the last session.").wait_for()
+    tree = tab.get_by_role("tree")
+    tree.get_by_text("Ground").wait_for()
+    tab.locator(".wv-toast").get_by_role("button", name="Undo").click()
+    tree.get_by_text("Map", exact=True).wait_for()
+    assert lab.read_text() == saved
+    assert viewer.end() == 0
+    assert not any(state.rglob("lab-*.yaml"))
+
+
+def add(tab: playwright.Page, option: str) -> None:
+    """Add a display by its topic."""
+    tab.get_by_role("button", name="Add display").click()
+    dialog = tab.get_by_role("dialog")
+    dialog.get_by_role("tab", name="By topic").click()
+    dialog.get_by_role("option", name=option, exact=True).click(timeout=60_000)
+    dialog.get_by_role("button", name="Add", exact=True).click()
 
 
 MIDDLE = """(canvas) => {

@@ -2,6 +2,7 @@
 
 import { why } from "../access.js";
 import { act } from "../act.js";
+import * as channel from "../channel.js";
 import { watch } from "../stores.js";
 import { openMenuBelow } from "./menu.js";
 import { toast } from "./toasts.js";
@@ -20,6 +21,8 @@ const listeners = new Set();
 let newest = null;
 
 export function install() {
+  // Steps of a viewer that was started anew have other numbers.
+  channel.onOpen(() => (newest = null));
   watch("history", (values) => {
     for (const way of /** @type {const} */ (["undo", "redo"])) steps[way] = values.get(way) ?? [];
     for (const listener of listeners) listener();
