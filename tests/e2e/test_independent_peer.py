@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import functools
 import os
+import re
 import signal
 import subprocess
-import sys
 import time
 import venv
 from collections.abc import Callable, Iterator
@@ -14,7 +14,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from pages import COARSE
 from program import Program
 from side import Side
 
@@ -69,60 +68,43 @@ def peer_python() -> str:
     return str(python)
 
 
-@pytest.fixture
-def domain(webviz_domain: int) -> str:
-    return str(webviz_domain)
-
-
-@pytest.fixture
-def peer(peer_python: str, domain: str, tmp_path: Path) -> Iterator[Program]:
+@pytest.fixture(scope="module")
+def peer(
+    peer_python: str, webviz_domain: int, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[Callable[..., Program]]:
+    """Run the peer's Python on the domain of the viewer."""
+    programs: list[Program] = []
     # The wheels of rclpy mark the environment of child processes, which are not theirs here.
     env = {k: v for k, v in os.environ.items() if k != "_ROS_WHEELS_BOOTSTRAP_COMPLETE"}
-    command = [peer_python, str(PEER), "pub", "all", "--seconds", "120", "--domain", domain]
-    program = Program(command, env, tmp_path / "peer.txt")
-    yield program
-    program.end(signal.SIGTERM)
+
+    def run(*arguments: str) -> Program:
+        command = [
+            peer_python,
+            "-u",
+            *arguments,
+            "--seconds",
+            "120",
+            "--domain",
+            str(webviz_domain),
+        ]
+        log = tmp_path_factory.mktemp("peer") / "output.txt"
+        programs.append(Program(command, env, log))
+        return programs[-1]
+
+    yield run
+    for program in programs:
+        program.end(signal.SIGTERM)
 
 
-@pytest.fixture
-def echo(peer_python: str, domain: str, tmp_path: Path) -> Iterator[Program]:
-    """Return the messages of tools that the peer receives."""
-    env = {k: v for k, v in os.environ.items() if k != "_ROS_WHEELS_BOOTSTRAP_COMPLETE"}
-    command = [peer_python, "-u", str(PEER), "echo", *SENT]
-    program = Program(
-        [*command, "joint_states", "--seconds", "120", "--domain", domain],
-        env,
-        tmp_path / "echo.txt",
-    )
-    yield program
-    program.end(signal.SIGTERM)
-
-
-@pytest.fixture
-def describing(peer_python: str, domain: str, tmp_path: Path) -> Iterator[Program]:
-    """The peer publishes the description of a robot."""
-    urdf = tmp_path / "robot.urdf"
-    urdf.write_text(ROBOT)
-    env = {k: v for k, v in os.environ.items() if k != "_ROS_WHEELS_BOOTSTRAP_COMPLETE"}
-    command = [peer_python, str(PEER), "pub", "robot_description", "--urdf", str(urdf)]
-    program = Program(
-        [*command, "--seconds", "120", "--domain", domain], env, tmp_path / "describing.txt"
-    )
-    yield program
-    program.end(signal.SIGTERM)
-
-
-@pytest.fixture
-def url(domain: str, tmp_path: Path) -> Iterator[str]:
-    config = tmp_path / "peer.yaml"
+@pytest.fixture(scope="module")
+def viewer(webviz_domain: int, tmp_path_factory: pytest.TempPathFactory) -> Iterator[webviz.Viewer]:
+    config = tmp_path_factory.mktemp("config") / "peer.yaml"
     config.write_text(CONFIG)
-    env = {**os.environ, "ROS_DOMAIN_ID": domain, "PYTHONUNBUFFERED": "1"}
-    # With this, rclpy announces itself to other processes in a way that only Fast DDS looks for.
-    env.pop("ROS_AUTOMATIC_DISCOVERY_RANGE", None)
-    command = [sys.executable, "-m", "webviz", "-d", str(config), "--port", "0"]
-    program = Program(command, env, tmp_path / "viewer.txt")
-    yield program.url()
-    assert program.end() == 0, program.output()
+    with pytest.MonkeyPatch.context() as patch:
+        # With it, rclpy announces itself to other processes in a way that only Fast DDS looks for.
+        patch.delenv("ROS_AUTOMATIC_DISCOVERY_RANGE", raising=False)
+        with webviz.Viewer(config, port=0) as viewer:
+            yield viewer
 
 
 def count(page: Page, rgb: tuple[int, int, int]) -> int:
@@ -135,39 +117,37 @@ SILENT = """
 import sys, time
 sys.path.insert(0, sys.argv[1])
 from cyclone_peer import SENSOR, DataWriter, DomainParticipant, LaserScan, Topic
-participant = DomainParticipant(int(sys.argv[2]))
+participant = DomainParticipant(int(sys.argv[-1]))
 writer = DataWriter(participant, Topic(participant, "rt/scan", LaserScan), qos=SENSOR)
 time.sleep(120)
 """
 
 
 def test_a_program_without_a_node_that_sends_nothing(
-    peer_python: str, domain: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    peer: Callable[..., Program], viewer: webviz.Viewer
 ) -> None:
-    env = {k: v for k, v in os.environ.items() if k != "_ROS_WHEELS_BOOTSTRAP_COMPLETE"}
-    command = [peer_python, "-c", SILENT, str(PEER.parent), domain]
-    # With this, rclpy announces itself to other processes in a way that only Fast DDS looks for.
-    monkeypatch.delenv("ROS_AUTOMATIC_DISCOVERY_RANGE", raising=False)
-    config = tmp_path / "scan.yaml"
-    config.write_text("fixed_frame: map\ndisplays: [{type: LaserScan}]\n")
-    with webviz.Viewer(config, port=0) as viewer:
+    def wait_until(is_found: bool) -> None:
+        until = time.monotonic() + PATIENCE_S
+        while ("GRAPH013" in {each.id for each in viewer.doctor()}) != is_found:
+            assert time.monotonic() < until, [each.cause for each in viewer.doctor()]
 
-        def wait_until(is_found: bool) -> None:
-            until = time.monotonic() + PATIENCE_S
-            while ("GRAPH013" in {each.id for each in viewer.doctor()}) != is_found:
-                assert time.monotonic() < until, [each.cause for each in viewer.doctor()]
-
-        program = Program(command, env, tmp_path / "silent.txt")
-        wait_until(True)
-        program.end(signal.SIGTERM)
-        wait_until(False)
+    program = peer("-c", SILENT, str(PEER.parent))
+    wait_until(True)
+    program.end(signal.SIGTERM)
+    wait_until(False)
 
 
-def test_it_sees_everything_the_peer_publishes(
-    peer: Program, url: str, open_page: Callable[..., Page]
+def test_what_either_side_sends_reaches_the_other(
+    peer: Callable[..., Program],
+    viewer: webviz.Viewer,
+    open_page: Callable[..., Page],
+    tmp_path: Path,
 ) -> None:
-    page = open_page(url)
+    page = open_page(viewer.url)
+    check_tools_and_sliders(page, peer, tmp_path)
+    page.tab.get_by_role("tab", name="Displays").click()
     page.hold()
+    peer(str(PEER), "pub", "all")
     page.wait_for(lambda: count(page, (255, 0, 255)) > 300, "the scan", 60)
     page.wait_for(lambda: count(page, (255, 255, 0)) > 100, "the path")
     page.wait_for(lambda: count(page, (255, 255, 255)) > 10_000, "the map")
@@ -177,14 +157,15 @@ def test_it_sees_everything_the_peer_publishes(
     side.wait_for("from a DDS program (best effort, volatile)")
 
 
-def test_the_peer_receives_what_tools_and_sliders_send_from_the_page(
-    echo: Program, describing: Program, url: str, open_page: Callable[..., Page]
-) -> None:
-    page = open_page(url, resolution=COARSE)
+def check_tools_and_sliders(page: Page, peer: Callable[..., Program], folder: Path) -> None:
+    """The peer receives what they send from the page; it publishes the robot of the sliders."""
+    (urdf := folder / "robot.urdf").write_text(ROBOT)
+    describing = peer(str(PEER), "pub", "robot_description", "--urdf", str(urdf))
+    echo = peer(str(PEER), "echo", *SENT, "joint_states")
     answer = page.tab.locator(".wv-hint")
     page.tab.get_by_role("button", name="2D Goal Pose").wait_for(timeout=60_000)
 
-    def publish(key: str, topic: str) -> bool:
+    def is_heard(key: str, topic: str, message: str) -> bool:
         """Use a tool, again until the two programs know each other."""
         page.tab.keyboard.press(key)
         page.tab.mouse.move(600, 250)
@@ -192,14 +173,16 @@ def test_the_peer_receives_what_tools_and_sliders_send_from_the_page(
         page.tab.mouse.move(700, 250, steps=3)
         page.tab.mouse.up()
         page.wait_for(lambda: f"/{topic}" in answer.inner_text(), "the answer")
-        return answer.inner_text() == f"Published to /{topic}, 1 subscription."
+        is_known = answer.inner_text() == f"Published to /{topic}, 1 subscription."
+        return is_known and bool(re.search(rf"{topic} {message}", echo.output()))
 
-    for topic, (key, heard) in SENT.items():
-        page.wait_for(functools.partial(publish, key, topic), "a subscription", 60)
-        echo.wait_for(rf"{topic} {heard}")
+    for topic, (key, message) in SENT.items():
+        page.wait_for(functools.partial(is_heard, key, topic, message), message, 60)
     page.tab.get_by_role("tab", name="Joints").click()
     slider = page.tab.get_by_role("slider", name="slide")
     slider.wait_for(timeout=60_000)
     assert slider.input_value() == "0.5"
     page.tab.get_by_role("button", name="Center").click()
     echo.wait_for(r"joint_states JointState\(.*name=\['slide'\], position=\[0\.5\]")
+    for each in (echo, describing):
+        each.end(signal.SIGTERM)
