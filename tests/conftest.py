@@ -53,7 +53,7 @@ CALM = """{
   let isDue = false;
   // Each in a callback of its own, after which the browser does what React has left to do.
   const run = (number) => request((now) => {
-    last = performance.now();
+    last = now;
     const draw = waiting.get(number);
     if (waiting.delete(number)) draw(now);
   });
