@@ -205,7 +205,7 @@ def test_a_program_that_speaks_on_its_standard_streams(tmp_path: Path) -> None:
     command = ["-m", "webviz", "mcp", "--port", "0", "--no-autosave", "-d", str(config)]
 
     async def work(client: Client) -> tuple[list[Any], str]:
-        seen = await client.call_tool("see", {"views": [None, {"type": "Orbit", "distance": 9}]})
+        seen = await client.call_tool("see", {"views": [{"type": "Orbit", "distance": 9}, None]})
         at = await client.call_tool("select", {"x": 440, "y": 300})
         return [*seen.content], at.content[0].text  # pyright: ignore[reportAttributeAccessIssue]
 
@@ -214,7 +214,7 @@ def test_a_program_that_speaks_on_its_standard_streams(tmp_path: Path) -> None:
         np.asarray(PIL.Image.open(io.BytesIO(base64.b64decode(each.data)))) for each in pictures
     ]
     assert [each.shape for each in pixels] == [(600, 800, 3)] * 2
-    assert pixels[0][300, 440].argmax() == 0, "the x axis is red"
+    assert pixels[1][300, 440].argmax() == 0, "the x axis is red"
     assert (pixels[0] != pixels[1]).any()
     assert "Axes" in at
 

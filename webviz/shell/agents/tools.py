@@ -81,8 +81,8 @@ class AgentTools:
             raise Error(f"Ask for 1 to {MAX_PICTURES} views at once, not {len(views)}.")
         self._check_size(width, height)
         self._begin(caller, f"took {len(views)} pictures")
-        size = (width, height)
-        return [self._viewer.screenshot(size=size, view=each or None) for each in views]
+        wanted = [view or None for view in views]
+        return self._viewer.screenshots(wanted, size=(width, height))
 
     def select(
         self, caller: AgentCaller, x: int, y: int, view: Wanted, width: int, height: int

@@ -6,7 +6,7 @@ import itertools
 import os
 import time
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -66,10 +66,27 @@ class PictureControls(ABC):
         """
         if path is not None:
             picture_files.check(Path(path), is_animation=False, transparent=False)
-        pixels = self._snapshots.take(self.url, size, self._view(view))
+        (pixels,) = self.screenshots([view], size=size)
         if path is not None:
             picture_files.save(PIL.Image.fromarray(pixels), Path(path))
         return pixels
+
+    def screenshots(
+        self, views: Sequence[Wanted], *, size: tuple[int, int] = (1280, 720)
+    ) -> list[Pixels]:
+        """Make pictures of several views with one browser, which is what takes long.
+
+        Args:
+            views: views or names of saved ones; None for the default view.
+            size: width and height in pixels.
+
+        Returns:
+            uint8 (height, width, 3) each.
+
+        Raises:
+            Error: there is no browser, or a view is unknown.
+        """
+        return self._snapshots.take(self.url, size, [self._view(view) for view in views])
 
     def select(
         self,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any
 
@@ -31,7 +31,7 @@ PATIENCE_S = 60.0
 
 
 class Snapshots:
-    """Takes pictures one at a time, each with a new browser.
+    """Takes pictures one after another, with a new browser whenever it is asked.
 
     Args:
         scene: of the viewer.
@@ -54,21 +54,21 @@ class Snapshots:
         # playwright needs a thread without an event loop, unlike that of a notebook.
         self._pool = ThreadPoolExecutor(1, thread_name_prefix="webviz-snapshot")
 
-    def take(self, url: str, size: tuple[int, int], view: View | None = None) -> Pixels:
-        """Return the picture of a new browser.
+    def take(self, url: str, size: tuple[int, int], views: Sequence[View | None]) -> list[Pixels]:
+        """Return pictures of a new browser.
 
         Args:
             url: of the page.
             size: width and height in pixels.
-            view: overrides the default view.
+            views: of each picture; None for the default view.
 
         Returns:
-            uint8 (height, width, 3).
+            uint8 (height, width, 3) each.
 
         Raises:
             Error: there is no browser, or it does not finish.
         """
-        return self._pool.submit(self._take, url, size, view).result()
+        return self._pool.submit(self._take, url, size, views).result()
 
     def select(
         self, url: str, size: tuple[int, int], view: View | None, at: tuple[int, int]
@@ -93,16 +93,22 @@ class Snapshots:
         """Cancel pictures that have not started, and wait for the current one."""
         self._pool.shutdown(cancel_futures=True)
 
-    def _take(self, url: str, size: tuple[int, int], view: View | None) -> Pixels:
-        with self._shown(url, size, view) as (page, _):
-            rows = self._draw().rows
-            panes = self._scene.link.pictures.panes()
-            return with_panes(page, page.pixels(), panes, hidden_in(rows, rows))
+    def _take(self, url: str, size: tuple[int, int], views: Sequence[View | None]) -> list[Pixels]:
+        found: dict[int, Pixels] = {}
+        with self._shown(url, size) as (page, client):
+            # The default view is that of a new browser, hence first.
+            for number in sorted(range(len(views)), key=lambda number: views[number] is not None):
+                self._show(page, client, views[number])
+                rows = self._draw().rows
+                panes = self._scene.link.pictures.panes()
+                found[number] = with_panes(page, page.pixels(), panes, hidden_in(rows, rows))
+        return [found[number] for number in range(len(views))]
 
     def _select(
         self, url: str, size: tuple[int, int], view: View | None, at: tuple[int, int]
     ) -> Mapping[str, Any]:
-        with self._shown(url, size, view) as (page, client):
+        with self._shown(url, size) as (page, client):
+            self._show(page, client, view)
             page.tab.add_style_tag(content=BEHIND)
             page.tab.keyboard.press("s")
             page.tab.mouse.click(*at)
@@ -113,25 +119,25 @@ class Snapshots:
             return self._draw().selections.get(client, {})
 
     @contextlib.contextmanager
-    def _shown(
-        self, url: str, size: tuple[int, int], view: View | None
-    ) -> Iterator[tuple[Page, int]]:
-        """Provide a new page that shows all, and the id of its browser."""
+    def _shown(self, url: str, size: tuple[int, int]) -> Iterator[tuple[Page, int]]:
+        """Provide a new page, and the id of its browser."""
         check_size(size)
         try:
             with launched() as browser, self._open(browser, url, size) as page:
                 page.tab.add_style_tag(content=WHOLE)
                 page.wait_for(lambda: page.evaluate(CANVAS) == [*size], "a scene of its size")
                 page.pixels()  # the first picture of a tab is smoothed differently
-                client = page.evaluate("() => window.webviz.browser")
-                if view is not None:
-                    self._look(view, client)
-                page.wait_for(self._is_loaded, "all is loaded", PATIENCE_S)
-                self._scene.link.acknowledge(PATIENCE_S, client)
-                page.settle(PATIENCE_S)
-                yield page, client
+                yield page, page.evaluate("() => window.webviz.browser")
         except TimeoutError as error:
             raise Error(str(error)) from error
+
+    def _show(self, page: Page, client: int, view: View | None) -> None:
+        """Show a view, None for the present one, and wait until all of it is drawn."""
+        if view is not None:
+            self._look(view, client)
+        page.wait_for(self._is_loaded, "all is loaded", PATIENCE_S)
+        self._scene.link.acknowledge(PATIENCE_S, client)
+        page.settle(PATIENCE_S)
 
     def _open(
         self, browser: playwright.Browser, url: str, size: tuple[int, int]
