@@ -22,7 +22,7 @@ ROBOTS: dict[str, tuple[str, Orbit]] = {
     # Collada: many parts of several colours each; with textures; with upper-case suffixes.
     "panda": ("panda_description/urdf/panda.urdf", Orbit(distance=1.9, focal_point=(0.1, 0, 0.45))),
     "ur5": ("ur_description/urdf/ur5_robot.urdf", Orbit(distance=1.6, focal_point=(0.4, 0.1, 0.1))),
-    "anymal_c": ("anymal_c_simple_description/urdf/anymal.urdf", Orbit(distance=1.9)),
+    "anymal_b": ("anymal_b_simple_description/robots/anymal.urdf", Orbit(distance=1.7)),
     "go2": ("go2_description/urdf/go2.urdf", Orbit(distance=1.2, focal_point=(0, 0, -0.1))),
     "baxter": ("baxter_description/urdf/baxter.urdf", Orbit(distance=3.4, pitch=0.5)),
     # STL: mirrored by negative scales; colours of the URDF, some given inside a link.

@@ -29,7 +29,11 @@ from webviz.api.views import (
 from webviz.scene import ViserScene, open_server
 from webviz.shell.pictures.browser import Page
 
-WIDTH, HEIGHT = 900, 600
+WIDTH, HEIGHT = 480, 320
+"""Of a page so narrow that the panels are folded away."""
+MIDDLE = X, Y = WIDTH / 2, HEIGHT / 2
+HANDLE = (150, 190)
+"""Where drags begin."""
 RED, WHITE = (255, 0, 0), (255, 255, 255)
 HALF = math.tan(FIELD_OF_VIEW / 2)
 AXES = """async () => {
@@ -39,7 +43,7 @@ AXES = """async () => {
 
 
 class Window(Page):
-    """One browser tab, in which the panel is on the right."""
+    """One browser tab."""
 
     def __init__(self, browser: playwright.Browser, scene: ViserScene) -> None:
         self.scene = scene
@@ -93,14 +97,15 @@ class Window(Page):
         return columns.min(), rows.min(), columns.max() + 1, rows.max() + 1
 
     def drag(self, dx: int, dy: int, button: Any = "left", shift: bool = False) -> None:
-        """Drag the mouse from a place that is left of the panel."""
+        """Drag the mouse from `HANDLE`."""
         mouse, keyboard = self.tab.mouse, self.tab.keyboard
-        mouse.move(250, 350)
+        x, y = HANDLE
+        mouse.move(x, y)
         if shift:
             keyboard.down("Shift")
         mouse.down(button=button)
-        mouse.move(250 + dx / 2, 350 + dy / 2)
-        mouse.move(250 + dx, 350 + dy)
+        mouse.move(x + dx / 2, y + dy / 2)
+        mouse.move(x + dx, y + dy)
         mouse.up(button=button)
         if shift:
             keyboard.up("Shift")
@@ -150,21 +155,21 @@ def test_points_are_where_a_view_with_perspective_has_them(window: Window) -> No
     # From the south at the height of the focal point: x is to the right, z is up.
     window.look(Orbit(distance=10.0, yaw=-math.pi / 2, pitch=0.0, focal_point=(1.0, 0.0, 2.0)))
     px = HEIGHT / 2 / HALF / 10.0
-    assert window.pixel_of(2.0, 0.0, 3.0) == pytest.approx((450 + px, 300 - px), abs=0.01)
+    assert window.pixel_of(2.0, 0.0, 3.0) == pytest.approx((X + px, Y - px), abs=0.01)
     # The same from where the camera is, which looks along y.
     window.look(FPS(position=(1.0, -10.0, 2.0), yaw=math.pi / 2))
-    assert window.pixel_of(2.0, 0.0, 3.0) == pytest.approx((450 + px, 300 - px), abs=0.02)
+    assert window.pixel_of(2.0, 0.0, 3.0) == pytest.approx((X + px, Y - px), abs=0.02)
     # RViz raises the camera of XYOrbit by a fifth of the distance.
     window.look(XYOrbit(distance=10.0, yaw=-math.pi / 2, pitch=0.0, focal_point=(1.0, 0.0, 0.0)))
-    assert window.pixel_of(1.0, 0.0, 0.0) == pytest.approx((450, 300 + 2 * px), abs=0.01)
+    assert window.pixel_of(1.0, 0.0, 0.0) == pytest.approx((X, Y + 2 * px), abs=0.01)
 
 
 def test_from_above_a_meter_has_as_many_pixels_at_every_height(window: Window) -> None:
     window.scene.upsert("tower", "t", box(1.0, 0.5, 4.0, 2.0, 1.0, 8.0))
     window.look(TopDownOrtho(scale=40.0))
-    assert window.red() == (450, 300 - 40, 450 + 80, 300)
+    assert window.red() == (X, Y - 40, X + 80, Y)
     for z in (-20.0, 0.0, 50.0):
-        assert window.pixel_of(3.0, 2.0, z) == pytest.approx((450 + 120, 300 - 80), abs=0.05)
+        assert window.pixel_of(3.0, 2.0, z) == pytest.approx((X + 120, Y - 80), abs=0.05)
 
 
 def test_parallel_lines_stay_parallel_from_above(window: Window) -> None:
@@ -183,18 +188,18 @@ def test_parallel_lines_stay_parallel_from_above(window: Window) -> None:
 def test_up_from_above_is_turned_by_the_angle_as_rviz_does(window: Window) -> None:
     window.look(TopDownOrtho(scale=40.0, angle=math.pi / 2))
     column, row = window.pixel_of(-1.0, 0.0, 0.0)  # up is (-sin, cos) of the angle
-    assert (column, row) == pytest.approx((450, 300 - 40), abs=0.05)
+    assert (column, row) == pytest.approx((X, Y - 40), abs=0.05)
 
 
 def test_scale_is_kept_when_the_page_gets_another_size(window: Window) -> None:
     window.look(TopDownOrtho(scale=40.0, x=1.0))
-    window.resize_picture(WIDTH, 400)
+    window.resize_picture(WIDTH, 200)
     view = window.tell(
-        lambda _: window.scene.cameras.size(max(window.scene.cameras.views()))[1] == 400, "size"
+        lambda _: window.scene.cameras.size(max(window.scene.cameras.views()))[1] == 200, "size"
     )
     assert view == TopDownOrtho(scale=40.0, x=1.0)
     window.draw(4)
-    assert window.pixel_of(2.0, 1.0) == pytest.approx((450 + 40, 200 - 40), abs=0.05)
+    assert window.pixel_of(2.0, 1.0) == pytest.approx((X + 40, 100 - 40), abs=0.05)
     window.resize_picture(WIDTH, HEIGHT)
     window.wait_for(lambda: window.size == (WIDTH, HEIGHT), "the size")
 
@@ -320,7 +325,7 @@ def test_the_mouse_turns_moves_and_zooms_a_view_from_above(window: Window) -> No
 @pytest.mark.parametrize("view", [Orbit(distance=10.0), XYOrbit(distance=10.0)], ids=type)
 def test_the_camera_comes_and_goes_as_far_as_in_rviz(window: Window, view: View) -> None:
     window.look(view)
-    window.tab.mouse.move(250, 350)
+    window.tab.mouse.move(*HANDLE)
     window.tab.mouse.wheel(0, 120)
     window.tell(lambda view: abs(view.distance - 11.2) < 1e-3, "a notch goes away by 12 %")
     window.look(view)
@@ -368,10 +373,11 @@ def test_turning_and_zooming_xy_orbit_keep_its_focal_point(window: Window) -> No
 def test_moving_xy_orbit_keeps_the_point_of_the_ground_under_the_mouse(window: Window) -> None:
     window.look(XYOrbit(distance=10.0, yaw=0.3, pitch=0.6, focal_point=(1.0, 0.5, 0.0)))
     under = "async (xy) => (await import('/webviz/scene/ground.js')).groundAt(...xy)"
-    before = window.evaluate(under, [250, 350])
-    window.drag(60, 40, "middle")
+    before = window.evaluate(under, HANDLE)
+    window.drag(30, 20, "middle")
     window.tell(lambda view: math.dist(view.focal_point, (1.0, 0.5, 0.0)) > 0.3, "it moved")
-    assert window.evaluate(under, [310, 390]) == pytest.approx(before, abs=1e-2)
+    now, kept = [HANDLE[0] + 30, HANDLE[1] + 20], pytest.approx(before, abs=1e-2)
+    window.wait_for(lambda: window.evaluate(under, now) == kept, "it is under the mouse again")
     window.tell(lambda view: abs(view.focal_point[2]) < 1e-5, "on the ground")
 
 
@@ -400,7 +406,7 @@ def test_f_looks_at_what_is_under_the_mouse(window: Window, view: View) -> None:
     assert -2.0 <= point[0] <= -1.0
     assert point[2] > 0.01  # the box, not the ground below it
     window.tab.keyboard.press("f")
-    window.wait_for(lambda: math.dist(window.pixel_of(*point), (450, 300)) < 2.0, "in the middle")
+    window.wait_for(lambda: math.dist(window.pixel_of(*point), MIDDLE) < 2.0, "in the middle")
 
 
 # Pictures
