@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from webviz.api.nodes import Arrows, Axes, Image, Labels, Lines, Mesh, Node, Points, Pose
+from webviz.api.nodes import Arrows, Axes, Image, Labels, Lines, Mesh, Node, Points
 
 TRIANGLE = np.eye(3, dtype=np.float32)
 
@@ -62,18 +62,6 @@ def test_removed_nodes_leave_nothing_in_the_page(view: Any) -> None:
         view.show()
         assert view.nodes() == nodes
     assert resources(view)["geometries"] <= before["geometries"] + 2  # viser's shared shapes
-
-
-def test_a_browser_that_joins_late_sees_the_same(view: Any, browser: Any) -> None:
-    for key, make in EVERYTHING.items():
-        view.scene.upsert("base_link", key, make(1))
-        view.scene.upsert("base_link", key, make(40))
-    view.scene.set_pose("base_link", Pose((0.5, 0.0, 0.0)))
-    view.show()
-    other = type(view)(browser, view.scene)
-    other.look((0.0, -0.01, 10.0), (0.0, 0.0, 0.0))
-    other.wait_for(lambda: other.draw(2) or bool((other.pixels() == view.pixels()).mean() > 0.999))
-    other.close()
 
 
 def test_the_camera_does_not_walk_while_somebody_saves(view: Any) -> None:

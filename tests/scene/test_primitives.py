@@ -6,19 +6,15 @@ import io
 import json
 import math
 import struct
-from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import PIL.Image
-import playwright.sync_api as playwright
 import pytest
 
 from tests.scene.conftest import View
 from webviz.api.nodes import (
-    POINTS_HELD,
-    POINTS_PER_BLOCK,
     Arrows,
     Axes,
     Glb,
@@ -32,7 +28,6 @@ from webviz.api.nodes import (
     Rgb,
 )
 from webviz.scene import set_background
-from webviz.scene.capacity import FEWEST_POINTS
 from webviz.scene.points import PART
 from webviz.scene.schemes import BACKGROUND
 from webviz_urdf.glb import MeshPart, Surface, write_glb
@@ -43,7 +38,7 @@ RED, GREEN, BLUE = (255, 0, 0), (0, 255, 0), (0, 0, 255)
 
 @pytest.fixture(scope="package")
 def tab(still: View) -> View:
-    """None of these ask what is seen while something changes, but for the last."""
+    """None of these ask what is seen while something changes."""
     return still
 
 
@@ -399,37 +394,3 @@ def test_what_is_no_gltf_is_an_error_in_words(view: Any) -> None:
     view.scene.upsert("base_link", "it", Glb(b"solid ascii stl"))
     with pytest.raises(ValueError, match=r"not a binary glTF 2\.0"):
         view.scene.flush()
-
-
-@pytest.fixture(scope="module")
-def fresh(still: View, browser: playwright.Browser) -> Iterator[View]:
-    """Another tab with the same scene, just opened, that goes on drawing."""
-    view = View(browser, still.scene)
-    yield view
-    view.close()
-
-
-def test_browsers_begin_with_rvizs_orbit_view(fresh: View) -> None:
-    client = max(fresh.scene.link.server.get_clients().items())[1]
-    fresh.wait_for(lambda: bool(np.allclose(client.camera.position, (5, 5, 50**0.5), atol=1e-4)))
-    assert client.camera.fov == pytest.approx(np.pi / 4)
-    assert client.camera.look_at == pytest.approx((0, 0, 0), abs=1e-6)
-
-
-def test_of_a_large_cloud_as_many_points_are_drawn_as_the_page_holds(fresh: View) -> None:
-    # Else it would hold fewer as soon as it found itself slow.
-    fresh.evaluate("() => Object.defineProperty(document, 'hidden', { get: () => true })")
-    blocks = 16
-    rng = np.random.default_rng(0)
-    xyz = np.zeros((blocks, POINTS_PER_BLOCK, 3), np.float32)
-    xyz[:, :, :2] = rng.uniform(-0.5, 0.5, (blocks, POINTS_PER_BLOCK, 2))
-    xyz[1:, :, 0] += 10.0 * np.arange(1 - blocks // 2, blocks // 2)[:, None]
-    fresh.scene.upsert("map", "more", Points(xyz.reshape(-1, 3), RED, 0.01, thins=True))
-    fresh.look((0.0, -0.01, 10.0), (0.0, 0.0, 0.0))
-    drawn = "() => window.__viserMutable.scene.__r3f.root.getState().gl.info.render"
-    near = fresh.evaluate(drawn)
-    assert near["points"] == 2 * POINTS_PER_BLOCK + 8, "one block is in sight, the first always"
-    fresh.look((0.0, -0.1, 200.0), (0.0, 0.0, 0.0))
-    far = fresh.evaluate(drawn)
-    assert far["calls"] == near["calls"] + blocks - 2
-    assert FEWEST_POINTS - blocks <= far["points"] <= POINTS_HELD

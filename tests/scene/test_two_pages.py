@@ -1,4 +1,4 @@
-"""Colours of the scene that follow the theme of each page."""
+"""Two pages of a scene: they show the same, each in the colours of its theme."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ import playwright.sync_api as playwright
 import pytest
 
 from tests.scene.conftest import View
-from webviz.api.nodes import Labels, Lines, Rgb
+from tests.scene.test_page import EVERYTHING
+from webviz.api.nodes import Labels, Lines, Pose, Rgb
 from webviz.scene import set_background
 from webviz.scene.schemes import SCHEMES
 
@@ -33,6 +34,23 @@ def other(second: View, view: View) -> View:
     """The second page, with a light theme."""
     second.tab.emulate_media(color_scheme="light")
     return second
+
+
+def test_a_page_that_joins_late_begins_with_rvizs_orbit_view_and_sees_the_same(
+    view: View, request: pytest.FixtureRequest
+) -> None:
+    for key, make in EVERYTHING.items():
+        view.scene.upsert("base_link", key, make(1))
+        view.scene.upsert("base_link", key, make(40))
+    view.scene.set_pose("base_link", Pose((0.5, 0.0, 0.0)))
+    view.show()
+    late: View = request.getfixturevalue("second")
+    client = max(late.scene.link.server.get_clients().items())[1]
+    late.wait_for(lambda: bool(np.allclose(client.camera.position, (5, 5, 50**0.5), atol=1e-4)))
+    assert client.camera.fov == pytest.approx(np.pi / 4)
+    assert client.camera.look_at == pytest.approx((0, 0, 0), abs=1e-6)
+    late.look((0.0, -0.01, 10.0), (0.0, 0.0, 0.0))
+    late.wait_for(lambda: late.draw(2) or bool((late.pixels() == view.pixels()).mean() > 0.999))
 
 
 def look(view: View, place: tuple[float, float, float], wanted: Rgb) -> None:
