@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import bisect
 import bz2
+import errno
 import heapq
 from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
@@ -49,9 +50,9 @@ class Ros1Recording:
         self._reader = Reader(path)
         try:
             self._reader.open()
-        except OSError:
-            raise
         except Exception as error:  # rosbags raises whatever damage leads to
+            if isinstance(error, OSError) and error.errno != errno.EINVAL:  # of a place in no file
+                raise
             reason = str(error).rstrip(".")
             raise RecordingError(
                 f"{path} cannot be read ({reason}): run `rosbag reindex {path}`."
