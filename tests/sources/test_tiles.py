@@ -19,6 +19,7 @@ from pmtiles.tile import Compression, TileType, zxy_to_tileid
 from pmtiles.writer import Writer
 
 from webviz.data.tiles import TileError, decoded, open_tiles
+from webviz.data.tiles import mbtiles as mbtiles_file
 from webviz.data.tiles.pmtiles_file import PMTiles
 from webviz.data.tiles.server import VARIABLE, TileCache, TileServer, is_allowed
 
@@ -115,7 +116,10 @@ def test_what_is_no_source_is_refused(address: str, reason: str) -> None:
         open_tiles(address, TIMEOUT_S)
 
 
-def test_damaged_and_hostile_files_are_refused_soon(tmp_path: Path) -> None:
+def test_damaged_and_hostile_files_are_refused_soon(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(mbtiles_file, "PATIENCE_S", 0.3)  # of which all is spent
     path = tmp_path / "map.mbtiles"
     path.write_bytes(b"SQLite format 3\0" + os.urandom(2000))
     with pytest.raises(TileError):
