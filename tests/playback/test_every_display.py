@@ -148,4 +148,4 @@ def test_a_seek_shows_what_playing_shows(tmp_path: Path, name: str) -> None:
         tape.turn(chance.uniform(0.0, 5.0))
     config = Config(displays=[display])
     config.set_fixed_frame("map")
-    check_seeks(bag.write(tmp_path / "run"), dump(config), count=6, seed=1)
+    check_seeks(bag.write_file(tmp_path / "run.mcap"), dump(config), count=6, seed=1)
