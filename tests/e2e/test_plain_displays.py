@@ -80,10 +80,14 @@ def test_each_display_draws_what_is_published_and_says_ok(
     text = "std_msgs/msg/String"
     viewer.publish_bytes("/robot_description", text, encode(text, {"data": ROBOT}), latched=True)
     viewer.publish("/cmd_vel", "geometry_msgs/msg/Twist", PLAIN_MESSAGES["geometry_msgs/msg/Twist"])
-    for display in shown:
-        _, _, topic = inputs(display)[0]
-        type_name = next(iter(inputs_of(type(display)).values())).type
-        viewer.publish(topic.name, type_name, MESSAGES.get(type_name, {}), frame="sensor")
+    types = {
+        inputs(display)[0][2].name: next(iter(inputs_of(type(display)).values())).type
+        for display in shown
+    }
+    for topic, type_name in types.items():  # a second each, one after another
+        viewer._publisher_node.open(topic, type_name, latched=False)
+    for topic, type_name in types.items():
+        viewer.publish(topic, type_name, MESSAGES.get(type_name, {}), frame="sensor")
     for cls in (*CLASSES, Twist):
         viewer.wait_until_drawn(cls.__name__)
         status = viewer.status(cls.__name__)
