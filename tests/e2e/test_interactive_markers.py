@@ -59,7 +59,7 @@ def viewer(ros_env: dict[str, str]) -> Iterator[webviz.Viewer]:
 def pages(
     browser: playwright.Browser, viewer: webviz.Viewer, server: MarkerServer
 ) -> Iterator[list[Page]]:
-    with open_pages(browser, viewer.url, 900, 700, resolution=0.5) as opened:
+    with open_pages(browser, viewer.url, 900, 700, resolution=0.2) as opened:
         for page in opened:
             page.wait_for(lambda page=page: len(known(page)) == 13, "all markers", 60)
             page.tab.evaluate("document.body.classList.add('wv-folded')")
