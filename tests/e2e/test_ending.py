@@ -189,6 +189,7 @@ until_signal(work)
 
 
 BUSY = """
+import time
 from pathlib import Path
 from typing import Annotated
 from webviz import Display, Input, Topic
@@ -201,7 +202,7 @@ class Busy(Display):
         if Path(__file__).with_name("begin").exists():
             print("at work", flush=True)
             while True:
-                pass
+                time.sleep(0.001)
         return True
 """
 
