@@ -79,7 +79,7 @@ def theater(tmp_path: Path) -> Iterator[Callable[..., Theater]]:
     made: list[Theater] = []
 
     def make(bag: Bag | Path | list[Path], config: str = "displays: []\n") -> Theater:
-        paths = bag.write(tmp_path / f"bag{len(made)}") if isinstance(bag, Bag) else bag
+        paths = bag.write_file(tmp_path / f"bag{len(made)}.mcap") if isinstance(bag, Bag) else bag
         made.append(Theater(paths, config))
         return made[-1]
 
@@ -155,7 +155,7 @@ def drive(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[
     with contextlib.ExitStack() as stack:
 
         def make(bag: Bag, config: str = CONFIG, ago_s: float = AGO_S) -> Drive:
-            made = Drive(bag.write(tmp_path / "run"), config, ago_s)
+            made = Drive(bag.write_file(tmp_path / "run.mcap"), config, ago_s)
             stack.callback(made.close)
             return made
 

@@ -51,7 +51,7 @@ def test_a_bag_is_paused_at_its_start(theater: Callable, bag: Bag) -> None:
     shown = theater(bag).playback
     assert (shown.start_ns, shown.end_ns) == (START_NS, START_NS + ns(4))
     assert (shown.position_s, shown.rate, shown.is_playing) == (0.0, 1.0, False)
-    assert shown.names == ("bag0",)
+    assert shown.names == ("bag0.mcap",)
 
 
 def test_playing_moves_the_position_and_stops_at_the_end(theater: Callable, bag: Bag) -> None:

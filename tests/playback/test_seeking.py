@@ -56,7 +56,7 @@ def test_a_seek_in_a_long_bag_reads_little(tmp_path: Path, monkeypatch: pytest.M
 def test_a_display_of_a_plug_in_that_declares_too_little_is_found(tmp_path: Path) -> None:
     config = Config(displays=[Total(name="Sum", topic=Topic("/odom"))])
     config.set_fixed_frame("odom")
-    path = recorded().write(tmp_path / "run")
+    path = recorded().write_file(tmp_path / "run.mcap")
     check_seeks(path, config, times=[4.0])
     config.displays[0].is_wrong = True  # pyright: ignore[reportAttributeAccessIssue]
     with pytest.raises(AssertionError, match=r"Sum differs at 4 s after a seek from 0 s"):
@@ -99,7 +99,7 @@ def test_links_are_not_where_they_will_be(tmp_path: Path) -> None:
     for at_s in (2.0, 2.5):
         bag.transform(at_s, "base", "arm")
     config = "fixed_frame: map\ndisplays: [{type: RobotModel}]\n"
-    check_seeks(bag.write(tmp_path / "run"), config, times=[3.0, 1.0, 3.0])
+    check_seeks(bag.write_file(tmp_path / "run.mcap"), config, times=[3.0, 1.0, 3.0])
 
 
 def test_links_whose_transforms_ended_long_before_stay_in_grey(tmp_path: Path) -> None:
@@ -110,7 +110,7 @@ def test_links_whose_transforms_ended_long_before_stay_in_grey(tmp_path: Path) -
     for step in range(9):  # between two transforms of the base
         bag.transform(step / 2 + 0.2, "base", "arm", x=1.0)
     config = "fixed_frame: map\ndisplays: [{type: RobotModel}]\n"
-    path = bag.write(tmp_path / "run")
+    path = bag.write_file(tmp_path / "run.mcap")
     check_seeks(path, config, times=[35.0, 3.0, 20.0, 39.0, 30.0])
     with contextlib.closing(BagViewer(path, config)) as viewer:
         viewer.do(Seek(35.0))
@@ -125,11 +125,13 @@ def test_frames_whose_transforms_ended_long_before_are_known(tmp_path: Path) -> 
     for second in range(60):
         bag.transform(second + 0.1, "odom", "base")
     config = "fixed_frame: map\ndisplays: [{type: Axes, reference_frame: odom}, {type: TF}]\n"
-    check_seeks(bag.write(tmp_path / "run"), config, times=[20.0, 59.0, 3.0, 29.0, 50.0, 17.0])
+    check_seeks(
+        bag.write_file(tmp_path / "run.mcap"), config, times=[20.0, 59.0, 3.0, 29.0, 50.0, 17.0]
+    )
 
 
 def test_steps_in_both_directions_show_what_playing_shows(tmp_path: Path) -> None:
-    path = recorded(5).write(tmp_path / "run")
+    path = recorded(5).write_file(tmp_path / "run.mcap")
     chance = random.Random(5)
     stepped, played = BagViewer(path, CONFIG), BagViewer(path, CONFIG)
     stepped.do(Seek(4.0))

@@ -52,7 +52,7 @@ def run(tmp_path) -> Path:
             x = step // 10 % CELLS
             update = {"x": x, "y": 1, "width": 1, "height": 1, "data": [100]}
             bag.put(at_s, "/map_updates", {"header": header("map", stamp_ns), **update})
-    return bag.write(tmp_path / "run")
+    return bag.write_file(tmp_path / "run.mcap")
 
 
 def show(run: Path, to_s: float, watched: bool) -> tuple[list[Any], list[Any]]:

@@ -55,7 +55,7 @@ def path(tmp_path: Path) -> Path:
     bag.put(0, "/words", {"data": "first"})
     bag.put(1.25, "/odom", {"header": {"frame_id": "map"}})
     bag.transform(0.75, "map", "base")
-    return bag.write(tmp_path / "bag")
+    return bag.write_file(tmp_path / "bag.mcap")
 
 
 def test_before_its_first_messages_a_bag_says_when_they_come(path):
@@ -78,7 +78,7 @@ def test_a_bag_without_transforms_says_so(tmp_path):
     bag.add("/tf", "tf2_msgs/msg/TFMessage")
     pose = {"pose": {"orientation": {"w": 1.0}}}
     bag.put(0, "/odom", {"header": {"frame_id": "odom"}, "pose": pose})
-    found = texts(bag.write(tmp_path / "bag"), 0.0)
+    found = texts(bag.write_file(tmp_path / "bag.mcap"), 0.0)
     assert "No transforms yet, so map is unknown: the bag has none." in found
     assert 'No transforms yet, so "odom" has no pose in "map": the bag has none.' in found
 
@@ -89,7 +89,7 @@ def test_a_bag_whose_time_begins_at_zero_needs_no_clock(tmp_path, monkeypatch, s
     bag = Bag()
     bag.add("/words", "std_msgs/msg/String")
     bag.put(0, "/words", {"data": "first"})
-    path = bag.write(tmp_path / "bag")
+    path = bag.write_file(tmp_path / "bag.mcap")
     assert not [text for text in texts(path, 0.0) if "/clock" in text or "use_sim_time" in text]
 
 
@@ -100,7 +100,7 @@ def test_waiting_for_transforms_that_a_bag_does_not_have_is_an_error_after_a_see
         at_s = number / 50
         imu = {"header": header("imu", START_NS + ns(at_s)), "orientation": {"w": 1.0}}
         bag.put(at_s, "/imu", imu)
-    path = bag.write(tmp_path / "bag")
+    path = bag.write_file(tmp_path / "bag.mcap")
     config = "fixed_frame: map\ndisplays: [{type: Imu, topic: /imu}]\n"
     with closing(BagViewer(path, config)) as sought, closing(BagViewer(path, config)) as played:
         sought.do(Seek(4.0))
