@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Any, ClassVar
 
@@ -303,17 +303,6 @@ def test_what_is_shown_already_is_not_sent_again(loop: Loop, tab: Tab) -> None:
     for _ in range(5):
         tab.turn()
     assert tab.page.evaluate("changes") == 0
-
-
-def test_a_panel_is_the_same_in_a_browser_that_comes_late(
-    loop: Loop, tab: Tab, open_tab: Callable[[], Tab]
-) -> None:
-    loop.show(frames=("late_frame",))
-    open_panel(loop, tab, Frames)
-    late = open_tab()
-    late.wait_for(lambda: "Frames" in tabs(late))
-    late.show_tab("Frames")
-    late.wait_for(lambda: "late_frame" in late.text())
 
 
 def test_the_example_of_the_docs_works_from_its_file(loop: Loop, tab: Tab) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import partial
 
 import playwright.sync_api as playwright
 import pytest
@@ -10,7 +11,9 @@ from msgspec.structs import replace
 
 from tests.page.conftest import Tab
 from tests.page.properties_pane import Pane
+from tests.page.test_plugin_panels import Frames, open_panel, tabs
 from tests.page.trees import Tree, group
+from webviz.api import registry
 from webviz.api.status import Level, Status
 from webviz.api.views import FPS, TopDownOrtho
 from webviz.engine.commands import InspectTopics, SaveImage, Sender, UseTool
@@ -19,11 +22,10 @@ from webviz.scene.server import Server
 from webviz.sources import Offer, Publisher
 
 MakeRow = Callable[..., Row]
-OpenTab = Callable[[], Tab]
 
 
 @pytest.fixture(scope="module")
-def other_tab(open_lasting_tab: OpenTab) -> Tab:
+def other_tab(open_lasting_tab: Callable[[], Tab]) -> Tab:
     return open_lasting_tab()
 
 
@@ -40,7 +42,42 @@ def other(mine: Pane, other_tab: Tab) -> Iterator[Pane]:
 
 def mounted(tab: Tab) -> Iterator[Pane]:
     yield Pane(tab).mount()
+    unmount(tab)
+
+
+def unmount(tab: Tab) -> None:
     tab.page.evaluate("ended(); document.querySelector('#bench').remove()")
+
+
+def test_a_browser_that_comes_late_sees_how_things_are_and_asks_for_itself(
+    mine: Pane, make_row: MakeRow, request: pytest.FixtureRequest
+) -> None:
+    """The first test of this module, since the other browser is then the late one."""
+    request.addfinalizer(partial(registry.register, "tests", {}))
+    open_panel(mine.tab.loop, mine.tab, Frames)
+    steps = UndoHistory((Step(3001, "Move Path", 10**6),))
+    row = make_row("a", count=8, filled=False)
+    mine.tab.loop.show(row, fixed_frame="odom", history=steps, frames=("late_frame",))
+    mine.wait_for_value("count", "8")
+    tab: Tab = request.getfixturevalue("other_tab")
+    late = Pane(tab).mount()
+    late.wait_for_value("count", "8")
+    assert not late.field("filled").is_checked()
+    tab.wait_for(lambda: not tab.button("Undo").is_disabled())
+    assert "in another browser" not in tab.text(), "of old steps"
+    tab.wait_for(lambda: "Frames" in tabs(tab))
+    tab.show_tab("Frames")
+    tab.wait_for(lambda: "late_frame" in tab.text())
+    for each in (tab, mine.tab):
+        each.show_tab("Displays")
+    tab.page.keyboard.press("Control+k")
+    tab.page.get_by_role("dialog", name="Commands").get_by_role("combobox").fill("save image")
+    tab.page.keyboard.press("Enter")
+    tab.wait_for_command(SaveImage())
+    asking, watching = (each.page.evaluate("webviz.browser") for each in (late, mine))
+    assert tab.loop.senders[-1] == Sender(asking)
+    assert asking != watching
+    unmount(tab)
 
 
 def test_two_who_edit_in_turns_see_the_same(mine: Pane, other: Pane) -> None:
@@ -81,28 +118,6 @@ def test_a_field_that_was_left_or_has_the_focus_shows_what_another_has_entered(
     mine.field("count").focus()
     other.enter("count", "8")
     mine.wait_for_value("count", "8")
-
-
-def test_a_browser_that_comes_late_sees_how_things_are_and_asks_for_itself(
-    mine: Pane, open_tab: OpenTab, make_row: MakeRow
-) -> None:
-    steps = UndoHistory((Step(3001, "Move Path", 10**6),))
-    row = make_row("a", count=8, filled=False)
-    mine.tab.loop.show(row, fixed_frame="odom", history=steps)
-    mine.wait_for_value("count", "8")
-    tab = open_tab()
-    late = Pane(tab).mount()
-    late.wait_for_value("count", "8")
-    assert not late.field("filled").is_checked()
-    tab.wait_for(lambda: not tab.button("Undo").is_disabled())
-    assert "in another browser" not in tab.text(), "of old steps"
-    tab.page.keyboard.press("Control+k")
-    tab.page.get_by_role("dialog", name="Commands").get_by_role("combobox").fill("save image")
-    tab.page.keyboard.press("Enter")
-    tab.wait_for_command(SaveImage())
-    asking, watching = (each.page.evaluate("webviz.browser") for each in (late, mine))
-    assert tab.loop.senders[-1] == Sender(asking)
-    assert asking != watching
 
 
 def test_two_who_select_and_fold_do_so_for_themselves(

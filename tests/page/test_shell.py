@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
-import playwright.sync_api as playwright
+from collections.abc import Callable
 
-from tests.page.conftest import Tab
+import playwright.sync_api as playwright
+import pytest
+from msgspec.structs import replace
+
+from tests.page.conftest import Loop, Tab
+from tests.page.test_time import shows_seconds, wall_time
+from tests.page.trees import Tree, group, height_of
+from webviz.engine.state import Row
 
 
 def width(tab: Tab) -> float:
@@ -13,7 +20,21 @@ def width(tab: Tab) -> float:
     return box["width"]
 
 
-def test_the_side_is_as_wide_as_its_border_is_dragged_also_after_a_reload(tab: Tab) -> None:
+def test_a_reload_keeps_sizes_folds_the_selection_and_how_times_are_written(
+    loop: Loop, tab: Tab, make_row: Callable[..., Row]
+) -> None:
+    tree = Tree(tab)
+    loop.show(make_row("a"), group("g"), replace(make_row("b"), depth=1), clock=wall_time())
+    tree.click("a")
+    tree.fold("g")
+    border = tab.page.get_by_role("separator", name="Height of the properties")
+    height = height_of(tree.details)
+    tree.drag_by(border, 0, -60)
+    assert height_of(tree.details) == pytest.approx(height + 60, abs=2)
+    border.press("ArrowDown")
+    assert height_of(tree.details) == pytest.approx(height + 36, abs=2)
+    tab.page.locator(".wv-ros-time").click()
+    tab.wait_for(lambda: shows_seconds(tab))
     before = width(tab)
     tab.page.mouse.move(before, 400)
     tab.page.mouse.down()
@@ -23,11 +44,22 @@ def test_the_side_is_as_wide_as_its_border_is_dragged_also_after_a_reload(tab: T
     canvas = tab.page.locator("#root canvas").first
     tab.wait_for(lambda: (canvas.bounding_box() or {"x": 0})["x"] == width(tab))
     dragged = width(tab)
+
     tab.page.reload()
-    tab.page.get_by_role("tablist").first.wait_for()
+    tree.wait_for_names("a", "g")
+    tab.wait_for(tree.details.is_visible)
+    assert tree.selected() == ["a"]
+    assert height_of(tree.details) == pytest.approx(height + 36, abs=2)
     assert width(tab) == dragged
+    tab.wait_for(lambda: shows_seconds(tab))
+
     tab.page.get_by_role("separator", name="Width of the panels").dblclick()
     assert width(tab) == before
+    border.dblclick()
+    assert not tree.details.is_visible()
+    tree.fold("g")
+    tab.page.locator(".wv-ros-time").click()
+    tab.wait_for(lambda: not shows_seconds(tab))
 
 
 def test_arrow_keys_move_the_border_and_not_the_camera(tab: Tab) -> None:

@@ -11,7 +11,7 @@ import pytest
 from msgspec.structs import replace
 
 from tests.page.conftest import Loop, Tab
-from tests.page.trees import Tree, group, height_of
+from tests.page.trees import Tree, group
 from webviz.api.declared import Topic
 from webviz.api.status import Level, OtherFixedFrame, Status
 from webviz.data.transforms.reasons import Explanation, Kind
@@ -200,29 +200,6 @@ def test_the_selected_display_is_shown_below_until_that_is_closed(
     assert details.get_by_role("heading").inner_text() == "b"
     loop.show(make_row("a"))
     tree.tab.wait_for(lambda: not details.is_visible())
-
-
-def test_the_border_is_dragged_and_its_place_is_remembered_as_is_what_is_folded(
-    loop: Loop, tree: Tree, make_row: MakeRow
-) -> None:
-    loop.show(make_row("a"), group("g"), replace(make_row("b"), depth=1))
-    tree.click("a")
-    tree.fold("g")
-    border = tree.tab.page.get_by_role("separator", name="Height of the properties")
-    height = height_of(tree.details)
-    tree.drag_by(border, 0, -60)
-    assert height_of(tree.details) == pytest.approx(height + 60, abs=2)
-    border.press("ArrowDown")
-    assert height_of(tree.details) == pytest.approx(height + 36, abs=2)
-    tree.tab.page.reload()
-    tree.wait_for_names("a", "g")
-    tree.tab.wait_for(tree.details.is_visible)
-    assert tree.selected() == ["a"]
-    assert height_of(tree.details) == pytest.approx(height + 36, abs=2)
-    border.dblclick()
-    assert not tree.details.is_visible()
-    tree.fold("g")
-    tree.tab.page.evaluate("localStorage.removeItem('webviz.displays.details')")
 
 
 def test_a_double_click_renames_and_escape_does_not(
