@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import playwright.sync_api as playwright
 import pytest
@@ -14,8 +15,10 @@ from tests.page.test_rewinding import show as show_ago
 from tests.page.test_teleop import card, open_card, wait_for_share
 from tests.page.test_timeline import show as show_recording
 from tests.page.test_toolbar import GOAL, POINT, overflow, toolbar
+from tests.page.test_tree_drag import at
+from tests.page.trees import Tree, group
 from webviz.api.vehicle import STILL
-from webviz.commands import Save, SaveMemory
+from webviz.commands import MoveDisplay, Save, SaveMemory
 from webviz.data.messages import LaserScan, to_tree
 from webviz.data.transforms import Diagnosis, FrameReport
 from webviz.engine.state import ConfigFile, Inspected, Row
@@ -236,3 +239,58 @@ def test_fingers_drive_ahead_and_sideways(phone: Tab) -> None:
     wait_for_share(phone, *STILL)
     phone.page.keyboard.press("Escape")
     playwright.expect(card(phone)).to_have_count(0)
+
+
+class Finger:
+    """One finger on a touch screen."""
+
+    def __init__(self, page: playwright.Page) -> None:
+        self._page = page
+        self._session = page.context.new_cdp_session(page)
+
+    def _send(self, kind: str, *points: tuple[float, float]) -> None:
+        touches: list[dict[str, Any]] = [{"x": x, "y": y} for x, y in points]
+        self._session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": touches})
+
+    def hold(self, x: float, y: float) -> None:
+        """Rest on a place."""
+        self._send("touchStart", (x, y))
+        self._page.locator(".wv-tree-held").wait_for()
+
+    def move(self, x: float, y: float) -> None:
+        """Go to a place."""
+        self._send("touchMove", (x, y))
+
+    def lift(self) -> None:
+        """Leave the screen."""
+        self._send("touchEnd")
+
+
+@pytest.fixture
+def tree(phone: Tab, make_row: Callable[..., Row]) -> Tree:
+    """On a tablet, where the panels are beside the scene."""
+    phone.page.set_viewport_size({"width": 800, "height": 900})
+    phone.loop.show(group("g"), make_row("d"), make_row("e"))
+    tree = Tree(phone)
+    tree.wait_for_names("g", "d", "e")
+    return tree
+
+
+def test_a_finger_that_rests_on_a_row_drags_it(tree: Tree) -> None:
+    finger = Finger(tree.tab.page)
+    x, y = at(tree, "e", 0.5)
+    finger.hold(x, y)
+    for step in (0.3, 0.7, 1.0):
+        finger.move(x, y + step * (at(tree, "g", 0.5)[1] - y))
+    finger.lift()
+    tree.tab.wait_for_command(MoveDisplay("e", "g", ""))
+
+
+def test_a_finger_that_rests_and_leaves_opens_the_menu(tree: Tree) -> None:
+    finger = Finger(tree.tab.page)
+    finger.hold(*at(tree, "d", 0.5))
+    finger.lift()
+    tree.item("Remove").wait_for()
+    assert tree.selected() == ["d"]
+    tree.tab.turn()
+    assert tree.item("Remove").is_visible()

@@ -1,9 +1,8 @@
-"""Displays are dragged to another place, by mouse and by finger."""
+"""Displays are dragged to another place by mouse; test_phone.py does so by finger."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import playwright.sync_api as playwright
 import pytest
@@ -124,61 +123,3 @@ def test_the_list_scrolls_at_its_edges(loop: Loop, tree: Tree, make_row: MakeRow
     tree.tab.page.mouse.move(100, at(tree, "row39", 0.8)[1])
     tree.tab.page.mouse.up()
     tree.tab.wait_for_command(MoveDisplay("row1", "", ""))
-
-
-class Finger:
-    """One finger on a touch screen."""
-
-    def __init__(self, page: playwright.Page) -> None:
-        self._page = page
-        self._session = page.context.new_cdp_session(page)
-
-    def _send(self, kind: str, *points: tuple[float, float]) -> None:
-        touches: list[dict[str, Any]] = [{"x": x, "y": y} for x, y in points]
-        self._session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": touches})
-
-    def hold(self, x: float, y: float) -> None:
-        """Rest on a place."""
-        self._send("touchStart", (x, y))
-        self._page.locator(".wv-tree-held").wait_for()
-
-    def move(self, x: float, y: float) -> None:
-        """Go to a place."""
-        self._send("touchMove", (x, y))
-
-    def lift(self) -> None:
-        """Leave the screen."""
-        self._send("touchEnd")
-
-
-@pytest.fixture(scope="module")
-def touched(open_lasting_tab: Callable[..., Tab]) -> Tab:
-    return open_lasting_tab(800, 900, has_touch=True)
-
-
-@pytest.fixture
-def phone(touched: Tab, rows: list[Row], loop: Loop) -> Tree:
-    tree = Tree(touched)
-    loop.show(*rows)
-    tree.wait_for_names("a", "g", "b", "c", "d", "empty", "e")
-    return tree
-
-
-def test_a_finger_that_rests_on_a_row_drags_it(loop: Loop, phone: Tree) -> None:
-    finger = Finger(phone.tab.page)
-    x, y = at(phone, "e", 0.5)
-    finger.hold(x, y)
-    for step in (0.3, 0.7, 1.0):
-        finger.move(x, y + step * (at(phone, "g", 0.5)[1] - y))
-    finger.lift()
-    phone.tab.wait_for_command(MoveDisplay("e", "g", ""))
-
-
-def test_a_finger_that_rests_and_leaves_opens_the_menu(phone: Tree) -> None:
-    finger = Finger(phone.tab.page)
-    finger.hold(*at(phone, "d", 0.5))
-    finger.lift()
-    phone.item("Remove").wait_for()
-    assert phone.selected() == ["d"]
-    phone.tab.turn()
-    assert phone.item("Remove").is_visible()
