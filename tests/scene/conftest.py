@@ -15,6 +15,7 @@ import viser
 import websockets.sync.client
 import zstandard
 
+from webviz.api.nodes import Rgb
 from webviz.scene import ViserScene, open_server
 from webviz.shell.pictures.browser import Page
 from webviz.shell.pictures.browser_scripts import CANVAS
@@ -98,10 +99,15 @@ class View(Page):
         self.wait_for(self._acknowledged, "the tab has applied everything")
         self.draw()
 
-    def color_at(self, point: Point) -> tuple[int, int, int]:
+    def color_at(self, point: Point) -> Rgb:
         """The colour drawn where a point of the scene (without its origin) is."""
-        red, green, blue = self.pixels()[self.row_column(point)].tolist()
-        return red, green, blue
+        (color,) = self.colors_at(point)
+        return color
+
+    def colors_at(self, *points: Point) -> list[Rgb]:
+        """The colours drawn where points are, in one picture: to take one is slow."""
+        pixels = self.pixels()
+        return [tuple(pixels[self.row_column(point)].tolist()) for point in points]
 
     def row_column(self, point: Point) -> tuple[int, int]:
         """Where a point of the scene (without its origin) is drawn."""

@@ -43,8 +43,8 @@ def test_a_ball_of_data_has_its_colour_in_the_middle_and_0_8_of_it_at_the_rim(
     view.scene.upsert("room", "solids", ball)
     view.show()
     assert is_near(view.color_at((0.0, 0.0, 0.0)), COLOR, 3)
-    for x, y in ((1.45, 0.0), (0.0, 1.45), (0.0, -1.45)):
-        assert is_near(view.color_at((x, y, 0.0)), (163, 81, 41), 8)
+    for color in view.colors_at((1.45, 0.0, 0.0), (0.0, 1.45, 0.0), (0.0, -1.45, 0.0)):
+        assert is_near(color, (163, 81, 41), 8)
 
 
 SIDES = {
@@ -73,10 +73,9 @@ def test_each_side_of_a_box_of_data_has_a_brightness_and_dark_edges(side: Any, v
 def test_a_square_of_data_has_its_colour_from_both_sides_at_any_slant(eye: Any, view: Any) -> None:
     view.scene.upsert("room", "tiles", Instances(ORIGIN, 3 * UNIT, COLOR, "square", is_data=True))
     view.look(eye, (0.0, 0.0, 0.0))
-    for x, y in ((0.0, 0.0), (1.4, 1.4), (-1.4, 0.5)):
-        assert is_near(view.color_at((x, y, 0.0)), COLOR, 1)
-    for outside in ((1.7, 0.0, 0.0), (0.0, -1.7, 0.0)):
-        assert view.color_at(outside) == BACKGROUND
+    for color in view.colors_at((0.0, 0.0, 0.0), (1.4, 1.4, 0.0), (-1.4, 0.5, 0.0)):
+        assert is_near(color, COLOR, 1)
+    assert view.colors_at((1.7, 0.0, 0.0), (0.0, -1.7, 0.0)) == [BACKGROUND] * 2
 
 
 def test_each_solid_has_its_place_extent_turn_and_colour(view: Any) -> None:
@@ -97,7 +96,8 @@ def test_solids_change_in_number_place_colour_and_shape(view: Any) -> None:
         colors = np.array([RED, GREEN, BLUE, GREEN, RED][:count], np.uint8).reshape(-1, 3)
         view.scene.upsert("room", "solids", Instances(places, np.full_like(places, 0.5), colors))
         view.show()
-        shown = [view.color_at((x, 0.0, 0.0)) != BACKGROUND for x in (0.0, 1.0, 2.0, 3.0, 4.0)]
+        colors_at = view.colors_at(*((x, 0.0, 0.0) for x in range(5)))
+        shown = [color != BACKGROUND for color in colors_at]
         assert shown == [True] * count + [False] * (5 - count)
     assert is_near(view.color_at((2.0, 0.0, 0.0)), BLUE)
     corner = (0.45, 0.45, 0.0)

@@ -50,8 +50,8 @@ def test_a_ball_is_lit_from_the_camera_and_not_black_at_its_rim(view: Any, eye: 
 def test_a_side_that_is_seen_at_an_angle_is_darker_by_its_cosine(view: Any) -> None:
     view.scene.upsert("room", "box", Mesh(*box(2.0), COLOR))
     view.look((10.0, 10.0, 0.0), (0.0, 0.0, 0.0))
-    for side in ((1.0, 0.5, 0.0), (0.5, 1.0, 0.0)):
-        assert view.color_at(side) == pytest.approx(shaded(np.sqrt(0.5)), abs=3)
+    for color in view.colors_at((1.0, 0.5, 0.0), (0.5, 1.0, 0.0)):
+        assert color == pytest.approx(shaded(np.sqrt(0.5)), abs=3)
 
 
 def test_axes_are_shaded_and_as_long_as_they_should_be(view: Any) -> None:
