@@ -1,4 +1,4 @@
-"""What a process does that is forked from a warm one, see `warm`; it imports little of its own."""
+"""Work of a process that is forked from a warm one, see `warm`; it imports little of its own."""
 
 from __future__ import annotations
 
