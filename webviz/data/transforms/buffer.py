@@ -69,7 +69,7 @@ class TransformBuffer:
         self.refusals = Refusals()
         self.conflicts = Conflicts(self._tree.caches, self._publishers, cache_time_ns)
         self._room_made_ns = NEVER_NS
-        self._many = ManyInserts(self._tree, self._publishers)
+        self._many = ManyInserts(self._tree, self._publishers, cache_time_ns)
         self._topology: tuple[tuple[int, str, list[str]], Topology] | None = None
         """The cached shape of the last query for many frames, by structure version and query."""
         self._largest: tuple[int, tuple[str, int]] | None = None
@@ -151,9 +151,9 @@ class TransformBuffer:
             return False
         if before != (cache.newest if is_static else cache.parent):
             self.structure_version += 1
-        publishers = self._claim(child, sample if is_static else authority, authority, stamp_ns)
+        self._claim(child, sample if is_static else authority, authority, stamp_ns)
         if received_ns:
-            publishers.delay_ns = received_ns - stamp_ns
+            cache.delay_ns = received_ns - stamp_ns
         self.version += 1
         return True
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections import deque
 
+from webviz.data.transforms.batches import Batches
 from webviz.data.transforms.errors import (
     BackwardExtrapolationException,
     ExtrapolationException,
@@ -29,15 +30,20 @@ Bracket = tuple[PoseTuple, PoseTuple, float, str]
 
 
 class StaticCache:
-    """The one pose of a frame that holds at any time."""
+    """The one pose of a frame that holds at any time.
 
-    __slots__ = ("sample",)
+    Attributes:
+        delay_ns: from the stamp of the last transform to its reception; None if unknown.
+    """
+
+    __slots__ = ("delay_ns", "sample")
     is_static = True
     newest_stamp = 0
     oldest_stamp = 0
 
     def __init__(self) -> None:
         self.sample: ParentedPose | None = None
+        self.delay_ns: int | None = None
 
     def __len__(self) -> int:
         return 1
@@ -80,29 +86,89 @@ class TimeCache:
     goes, and to move the others up in lists took a third of the time of inserting many frames. A
     pose is kept as bytes, a third of the memory of seven floats in a tuple.
 
+    A cache may follow messages of many transforms: it takes its samples from them once its history
+    is read, which that of most frames never is.
+
     Attributes:
+        batches: the messages that it follows, None for none.
+        place: of its transform in them.
         mixed_ns: the samples newer than this have one parent.
         twin_ns: the newest stamp that more than one sample has had.
     """
 
-    __slots__ = ("_cache_time_ns", "mixed_ns", "parents", "poses", "stamps", "twin_ns")
+    __slots__ = (
+        "_cache_time_ns",
+        "_delay_ns",
+        "_joined",
+        "_parents",
+        "_poses",
+        "_stamps",
+        "_taken",
+        "batches",
+        "mixed_ns",
+        "place",
+        "twin_ns",
+    )
     is_static = False
 
     def __init__(self, cache_time_ns: int) -> None:
-        self.stamps: deque[int] = deque()
-        self.poses: deque[bytes] = deque()
-        """As `PACKED`."""
-        self.parents: deque[str] = deque()
+        self.batches: Batches | None = None
+        self.place = 0
         self.mixed_ns = self.twin_ns = NEVER_NS
+        self._stamps: deque[int] = deque()
+        self._poses: deque[bytes] = deque()
+        self._parents: deque[str] = deque()
+        self._joined = self._taken = 0
+        """Messages that had come when it joined them, and when it last took its samples."""
         self._cache_time_ns = cache_time_ns
+        self._delay_ns: int | None = None
 
     def __len__(self) -> int:
         return len(self.stamps)
 
+    def __bool__(self) -> bool:
+        return bool(self._stamps)
+
+    @property
+    def stamps(self) -> deque[int]:
+        """Nanoseconds."""
+        self._take()
+        return self._stamps
+
+    @property
+    def poses(self) -> deque[bytes]:
+        """As `PACKED`."""
+        self._take()
+        return self._poses
+
+    @property
+    def parents(self) -> deque[str]:
+        """Frame ids."""
+        self._take()
+        return self._parents
+
+    @property
+    def is_single(self) -> bool:
+        """True if it has one sample; one that follows has those of two messages at least."""
+        return self.batches is None and len(self._stamps) == 1
+
+    @property
+    def delay_ns(self) -> int | None:
+        """From the stamp of the last transform to its reception; None if unknown."""
+        batches = self.batches
+        late_ns = batches.delay_ns(self._joined, self.place) if batches is not None else None
+        return self._delay_ns if late_ns is None else late_ns
+
+    @delay_ns.setter
+    def delay_ns(self, delay_ns: int | None) -> None:
+        self._delay_ns = delay_ns
+
     @property
     def newest_stamp(self) -> int:
         """Nanoseconds; 0 if empty."""
-        return self.stamps[-1] if self.stamps else 0
+        if self.batches is not None:
+            return int(self.batches.newest_ns[self.place])
+        return self._stamps[-1] if self._stamps else 0
 
     @property
     def oldest_stamp(self) -> int:
@@ -112,12 +178,15 @@ class TimeCache:
     @property
     def newest(self) -> ParentedPose | None:
         """The sample of the newest stamp, or None if empty."""
-        return self._sample(-1) if self.stamps else None
+        if self.batches is not None:
+            x, y, z, qx, qy, qz, qw = self.batches.rows[self.place].tolist()
+            return (x, y, z, qx, qy, qz, qw), self._parents[-1]
+        return self._sample(-1) if self._stamps else None
 
     @property
     def parent(self) -> str | None:
         """Of the newest sample, or None if empty."""
-        return self.parents[-1] if self.parents else None
+        return self._parents[-1] if self._parents else None
 
     def insert(self, stamp_ns: int, sample: ParentedPose) -> bool:
         """Insert in order; an exact duplicate counts as stored but is not kept twice.
@@ -128,11 +197,12 @@ class TimeCache:
         Returns:
             False if the sample is older than the newest by more than the cache time.
         """
-        stamps, (pose, parent) = self.stamps, sample
+        self.leave()
+        stamps, (pose, parent) = self._stamps, sample
         if not stamps or stamp_ns > stamps[-1]:
-            if stamps and parent != self.parents[-1]:
+            if stamps and parent != self._parents[-1]:
                 self.mixed_ns = stamps[-1]
-            self.append(stamp_ns, PACKED.pack(*pose), parent)
+            self._append(stamp_ns, PACKED.pack(*pose), parent)
             return True
         horizon = self._prune()
         if stamp_ns < horizon:
@@ -143,34 +213,62 @@ class TimeCache:
             if self._sample(i) == sample:
                 return True
             i -= 1
-        if parent != self.parents[-1]:
+        if parent != self._parents[-1]:
             self.mixed_ns = max(self.mixed_ns, stamp_ns)
         if place and stamps[place - 1] == stamp_ns:
             self.twin_ns = max(self.twin_ns, stamp_ns)
         stamps.insert(place, stamp_ns)
-        self.poses.insert(place, PACKED.pack(*pose))
-        self.parents.insert(place, parent)
+        self._poses.insert(place, PACKED.pack(*pose))
+        self._parents.insert(place, parent)
         return True
 
-    def append(self, stamp_ns: int, pose: bytes, parent: str) -> None:
+    def follow(self, batches: Batches, place: int) -> None:
+        """Take samples from a place in messages, until one is inserted here."""
+        self.batches, self.place = batches, place
+        self._joined = self._taken = batches.count
+        batches.follow(place, self._stamps[-1])
+
+    def leave(self) -> None:
+        """Follow no messages any more."""
+        if self.batches is not None:
+            self._delay_ns = self.delay_ns
+            self._take()
+            self.batches.leave(self.place)
+            self.batches = None
+
+    def _take(self) -> None:
+        """Take the samples that came since the last time."""
+        if self.batches is None or self.batches.count == self._taken:
+            return
+        *before, (stamp_ns, pose) = self.batches.since(self._taken, self.place)
+        self._taken = self.batches.count
+        parent = self._parents[-1]
+        if before:
+            stamps, poses = zip(*before, strict=True)
+            self._stamps.extend(stamps)
+            self._poses.extend(poses)
+            self._parents.extend([parent] * len(before))
+        self._append(stamp_ns, pose, parent)
+
+    def _append(self, stamp_ns: int, pose: bytes, parent: str) -> None:
         """`insert` a sample that is newer than all others, with its pose as `PACKED`."""
-        if self.stamps:
+        if self._stamps:
             self._prune()
-        self.stamps.append(stamp_ns)
-        self.poses.append(pose)
-        self.parents.append(parent)
+        self._stamps.append(stamp_ns)
+        self._poses.append(pose)
+        self._parents.append(parent)
 
     def _sample(self, place: int) -> ParentedPose:
-        return PACKED.unpack(self.poses[place]), self.parents[place]
+        return PACKED.unpack(self._poses[place]), self._parents[place]
 
     def _prune(self) -> int:
         """Drop what is too old; returns the stamp from which samples are kept."""
-        stamps = self.stamps
+        stamps = self._stamps
         horizon = stamps[-1] - self._cache_time_ns
         while stamps[0] < horizon or len(stamps) >= MAX_SAMPLES:
             stamps.popleft()
-            self.poses.popleft()
-            self.parents.popleft()
+            self._poses.popleft()
+            self._parents.popleft()
         return horizon
 
     def at(self, stamp_ns: int) -> ParentedPose | None:
@@ -230,9 +328,12 @@ class TimeCache:
 
     def clear(self) -> None:
         """Forget all samples; the frame itself stays known."""
-        self.stamps.clear()
-        self.poses.clear()
-        self.parents.clear()
+        if self.batches is not None:
+            self._taken = self.batches.count  # not to take what is forgotten
+        self.leave()
+        self._stamps.clear()
+        self._poses.clear()
+        self._parents.clear()
         self.mixed_ns = self.twin_ns = NEVER_NS
 
 

@@ -11,9 +11,6 @@ from webviz.data.words import Problem
 TOLERANCE_NS = 1_500_000_000
 """Tolerated offset: AMCL stamps its transform up to 1 s ahead (its transform_tolerance)."""
 RECENT_NS = 10 * NS_PER_S
-FEWEST = 2
-"""Transforms of a frame that tell something: a single one may be its last, repeated where a slice
-of a recording begins."""
 SHOWN = 3
 
 
@@ -31,11 +28,13 @@ def clock_problem(
         None if the clocks agree.
     """
     offsets: dict[str, int] = {}  # stamp minus time of reception
-    for child, publishers in buffer.publishers.items():
-        cache, delay_ns = buffer.tree.caches[child], publishers.delay_ns
-        if not isinstance(cache, TimeCache) or len(cache.stamps) < FEWEST or delay_ns is None:
+    for child, cache in buffer.tree.caches.items():
+        # A single transform may be its last, repeated where a slice of a recording begins.
+        if not isinstance(cache, TimeCache) or not cache or cache.is_single:
             continue
-        received_ns = cache.stamps[-1] + delay_ns
+        if (delay_ns := cache.delay_ns) is None:
+            continue
+        received_ns = cache.newest_stamp + delay_ns
         if now_ns - received_ns < RECENT_NS:
             offsets[child] = -delay_ns
     wrong = {child: ns for child, ns in offsets.items() if abs(ns) > TOLERANCE_NS}

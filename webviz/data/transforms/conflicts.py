@@ -14,7 +14,7 @@ from math import dist
 
 import msgspec
 
-from webviz.data.transforms.cache import Cache, TimeCache
+from webviz.data.transforms.cache import NEVER_NS, Cache, TimeCache
 from webviz.data.transforms.geometry import PACKED
 from webviz.data.transforms.publishers import Contest, Publishers
 from webviz.data.words import Problem
@@ -77,11 +77,21 @@ class Conflicts:
         """Return the signs of two publishers of a child frame."""
         cache = self._caches[frame]
         contest = self._publishers[frame].contested(cache.newest_stamp, self._cache_time_ns)
+        if isinstance(cache, TimeCache) and not contest and self._is_calm(cache):
+            return ()
         state = id(cache), cache.newest_stamp, len(cache), contest
         known = self._known.get(frame)
         if known is None or known[0] != state:
             known = self._known[frame] = state, tuple(_found(frame, cache, contest))
         return known[1]
+
+    @staticmethod
+    def _is_calm(cache: TimeCache) -> bool:
+        """Return whether a frame follows messages without any sign, as nearly all do."""
+        batches = cache.batches
+        if batches is None or cache.mixed_ns != NEVER_NS or cache.twin_ns != NEVER_NS:
+            return False
+        return not batches.leaps(LEAP, MIN_LEAP_M)[cache.place]
 
     def all(self) -> Iterator[tuple[str, Conflict]]:
         """All conflicts with their frames."""

@@ -179,10 +179,9 @@ def report(buffer: TransformBuffer, frame: str, now_ns: int) -> FrameReport:
     """Diagnose one child frame."""
     cache = buffer.tree.caches[frame]
     newest = cache.newest
-    publishers = buffer.publishers[frame]
     history_ns = cache.newest_stamp - cache.oldest_stamp
     rate_hz = (len(cache) - 1) * NS_PER_S / history_ns if history_ns else 0.0
-    age_ns = now_ns - cache.newest_stamp if isinstance(cache, TimeCache) and cache.stamps else None
+    age_ns = now_ns - cache.newest_stamp if isinstance(cache, TimeCache) and cache else None
     found = buffer.conflicts.of(frame)
     problems = [str(conflict.problem) for conflict in found]
     parents = dict.fromkeys(parent for conflict in found for parent in conflict.parents)
@@ -207,7 +206,7 @@ def report(buffer: TransformBuffer, frame: str, now_ns: int) -> FrameReport:
         rate_hz=rate_hz,
         newest_ns=cache.newest_stamp,
         age_ns=age_ns,
-        delay_ns=publishers.delay_ns,
+        delay_ns=cache.delay_ns,
         samples=len(cache),
         history_ns=history_ns,
         problems=tuple(problems),

@@ -103,7 +103,7 @@ def _ahead(
             "the data's publisher is fast, synchronise the clocks of the machines.",
             lag,
         )
-    delay = buffer.publishers[child].delay_ns or 0
+    delay = buffer.tree.caches[child].delay_ns or 0
     if now_ns and delay > STALE_NS and age - delay < STALE_NS:
         return Explanation(
             Kind.CLOCKS,

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+import msgspec
 import numpy as np
+from numpy.typing import NDArray
 
 from webviz.data.transforms.arrays import F64, canonical_many
-from webviz.data.transforms.cache import TimeCache
-from webviz.data.transforms.geometry import PACKED
+from webviz.data.transforms.batches import Batches
+from webviz.data.transforms.cache import MAX_SAMPLES, TimeCache
 from webviz.data.transforms.publishers import Publishers
 from webviz.data.transforms.tree import FrameTree
 
@@ -18,9 +20,21 @@ MAX_LISTS = 256
 Names = Sequence[tuple[str, str]]
 """Parents and children."""
 
-Expected = list[tuple[TimeCache, Publishers, str] | None]
-"""The cache, publishers and parent of each frame; None for one that is new, static or moves to
-another parent."""
+
+class _List(msgspec.Struct):
+    """A list of names, its messages, and the caches of the frames that follow them."""
+
+    names: Names
+    batches: Batches
+    caches: dict[int, TimeCache] = msgspec.field(default_factory=dict)
+    """By place in the list, those that have left as well."""
+    structure: int = -1
+    """Version for which the caches were looked up."""
+
+    def dismiss(self, is_dismissed: NDArray[np.bool_]) -> None:
+        """Let those of these frames leave that follow."""
+        for place in np.flatnonzero(self.batches.is_followed & is_dismissed).tolist():
+            self.caches[place].leave()
 
 
 class ManyInserts:
@@ -29,13 +43,17 @@ class ManyInserts:
     Args:
         tree: to store in.
         publishers: of its frames.
+        cache_time_ns: history kept of each frame.
     """
 
-    def __init__(self, tree: FrameTree, publishers: Mapping[str, Publishers]) -> None:
+    def __init__(
+        self, tree: FrameTree, publishers: Mapping[str, Publishers], cache_time_ns: int
+    ) -> None:
         self._tree = tree
         self._publishers = publishers
-        self._known: dict[int, tuple[int, Names, Expected]] = {}
-        """By the identity of the names, which are kept for it; with the structure's version."""
+        self._cache_time_ns = cache_time_ns
+        self._lists: dict[tuple[int, str], _List] = {}
+        """By the identity of the names, which are kept for it, and the authority."""
 
     def insert(
         self,
@@ -60,34 +78,48 @@ class ManyInserts:
         with np.errstate(all="ignore"):  # a rotation of length zero becomes NaN
             rotations = canonical_many(poses[:, 3:].T)
         rows = np.concatenate((poses[:, :3], rotations.T), axis=1)
-        is_finite, packed = np.isfinite(rows.sum(axis=1)).tolist(), rows.tobytes()
-        frames = self._expected(names, structure)
-        others = []
-        for place, (frame, stamp_ns, finite) in enumerate(
-            zip(frames, stamps_ns, is_finite, strict=True)
-        ):
-            if frame is not None and finite:
-                cache, whose, parent = frame
-                if stamp_ns > cache.stamps[-1] and whose.claim == authority:
-                    start = place * PACKED.size
-                    cache.append(stamp_ns, packed[start : start + PACKED.size], parent)
-                    if received_ns:
-                        whose.delay_ns = received_ns - stamp_ns
-                    continue
-            others.append(place)
-        return others
+        stamps = np.array(stamps_ns, np.int64)
+        known = self._list(names, authority, structure)
+        batches = known.batches
+        known.dismiss(~batches.fitting(stamps, rows))
+        if batches.is_followed.any():
+            batches.add(stamps, rows, received_ns)
+        return np.flatnonzero(~batches.is_followed).tolist()
 
-    def _expected(self, names: Names, structure: int) -> Expected:
-        known = self._known.get(id(names))
-        if known is None or known[0] != structure:
-            if len(self._known) >= MAX_LISTS:
-                self._known.clear()
-            known = structure, names, [self._frame(*pair) for pair in names]
-            self._known[id(names)] = known
-        return known[2]
+    def _list(self, names: Names, authority: str, structure: int) -> _List:
+        key = id(names), authority
+        known = self._lists.get(key)
+        if known is None:
+            if len(self._lists) >= MAX_LISTS:
+                self._forget_all()
+            batches = Batches(len(names), self._cache_time_ns, MAX_SAMPLES, self._note)
+            known = self._lists[key] = _List(names, batches)
+        if known.structure != structure:
+            known.structure = structure
+            self._look_up(known, authority)
+        return known
 
-    def _frame(self, parent: str, child: str) -> tuple[TimeCache, Publishers, str] | None:
+    def _look_up(self, known: _List, authority: str) -> None:
+        """Let all frames of a list follow it that can, and the others leave."""
+        for place, (parent, child) in enumerate(known.names):
+            cache = self._expected(parent, child, authority)
+            if known.batches.is_followed[place] and known.caches[place] is not cache:
+                known.caches[place].leave()
+            if cache is not None and cache.batches is None:
+                cache.follow(known.batches, place)
+                known.caches[place] = cache
+
+    def _note(self) -> None:
+        self._tree.batches_version += 1
+
+    def _expected(self, parent: str, child: str, authority: str) -> TimeCache | None:
+        """Return the cache of a moving frame of this parent and authority."""
         cache, whose = self._tree.caches.get(child), self._publishers.get(child)
-        if whose is None or not isinstance(cache, TimeCache) or not len(cache):
+        if whose is None or whose.claim != authority or not isinstance(cache, TimeCache):
             return None
-        return (cache, whose, parent) if cache.parent == parent else None
+        return cache if cache and cache.parent == parent else None
+
+    def _forget_all(self) -> None:
+        for known in self._lists.values():
+            known.dismiss(np.ones(len(known.names), np.bool_))
+        self._lists.clear()

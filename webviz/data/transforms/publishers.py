@@ -45,18 +45,16 @@ class Publishers:
         current: the authority of the last transform stored.
         claim: what it claimed.
         contest: the last two that alternated, or None.
-        delay_ns: from the stamp of the last transform to its reception; None if unknown.
         changes: how often a static transform replaced another claim, or was replaced, without a
             known contest. The next query of the publishers shows whether it was a restart.
     """
 
-    __slots__ = ("_replaced", "changes", "claim", "contest", "current", "delay_ns")
+    __slots__ = ("_replaced", "changes", "claim", "contest", "current")
 
     def __init__(self, authority: str, claim: Claim) -> None:
         self.current = authority
         self.claim = claim
         self.contest: Contest | None = None
-        self.delay_ns: int | None = None
         self.changes = 0
         self._replaced: dict[Claim, tuple[str, int]] = {}
 

@@ -21,6 +21,7 @@ from webviz.data.transforms.arrays import (
     to_pairs,
     to_rows,
 )
+from webviz.data.transforms.batches import Batches
 from webviz.data.transforms.cache import StaticCache, TimeCache
 from webviz.data.transforms.geometry import IDENTITY, PoseTuple
 from webviz.data.transforms.tree import FrameTree
@@ -48,6 +49,12 @@ class Topology:
     """
 
     def __init__(self, tree: FrameTree, target: str, frames: Sequence[str]) -> None:
+        self._tree = tree
+        self._grouped_at = -1
+        self._alone: list[int] = []
+        """Moving frames that follow no messages."""
+        self._followers: list[tuple[Batches, I64, I64]] = []
+        """The messages that others follow, with their numbers and their places there."""
         self._nodes: dict[str, int] = {}
         self._parents: list[int] = []
         self.is_usable = self._climb(tree, target)
@@ -116,7 +123,11 @@ class Topology:
             no data at one of them: then `many_frames` computes them link by link.
         """
         newest = np.full(len(self._ups), 0, np.int64)
-        newest[self._moving_nodes] = [cache.stamps[-1] for cache in self._moving]
+        self._group()
+        alone = [self._moving[number] for number in self._alone]
+        newest[self._moving_nodes[self._alone]] = [cache.newest_stamp for cache in alone]
+        for batches, numbers, places in self._followers:
+            newest[self._moving_nodes[numbers]] = batches.newest_ns[places]
         stamps = np.where(self._is_found, self._common_times(newest)[self._asked], 0)
         is_wanted = self._is_found & ~self._is_target
         out = np.full((7, len(stamps)), np.nan)
@@ -124,7 +135,10 @@ class Topology:
         if len(times) > MAX_STAMPS:
             return None
         if self._moving:
-            rows = packed_to_rows(b"".join([cache.poses[-1] for cache in self._moving]))
+            rows = np.empty((7, len(self._moving)))
+            rows[:, self._alone] = packed_to_rows(b"".join([cache.poses[-1] for cache in alone]))
+            for batches, numbers, places in self._followers:
+                rows[:, numbers] = batches.rows[places].T
             self._links[:, self._moving_nodes] = to_pairs(rows)
         for time in times:
             chosen = np.flatnonzero(is_wanted & (stamps == time))
@@ -140,6 +154,21 @@ class Topology:
         out[:, self._is_target] = np.array(IDENTITY)[:, None]
         own = self._target_cache.newest_stamp if self._target_cache else 0
         return out, np.where(self._is_target, own, stamps)
+
+    def _group(self) -> None:
+        """Sort the moving frames by the messages that they follow."""
+        if self._grouped_at == self._tree.batches_version:
+            return
+        self._grouped_at = self._tree.batches_version
+        found: dict[Batches | None, list[int]] = {None: []}
+        for number, cache in enumerate(self._moving):
+            found.setdefault(cache.batches, []).append(number)
+        self._alone = found.pop(None)
+        self._followers = [
+            (batches, np.array(numbers), np.array([self._moving[each].place for each in numbers]))
+            for batches, numbers in found.items()
+            if batches is not None
+        ]
 
     def _common_times(self, newest: I64) -> I64:
         """Per node the latest time common with the target; 0 where no link has one."""

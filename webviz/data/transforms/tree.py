@@ -21,11 +21,13 @@ class FrameTree:
     Attributes:
         names: frame ids in order of first mention (the child of a transform before its parent).
         caches: per child; a frame known only as a parent has none.
+        batches_version: changes when a cache begins or ends to follow messages.
     """
 
     def __init__(self) -> None:
         self.names: dict[str, None] = {}
         self.caches: dict[str, Cache] = {}
+        self.batches_version = 0
 
     def fault(self, frame: str) -> str:
         """Return the fault of a requested frame id in tf2's words; empty if it is valid."""
