@@ -189,7 +189,6 @@ until_signal(work)
 
 
 BUSY = """
-import time
 from pathlib import Path
 from typing import Annotated
 from webviz import Display, Input, Topic
@@ -202,7 +201,7 @@ class Busy(Display):
         if Path(__file__).with_name("begin").exists():
             print("at work", flush=True)
             while True:
-                time.sleep(0.001)
+                pass
         return True
 """
 
