@@ -130,6 +130,8 @@ $(VENV)/ready: pyproject.toml setup.py
 	@echo "Setting up $(VENV) with $(PYTHON), some minutes the first time ..."
 	@$(PYTHON) -m venv $(VENV_OPTIONS) $(VENV) || { rm -rf $(VENV); \
 		echo "Python cannot make a virtual environment: apt install python3-venv." >&2; exit 1; }
+	@# Python brings an old one, which takes twice as long.
+	@$(VENV)/bin/python -m pip install --quiet --upgrade pip || true
 	@# The distribution was called webviz: two of them would list all plug-ins twice.
 	@$(VENV)/bin/python -m pip uninstall --quiet --yes webviz 2> /dev/null || true
 	@$(call add,pictures$(if $(ROS),$(comma)ros))
