@@ -221,6 +221,33 @@ def test_the_state_clears_when_data_flows_again(
     assert not messages.is_stuck
 
 
+def test_a_message_before_the_first_transform_is_no_problem_once_a_newer_one_is_ready(
+    buffer: TransformBuffer, messages: MessageFilter[str], put: Put
+) -> None:
+    put("map", "laser", 1.0)
+    put("map", "laser", 3.0)
+    messages.add("first", "laser", round(0.95 * S))
+    assert messages.ready(buffer, "map") == []
+    reason = messages.explanation(buffer, "map")
+    assert reason
+    assert reason.kind is Kind.BEHIND
+    messages.add("other frame", "nowhere", S)
+    messages.add("second", "laser", 2 * S)
+    assert messages.ready(buffer, "map") == ["second"]
+    reason = messages.explanation(buffer, "map")
+    assert reason
+    assert reason.kind is Kind.UNKNOWN_FRAME
+    messages.add("one more", "laser", 3 * S)
+    messages.add("back again", "laser", round(0.9 * S))
+    assert messages.ready(buffer, "map") == ["one more"]
+    put("map", "nowhere", 1.0)
+    assert messages.ready(buffer, "map") == ["other frame"]
+    reason = messages.explanation(buffer, "map")  # of what arrived after newer data
+    assert reason
+    assert reason.kind is Kind.BEHIND
+    assert messages.is_stuck
+
+
 def test_a_queue_too_short_for_the_lag_is_told_with_the_length_it_needs(
     buffer: TransformBuffer, put: Put
 ) -> None:

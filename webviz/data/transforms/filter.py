@@ -21,13 +21,15 @@ MAX_BYTES = 64 << 20
 """Of the messages that wait; the newest waits, however large."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class _Waiting(Generic[P]):
     payload: P
     frame: str
     stamp_ns: int
     duration_ns: int
     size: int
+    is_passed: bool = False
+    """True if a newer message of its frame that arrived later became ready."""
 
     def stamps(self) -> tuple[int, ...]:
         """Return the times at which a transform is needed."""
@@ -65,8 +67,8 @@ class MessageFilter(Generic[P]):
 
     @property
     def is_stuck(self) -> bool:
-        """Return whether messages wait or were dropped since one last became ready."""
-        return bool(self._queue) or self._given_up is not None
+        """Return whether messages wait that no newer one has passed, or were given up since."""
+        return self._longest() is not None or self._given_up is not None
 
     def __len__(self) -> int:
         return len(self._queue) + len(self._new)
@@ -107,6 +109,7 @@ class MessageFilter(Generic[P]):
             elif (pose := _pose(buffer, fixed_frame, message)) is not None:
                 if is_within_reach((*pose.translation, *pose.rotation)):
                     done.append(message.payload)
+                    self._pass(message)
                 else:
                     self._give_up(message, Kind.OUT_OF_REACH)
             elif _is_too_old(buffer, fixed_frame, message):
@@ -129,9 +132,10 @@ class MessageFilter(Generic[P]):
     ) -> Explanation | None:
         """Why nothing is ready: for the message that waits longest, else the last one given up.
 
-        None if nothing waits and nothing was given up since a message last became ready.
+        None if nothing waits, but what newer data has passed, and nothing was given up since a
+        message last became ready.
         """
-        message = self._queue[0] if self._queue else self._given_up
+        message = self._longest() or self._given_up
         if message is None:
             return None
         reason = _why(buffer, fixed_frame, message, now_ns)
@@ -151,6 +155,16 @@ class MessageFilter(Generic[P]):
         self._drops.clear()
         self._given_up, self._lost, self._tried = None, 0, None
         self._is_heavy = False
+
+    def _pass(self, ready: _Waiting[P]) -> None:
+        """Mark what waits although newer data of its frame shows, such as a topic's first."""
+        for message in self._queue:
+            if message.frame == ready.frame and 0 < message.stamp_ns < ready.stamp_ns:
+                message.is_passed = True
+
+    def _longest(self) -> _Waiting[P] | None:
+        """Return the message that waits longest, and that no newer one has passed."""
+        return next((message for message in self._queue if not message.is_passed), None)
 
     def _give_up(self, message: _Waiting[P], kind: Kind) -> None:
         self._drops[kind] += 1
