@@ -43,6 +43,31 @@ def test_what_msgspec_refuses_has_a_fault_there(cls: type[msgspec.Struct]) -> No
                 assert "`str`" not in fault.clause
 
 
+class Needy(Display):
+    """Has a property without a default."""
+
+    size: float
+
+
+class Faulty(Display):
+    """Refuses its own default."""
+
+    size: float = -1.0
+
+    def __post_init__(self) -> None:
+        raise ValueError("size must be positive")
+
+
+@pytest.mark.parametrize(
+    ("cls", "text"), [(Needy, "missing required field `size`"), (Faulty, "size must be positive")]
+)
+def test_what_is_wrong_without_any_value_is_refused_with_the_cause(
+    cls: type[Display], text: str
+) -> None:
+    with pytest.raises(msgspec.ValidationError, match=text):
+        make(cls, {})
+
+
 def _refusal(cls: type[msgspec.Struct], values: dict[str, Any]) -> str | None:
     try:
         if issubclass(cls, Declared):

@@ -104,11 +104,23 @@ def make(cls: type[P], values: dict[str, Any]) -> P:
     Raises:
         msgspec.ValidationError: a value is invalid; the text ends with its path.
     """
-    # To convert to a class takes milliseconds the first time.
-    declared = msgspec.convert(completed(cls, values), cls, strict=True) if values else cls()
+    declared = _by_default(cls) if not values else None
+    if declared is None:
+        declared = msgspec.convert(completed(cls, values), cls, strict=True)
     _check_finite(declared, "$")
     declared.name = readable(declared.name) or default_name(cls)
     return declared
+
+
+def _by_default(cls: type[P]) -> P | None:
+    """Return an instance without values, None if that fails: the conversion reports the cause.
+
+    The first conversion to a class takes milliseconds, which add up at the start of a viewer.
+    """
+    try:
+        return cls()
+    except (TypeError, ValueError):
+        return None
 
 
 def completed(cls: type[Declared], values: Mapping[str, Any]) -> dict[str, Any]:
