@@ -187,3 +187,17 @@ def test_no_more_messages_are_kept_than_samples_of_a_frame_whatever_their_stamps
     assert [ns for ns, _ in batches.since(0, 0)] == [5, 6, 7, 8]
     assert [ns for ns, _ in batches.since(6, 0)] == [7, 8]
     assert changes
+
+
+def test_frames_follow_a_list_that_takes_the_place_of_another() -> None:
+    buffer, names = TransformBuffer(2 * S), LISTS[0]
+    poses = np.tile([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0], (len(names), 1))
+    other = list(reversed(names))  # of the same publisher, started anew
+    for tick in range(9):
+        stamps = [S + tick * S // 10] * len(names)
+        buffer.set_moving(names if tick < 4 else other, stamps, poses, "a", 0)
+    cache = buffer.tree.caches["f8"]
+    assert isinstance(cache, TimeCache)
+    assert cache.batches is not None
+    assert cache.place == other.index(("f3", "f8"))
+    assert len(cache) == 9

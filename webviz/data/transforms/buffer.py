@@ -363,8 +363,8 @@ class TransformBuffer:
         tree.names.setdefault(parent)
         return cache
 
-    def _claim(self, child: str, claim: Claim, authority: str, stamp_ns: int) -> Publishers:
-        """Note the publisher of a stored transform, and return all of its frame."""
+    def _claim(self, child: str, claim: Claim, authority: str, stamp_ns: int) -> None:
+        """Note the publisher of a stored transform."""
         publishers = self._publishers.get(child)
         if publishers is None:
             publishers = self._publishers[child] = Publishers(authority, claim)
@@ -372,7 +372,6 @@ class TransformBuffer:
             horizon_ns = self._tree.caches[child].newest_stamp - self.cache_time_ns
             publishers.take_over(authority, claim, stamp_ns, horizon_ns)
         publishers.current = authority
-        return publishers
 
     def _has_room(self, child: str, stamp_ns: int, received_ns: int) -> bool:
         """Return whether one more frame can be kept, if need be instead of expired ones."""

@@ -28,8 +28,8 @@ class _List(msgspec.Struct):
     batches: Batches
     caches: dict[int, TimeCache] = msgspec.field(default_factory=dict)
     """By place in the list, those that have left as well."""
-    structure: int = -1
-    """Version for which the caches were looked up."""
+    looked_up: tuple[int, int] = -1, -1
+    """Versions of the structure and of the followers for which the caches were looked up."""
 
     def dismiss(self, is_dismissed: NDArray[np.bool_]) -> None:
         """Let those of these frames leave that follow."""
@@ -94,9 +94,9 @@ class ManyInserts:
                 self._forget_all()
             batches = Batches(len(names), self._cache_time_ns, MAX_SAMPLES, self._note)
             known = self._lists[key] = _List(names, batches)
-        if known.structure != structure:
-            known.structure = structure
+        if known.looked_up != (structure, self._tree.batches_version):
             self._look_up(known, authority)
+            known.looked_up = structure, self._tree.batches_version
         return known
 
     def _look_up(self, known: _List, authority: str) -> None:
