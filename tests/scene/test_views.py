@@ -33,7 +33,7 @@ WIDTH, HEIGHT = 480, 320
 """Of a page so narrow that the panels are folded away."""
 MIDDLE = X, Y = WIDTH / 2, HEIGHT / 2
 HANDLE = (150, 190)
-"""Where drags begin."""
+"""The pixel at which drags begin."""
 RED, WHITE = (255, 0, 0), (255, 255, 255)
 HALF = math.tan(FIELD_OF_VIEW / 2)
 AXES = """async () => {

@@ -75,7 +75,7 @@ class AgentTools:
         """Pictures of the scene with the images beside it, uint8 (height, width, 3) each.
 
         Raises:
-            Error: a view is unknown, there are too many, or there is no browser on this machine.
+            Error: a view is unknown, there are too many, or no browser is installed.
         """
         if not 1 <= len(views) <= MAX_PICTURES:
             raise Error(f"Ask for 1 to {MAX_PICTURES} views at once, not {len(views)}.")
@@ -90,7 +90,7 @@ class AgentTools:
         """Values of what a picture of this view and size has at a pixel.
 
         Raises:
-            Error: the view is unknown, or there is no browser on this machine.
+            Error: the view is unknown, or no browser is installed.
         """
         self._check_size(width, height)
         self._begin(caller, f"selected at ({x}, {y})")

@@ -62,7 +62,7 @@ class PictureControls(ABC):
             uint8 (height, width, 3).
 
         Raises:
-            Error: there is no browser, or the file cannot be written.
+            Error: no browser is installed, or the file cannot be written.
         """
         if path is not None:
             picture_files.check(Path(path), is_animation=False, transparent=False)
@@ -84,7 +84,7 @@ class PictureControls(ABC):
             uint8 (height, width, 3) each.
 
         Raises:
-            Error: there is no browser, or a view is unknown.
+            Error: no browser is installed, or a view is unknown.
         """
         return self._snapshots.take(self.url, size, [self._view(view) for view in views])
 
@@ -105,7 +105,7 @@ class PictureControls(ABC):
             values and `note`; and "/info" on all. Empty if nothing is there.
 
         Raises:
-            Error: there is no browser, or the view is unknown.
+            Error: no browser is installed, or the view is unknown.
         """
         return self._snapshots.select(self.url, size, self._view(view), (x, y))
 

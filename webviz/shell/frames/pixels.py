@@ -13,7 +13,7 @@ def to_png(picture: TreePicture) -> bytes:
     """Draw a picture.
 
     Raises:
-        Error: it is too large, or there is no browser.
+        Error: it is too large, or no browser is installed.
     """
     if max(picture.width, picture.height) > LARGEST:
         raise Error(

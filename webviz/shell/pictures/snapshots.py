@@ -66,7 +66,7 @@ class Snapshots:
             uint8 (height, width, 3) each.
 
         Raises:
-            Error: there is no browser, or it does not finish.
+            Error: no browser is installed, or the browser does not finish.
         """
         return self._pool.submit(self._take, url, size, views).result()
 
@@ -85,7 +85,7 @@ class Snapshots:
             What is known of it, see `webviz.page.content.selection`; empty if nothing is there.
 
         Raises:
-            Error: there is no browser, or it does not finish.
+            Error: no browser is installed, or the browser does not finish.
         """
         return self._pool.submit(self._select, url, size, view, at).result()
 
