@@ -161,7 +161,7 @@ def test_the_publisher_of_a_topic_that_is_no_longer_advertised_is_destroyed(
 def test_a_message_does_not_wait_for_what_arrives(
     webviz_domain: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("webviz.ros.node.REST_S", 3600.0)
+    monkeypatch.setattr("webviz.ros.node.LOOK_S", 3600.0)
     source = RosSource(domain_id=webviz_domain)
     advertisement = Advertisement("/lonely", STRING)
     for _ in range(5):

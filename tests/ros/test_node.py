@@ -113,6 +113,19 @@ def test_auto_asks_for_what_the_publisher_offers(
     assert source.clock_messages() is None
 
 
+def test_a_publisher_that_takes_the_place_of_another_is_known_by_its_qos(
+    talker: Node, listen: Callable[..., RosSource], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(node, "THOROUGH_EVERY", 2)
+    first = talker.create_publisher(String, "/words", qos("reliable", "volatile"))
+    source = listen()
+    want(source)
+    until(lambda: requested(source) == ("reliable", "volatile"), "the first is known")
+    talker.destroy_publisher(first)
+    talker.create_publisher(String, "/words", qos("best_effort", "volatile"))
+    until(lambda: requested(source) == ("best_effort", "volatile"), "the second is known")
+
+
 def test_a_latched_message_from_before_arrives(
     talker: Node, listen: Callable[..., RosSource]
 ) -> None:

@@ -58,7 +58,7 @@ class Heap:
     def turn(self) -> None:
         """Return memory that is no longer needed; to be called several times a second."""
         now = self._clock()
-        if now >= self._next_look:
+        if now >= self._next_look and max(self._largest, self._before) >= LARGE:
             self._next_look = now + LOOK_S
             self._look()
         if now < self._next:
