@@ -226,11 +226,10 @@ def test_points_are_as_large_as_neighbours_are_apart(bench: Benches) -> None:
     at.turn()
     at.settle()
     # The focal length is 16 px, hence 2/16 m at 1 m.
-    near, far = sorted(at.nodes().values(), key=lambda node: node.size)
-    assert (len(near.xyz), len(far.xyz)) == (191, 1)
-    assert 2 / 16 <= near.size <= 1.15 * 2 / 16
-    # Beyond ten steps of 1.15 all have the size of the last.
-    assert far.size == pytest.approx(near.size * 1.15**10)
+    node = at.nodes()["points"]
+    assert node.size == 2 / 16
+    a, b, c, d = node.plane
+    np.testing.assert_allclose(node.xyz @ (a, b, c) + d, [8.0, *[1.0] * 191], rtol=1e-6)
     at.set("style", "Boxes")
     np.testing.assert_allclose(at.nodes()["solids"].scales[:2, 0], (8 * 2 / 16, 2 / 16))
 

@@ -29,7 +29,8 @@ def test_points_lines_arrows_and_labels(pose: Pose, corners: list) -> None:
     rotation = Rotation.from_quat(np.roll(pose.wxyz, -1))
     expected = rotation.apply(xyz.astype(float)) + pose.position
     origin = (500.0, -1000.0, 0.0)
-    points = baked(Points(xyz, (1, 2, 3), 0.1), pose, origin)
+    plane = 0.6, 0.0, -0.8, 3.0
+    points = baked(Points(xyz, (1, 2, 3), 0.1, plane=plane), pose, origin)
     lines = baked(Lines(segments, (1, 2, 3)), pose, origin)
     arrows = baked(Arrows(segments, (1, 2, 3), 0.1, 0.2, 0.3), pose, origin)
     labels = baked(Labels(xyz, ("a",) * len(xyz), 0.1), pose, origin)
@@ -38,6 +39,9 @@ def test_points_lines_arrows_and_labels(pose: Pose, corners: list) -> None:
     assert isinstance(arrows, Arrows)
     assert isinstance(labels, Labels)
     np.testing.assert_allclose(points.xyz + np.array(origin), expected, atol=2e-3)
+    a, b, c, d = points.plane or plane
+    before = xyz @ plane[:3] + plane[3]
+    np.testing.assert_allclose(points.xyz @ (a, b, c) + d, before, atol=5e-3)
     np.testing.assert_array_equal(labels.positions, points.xyz)
     np.testing.assert_array_equal(lines.segments[:, 0], points.xyz[:-1])
     np.testing.assert_array_equal(arrows.segments[:, 1], points.xyz[1:])

@@ -11,6 +11,7 @@ import pytest
 from tests.scene.conftest import SIZE, View
 from webviz.api.nodes import POINTS_HELD, POINTS_PER_BLOCK, Points
 from webviz.scene.capacity import FEWEST_POINTS
+from webviz.scene.names import node_path
 
 RED = (255, 0, 0)
 
@@ -33,6 +34,36 @@ def test_a_point_has_its_edge_in_metres(resized: View) -> None:
         edge = 0.5 * height / 2 / math.tan(math.pi / 8) / 4.0
         for along in (0, 1):
             assert np.ptp(np.nonzero(red)[along]) + 1 == pytest.approx(edge, abs=1)
+
+
+POINT_AT = """async ([name, ...at]) => {
+  const viser = await import("/webviz/viser_page.js");
+  const { pointAt } = await import("/webviz/scene/picking/points.js");
+  const found = [];
+  viser.node(name).traverse((each) => each.isPoints && found.push(pointAt(each, at, 0)?.number));
+  return found[0] ?? null;
+}"""
+
+
+def test_points_grow_with_the_distance_from_their_plane(view: View) -> None:
+    places = np.array([[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]], np.float32)
+    plane = (1.0, 0.0, 0.0, 2.0)  # 1 m and 3 m away
+    view.scene.upsert("g", "points", Points(places, RED, 0.25, plane=plane))
+    view.look((0.0, -0.01, 4.0), (0.0, 0.0, 0.0))
+    assert edges(view) == [pytest.approx(0.25, abs=0.03), pytest.approx(0.75, abs=0.03)]
+    beside = [view.pixel_of(x + 0.25, 0.0, 0.0) for x in (-1.0, 1.0)]
+    assert [view.evaluate(POINT_AT, [node_path("g", "points"), *at]) for at in beside] == [None, 1]
+    view.scene.upsert("g", "points", Points(places, RED, 0.25))
+    view.show()
+    assert edges(view) == [pytest.approx(0.25, abs=0.03)] * 2
+
+
+def edges(view: View) -> list[float]:
+    """Metres that the red of each half of the picture is wide, 4 m away."""
+    red = view.pixels()[..., 0] > 150
+    metre = SIZE[1] / 2 / math.tan(math.pi / 8) / 4.0
+    halves = red[:, : SIZE[0] // 2], red[:, SIZE[0] // 2 :]
+    return [float(np.ptp(np.nonzero(half.any(axis=0))) + 1) / metre for half in halves]
 
 
 @pytest.fixture

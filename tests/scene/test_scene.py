@@ -89,7 +89,7 @@ def test_an_update_is_one_message_and_carries_what_belongs_together(
     scene.flush()
     (message,) = peer.receive()
     assert message["type"] == "SceneNodeUpdateMessage"
-    assert set(message["updates"]) == {"points", "colors", "cloud"}
+    assert set(message["updates"]) == {"points", "colors", "cloud", "plane"}
 
 
 def test_a_new_look_does_not_send_the_data_again(

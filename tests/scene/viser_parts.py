@@ -169,9 +169,9 @@ CLIENT: tuple[Reach, ...] = (
     ),
     Reach(
         f"{PAGE}/scene/points.js",
-        ("fragmentShader",),
-        "points with an opacity",
-        "`add_point_cloud` with an opacity",
+        ("vertexShader", "fragmentShader"),
+        "points with an opacity, and of sizes that grow with the depth",
+        "`add_point_cloud` with an opacity, and a size for each point",
     ),
     Reach(
         f"{PAGE}/scene/shade.js",

@@ -95,10 +95,11 @@ class Group:
         ids: Ids | None = None,
         thins: bool = False,
         opacity: float = 1.0,
+        plane: nodes.Plane | None = None,
     ) -> None:
         """Draw points; see `webviz.api.nodes.Points`."""
         self.nodes[key] = nodes.Points(
-            _f32(xyz, 3), _colors(colors), size, shape, ids, thins, opacity
+            _f32(xyz, 3), _colors(colors), size, shape, ids, thins, opacity, plane
         )
 
     def lines(

@@ -24,6 +24,9 @@ Ids = NDArray[Any]
 Rgb = tuple[int, int, int]
 Solid = Literal["box", "sphere", "cylinder", "cone", "square"]
 """Of size 1 around the origin; the square has no height."""
+Plane = tuple[float, float, float, float]
+"""a, b, c, d of the plane ax + by + cz + d = 0, with (a, b, c) of length 1: the sum is the distance
+of a point from it."""
 
 POINTS_HELD = 400_000
 """Number of points a browser draws fast enough, until it has measured it."""
@@ -85,6 +88,8 @@ class Points(_Node):
             the first block of `POINTS_PER_BLOCK`, and the first points of each further block,
             which must stand for all of the block.
         opacity: 0 to 1, drawn in steps of 1/255.
+        plane: `size` is that of a point at 1 m from this plane and grows with the distance, as
+            pixels of a depth image do; None if all points have the same.
     """
 
     xyz: F32
@@ -94,6 +99,7 @@ class Points(_Node):
     ids: Ids | None = field(default=None, compare=False)
     thins: bool = False
     opacity: float = 1.0
+    plane: Plane | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,6 +17,8 @@ from webviz.server.sending.outbox import CLOUD
 # Beyond the far plane of every camera.
 _OUT_OF_SIGHT = np.full((2, 3), -1e9, dtype=np.float32)
 
+PLANE = "plane"
+"""Property of a point cloud that only our page knows, as `CLOUD`."""
 PART = POINTS_PER_BLOCK
 """Points per viser node: half a megabyte with colours, so that on a slow network other messages can
 be sent in between."""
@@ -85,6 +87,7 @@ class _Part(SingleNode[Points]):
             "points": np.ascontiguousarray(node.xyz, dtype=np.float32),
             "colors": rgb_array(node.colors, len(node.xyz)),
             CLOUD: self.cloud,
+            PLANE: node.plane,
         }
         return (
             places,

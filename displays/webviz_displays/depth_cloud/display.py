@@ -34,6 +34,9 @@ from webviz_displays.shared.points_display import BY_INTENSITY, PointsDisplay
 
 U8 = NDArray[np.uint8]
 
+IMAGE_PLANE = (0.0, 0.0, 1.0, 0.0)
+"""Through the origin of the optical frame: points are as far from it as their depths."""
+
 
 class _Drawn(msgspec.Struct, frozen=True):
     """The points of an image as they were drawn.
@@ -260,10 +263,10 @@ class DepthCloud(PointsDisplay):
         if points.hidden:
             colors = np.array(np.broadcast_to(np.asarray(colors, np.uint8), points.xyz.shape))
             colors[-points.hidden :] //= 2
-        size = None
+        size, plane = self.size, None
         if self.auto_size:
-            size = self.auto_size_factor * points.spacing * points.xyz[:, 2]
-        self.draw_points(points.xyz, colors, group, ctx, ids=points.ids, size=size)
+            size, plane = self.auto_size_factor * points.spacing, IMAGE_PLANE
+        self.draw_points(points.xyz, colors, group, ctx, ids=points.ids, size=size, plane=plane)
 
     def _colors(self, points: DepthPoints, pose: Pose, ctx: Context) -> U8 | Rgb:
         if points.colors is not None and self.color_transformer in ("Auto", "RGB8"):

@@ -87,8 +87,12 @@ def baked(node: Node, pose: Pose, origin: Position) -> Node:
         return multiply_many(pose.wxyz, wxyzs).astype(np.float32)
 
     match node:
-        case Points():
+        case Points(plane=None):
             return replace(node, xyz=move(node.xyz))
+        case Points(plane=(*normal, distance)):
+            a, b, c = (rotation @ normal).tolist()
+            plane = a, b, c, distance - float(np.dot((a, b, c), shift))
+            return replace(node, xyz=move(node.xyz), plane=plane)
         case Lines() | Arrows():
             return replace(node, segments=move(node.segments))
         case Labels():

@@ -1,6 +1,7 @@
 // Picking points of clouds, as large as viser's shader draws them.
 
 import { lensOf } from "./lens.js";
+import { planeOf } from "../points.js";
 
 /** @import {Box, Three, Vec2, Vec3} from "../../types.js" */
 
@@ -26,6 +27,7 @@ export function pointAt(points, [atX, atY], near) {
   const xyz = drawn(points);
   const { scale, point_ball_norm: norm } = points.material.uniforms;
   const half = scale.value / 2 / dpr; // times 1 / depth
+  const [a, b, c, d] = planeOf(points);
   const isSquare = norm.value > ROUND;
   const [midX, midY] = [wide / 2, tall / 2];
   let found = -1;
@@ -36,7 +38,7 @@ export function pointAt(points, [atX, atY], near) {
     const w = m[3] * x + m[7] * y + m[11] * z + m[15];
     const depth = -(v[2] * x + v[6] * y + v[10] * z + v[14]);
     if (!(w > 0 && depth > 0)) continue;
-    const reach = Math.max(half / depth, 0.5 / dpr);
+    const reach = Math.max((half * (a * x + b * y + c * z + d)) / depth, 0.5 / dpr);
     const dx = Math.abs(((m[0] * x + m[4] * y + m[8] * z + m[12]) / w + 1) * midX - atX);
     if (dx > reach && dx > near) continue;
     const dy = Math.abs((1 - (m[1] * x + m[5] * y + m[9] * z + m[13]) / w) * midY - atY);
