@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import photos
 import pytest
+from inspecting import Benches
 
 from webviz import Topic
 from webviz_displays.camera import Camera
@@ -16,7 +16,6 @@ from webviz_displays.image.annotated import KEPT
 from webviz_displays.image.marks import ANNOTATIONS, DETECTIONS, MAX_MARKS, MAX_POINTS
 
 SECOND = 1_000_000_000
-Benches = Callable[..., Any]
 PIXELS = photos.room(16, 12)[0]
 RED = {"r": 1.0, "a": 1.0}
 

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
-from display_messages import MESSAGES
+from inspecting import Benches
 from plain_scenes import in_moving_frame
 
 from webviz.shell.testing import check_details
@@ -18,8 +17,6 @@ from webviz_displays.areas import grid_cells as grid_cells_module
 
 NAN = float("nan")
 CELLS = "nav_msgs/msg/GridCells"
-
-Benches = Callable[..., Any]
 
 
 def polygon(*points: tuple[float, float, float]) -> dict[str, Any]:
@@ -105,27 +102,21 @@ def test_cells_that_are_not_drawn_are_counted(
 
 class TestGridCells(BuiltInChecks):
     display = GridCells
-    messages = MESSAGES
-
-    def publish(self, bench: Any) -> None:
-        in_moving_frame(
-            "nav_msgs/msg/GridCells",
-            *({"cell_width": 0.1, "cell_height": 0.2, "cells": [{"x": x}]} for x in (0.0, 1.0)),
-        )(bench)
+    scene = in_moving_frame(
+        "nav_msgs/msg/GridCells",
+        *({"cell_width": 0.1, "cell_height": 0.2, "cells": [{"x": x}]} for x in (0.0, 1.0)),
+    )
 
 
 class TestPolygon(BuiltInChecks):
     display = Polygon
-    messages = MESSAGES
-
-    def publish(self, bench: Any) -> None:
-        in_moving_frame(
-            "geometry_msgs/msg/PolygonStamped",
-            *({"polygon": {"points": [{"x": x}, {"y": x}, {"z": x}]}} for x in (1.0, 2.0)),
-        )(bench)
+    scene = in_moving_frame(
+        "geometry_msgs/msg/PolygonStamped",
+        *({"polygon": {"points": [{"x": x}, {"y": x}, {"z": x}]}} for x in (1.0, 2.0)),
+    )
 
 
-def test_selecting_last_side_of_a_polygon(turned: Callable[..., Any]) -> None:
+def test_selecting_last_side_of_a_polygon(turned: Benches) -> None:
     points = np.array([(0, 0, 0), (3, 0, 0), (3, 4, 0)], np.float32)
     values = {"polygon": {"points": points}}
     check_details(
@@ -135,7 +126,7 @@ def test_selecting_last_side_of_a_polygon(turned: Callable[..., Any]) -> None:
     )
 
 
-def test_selecting_cell_of_a_grid(turned: Callable[..., Any]) -> None:
+def test_selecting_cell_of_a_grid(turned: Benches) -> None:
     cells = np.array([(math.nan, 0, 0), (0, 0, 0), (1, 0, 0)], np.float64)
     values = {"cell_width": 1.0, "cell_height": 0.5, "cells": cells}
     clicked = (1.25, 0.125, 0.0)

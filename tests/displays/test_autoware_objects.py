@@ -25,7 +25,7 @@ from autoware_scenes import (
     unaccelerated,
 )
 from built_in_checks import BuiltInChecks
-from display_messages import MESSAGES
+from inspecting import Benches
 from plain_scenes import in_moving_frame
 
 from webviz.shell.testing import check_details
@@ -171,33 +171,24 @@ def test_too_many_objects_are_cut_with_a_warning(
 
 class TestDetectedObjects(BuiltInChecks):
     display = DetectedObjects
-    messages = MESSAGES
+    scene = in_moving_frame(DETECTED, ALL_FOUND)
     variants = (
         DetectedObjects,
         lambda: DetectedObjects(shape=ShapeView(shape_type="Fill")),
     )
 
-    def publish(self, bench: Any) -> None:
-        in_moving_frame(DETECTED, ALL_FOUND)(bench)
-
 
 class TestPredictedObjects(BuiltInChecks):
     display = PredictedObjects
-    messages = MESSAGES
-
-    def publish(self, bench: Any) -> None:
-        in_moving_frame(PREDICTED, ALL_FORESEEN)(bench)
+    scene = in_moving_frame(PREDICTED, ALL_FORESEEN)
 
 
 class TestTrackedObjects(BuiltInChecks):
     display = TrackedObjects
-    messages = MESSAGES
-
-    def publish(self, bench: Any) -> None:
-        in_moving_frame(TRACKED, ALL_FOLLOWED)(bench)
+    scene = in_moving_frame(TRACKED, ALL_FOLLOWED)
 
 
-def test_selecting_pedestrian_of_autoware(turned: Callable[..., Any]) -> None:
+def test_selecting_pedestrian_of_autoware(turned: Benches) -> None:
     check_details(
         turned(TrackedObjects(), FOLLOWED).pick("shapes", 30),
         "PEDESTRIAN 1111",

@@ -11,7 +11,7 @@ import pytest
 from autoware_scenes import BOUNDED, PASSED, PATH, POSE, TIMED, TRAJECTORY, WAY, planned
 from autoware_scenes import POSE as POSE_STAMPED
 from built_in_checks import BuiltInChecks
-from display_messages import MESSAGES
+from inspecting import Benches
 from plain_scenes import in_moving_frame
 
 from webviz.shell.testing import check_details
@@ -114,7 +114,7 @@ def test_a_long_path_is_cut_with_a_warning(
     assert at.statuses()["Path"] == ("WARN", sentence)
 
 
-def test_poses_become_a_line_of_the_newest(bench: Callable[..., Any]) -> None:
+def test_poses_become_a_line_of_the_newest(bench: Benches) -> None:
     at = bench(PoseHistory(buffer_size=2))
     for x, values in enumerate(PASSED):
         at.transform("map", "odom", (10.0 * x, 0.0, 0.0), stamp_ns=at.now_ns)
@@ -129,31 +129,22 @@ def test_poses_become_a_line_of_the_newest(bench: Callable[..., Any]) -> None:
 
 class TestAutowarePath(BuiltInChecks):
     display = AutowarePath
-    messages = MESSAGES
-
-    def publish(self, bench: Any) -> None:
-        in_moving_frame(PATH, BOUNDED)(bench)
+    scene = in_moving_frame(PATH, BOUNDED)
 
 
 class TestAutowareTrajectory(BuiltInChecks):
     display = AutowareTrajectory
-    messages = MESSAGES
+    scene = in_moving_frame(TRAJECTORY, TIMED)
     variants = (lambda: AutowareTrajectory(view_footprint=FootprintView(value=True)),)
-
-    def publish(self, bench: Any) -> None:
-        in_moving_frame(TRAJECTORY, TIMED)(bench)
 
 
 class TestPoseHistory(BuiltInChecks):
     display = PoseHistory
-    messages = MESSAGES
+    scene = in_moving_frame(POSE, *PASSED * 110)
     later = ("buffer_size",)
 
-    def publish(self, bench: Any) -> None:
-        in_moving_frame(POSE, *PASSED * 110)(bench)
 
-
-def test_selecting_point_of_a_trajectory(turned: Callable[..., Any]) -> None:
+def test_selecting_point_of_a_trajectory(turned: Benches) -> None:
     check_details(
         turned(AutowareTrajectory(), TIMED).pick("velocity line", 2),
         "Point 2 of 4",
@@ -168,7 +159,7 @@ def test_selecting_point_of_a_trajectory(turned: Callable[..., Any]) -> None:
     )
 
 
-def test_selecting_pose_of_a_history(bench: Callable[..., Any]) -> None:
+def test_selecting_pose_of_a_history(bench: Benches) -> None:
     at = bench(PoseHistory())
     for values in PASSED:
         at.send(POSE_STAMPED, values, frame="map")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, ClassVar
 
@@ -12,6 +11,7 @@ import photos
 import pytest
 from built_in_checks import BuiltInChecks
 from display_scenes import cameras
+from inspecting import Benches
 
 from webviz import Topic
 from webviz.api.declared import make
@@ -27,7 +27,6 @@ from webviz.shell.testing.source import SECOND
 from webviz_displays.axes import Axes
 from webviz_displays.camera import Camera
 
-Benches = Callable[..., Any]
 COLORS, DEPTHS = photos.room(16, 12)
 IMAGE, INFO = "/camera/image_raw", "/camera/camera_info"
 
@@ -237,9 +236,8 @@ def test_rviz_nests_the_switches_of_displays() -> None:
 
 class TestCamera(BuiltInChecks):
     display = Camera
+    messages: ClassVar = {}
+    scene = cameras
     later = ("median_window",)
     needs: ClassVar = {"show_labels": {"annotations_topic": Topic("/found")}}
     elsewhere = ("undistort", "visibility")
-
-    def publish(self, bench: Any) -> None:
-        cameras(bench)

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import photos
 import pytest
 from built_in_checks import BuiltInChecks
 from display_scenes import camera_infos
+from inspecting import Benches
 
 from webviz import Topic
 from webviz_displays.camera_info import CameraInfo
 from webviz_displays.depth_cloud import DepthCloud
 
-Benches = Callable[..., Any]
 COLORS, DEPTHS = photos.room(16, 12)
 FACING_X = (-0.5, 0.5, -0.5, 0.5)
 """Of an optical frame that looks along x of its parent."""
@@ -285,6 +284,5 @@ def test_hidden_points_go_after_the_time_out(bench: Benches) -> None:
 
 class TestCameraInfo(BuiltInChecks):
     display = CameraInfo
-
-    def publish(self, bench: Any) -> None:
-        camera_infos(bench)
+    messages: ClassVar = {}
+    scene = camera_infos

@@ -1,6 +1,6 @@
 """Pixels that the points of a depth image belong to."""
 
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -31,9 +31,8 @@ def test_points_carry_the_pixel_of_the_whole_image(most: int, ids: list[int]) ->
 
 class TestDepthCloud(BuiltInChecks):
     display = DepthCloud
+    messages: ClassVar = {}
+    scene = depth_clouds
     later = ("decay_time", "occlusion_compensation")
     elsewhere = ("occlusion_time_out",)
     needs: ClassVar = {"max_points": {"max_points": 40}}
-
-    def publish(self, bench: Any) -> None:
-        depth_clouds(bench)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
+from inspecting import Benches
 
 from webviz.files import opening
 from webviz.shell.testing import check_details
@@ -25,8 +25,6 @@ DETECTIONS, DETECTION = "vision_msgs/msg/Detection3DArray", "vision_msgs/msg/Det
 NAN = float("nan")
 LEFT = {"z": 0.5**0.5, "w": 0.5**0.5}
 """A quarter of a turn."""
-
-Benches = Callable[..., Any]
 
 
 def box(x: float = 0.0, size: tuple[float, ...] = (2.0, 1.0, 1.0), turn: Any = LEFT) -> Any:
@@ -47,7 +45,7 @@ MESSAGES = {
 }
 
 
-def test_boxes_lie_in_their_frame_with_their_sizes(shown: Callable[..., Any]) -> None:
+def test_boxes_lie_in_their_frame_with_their_sizes(shown: Benches) -> None:
     at = shown(BoundingBox3DArray(), {"boxes": [box(), box(3.0)]})
     np.testing.assert_allclose(at.xyz("boxes"), [(10, 0, 0), (13, 0, 0)], atol=1e-6)
     node = at.nodes()["boxes"]
@@ -55,7 +53,7 @@ def test_boxes_lie_in_their_frame_with_their_sizes(shown: Callable[..., Any]) ->
     assert at.statuses()["Boxes"] == ("OK", "Showing 2 boxes.")
 
 
-def test_edges_are_turned_with_their_box(shown: Callable[..., Any]) -> None:
+def test_edges_are_turned_with_their_box(shown: Benches) -> None:
     at = shown(BoundingBox3DArray(only_edge=True), {"boxes": [box()]})
     edges = at.xyz("edges")
     assert len(edges) == 12
@@ -64,7 +62,7 @@ def test_edges_are_turned_with_their_box(shown: Callable[..., Any]) -> None:
 
 
 def test_detections_have_the_colour_and_score_of_their_likeliest_class(
-    shown: Callable[..., Any],
+    shown: Benches,
 ) -> None:
     display = Detection3DArray(show_score=True, show_class=True)
     at = shown(display, MESSAGES[DETECTIONS])
@@ -96,7 +94,7 @@ def test_a_box_without_a_header_lies_in_the_fixed_frame(bench: Benches) -> None:
     ],
 )
 def test_an_invalid_box_is_counted_and_the_others_shown(
-    shown: Callable[..., Any], bad: dict[str, Any]
+    shown: Benches, bad: dict[str, Any]
 ) -> None:
     at = shown(BoundingBox3DArray(), {"boxes": [bad, box(1.0)]})
     assert at.statuses()["Boxes"] == (

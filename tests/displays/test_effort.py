@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
-from display_messages import MESSAGES
+from inspecting import Benches
 from plain_scenes import torques
 
 from webviz import Pose
@@ -20,7 +20,6 @@ from webviz_urdf import RobotDescriptionError, turning_joints
 
 NAN = float("nan")
 SECOND = 1_000_000_000
-Benches = Callable[..., Any]
 
 ARM = """
 <robot name="arm"><link name="base"/><link name="upper"/><link name="lower"/><link name="slider"/>
@@ -207,14 +206,11 @@ def test_a_long_name_takes_no_memory_for_each_joint() -> None:
 
 class TestEffort(BuiltInChecks):
     display = Effort
-    messages = MESSAGES
+    scene = torques
     values: ClassVar = {"joints": [{"slide": False}]}
 
-    def publish(self, bench: Any) -> None:
-        torques(bench)
 
-
-def test_selecting_effort_of_a_joint(bench: Callable[..., Any]) -> None:
+def test_selecting_effort_of_a_joint(bench: Benches) -> None:
     at = bench(Effort())
     urdf = (
         "<robot name='r'><link name='map'/><link name='odom'/><joint name='elbow' type='revolute'>"

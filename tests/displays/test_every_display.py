@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 import pytest
 from built_in_checks import built_in_checks
+from inspecting import Benches
 from moveit_scenes import settle
 
 from webviz.api.registry import display_types
 
-Benches = Callable[..., Any]
 CHECKS = built_in_checks()
 DISPLAYS = {
     name: cls for name, cls in display_types().items() if cls.__module__.startswith("webviz_")

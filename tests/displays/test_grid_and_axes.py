@@ -1,17 +1,15 @@
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
 from display_scenes import robot_frame
+from inspecting import Benches
 
 from webviz.scene.schemes import SCHEMES
 from webviz.shell.testing import check_details
 from webviz_displays.axes import Axes
 from webviz_displays.grid import Grid
-
-Benches = Callable[..., Any]
 
 
 def grid(bench: Benches, **properties: Any) -> Any:
@@ -147,19 +145,15 @@ def test_a_grid_of_too_many_lines_offers_those_that_are_shown(
 
 class TestAxes(BuiltInChecks):
     display = Axes
-
-    def publish(self, bench: Any) -> None:
-        robot_frame(bench)
+    scene = robot_frame
 
 
 class TestGrid(BuiltInChecks):
     display = Grid
-
-    def publish(self, bench: Any) -> None:
-        robot_frame(bench)
+    scene = robot_frame
 
 
-def test_selecting_grid(bench: Callable[..., Any]) -> None:
+def test_selecting_grid(bench: Benches) -> None:
     at = bench(Grid(plane_cell_count=4, cell_size=0.5))
     at.turn()
     check_details(
@@ -167,7 +161,7 @@ def test_selecting_grid(bench: Callable[..., Any]) -> None:
     )
 
 
-def test_selecting_axes(bench: Callable[..., Any]) -> None:
+def test_selecting_axes(bench: Benches) -> None:
     at = bench(Axes(reference_frame="odom"))
     at.transform("map", "odom", (1.0, 0.0, 0.0))
     at.turn()

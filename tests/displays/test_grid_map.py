@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
-from display_messages import MESSAGES
 from grid_maps import GRID_MAP, grid_map
+from inspecting import Benches
 from mapping_scenes import terrain
 from plain_scenes import in_moving_frame
 
@@ -22,7 +22,6 @@ from webviz_displays.grid_map import display as display_module
 from webviz_displays.grid_map.surface import faces_of
 
 NAN = math.nan
-Benches = Callable[..., Any]
 
 
 def corners(at: Any) -> dict[tuple[float, float, float], tuple[int, int, int]]:
@@ -193,17 +192,14 @@ def test_a_layer_of_another_size_says_so(shown: Callable) -> None:
 
 class TestGridMap(BuiltInChecks):
     display = GridMap
-    messages = MESSAGES
+    scene = in_moving_frame(GRID_MAP, terrain(), terrain())
     variants = (
         GridMap,
         lambda: GridMap(height_transformer="Flat", color_transformer="ColorLayer"),
     )
 
-    def publish(self, bench: Any) -> None:
-        in_moving_frame(GRID_MAP, terrain(), terrain())(bench)
 
-
-def test_selecting_cell_of_a_grid_map(turned: Callable[..., Any]) -> None:
+def test_selecting_cell_of_a_grid_map(turned: Benches) -> None:
     """Rows are along -x."""
     layers = {"elevation": lambda x, y: x, "variance": lambda x, y: 0.25}
     values = grid_map(layers, (3, 4), 0.5, (1, 2))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import gc
 import io
 import struct
-from collections.abc import Callable
 from typing import Any, ClassVar
 
 import numpy as np
@@ -13,6 +12,7 @@ import photos
 import pytest
 from built_in_checks import BuiltInChecks
 from display_scenes import images
+from inspecting import Benches
 from PIL import Image as Pillow
 
 from webviz import Topic
@@ -24,7 +24,6 @@ from webviz.sources import Offer, Publisher
 from webviz_displays.image import Image, video
 from webviz_displays.image.video import FFMPEG, FOXGLOVE
 
-Benches = Callable[..., Any]
 COLORS, DEPTHS = photos.room(16, 12)
 TOPIC = Image().topic.name
 
@@ -226,8 +225,7 @@ def test_no_message_breaks_the_display(bench: Benches, type_: str) -> None:
 
 class TestImage(BuiltInChecks):
     display = Image
+    messages: ClassVar = {}
+    scene = images
     later = ("median_window",)
     needs: ClassVar = {"show_labels": {"annotations_topic": Topic("/found")}}
-
-    def publish(self, bench: Any) -> None:
-        images(bench)

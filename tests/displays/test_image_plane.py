@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import photos
 import pytest
 from built_in_checks import BuiltInChecks
-from display_messages import MESSAGES
 from display_scenes import image_planes
+from inspecting import Benches
 
 from webviz.shell.testing import check_details
 from webviz_displays.image_plane import ImagePlane
 from webviz_displays.shared.geometry import transformed
 
-Benches = Callable[..., Any]
 SECOND = 1_000_000_000
 COLORS, DEPTHS = photos.room(16, 12)
 
@@ -113,14 +111,11 @@ def test_every_image_lies_where_its_frame_was(bench: Benches) -> None:
 
 class TestImagePlane(BuiltInChecks):
     display = ImagePlane
-    messages = MESSAGES
+    scene = image_planes
     later = ("median_window",)
 
-    def publish(self, bench: Any) -> None:
-        image_planes(bench)
 
-
-def test_selecting_pixel_of_a_depth_image(bench: Callable[..., Any]) -> None:
+def test_selecting_pixel_of_a_depth_image(bench: Benches) -> None:
     """The third column and the second row from the top, of 4 x 3 pixels that are 0.5 m large."""
     at = bench(ImagePlane(plane="XY", width=2.0))
     depths = np.arange(12, dtype=np.float32).reshape(3, 4) / 4

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
-from display_messages import MESSAGES
+from inspecting import Benches
 from mapping_scenes import FIELD as INSPECTED_FIELD
 from mapping_scenes import FIELD as SCENE_FIELD
 from mapping_scenes import IMU as INSPECTED_IMU
@@ -21,7 +21,6 @@ from webviz.shell.testing import check_details
 from webviz_displays.imu import Imu, Mag
 from webviz_displays.imu.imu import AccelerationSettings, AxesSettings, BoxSettings
 
-Benches = Callable[..., Any]
 NAN = math.nan
 ROOT = math.sqrt(0.5)
 LEFT = (0.0, 0.0, ROOT, ROOT)
@@ -122,25 +121,19 @@ def test_a_field_without_a_direction_says_so(
 
 class TestImu(BuiltInChecks):
     display = Imu
-    messages = MESSAGES
+    scene = in_moving_frame("sensor_msgs/msg/Imu", SCENE_IMU)
     variants = (
         lambda: Imu(acceleration_properties=AccelerationSettings(enable_acceleration=True)),
     )
 
-    def publish(self, bench: Any) -> None:
-        in_moving_frame("sensor_msgs/msg/Imu", SCENE_IMU)(bench)
-
 
 class TestMag(BuiltInChecks):
     display = Mag
-    messages = MESSAGES
+    scene = in_moving_frame("sensor_msgs/msg/MagneticField", SCENE_FIELD)
     variants = (lambda: Mag(is_2d=False),)
 
-    def publish(self, bench: Any) -> None:
-        in_moving_frame("sensor_msgs/msg/MagneticField", SCENE_FIELD)(bench)
 
-
-def test_selecting_inertial_sensor(turned: Callable[..., Any]) -> None:
+def test_selecting_inertial_sensor(turned: Benches) -> None:
     check_details(
         turned(Imu(), INSPECTED_IMU).pick("axes", 0),
         "Inertial sensor",
@@ -151,7 +144,7 @@ def test_selecting_inertial_sensor(turned: Callable[..., Any]) -> None:
     )
 
 
-def test_selecting_magnetic_field(turned: Callable[..., Any]) -> None:
+def test_selecting_magnetic_field(turned: Benches) -> None:
     check_details(
         turned(Mag(), INSPECTED_FIELD).pick("heads", 0),
         "Magnetic field",

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Any
+
+from inspecting import Benches
 
 from webviz import Context, Display, Frames
 from webviz.api.nodes import Lines
@@ -22,7 +22,7 @@ class Unaware(Display):
         ctx.lines("lines", rows, (0, 0, 0))
 
 
-def test_an_item_of_a_display_that_does_not_know_has_its_number(bench: Callable[..., Any]) -> None:
+def test_an_item_of_a_display_that_does_not_know_has_its_number(bench: Benches) -> None:
     """The second in the browser, which does not get the one that is not finite."""
     at = bench(Unaware())
     at.turn()

@@ -195,6 +195,7 @@ def test_menus_are_nested_checked_and_free_of_shell_commands() -> None:
 
 class TestInteractiveMarkers(BuiltInChecks):
     display = InteractiveMarkers
+    scene = interactive_markers
     needs: ClassVar = {
         "show_descriptions": {"interactive_markers_namespace": "/arm"},
         "show_axes": {"interactive_markers_namespace": "/arm"},
@@ -202,6 +203,3 @@ class TestInteractiveMarkers(BuiltInChecks):
         "enable_transparency": {"interactive_markers_namespace": "/arm"},
         "enabled": {"interactive_markers_namespace": "/arm"},
     }
-
-    def publish(self, bench: Any) -> None:
-        interactive_markers(bench)

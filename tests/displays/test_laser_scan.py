@@ -5,9 +5,8 @@ from typing import Any
 import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
-from display_messages import MESSAGES
 from display_scenes import scans
-from inspecting import check_columns
+from inspecting import Benches, check_columns
 
 from webviz.api.nodes import Instances, Lines, Points
 from webviz.shell.testing import check_details
@@ -16,8 +15,6 @@ from webviz_displays.laser_scan import LaserScan
 SCAN = "sensor_msgs/msg/LaserScan"
 SECOND = 1_000_000_000
 NAN, INF = float("nan"), float("inf")
-
-Benches = Callable[..., Any]
 
 
 def scan(ranges: list[float], **values: Any) -> dict[str, Any]:
@@ -352,17 +349,14 @@ def test_scans_decay_by_the_time_they_arrived(bench: Benches) -> None:
 
 class TestLaserScan(BuiltInChecks):
     display = LaserScan
-    messages = MESSAGES
+    scene = scans
     variants = (
         LaserScan,
         lambda: LaserScan(color_transformer="AxisColor", style="Boxes", decay_time=1.0),
     )
 
-    def publish(self, bench: Any) -> None:
-        scans(bench)
 
-
-def test_selecting_beam_of_a_scan(bench: Callable[..., Any]) -> None:
+def test_selecting_beam_of_a_scan(bench: Benches) -> None:
     at = bench(LaserScan())
     at.transform("map", "laser")
     scan = {"angle_min": -0.5, "angle_increment": 0.25, "range_min": 0.1, "range_max": 10.0}

@@ -1,15 +1,12 @@
 """The Map display: grids and updates to tiles."""
 
 import math
-from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
-from display_messages import MESSAGES
 from display_scenes import maps
-from inspecting import QUARTER
+from inspecting import QUARTER, Benches
 from mapping_scenes import COSTMAP, costmaps
 
 from webviz import Image, Topic
@@ -379,25 +376,19 @@ def test_an_invisible_map_is_not_called_ok(bench) -> None:
 
 class TestCostmap(BuiltInChecks):
     display = Costmap
-    messages = MESSAGES
-
-    def publish(self, bench: Any) -> None:
-        costmaps(bench)
+    scene = costmaps
 
 
 class TestMap(BuiltInChecks):
     display = Map
-    messages = MESSAGES
+    scene = maps
     variants = (
         Map,
         lambda: Map(use_timestamp=True, color_scheme="costmap"),
     )
 
-    def publish(self, bench: Any) -> None:
-        maps(bench)
 
-
-def test_selecting_cell_of_a_map(bench: Callable[..., Any]) -> None:
+def test_selecting_cell_of_a_map(bench: Benches) -> None:
     """In the second tile of a turned map."""
     cells = np.zeros((3, 600), np.int8)
     cells[1, 520] = 100
@@ -427,7 +418,7 @@ def test_selecting_cell_of_a_map(bench: Callable[..., Any]) -> None:
     assert at.runner.cells("another", Frames(at.buffer, "map", at.now_ns)) is None
 
 
-def test_selecting_cell_of_a_costmap(bench: Callable[..., Any]) -> None:
+def test_selecting_cell_of_a_costmap(bench: Benches) -> None:
     at = bench(Costmap())
     at.send("nav2_msgs/msg/Costmap", COSTMAP, frame="map", topic="/local_costmap/costmap_raw")
     at.turn()

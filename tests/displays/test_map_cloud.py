@@ -10,8 +10,7 @@ import numpy as np
 import photos
 import pytest
 from built_in_checks import BuiltInChecks
-from display_messages import MESSAGES
-from inspecting import check_columns
+from inspecting import Benches, check_columns
 from plain_scenes import in_moving_frame
 from rtabmap_scenes import (
     BOTH,
@@ -35,7 +34,7 @@ HERE = {1: (0.0, 0.0)}
 
 
 @pytest.fixture
-def shown(bench: Callable[..., Any]) -> Callable[..., Any]:
+def shown(bench: Benches) -> Callable[..., Any]:
     """A bench that has drawn messages in the frame odom, 10 m along x."""
 
     def make(*messages: dict[str, Any], **properties: Any) -> Any:
@@ -231,7 +230,7 @@ def test_too_many_points_are_dropped_or_thinned_with_a_word(
 
 class TestMapCloud(BuiltInChecks):
     display = MapCloud
-    messages = MESSAGES
+    scene = in_moving_frame(MAP_DATA, MAPPED)
     variants = (
         MapCloud,
         lambda: MapCloud(cloud_from_scan=True),
@@ -256,11 +255,8 @@ class TestMapCloud(BuiltInChecks):
         "max_intensity": {"color_transformer": "Intensity", "cloud_from_scan": True},
     }
 
-    def publish(self, bench: Any) -> None:
-        in_moving_frame(MAP_DATA, MAPPED)(bench)
 
-
-def test_selecting_point_of_a_map(bench: Callable[..., Any]) -> None:
+def test_selecting_point_of_a_map(bench: Benches) -> None:
     """The second of the second node; the first has left the graph."""
     at = bench(MapCloud(cloud_from_scan=True))
     data = {id: scanned(*SCAN) for id in (3, 5)}

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
-from display_messages import MESSAGES
+from inspecting import Benches
 from mapping_scenes import GRAPH
 from plain_scenes import in_moving_frame
 
@@ -61,13 +61,10 @@ def test_alpha_0_hides_and_types_of_later_versions_are_drawn(shown: Callable) ->
 
 class TestMapGraph(BuiltInChecks):
     display = MapGraph
-    messages = MESSAGES
-
-    def publish(self, bench: Any) -> None:
-        in_moving_frame("rtabmap_msgs/msg/MapGraph", GRAPH)(bench)
+    scene = in_moving_frame("rtabmap_msgs/msg/MapGraph", GRAPH)
 
 
-def test_selecting_link_of_a_graph(turned: Callable[..., Any]) -> None:
+def test_selecting_link_of_a_graph(turned: Benches) -> None:
     check_details(
         turned(MapGraph(), GRAPH).pick("links", 3),
         "Link 1 to 3",

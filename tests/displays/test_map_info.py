@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 from built_in_checks import BuiltInChecks
-from display_messages import MESSAGES
+from inspecting import Benches
 from plain_scenes import in_moving_frame
 from rtabmap_scenes import CLOSED, INFO
 
 from webviz_displays.map_info import MapInfo
 
 
-def test_loops_are_counted_and_statistics_are_statuses(bench: Callable[..., Any]) -> None:
+def test_loops_are_counted_and_statistics_are_statuses(bench: Benches) -> None:
     at = bench(MapInfo())
     near = CLOSED | {"loop_closure_id": 0, "proximity_detection_id": 5}
     for values in (CLOSED, near, CLOSED):
@@ -29,7 +26,7 @@ def test_loops_are_counted_and_statistics_are_statuses(bench: Callable[..., Any]
     assert {level for level, _ in said.values()} == {"OK"}
 
 
-def test_statistics_without_values_are_said(bench: Callable[..., Any]) -> None:
+def test_statistics_without_values_are_said(bench: Benches) -> None:
     at = bench(MapInfo())
     at.send(INFO, {"ref_id": 4, "stats_keys": ["a", "b"], "stats_values": [1.0]}, frame="map")
     at.turn()
@@ -41,7 +38,4 @@ def test_statistics_without_values_are_said(bench: Callable[..., Any]) -> None:
 
 class TestMapInfo(BuiltInChecks):
     display = MapInfo
-    messages = MESSAGES
-
-    def publish(self, bench: Any) -> None:
-        in_moving_frame(INFO, CLOSED)(bench)
+    scene = in_moving_frame(INFO, CLOSED)

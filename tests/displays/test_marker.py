@@ -5,13 +5,14 @@ from __future__ import annotations
 import io
 import math
 from collections.abc import Callable
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import PIL.Image
 import pytest
 from built_in_checks import BuiltInChecks
 from display_scenes import markers as markers_of_both_kinds
+from inspecting import Benches
 
 from webviz import Details
 from webviz.shell.testing import check_details
@@ -25,8 +26,6 @@ MARKER, ARRAY = "visualization_msgs/msg/Marker", "visualization_msgs/msg/MarkerA
 ADD, DELETE, DELETEALL = 0, 2, 3
 CUBE, TEXT, MESH = 1, 9, 10
 NAN = float("nan")
-
-Benches = Callable[..., Any]
 
 
 def cube(id: int = 0, x: float = 0.0, frame: str = "map", **more: Any) -> dict[str, Any]:
@@ -487,20 +486,18 @@ def test_raw_bytes_that_are_no_markers_leave_the_others(shown: Benches) -> None:
 
 class TestMarker(BuiltInChecks):
     display = Marker
-
-    def publish(self, bench: Any) -> None:
-        markers_of_both_kinds(bench)
+    messages: ClassVar = {}
+    scene = markers_of_both_kinds
 
 
 class TestMarkerArray(BuiltInChecks):
     display = MarkerArray
-
-    def publish(self, bench: Any) -> None:
-        markers_of_both_kinds(bench)
+    messages: ClassVar = {}
+    scene = markers_of_both_kinds
 
 
 def marker(
-    bench: Callable[..., Any], key: str, number: int | None, point: Any = None, **fields: Any
+    bench: Benches, key: str, number: int | None, point: Any = None, **fields: Any
 ) -> Details:
     """An item of the second of two markers, 10 m behind the first."""
     each = {"scale": {"x": 1.0, "y": 1.0, "z": 1.0}, "color": {"g": 1.0, "a": 1.0}, **fields}
@@ -517,7 +514,7 @@ def marker(
     return at.pick(found, number, point)
 
 
-def test_selecting_shape_of_a_marker(bench: Callable[..., Any]) -> None:
+def test_selecting_shape_of_a_marker(bench: Benches) -> None:
     check_details(
         marker(bench, "box", 1, type=1),
         "Marker a/1",
@@ -525,7 +522,7 @@ def test_selecting_shape_of_a_marker(bench: Callable[..., Any]) -> None:
     )
 
 
-def test_selecting_point_of_a_marker(bench: Callable[..., Any]) -> None:
+def test_selecting_point_of_a_marker(bench: Benches) -> None:
     check_details(
         marker(bench, "points", 4, type=8, points=np.arange(9.0).reshape(3, 3)),
         "Marker a/1",
@@ -533,7 +530,7 @@ def test_selecting_point_of_a_marker(bench: Callable[..., Any]) -> None:
     )
 
 
-def test_selecting_line_of_a_marker(bench: Callable[..., Any]) -> None:
+def test_selecting_line_of_a_marker(bench: Benches) -> None:
     check_details(
         marker(bench, "lines", 3, type=4, points=np.arange(9.0).reshape(3, 3)),
         "Marker a/1",
@@ -544,7 +541,7 @@ def test_selecting_line_of_a_marker(bench: Callable[..., Any]) -> None:
 TRIANGLES = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (0, 0, 1), (0, 0, 2)], np.float64)
 
 
-def test_selecting_triangle_of_a_marker(bench: Callable[..., Any]) -> None:
+def test_selecting_triangle_of_a_marker(bench: Benches) -> None:
     """One of two that are one mesh; they have a triangle without an area too."""
     check_details(
         marker(bench, "triangles", None, (10.2, 0.3, 0.0), type=11, points=TRIANGLES),
@@ -553,7 +550,7 @@ def test_selecting_triangle_of_a_marker(bench: Callable[..., Any]) -> None:
     )
 
 
-def test_selecting_triangle_of_a_colorful_marker(bench: Callable[..., Any]) -> None:
+def test_selecting_triangle_of_a_colorful_marker(bench: Benches) -> None:
     colors = np.array([(1, 0, 0, 1)] * 6, np.float32)
     more = {"type": 11, "points": TRIANGLES, "colors": colors}
     check_details(
@@ -563,7 +560,7 @@ def test_selecting_triangle_of_a_colorful_marker(bench: Callable[..., Any]) -> N
     )
 
 
-def test_selecting_texture_of_a_marker(bench: Callable[..., Any]) -> None:
+def test_selecting_texture_of_a_marker(bench: Benches) -> None:
     png = io.BytesIO()
     PIL.Image.new("RGB", (2, 2)).save(png, "png")
     texture = {"format": "png", "data": png.getvalue()}
@@ -576,7 +573,7 @@ def test_selecting_texture_of_a_marker(bench: Callable[..., Any]) -> None:
     )
 
 
-def test_selecting_text_of_a_marker(bench: Callable[..., Any]) -> None:
+def test_selecting_text_of_a_marker(bench: Benches) -> None:
     check_details(
         marker(bench, "texts", 1, type=9, text="Dock"),
         "Marker a/1",

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 import trimesh
+from inspecting import Benches
 from PIL import Image
 
 from webviz import Glb, Instances, Models
@@ -27,8 +27,6 @@ CORNERS = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0)], np.float32)
 FACE = np.array([(0, 1, 2)], np.uint32)
 GREEN = MeshPart(CORNERS, FACE, Surface((0.0, 1.0, 0.0, 1.0)))
 PAINTED = MeshPart(CORNERS, FACE, colors=np.full((3, 4), 255, np.uint8))
-
-Benches = Callable[..., Any]
 
 
 def drawn(

@@ -8,14 +8,13 @@ from typing import Any
 import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
-from display_messages import MESSAGES
+from inspecting import Benches
 from mapping_scenes import MESH, VOXELS
 from plain_scenes import in_moving_frame
 
 from webviz.shell.testing import check_details
 from webviz_displays.nvblox import NvbloxMesh, NvbloxVoxelBlockLayer, layer
 
-Benches = Callable[..., Any]
 TYPES = {
     NvbloxMesh: "nvblox_msgs/msg/Mesh",
     NvbloxVoxelBlockLayer: "nvblox_msgs/msg/VoxelBlockLayer",
@@ -121,21 +120,15 @@ def test_too_large_maps_are_cut_with_a_warning(
 
 class TestNvbloxMesh(BuiltInChecks):
     display = NvbloxMesh
-    messages = MESSAGES
-
-    def publish(self, bench: Any) -> None:
-        in_moving_frame("nvblox_msgs/msg/Mesh", MESH)(bench)
+    scene = in_moving_frame("nvblox_msgs/msg/Mesh", MESH)
 
 
 class TestNvbloxVoxelBlockLayer(BuiltInChecks):
     display = NvbloxVoxelBlockLayer
-    messages = MESSAGES
-
-    def publish(self, bench: Any) -> None:
-        in_moving_frame("nvblox_msgs/msg/VoxelBlockLayer", VOXELS)(bench)
+    scene = in_moving_frame("nvblox_msgs/msg/VoxelBlockLayer", VOXELS)
 
 
-def test_selecting_voxel_of_nvblox(turned: Callable[..., Any]) -> None:
+def test_selecting_voxel_of_nvblox(turned: Benches) -> None:
     check_details(
         turned(NvbloxVoxelBlockLayer(), VOXELS).pick("region 0 0 0", 1),
         "Voxel",
@@ -143,7 +136,7 @@ def test_selecting_voxel_of_nvblox(turned: Callable[..., Any]) -> None:
     )
 
 
-def test_selecting_surface_of_nvblox(bench: Callable[..., Any]) -> None:
+def test_selecting_surface_of_nvblox(bench: Benches) -> None:
     at = bench(NvbloxMesh())
     at.send("nvblox_msgs/msg/Mesh", MESH, frame="map", topic="/nvblox_node/mesh")
     at.turn()

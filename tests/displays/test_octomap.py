@@ -13,7 +13,7 @@ from typing import Any, ClassVar
 import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
-from display_messages import MESSAGES
+from inspecting import Benches
 from mapping_scenes import hill, seen_from_above
 from octrees import OCTOMAP, Key, Node, binary, full, octree, signed
 from plain_scenes import in_moving_frame
@@ -33,7 +33,6 @@ from webviz_displays.octomap import seen as seen_module
 from webviz_displays.octomap.octree import Octree, OctreeFault, read_octree
 from webviz_displays.octomap.voxels import is_exposed, voxels_of
 
-Benches = Callable[..., Any]
 Form = Callable[..., dict[str, Any]]
 CUBE: list[Key] = list(product(range(-2, 2), range(-2, 2), range(-2, 2)))
 FORMS = pytest.mark.parametrize("form", [binary, full])
@@ -334,47 +333,38 @@ def test_a_dense_tree_is_read_beside_the_frame_loop(bench: Benches, kind: Any) -
 
 class TestColorOccupancyGrid(BuiltInChecks):
     display = ColorOccupancyGrid
+    messages: ClassVar = {}
+    scene = in_moving_frame(OCTOMAP, hill("ColorOcTree"))
     needs: ClassVar = {"max_height": {"max_height": 0.3}, "min_height": {"min_height": 0.3}}
-
-    def publish(self, bench: Any) -> None:
-        in_moving_frame(OCTOMAP, hill("ColorOcTree"))(bench)
 
 
 class TestOccupancyGrid(BuiltInChecks):
     display = OccupancyGrid
-    messages = MESSAGES
+    scene = in_moving_frame(OCTOMAP, hill("ColorOcTree"))
     needs: ClassVar = {"max_height": {"max_height": 0.3}, "min_height": {"min_height": 0.3}}
-
-    def publish(self, bench: Any) -> None:
-        in_moving_frame(OCTOMAP, hill("ColorOcTree"))(bench)
 
 
 class TestOccupancyGridStamped(BuiltInChecks):
     display = OccupancyGridStamped
+    messages: ClassVar = {}
+    scene = in_moving_frame(OCTOMAP, hill("ColorOcTree"))
     needs: ClassVar = {"max_height": {"max_height": 0.3}, "min_height": {"min_height": 0.3}}
-
-    def publish(self, bench: Any) -> None:
-        in_moving_frame(OCTOMAP, hill("ColorOcTree"))(bench)
 
 
 class TestOccupancyMap(BuiltInChecks):
     display = OccupancyMap
-    messages = MESSAGES
+    scene = seen_from_above
     later = ("max_octree_depth",)
-
-    def publish(self, bench: Any) -> None:
-        seen_from_above(bench)
 
 
 class TestOccupancyMapStamped(BuiltInChecks):
     display = OccupancyMapStamped
+    messages: ClassVar = {}
+    scene = seen_from_above
     later = ("max_octree_depth",)
 
-    def publish(self, bench: Any) -> None:
-        seen_from_above(bench)
 
-
-def test_selecting_voxel_of_an_octree(bench: Callable[..., Any]) -> None:
+def test_selecting_voxel_of_an_octree(bench: Benches) -> None:
     """The one on top, which is the last along the curve through the tree."""
     at = bench(ColorOccupancyGrid())
     at.transform("map", "odom")

@@ -1,11 +1,11 @@
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any, ClassVar
 
 import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
-from display_messages import MESSAGES
 from display_scenes import odometries
+from inspecting import Benches
 from numpy.typing import NDArray
 
 from webviz.data.rotations import matrices
@@ -22,7 +22,6 @@ from webviz_displays.shared.pose_properties import (
 ODOMETRY = "nav_msgs/msg/Odometry"
 NAN, INF = float("nan"), float("inf")
 
-Benches = Callable[..., Any]
 Quaternion = tuple[float, float, float, float]
 
 
@@ -296,7 +295,7 @@ def test_far_from_the_origin_a_trail_keeps_its_millimetres(bench: Benches) -> No
 
 class TestOdometry(BuiltInChecks):
     display = Odometry
-    messages = MESSAGES
+    scene = odometries
     variants = (
         Odometry,
         lambda: Odometry(shape=PoseShape(value="Axes")),
@@ -307,11 +306,8 @@ class TestOdometry(BuiltInChecks):
         "angle_tolerance": {"position_tolerance": 1000.0},
     }
 
-    def publish(self, bench: Any) -> None:
-        odometries(bench)
 
-
-def test_selecting_odometry_with_covariance(bench: Callable[..., Any]) -> None:
+def test_selecting_odometry_with_covariance(bench: Benches) -> None:
     at = bench(Odometry())
     at.transform("map", "odom")
     for x in (0.0, 1.0, 2.0):

@@ -13,6 +13,7 @@ import numpy as np
 import PIL.Image
 import pytest
 from built_in_checks import BuiltInChecks
+from inspecting import Benches
 
 from webviz.data.geo import TilePlane, to_enu
 from webviz.data.geo.wgs84 import Geodetic
@@ -24,8 +25,6 @@ FIX, PATH = "sensor_msgs/msg/NavSatFix", "geographic_msgs/msg/GeoPath"
 HERE = Geodetic(48.1, 11.5, 500.0)
 ZOOM = 17
 NAN = float("nan")
-
-Benches = Callable[..., Any]
 
 
 def fix(latitude: float = HERE.latitude, longitude: float = HERE.longitude, **values: Any) -> Any:
@@ -81,7 +80,7 @@ def shown(bench: Benches, tmp_path: Path) -> Callable[..., Any]:
     return make
 
 
-def test_tiles_lie_where_their_places_are(shown: Callable[..., Any]) -> None:
+def test_tiles_lie_where_their_places_are(shown: Benches) -> None:
     at = loaded(shown())
     assert at.statuses()["Tiles"] == ("OK", "Showing 9 tiles.")
     poses = {key: pose for key, pose, _ in at.scene.visible()}
@@ -95,7 +94,7 @@ def test_tiles_lie_where_their_places_are(shown: Callable[..., Any]) -> None:
     assert node.cells[0, 0].tolist() == [90, 90, 90, round(255 * 0.7)]
 
 
-def test_a_new_fix_moves_the_map_and_sends_no_tile_again(shown: Callable[..., Any]) -> None:
+def test_a_new_fix_moves_the_map_and_sends_no_tile_again(shown: Benches) -> None:
     at = loaded(shown())
     before = at.nodes()
     poses = {key: pose.position for key, pose, _ in at.scene.visible()}
@@ -123,7 +122,7 @@ def test_a_new_fix_moves_the_map_and_sends_no_tile_again(shown: Callable[..., An
     ],
 )
 def test_statuses_say_why_no_map_is_shown(
-    shown: Callable[..., Any],
+    shown: Benches,
     message: Any,
     properties: dict[str, Any],
     key: str,
@@ -137,7 +136,7 @@ def test_statuses_say_why_no_map_is_shown(
     assert (level, text[: len(expected[1])]) == expected
 
 
-def test_a_map_lies_behind_others_on_request(shown: Callable[..., Any]) -> None:
+def test_a_map_lies_behind_others_on_request(shown: Benches) -> None:
     layers = [
         {node.layer for node in loaded(shown(draw_behind=behind)).nodes().values()}
         for behind in (False, True)
@@ -145,9 +144,7 @@ def test_a_map_lies_behind_others_on_request(shown: Callable[..., Any]) -> None:
     assert layers == [{0}, {-100_000}]
 
 
-def test_damaged_tiles_are_reported_and_the_others_shown(
-    shown: Callable[..., Any], tmp_path: Path
-) -> None:
+def test_damaged_tiles_are_reported_and_the_others_shown(shown: Benches, tmp_path: Path) -> None:
     at = shown()
     x, y = TilePlane(HERE, ZOOM).around(1)[3]
     (tmp_path / f"tiles/{ZOOM}/{x}/{y}.png").write_bytes(b"vectors")
@@ -157,7 +154,7 @@ def test_damaged_tiles_are_reported_and_the_others_shown(
     assert text.startswith("Showing 8 of 9 tiles. A tile cannot be shown.")
 
 
-def test_a_tile_that_is_selected_names_place_and_utm(shown: Callable[..., Any]) -> None:
+def test_a_tile_that_is_selected_names_place_and_utm(shown: Benches) -> None:
     at = loaded(shown())
     key = "/".join(map(str, (ZOOM, *TilePlane(HERE, ZOOM).around(0)[0])))
     check_details(

@@ -1,11 +1,10 @@
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
-from display_messages import MESSAGES
 from display_scenes import paths
+from inspecting import Benches
 
 from webviz.shell.testing import check_details
 from webviz_displays.path import Path
@@ -13,8 +12,6 @@ from webviz_displays.path import Path
 NAN, INF = float("nan"), float("inf")
 QUARTER = (0.0, 0.0, np.sqrt(0.5), np.sqrt(0.5))
 """90 degrees about z, xyzw."""
-
-Benches = Callable[..., Any]
 
 
 def path(*positions: tuple[float, ...], turn: tuple[float, ...] = (0, 0, 0, 1)) -> dict[str, Any]:
@@ -151,7 +148,7 @@ def test_far_from_the_origin_a_path_keeps_its_millimetres(turned: Benches) -> No
 
 class TestPath(BuiltInChecks):
     display = Path
-    messages = MESSAGES
+    scene = paths
     variants = (
         Path,
         lambda: Path(line_style="Billboards", pose_style="Axes"),
@@ -159,11 +156,8 @@ class TestPath(BuiltInChecks):
     )
     later = ("buffer_length",)
 
-    def publish(self, bench: Any) -> None:
-        paths(bench)
 
-
-def test_selecting_pose_of_a_path(bench: Callable[..., Any]) -> None:
+def test_selecting_pose_of_a_path(bench: Benches) -> None:
     at = bench(Path(pose_style="Arrows"))
     at.transform("map", "odom", (10.0, 0.0, 0.0))
     places = [{"x": float(i), "y": 1.0} for i in range(3)]

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 from typing import Any, ClassVar
 
 import numpy as np
 import octrees
 import pytest
 from built_in_checks import BuiltInChecks
-from display_messages import MESSAGES
 from display_scenes import OTHER_LINKS
+from inspecting import Benches
 from moveit_scenes import moveit
 from robot_arm import ARM, describe, is_loaded, wait
 
@@ -22,7 +21,6 @@ from webviz.shell.testing import check_details
 from webviz_displays.moveit import PlanningScene
 from webviz_displays.moveit.properties import SceneGeometry
 
-Benches = Callable[..., Any]
 SCENE = "moveit_msgs/msg/PlanningScene"
 TOPIC = "/monitored_planning_scene"
 NAN = float("nan")
@@ -344,16 +342,13 @@ def test_a_hand_holds_a_limited_number_of_objects(
 
 class TestPlanningScene(BuiltInChecks):
     display = PlanningScene
-    messages = MESSAGES
+    scene = moveit
     later = ("move_group_namespace",)
     elsewhere = ("scene_geometry.scene_display_time",)
     values: ClassVar = {"scene_robot.links": OTHER_LINKS}
 
-    def publish(self, bench: Any) -> None:
-        moveit(bench)
 
-
-def test_selecting_object_of_a_planning_scene(bench: Callable[..., Any]) -> None:
+def test_selecting_object_of_a_planning_scene(bench: Benches) -> None:
     """The coloured one, drawn by itself, as its opacity differs."""
     at = bench(PlanningScene())
     moveit(at)

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any, ClassVar
 
 import pytest
 from built_in_checks import BuiltInChecks
 from display_messages import MESSAGES as SCENE_MESSAGES
 from display_scenes import OTHER_LINKS
+from inspecting import Benches
 from moveit_scenes import NUMBERS, SOLUTION, TASK, plan_task
 
 from webviz.shell.testing import check_details
 from webviz_displays.moveit import MotionPlanningTasks
 from webviz_displays.moveit.planning_tasks import SolutionMarkers
 
-Benches = Callable[..., Any]
 MESSAGES = "moveit_task_constructor_msgs/msg"
 
 
@@ -122,6 +121,7 @@ def test_an_answer_without_a_solution_is_said(planned: Any) -> None:
 
 class TestMotionPlanningTasks(BuiltInChecks):
     display = MotionPlanningTasks
+    scene = plan_task
     messages = SCENE_MESSAGES
     later = ("interrupt_display", "loop_animation", "state_display_time", "use_sim_time")
     needs: ClassVar = {
@@ -138,11 +138,8 @@ class TestMotionPlanningTasks(BuiltInChecks):
     }
     values: ClassVar = {"robot.links": OTHER_LINKS}
 
-    def publish(self, bench: Any) -> None:
-        plan_task(bench)
 
-
-def test_selecting_link_of_a_solution(bench: Callable[..., Any]) -> None:
+def test_selecting_link_of_a_solution(bench: Benches) -> None:
     at = bench(MotionPlanningTasks(paused=True))
     plan_task(at)
     check_details(
@@ -152,7 +149,7 @@ def test_selecting_link_of_a_solution(bench: Callable[..., Any]) -> None:
     )
 
 
-def test_selecting_marker_of_a_solution(bench: Callable[..., Any]) -> None:
+def test_selecting_marker_of_a_solution(bench: Benches) -> None:
     at = bench(MotionPlanningTasks(paused=True))
     plan_task(at)
     check_details(at.pick("box in 0", 0), "Marker far/0", {"Type": "CUBE"})

@@ -8,11 +8,10 @@ import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
 from clouds import CLOUD, FLOAT32, UINT32, XYZ, cloud, xyz_cloud
-from display_messages import MESSAGES
 from display_scenes import clouds
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from inspecting import QUARTER, check_columns
+from inspecting import QUARTER, Benches, check_columns
 
 from webviz.api.nodes import Instances, Lines, Points
 from webviz.data.messages import encode
@@ -27,8 +26,6 @@ SECOND = 1_000_000_000
 NAN, INF = float("nan"), float("inf")
 RED, MIDDLE, MAGENTA = [255, 0, 0], [0, 255, 128], [255, 0, 255]
 THREE = [(1.0, 0.0, 0.0), (2.0, 0.0, 5.0), (3.0, 0.0, 10.0)]
-
-Benches = Callable[..., Any]
 
 
 @pytest.fixture
@@ -463,7 +460,7 @@ def test_voxels_have_a_least_size() -> None:
 
 class TestPointCloud2(BuiltInChecks):
     display = PointCloud2
-    messages = MESSAGES
+    scene = clouds
     variants = (
         PointCloud2,
         lambda: PointCloud2(color_transformer="RGB8", style="Points", decay_time=1.0),
@@ -471,11 +468,8 @@ class TestPointCloud2(BuiltInChecks):
     )
     needs: ClassVar = {"max_points": {"max_points": 3}}
 
-    def publish(self, bench: Any) -> None:
-        clouds(bench)
 
-
-def test_selecting_point_of_a_cloud(bench: Callable[..., Any]) -> None:
+def test_selecting_point_of_a_cloud(bench: Benches) -> None:
     """The third that is drawn, of a cloud in rows, whose first two and fifth cannot be."""
     names = [*XYZ, ("intensity", 12, FLOAT32, 1), ("rgb", 16, UINT32, 1), ("ring", 20, 4, 2)]
     places = [(math.nan, 0, 0), (0, math.nan, 0), (1, 2, 3), (4, 5, 6), (2e9, 0, 0), (7, 8, 0.1)]
@@ -507,7 +501,7 @@ def test_selecting_point_of_a_cloud(bench: Callable[..., Any]) -> None:
     check_columns(at, "points")
 
 
-def test_selecting_point_of_a_thinned_cloud(bench: Callable[..., Any]) -> None:
+def test_selecting_point_of_a_thinned_cloud(bench: Benches) -> None:
     points = [{"x": [float(i)], "y": [0.0], "z": [0.0], "i": [i]} for i in range(100)]
     at = bench(PointCloud2(max_points=10, style="Boxes", color_transformer="FlatColor"))
     at.transform("map", "lidar")
@@ -519,7 +513,7 @@ def test_selecting_point_of_a_thinned_cloud(bench: Callable[..., Any]) -> None:
     check_details(details, f"Point {number}", {"Points in the cloud": "100"})
 
 
-def test_selecting_invisible_points_do_not_count(bench: Callable[..., Any]) -> None:
+def test_selecting_invisible_points_do_not_count(bench: Benches) -> None:
     """An rgba with alpha 0 hides the first."""
     names = [*XYZ, ("rgba", 12, UINT32, 1)]
     points = [

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
-from display_messages import MESSAGES
 from inspecting import POSE as INSPECTED_POSE
-from inspecting import POSE_TOLD
+from inspecting import POSE_TOLD, Benches
 from plain_scenes import COVARIANCE, at, in_moving_frame, turned
 
 from webviz.data.rotations import matrices
@@ -29,8 +27,6 @@ NAN = float("nan")
 POSE = "geometry_msgs/msg/PoseStamped"
 ARRAY = "geometry_msgs/msg/PoseArray"
 POINT = "geometry_msgs/msg/PointStamped"
-
-Benches = Callable[..., Any]
 
 
 def pose(x: float, y: float = 0.0, turn: tuple[float, ...] = (0, 0, 0, 1)) -> dict[str, Any]:
@@ -203,69 +199,52 @@ def test_far_from_the_origin_points_and_poses_keep_their_millimetres(turned: Ben
 
 class TestParticleCloud(BuiltInChecks):
     display = ParticleCloud
-    messages = MESSAGES
+    scene = in_moving_frame(
+        "nav2_msgs/msg/ParticleCloud",
+        *({"particles": [{"pose": at(x), "weight": 0.3}]} for x in (0.0, 1.0)),
+    )
     variants = (
         lambda: ParticleCloud(shape="Axes"),
         ParticleCloud,
     )
 
-    def publish(self, bench: Any) -> None:
-        in_moving_frame(
-            "nav2_msgs/msg/ParticleCloud",
-            *({"particles": [{"pose": at(x), "weight": 0.3}]} for x in (0.0, 1.0)),
-        )(bench)
-
 
 class TestPointStamped(BuiltInChecks):
     display = PointStamped
-    messages = MESSAGES
-
-    def publish(self, bench: Any) -> None:
-        in_moving_frame(
-            "geometry_msgs/msg/PointStamped", {"point": {"x": 1.0}}, {"point": {"x": 2.0}}
-        )(bench)
+    scene = in_moving_frame(
+        "geometry_msgs/msg/PointStamped", {"point": {"x": 1.0}}, {"point": {"x": 2.0}}
+    )
 
 
 class TestPose(BuiltInChecks):
     display = Pose
-    messages = MESSAGES
+    scene = in_moving_frame("geometry_msgs/msg/PoseStamped", {"pose": at(1.0)}, {"pose": at(2.0)})
     variants = (
         Pose,
         lambda: Pose(shape="Axes", history_length=3),
     )
 
-    def publish(self, bench: Any) -> None:
-        in_moving_frame("geometry_msgs/msg/PoseStamped", {"pose": at(1.0)}, {"pose": at(2.0)})(
-            bench
-        )
-
 
 class TestPoseArray(BuiltInChecks):
     display = PoseArray
-    messages = MESSAGES
+    scene = in_moving_frame(
+        "geometry_msgs/msg/PoseArray", {"poses": [at(1.0)]}, {"poses": [at(2.0), at(3.0)]}
+    )
     variants = (
         PoseArray,
         lambda: PoseArray(shape="Arrow (3D)", history_length=3),
     )
 
-    def publish(self, bench: Any) -> None:
-        in_moving_frame(
-            "geometry_msgs/msg/PoseArray", {"poses": [at(1.0)]}, {"poses": [at(2.0), at(3.0)]}
-        )(bench)
-
 
 class TestPoseWithCovariance(BuiltInChecks):
     display = PoseWithCovariance
-    messages = MESSAGES
-
-    def publish(self, bench: Any) -> None:
-        in_moving_frame(
-            "geometry_msgs/msg/PoseWithCovarianceStamped",
-            *({"pose": {"pose": turned(x), "covariance": COVARIANCE}} for x in (1.0, 2.0)),
-        )(bench)
+    scene = in_moving_frame(
+        "geometry_msgs/msg/PoseWithCovarianceStamped",
+        *({"pose": {"pose": turned(x), "covariance": COVARIANCE}} for x in (1.0, 2.0)),
+    )
 
 
-def test_selecting_pose(turned: Callable[..., Any]) -> None:
+def test_selecting_pose(turned: Benches) -> None:
     check_details(
         turned(Pose(), {"pose": INSPECTED_POSE}).pick("poses", 0),
         "Pose 0",
@@ -273,7 +252,7 @@ def test_selecting_pose(turned: Callable[..., Any]) -> None:
     )
 
 
-def test_selecting_pose_with_covariance(turned: Callable[..., Any]) -> None:
+def test_selecting_pose_with_covariance(turned: Benches) -> None:
     values = {
         "pose": {"pose": INSPECTED_POSE, "covariance": np.diag([0.04, 0, 0, 0, 0, 1]).ravel()}
     }
@@ -287,7 +266,7 @@ def test_selecting_pose_with_covariance(turned: Callable[..., Any]) -> None:
     )
 
 
-def test_selecting_pose_of_an_array(turned: Callable[..., Any]) -> None:
+def test_selecting_pose_of_an_array(turned: Benches) -> None:
     """The last line of the second arrow."""
     values = {"poses": [{"position": {"x": math.nan}}, INSPECTED_POSE]}
     check_details(
@@ -297,7 +276,7 @@ def test_selecting_pose_of_an_array(turned: Callable[..., Any]) -> None:
     )
 
 
-def test_selecting_particle(turned: Callable[..., Any]) -> None:
+def test_selecting_particle(turned: Benches) -> None:
     """The y axis of the second."""
     values = {"particles": [{"pose": INSPECTED_POSE, "weight": w} for w in (0.25, 0.75)]}
     cloud = ParticleCloud(shape="Axes")
@@ -308,7 +287,7 @@ def test_selecting_particle(turned: Callable[..., Any]) -> None:
     )
 
 
-def test_selecting_point(turned: Callable[..., Any]) -> None:
+def test_selecting_point(turned: Benches) -> None:
     values = {"point": {"x": 1.0, "y": 2.5}}
     check_details(
         turned(PointStamped(), values).pick("points", 0),

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import PIL.Image
 import pytest
+from inspecting import Benches
 from numpy.typing import NDArray
 from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
@@ -30,8 +31,6 @@ START = (-0.27, 0.045, 0.0), (0.0, 0.0, 0.0341, 0.9994)
 """Where the robot's odometry began in the map, found by fitting the first scan to the walls."""
 
 pytestmark = pytest.mark.skipif(not BAG.exists(), reason="the bag of the TurtleBot 4 is not here")
-
-Benches = Callable[..., Any]
 
 
 def messages(*topics: str) -> Iterator[tuple[str, str, int, bytes]]:

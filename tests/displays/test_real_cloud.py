@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from clouds import CLOUD
+from inspecting import Benches
 
 from webviz_displays.point_cloud2 import PointCloud2
 
@@ -34,7 +34,7 @@ def street() -> dict[str, Any]:
 
 
 def test_every_point_of_a_real_cloud_is_where_it_was_measured(
-    bench: Callable[..., Any], street: dict[str, Any]
+    bench: Benches, street: dict[str, Any]
 ) -> None:
     made = bench(PointCloud2())
     made.transform("map", "lidar", (0.0, 0.0, 2.0))
@@ -48,7 +48,7 @@ def test_every_point_of_a_real_cloud_is_where_it_was_measured(
     assert (dim.tolist(), bright.tolist()) == ([255, 0, 0], [255, 0, 255])
 
 
-def test_voxels_thin_near_the_lidar_most(bench: Callable[..., Any], street: dict[str, Any]) -> None:
+def test_voxels_thin_near_the_lidar_most(bench: Benches, street: dict[str, Any]) -> None:
     made = bench(PointCloud2(voxel_size=0.5))
     made.transform("map", "lidar")
     made.send(CLOUD, street, frame="lidar")

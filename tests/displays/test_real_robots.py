@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
 import pytest
+from inspecting import Benches
 from robot_arm import is_loaded, wait
 from robots import link_poses, robots_folder
 from rosbags.highlevel import AnyReader
@@ -19,8 +19,6 @@ from webviz_displays.robot_model import RobotModel
 from webviz_urdf import load_file
 
 BAG = Path(__file__).parents[3] / "shared/data/bags/macfirst_floor_take_2"
-
-Benches = Callable[..., Any]
 
 
 # tests/urdf reads all 69; the display must tell apart what these bring.

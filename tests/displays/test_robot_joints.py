@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import pytest
+from inspecting import Benches
 from robot_arm import is_loaded, wait
 
 from webviz_displays.robot_model import RobotModel
 from webviz_displays.robot_model.parts import GREY
 
-Benches = Callable[..., Any]
 NAN = float("nan")
 
 RAIL = """

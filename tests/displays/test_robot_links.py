@@ -1,12 +1,11 @@
 """Links and joints of the RobotModel display: where they are, and what is said of them."""
 
-from collections.abc import Callable
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import pytest
 from built_in_checks import BuiltInChecks
-from display_messages import MESSAGES
 from display_scenes import OTHER_LINKS
+from inspecting import Benches
 from moveit_scenes import moveit
 from robot_arm import ARM, describe, place_arm
 
@@ -161,14 +160,11 @@ def test_a_tick_without_news_makes_no_node_anew(bench) -> None:
 
 class TestRobotState(BuiltInChecks):
     display = RobotState
-    messages = MESSAGES
+    scene = moveit
     values: ClassVar = {"links": OTHER_LINKS}
 
-    def publish(self, bench: Any) -> None:
-        moveit(bench)
 
-
-def test_selecting_what_a_robot_holds(bench: Callable[..., Any]) -> None:
+def test_selecting_what_a_robot_holds(bench: Benches) -> None:
     at = bench(RobotState())
     moveit(at)
     check_details(

@@ -5,7 +5,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from types import FrameType, SimpleNamespace
 from typing import Any, ClassVar
@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 import trimesh
 from built_in_checks import BuiltInChecks
-from display_messages import MESSAGES
 from display_scenes import OTHER_LINKS, robots
+from inspecting import Benches
 from processes import command_lines, send
 from psutil import wait_procs
 from robot_arm import ARM, describe, is_loaded, place_arm, wait
@@ -331,7 +331,7 @@ def test_what_reads_meshes_is_imported_by_the_process_that_loads_robots_only() -
 
 class TestRobotModel(BuiltInChecks):
     display = RobotModel
-    messages = MESSAGES
+    scene = robots
     later = ("update_interval",)
     values: ClassVar = {
         "links": OTHER_LINKS,
@@ -340,9 +340,6 @@ class TestRobotModel(BuiltInChecks):
             {"slide": JointSettings(show_joint_axis=True)},
         ],
     }
-
-    def publish(self, bench: Any) -> None:
-        robots(bench)
 
     def other_values(self, changed: Change, folder: Path) -> Sequence[Any]:
         if changed.path != "package_paths":
@@ -354,7 +351,7 @@ class TestRobotModel(BuiltInChecks):
         return [[str(folder)]]
 
 
-def test_selecting_link_of_a_robot(bench: Callable[..., Any]) -> None:
+def test_selecting_link_of_a_robot(bench: Benches) -> None:
     at = bench(RobotModel())
     place_arm(at)
     describe(at, ARM)

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any, ClassVar
 
 import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
-from display_messages import MESSAGES
+from inspecting import Benches
 from plain_scenes import in_moving_frame, old_clouds
 
 from webviz.data.rotations import matrices
@@ -25,8 +24,6 @@ from webviz_displays.sensors import (
 
 NAN, INF = float("nan"), float("inf")
 CLOUD = "sensor_msgs/msg/PointCloud"
-
-Benches = Callable[..., Any]
 
 
 def measured(distance: float, low: float = 0.25, high: float = 4.0, angle: float = 1.0) -> Any:
@@ -139,67 +136,53 @@ def test_a_channel_of_another_length_is_named(turned: Benches) -> None:
 
 class TestFluidPressure(BuiltInChecks):
     display = FluidPressure
-    messages = MESSAGES
-
-    def publish(self, bench: Any) -> None:
-        in_moving_frame(
-            "sensor_msgs/msg/FluidPressure", {"fluid_pressure": 1e5}, {"fluid_pressure": 1.01e5}
-        )(bench)
+    scene = in_moving_frame(
+        "sensor_msgs/msg/FluidPressure", {"fluid_pressure": 1e5}, {"fluid_pressure": 1.01e5}
+    )
 
 
 class TestIlluminance(BuiltInChecks):
     display = Illuminance
-
-    def publish(self, bench: Any) -> None:
-        in_moving_frame(
-            "sensor_msgs/msg/Illuminance", {"illuminance": 300.0}, {"illuminance": 400.0}
-        )(bench)
+    messages: ClassVar = {}
+    scene = in_moving_frame(
+        "sensor_msgs/msg/Illuminance", {"illuminance": 300.0}, {"illuminance": 400.0}
+    )
 
 
 class TestPointCloud(BuiltInChecks):
     display = PointCloud
-    messages = MESSAGES
+    scene = old_clouds
     variants = (lambda: PointCloud(style="Boxes"),)
     needs: ClassVar = {"max_points": {"max_points": 3}}
-
-    def publish(self, bench: Any) -> None:
-        old_clouds(bench)
 
 
 class TestRange(BuiltInChecks):
     display = Range
-    messages = MESSAGES
+    scene = in_moving_frame(
+        "sensor_msgs/msg/Range",
+        *({"field_of_view": 0.5, "max_range": 4.0, "range": each} for each in (1.0, 2.0)),
+    )
     later = ("buffer_length",)
-
-    def publish(self, bench: Any) -> None:
-        in_moving_frame(
-            "sensor_msgs/msg/Range",
-            *({"field_of_view": 0.5, "max_range": 4.0, "range": each} for each in (1.0, 2.0)),
-        )(bench)
 
 
 class TestRelativeHumidity(BuiltInChecks):
     display = RelativeHumidity
-
-    def publish(self, bench: Any) -> None:
-        in_moving_frame(
-            "sensor_msgs/msg/RelativeHumidity",
-            {"relative_humidity": 0.3},
-            {"relative_humidity": 0.4},
-        )(bench)
+    messages: ClassVar = {}
+    scene = in_moving_frame(
+        "sensor_msgs/msg/RelativeHumidity",
+        {"relative_humidity": 0.3},
+        {"relative_humidity": 0.4},
+    )
 
 
 class TestTemperature(BuiltInChecks):
     display = Temperature
-    messages = MESSAGES
-
-    def publish(self, bench: Any) -> None:
-        in_moving_frame(
-            "sensor_msgs/msg/Temperature", {"temperature": 30.0}, {"temperature": 40.0}
-        )(bench)
+    scene = in_moving_frame(
+        "sensor_msgs/msg/Temperature", {"temperature": 30.0}, {"temperature": 40.0}
+    )
 
 
-def test_selecting_cone_of_a_range(turned: Callable[..., Any]) -> None:
+def test_selecting_cone_of_a_range(turned: Benches) -> None:
     values = {"radiation_type": 1, "field_of_view": 0.5, "max_range": 4.0, "range": 0.7}
     check_details(
         turned(Range(), values).pick("cone", 0),
@@ -213,7 +196,7 @@ def test_selecting_cone_of_a_range(turned: Callable[..., Any]) -> None:
     )
 
 
-def test_selecting_temperature(turned: Callable[..., Any]) -> None:
+def test_selecting_temperature(turned: Benches) -> None:
     values = {"temperature": 21.5, "variance": 0.25}
     check_details(
         turned(Temperature(), values).pick("points", 0),
@@ -222,7 +205,7 @@ def test_selecting_temperature(turned: Callable[..., Any]) -> None:
     )
 
 
-def test_selecting_point_of_an_older_cloud(turned: Callable[..., Any]) -> None:
+def test_selecting_point_of_an_older_cloud(turned: Benches) -> None:
     channels = [{"name": "ring", "values": [3.0, 5.0]}]
     values = {"points": np.array([(math.nan, 0, 0), (1, 2, 3)], np.float32), "channels": channels}
     cloud = PointCloud(color_transformer="FlatColor")

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any, ClassVar
 
 import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
 from display_scenes import texts
+from inspecting import Benches
 
 from webviz import Topic
 from webviz.api.pictures import Readout
@@ -17,7 +17,6 @@ from webviz.shell.pictures.readouts import written
 from webviz.sources import Offer, Publisher
 from webviz_displays.text import MAX_FIELDS, Text
 
-Benches = Callable[..., Any]
 BATTERY = "sensor_msgs/msg/BatteryState"
 STRING = "std_msgs/msg/String"
 JOINTS = "sensor_msgs/msg/JointState"
@@ -147,6 +146,7 @@ def test_pictures_have_the_text_too(at: Any) -> None:
 
 class TestText(BuiltInChecks):
     display = Text
+    scene = texts
     later = ("update_interval",)
     needs: ClassVar = {
         "enabled": {"topic": Topic("/any")},
@@ -157,6 +157,3 @@ class TestText(BuiltInChecks):
         "update_interval": {"topic": Topic("/any")},
     }
     values: ClassVar = {"fields": [["voltage"]]}
-
-    def publish(self, bench: Any) -> None:
-        texts(bench)

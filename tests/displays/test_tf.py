@@ -1,13 +1,10 @@
 """The TF display: frames to batched nodes, and how they age."""
 
-from collections.abc import Callable
-from typing import Any
-
 import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
 from display_scenes import frames
-from inspecting import QUARTER
+from inspecting import QUARTER, Benches
 
 from webviz import Axes as AxesNode
 from webviz import Instances, Labels
@@ -259,13 +256,11 @@ def test_a_new_fixed_frame_places_all_frames_anew_without_making_them_young(benc
 
 class TestTF(BuiltInChecks):
     display = TF
+    scene = frames
     later = ("update_interval",)
 
-    def publish(self, bench: Any) -> None:
-        frames(bench)
 
-
-def test_selecting_frame_of_a_tree(bench: Callable[..., Any]) -> None:
+def test_selecting_frame_of_a_tree(bench: Benches) -> None:
     at = bench(TF(show_arrows=False))
     at.transform("map", "odom", (1.0, 0.0, 0.0))
     at.transform("odom", "base", (0.0, 2.0, 0.0), QUARTER, stamp_ns=at.now_ns - 500_000_000)

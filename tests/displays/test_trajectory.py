@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any, ClassVar
 
 import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
-from display_messages import MESSAGES
 from display_scenes import OTHER_LINKS
+from inspecting import Benches
 from moveit_scenes import moveit
 from robot_arm import describe, is_loaded, wait
 
@@ -19,7 +18,6 @@ from webviz_displays.moveit import MotionPlanning, RobotState, Trajectory
 from webviz_displays.moveit.properties import PlannedPath, PlanningRequest
 from webviz_urdf import MeshPart, Surface, glb_parts, write_glb
 
-Benches = Callable[..., Any]
 PATH, PATHS = "moveit_msgs/msg/DisplayTrajectory", "/display_planned_path"
 STATE, STATES = "moveit_msgs/msg/DisplayRobotState", "/display_robot_state"
 URDF = Topic("/robot_description")
@@ -273,6 +271,8 @@ def test_the_description_must_come_and_be_readable(bench: Benches) -> None:
 
 class TestMotionPlanning(BuiltInChecks):
     display = MotionPlanning
+    messages: ClassVar = {}
+    scene = moveit
     later = (
         "move_group_namespace",
         "planned_path.interrupt_display",
@@ -298,13 +298,10 @@ class TestMotionPlanning(BuiltInChecks):
     }
     values: ClassVar = {"scene_robot.links": OTHER_LINKS, "planned_path.links": OTHER_LINKS}
 
-    def publish(self, bench: Any) -> None:
-        moveit(bench)
-
 
 class TestTrajectory(BuiltInChecks):
     display = Trajectory
-    messages = MESSAGES
+    scene = moveit
     variants = (lambda: Trajectory(show_trail=True),)
     later = ("interrupt_display", "loop_animation", "state_display_time", "use_sim_time")
     needs: ClassVar = {
@@ -315,11 +312,8 @@ class TestTrajectory(BuiltInChecks):
     }
     values: ClassVar = {"links": OTHER_LINKS}
 
-    def publish(self, bench: Any) -> None:
-        moveit(bench)
 
-
-def test_selecting_link_on_a_path(bench: Callable[..., Any]) -> None:
+def test_selecting_link_on_a_path(bench: Benches) -> None:
     at = bench(Trajectory(paused=True))
     moveit(at)
     check_details(
@@ -329,7 +323,7 @@ def test_selecting_link_on_a_path(bench: Callable[..., Any]) -> None:
     )
 
 
-def test_selecting_link_of_a_trail(bench: Callable[..., Any]) -> None:
+def test_selecting_link_of_a_trail(bench: Benches) -> None:
     at = bench(Trajectory(paused=True, show_trail=True))
     moveit(at)
     check_details(at.pick("trail rider visual visual_0 0", 2), "Link rider", {"Point": "3"})

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any, ClassVar
 
 import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
-from display_messages import MESSAGES
+from inspecting import Benches
 from plain_scenes import MOTION, in_moving_frame, velocity
 from plain_scenes import NAN as SCENE_NAN
 
@@ -18,8 +17,6 @@ from webviz_displays.vectors import AccelStamped, Twist, TwistStamped, Wrench
 
 NAN = float("nan")
 WRENCH = "geometry_msgs/msg/WrenchStamped"
-
-Benches = Callable[..., Any]
 
 
 def vector(x: float = 0.0, y: float = 0.0, z: float = 0.0) -> dict[str, float]:
@@ -140,36 +137,29 @@ def test_a_velocity_without_a_header_moves_with_the_reference_frame(bench: Bench
 
 class TestAccelStamped(BuiltInChecks):
     display = AccelStamped
-    messages = MESSAGES
-
-    def publish(self, bench: Any) -> None:
-        in_moving_frame("geometry_msgs/msg/AccelStamped", {"accel": MOTION}, {"accel": MOTION})(
-            bench
-        )
+    scene = in_moving_frame("geometry_msgs/msg/AccelStamped", {"accel": MOTION}, {"accel": MOTION})
 
 
 class TestTwist(BuiltInChecks):
     display = Twist
-    messages = MESSAGES
+    scene = velocity
     variants = (lambda: Twist(reference_frame="sensor"),)
-
-    def publish(self, bench: Any) -> None:
-        velocity(bench)
 
 
 class TestTwistStamped(BuiltInChecks):
     display = TwistStamped
-    messages = MESSAGES
-
-    def publish(self, bench: Any) -> None:
-        in_moving_frame("geometry_msgs/msg/TwistStamped", {"twist": MOTION}, {"twist": MOTION})(
-            bench
-        )
+    scene = in_moving_frame("geometry_msgs/msg/TwistStamped", {"twist": MOTION}, {"twist": MOTION})
 
 
 class TestWrench(BuiltInChecks):
     display = Wrench
-    messages = MESSAGES
+    scene = in_moving_frame(
+        "geometry_msgs/msg/WrenchStamped",
+        *(
+            {"wrench": {"force": {"x": 1.0, "y": SCENE_NAN}, "torque": {"z": 1.0}}}
+            for _ in range(2)
+        ),
+    )
     variants = (
         Wrench,
         lambda: Wrench(accept_nan_values=True, history_length=3),
@@ -184,17 +174,8 @@ class TestWrench(BuiltInChecks):
         "torque_arrow_scale": {"accept_nan_values": True},
     }
 
-    def publish(self, bench: Any) -> None:
-        in_moving_frame(
-            "geometry_msgs/msg/WrenchStamped",
-            *(
-                {"wrench": {"force": {"x": 1.0, "y": SCENE_NAN}, "torque": {"z": 1.0}}}
-                for _ in range(2)
-            ),
-        )(bench)
 
-
-def test_selecting_torque(turned: Callable[..., Any]) -> None:
+def test_selecting_torque(turned: Benches) -> None:
     values = {"wrench": {"force": {"x": 1.5}, "torque": {"z": -2.0}}}
     check_details(
         turned(Wrench(), values).pick("torque circles", 5),

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
-from display_messages import MESSAGES
+from inspecting import Benches
 from mapping_scenes import VOXEL_GRID
 from plain_scenes import in_moving_frame
 
@@ -20,7 +20,6 @@ from webviz_displays.map import Costmap
 from webviz_displays.map.palettes import lookup_table
 from webviz_displays.voxel_grid import VoxelGrid
 
-Benches = Callable[..., Any]
 Key = tuple[int, int, int]
 COSTMAP, UPDATE = "nav2_msgs/msg/Costmap", "nav2_msgs/msg/CostmapUpdate"
 
@@ -130,14 +129,11 @@ def test_costs_have_the_colors_of_their_occupancies(bench: Benches) -> None:
 
 class TestVoxelGrid(BuiltInChecks):
     display = VoxelGrid
-    messages = MESSAGES
+    scene = in_moving_frame("nav2_msgs/msg/VoxelGrid", VOXEL_GRID)
     variants = (lambda: VoxelGrid(show_unknown=True, show_free=True),)
 
-    def publish(self, bench: Any) -> None:
-        in_moving_frame("nav2_msgs/msg/VoxelGrid", VOXEL_GRID)(bench)
 
-
-def test_selecting_voxel_of_a_costmap(turned: Callable[..., Any]) -> None:
+def test_selecting_voxel_of_a_costmap(turned: Benches) -> None:
     check_details(
         turned(VoxelGrid(), VOXEL_GRID).pick("marked", 1),
         "Voxel 0, 0, 1",

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
-from display_messages import MESSAGES
+from inspecting import Benches
 from perception_scenes import NAN, ZED_CAR, ZED_OBJECTS, ZED_PERSON, ZED_SCENE
 from plain_scenes import in_moving_frame
 
@@ -120,13 +120,10 @@ def test_too_many_objects_are_cut_with_a_warning(
 
 class TestZedOdDisplay(BuiltInChecks):
     display = ZedOdDisplay
-    messages = MESSAGES
-
-    def publish(self, bench: Any) -> None:
-        in_moving_frame(ZED_OBJECTS, ZED_SCENE)(bench)
+    scene = in_moving_frame(ZED_OBJECTS, ZED_SCENE)
 
 
-def test_selecting_car_of_a_zed_camera(turned: Callable[..., Any]) -> None:
+def test_selecting_car_of_a_zed_camera(turned: Benches) -> None:
     check_details(
         turned(ZedOdDisplay(), ZED_SCENE).pick("boxes", 3),
         "3-Vehicle [Car]",

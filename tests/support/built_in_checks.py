@@ -7,9 +7,10 @@ import importlib.util
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import pytest
+from display_messages import MESSAGES
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -26,6 +27,16 @@ FOLDER = Path(__file__).parents[1] / "displays"
 
 class BuiltInChecks(DisplayChecks):
     """Tries several extreme values at once, too."""
+
+    messages = MESSAGES
+    scene: ClassVar[Callable[[Any], None] | None] = None
+    """Publishes on a bench what shows every property; None publishes `messages`."""
+
+    def publish(self, bench: Any) -> None:
+        if (scene := type(self).scene) is None:
+            super().publish(bench)
+        else:
+            scene(bench)
 
     @settings(max_examples=60, deadline=None, suppress_health_check=SHARED)
     @given(data=st.data())

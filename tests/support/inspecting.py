@@ -1,9 +1,10 @@
-"""Messages of one pose, and what displays tell of an item of them."""
+"""Displays at work: their benches, messages of one pose, and what they tell of an item of them."""
 
 from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,8 @@ from webviz import Frames
 from webviz.api.picking import Column
 from webviz.engine.pipeline.details import details_tree
 
+Benches = Callable[..., Any]
+"""The fixtures `bench`, `shown` and `turned`, which make the bench of a display."""
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 QUARTER = (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))
 POSE = {"position": {"x": 1.0, "y": 2.0}, "orientation": {"w": 1.0}}
