@@ -14,13 +14,12 @@ from drives import CONFIG
 
 from webviz.engine.commands import Command, Refresh, Seek
 from webviz.engine.loop import FrameLoop
-from webviz.engine.state import State
 from webviz.files.opening import parse
 from webviz.shell.testing.recording import RecordingScene
+from webviz.shell.testing.seeking import BagViewer, shown
 from webviz.shell.testing.source import HandFedSource
 from webviz.sources import Offer, Raw
 from webviz.sources.bag.files import BagFiles
-from webviz.sources.bag.source import BagSource
 from webviz.sources.memory_past import WallClock
 from webviz.sources.past_state import PlaybackState
 
@@ -30,32 +29,12 @@ AGO_S = 9.0
 """When a drive began."""
 
 
-class Theater:
+class Theater(BagViewer):
     """A viewer of a bag that only runs in `turn`."""
 
     def __init__(self, paths: Path | list[Path], config: str) -> None:
+        super().__init__(paths, config)
         self.paths = paths
-        self.source = BagSource(paths)
-        self.scene = RecordingScene()
-        self.loop = FrameLoop(parse(config, "the config"), self.source, self.scene, strict=True)
-        self.turn()
-
-    def turn(self) -> None:
-        self.loop.turn()
-
-    def do(self, command: Command) -> State:
-        """Carry out a command; the state when it is answered."""
-        answer = self.loop.enqueue(command)
-        self.turn_until(answer.done)
-        answer.result()
-        return self.loop.state()
-
-    def turn_until(self, is_reached: Callable[[], bool]) -> None:
-        for _ in range(TURNS):
-            if is_reached():
-                return
-            self.turn()
-        raise AssertionError("not reached")
 
     @property
     def playback(self) -> PlaybackState:
@@ -67,10 +46,6 @@ class Theater:
         """Poses and nodes that are seen."""
         # In which slot of a display a sample is drawn makes no difference.
         return sorted(((pose, node) for _, pose, node in self.scene.visible()), key=repr)
-
-    def close(self) -> None:
-        self.loop.close()
-        self.source.close()
 
 
 @pytest.fixture
@@ -138,11 +113,7 @@ class Drive:
         return state
 
     def shown(self) -> dict[str, Any]:
-        found = {}
-        for row in self.loop.state().rows:
-            nodes = [(pose, node) for _, pose, node in self.scene.visible(f"{row.id}/")]
-            found[f"{row.id} {row.name}"] = sorted(nodes, key=repr)
-        return found
+        return shown(self.loop, self.scene)
 
     def close(self) -> None:
         self.loop.close()

@@ -9,13 +9,12 @@ from webviz.api.bridge import Bridge
 from webviz.sources.bag.source import BagSource
 from webviz.sources.graph import Graph
 from webviz.sources.inbox import Inbox
-from webviz.sources.past_state import Event
 from webviz.sources.rewindable import Rewindable
 from webviz.sources.source import Offer, Subscription
 
 
 class Switchable:
-    """Live topics or a bag, as one source with a past.
+    """Live topics or a bag, as one source; the past is that of `shown`.
 
     While a bag is shown, live topics stay subscribed to, and are remembered. Names are resolved and
     requests sent as with live topics, of which a recording has the names.
@@ -36,104 +35,29 @@ class Switchable:
         """The source whose messages are shown."""
         return self.bag or self.live
 
-    def show(self, bag: BagSource) -> None:
-        """Show a bag, at its start; received data is discarded by the caller."""
+    def show(self, bag: BagSource) -> BagSource:
+        """Show a bag, at its start, and return it; received data is discarded by the caller."""
         bag.inbox.arrived = self.live.inbox.arrived
         if self.bag is not None:
             self.bag.close()
         self.bag = bag
         self.live.inbox.divert()
         self.live.inbox.drain()
+        return bag
 
-    def leave(self) -> None:
+    def leave(self) -> Rewindable:
         """Show the newest past of live topics instead of a bag; live if nothing is remembered.
 
         Received data is discarded by the caller.
+
+        Returns:
+            The live topics.
         """
         if self.bag is not None:
             self.bag.close()
             self.bag = None
             self.live.seek(self.live.end_ns)
-
-    # The interface of webviz.engine.playback.Playable
-
-    @property
-    def absence(self) -> str:
-        """Return why there is no past, "" if there is one."""
-        return self.shown.absence
-
-    @property
-    def is_live(self) -> bool:
-        """Return whether what arrives is shown."""
-        return self.shown.is_live
-
-    @property
-    def origin_ns(self) -> int:
-        """`Playable.origin_ns`."""
-        return self.shown.origin_ns
-
-    @property
-    def start_ns(self) -> int:
-        """`Playable.start_ns`."""
-        return self.shown.start_ns
-
-    @property
-    def end_ns(self) -> int:
-        """`Playable.end_ns`."""
-        return self.shown.end_ns
-
-    @property
-    def gap_ns(self) -> tuple[int, int] | None:
-        """`Playable.gap_ns`."""
-        return self.shown.gap_ns
-
-    @property
-    def position_ns(self) -> int:
-        """`Playable.position_ns`."""
-        return self.shown.position_ns
-
-    @property
-    def names(self) -> Sequence[str]:
-        """`Playable.names`."""
-        return self.shown.names
-
-    @property
-    def warnings(self) -> Sequence[str]:
-        """`Playable.warnings`."""
-        return self.shown.warnings
-
-    def play(self, until_ns: int) -> None:
-        """`Playable.play`."""
-        self.shown.play(until_ns)
-
-    def play_step(self, until_ns: int) -> None:
-        """`Playable.play_step`."""
-        self.shown.play_step(until_ns)
-
-    def seek(self, at_ns: int) -> None:
-        """`Playable.seek`."""
-        self.shown.seek(at_ns)
-
-    def rejoin(self) -> bool:
-        """`Playable.rejoin`."""
-        return self.shown.rejoin()
-
-    def neighbour(self, topic: str, is_forward: bool) -> int | None:
-        """`Playable.neighbour`."""
-        return self.shown.neighbour(topic, is_forward)
-
-    def histogram(self, buckets: int) -> Mapping[str, Sequence[int]]:
-        """`Playable.histogram`."""
-        return self.shown.histogram(buckets)
-
-    @property
-    def counted_ns(self) -> tuple[int, int] | None:
-        """`Playable.counted_ns`."""
-        return self.shown.counted_ns
-
-    def logged(self) -> Sequence[Event]:
-        """`Playable.logged`."""
-        return self.shown.logged()
+        return self.live
 
     # The interface of webviz.sources.Source
 

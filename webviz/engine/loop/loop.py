@@ -116,11 +116,13 @@ class FrameLoop:
         clock: Callable[[], float] | None = None,
     ) -> None:
         live_ns = source.now_ns
-        recorded = source if isinstance(source, Playable) else Switchable(Rewindable(source))
-        switchable = recorded if isinstance(recorded, Switchable) else None
-        memory = switchable and switchable.live
-        self._source = source = recorded
-        control = PlaybackControl(recorded)
+        if isinstance(source, Playable):
+            switchable, memory, control = None, None, PlaybackControl(source)
+        else:
+            memory = Rewindable(source)
+            source = switchable = Switchable(memory)
+            control = PlaybackControl(memory)
+        self._source = source
         waiting, clock = clock or time.monotonic, clock or control.clock
         self._show = show
         self._stop = threading.Event()
@@ -134,7 +136,12 @@ class FrameLoop:
         self._owed: list[Callable[[], None]] = []
         own = own_names(config, self._guard)
         rights = Rights(may_publish, config.settings.publish, own, tuple(allow_publish))
-        gate = self._gate(rights, control)
+        gate = Gate(
+            source,
+            rights,
+            lambda: self._settings.settings.publish,
+            lambda: "" if control.is_live else REWOUND,
+        )
         core = self._core = Core(source, gate, scene, self._guard, clock)
         services = self._services(strict)
         self._tracer = services.tracer
@@ -176,15 +183,6 @@ class FrameLoop:
         """The answer to what restores the last session, None if there is none."""
         if kept and (command := kept.restored(restore)):
             self.restored = self._requests.put(command, PROGRAM)
-
-    def _gate(self, rights: Rights, control: PlaybackControl) -> Gate:
-        """Make the gate for what leaves: nothing does while the past is shown."""
-        return Gate(
-            self._source,
-            rights,
-            lambda: self._settings.settings.publish,
-            lambda: "" if control.is_live else REWOUND,
-        )
 
     def _services(self, strict: bool) -> Services:
         """Make what all displays share."""

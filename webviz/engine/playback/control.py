@@ -101,14 +101,14 @@ class PlaybackControl:
         if not self.is_live:
             self.seek(END_NS)
 
-    def switch(self, change: Callable[[], None]) -> None:
+    def switch(self, change: Callable[[], Playable]) -> None:
         """Put another recording in the place of what is played; the clock goes on steadily.
 
         Args:
-            change: makes `playback` that of the other recording.
+            change: shows the other recording, and returns it.
         """
         before_ns = self.playback.position_ns
-        change()
+        self.playback = change()
         self._offset_ns += before_ns - self.playback.position_ns
         self._end_replay()
         self._is_returning = self._has_to_jump = False

@@ -15,7 +15,7 @@ import numpy as np
 from webviz.api.pictures import Packet
 from webviz.engine.commands import Command, Seek
 from webviz.engine.loop import FrameLoop
-from webviz.engine.state import Row
+from webviz.engine.state import Row, State
 from webviz.files import opening
 from webviz.files.config import Config
 from webviz.shell.app.reading import read_config
@@ -49,8 +49,8 @@ class BagViewer:
         """One turn of the frame loop."""
         self.loop.turn()
 
-    def do(self, command: Command) -> None:
-        """Carry out a command, and turn until it is answered and drawn.
+    def do(self, command: Command) -> State:
+        """Carry out a command, turn until it is answered and drawn, and return the state then.
 
         Raises:
             webviz.Error: it is refused.
@@ -59,6 +59,7 @@ class BagViewer:
         self.turn_until(answer.done)
         answer.result()
         self.settle()
+        return self.loop.state()
 
     def play_to(self, at_s: float) -> None:
         """Play from the position to a time, in seconds from the start, as fast as possible."""
@@ -90,12 +91,7 @@ class BagViewer:
 
     def shown(self) -> dict[str, Any]:
         """Return the nodes that are seen of each display, with their poses in the fixed frame."""
-        found: dict[str, Any] = {}
-        for row in self.loop.state().rows:
-            nodes = [(pose, node) for _, pose, node in self.scene.visible(f"{row.id}/")]
-            # In which slot of a display a sample is drawn makes no difference.
-            found[f"{row.id} {row.name}"] = sorted(nodes, key=repr)
-        return found
+        return shown(self.loop, self.scene)
 
     @property
     def rows(self) -> Sequence[Row]:
@@ -150,6 +146,16 @@ def check_seeks(
                         f"{display} differs at {at_s:g} s after a seek from {before_s:g} s:\n"
                         f"  sought: {_summary(found)}\n  played: {_summary(expected)}"
                     )
+
+
+def shown(loop: FrameLoop, scene: RecordingScene) -> dict[str, Any]:
+    """Return the nodes that are seen of each display, with their poses in the fixed frame."""
+    found: dict[str, Any] = {}
+    for row in loop.state().rows:
+        nodes = [(pose, node) for _, pose, node in scene.visible(f"{row.id}/")]
+        # In which slot of a display a sample is drawn makes no difference.
+        found[f"{row.id} {row.name}"] = sorted(nodes, key=repr)
+    return found
 
 
 def plain(value: Any) -> Any:
