@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import ast
 import atexit
+import fcntl
 import gc
 import os
 import shutil
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from importlib.metadata import entry_points
 from pathlib import Path
 from typing import Any
@@ -94,15 +95,25 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Producer) -> FolderS
 def pytest_configure() -> None:
     """Check the installation, and give viewers that tests start a folder of their own."""
     _check_entry_points()
+    gc.set_threshold(20_000, 20, 20)
     os.environ["XDG_STATE_HOME"] = tempfile.mkdtemp(prefix="webviz-tests-")
     atexit.register(shutil.rmtree, os.environ["XDG_STATE_HOME"], ignore_errors=True)
 
 
+@pytest.hookimpl(wrapper=True)
+def pytest_make_collect_report(collector: pytest.Collector) -> Generator[None, Any, Any]:
+    """Let one process compile a test file, which takes longer than to load it, for the others."""
+    if not isinstance(collector, pytest.Module):
+        return (yield)
+    with collector.path.open() as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        return (yield)
+
+
 def pytest_collection_finish() -> None:
-    """Collect garbage less often, and never look at what was imported: that takes a sixth."""
+    """Never let the garbage collector look at what was imported: that takes a sixth."""
     gc.collect()
     gc.freeze()
-    gc.set_threshold(20_000, 20, 20)
 
 
 def _check_entry_points() -> None:
