@@ -35,7 +35,7 @@ const RULES = `
 
 /** @param {Page} page */
 export default function install(page) {
-  const { el, foldByKey, icon, iconButton, indent, rowList, set, setText } = page;
+  const { el, foldByKey, icon, iconButton, indent, rowList, searchField, set, setText } = page;
   const { style, svgElement, timeOfDay, touchable, widget } = page;
   style("diagnostics", RULES);
   /** @type {Map<string, {at: number, values: number[]}>} */
@@ -85,13 +85,7 @@ export default function install(page) {
     let opened = null;
     const empty = el("div", { class: "wv-empty", role: "status" });
     const summary = el("span", { class: "wv-quiet" });
-    const search = el("input", {
-      class: "wv-field",
-      type: "search",
-      placeholder: "Filter",
-      "aria-label": "Filter diagnostics",
-      oninput: draw,
-    });
+    const search = searchField("Filter diagnostics", draw, { placeholder: "Filter" });
     const detail = el("div", { class: "wv-plugin-detail wv-diagnostic-detail", hidden: true });
     const list = rowList({
       label: "Diagnostics",

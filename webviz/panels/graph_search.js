@@ -11,7 +11,7 @@ import { finder } from "./graph_view.js";
  * @param {Page} page
  * @param {{boxes: () => Iterable<Box>, changed: () => void, goTo: (box: Box) => void}} graph
  */
-export function makeSearch({ el }, { boxes, changed, goTo }) {
+export function makeSearch({ searchField }, { boxes, changed, goTo }) {
   let hit = -1; // of those that are found
   const isFound = () => finder(element.value);
 
@@ -30,13 +30,6 @@ export function makeSearch({ el }, { boxes, changed, goTo }) {
     goTo(found[hit]);
   }
 
-  const element = el("input", {
-    class: "wv-field",
-    type: "search",
-    placeholder: "Find nodes and topics",
-    "aria-label": "Find nodes and topics",
-    oninput: onInput,
-    onkeydown: onKey,
-  });
+  const element = searchField("Find nodes and topics", onInput, { onkeydown: onKey });
   return { element, isFound };
 }

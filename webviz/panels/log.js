@@ -46,6 +46,7 @@ export default function install({
   el,
   iconButton,
   rowList,
+  searchField,
   set,
   setText,
   style,
@@ -73,17 +74,8 @@ export default function install({
       { class: "wv-field", "aria-label": "Lowest level", onchange: filter },
       LEVELS.map((each) => el("option", { value: each }, each)),
     );
-    /** @param {string} label */
-    const search = (label) =>
-      el("input", {
-        class: "wv-field",
-        type: "search",
-        placeholder: label,
-        "aria-label": label,
-        oninput: filter,
-      });
-    const nodes = search("Node");
-    const text = search("Text");
+    const nodes = searchField("Node", filter);
+    const text = searchField("Text", filter);
     const follow = iconButton("follow", "Follow the newest line", () => setFollowing(!isFollowing));
     const all = iconButton("copy", "Copy the visible lines", () =>
       copied(shown.map(textOf).join("\n")),

@@ -33,18 +33,12 @@ export default function install({
   style,
   ...page
 }) {
-  const { touchable, widget } = page;
+  const { searchField, touchable, widget } = page;
   style("parameters", RULES);
   widget("parameters", (_, send) => {
     /** @type {Values} */
     let shown = { node: "", rows: [], note: "", problem: "", outcome: "", undo: 0, yaml: "" };
-    const search = el("input", {
-      class: "wv-field",
-      type: "search",
-      placeholder: "Filter",
-      "aria-label": "Filter parameters",
-      oninput: draw,
-    });
+    const search = searchField("Filter parameters", draw, { placeholder: "Filter" });
     const file = el("input", { type: "file", accept: ".yaml,.yml", hidden: true, onchange: load });
     const undo = iconButton("arrow-back", "Undo the newest change", () => send({ undo: true }));
     const bar = el(

@@ -23,7 +23,7 @@ const RULES = `
 let forms = 0;
 
 /** @param {Page} page */
-export default function install({ el, messageRows, set, setText, style, widget }) {
+export default function install({ el, messageRows, set, setText, style, textButton, widget }) {
   style("sending", RULES);
   widget("form", (_, send) => {
     forms += 1;
@@ -48,22 +48,9 @@ export default function install({ el, messageRows, set, setText, style, widget }
       onchange: () => send({ yaml: yaml.value }),
     });
     const said = el("div", { class: "wv-sending-said", role: "status" });
-    const go = el("button", { type: "button", class: "wv-button", onclick: () => send({}) });
-    const repeat = el(
-      "button",
-      {
-        type: "button",
-        class: "wv-button",
-        onclick: () => send({ repeat: !shown?.repeats }),
-        hidden: true,
-      },
-      "Repeat",
-    );
-    const reset = el(
-      "button",
-      { type: "button", class: "wv-button", onclick: () => send({ reset: true }) },
-      "Defaults",
-    );
+    const go = textButton("", () => send({}));
+    const repeat = textButton("Repeat", () => send({ repeat: !shown?.repeats }), { hidden: true });
+    const reset = textButton("Defaults", () => send({ reset: true }));
     const before = el("select", {
       class: "wv-field",
       "aria-label": "History and presets",

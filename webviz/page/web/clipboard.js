@@ -1,6 +1,7 @@
 // The clipboard, also where a page may not use it: without HTTPS, from another machine.
 
 import { el } from "./dom.js";
+import { toast } from "./shell/toasts.js";
 
 /**
  * Copies a text; whether that was possible.
@@ -22,4 +23,15 @@ export async function copy(text) {
     before?.focus({ preventScroll: true });
     return isCopied;
   }
+}
+
+/**
+ * Copies a text, and tells that it is copied, or that this is not possible.
+ *
+ * @param {string} text
+ * @param {string} [done] a sentence
+ */
+export async function copyAndTell(text, done = "Copied.") {
+  if (await copy(text)) toast(done);
+  else toast("This browser does not allow copying.", { level: "error" });
 }

@@ -6,8 +6,9 @@ import { act } from "./act.js";
 import { fitted } from "./charts/canvas.js";
 import { copy } from "./clipboard.js";
 import { indent, keyOf, rowList, touchable } from "./controls/rows.js";
+import { searchField } from "./controls/search_field.js";
 import { el, set, setChildren, setText, svgElement } from "./dom.js";
-import { icon, iconButton } from "./icons.js";
+import { icon, iconButton, textButton } from "./icons.js";
 import { overlay } from "./overlay/overlay.js";
 import { foldByKey } from "./panels/folds.js";
 import { messageRows } from "./panels/message_rows.js";
@@ -62,6 +63,7 @@ const page = Object.freeze({
   planeAt,
   requestRender,
   rowList,
+  searchField,
   set,
   setChildren,
   setText,
@@ -69,6 +71,7 @@ const page = Object.freeze({
   surfaceAt,
   svgElement,
   tellLive,
+  textButton,
   timeOfDay,
   toast,
   touchable,

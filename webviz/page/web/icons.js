@@ -2,6 +2,8 @@
 
 import { el, svg } from "./dom.js";
 
+/** @import {Attribute} from "./types.js" */
+
 /** @type {Record<string, string>} */
 const PATHS = {
   "arrow-back": "M9 14 4 9l5-5M4 9h10a6 6 0 0 1 0 12h-3",
@@ -80,15 +82,38 @@ export function icon(name, size = 16) {
 }
 
 /**
- * A button with an icon, whose label is its tooltip, too.
+ * A button with an icon, whose label is its tooltip, too, unless it has a `tip`.
  *
  * @param {string} name
  * @param {string} label
- * @param {() => unknown} onclick
+ * @param {(event: MouseEvent) => unknown} onclick
+ * @param {Record<string, Attribute> & {tip?: string, size?: number}} [options] and other attributes
  */
-export const iconButton = (name, label, onclick) =>
+export const iconButton = (name, label, onclick, { tip = label, size, ...attributes } = {}) =>
   el(
     "button",
-    { type: "button", class: "wv-icon", "aria-label": label, "data-tip": label, onclick },
-    icon(name),
+    {
+      type: "button",
+      class: "wv-icon",
+      "aria-label": label,
+      "data-tip": tip,
+      onclick,
+      ...attributes,
+    },
+    icon(name, size),
+  );
+
+/**
+ * A button with words, behind an icon if it has one.
+ *
+ * @param {string} text
+ * @param {(event: MouseEvent) => unknown} onclick
+ * @param {Record<string, Attribute> & {tip?: string, icon?: string}} [options] and other attributes
+ */
+export const textButton = (text, onclick, { tip, icon: name, ...attributes } = {}) =>
+  el(
+    "button",
+    { type: "button", class: "wv-button", "data-tip": tip, onclick, ...attributes },
+    name ? icon(name) : null,
+    text,
   );

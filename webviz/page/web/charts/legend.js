@@ -2,7 +2,7 @@
 
 import { needs } from "../access.js";
 import { el, setChildren, setText } from "../dom.js";
-import { icon } from "../icons.js";
+import { iconButton } from "../icons.js";
 import { sumsText, valueText } from "./readings.js";
 
 /** @import {Curve, Range} from "../types.js" */
@@ -29,17 +29,10 @@ export function makeLegend(remove) {
     const sums = el("div", { class: "wv-chart-sums wv-quiet wv-number" });
     const swatch = el("span", { class: "wv-chart-swatch" });
     swatch.style.background = colorOf(key);
-    const button = el(
-      "button",
-      {
-        type: "button",
-        class: "wv-icon",
-        "aria-label": `Remove ${name}`,
-        "data-tip": "Remove",
-        onclick: () => remove(name),
-      },
-      icon("close", 12),
-    );
+    const button = iconButton("close", `Remove ${name}`, () => remove(name), {
+      tip: "Remove",
+      size: 12,
+    });
     const parts = name.split(/(?=[./[{])/).flatMap((part) => [el("wbr"), part]);
     const line = el(
       "div",

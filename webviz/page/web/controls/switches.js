@@ -2,7 +2,7 @@
 // hundreds of names.
 
 import { el, set, setChildren, setText } from "../dom.js";
-import { icon } from "../icons.js";
+import { icon, textButton } from "../icons.js";
 import { sanitized } from "../sanitize.js";
 import { watch } from "../stores.js";
 import { wordsOf } from "../words.js";
@@ -50,17 +50,7 @@ export function switches({ offered }, { label, change, refused }) {
    * @param {boolean} value
    * @param {string} tip
    */
-  const button = (text, value, tip) =>
-    el(
-      "button",
-      {
-        type: "button",
-        class: "wv-button",
-        "data-tip": tip,
-        onclick: () => put(shown, value),
-      },
-      text,
-    );
+  const button = (text, value, tip) => textButton(text, () => put(shown, value), { tip });
   const buttons = [
     button("All", true, `Switch on all ${noun} in the list`),
     button("None", false, `Switch off all ${noun} in the list`),

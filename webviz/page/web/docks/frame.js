@@ -1,7 +1,7 @@
 // The frame of a panel that is not in the tabs: its head, and what it shows.
 
 import { el, set, setText } from "../dom.js";
-import { icon } from "../icons.js";
+import { iconButton } from "../icons.js";
 
 /** @import {Panel} from "../types.js" */
 
@@ -11,16 +11,9 @@ import { icon } from "../icons.js";
  */
 export function makeFrame(panel, { menu, full, close }) {
   const title = el("b", {}, panel.title);
-  /** @param {string} name @param {string} label @param {(event: MouseEvent) => void} run */
-  const button = (name, label, run) =>
-    el(
-      "button",
-      { type: "button", class: "wv-icon", "aria-label": label, "data-tip": label, onclick: run },
-      icon(name),
-    );
-  const more = button("dots", "More for this panel", () => menu(more));
-  const whole = button("fullscreen", "Full screen", full);
-  const back = button("close", "Back to the tabs", close);
+  const more = iconButton("dots", "More for this panel", () => menu(more));
+  const whole = iconButton("fullscreen", "Full screen", full);
+  const back = iconButton("close", "Back to the tabs", close);
   const head = el(
     "header",
     { class: "wv-docked-head", ondblclick: full },

@@ -1,9 +1,8 @@
 // The saved layouts in the menu and in the list of commands.
 
 import { act } from "../act.js";
-import { el } from "../dom.js";
 import { provide } from "../shell/commands.js";
-import { openDialog } from "../shell/dialog.js";
+import { askName } from "../shell/dialog.js";
 import { clear, savedLayouts } from "./docks.js";
 import { openWindow } from "./windows.js";
 
@@ -62,24 +61,12 @@ export function install() {
 const show = (name) => act("SetLayout", { layout: name });
 
 async function save() {
-  const taken = new Set(savedLayouts().map(({ name }) => name));
-  let number = 1;
-  while (taken.has(`Layout ${number}`)) number += 1;
-  const field = el("input", {
-    class: "wv-field",
-    type: "text",
-    "aria-label": "Name of the layout",
-    value: savedLayouts().find(({ is_shown }) => is_shown)?.name ?? `Layout ${number}`,
-    autofocus: true,
-    onfocus: (/** @type {FocusEvent & {target: HTMLInputElement}} */ { target }) => target.select(),
-  });
-  const answer = await openDialog({
+  const saved = savedLayouts();
+  const name = await askName("layout", {
     title: "Save the layout of the panels",
-    content: field,
-    buttons: [
-      { label: "Cancel", value: null },
-      { label: "Save", value: true, primary: true },
-    ],
+    confirm: "Save",
+    taken: saved.map((each) => each.name),
+    value: saved.find(({ is_shown }) => is_shown)?.name,
   });
-  if (answer) act("SaveLayout", { name: field.value.trim() });
+  if (name !== null) act("SaveLayout", { name });
 }

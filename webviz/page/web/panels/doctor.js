@@ -2,11 +2,10 @@
 
 import { needs } from "../access.js";
 import { act } from "../act.js";
-import { copy } from "../clipboard.js";
+import { copyAndTell } from "../clipboard.js";
 import { el, set, setText } from "../dom.js";
-import { icon } from "../icons.js";
+import { iconButton, textButton } from "../icons.js";
 import { timeOfDay } from "../shell/time_text.js";
-import { toast } from "../shell/toasts.js";
 import { openPanel } from "../shell/layout.js";
 import { watch } from "../stores.js";
 import { GLOBAL } from "./displays/model.js";
@@ -134,7 +133,7 @@ const fact = ([name, value]) => `${name} ${value}`;
 function goTo([at, position]) {
   const text = `Go to ${clock(at)}`;
   const onclick = () => act("Seek", { at_s: position });
-  return needs("Seek", el("button", { type: "button", class: "wv-button", onclick }, text));
+  return needs("Seek", textButton(text, onclick));
 }
 
 /**
@@ -166,22 +165,10 @@ const paragraph = (text) => (text.startsWith("    ") ? typed(text.trim()) : el("
 function typed(command) {
   const made = el("code", { class: "wv-finding-command" });
   setText(made, command);
-  const take = async () =>
-    toast((await copy(command)) ? "Copied." : "The browser does not allow it.");
   return el(
     "div",
     { class: "wv-finding-typed" },
     made,
-    el(
-      "button",
-      {
-        type: "button",
-        class: "wv-icon",
-        "aria-label": "Copy the command",
-        "data-tip": "Copy",
-        onclick: take,
-      },
-      icon("copy"),
-    ),
+    iconButton("copy", "Copy the command", () => copyAndTell(command), { tip: "Copy" }),
   );
 }

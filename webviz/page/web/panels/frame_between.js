@@ -1,11 +1,10 @@
 // Two frames, and the transform between them.
 
-import { copy } from "../clipboard.js";
+import { copyAndTell } from "../clipboard.js";
 import { combobox } from "../controls/combobox.js";
 import { el, set, setText } from "../dom.js";
-import { icon } from "../icons.js";
+import { iconButton } from "../icons.js";
 import { recall, remember } from "../remember.js";
-import { toast } from "../shell/toasts.js";
 import { watch } from "../stores.js";
 import { spanText } from "./units.js";
 
@@ -58,31 +57,11 @@ export function between() {
       change: (value) => change(which, value),
     });
   const boxes = { source: pick("source", "Frame"), target: pick("target", "In frame") };
-  const swap = el(
-    "button",
-    {
-      type: "button",
-      class: "wv-icon",
-      title: "Swap the frames",
-      "aria-label": "Swap the frames",
-      onclick: () => {
-        [chosen.target, chosen.source] = [chosen.source, chosen.target];
-        follow();
-      },
-    },
-    icon("refresh"),
-  );
-  const copyButton = el(
-    "button",
-    {
-      type: "button",
-      class: "wv-icon",
-      title: "Copy",
-      "aria-label": "Copy transform",
-      onclick: copyAll,
-    },
-    icon("copy"),
-  );
+  const swap = iconButton("refresh", "Swap the frames", () => {
+    [chosen.target, chosen.source] = [chosen.source, chosen.target];
+    follow();
+  });
+  const copyButton = iconButton("copy", "Copy transform", copyAll, { tip: "Copy" });
   const rows = Object.entries(ROWS).map(([name, title]) => {
     const value = el("dd", { class: "wv-number" });
     return {
@@ -165,12 +144,9 @@ export function between() {
       : `At the newest common time, ${spanText(Math.max(0, age))} ago.`;
   }
 
-  async function copyAll() {
+  function copyAll() {
     const text = rows.map(({ name, value }) => `${name}: ${value.textContent}`).join("\n");
-    const isDone = await copy(`${chosen.source} in ${chosen.target}\n${text}\n`);
-    toast(isDone ? "Copied." : "This browser does not allow copying.", {
-      level: isDone ? "ok" : "error",
-    });
+    copyAndTell(`${chosen.source} in ${chosen.target}\n${text}\n`);
   }
 
   /** @param {string[]} names */

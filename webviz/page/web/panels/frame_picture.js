@@ -1,5 +1,6 @@
 // The tree of frames as a picture, in a dialog: moved by dragging, zoomed by the wheel, searched.
 
+import { searchField } from "../controls/search_field.js";
 import { el, set, setText } from "../dom.js";
 import { listenToPanning } from "../panning.js";
 import { openDialog } from "../shell/dialog.js";
@@ -45,14 +46,7 @@ export async function openFramePicture(detailOf) {
     role: "img",
     autofocus: true,
   });
-  const search = el("input", {
-    class: "wv-field",
-    type: "search",
-    placeholder: "Find frames",
-    "aria-label": "Find frames",
-    oninput: () => ((hit = -1), soon()),
-    onkeydown: onSearchKey,
-  });
+  const search = searchField("Find frames", () => ((hit = -1), soon()), { onkeydown: onSearchKey });
   const count = el("span", { class: "wv-quiet", role: "status" });
   const detail = el("p", { class: "wv-frame-detail", role: "status" }, HINT);
 

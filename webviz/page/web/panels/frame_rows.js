@@ -1,9 +1,8 @@
 // The tree of frames as rows.
 
-import { indent } from "../controls/rows.js";
 import { el, set, setText } from "../dom.js";
-import { icon } from "../icons.js";
 import { wordsOf } from "../words.js";
+import { foldMark, showFold } from "./folds.js";
 import { rateText, spanText } from "./units.js";
 
 /** @import {Frame} from "../contents.js" */
@@ -84,7 +83,7 @@ export function makeFrame() {
   return el(
     "div",
     { class: "wv-frame" },
-    el("span", { class: "wv-fold-mark" }, icon("chevron", 12)),
+    foldMark(),
     el("span", { class: "wv-frame-name wv-ellipsis" }),
     el("span", { class: "wv-frame-node wv-ellipsis wv-quiet" }),
     el("span", { class: "wv-frame-fact wv-quiet wv-number" }),
@@ -100,8 +99,7 @@ export function makeFrame() {
  * @param {FrameRow} frameRow
  */
 export function updateFrame(row, { name, depth, isOpen, frame, isLoop }) {
-  const [fold, label, node, fact, age, dot] = row.children;
-  set(fold, { "data-open": isOpen ? "" : null, "data-none": isOpen === null ? "" : null });
+  const [, label, node, fact, age, dot] = row.children;
   setText(label, name + (isLoop ? " (loop)" : ""));
   setText(node, frame?.nodes.join(", ") ?? "");
   setText(fact, factOf(frame));
@@ -111,12 +109,8 @@ export function updateFrame(row, { name, depth, isOpen, frame, isLoop }) {
     "data-level": problems.length ? "warn" : null,
     "data-tip": problems.join("\n") || null,
   });
-  set(row, {
-    "data-tip": [name, ...problems].join("\n"),
-    "aria-level": depth + 1,
-    "aria-expanded": isOpen === null ? null : String(isOpen),
-  });
-  indent(row, depth);
+  set(row, { "data-tip": [name, ...problems].join("\n") });
+  showFold(row, { depth, isOpen });
 }
 
 /**

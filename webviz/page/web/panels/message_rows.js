@@ -1,10 +1,10 @@
 // A message as rows that fold, which arrow keys move through.
 
 import { needs } from "../access.js";
-import { indent, keyOf, rowList, touchable } from "../controls/rows.js";
+import { keyOf, rowList, touchable } from "../controls/rows.js";
 import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
-import { foldByKey } from "./folds.js";
+import { foldByKey, foldMark, showFold } from "./folds.js";
 import { rowsOf } from "./message_tree.js";
 import { plotField } from "./plot_field.js";
 
@@ -90,7 +90,7 @@ function makeRow(plot) {
   return el(
     "div",
     { class: "wv-field-row" },
-    el("span", { class: "wv-fold-mark" }, icon("chevron", 12)),
+    foldMark(),
     el("span", { class: "wv-field-name" }),
     el("span", { class: "wv-field-value wv-ellipsis" }),
     plot,
@@ -102,15 +102,10 @@ function makeRow(plot) {
  * @param {MessageRow} row
  */
 function updateRow(element, row) {
-  const [fold, name, value, plot] = element.children;
+  const [, name, value, plot] = element.children;
   set(plot, { hidden: !NUMBER.test(row.value) });
-  set(fold, { "data-open": row.isOpen ? "" : null, "data-none": row.isOpen === null ? "" : null });
   setText(name, row.name);
   setText(value, row.value);
   set(value, { "data-tip": row.value.length > 30 ? row.value : null });
-  set(element, {
-    "aria-level": row.depth + 1,
-    "aria-expanded": row.isOpen === null ? null : String(row.isOpen),
-  });
-  indent(element, row.depth);
+  showFold(element, row);
 }

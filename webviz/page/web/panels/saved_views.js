@@ -3,7 +3,7 @@
 import { needs, why } from "../access.js";
 import { act } from "../act.js";
 import { el, set, setChildren, setText } from "../dom.js";
-import { icon } from "../icons.js";
+import { icon, iconButton, textButton } from "../icons.js";
 
 /** @import {SavedView} from "../contents.js" */
 
@@ -33,17 +33,10 @@ export function savedViews() {
     name,
     el("button", { type: "submit", class: "wv-button" }, icon("save"), "Save"),
   );
-  const start = el(
-    "button",
-    {
-      type: "button",
-      class: "wv-button",
-      "data-tip": "New browsers and pictures begin with this view",
-      onclick: () => act("StartWithView"),
-    },
-    icon("flag"),
-    "Start with this",
-  );
+  const start = textButton("Start with this", () => act("StartWithView"), {
+    tip: "New browsers and pictures begin with this view",
+    icon: "flag",
+  });
   const element = el(
     "section",
     { class: "wv-view", "aria-label": "Saved views" },
@@ -165,15 +158,5 @@ function line(name) {
  * @param {() => unknown} run
  */
 function tool(iconName, tip, run) {
-  return el(
-    "button",
-    {
-      type: "button",
-      class: "wv-icon",
-      "aria-label": tip,
-      "data-tip": tip,
-      onclick: run,
-    },
-    icon(iconName, 14),
-  );
+  return iconButton(iconName, tip, run, { size: 14 });
 }

@@ -1,16 +1,15 @@
 // The panel "Selection": what this page has selected in the scene, as a tree of values.
 
-import { copy } from "../clipboard.js";
-import { indent, rowList, touchable } from "../controls/rows.js";
+import { copyAndTell } from "../clipboard.js";
+import { rowList, touchable } from "../controls/rows.js";
 import { el, set, setText } from "../dom.js";
-import { icon } from "../icons.js";
-import { toast } from "../shell/toasts.js";
+import { icon, iconButton, textButton } from "../icons.js";
 import { openPanel } from "../shell/layout.js";
 import { watch } from "../stores.js";
 import { select } from "../tools/registry.js";
 import * as tool from "../tools/select.js";
 import * as selection from "../tools/selection.js";
-import { foldByKey } from "./folds.js";
+import { foldByKey, foldMark, showFold } from "./folds.js";
 import { rowsOf, textOf } from "./message_tree.js";
 import { statisticsRows, statisticsText } from "./statistics.js";
 import { showFrame } from "./transforms.js";
@@ -39,21 +38,10 @@ export const selectionPanel = {
     /** @type {Set<string>} */
     let frames = new Set();
 
-    /**
-     * @param {string} label
-     * @param {string} iconName
-     * @param {() => unknown} onclick
-     */
-    const button = (label, iconName, onclick) =>
-      el(
-        "button",
-        { type: "button", class: "wv-icon", title: label, "aria-label": label, onclick },
-        icon(iconName),
-      );
     const count = el("span", { class: "wv-selection-count", role: "status" });
-    const look = button("Look at the selection", "focus", tool.lookAtSelection);
-    const copyAll = button("Copy all values", "copy", () => copied(textOfAll(values)));
-    const clear = button("Clear the selection", "close", () => selection.change("replace", []));
+    const look = iconButton("focus", "Look at the selection", tool.lookAtSelection);
+    const copyAll = iconButton("copy", "Copy all values", () => copyAndTell(textOfAll(values)));
+    const clear = iconButton("close", "Clear the selection", () => selection.change("replace", []));
     const note = el("div", { class: "wv-selection-note wv-quiet", hidden: true });
     const list = rowList({
       label: "Selection",
@@ -65,16 +53,7 @@ export const selectionPanel = {
       choose,
       onKey,
     });
-    const start = el(
-      "button",
-      {
-        type: "button",
-        class: "wv-button",
-        onclick: () => select(tool.select),
-      },
-      icon("select"),
-      "Select",
-    );
+    const start = textButton("Select", () => select(tool.select), { icon: "select" });
     const empty = el(
       "div",
       { class: "wv-empty" },
@@ -138,7 +117,7 @@ export const selectionPanel = {
      * @returns {unknown}
      */
     function choose(row) {
-      if (row.isOpen === null) return copied(row.value);
+      if (row.isOpen === null) return copyAndTell(row.value);
       folds.set(row.key, !row.isOpen);
       show();
     }
@@ -156,7 +135,7 @@ export const selectionPanel = {
       return el(
         "div",
         { class: "wv-field-row" },
-        el("span", { class: "wv-fold-mark" }, icon("chevron", 12)),
+        foldMark(),
         el("span", { class: "wv-field-name" }),
         el("span", { class: "wv-field-value wv-ellipsis" }),
         el(
@@ -181,20 +160,17 @@ export const selectionPanel = {
       row,
       { name, value, depth, isOpen, isThing = false, isStatistics = false, remark = "" },
     ) {
-      const [fold, label, text, link] = row.children;
-      set(fold, { "data-open": isOpen ? "" : null, "data-none": isOpen === null ? "" : null });
+      const [, label, text, link] = row.children;
       setText(label, name);
       setText(text, isThing && remark ? `${value} · replaced` : value);
       set(row, {
-        "aria-level": depth + 1,
-        "aria-expanded": isOpen === null ? null : String(isOpen),
         "data-thing": isThing,
         "data-statistics": isStatistics,
         "data-tip": remark || (isOpen === null ? `${value}\nClick to copy` : null),
       });
       const frame = FRAMES.has(name) && frames.has(value) ? value : null;
       set(link, { hidden: frame === null, "data-frame": frame });
-      indent(row, depth);
+      showFold(row, { depth, isOpen });
     }
 
     /** @param {MouseEvent} event */
@@ -245,11 +221,3 @@ const textOfAll = (values) =>
       return `${head}\n${textOf(/** @type {Fields} */ (thing.tree), "  ")}\n`;
     })
     .join("");
-
-/** @param {string} text */
-async function copied(text) {
-  const isDone = await copy(text);
-  toast(isDone ? "Copied." : "This browser does not allow copying.", {
-    level: isDone ? "ok" : "error",
-  });
-}

@@ -1,12 +1,11 @@
 // The panel "Tools": what this page has sent, and RViz's Tool Properties.
 
 import { act } from "../act.js";
-import { copy } from "../clipboard.js";
+import { copyAndTell } from "../clipboard.js";
 import { form } from "../controls/form.js";
 import { el, set, setChildren, setText } from "../dom.js";
 import { iconButton } from "../icons.js";
 import { ask } from "../shell/dialog.js";
-import { toast } from "../shell/toasts.js";
 import { watch } from "../stores.js";
 import { tell, tellLive } from "../tools/hint.js";
 import * as history from "../tools/history.js";
@@ -134,12 +133,11 @@ async function sendAgain(entry) {
 }
 
 /** @param {SentGesture} entry */
-async function copyYaml({ messages }) {
+function copyYaml({ messages }) {
   const texts = messages.map(
     ({ topic, type, values }) => `# ${topic}: ${type}\n${yaml(/** @type {object} */ (values))}`,
   );
-  if (await copy(texts.join("---\n"))) toast("Copied as YAML.");
-  else toast("The browser does not allow copying.", { level: "error" });
+  copyAndTell(texts.join("---\n"), "Copied as YAML.");
 }
 
 /**

@@ -4,6 +4,7 @@ import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
 import { recall, remember } from "../remember.js";
 import { rowList, touchable } from "../controls/rows.js";
+import { searchField } from "../controls/search_field.js";
 import { watch } from "../stores.js";
 import { inspector } from "./topics_inspector.js";
 import { arranged, COLUMNS, makeHead, makeRow, updateRow } from "./topics_table.js";
@@ -29,13 +30,7 @@ export const topics = {
     /** @type {ReturnType<typeof inspector> | null} */
     let inspected = null;
 
-    const search = el("input", {
-      class: "wv-field",
-      type: "search",
-      placeholder: "Filter topics",
-      "aria-label": "Filter topics",
-      oninput: show,
-    });
+    const search = searchField("Filter topics", show);
     const head = makeHead(sortBy);
     const table = el("div", { class: "wv-topics-table" }, head.element);
     const list = rowList({

@@ -2,10 +2,10 @@
 
 import { needs } from "../access.js";
 import { act } from "../act.js";
-import { copy } from "../clipboard.js";
+import { copyAndTell } from "../clipboard.js";
 import { wallNow } from "../clock.js";
 import { el, set, setText } from "../dom.js";
-import { icon } from "../icons.js";
+import { iconButton, textButton } from "../icons.js";
 import { openMenuBelow } from "../shell/menu.js";
 import { toast } from "../shell/toasts.js";
 import { watch } from "../stores.js";
@@ -35,25 +35,13 @@ export function inspector(place, name, dismiss) {
   let receivedAt = 0;
   let size = 0;
 
-  /**
-   * @param {string} label
-   * @param {string} iconName
-   * @param {() => unknown} onclick
-   */
-  const button = (label, iconName, onclick) =>
-    el(
-      "button",
-      { type: "button", class: "wv-icon", title: label, "aria-label": label, onclick },
-      icon(iconName),
-    );
-  const show = el(
-    "button",
-    { type: "button", class: "wv-button", onclick: add },
-    icon("plus"),
-    "Show",
-  );
+  const show = textButton("Show", add, { icon: "plus" });
   needs("AddDisplay", show);
-  const copyMessage = button("Copy message", "file", () => message && copied(textOf(message)));
+  const copyMessage = iconButton(
+    "file",
+    "Copy message",
+    () => message && copyAndTell(textOf(message)),
+  );
   const facts = el("div", { class: "wv-topic-facts wv-quiet" });
   const why = el("div", { class: "wv-topic-why wv-quiet", hidden: true });
   const age = el("div", { class: "wv-topic-age wv-quiet wv-number" });
@@ -68,9 +56,9 @@ export function inspector(place, name, dismiss) {
         {},
         el("h3", { class: "wv-ellipsis", title: name }, name),
         show,
-        button("Copy name", "copy", () => copied(name)),
+        iconButton("copy", "Copy name", () => copyAndTell(name)),
         copyMessage,
-        button("Close", "close", dismiss),
+        iconButton("close", "Close", dismiss),
       ),
       facts,
       why,
@@ -79,14 +67,6 @@ export function inspector(place, name, dismiss) {
       tree.element,
     ),
   );
-
-  /** @param {string} text */
-  async function copied(text) {
-    const isDone = await copy(text);
-    toast(isDone ? "Copied." : "This browser does not allow copying.", {
-      level: isDone ? "ok" : "error",
-    });
-  }
 
   async function add() {
     /** @param {GraphTopic["show"][number]} fit */

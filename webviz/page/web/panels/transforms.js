@@ -2,12 +2,14 @@
 
 import { act } from "../act.js";
 import { keyOf, rowList, touchable } from "../controls/rows.js";
+import { searchField } from "../controls/search_field.js";
 import { el, set, setText } from "../dom.js";
-import { icon } from "../icons.js";
+import { icon, iconButton, textButton } from "../icons.js";
 import { recall, remember } from "../remember.js";
 import { watch } from "../stores.js";
 import { needs } from "../access.js";
 import { tryFrame } from "../tools/what_if.js";
+import { foldByKey } from "./folds.js";
 import { between } from "./frame_between.js";
 import { openFramePicture } from "./frame_picture.js";
 import { ageText, factOf, frameNames, frameRows, makeFrame, updateFrame } from "./frame_rows.js";
@@ -38,13 +40,7 @@ export const transforms = {
     /** @type {Set<string>} */
     const folded = new Set(recall("tf-folded", []));
 
-    const search = el("input", {
-      class: "wv-field",
-      type: "search",
-      placeholder: "Filter frames",
-      "aria-label": "Filter frames",
-      oninput: show,
-    });
+    const search = searchField("Filter frames", show);
     const list = rowList({
       label: "Frames",
       role: "tree",
@@ -56,16 +52,8 @@ export const transforms = {
       onKey,
     });
     list.element.addEventListener("click", onFold, { capture: true });
-    const picture = el(
-      "button",
-      {
-        type: "button",
-        class: "wv-icon",
-        "aria-label": "Show the tree as a picture",
-        "data-tip": "Show the tree as a picture",
-        onclick: () => openFramePicture((name, frame) => detailOf({ name, frame })),
-      },
-      icon("tree"),
+    const picture = iconButton("tree", "Show the tree as a picture", () =>
+      openFramePicture((name, frame) => detailOf({ name, frame })),
     );
     const problems = el("div", {
       class: "wv-tf-problems",
@@ -75,18 +63,13 @@ export const transforms = {
     });
     const empty = el("div", { class: "wv-empty", role: "status", hidden: true });
     const facts = el("div");
-    const attempt = el(
-      "button",
-      {
-        type: "button",
-        class: "wv-button",
-        "data-tip": "Try this frame in another pose; nothing is published",
-        onclick: () => {
-          const row = list.marked();
-          if (row) tryFrame(row.name);
-        },
-      },
+    const attempt = textButton(
       "What if…",
+      () => {
+        const row = list.marked();
+        if (row) tryFrame(row.name);
+      },
+      { tip: "Try this frame in another pose; nothing is published" },
     );
     const detail = el(
       "div",
@@ -160,14 +143,10 @@ export const transforms = {
     /**
      * @param {KeyboardEvent} event
      * @param {FrameRow} row
+     * @returns {boolean}
      */
     function onKey({ key }, row) {
-      const isFold =
-        (key === "ArrowLeft" && row.isOpen) || (key === "ArrowRight" && row.isOpen === false);
-      if (isFold) toggle(row.name);
-      else if (key === "ArrowLeft" && row.depth)
-        list.mark(row.key.slice(0, row.key.lastIndexOf("\n")));
-      return isFold || key === "ArrowLeft";
+      return foldByKey(key, row, ({ name }) => toggle(name), list, "\n");
     }
 
     const end = watch("transforms", (all) => {

@@ -5,7 +5,7 @@ import * as channel from "../channel.js";
 import { form } from "../controls/form.js";
 import { FIXED_FRAME } from "../controls/frame.js";
 import { el } from "../dom.js";
-import { icon } from "../icons.js";
+import { iconButton } from "../icons.js";
 import { openMenuBelow } from "../shell/menu.js";
 import { watch } from "../stores.js";
 import { maker } from "./displays/properties.js";
@@ -103,30 +103,14 @@ export const views = {
 
 function buttons() {
   /** @type {HTMLButtonElement} */
-  const focus = el(
-    "button",
-    {
-      type: "button",
-      class: "wv-icon",
-      "aria-label": "Focus",
-      "data-tip": "Look at a display",
-      "aria-haspopup": "menu",
-      onclick: () => openDisplays(focus),
-    },
-    icon("focus"),
-  );
-  const zero = el(
-    "button",
-    {
-      type: "button",
-      class: "wv-icon",
-      "aria-label": "Zero",
-      "data-tip": "Zero this view",
-      "data-key": "z",
-      onclick: () => act("ResetView"),
-    },
-    icon("reset"),
-  );
+  const focus = iconButton("focus", "Focus", () => openDisplays(focus), {
+    tip: "Look at a display",
+    "aria-haspopup": "menu",
+  });
+  const zero = iconButton("reset", "Zero", () => act("ResetView"), {
+    tip: "Zero this view",
+    "data-key": "z",
+  });
   return [focus, zero];
 }
 

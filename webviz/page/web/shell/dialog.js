@@ -154,3 +154,30 @@ export async function ask(text, { confirm = "OK", title = "Are you sure?", dange
   ];
   return (await openDialog({ title, content: el("p", {}, text), buttons })) === true;
 }
+
+/**
+ * Asks for a name; resolves with it, null if there is none to be.
+ *
+ * @param {string} noun what has the name, such as "layout"
+ * @param {{title: string, confirm: string, taken: string[], value?: string}} options `value` is there
+ *   at first, by default one that is not `taken`
+ * @returns {Promise<string | null>}
+ */
+export async function askName(noun, { title, confirm, taken, value }) {
+  const stem = noun[0].toUpperCase() + noun.slice(1);
+  let number = 1;
+  while (taken.includes(`${stem} ${number}`)) number += 1;
+  const field = el("input", {
+    class: "wv-field",
+    type: "text",
+    "aria-label": `Name of the ${noun}`,
+    value: value ?? `${stem} ${number}`,
+    autofocus: true,
+    onfocus: (/** @type {FocusEvent & {target: HTMLInputElement}} */ { target }) => target.select(),
+  });
+  const buttons = [
+    { label: "Cancel", value: false },
+    { label: confirm, value: true, primary: true },
+  ];
+  return (await openDialog({ title, content: field, buttons })) ? field.value.trim() : null;
+}

@@ -2,7 +2,7 @@
 
 import { copy } from "../clipboard.js";
 import { el } from "../dom.js";
-import { icon } from "../icons.js";
+import { icon, iconButton } from "../icons.js";
 import { recall, remember } from "../remember.js";
 import { watch } from "../stores.js";
 
@@ -16,17 +16,7 @@ export function install(scene) {
     card.remove();
     end();
   };
-  const copyButton = el(
-    "button",
-    {
-      type: "button",
-      class: "wv-icon",
-      "aria-label": "Copy the command",
-      "data-tip": "Copy",
-      onclick: () => copy(COMMAND),
-    },
-    icon("copy"),
-  );
+  const copyButton = iconButton("copy", "Copy the command", () => copy(COMMAND), { tip: "Copy" });
   const card = el(
     "section",
     { class: "wv-first-run", "aria-label": "Nothing is published", hidden: true },

@@ -3,7 +3,7 @@
 import { needs, why } from "../access.js";
 import { layoutMenu } from "../docks/layout_menu.js";
 import { el, set, setText } from "../dom.js";
-import { icon } from "../icons.js";
+import { iconButton } from "../icons.js";
 import { actions, item } from "./actions.js";
 import * as files from "./files.js";
 import * as history from "./history.js";
@@ -47,7 +47,7 @@ export function build() {
     setTitle(files.isChanged() ? `* ${title}` : title);
   });
   /** @type {HTMLButtonElement} */
-  const more = button("dots", "Menu", null, () => openMenuBelow(more, menu(more)));
+  const more = iconButton("dots", "Menu", () => openMenuBelow(more, menu(more)));
   set(more, { "aria-haspopup": "menu" });
   return el(
     "header",
@@ -57,11 +57,11 @@ export function build() {
     roleMark(),
     el("span", { class: "wv-gap" }),
     badge(),
-    button("search", "Commands", "Ctrl+k", actions.commands.run),
+    iconButton("search", "Commands", actions.commands.run, { "data-key": "Ctrl+k" }),
     step("undo", actions.undo),
     step("redo", actions.redo),
     more,
-    button("fold", "Hide the panels", "Ctrl+b", () => fold(true)),
+    iconButton("fold", "Hide the panels", () => fold(true), { "data-key": "Ctrl+b" }),
   );
 }
 
@@ -95,34 +95,15 @@ function badge() {
 }
 
 /**
- * @param {string} iconName
- * @param {string} label
- * @param {string | null} key
- * @param {() => unknown} run
- */
-function button(iconName, label, key, run) {
-  return el(
-    "button",
-    {
-      type: "button",
-      class: "wv-icon",
-      "aria-label": label,
-      "data-tip": label,
-      "data-key": key,
-      onclick: run,
-    },
-    icon(iconName),
-  );
-}
-
-/**
  * Its tooltip names the step to undo; all steps are in a menu, by a right click or the arrow key.
  *
  * @param {Way} way
  * @param {Command & {icon: string}} action
  */
 function step(way, action) {
-  const made = button(action.icon, action.name, [action.key].flat()[0] ?? null, action.run);
+  const made = iconButton(action.icon, action.name, action.run, {
+    "data-key": [action.key].flat()[0],
+  });
   if (action.needs && why(action.needs)) return needs(action.needs, made);
   history.onSteps(() => {
     const label = history.next(way);

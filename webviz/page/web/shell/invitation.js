@@ -2,6 +2,7 @@
 
 import { act } from "../act.js";
 import { el, setText } from "../dom.js";
+import { textButton } from "../icons.js";
 
 /** @import {Commands} from "../messages.js" */
 
@@ -37,7 +38,7 @@ export function invitation(copy) {
     "End",
     ENDS.map(([label]) => label),
   );
-  const make = el("button", { type: "button", class: "wv-button", onclick: invite }, "Make a link");
+  const make = textButton("Make a link", invite);
   const problem = el("p", { class: "wv-problem", role: "alert" });
   const result = el("div", { class: "wv-invitation", hidden: true });
   name.addEventListener("keydown", (event) => {
@@ -69,7 +70,7 @@ export function invitation(copy) {
         {},
         el("p", {}, el("code", {}, link)),
         isOfThisMachine() ? el("p", { role: "note" }, LOCAL) : null,
-        el("button", { type: "button", class: "wv-button", onclick: () => copy(link) }, "Copy"),
+        textButton("Copy", () => copy(link)),
       ),
     );
     name.value = "";

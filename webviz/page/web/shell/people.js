@@ -2,12 +2,12 @@
 
 import { onRole, self, why } from "../access.js";
 import { act } from "../act.js";
-import { copy } from "../clipboard.js";
+import { copyAndTell } from "../clipboard.js";
 import { el, setText } from "../dom.js";
+import { textButton } from "../icons.js";
 import { watch } from "../stores.js";
 import { ask, openDialog } from "./dialog.js";
 import { invitation } from "./invitation.js";
-import { toast } from "./toasts.js";
 
 /** @import {JournalLine, Person, ValidLink} from "../contents.js" */
 /** @import {ValuesOf} from "../types.js" */
@@ -92,7 +92,7 @@ export async function openPeople() {
       ...(isOwner
         ? [
             el("h3", {}, "Invite"),
-            invitation(tell),
+            invitation((link) => copyAndTell(link, "Copied the link.")),
             allLinks,
             el("h3", {}, "Log"),
             el("div", { class: "wv-people-log" }, table("Log", ["Time", "Who", "What"], done)),
@@ -101,14 +101,6 @@ export async function openPeople() {
     ],
   });
   ends.forEach((end) => end());
-}
-
-/** @param {string} link */
-async function tell(link) {
-  const isDone = await copy(link);
-  toast(isDone ? "Copied the link." : "This browser does not allow copying.", {
-    level: isDone ? "ok" : "error",
-  });
 }
 
 /**
@@ -174,8 +166,7 @@ function endings(id, { name }) {
    * @param {string} tip
    * @param {() => unknown} onclick
    */
-  const button = (label, tip, onclick) =>
-    el("button", { type: "button", class: "wv-button", "data-tip": tip, onclick }, label);
+  const button = (label, tip, onclick) => textButton(label, onclick, { tip });
   const end = async () => {
     const question = `End this visit of ${who}? They may come back${name ? " with their link" : ""}.`;
     if (await ask(question, { title: "End visit", confirm: "End", danger: true })) {
@@ -215,11 +206,7 @@ function linkRow([name, { role, expires_s }]) {
     expires_s === null ? "never" : new Date(expires_s * 1000).toLocaleString(),
   );
   const onclick = async () => (await isSure(name)) && act("Revoke", { name });
-  const button = el(
-    "button",
-    { type: "button", class: "wv-button", "data-tip": CLOSES_ALL, onclick },
-    "Revoke link",
-  );
+  const button = textButton("Revoke link", onclick, { tip: CLOSES_ALL });
   row.append(el("td", {}, isOwn ? null : button));
   return row;
 }

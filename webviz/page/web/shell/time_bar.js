@@ -4,7 +4,7 @@ import { needs } from "../access.js";
 import { act } from "../act.js";
 import { rosNow, wallNow, watchTime } from "../clock.js";
 import { el, set, setText } from "../dom.js";
-import { icon } from "../icons.js";
+import { icon, iconButton } from "../icons.js";
 import { recall, remember } from "../remember.js";
 import { record } from "../timeline/record.js";
 import { share } from "../timeline/share.js";
@@ -33,17 +33,7 @@ export function build(place) {
     class: "wv-icon",
     onclick: toggle,
   });
-  const reset = el(
-    "button",
-    {
-      type: "button",
-      class: "wv-icon",
-      title: RESET_HINT,
-      "aria-label": "Reset",
-      onclick: () => act("Reset"),
-    },
-    icon("reset"),
-  );
+  const reset = iconButton("reset", "Reset", () => act("Reset"), { tip: RESET_HINT });
   const ros = el("button", { type: "button", class: "wv-ros-time", onclick: swap });
   const badge = el("span", { class: "wv-badge" });
   const elapsed = part("Elapsed", "ROS time since the viewer started or was reset");

@@ -1,9 +1,8 @@
 // The bookmarks of a recording: a menu to go to them, to add and to remove them.
 
 import { act } from "../act.js";
-import { el } from "../dom.js";
-import { icon } from "../icons.js";
-import { openDialog } from "../shell/dialog.js";
+import { iconButton } from "../icons.js";
+import { askName } from "../shell/dialog.js";
 import { openMenu } from "../shell/menu.js";
 import { duration } from "../shell/time_text.js";
 
@@ -20,17 +19,7 @@ import { duration } from "../shell/time_text.js";
 export function bookmarks(seek, position) {
   /** @type {[string, number][]} */
   let all = [];
-  const button = el(
-    "button",
-    {
-      type: "button",
-      class: "wv-icon",
-      "aria-label": "Bookmarks",
-      "data-tip": "Bookmarks: moments with names",
-      onclick: open,
-    },
-    icon("flag"),
-  );
+  const button = iconButton("flag", "Bookmarks", open, { tip: "Bookmarks: moments with names" });
 
   function open() {
     const { left, top } = button.getBoundingClientRect();
@@ -59,27 +48,12 @@ export function bookmarks(seek, position) {
 
   async function add() {
     const at = position();
-    const taken = new Set(all.map(([name]) => name));
-    let number = 1;
-    while (taken.has(`Bookmark ${number}`)) number += 1;
-    const field = el("input", {
-      class: "wv-field",
-      type: "text",
-      "aria-label": "Name of the bookmark",
-      value: `Bookmark ${number}`,
-      autofocus: true,
-      onfocus: (/** @type {FocusEvent & {target: HTMLInputElement}} */ { target }) =>
-        target.select(),
-    });
-    const answer = await openDialog({
+    const name = await askName("bookmark", {
       title: `Bookmark at ${duration(at)}`,
-      content: field,
-      buttons: [
-        { label: "Cancel", value: null },
-        { label: "Add", value: true, primary: true },
-      ],
+      confirm: "Add",
+      taken: all.map(([each]) => each),
     });
-    if (answer) act("SaveBookmark", { name: field.value.trim(), at_s: at });
+    if (name !== null) act("SaveBookmark", { name, at_s: at });
   }
 
   return {

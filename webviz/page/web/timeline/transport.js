@@ -3,7 +3,7 @@
 import { needs } from "../access.js";
 import { act } from "../act.js";
 import { el, set, setText } from "../dom.js";
-import { icon } from "../icons.js";
+import { iconButton } from "../icons.js";
 import { openMenu } from "../shell/menu.js";
 import { duration } from "../shell/time_text.js";
 import { toast } from "../shell/toasts.js";
@@ -43,12 +43,7 @@ export function transport(seek, step, topics, bookmarks) {
    * @param {string} tip
    * @param {() => unknown} onclick
    */
-  const button = (name, label, tip, onclick) =>
-    el(
-      "button",
-      { type: "button", class: "wv-icon", "aria-label": label, "data-tip": tip, onclick },
-      icon(name),
-    );
+  const button = (name, label, tip, onclick) => iconButton(name, label, onclick, { tip });
   const before = button("step-back", "Previous message", "", () => step.run(false));
   const after = button("step", "Next message", "", () => step.run(true));
   const rate = el("button", {

@@ -3,7 +3,7 @@
 import { needs } from "../access.js";
 import { act } from "../act.js";
 import { el, set, setChildren, setText } from "../dom.js";
-import { icon } from "../icons.js";
+import { icon, iconButton, textButton } from "../icons.js";
 import { watch } from "../stores.js";
 import { makePoses } from "./poses.js";
 
@@ -69,28 +69,10 @@ const posesOf = ({ poses }) =>
 function makeCard(id) {
   const title = el("b");
   const label = el("span", { class: "wv-goal-label" });
-  const dismiss = el(
-    "button",
-    {
-      type: "button",
-      class: "wv-icon",
-      "aria-label": "Dismiss",
-      "data-tip": "Dismiss",
-      onclick: () => act("DismissGoal", { goal: id }),
-    },
-    icon("close"),
-  );
+  const dismiss = iconButton("close", "Dismiss", () => act("DismissGoal", { goal: id }));
   const values = el("dl", { class: "wv-goal-values" });
   const text = el("p", { class: "wv-goal-text", role: "status" });
-  const cancel = el(
-    "button",
-    {
-      type: "button",
-      class: "wv-button",
-      onclick: () => act("CancelGoal", { goal: id }),
-    },
-    "Cancel",
-  );
+  const cancel = textButton("Cancel", () => act("CancelGoal", { goal: id }));
   const head = el(
     "div",
     { class: "wv-goal-head" },

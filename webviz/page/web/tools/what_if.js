@@ -2,10 +2,10 @@
 
 import { needs, why } from "../access.js";
 import { act } from "../act.js";
-import { copy } from "../clipboard.js";
+import { copyAndTell } from "../clipboard.js";
 import { el, set, setText } from "../dom.js";
+import { textButton } from "../icons.js";
 import { command } from "../shell/commands.js";
-import { toast } from "../shell/toasts.js";
 import { watch } from "../stores.js";
 import * as registry from "./registry.js";
 
@@ -31,26 +31,10 @@ export function whatIf() {
   const fits = el("p", { role: "status", "aria-live": "polite" });
   const urdf = line("Copy the URDF origin");
   const publisher = line("Copy the command");
-  const find = el(
-    "button",
-    {
-      type: "button",
-      class: "wv-button",
-      "data-tip": "Move it to where its scan fits the map best: x, y and yaw",
-      onclick: () => act("FindFrame", {}),
-    },
-    "Find it",
-  );
-  const done = el(
-    "button",
-    {
-      type: "button",
-      class: "wv-button",
-      "data-tip": "Return it to its published pose (Esc)",
-      onclick: end,
-    },
-    "Done",
-  );
+  const find = textButton("Find it", () => act("FindFrame", {}), {
+    tip: "Move it to where its scan fits the map best: x, y and yaw",
+  });
+  const done = textButton("Done", end, { tip: "Return it to its published pose (Esc)" });
   const element = el(
     "section",
     { class: "wv-card wv-what-if", hidden: true, "aria-label": "What if" },
@@ -98,13 +82,8 @@ export function whatIf() {
  */
 function line(label) {
   const text = el("code");
-  const take = async () =>
-    toast((await copy(text.textContent ?? "")) ? "Copied." : "The browser does not allow it.");
-  const button = el(
-    "button",
-    { type: "button", class: "wv-button", "aria-label": label, onclick: take },
-    "Copy",
-  );
+  const take = () => copyAndTell(text.textContent ?? "");
+  const button = textButton("Copy", take, { "aria-label": label });
   return {
     element: el("div", { class: "wv-what-if-line" }, text, button),
     /** @param {string} value */

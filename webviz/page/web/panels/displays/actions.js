@@ -1,9 +1,8 @@
 // Actions on displays, and their menu.
 
 import { act, newStep } from "../../act.js";
-import { copy } from "../../clipboard.js";
+import { copyAndTell } from "../../clipboard.js";
 import { openMenu } from "../../shell/menu.js";
-import { toast } from "../../shell/toasts.js";
 import { setOpen } from "./folding.js";
 import { siblings, topmost } from "./model.js";
 import { moves, step } from "./places.js";
@@ -100,8 +99,7 @@ export async function copyAsYaml(items) {
   );
   if (level === "error") return;
   const what = items.length === 1 ? items[0].name : `${items.length} displays`;
-  if (await copy(text)) toast(`Copied ${what} as YAML.`);
-  else toast("Not copied: this browser does not allow it.", { level: "error" });
+  copyAndTell(text, `Copied ${what} as YAML.`);
 }
 
 /**

@@ -2,7 +2,7 @@
 
 import { needs } from "../../access.js";
 import { el } from "../../dom.js";
-import { icon } from "../../icons.js";
+import { icon, iconButton } from "../../icons.js";
 import { openAdd } from "../../shell/add.js";
 import { command } from "../../shell/commands.js";
 import { keyText } from "../../shell/keys.js";
@@ -32,18 +32,9 @@ export const displays = {
     });
     const hint = el("kbd", { class: "wv-tree-hint", "aria-hidden": "true" }, keyText("Ctrl+f"));
     /** @type {HTMLButtonElement} */
-    const more = el(
-      "button",
-      {
-        type: "button",
-        class: "wv-icon",
-        "aria-label": "List options",
-        "aria-haspopup": "menu",
-        "data-tip": "List options",
-        onclick: () => openMenuBelow(more, menu()),
-      },
-      icon("dots"),
-    );
+    const more = iconButton("dots", "List options", () => openMenuBelow(more, menu()), {
+      "aria-haspopup": "menu",
+    });
     const add = el(
       "button",
       { type: "button", class: "wv-tree-add", onclick: () => openAdd() },
