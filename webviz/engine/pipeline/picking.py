@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields, replace
 from typing import Any, TypeVar
 
@@ -88,14 +88,7 @@ def found_in(shot: Shot, group_key: str, key: str, picks: Sequence[Pick]) -> dic
     picks = [pick for pick in picks if all(abs(c) <= REACH_M for c in pick[2])]
     if group is None or node is None or not picks:
         return {}
-    placement = group.placement
-    pose = compose(placement.offset, group.poses.get(key, Pose()))
-    frame = placement.frame or (shot.samples[-1].frame if shot.samples else "")
-
-    def found(id: Any, point: Position) -> Found:
-        hit = Hit(key, node, id, point, frame, shot.samples)
-        return Found(hit, pose, placement, shot.fixed_frame)
-
+    found = _finder(shot, group, key)
     if isinstance(node, Mesh) and node.ids is not None and len(node.faces):
         if len(node.ids) != len(node.faces):
             raise ValueError(f"a mesh has {len(node.faces)} faces, but {len(node.ids)} ids")
@@ -127,14 +120,7 @@ def every_item(shot: Shot, group_key: str, key: str, limit: int) -> Sequence[Fou
     is clicked, such as the cells of an image.
     """
     group = shot.groups[group_key]
-    node, placement = group.nodes[key], group.placement
-    pose = compose(placement.offset, group.poses.get(key, Pose()))
-    frame = placement.frame or (shot.samples[-1].frame if shot.samples else "")
-
-    def found(id: Any, point: Position) -> Found:
-        hit = Hit(key, node, id, point, frame, shot.samples)
-        return Found(hit, pose, placement, shot.fixed_frame)
-
+    node, found = group.nodes[key], _finder(shot, group, key)
     if isinstance(node, Mesh) and node.ids is None:
         return [found(None, (0.0, 0.0, 0.0))]
     if not isinstance(node, Items) or count_of(node) > limit:
@@ -143,6 +129,16 @@ def every_item(shot: Shot, group_key: str, key: str, limit: int) -> Sequence[Fou
     rows = np.arange(count_of(node)) if rows is None else rows
     points = _positions(_only(node, rows)).astype(np.float64).tolist()
     return [found(*each) for each in zip(_ids(node, rows), points, strict=True)]
+
+
+def _finder(shot: Shot, group: Group, key: str) -> Callable[[Any, Position], Found]:
+    """Return what finds an item of a node, by its id and a point on it."""
+    node, placement = group.nodes[key], group.placement
+    pose = compose(placement.offset, group.poses.get(key, Pose()))
+    frame = placement.frame or (shot.samples[-1].frame if shot.samples else "")
+    return lambda id, point: Found(
+        Hit(key, node, id, point, frame, shot.samples), pose, placement, shot.fixed_frame
+    )
 
 
 def _ids(node: Items, rows: NDArray[np.intp]) -> list[Any]:
