@@ -35,8 +35,6 @@ class ServiceCall(SendingPanel):
     """A service that is called with a request."""
 
     title = "Service call"
-    on_request = True
-    module = "sending.js"
     target = "service"
 
     service: Annotated[str, Prop(help="Full name of the service.")] = ""
@@ -51,11 +49,6 @@ class ServiceCall(SendingPanel):
         self.build_form(ui, send)
         self.response: Any = None
         self.type = ""
-
-    @property
-    def uses(self) -> tuple[str, ...]:
-        """The service."""
-        return (self.service,) if self.service.startswith("/") else ()
 
     def show(self, state: Any) -> None:
         """Show the form and the response."""
@@ -98,8 +91,6 @@ class ActionGoal(SendingPanel):
     """A goal that is sent to an action; all pages show its progress and can cancel it."""
 
     title = "Action goal"
-    on_request = True
-    module = "sending.js"
     target = "action"
 
     action: Annotated[str, Prop(help="Full name of the action.")] = ""
@@ -113,11 +104,6 @@ class ActionGoal(SendingPanel):
         """Show the form."""
         self.build_form(ui, send)
         self.type = ""
-
-    @property
-    def uses(self) -> tuple[str, ...]:
-        """The action."""
-        return (self.action,) if self.action.startswith("/") else ()
 
     def show(self, state: Any) -> None:
         """Show the form."""

@@ -24,8 +24,6 @@ class PublishMessage(SendingPanel):
     """A message that is published on a topic, once or at a rate while the tab is open."""
 
     title = "Publish"
-    on_request = True
-    module = "sending.js"
     target = "topic"
 
     topic: Annotated[str, Prop(help="Topic to publish on.")] = ""
@@ -46,11 +44,6 @@ class PublishMessage(SendingPanel):
         """Return the topic."""
         type_ = self.message_type or self.type_shown
         return {self.topic: type_} if self.topic.startswith("/") and type_ else {}
-
-    @property
-    def uses(self) -> tuple[str, ...]:
-        """The topic, also while its type is unknown."""
-        return (self.topic,) if self.topic.startswith("/") else ()
 
     def show(self, state: Any) -> None:
         """Show the form, and publish if it is time."""

@@ -41,6 +41,8 @@ DEFAULTS: Mapping[str, Any] = {
 class SendingPanel(Panel):
     """A panel with values of a message type, as a form and as YAML, which a button sends."""
 
+    on_request = True
+    module = "sending.js"
     target: ClassVar[str] = ""
     """The property that names where it is sent."""
 
@@ -58,6 +60,12 @@ class SendingPanel(Panel):
         self.history: deque[str] = deque(maxlen=HISTORY)
         self.problem = ""
         self.outcome = Status(Level.OK, "")
+
+    @property
+    def uses(self) -> tuple[str, ...]:
+        """The name of the target, also while its type is unknown."""
+        name = getattr(self, self.target)
+        return (name,) if name.startswith("/") else ()
 
     def build_form(self, ui: Ui, send: Send) -> None:
         """Add the form."""
