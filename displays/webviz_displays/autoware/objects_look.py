@@ -9,6 +9,8 @@ import msgspec
 from webviz import Color, Prop, Rgb
 
 ON = ("value", True)
+WHITE, BLUE, MAROON = (255, 255, 255), (30, 144, 255), (119, 11, 32)
+PINK, HOT_PINK, RED = (255, 192, 203), (255, 105, 180), (255, 69, 0)
 
 
 class ClassColors(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -16,39 +18,21 @@ class ClassColors(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
 
     value: Annotated[bool, Prop(help="Use these colours instead of one for all.")] = False
     unknown: Annotated[Color, Prop(rviz="UNKNOWN", when=ON, help="Colour of other objects.")] = (
-        255,
-        255,
-        255,
+        WHITE
     )
-    car: Annotated[Color, Prop(rviz="CAR", when=ON, help="Colour of cars.")] = (30, 144, 255)
-    truck: Annotated[Color, Prop(rviz="TRUCK", when=ON, help="Colour of trucks.")] = (30, 144, 255)
-    bus: Annotated[Color, Prop(rviz="BUS", when=ON, help="Colour of buses.")] = (30, 144, 255)
-    trailer: Annotated[Color, Prop(rviz="TRAILER", when=ON, help="Colour of trailers.")] = (
-        30,
-        144,
-        255,
-    )
+    car: Annotated[Color, Prop(rviz="CAR", when=ON, help="Colour of cars.")] = BLUE
+    truck: Annotated[Color, Prop(rviz="TRUCK", when=ON, help="Colour of trucks.")] = BLUE
+    bus: Annotated[Color, Prop(rviz="BUS", when=ON, help="Colour of buses.")] = BLUE
+    trailer: Annotated[Color, Prop(rviz="TRAILER", when=ON, help="Colour of trailers.")] = BLUE
     motorcycle: Annotated[
         Color, Prop(rviz="MOTORCYCLE", when=ON, help="Colour of motorcycles.")
-    ] = (119, 11, 32)
-    cyclist: Annotated[Color, Prop(rviz="CYCLIST", when=ON, help="Colour of bicycles.")] = (
-        119,
-        11,
-        32,
-    )
+    ] = MAROON
+    cyclist: Annotated[Color, Prop(rviz="CYCLIST", when=ON, help="Colour of bicycles.")] = MAROON
     pedestrian: Annotated[
         Color, Prop(rviz="PEDESTRIAN", when=ON, help="Colour of pedestrians.")
-    ] = (255, 192, 203)
-    animal: Annotated[Color, Prop(rviz="ANIMAL", when=ON, help="Colour of animals.")] = (
-        255,
-        105,
-        180,
-    )
-    hazard: Annotated[Color, Prop(rviz="HAZARD", when=ON, help="Colour of hazards.")] = (
-        255,
-        69,
-        0,
-    )
+    ] = PINK
+    animal: Annotated[Color, Prop(rviz="ANIMAL", when=ON, help="Colour of animals.")] = HOT_PINK
+    hazard: Annotated[Color, Prop(rviz="HAZARD", when=ON, help="Colour of hazards.")] = RED
 
     def of(self, name: str) -> Rgb:
         """Return the colour of a class by its name in capitals."""

@@ -24,10 +24,10 @@ from webviz import (
 from webviz.api.connection import GraphConnection
 from webviz.data.words import counted
 from webviz_displays.moveit.bodies import SLOW_BYTES, named
-from webviz_displays.moveit.octomap import Coloring, Rendering
 from webviz_displays.moveit.path_view import PREFIX, PathView, Playback
 from webviz_displays.moveit.properties import (
     ATTACHED,
+    OBJECTS,
     ROBOT_DESCRIPTION,
     AllLinks,
     AttachedBodyColor,
@@ -38,6 +38,8 @@ from webviz_displays.moveit.properties import (
     Position,
     RobotAlpha,
     RobotDescription,
+    SceneAlpha,
+    SceneColor,
     SceneGeometry,
     SceneRobot,
     ShowCollision,
@@ -46,12 +48,13 @@ from webviz_displays.moveit.properties import (
     StateDisplayTime,
     TrailStepSize,
     UseSimTime,
+    VoxelColoring,
+    VoxelRendering,
 )
 from webviz_displays.moveit.robots import RobotLook, Robots
 from webviz_displays.moveit.solutions import KnownSolution, ShownMarkers, SolutionRequest, known
 from webviz_displays.moveit.tasks import MAX_TASKS, KnownTasks, TaskStage
 from webviz_displays.moveit.world import DrawnWorld
-from webviz_displays.shared.colors import Alpha
 
 LISTED = 40
 """Stages of a task that have a status."""
@@ -80,18 +83,11 @@ class SolutionScene(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fi
     """Appearance of the scene at the point that is shown."""
 
     show_scene: Annotated[bool, Prop(rviz="Value", help="Draw the objects of the scene.")] = True
-    scene_alpha: Annotated[Alpha, Prop(help="Opacity of objects without a colour.")] = 0.9
-    scene_color: Annotated[Color, Prop(help="Colour of objects without one.")] = (50, 230, 50)
+    scene_alpha: SceneAlpha = 0.9
+    scene_color: SceneColor = OBJECTS
     attached_body_color: AttachedBodyColor = ATTACHED
-    voxel_rendering: Annotated[Rendering, Prop(help="Which voxels of the octomap to draw.")] = (
-        "Occupied Voxels"
-    )
-    voxel_coloring: Annotated[
-        Coloring,
-        Prop(
-            help="Z-Axis: magenta (low) to red (high). Cell Probability: red to green (occupied)."
-        ),
-    ] = "Z-Axis"
+    voxel_rendering: VoxelRendering = "Occupied Voxels"
+    voxel_coloring: VoxelColoring = "Z-Axis"
 
 
 class SolutionMarkers(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

@@ -39,25 +39,28 @@ AllLinks = Annotated[
 ]
 Links = Annotated[dict[str, LinkSettings], Prop(help="Settings of single links by name.")]
 
+SceneAlpha = Annotated[Alpha, Prop(help="Opacity of objects without a colour.")]
+SceneColor = Annotated[Color, Prop(help="Colour of objects without one.")]
+VoxelRendering = Annotated[Rendering, Prop(help="Which voxels of the octomap to draw.")]
+VoxelColoring = Annotated[
+    Coloring,
+    Prop(help="Z-Axis: magenta (low) to red (high). Cell Probability: red to green (occupied)."),
+]
+
 ATTACHED = (150, 50, 150)
 """RViz's colour of what a robot holds."""
+OBJECTS = (50, 230, 50)
+"""RViz's colour of what stands around."""
 
 
 class SceneGeometry(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """Appearance of the objects of a scene."""
 
     show_scene_geometry: Annotated[bool, Prop(help="Draw the objects of the scene.")] = True
-    scene_alpha: Annotated[Alpha, Prop(help="Opacity of objects without a colour.")] = 0.9
-    scene_color: Annotated[Color, Prop(help="Colour of objects without one.")] = (50, 230, 50)
-    voxel_rendering: Annotated[Rendering, Prop(help="Which voxels of the octomap to draw.")] = (
-        "Occupied Voxels"
-    )
-    voxel_coloring: Annotated[
-        Coloring,
-        Prop(
-            help="Z-Axis: magenta (low) to red (high). Cell Probability: red to green (occupied)."
-        ),
-    ] = "Z-Axis"
+    scene_alpha: SceneAlpha = 0.9
+    scene_color: SceneColor = OBJECTS
+    voxel_rendering: VoxelRendering = "Occupied Voxels"
+    voxel_coloring: VoxelColoring = "Z-Axis"
     scene_display_time: Annotated[
         float, Prop(ge=0.0001, unit="s", help="Minimum time between moves of the robot.")
     ] = 0.01
