@@ -12,10 +12,11 @@ import msgspec
 import pytest
 import websockets.exceptions
 import websockets.sync.client
+from waiting import until
 from websockets.exceptions import ConnectionClosed
 from websockets.frames import Frame, Opcode
 
-from tests.access.conftest import PATIENCE_S, House, wait_until
+from tests.access.conftest import PATIENCE_S, House
 from tests.scene.conftest import Peer
 from tests.support.guest import Guest
 from webviz.engine.commands import Command, DragHandle, UseTool
@@ -185,11 +186,11 @@ def test_what_reaches_viser_is_held_against_the_role(house: House) -> None:
     guest.viser.send({**own, "position": [9, 9, 9]})
     guest.viser.look(3.0)
     clients = house.server.get_clients
-    wait_until(lambda: [c.camera.position[0] for c in clients().values()] == [3.0])
+    until(lambda: [c.camera.position[0] for c in clients().values()] == [3.0])
     assert control.position.tolist() == [0, 0, 0]
     owner = house.enter(Role.OWNER)
     owner.viser.send({**own, "position": [9, 9, 9]})
-    wait_until(lambda: control.position.tolist() == [9, 9, 9])
+    until(lambda: control.position.tolist() == [9, 9, 9])
 
 
 def test_two_roles_at_once_are_not_mixed_up(house: House) -> None:
@@ -410,9 +411,9 @@ def test_messages_that_a_page_leaves_behind_beyond_its_rate_do_nothing(
     watcher = house.enter(Role.WATCHER)
     for number in range(300):  # 15 s
         watcher.send("Do", number=number, command="ResetView", arguments={})
-    wait_until(lambda: "ResetView" in house.reached)
+    until(lambda: "ResetView" in house.reached)
     watcher.drop()
-    wait_until(lambda: not house.server.channel.browsers())
+    until(lambda: not house.server.channel.browsers())
     assert house.reached.count("ResetView") < 300
     assert "ResetView" in house.reached
 
@@ -456,7 +457,7 @@ def test_a_page_that_connects_again_has_no_new_burst(
     watcher = house.enter(Role.WATCHER)
     watcher.do("FocusFrame", **much)
     watcher.close()
-    wait_until(lambda: not house.server.channel.browsers())
+    until(lambda: not house.server.channel.browsers())
     again, operator = house.enter(Role.WATCHER), house.enter(Role.OPERATOR)
     again.send("Do", number=1, command="FocusFrame", arguments=much)
     again.send("Do", number=2, command="Export", arguments={})
@@ -516,7 +517,7 @@ def test_no_secret_reaches_the_log(house: House, caplog: pytest.LogCaptureFixtur
     guest = house.enter(Role.WATCHER)
     guest.do("Save")
     house.revoke(Role.OWNER)
-    wait_until(lambda: house.ask("/", Cookie=house.cookie(Role.OWNER)).status == 403)
+    until(lambda: house.ask("/", Cookie=house.cookie(Role.OWNER)).status == 403)
     said = [r.getMessage() for r in caplog.records if r.name != "websockets.client"]
     for token in house.tokens.values():
         assert token.secret not in f"{said}"

@@ -9,9 +9,10 @@ from pathlib import Path
 
 import msgspec
 import pytest
+from waiting import until
 from websockets.exceptions import ConnectionClosed
 
-from tests.access.conftest import House, wait_until
+from tests.access.conftest import House
 from tests.support.guest import Guest
 from webviz.data.disk import MAX_THREADS, in_thread
 from webviz.scene import open_server
@@ -76,7 +77,7 @@ def test_a_token_expires_although_its_file_cannot_be_read(
     try:
         guest.receive("You")
         if not fails:
-            wait_until(lambda: "the disk of" in caplog.text)
+            until(lambda: "the disk of" in caplog.text)
         clock[0] += timedelta(days=1.0)
         with pytest.raises(ConnectionClosed):
             guest.receive("None")
@@ -84,7 +85,7 @@ def test_a_token_expires_although_its_file_cannot_be_read(
         mounted.set()
         other = make("b", Role.WATCHER, clock[0])
         token_file.modify(path, lambda _: [other])
-        wait_until(lambda: access.by_cookie(other.cookie))
+        until(lambda: access.by_cookie(other.cookie))
     finally:
         guest.close()
         server.stop()

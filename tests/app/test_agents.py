@@ -20,7 +20,7 @@ import pytest
 from mcp.client.client import Client
 from mcp.client.stdio import StdioServerParameters, stdio_client
 from mcp.client.streamable_http import streamable_http_client
-from processes import eventually
+from waiting import until
 
 import webviz
 from webviz.data.messages import encode
@@ -155,7 +155,7 @@ def over_http(tools: AgentTools) -> Iterator[tuple[str, dict[str, str]]]:
     server = HttpServer(tools, access, "127.0.0.1", port)
     thread = threading.Thread(target=server.run)
     thread.start()
-    eventually(lambda: _answers(port))
+    until(lambda: _answers(port))
     yield (
         f"http://127.0.0.1:{port}/mcp",
         {name: token.secret for name, token in tokens.items()},

@@ -15,7 +15,6 @@ import pytest
 import webviz
 from tests.page.test_whole_page import FONT, HAS_FONT
 from webviz.engine.commands import SetToolProperty, ShowView
-from webviz.files.config import Config
 from webviz.files.opening import parse
 from webviz.shell.app.picture_controls import checked_view
 from webviz.shell.pictures.browser import Page
@@ -41,11 +40,8 @@ TOLERANCE = 0.001
 
 @pytest.fixture(scope="module")
 def viewer() -> Iterator[webviz.Viewer]:
-    def read(*_: object) -> Config:
-        return parse(CONFIG, "x.yaml")
-
     source = HandFedSource(graph=RememberingGraph())  # pyright: ignore[reportArgumentType]
-    with webviz.Viewer(port=0, source=source, read=read) as viewer:
+    with webviz.Viewer(port=0, source=source, read=lambda *_: parse(CONFIG, "x.yaml")) as viewer:
         yield viewer
 
 

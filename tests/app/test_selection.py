@@ -20,7 +20,6 @@ from rosbags.typesys import Stores, get_typestore
 import webviz
 from webviz.data.messages import decode, encode
 from webviz.engine.commands import RemoveDisplay, SetFixedFrame, SetProperty, ShowView
-from webviz.files.config import Config
 from webviz.files.opening import parse
 from webviz.shell.app.picture_controls import checked_view
 from webviz.shell.pictures.browser import Page
@@ -58,10 +57,7 @@ def source() -> HandFedSource:
 
 @pytest.fixture(scope="module")
 def viewer(source: HandFedSource) -> Iterator[webviz.Viewer]:
-    def read(*_: object) -> Config:
-        return parse(CONFIG, "x.yaml")
-
-    with webviz.Viewer(port=0, source=source, read=read) as viewer:
+    with webviz.Viewer(port=0, source=source, read=lambda *_: parse(CONFIG, "x.yaml")) as viewer:
         yield viewer
 
 

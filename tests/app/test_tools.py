@@ -12,7 +12,6 @@ from pages import open_pages
 
 import webviz
 from webviz.engine.commands import SetToolProperty, ShowView
-from webviz.files.config import Config
 from webviz.files.opening import parse
 from webviz.shell.app.picture_controls import checked_view
 from webviz.shell.pictures.browser import Page
@@ -32,10 +31,7 @@ def source() -> HandFedSource:
 
 @pytest.fixture(scope="module")
 def viewer(source: HandFedSource) -> Iterator[webviz.Viewer]:
-    def read(*_: object) -> Config:
-        return parse(CONFIG, "x.yaml")
-
-    with webviz.Viewer(port=0, source=source, read=read) as viewer:
+    with webviz.Viewer(port=0, source=source, read=lambda *_: parse(CONFIG, "x.yaml")) as viewer:
         yield viewer
 
 

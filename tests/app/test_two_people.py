@@ -10,7 +10,6 @@ from drives import recorded
 from pages import open_pages
 
 import webviz
-from webviz.files.config import Config
 from webviz.files.opening import parse
 from webviz.shell.pictures.browser import Page
 
@@ -25,12 +24,8 @@ displays:
 @pytest.fixture(scope="module")
 def viewer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[webviz.Viewer]:
     """A viewer of a bag."""
-
-    def read(*_: object) -> Config:
-        return parse(CONFIG, "x.yaml")
-
     bag = recorded(duration_s=20.0).write(tmp_path_factory.mktemp("bags") / "run")
-    with webviz.Viewer(port=0, bag=bag, read=read) as viewer:
+    with webviz.Viewer(port=0, bag=bag, read=lambda *_: parse(CONFIG, "x.yaml")) as viewer:
         yield viewer
 
 

@@ -10,14 +10,15 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import pytest
-from processes import eventually, no_thread_left
+from processes import no_thread_left
+from waiting import until
 
 import webviz
 from webviz.api import registry
 from webviz.api.views import Orbit, TopDownOrtho
 from webviz.data.messages import encode
 from webviz.engine.commands import Refresh
-from webviz.shell.testing import header
+from webviz.shell.testing.messages import stamped_transform
 from webviz.shell.testing.source import HandFedSource
 from webviz.sources import Offer
 
@@ -128,7 +129,7 @@ def test_a_part_that_hangs_does_not_keep_the_others_from_ending(
     viewer.close()
     assert caplog.records[0].getMessage() == "The frame loop did not close within 1.5 s."
     assert closed.wait(60)
-    assert eventually(lambda: is_gone(viewer.url))
+    until(lambda: is_gone(viewer.url))
     goes_on.set()
 
 
@@ -154,11 +155,7 @@ def test_global_options_are_set_and_checked(viewer: webviz.Viewer, refused: Refu
 
 
 def test_frames_and_topics_are_known(viewer: webviz.Viewer, source: HandFedSource) -> None:
-    transform = {
-        "header": header("map", source.now),
-        "child_frame_id": "base",
-        "transform": {"rotation": {"w": 1.0}},
-    }
+    transform = stamped_transform("map", "base", source.now)
     name = "tf2_msgs/msg/TFMessage"
     source.put("/tf_static", name, encode(name, {"transforms": [transform]}))
     viewer.do(Refresh())

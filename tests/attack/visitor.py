@@ -13,9 +13,7 @@ from typing import Any
 
 import msgspec
 import websockets.exceptions
-import websockets.sync.client
-
-from tests.scene.conftest import Peer
+from guest import Connections
 
 
 @dataclass(frozen=True)
@@ -29,7 +27,7 @@ class At:
         return self.port
 
 
-class Visitor:
+class Visitor(Connections):
     """Joins a viewer, and receives all that it draws.
 
     Args:
@@ -38,22 +36,7 @@ class Visitor:
     """
 
     def __init__(self, port: int, **headers: str) -> None:
-        self.viser = Peer(At(port), **headers)
-        self.viser.look()
-        key = ""
-        for message in self.viser.replay():
-            if message["type"] == "RunJavascriptMessage":
-                source = message["source"].partition("(")[2].removesuffix(");")
-                key = msgspec.json.decode(source)["key"]
-        self._socket = websockets.sync.client.connect(
-            f"ws://127.0.0.1:{port}/webviz/channel",
-            compression=None,
-            close_timeout=0.1,
-            additional_headers=headers,
-            max_size=None,
-            ping_interval=None,
-        )
-        self.send("Hello", key=key)
+        super().__init__(At(port), **headers)
         self._number = 0
         self._answers: queue.SimpleQueue[dict[str, Any] | None] = queue.SimpleQueue()
         for receive in (self._receive_scene, self._receive_answers):
@@ -70,14 +53,6 @@ class Visitor:
                 if message["type"] == "Done":
                     self._answers.put(message)
         self._answers.put(None)
-
-    def send(self, type_: str, **fields: Any) -> None:
-        """Send a message of the channel."""
-        self.say(msgspec.json.encode({"type": type_, **fields}).decode())
-
-    def say(self, text: str) -> None:
-        """Send any text by the channel."""
-        self._socket.send(text)
 
     def say_endlessly(self, text: str, seconds: float) -> None:
         """Send a text again and again as one message that never ends, for some seconds at most.

@@ -18,8 +18,9 @@ import psutil
 import pytest
 import trimesh
 from bags import Bag, strings
-from processes import command_lines, eventually, send
+from processes import command_lines, send
 from program import Program
+from waiting import until
 
 from webviz.shell.cli import main as cli
 
@@ -71,7 +72,7 @@ def while_drawing(program: Program, folder: Path) -> dict[psutil.Process, str]:
         return any(" --type=renderer" in line for line in family.values())
 
     # The file is begun before the browser is there.
-    assert eventually(lambda: has_tab() and any(folder.glob(".*.part")))
+    until(lambda: has_tab() and any(folder.glob(".*.part")))
     return family
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -12,6 +11,7 @@ import pytest
 from drives import CONFIG, recorded
 from pages import COARSE
 from playwright.sync_api import expect
+from waiting import until
 
 import webviz
 from webviz.data.messages import encode
@@ -40,15 +40,13 @@ def live() -> Iterator[webviz.Viewer]:
         yield viewer
 
 
-def until(viewer: webviz.Viewer, holds: Callable[[SharingState], bool]) -> SharingState:
-    end_s = time.monotonic() + PATIENCE_S
-    while time.monotonic() < end_s:
+def shared(viewer: webviz.Viewer, holds: Callable[[SharingState], bool]) -> SharingState:
+    def told() -> SharingState | None:
         viewer.do(Refresh())
         told = viewer.state.sharing
-        if told is not None and holds(told):
-            return told
-        time.sleep(0.05)
-    raise AssertionError(f"still {viewer.state.sharing}")
+        return told if told is not None and holds(told) else None
+
+    return until(told, lambda: f"still {viewer.state.sharing}", seconds=PATIENCE_S)
 
 
 def test_live_topics_are_shared_one_file_at_a_time(live: webviz.Viewer, tmp_path: Path) -> None:
@@ -56,7 +54,7 @@ def test_live_topics_are_shared_one_file_at_a_time(live: webviz.Viewer, tmp_path
     assert "Making run.html" in live.do(ShareMoment(str(path)))
     with pytest.raises(webviz.Error, match="Another file is being made"):
         live.do(ShareMoment(str(path)))
-    told = until(live, lambda told: told.number == 1)
+    told = shared(live, lambda told: told.number == 1)
     assert (told.share, told.level) == (None, webviz.Level.OK)
     assert re.fullmatch(r"Saved run\.html: \d\.\d s, \d\.\d MB\.", told.text)
     assert path.read_bytes().startswith(b"<!doctype html>")
@@ -66,7 +64,7 @@ def test_live_topics_are_shared_one_file_at_a_time(live: webviz.Viewer, tmp_path
 def test_a_file_that_is_stopped_leaves_nothing(live: webviz.Viewer, tmp_path: Path) -> None:
     live.do(ShareMoment(str(tmp_path / "run.html")))
     assert live.do(StopSharing()) == "Stopped; no file was written."
-    assert until(live, lambda told: told.share is None).number == 0
+    assert shared(live, lambda told: told.share is None).number == 0
     assert list(tmp_path.iterdir()) == []
     with pytest.raises(webviz.Error, match="No file is being made"):
         live.do(StopSharing())
@@ -74,7 +72,7 @@ def test_a_file_that_is_stopped_leaves_nothing(live: webviz.Viewer, tmp_path: Pa
 
 def test_a_file_that_cannot_be_written_is_one_sentence(live: webviz.Viewer, tmp_path: Path) -> None:
     live.do(ShareMoment(str(tmp_path / "missing" / "run.html")))
-    told = until(live, lambda told: told.number == 1)
+    told = shared(live, lambda told: told.number == 1)
     assert told.level is webviz.Level.ERROR
     assert "No such file or directory. Choose another place." in told.text
 

@@ -25,7 +25,7 @@ from webviz.files.config import Config
 from webviz.files.opening import parse
 from webviz.shell.app.running import Running
 from webviz.shell.pictures.browser import FLAGS, Page, executable_of
-from webviz.shell.testing.messages import header
+from webviz.shell.testing.messages import header, stamped_transform
 from webviz.shell.testing.source import HandFedSource
 
 CONFIG = """\
@@ -102,9 +102,8 @@ class Room:
 
     def transform(self, child: str, x: float) -> None:
         """Receive a static transform from the map."""
-        moved = {"translation": {"x": x}, "rotation": {"w": 1.0}}
-        link = {"header": header("map", self.source.now), "child_frame_id": child}
-        values = {"transforms": [link | {"transform": moved}]}
+        link = stamped_transform("map", child, self.source.now, (x, 0.0, 0.0))
+        values = {"transforms": [link]}
         self.source.put("/tf_static", "tf2_msgs/msg/TFMessage", encode(TF, values))
 
 

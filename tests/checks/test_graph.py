@@ -7,10 +7,9 @@ from functools import partial
 from pathlib import Path as PathOfFile
 
 import pytest
-import rclpy
 from examining import display, examined, live_findings
 from geometry_msgs.msg import PoseStamped
-from rclpy.context import Context
+from nodes import node_of
 from rclpy.duration import Duration
 from rclpy.lifecycle import LifecycleNode
 from rclpy.node import Node
@@ -37,12 +36,8 @@ POSE = "geometry_msgs/msg/PoseWithCovarianceStamped"
 @pytest.fixture
 def robot(webviz_domain: int) -> Iterator[Node]:
     """A node that publishes nothing yet."""
-    context = Context()
-    rclpy.init(context=context, domain_id=webviz_domain)
-    node = Node("robot", context=context)
-    yield node
-    node.destroy_node()
-    context.try_shutdown()
+    with node_of(webviz_domain, "robot") as node:
+        yield node
 
 
 def scan(topic: str, **policies: str) -> LaserScanDisplay:
@@ -133,13 +128,9 @@ def test_a_graph_without_any_other_node(webviz_domain: int, tmp_path: PathOfFile
         while not empty:  # the graph is read every two seconds
             empty = [each for each in viewer.doctor() if each.id == "GRAPH001"]
         assert [each.status for each in empty[0].explains[:2]] == ["Topic", "Fixed Frame"]
-        context = Context()
-        rclpy.init(context=context, domain_id=webviz_domain)
-        node = Node("robot", context=context)
-        while any(each.id == "GRAPH001" for each in viewer.doctor()):
-            pass
-        node.destroy_node()
-        context.try_shutdown()
+        with node_of(webviz_domain, "robot"):
+            while any(each.id == "GRAPH001" for each in viewer.doctor()):
+                pass
 
 
 def test_messages_above_the_limit(
@@ -258,22 +249,18 @@ def test_a_pose_that_is_sent_while_the_robot_moves(webviz_harness: Callable[...,
 def test_a_lifecycle_node_that_is_not_active(
     webviz_domain: int, webviz_viewer: Callable[..., LiveViewer]
 ) -> None:
-    context = Context()
-    rclpy.init(context=context, domain_id=webviz_domain)
-    node = LifecycleNode("lidar", context=context)
-    publisher = node.create_lifecycle_publisher(LaserScan, "/scan", 1)
-    node.trigger_configure()
-    viewer = webviz_viewer(scan("/scan"))
-    found = wait_for(viewer, "GRAPH012 /scan")
-    assert found["GRAPH012 /scan"].command == "ros2 lifecycle get /lidar"
-    node.trigger_activate()
-    message = LaserScan(ranges=[1.0])
-    message.header.frame_id = "map"
+    with node_of(webviz_domain, "lidar", LifecycleNode) as node:
+        publisher = node.create_lifecycle_publisher(LaserScan, "/scan", 1)
+        node.trigger_configure()
+        viewer = webviz_viewer(scan("/scan"))
+        found = wait_for(viewer, "GRAPH012 /scan")
+        assert found["GRAPH012 /scan"].command == "ros2 lifecycle get /lidar"
+        node.trigger_activate()
+        message = LaserScan(ranges=[1.0])
+        message.header.frame_id = "map"
 
-    def is_well() -> bool:
-        publisher.publish(message)
-        return not live_findings(viewer, CauseLevel.GRAPH)
+        def is_well() -> bool:
+            publisher.publish(message)
+            return not live_findings(viewer, CauseLevel.GRAPH)
 
-    viewer.wait_for(is_well)
-    node.destroy_node()
-    context.try_shutdown()
+        viewer.wait_for(is_well)

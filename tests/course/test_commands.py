@@ -6,10 +6,10 @@ with rosbags; displays/docs/ros/course.md has the commands.
 
 from __future__ import annotations
 
+import functools
 import os
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -17,6 +17,7 @@ from typing import Any
 import pytest
 from program import Program
 from ruamel.yaml import YAML
+from waiting import until
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 
@@ -73,11 +74,8 @@ class Terminal(Node):
         self.loop.add_node(self)
 
     def wait_for(self, condition: Callable[[], Any], seconds: float = 60.0) -> Any:
-        deadline = time.monotonic() + seconds
-        while not (found := condition()):
-            assert time.monotonic() < deadline
-            self.loop.spin_once(timeout_sec=0.05)
-        return found
+        turn = functools.partial(self.loop.spin_once, timeout_sec=0.05)
+        return until(condition, turn=turn, seconds=seconds)
 
     def call(self, type: Any, name: str, **fields: Any) -> Any:
         client = self.create_client(type, name)

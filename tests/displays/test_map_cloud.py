@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 from typing import Any, ClassVar
 
@@ -23,6 +22,7 @@ from rtabmap_scenes import (
     rgbd,
     scanned,
 )
+from waiting import until
 
 from webviz.shell.testing import check_details
 from webviz_displays.map_cloud import MapCloud, known
@@ -50,10 +50,7 @@ def shown(bench: Benches) -> Callable[..., Any]:
 def publish(at: Any, values: dict[str, Any]) -> None:
     at.send(MAP_DATA, values, frame="odom", topic="/rtabmap/mapData")
     at.turn()
-    deadline = time.monotonic() + 60
-    while at.runner.is_busy():
-        assert time.monotonic() < deadline
-        at.turn()
+    until(lambda: not at.runner.is_busy(), turn=at.turn)
 
 
 def points(at: Any) -> np.ndarray:

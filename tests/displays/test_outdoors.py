@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import json
-import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, ClassVar
@@ -14,6 +13,7 @@ import PIL.Image
 import pytest
 from built_in_checks import BuiltInChecks
 from inspecting import Benches
+from waiting import until
 
 from webviz.data.geo import TilePlane, to_enu
 from webviz.data.geo.wgs84 import Geodetic
@@ -56,12 +56,8 @@ def write_tiles(folder: Path) -> Path:
 
 def loaded(at: Any) -> Any:
     """Turn until all tiles have been tried."""
-    deadline = time.monotonic() + 60.0
     at.turn()
-    while at.statuses()["Tiles"][1].startswith("Loading"):
-        assert time.monotonic() < deadline
-        time.sleep(0.005)
-        at.turn()
+    until(lambda: not at.statuses()["Tiles"][1].startswith("Loading"), turn=at.turn)
     return at
 
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import io
 import math
-import time
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import PIL.Image
+from waiting import until
 
 from webviz.api.views import Orbit
 from webviz.data.geo import Geodetic, TilePlane
@@ -73,10 +73,7 @@ def test_each_display_has_a_picture_of_its_own(
         path = {"poses": [{"pose": {"position": offset(*each)}} for each in corners]}
         seen.publish("/geo_path", "geographic_msgs/msg/GeoPath", path)
         seen.wait_until_drawn(name)
-        deadline = time.monotonic() + 60.0
-        while "Loading" in seen.status(name).text:
-            assert time.monotonic() < deadline
-            seen.settle()
+        until(lambda name=name: "Loading" not in seen.status(name).text, turn=seen.settle)
         folder = {"AerialMap": "aerial_map", "GeoPath": "geo_path", "NavSatFix": "nav_sat_fix"}[
             name
         ]

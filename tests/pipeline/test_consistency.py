@@ -12,9 +12,8 @@ import pytest
 from bench import Bench
 
 from webviz.api.declared import Topic
-from webviz.data.rotations import from_rpy
 from webviz.engine.state.consistency import fit
-from webviz.shell.testing.messages import header
+from webviz.shell.testing.messages import header, stamped_transform, turned
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Map
 from webviz_displays.path import Path
@@ -28,12 +27,9 @@ Benches = Callable[..., Bench]
 
 def place(b: Bench, pose: Pose2D, roll: float = 0.0, pitch: float = 0.0) -> None:
     """Say where the laser is."""
-    w, x, y, z = from_rpy(roll, pitch, pose.yaw)
-    transform = {
-        "translation": {"x": pose.x, "y": pose.y},
-        "rotation": {"x": x, "y": y, "z": z, "w": w},
-    }
-    stamped = {"header": header("map", 0), "child_frame_id": "laser", "transform": transform}
+    stamped = stamped_transform(
+        "map", "laser", 0, (pose.x, pose.y, 0.0), turned(roll, pitch, pose.yaw)
+    )
     b.publish("/tf_static", "tf2_msgs/msg/TFMessage", {"transforms": [stamped]})
 
 

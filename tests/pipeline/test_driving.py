@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
+from waiting import until
 
 from webviz.api.vehicle import STILL, Velocity
 from webviz.commands import Load, SetToolProperty, Undo
@@ -134,13 +135,6 @@ def speeds(b: Any) -> list[float]:
         for advertisement, twist in b.source.graph.published
         if advertisement == CMD_VEL
     ]
-
-
-def until(condition: Callable[[], Any]) -> None:
-    deadline = time.monotonic() + PATIENCE_S
-    while not condition():
-        assert time.monotonic() < deadline
-        time.sleep(0.005)
 
 
 def stands(b: Any) -> bool:

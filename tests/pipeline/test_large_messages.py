@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import threading
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Annotated, Any
 
 import numpy as np
 import pytest
+from waiting import until
 
 from webviz import Context, Display, Input, Sample, Topic
 from webviz.data.messages import decode, encode
@@ -81,31 +81,22 @@ def dots(at: Any) -> list[list[float]]:
     ]
 
 
-def until(at: Any, condition: Callable[[], object]) -> None:
-    """Turn until something is so."""
-    deadline = time.monotonic() + 60
-    while not condition():
-        assert time.monotonic() < deadline
-        at.turn()
-        time.sleep(0.005)
-
-
 def open_gate(at: Any, number: int) -> None:
     """Let the work on a message end, once it has begun."""
-    until(at, lambda: len(gates) > number)
+    until(lambda: len(gates) > number, turn=at.turn)
     gates[number].set()
 
 
 def test_the_loop_goes_on_while_a_large_message_is_drawn_and_then_shows_it(bench: Any) -> None:
     at = bench(SceneDiff())
     send(at, 1)
-    until(at, lambda: gates)
+    until(lambda: gates, turn=at.turn)
     assert dots(at) == []
     assert at.statuses()["Loading"] == ("WARN", "Loading a message of 8 MB.")
     assert "Display" not in at.statuses()
     assert at.viewer.is_busy()
     open_gate(at, 0)
-    until(at, lambda: dots(at) == [[1, 0, 0]])
+    until(lambda: dots(at) == [[1, 0, 0]], turn=at.turn)
     assert "Loading" not in at.statuses()
     assert not at.viewer.is_busy()
 
@@ -116,29 +107,29 @@ def test_what_was_drawn_stays_while_the_next_is_drawn_and_only_the_newest_waits(
     at = bench(SceneDiff())
     send(at, 1)
     open_gate(at, 0)
-    until(at, lambda: dots(at) == [[1, 0, 0]])
+    until(lambda: dots(at) == [[1, 0, 0]], turn=at.turn)
     for number in (2, 3, 4):
         send(at, number)
-    until(at, lambda: len(gates) == 2)
+    until(lambda: len(gates) == 2, turn=at.turn)
     assert dots(at) == [[1, 0, 0]]
     assert at.statuses()["Loading"][0] == "OK"
     open_gate(at, 1)
-    until(at, lambda: len(gates) == 3)
+    until(lambda: len(gates) == 3, turn=at.turn)
     assert dots(at) == [[2, 0, 0]]  # begun before the others came, and so not in vain
     open_gate(at, 2)
-    until(at, lambda: dots(at) == [[4, 0, 0]])
+    until(lambda: dots(at) == [[4, 0, 0]], turn=at.turn)
     assert len(gates) == 3
 
 
 def test_a_large_message_is_drawn_anew_when_a_property_changes_meanwhile(bench: Any) -> None:
     at = bench(SceneDiff())
     send(at, 1)
-    until(at, lambda: gates)
+    until(lambda: gates, turn=at.turn)
     at.viewer.enqueue(SetProperty("display1", "height", 5.0))
     at.turn()
     open_gate(at, 0)
     open_gate(at, 1)
-    until(at, lambda: dots(at) == [[1, 0, 5]])
+    until(lambda: dots(at) == [[1, 0, 5]], turn=at.turn)
 
 
 def test_nothing_is_shown_of_work_that_a_change_has_made_wrong(bench: Any) -> None:
@@ -146,19 +137,19 @@ def test_nothing_is_shown_of_work_that_a_change_has_made_wrong(bench: Any) -> No
     at = bench(SceneDiff())
     at.transform("odom", "map", T, 10.0, static=True)
     send(at, 1)
-    until(at, lambda: gates)
+    until(lambda: gates, turn=at.turn)
     at.viewer.enqueue(SetFixedFrame("odom"))
     at.turn()
     open_gate(at, 0)
-    until(at, lambda: len(gates) == 2)
+    until(lambda: len(gates) == 2, turn=at.turn)
     assert dots(at) == []
     open_gate(at, 1)
-    until(at, lambda: dots(at) == [[11, 0, 0]])
+    until(lambda: dots(at) == [[11, 0, 0]], turn=at.turn)
     send(at, 2)
-    until(at, lambda: len(gates) == 3)
+    until(lambda: len(gates) == 3, turn=at.turn)
     at.viewer.enqueue(SetProperty("display1", "enabled", False))
     open_gate(at, 2)
-    until(at, lambda: not at.viewer.is_busy())
+    until(lambda: not at.viewer.is_busy(), turn=at.turn)
     assert dots(at) == []
 
 
@@ -166,7 +157,7 @@ def test_what_a_thread_raises_is_the_fault_of_its_display_and_not_tried_again(be
     at = bench(SceneDiff(), strict=False)
     send(at, 13)
     open_gate(at, 0)
-    until(at, lambda: "thirteen" in str(at.statuses()))
+    until(lambda: "thirteen" in str(at.statuses()), turn=at.turn)
     for _ in range(3):
         at.turn()
     assert len(gates) == 1
@@ -178,12 +169,12 @@ def test_messages_wait_for_a_large_one_that_is_folded_in_a_thread(bench: Any) ->
     at = bench(Folding())
     send(at, 1)
     send(at, 2, size=1)
-    until(at, lambda: gates)
+    until(lambda: gates, turn=at.turn)
     assert at.statuses()["Loading"] == ("WARN", "Loading a message of 8 MB.")
     assert dots(at) == []
     at.scene.watched = False  # all are folded, watched or not
     open_gate(at, 0)
-    until(at, lambda: not at.viewer.is_busy())
+    until(lambda: not at.viewer.is_busy(), turn=at.turn)
     at.scene.watched = True
     send(at, 3, size=1)
     assert [x for x, _, _ in dots(at)] == [1, 2, 3]
@@ -196,7 +187,7 @@ def test_messages_that_wait_too_long_are_dropped_counted_and_reported(bench: Any
     assert "1 message dropped" in at.statuses()["Message"][1]
     for number in range(3):
         open_gate(at, number)
-    until(at, lambda: not at.viewer.is_busy())
+    until(lambda: not at.viewer.is_busy(), turn=at.turn)
     assert [x for x, _, _ in dots(at)] == [1, 3, 4]
 
 
@@ -225,17 +216,17 @@ def test_large_messages_are_decoded_in_a_thread_also_if_they_are_folded_by_the_l
     at = bench(Unthreaded())
     send(at, 1)
     send(at, 2, size=1)
-    until(at, lambda: gates)
+    until(lambda: gates, turn=at.turn)
     assert (dots(at), at.viewer.is_busy()) == ([], True)
     open_gate(at, 0)
-    until(at, lambda: [x for x, _, _ in dots(at)] == [1, 2])
+    until(lambda: [x for x, _, _ in dots(at)] == [1, 2], turn=at.turn)
     assert not at.viewer.is_busy()
 
 
 def test_a_large_message_that_a_thread_cannot_decode_is_reported(bench: Any) -> None:
     at = bench(Unthreaded())
     at.source.put("/map", GRID, bytes(4) + Display.slow_bytes * b"\xff")
-    until(at, lambda: "Message" in at.statuses())
+    until(lambda: "Message" in at.statuses(), turn=at.turn)
     assert at.statuses()["Message"][0] == "ERROR"
     send(at, 2, size=1)
     assert [x for x, _, _ in dots(at)] == [2]

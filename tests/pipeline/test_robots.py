@@ -23,7 +23,7 @@ from webviz.engine.commands import Open, Save, SetProperty, Undo
 from webviz.files.config import Branch, Unreadable, document
 from webviz.files.opening import parse
 from webviz.shell.cli.fleet import standard_config
-from webviz.shell.testing.messages import header
+from webviz.shell.testing.messages import stamped_transform
 from webviz_displays.interactive_markers.completion import Completed
 from webviz_displays.interactive_markers.feedback import POSE_UPDATE, values_of
 from webviz_displays.interactive_markers.tracked import Tracked
@@ -73,11 +73,7 @@ def test_frames_of_a_robot_follow_each_message_whatever_was_named_before(
 
     def move(names: str, x: float, second: int) -> None:
         transforms = [
-            {
-                "header": header("map", second * S),
-                "child_frame_id": f"{names}{number}",
-                "transform": {"translation": {"x": x}, "rotation": {"w": 1.0}},
-            }
+            stamped_transform("map", f"{names}{number}", second * S, (x, 0.0, 0.0))
             for number in range(MIN_TRANSFORMS)
         ]
         b.publish("/robot1/tf", "tf2_msgs/msg/TFMessage", {"transforms": transforms})

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 from bags import START_NS, Bag, ns, strings
-from processes import eventually
 from rosbags.rosbag2 import StoragePlugin
+from waiting import until
 
 import webviz
 from tests.scene.conftest import Peer
@@ -174,7 +174,7 @@ def test_a_program_plays_a_bag(tmp_path: Path, storage: StoragePlugin) -> None:
         viewer.pause()
         assert 1.0 <= viewer.position < 4.0
         viewer.play(rate=math.inf)
-        assert eventually(lambda: viewer.position == 4.0)
+        until(lambda: viewer.position == 4.0)
         with pytest.raises(webviz.Error, match="rate -1 is out of range"):
             viewer.play(rate=-1)
 
@@ -195,7 +195,7 @@ def test_it_plays_once_a_browser_connects(tmp_path: Path) -> None:
         assert viewer.position == 0.0
         peer = Peer(viewer._scene.link.server)
         peer.look()
-        assert eventually(lambda: viewer.position == 2.0)
+        until(lambda: viewer.position == 2.0)
         peer.close()
 
 

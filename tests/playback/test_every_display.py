@@ -18,7 +18,7 @@ from webviz.api.registry import display_types
 from webviz.data.messages import encode
 from webviz.files.config import Config, dump
 from webviz.shell.testing import check_seeks
-from webviz.shell.testing.messages import header
+from webviz.shell.testing.messages import header, stamped_transform
 
 CHECKS = built_in_checks()
 MAX_STEP_S = 0.5
@@ -78,14 +78,8 @@ class Tape:
         *,
         stamp_ns: int | None = None,
     ) -> None:
-        transform = {
-            "header": header(parent, self.now_ns if stamp_ns is None else stamp_ns),
-            "child_frame_id": child,
-            "transform": {
-                "translation": dict(zip("xyz", xyz, strict=True)),
-                "rotation": dict(zip("xyzw", xyzw, strict=True)),
-            },
-        }
+        at_ns = self.now_ns if stamp_ns is None else stamp_ns
+        transform = stamped_transform(parent, child, at_ns, xyz, xyzw)
         topic = "/tf_static" if stamp_ns is None else "/tf"
         self._put(topic, TF, {"transforms": [transform]}, is_kept=True)
 

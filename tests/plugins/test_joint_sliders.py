@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable
 from typing import Any
 
 import pytest
+from waiting import until
 
 from webviz.engine.commands import AddPanel, OpenPanels, Sender
 from webviz.page.recorded_ui import RecordedUi
@@ -67,10 +67,8 @@ class Bench:
     def describe(self, text: str) -> None:
         before = self.panel.reading
         self.viewer.publish("/robot_description", "std_msgs/msg/String", {"data": text})
-        deadline = time.monotonic() + 30
-        while (reading := self.panel.reading) is before or reading is None or not reading.done():
-            assert time.monotonic() < deadline
-            self.viewer.turn()
+        until(lambda: self.panel.reading is not before, turn=self.viewer.turn)
+        until(lambda: self.panel.reading is None or self.panel.reading.done())
         self.show()
 
     def widget(self, label: str) -> Any:

@@ -5,13 +5,12 @@ from __future__ import annotations
 import base64
 import io
 import math
-import time
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import PIL.Image
 import pytest
+from waiting import until
 
 from webviz.data.messages import decode, encode
 from webviz.engine.state import State
@@ -55,13 +54,6 @@ class Bench:
         first, end = self.show()["tracks"][index]["parts"]
         parts = [self.widget.parts[f"track/{index}/{number}"] for number in range(first, end)]
         return [degree for part in parts for degree in part["places"]]
-
-
-def until(condition: Callable[[], object]) -> None:
-    deadline = time.monotonic() + 30.0
-    while not condition():
-        assert time.monotonic() < deadline
-        time.sleep(0.005)
 
 
 def test_fixes_make_a_track_and_a_path_replaces_the_one_before() -> None:

@@ -14,12 +14,9 @@ import pytest
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 
-import rclpy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from diagnostic_msgs.srv import SelfTest
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
+from nodes import SpunNode
 from rclpy.parameter import Parameter
 from rclpy.parameter_client import AsyncParameterClient
 from rclpy.qos import DurabilityPolicy, QoSProfile
@@ -35,7 +32,7 @@ from webviz.engine.commands import Command
 from webviz.engine.state import ConfigFile, State
 from webviz.ros.node import RosSource
 from webviz.ros.types import message_class
-from webviz.shell.testing import header
+from webviz.shell.testing.messages import stamped_transform
 from webviz.sources import Subscription
 
 TF = "tf2_msgs/msg/TFMessage"
@@ -49,33 +46,17 @@ displays: []
 """
 
 
-class Client:
+class Client(SpunNode):
     """Somebody else's node."""
 
     def __init__(self, domain: int) -> None:
-        self._context = Context()
-        rclpy.init(context=self._context, domain_id=domain)
-        self.node = Node("client", context=self._context)
-        self._executor = SingleThreadedExecutor(context=self._context)
-        self._executor.add_node(self.node)
+        super().__init__(domain, "client")
         self._parameters = AsyncParameterClient(self.node, "webviz")
 
-    def close(self) -> None:
-        self._executor.shutdown()
-        self.node.destroy_node()
-        self._context.try_shutdown()
-
     def wait(self, future: Future, seconds: float = 60.0) -> Any:
-        self._executor.spin_until_future_complete(future, timeout_sec=seconds)
+        self.executor.spin_until_future_complete(future, timeout_sec=seconds)
         assert future.done(), f"no answer within {seconds} s"
         return future.result()
-
-    def until(self, condition: Callable[[], Any], what: str, seconds: float = 60.0) -> None:
-        """Wait for something that the viewer or DDS does in its own time."""
-        deadline = self.node.get_clock().now().nanoseconds + int(seconds * 1e9)
-        while not condition():
-            assert self.node.get_clock().now().nanoseconds < deadline, f"not in time: {what}"
-            self._executor.spin_once(timeout_sec=0.02)
 
     def get(self, name: str) -> str:
         assert self._parameters.wait_for_services(60.0)
@@ -105,14 +86,7 @@ class Client:
     def publish_frames(self, *frames: str) -> None:
         """Frames below `map`."""
         qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-        transforms = [
-            {
-                "header": header("map", 0),
-                "child_frame_id": frame,
-                "transform": {"rotation": {"w": 1.0}},
-            }
-            for frame in frames
-        ]
+        transforms = [stamped_transform("map", frame, 0) for frame in frames]
         publisher = self.node.create_publisher(message_class(TF), "/tf_static", qos)
         publisher.publish(encode(TF, {"transforms": transforms}))
 

@@ -5,19 +5,16 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from concurrent.futures import Future
 from typing import Any
 
 import pytest
+from waiting import until
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 
-import rclpy
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
+from nodes import SpunNode
 from std_msgs.msg import String
 from std_srvs.srv import SetBool
 
@@ -69,28 +66,9 @@ executor.spin()
 """
 
 
-class Peer:
-    """Another node, spun by the test."""
-
-    def __init__(self, domain: int) -> None:
-        self._context = Context()
-        rclpy.init(context=self._context, domain_id=domain)
-        self.node: Node = rclpy.create_node("peer", context=self._context)
-        self._executor = SingleThreadedExecutor(context=self._context)
-        self._executor.add_node(self.node)
-
-    def turn(self) -> None:
-        self._executor.spin_once(timeout_sec=0.02)
-
-    def close(self) -> None:
-        self._executor.shutdown()
-        self.node.destroy_node()
-        self._context.try_shutdown()
-
-
 @pytest.fixture(scope="module")
-def peer(webviz_domain: int) -> Iterator[Peer]:
-    peer = Peer(webviz_domain)
+def peer(webviz_domain: int) -> Iterator[SpunNode]:
+    peer = SpunNode(webviz_domain, "peer")
     yield peer
     peer.close()
 
@@ -111,17 +89,10 @@ def counter(webviz_domain: int, source: RosSource) -> Iterator[None]:
     )
     assert process.stdout is not None
     process.stdout.readline()
-    until(lambda: "/counter" in source.graph.nodes(), lambda: time.sleep(0.05))
+    until(lambda: "/counter" in source.graph.nodes())
     yield
     process.terminate()
     process.communicate()
-
-
-def until(condition: Callable[[], Any], turn: Callable[[], None]) -> None:
-    deadline = time.monotonic() + 60.0
-    while not condition():
-        assert time.monotonic() < deadline
-        turn()
 
 
 def order(number: int) -> bytes:
@@ -130,7 +101,7 @@ def order(number: int) -> bytes:
 
 
 def test_a_message_reaches_a_subscription_that_knew_the_publisher(
-    source: RosSource, peer: Peer
+    source: RosSource, peer: SpunNode
 ) -> None:
     heard: list[str] = []
 
@@ -140,22 +111,22 @@ def test_a_message_reaches_a_subscription_that_knew_the_publisher(
     peer.node.create_subscription(String, "/said", hear, 10)
     advertisement = Advertisement("/said", STRING)
     source.graph.advertise([advertisement]).result(30.0)
-    until(lambda: peer.node.count_publishers("/said"), peer.turn)
+    peer.until(lambda: peer.node.count_publishers("/said"))
     hello = encode(STRING, {"data": "hello"})
-    until(lambda: source.graph.publish(advertisement, hello).result(30.0) == 1, peer.turn)
-    until(lambda: "hello" in heard, peer.turn)
+    peer.until(lambda: source.graph.publish(advertisement, hello).result(30.0) == 1)
+    peer.until(lambda: "hello" in heard)
 
 
 def test_the_publisher_of_a_topic_that_is_no_longer_advertised_is_destroyed(
-    source: RosSource, peer: Peer
+    source: RosSource, peer: SpunNode
 ) -> None:
     old, new = Advertisement("/old_goal", STRING), Advertisement("/new_goal", STRING)
     unknown = Advertisement("/unknown_goal", "no_msgs/msg/No")
     source.graph.advertise([old]).result(30.0)
-    until(lambda: peer.node.count_publishers("/old_goal"), peer.turn)
+    peer.until(lambda: peer.node.count_publishers("/old_goal"))
     source.graph.advertise([unknown, new]).result(30.0)
-    until(lambda: peer.node.count_publishers("/new_goal"), peer.turn)
-    until(lambda: not peer.node.count_publishers("/old_goal"), peer.turn)
+    peer.until(lambda: peer.node.count_publishers("/new_goal"))
+    peer.until(lambda: not peer.node.count_publishers("/old_goal"))
 
 
 def test_a_message_does_not_wait_for_what_arrives(
@@ -182,7 +153,7 @@ def test_an_unknown_type_is_refused_and_the_node_goes_on(source: RosSource) -> N
     assert source.graph.publish(Advertisement("/lonely", STRING), encode(STRING)).result(30.0) == 0
 
 
-def test_a_service_answers(source: RosSource, peer: Peer) -> None:
+def test_a_service_answers(source: RosSource, peer: SpunNode) -> None:
     def answer(request: Any, response: Any) -> Any:
         response.success, response.message = request.data, "done"
         return response
@@ -191,10 +162,10 @@ def test_a_service_answers(source: RosSource, peer: Peer) -> None:
     interfaces.service("std_srvs/srv/SetBool")
     request = encode("std_srvs/srv/SetBool_Request", {"data": True})
     future: Future[bytes] = source.graph.call("/switch", "std_srvs/srv/SetBool", request, 10.0)
-    until(future.done, peer.turn)
+    peer.until(future.done)
     response = decode("std_srvs/srv/SetBool_Response", future.result())
     assert (response.success, response.message) == (True, "done")
-    until(lambda: source.graph.services().get("/switch") == "std_srvs/srv/SetBool", peer.turn)
+    peer.until(lambda: source.graph.services().get("/switch") == "std_srvs/srv/SetBool")
 
 
 def test_a_service_that_no_node_offers_is_named(source: RosSource) -> None:
@@ -240,7 +211,7 @@ ACCEPTED = b"\0\1\0\0\1\0\0\0" + bytes(8)
 SUCCESS = b"\0\1\0\0\4\0\0\0"
 
 
-def offer(peer: Peer, action: str, answers: dict[str, bytes]) -> dict[str, int]:
+def offer(peer: SpunNode, action: str, answers: dict[str, bytes]) -> dict[str, int]:
     """Offer an action that gives these answers, whatever they are; counts requests by service."""
     interfaces.action(FOLLOW)
     asked = dict.fromkeys(answers, 0)
@@ -262,37 +233,37 @@ def offer(peer: Peer, action: str, answers: dict[str, bytes]) -> dict[str, int]:
 
 
 def test_a_malformed_answer_to_a_goal_ends_it_and_cancels_what_may_have_started(
-    source: RosSource, peer: Peer
+    source: RosSource, peer: SpunNode
 ) -> None:
     answers = {"send_goal": MALFORMED, "get_result": MALFORMED, "cancel_goal": MALFORMED}
     asked = offer(peer, "/liar", answers)
     goal = source.graph.send_goal("/liar", FOLLOW, encode(f"{FOLLOW}_Goal"), lambda _: None)
-    until(lambda: goal.accepted.done() and asked["cancel_goal"], peer.turn)
+    peer.until(lambda: goal.accepted.done() and asked["cancel_goal"])
     for future in (goal.accepted, goal.result):
         with pytest.raises(NotConnected, match=r"An answer of /liar cannot be read: .* Correct"):
             future.result(0.0)
 
 
 @pytest.mark.parametrize("result", [MALFORMED, SUCCESS, SUCCESS + b"\1\2"])
-def test_a_truncated_result_ends_a_goal(source: RosSource, peer: Peer, result: bytes) -> None:
+def test_a_truncated_result_ends_a_goal(source: RosSource, peer: SpunNode, result: bytes) -> None:
     action = f"/truncated_{len(result)}"
     answers = {"send_goal": ACCEPTED, "get_result": result, "cancel_goal": MALFORMED}
     offer(peer, action, answers)
     goal = source.graph.send_goal(action, FOLLOW, encode(f"{FOLLOW}_Goal"), lambda _: None)
-    until(goal.result.done, peer.turn)
+    peer.until(goal.result.done)
     assert goal.accepted.result(0.0)
     with pytest.raises(NotConnected, match=f"An answer of {action} cannot be read"):
         goal.result.result(0.0)
 
 
 def test_a_goal_that_is_no_longer_followed_frees_its_place(
-    source: RosSource, peer: Peer, monkeypatch: pytest.MonkeyPatch
+    source: RosSource, peer: SpunNode, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz.ros.calls.MAX_CALLS", 2)
     peer.node.create_service(SetBool, "/waiting", lambda _, response: response)
     request = encode("std_srvs/srv/SetBool_Request")
     first = source.graph.call("/waiting", "std_srvs/srv/SetBool", request, 60.0)
-    until(first.done, peer.turn)
+    peer.until(first.done)
     for _ in range(5):  # the peer is not spun, so that none is answered
         answer = source.graph.call("/waiting", "std_srvs/srv/SetBool", request, 600.0)
         assert answer.cancel()
@@ -300,7 +271,7 @@ def test_a_goal_that_is_no_longer_followed_frees_its_place(
             source.graph.publish(Advertisement("/lonely", STRING), encode(STRING)).result(30.0) == 0
         )
     pending = source.graph.call("/waiting", "std_srvs/srv/SetBool", request, 600.0)
-    until(pending.done, peer.turn)
+    peer.until(pending.done)
     assert pending.exception(0.0) is None
 
 

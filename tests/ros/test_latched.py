@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
+from waiting import until
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 
@@ -52,11 +52,7 @@ class Looking:
         raise AssertionError(command)
 
     def until(self, condition: Callable[[], Any]) -> None:
-        deadline = time.monotonic() + 60
-        while not condition():
-            assert time.monotonic() < deadline, self.states[-1].rows
-            self.loop.turn()
-            self.source.inbox.arrived.wait(0.02)
+        until(condition, lambda: self.states[-1].rows, turn=self.loop.turn)
 
     def shows(self, index: int, name: str) -> bool:
         return f"'{name}'" in str(self.states[-1].rows[index].statuses)

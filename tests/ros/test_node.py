@@ -8,11 +8,11 @@ from collections.abc import Callable, Iterator
 from typing import Annotated, Any
 
 import pytest
+from waiting import until
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 
-import rclpy
-from rclpy.context import Context
+from nodes import node_of
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
@@ -34,12 +34,8 @@ STRING = "std_msgs/msg/String"
 
 @pytest.fixture
 def talker(webviz_domain: int) -> Iterator[Node]:
-    context = Context()
-    rclpy.init(context=context, domain_id=webviz_domain)
-    node = Node("talker", context=context)
-    yield node
-    node.destroy_node()
-    context.try_shutdown()
+    with node_of(webviz_domain, "talker") as node:
+        yield node
 
 
 @pytest.fixture
@@ -67,16 +63,6 @@ def want(source: RosSource, name: str = "/words", **choices: Any) -> None:
     source.want({name: Subscription(STRING, Topic(name, **choices))})
 
 
-def until(condition: Callable[[], Any], what: str, seconds: float = 60.0) -> Any:
-    """Wait for something that DDS does in its own time."""
-    deadline = time.monotonic() + seconds
-    while time.monotonic() < deadline:
-        if result := condition():
-            return result
-        time.sleep(0.02)
-    raise AssertionError(f"not within {seconds} s: {what}")
-
-
 def heard(source: RosSource, topic: str = "/words") -> list[str]:
     return [decode(STRING, raw.cdr).data for raw in source.inbox.drain().get(topic, ())]
 
@@ -94,22 +80,22 @@ def test_auto_asks_for_what_the_publisher_offers(
     publisher = talker.create_publisher(String, "/words", qos(reliability, durability))
     source = listen()
     want(source)
-    until(lambda: requested(source) == (reliability, durability), "the subscription adapts")
-    until(lambda: publisher.get_subscription_count(), "the publisher is matched")
+    until(lambda: requested(source) == (reliability, durability))
+    until(lambda: publisher.get_subscription_count())
 
     def heard_it() -> bool:
         publisher.publish(String(data="hello"))
         return "hello" in heard(source)
 
-    until(heard_it, "a message arrives")
-    until(lambda: source.offers()["/words"].subscribers == 1, "our subscription counts")
+    until(heard_it)
+    until(lambda: source.offers()["/words"].subscribers == 1)
     ours = ("/webviz", "std_msgs/msg/String", reliability, durability)
 
     def readers() -> list[tuple[str, ...]]:
         found = source.offers()["/words"].readers
         return [(each.node, each.type, each.reliability, each.durability) for each in found]
 
-    until(lambda: readers() == [ours], "our subscription is known")
+    until(lambda: readers() == [ours])
     assert source.clock_messages() is None
 
 
@@ -120,10 +106,10 @@ def test_a_publisher_that_takes_the_place_of_another_is_known_by_its_qos(
     first = talker.create_publisher(String, "/words", qos("reliable", "volatile"))
     source = listen()
     want(source)
-    until(lambda: requested(source) == ("reliable", "volatile"), "the first is known")
+    until(lambda: requested(source) == ("reliable", "volatile"))
     talker.destroy_publisher(first)
     talker.create_publisher(String, "/words", qos("best_effort", "volatile"))
-    until(lambda: requested(source) == ("best_effort", "volatile"), "the second is known")
+    until(lambda: requested(source) == ("best_effort", "volatile"))
 
 
 def test_a_latched_message_from_before_arrives(
@@ -133,7 +119,7 @@ def test_a_latched_message_from_before_arrives(
     publisher.publish(String(data="long ago"))
     source = listen()
     want(source)
-    until(lambda: "long ago" in heard(source), "the latched message arrives")
+    until(lambda: "long ago" in heard(source))
 
 
 def test_publishers_of_both_durabilities_are_all_heard(
@@ -151,7 +137,7 @@ def test_publishers_of_both_durabilities_are_all_heard(
         words.update(heard(source))
         return words == {"latched", "volatile"}
 
-    until(both, "both are heard")
+    until(both)
 
 
 def test_an_explicit_qos_is_used_even_if_it_matches_no_publisher(
@@ -160,7 +146,7 @@ def test_an_explicit_qos_is_used_even_if_it_matches_no_publisher(
     publisher = talker.create_publisher(String, "/words", qos("best_effort", "volatile"))
     source = listen()
     want(source, reliability="reliable")
-    until(lambda: requested(source) == ("reliable", "volatile"), "the choice is obeyed")
+    until(lambda: requested(source) == ("reliable", "volatile"))
     publisher.publish(String(data="lost"))
     time.sleep(0.3)
     assert heard(source) == []
@@ -190,17 +176,17 @@ def test_the_qos_of_each_display_is_judged_by_itself(
         return status.level, status.text
 
     source.want(merged([strict.subscriptions()]))
-    until(lambda: requested(source) == ("reliable", "volatile"), "it is subscribed alone")
+    until(lambda: requested(source) == ("reliable", "volatile"))
     alone = told(strict)
     assert alone[0] is Level.ERROR
     source.want(merged(each.subscriptions() for each in both))
-    until(lambda: requested(source) == ("best_effort", "volatile"), "they share a subscription")
+    until(lambda: requested(source) == ("best_effort", "volatile"))
 
     def is_heard() -> bool:
         publisher.publish(String(data="again"))
         return told(easy)[0] is Level.OK
 
-    until(is_heard, "the display with the automatic QoS gets messages")
+    until(is_heard)
     remark = " Messages arrive only because another display reads the topic."
     assert told(strict) == (Level.ERROR, alone[1] + remark)
 
@@ -218,8 +204,8 @@ def test_a_topic_of_another_type_is_reported_and_not_subscribed(
         return [(p.node, p.type) for p in offer.publishers] if offer else []
 
     # DDS may announce a publisher before its node.
-    until(lambda: publishers() == [expected], "a publisher with its node")
-    until(lambda: talker.count_subscribers("/words") == 0, "no subscription")
+    until(lambda: publishers() == [expected])
+    until(lambda: talker.count_subscribers("/words") == 0)
 
 
 def test_what_is_no_longer_wanted_is_unsubscribed(
@@ -228,17 +214,15 @@ def test_what_is_no_longer_wanted_is_unsubscribed(
     publisher = talker.create_publisher(String, "/words", 5)
     source = listen()
     want(source)
-    until(lambda: publisher.get_subscription_count() == 1, "subscribed")
+    until(lambda: publisher.get_subscription_count() == 1)
     source.want({})
-    until(lambda: publisher.get_subscription_count() == 0, "unsubscribed")
+    until(lambda: publisher.get_subscription_count() == 0)
 
 
 def test_an_unknown_type_is_reported(listen: Callable[..., RosSource]) -> None:
     source = listen()
     source.want({"/x": Subscription("no_such_msgs/msg/Thing", Topic("/x"))})
-    offer = until(
-        lambda: o if (o := source.offers().get("/x")) and o.problem else None, "the problem"
-    )
+    offer = until(lambda: o if (o := source.offers().get("/x")) and o.problem else None)
     assert "no_such_msgs/msg/Thing" in offer.problem
 
 
@@ -249,17 +233,17 @@ def test_a_message_that_is_too_large_is_a_problem_until_a_smaller_one_comes(
     publisher = talker.create_publisher(String, "/words", 5)
     source = listen()
     want(source)
-    until(lambda: requested(source) == ("reliable", "volatile"), "the subscription adapts")
-    until(lambda: publisher.get_subscription_count() == 1, "subscribed")
+    until(lambda: requested(source) == ("reliable", "volatile"))
+    until(lambda: publisher.get_subscription_count() == 1)
 
     def problem_after(text: str) -> str:
         publisher.publish(String(data=text))
         return source.offers()["/words"].problem
 
     said = "a message of 3 MB is above the limit of 1 MB; publish smaller ones"
-    until(lambda: problem_after("x" * (3 << 20)) == said, "the problem")
+    until(lambda: problem_after("x" * (3 << 20)) == said)
     assert heard(source) == []
-    until(lambda: not problem_after("short"), "no problem")
+    until(lambda: not problem_after("short"))
     assert "short" in heard(source)
 
 
@@ -290,10 +274,10 @@ def test_simulated_time_is_the_clock_topic(talker: Node, listen: Callable[..., R
         return source.now_ns() == 42_000_000_000
 
     assert source.clock_messages() == 0
-    until(ticked, "the time of /clock")
+    until(ticked)
     assert source.clock_messages() == 1, "a message that changes nothing is none"
     clock.clock.sec = 43
-    until(lambda: publisher.publish(clock) or source.clock_messages() == 2, "another message")
+    until(lambda: publisher.publish(clock) or source.clock_messages() == 2)
 
 
 def test_subscriptions_end_while_events_of_incompatible_publishers_wait(
@@ -309,7 +293,7 @@ def test_subscriptions_end_while_events_of_incompatible_publishers_wait(
         for wanted in (all_names, {}):
             source.want(wanted)
             # Its thread would have ended, which fails the test.
-            until(lambda wanted=wanted: source._held.keys() == wanted.keys(), "subscribed", 20)
+            until(lambda wanted=wanted: source._held.keys() == wanted.keys(), seconds=20)
     # Publishers, too, are destroyed while the node spins.
     advertised = source.graph.advertise({Advertisement("/out", STRING, "reliable", "volatile", 1)})
     advertised.result(20)
@@ -318,7 +302,7 @@ def test_subscriptions_end_while_events_of_incompatible_publishers_wait(
 
 def test_close_leaves_no_thread_and_no_node(talker: Node, webviz_domain: int) -> None:
     source = RosSource(domain_id=webviz_domain)
-    until(lambda: "webviz" in talker.get_node_names(), "the node is seen")
+    until(lambda: "webviz" in talker.get_node_names())
     source.close()
     assert not [t for t in threading.enumerate() if t.name == "webviz-ros"]
-    until(lambda: "webviz" not in talker.get_node_names(), "the node is gone")
+    until(lambda: "webviz" not in talker.get_node_names())

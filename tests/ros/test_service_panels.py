@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import threading
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 import pytest
+from waiting import until
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 
-import rclpy
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
+from nodes import SpunNode
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import String
 
@@ -25,25 +22,13 @@ from webviz.panels import selector
 from webviz.panels.selector import Selector
 
 
-class Server:
+class Server(SpunNode):
     """A node that spins in a thread, as Nav2's do."""
 
     def __init__(self, domain: int) -> None:
-        self._context = Context()
-        rclpy.init(context=self._context, domain_id=domain)
-        self.node = Node("planner_server", context=self._context)
+        super().__init__(domain, "planner_server")
         self.node.declare_parameter("planner_plugins", ["GridBased", "Smac"])
-        executor = SingleThreadedExecutor(context=self._context)
-        executor.add_node(self.node)
-        self._executor = executor
-        self._thread = threading.Thread(target=executor.spin, daemon=True)
-        self._thread.start()
-
-    def close(self) -> None:
-        self._executor.shutdown()
-        self._thread.join(30)
-        self.node.destroy_node()
-        self._context.try_shutdown()
+        threading.Thread(target=self.executor.spin, daemon=True).start()
 
 
 @pytest.fixture
@@ -51,13 +36,6 @@ def server(webviz_domain: int) -> Iterator[Server]:
     server = Server(webviz_domain)
     yield server
     server.close()
-
-
-def until(condition: Callable[[], Any], what: str) -> None:
-    deadline = time.monotonic() + 60
-    while not condition():
-        assert time.monotonic() < deadline, f"not in time: {what}"
-        time.sleep(0.02)
 
 
 def test_a_behavior_tree_that_comes_later_gets_the_choice(
@@ -80,10 +58,10 @@ def test_a_behavior_tree_that_comes_later_gets_the_choice(
             panel.show(viewer.state)
             return "Smac" in choice.values["options"]
 
-        until(is_offered, "the names of the plug-ins")
+        until(is_offered)
         choice.use("Smac", None)
         heard: list[Any] = []
         qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         server.node.create_subscription(String, "/planner_selector", heard.append, qos)
-        until(lambda: heard, "the choice")
+        until(lambda: heard)
         assert heard[0].data == "Smac"

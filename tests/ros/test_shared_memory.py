@@ -11,7 +11,7 @@ from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
-from processes import eventually
+from waiting import until
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 from webviz.ros.shared_memory import MIN_AGE_S, remove_abandoned, remove_unused, segments_of
@@ -75,7 +75,7 @@ def test_segments_of_killed_processes_are_removed_and_those_of_others_kept(
         os.utime(lock, (0, lock.stat().st_mtime - MIN_AGE_S))
     remove_abandoned()
     # Another process may remove them at this moment, as each does that starts a node.
-    assert eventually(lambda: not existing(abandoned))
+    until(lambda: not existing(abandoned))
     assert existing(kept) == kept
     running.communicate("\n")
     assert existing(kept) == set()

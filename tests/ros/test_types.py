@@ -2,17 +2,16 @@ import json
 import os
 import subprocess
 import sys
-import time
 from contextlib import suppress
 from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
+from waiting import until
 
 pytest.importorskip("rclpy", reason="rclpy is not installed", exc_type=ImportError)
 
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
+from nodes import SpunNode
 
 from webviz.data.messages import (
     UnknownTypeError,
@@ -72,17 +71,9 @@ else:
 @pytest.fixture
 def ros(webviz_domain):
     """A context and node of this process."""
-    import rclpy
-
-    context = Context()
-    context.init(domain_id=webviz_domain)
-    node = rclpy.create_node("types_test", context=context)
-    executor = SingleThreadedExecutor(context=context)
-    executor.add_node(node)
-    yield node, executor
-    executor.shutdown()
-    node.destroy_node()
-    context.try_shutdown()
+    spun = SpunNode(webviz_domain, "types_test")
+    yield spun.node, spun.executor
+    spun.close()
 
 
 @pytest.fixture
@@ -111,10 +102,7 @@ def peer(webviz_domain):
 
 
 def spin_until(executor, condition, seconds=60.0):
-    end = time.monotonic() + seconds
-    while not condition() and time.monotonic() < end:
-        executor.spin_once(timeout_sec=0.05)
-    assert condition()
+    until(condition, turn=lambda: executor.spin_once(timeout_sec=0.05), seconds=seconds)
 
 
 def test_an_installed_type_is_the_real_class():

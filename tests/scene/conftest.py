@@ -236,16 +236,3 @@ def ask(server: viser.ViserServer) -> Callable[[bytes], tuple[int, bytes, bytes]
         return int(head.split()[1]), head, body
 
     return ask
-
-
-@pytest.fixture
-def wait_until() -> Callable[[Callable[[], bool]], None]:
-    """Wait until a condition holds, for what another thread is about to do."""
-
-    def wait_until(condition: Callable[[], bool]) -> None:
-        deadline = time.monotonic() + 60
-        while not condition():
-            assert time.monotonic() < deadline, "waited 60 s in vain"
-            time.sleep(0.005)
-
-    return wait_until

@@ -17,6 +17,7 @@ import pytest
 from viser import _messages as wire
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 from viser.infra._messages import wire_field_names
+from waiting import until
 
 from webviz.scene import ViserScene
 from webviz.scene.adapter.image import add_blank_image
@@ -201,7 +202,8 @@ def test_a_browser_that_does_not_read_costs_no_memory(
 
 
 def test_a_browser_that_never_hears_of_removed_nodes_is_let_go(
-    scene: ViserScene, call: Callable[..., Any], wait_until: Callable[[Callable[[], bool]], None]
+    scene: ViserScene,
+    call: Callable[..., Any],
 ) -> None:
     """Each removal waits for the slowest browser; the memory for that has a bound."""
     call()  # reads nothing
@@ -216,9 +218,9 @@ def test_a_browser_that_never_hears_of_removed_nodes_is_let_go(
     for index in range(MAX_TOMBSTONES + 1000):
         scene.link._queue(wire.RemoveSceneNodeMessage(f"/webviz/{index}"))
         scene.link.count_removals(1)
-    wait_until(lambda: not cursors)
+    until(lambda: not cursors)
     scene.link.count_removals(1000)
-    wait_until(lambda: scene.link.live_messages < 200)
+    until(lambda: scene.link.live_messages < 200)
 
 
 def test_acknowledging_without_browsers_returns_at_once(scene: ViserScene) -> None:
@@ -226,11 +228,12 @@ def test_acknowledging_without_browsers_returns_at_once(scene: ViserScene) -> No
 
 
 def test_acknowledgement_waits_for_every_browser_and_leaves_nothing_behind(
-    scene: ViserScene, call: Callable[..., Any], wait_until: Callable[[Callable[[], bool]], None]
+    scene: ViserScene,
+    call: Callable[..., Any],
 ) -> None:
     peer = call()
     peer.look()
-    wait_until(lambda: len(scene.link.server.get_clients()) == 1)
+    until(lambda: len(scene.link.server.get_clients()) == 1)
     live = scene.link.live_messages
     with pytest.raises(TimeoutError, match=r"did not answer within 0\.1 s"):
         scene.link.acknowledge(timeout=0.1)

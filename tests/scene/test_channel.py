@@ -16,6 +16,7 @@ import playwright.sync_api as playwright
 import pytest
 import websockets.exceptions
 import websockets.sync.client
+from waiting import until
 from websockets.sync.connection import Connection
 
 from webviz.scene import ViserScene, open_server
@@ -77,7 +78,8 @@ def hello(key: str) -> str:
 
 
 def test_a_message_reaches_the_listener_with_the_browser_that_sent_it(
-    server: Server, call: Callable[..., Any], wait_until: Callable[[Callable[[], bool]], None]
+    server: Server,
+    call: Callable[..., Any],
 ) -> None:
     acknowledged: list[tuple[int, Wish]] = []
     server.channel.on(Wish, lambda browser, wish: acknowledged.append((browser, wish)))
@@ -86,7 +88,7 @@ def test_a_message_reaches_the_listener_with_the_browser_that_sent_it(
     with channel(server) as page:
         page.send(hello(key))
         page.send('{"type":"Wish","text":"rain"}')
-        wait_until(lambda: bool(acknowledged))
+        until(lambda: bool(acknowledged))
     assert acknowledged == [(browser, Wish("rain"))]
 
 
@@ -172,7 +174,6 @@ def test_a_channel_from_another_site_is_refused(server: Server) -> None:
 def test_nonsense_is_ignored(
     server: Server,
     call: Callable[..., Any],
-    wait_until: Callable[[Callable[[], bool]], None],
     nonsense: str | bytes,
 ) -> None:
     acknowledged: list[Wish] = []
@@ -182,7 +183,7 @@ def test_nonsense_is_ignored(
         page.send(hello(key))
         page.send(nonsense)
         page.send('{"type":"Wish","text":"sense"}')
-        wait_until(lambda: bool(acknowledged))
+        until(lambda: bool(acknowledged))
     assert acknowledged == [Wish("sense")]
 
 
@@ -190,7 +191,6 @@ def test_nonsense_is_ignored(
 def test_a_page_that_reads_nothing_has_to_connect_anew(
     server: Server,
     call: Callable[..., Any],
-    wait_until: Callable[[Callable[[], bool]], None],
     count: int,
     size: int,
 ) -> None:
@@ -204,18 +204,19 @@ def test_a_page_that_reads_nothing_has_to_connect_anew(
         assert browser in live
         for _ in range(count):
             server.channel.send(News("x" * size), browser)
-        wait_until(lambda: browser not in live)
+        until(lambda: browser not in live)
 
 
 def test_when_the_channel_ends_viser_notifies_the_page(
-    server: Server, call: Callable[..., Any], wait_until: Callable[[Callable[[], bool]], None]
+    server: Server,
+    call: Callable[..., Any],
 ) -> None:
     browser, key = key_of(call())
     with channel(server) as page:
         page.send(hello(key))
         server.channel.send(News("hello"))
         receive(page)
-    wait_until(lambda: browser not in server._websock_server._live_connections)
+    until(lambda: browser not in server._websock_server._live_connections)
 
 
 def test_when_viser_s_connection_ends_so_does_the_channel(
@@ -257,7 +258,6 @@ def test_nothing_is_below_the_folder_of_the_modules(server: Server, path: str) -
 def test_a_real_page_answers_and_is_back_when_the_server_is_another(
     browser: playwright.Browser,
     server: Server,
-    wait_until: Callable[[Callable[[], bool]], None],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     answers: list[tuple[int, Answer]] = []
@@ -275,7 +275,7 @@ def test_a_real_page_answers_and_is_back_when_the_server_is_another(
     server.stop()
 
     def greet_late(server: Server, *rest: Any) -> None:
-        wait_until(lambda: bool(server._websock_server._live_connections))
+        until(lambda: bool(server._websock_server._live_connections))
         greet(server, *rest)
 
     # The worst case: the page is there before anybody has told the server how to greet it.
@@ -298,7 +298,6 @@ def test_a_real_page_answers_and_is_back_when_the_server_is_another(
 def test_a_page_below_a_folder_of_a_proxy_loads_its_modules_and_opens_the_channel(
     browser: playwright.Browser,
     server: Server,
-    wait_until: Callable[[Callable[[], bool]], None],
 ) -> None:
     ViserScene(server)
     answers: list[int] = []

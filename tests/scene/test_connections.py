@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 import viser
 import websockets.exceptions
+from waiting import until
 from websockets.frames import Frame, Opcode
 
 from webviz.server.http import backoff, connections
@@ -26,7 +27,6 @@ PAGE = b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"
 def test_one_browser_too_many_is_refused_with_the_reason(
     ask: Callable[..., Any],
     call: Callable[..., Any],
-    wait_until: Callable[[Callable[[], bool]], None],
 ) -> None:
     peers = [call() for _ in range(MAX_BROWSERS)]
     with pytest.raises(websockets.exceptions.InvalidStatus, match="503"):
@@ -34,7 +34,7 @@ def test_one_browser_too_many_is_refused_with_the_reason(
     status, _, body = ask(PAGE)
     assert (status, body.split(b",")[0]) == (503, b"128 browsers are connected")
     peers[0].close()
-    wait_until(lambda: ask(PAGE)[0] == 200)
+    until(lambda: ask(PAGE)[0] == 200)
 
 
 def test_connections_that_never_ask_keep_no_browser_out(
@@ -182,16 +182,15 @@ def test_of_too_many_that_stay_away_the_first_may_come_back() -> None:
 def test_a_browser_that_sends_too_much_waits_and_others_do_not(
     server: viser.ViserServer,
     call: Callable[..., Any],
-    wait_until: Callable[[Callable[[], bool]], None],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(connections, "RateLimit", lambda *_: RateLimit(rate=1e-9, burst=3.5))
     eager, other = call(), call()
     for number in range(1, 6):
         eager.look(float(number))
-    wait_until(lambda: seen(server) == [3.0])
+    until(lambda: seen(server) == [3.0])
     other.look(9.0)
-    wait_until(lambda: len(server.get_clients()) == 2)
+    until(lambda: len(server.get_clients()) == 2)
     assert seen(server) == [3.0, 9.0]
 
 
@@ -222,7 +221,6 @@ def test_who_floods_with_what_cannot_wait_is_let_go(
 def test_a_turn_of_the_event_loop_reads_little_from_each_browser(
     call: Callable[..., Any],
     monkeypatch: pytest.MonkeyPatch,
-    wait_until: Callable[[Callable[[], bool]], None],
 ) -> None:
     sizes: list[int] = []
     receive = Connection.data_received
@@ -234,14 +232,13 @@ def test_a_turn_of_the_event_loop_reads_little_from_each_browser(
     monkeypatch.setattr(Connection, "data_received", count)
     peer = call()
     peer.send({"type": "Nothing", "filling": 100_000 * "x"})
-    wait_until(lambda: sum(sizes) > 100_000)
+    until(lambda: sum(sizes) > 100_000)
     assert max(sizes) == READ_BYTES
 
 
 def test_a_message_that_is_too_large_is_dropped_and_one_without_bounds_ends_the_connection(
     server: viser.ViserServer,
     call: Callable[..., Any],
-    wait_until: Callable[[Callable[[], bool]], None],
 ) -> None:
     clicked: list[str] = []
     names = "/" + 10_000 * "x", "/short"
@@ -250,7 +247,7 @@ def test_a_message_that_is_too_large_is_dropped_and_one_without_bounds_ends_the_
         node.on_click(lambda event: clicked.append(event.target.name))
     peer = call()
     peer.look()
-    wait_until(lambda: len(server.get_clients()) == 1)
+    until(lambda: len(server.get_clients()) == 1)
     rest = {
         "instance_index": None,
         "ray_origin": [0.0, 0.0, 1.0],
@@ -260,7 +257,7 @@ def test_a_message_that_is_too_large_is_dropped_and_one_without_bounds_ends_the_
     }
     for name in names:
         peer.send({"type": "SceneNodeClickMessage", "name": name} | rest)
-    wait_until(lambda: "/short" in clicked)
+    until(lambda: "/short" in clicked)
     assert clicked == ["/short"]
     peer.send({"type": "SceneNodeClickMessage", "name": 5_000_000 * "x"})
 
@@ -276,14 +273,13 @@ def test_a_server_that_stops_waits_for_no_browser(
     call: Callable[..., Any],
     server: viser.ViserServer,
     ask: Callable[..., Any],
-    wait_until: Callable[[Callable[[], bool]], None],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(connections, "RateLimit", lambda *_: RateLimit(rate=1e-9, burst=1.5))
     eager = call()  # must wait for ages, and does not read, so that it never answers a farewell
     eager.look(1.0)
     eager.look(2.0)
-    wait_until(lambda: seen(server) == [1.0])
+    until(lambda: seen(server) == [1.0])
     with socket.create_connection(("127.0.0.1", server.get_port())) as client:
         client.sendall(b"GET / HT")
         assert ask(PAGE)[0] == 200

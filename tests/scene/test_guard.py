@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 import viser
 import websockets.exceptions
+from waiting import until
 
 from webviz.scene import CannotListen, PortInUse, open_server
 
@@ -124,13 +125,13 @@ def test_visers_environment_variable_does_not_move_the_port(
 
 
 def test_a_stopped_server_leaves_no_thread_no_port_and_no_word(
-    capfd: pytest.CaptureFixture[str], wait_until: Callable[[Callable[[], bool]], None]
+    capfd: pytest.CaptureFixture[str],
 ) -> None:
     before = set(threading.enumerate())
     server = open_server(port=0)
     port = server.get_port()
     server.stop()
-    wait_until(lambda: set(threading.enumerate()) <= before)
+    until(lambda: set(threading.enumerate()) <= before)
     socket.create_server(("127.0.0.1", port)).close()
     assert capfd.readouterr() == ("", "")
 
@@ -138,7 +139,6 @@ def test_a_stopped_server_leaves_no_thread_no_port_and_no_word(
 def test_nothing_that_viser_shows_itself_can_be_operated(
     server: viser.ViserServer,
     call: Callable[..., Any],
-    wait_until: Callable[[Callable[[], bool]], None],
 ) -> None:
     pressed: list[str] = []
     gui = server.gui
@@ -168,7 +168,7 @@ def test_nothing_that_viser_shows_itself_can_be_operated(
     ):
         peer.send(message)
     peer.look()
-    wait_until(lambda: len(server.get_clients()) == 1)
+    until(lambda: len(server.get_clients()) == 1)
     assert not check.value
     assert not check._impl.removed
     assert pressed == []
@@ -198,10 +198,9 @@ def test_a_message_that_webviz_does_not_know_is_dropped_and_the_next_one_heard(
     message: Any,
     server: viser.ViserServer,
     call: Callable[..., Any],
-    wait_until: Callable[[Callable[[], bool]], None],
 ) -> None:
     peer = call()
     peer.send(message)
     peer.look()
-    wait_until(lambda: len(server.get_clients()) == 1)
+    until(lambda: len(server.get_clients()) == 1)
     assert server._share_tunnel is None

@@ -13,6 +13,7 @@ import pytest
 import viser
 import websockets.sync.server
 from pages import COARSE
+from waiting import until
 
 from webviz.scene import ViserScene
 from webviz.server.http.rate_limited_log import rate_limited_log
@@ -118,7 +119,6 @@ def test_a_link_cannot_make_the_page_obey_another_server(
     browser: playwright.Browser,
     server: viser.ViserServer,
     scene: ViserScene,
-    wait_until: Callable[[Callable[[], bool]], None],
 ) -> None:
     called = threading.Event()
     with websockets.sync.server.serve(lambda _: called.set(), "127.0.0.1", 0) as other:
@@ -128,7 +128,7 @@ def test_a_link_cannot_make_the_page_obey_another_server(
         link = f"?fixedDpr={COARSE}&websocket=ws://127.0.0.1:{port}"
         page.goto(f"http://127.0.0.1:{server.get_port()}/{link}")
         # It connects to one server only: to this one, although the link names another.
-        wait_until(lambda: len(server.get_clients()) == 1)
+        until(lambda: len(server.get_clients()) == 1)
         page.close()
         other.shutdown()
     assert not called.is_set()
@@ -138,7 +138,6 @@ def test_clients_that_only_connect_do_not_fill_the_log(
     server: viser.ViserServer,
     caplog: pytest.LogCaptureFixture,
     call: Callable[..., Any],
-    wait_until: Callable[[Callable[[], bool]], None],
 ) -> None:
     for _ in range(20):
         socket.create_connection(("127.0.0.1", server.get_port())).close()
@@ -146,7 +145,7 @@ def test_clients_that_only_connect_do_not_fill_the_log(
     for _ in range(20):
         peer.send({"type": "ViewerCameraMessage", "wxyz": "a"})
     peer.look()
-    wait_until(lambda: len(server.get_clients()) == 1)
+    until(lambda: len(server.get_clients()) == 1)
     assert len(caplog.records) <= 2
     assert all(len(record.getMessage()) < 200 for record in caplog.records)
     assert not any(record.exc_info for record in caplog.records)

@@ -10,13 +10,11 @@ import pytest
 pytest.importorskip("rclpy", reason="rclpy is not installed", exc_type=ImportError)
 pytest.importorskip("test_msgs", reason="needs test_msgs: install ros-webviz[ros-test]")
 
-import rclpy
 from action_msgs.msg import GoalStatus
 from action_msgs.srv import CancelGoal
+from nodes import SpunNode
 from rclpy.action.client import ActionClient
-from rclpy.context import Context
 from rclpy.experimental.events_executor import EventsExecutor
-from rclpy.node import Node
 from test_msgs.action import Fibonacci
 
 from webviz.ros.types import learn
@@ -27,27 +25,16 @@ pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning"
 FIBONACCI = "test_msgs/action/Fibonacci"
 
 
-class Bench:
+class Bench(SpunNode):
     """A server that accepts positive orders, and a client."""
 
     def __init__(self, domain: int) -> None:
-        self.context = Context()
-        rclpy.init(context=self.context, domain_id=domain)
-        self.node = Node("fibonacci", context=self.context)
-        self.executor = EventsExecutor(context=self.context)
-        self.executor.add_node(self.node)
+        super().__init__(domain, "fibonacci", EventsExecutor)
         self.begun: list[ServerGoal] = []
         learn(FIBONACCI)
         ActionServer(self.node, "/count", FIBONACCI, lambda goal: goal.order > 0, self.begun.append)
         self.client = ActionClient(self.node, Fibonacci, "/count")
         self.until(self.client.server_is_ready)
-
-    def until(self, condition: Callable[[], object], turns: int = 1200) -> None:
-        for _ in range(turns):
-            if condition():
-                return
-            self.executor.spin_once(timeout_sec=0.05)
-        raise AssertionError("timed out")
 
     def result_of(self, future: Any) -> Any:
         self.until(future.done)
@@ -63,9 +50,7 @@ def bench(webviz_domain: int) -> Iterator[Bench]:
     bench = Bench(webviz_domain)
     yield bench
     bench.client.destroy()
-    bench.executor.shutdown()
-    bench.node.destroy_node()
-    bench.context.try_shutdown()
+    bench.close()
 
 
 def test_a_client_gets_feedback_and_the_result_when_the_goal_ends(bench: Bench) -> None:

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from waiting import until
 
 pytest.importorskip("rclpy", reason="rclpy is not installed", exc_type=ImportError)
 
@@ -118,11 +119,8 @@ class Robot(Node):
         while (rest := end - time.monotonic()) > 0:
             self.executor_.spin_once(timeout_sec=rest)
 
-    def spin_until(self, condition, seconds=60.0):
-        end = time.monotonic() + seconds
-        while not condition() and time.monotonic() < end:
-            self.executor_.spin_once(timeout_sec=0.05)
-        assert condition()
+    def spin_until(self, condition):
+        until(condition, turn=lambda: self.executor_.spin_once(timeout_sec=0.05))
 
     def drive(self, kind, twist, seconds):
         """Send a velocity at 20 Hz for a while, then 0."""

@@ -21,6 +21,7 @@ from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, W
 
 from webviz.data.messages import definition, encode, type_exists, type_hash
 from webviz.shell.testing import SECOND
+from webviz.shell.testing.messages import stamped_transform
 
 TF = "tf2_msgs/msg/TFMessage"
 START_NS = 1_700_000_000 * SECOND
@@ -124,12 +125,7 @@ def ns(seconds: float) -> int:
 
 def stamped(parent: str, child: str, stamp_ns: int, x: float = 0.0) -> Mapping[str, Any]:
     """A geometry_msgs/TransformStamped."""
-    sec, nanosec = divmod(stamp_ns, SECOND)
-    return {
-        "header": {"frame_id": parent, "stamp": {"sec": sec, "nanosec": nanosec}},
-        "child_frame_id": child,
-        "transform": {"translation": {"x": x}, "rotation": {"w": 1.0}},
-    }
+    return stamped_transform(parent, child, stamp_ns, (x, 0.0, 0.0))
 
 
 def strings(*seconds: float, topic: str = "/words", **how: Any) -> Bag:

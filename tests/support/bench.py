@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
+
+from waiting import until
 
 from webviz.data.messages import encode
 from webviz.engine.commands import PROGRAM, Command, Sender
@@ -17,7 +18,7 @@ from webviz.engine.pipeline.scene import Cameras, NoCameras
 from webviz.engine.state import State
 from webviz.files.config import Config, Item, Settings
 from webviz.files.config.model import MemorySettings
-from webviz.shell.testing.messages import header
+from webviz.shell.testing.messages import header, stamped_transform
 from webviz.shell.testing.recording import RecordingScene
 from webviz.shell.testing.source import HandFedSource
 
@@ -80,12 +81,7 @@ class Bench:
         static: bool = False,
         topic: str = "",
     ) -> None:
-        transform = {"translation": {"x": x}, "rotation": {"w": 1.0}}
-        stamped = {
-            "header": header(parent, stamp_ns),
-            "child_frame_id": child,
-            "transform": transform,
-        }
+        stamped = stamped_transform(parent, child, stamp_ns, (x, 0.0, 0.0))
         topic = topic or ("/tf_static" if static else "/tf")
         self.publish(topic, "tf2_msgs/msg/TFMessage", {"transforms": [stamped]})
 
@@ -116,12 +112,8 @@ class Bench:
 
     def until_done(self, answer: Future[str]) -> None:
         """Turn until a command is done; one about files takes several turns."""
-        for _ in range(2000):
-            self.turn()
-            if answer.done():
-                return
-            time.sleep(0.005)
-        raise AssertionError("not done")
+        self.turn()
+        until(answer.done, turn=self.turn)
 
     def statuses(self, index: int = 0) -> dict[str, tuple[str, str]]:
         """Level and sentence by key of one display, as a panel would show them now."""

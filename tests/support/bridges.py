@@ -15,7 +15,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from processes import PATIENCE_S, eventually
+from processes import PATIENCE_S
+from waiting import until
 
 from webviz.api.bridge import Bridge
 from webviz.api.declared import Topic
@@ -119,7 +120,7 @@ class Reader:
 
     def until(self, condition: Callable[[], object]) -> None:
         """Wait until a condition holds."""
-        assert eventually(lambda: bool(condition())), (self.bridge, self.source.offers())
+        until(condition, lambda: (self.bridge, self.source.offers()))
 
     def until_up(self) -> None:
         """Wait until the bridge is connected, and its topics are known."""

@@ -9,31 +9,33 @@ from typing import Any
 import msgspec
 import websockets.sync.client
 
-from tests.scene.conftest import Peer
-from webviz.server.http.viser_server import Server
+from tests.scene.conftest import HasPort, Peer
 
 PATIENCE_S = 60.0
 
 
-class Guest:
-    """Joins as a page does.
+class Connections:
+    """Joins a server as a page does, and keeps both of its connections.
 
     Args:
         server: of the pages.
         headers: of its requests, such as a cookie.
     """
 
-    def __init__(self, server: Server, **headers: str) -> None:
-        self.channel = server.channel
+    def __init__(self, server: HasPort, **headers: str) -> None:
         self.viser = Peer(server, **headers)
         self.viser.look()
         for message in self.viser.replay():
             if message["type"] == "RunJavascriptMessage":
                 source = message["source"].partition("(")[2].removesuffix(");")
                 self.page = msgspec.json.decode(source)
-        url = f"ws://127.0.0.1:{server.get_port()}/webviz/channel"
         self._socket = websockets.sync.client.connect(
-            url, compression=None, close_timeout=0.1, additional_headers=headers
+            f"ws://127.0.0.1:{server.get_port()}/webviz/channel",
+            compression=None,
+            close_timeout=0.1,
+            additional_headers=headers,
+            max_size=None,
+            ping_interval=None,
         )
         self.send("Hello", key=self.page["key"])
 
@@ -44,6 +46,10 @@ class Guest:
     def say(self, text: str) -> None:
         """Send any text."""
         self._socket.send(text)
+
+
+class Guest(Connections):
+    """A page that reads what it asks for."""
 
     def receive(self, type_: str) -> dict[str, Any]:
         """The next message of a type."""

@@ -16,7 +16,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 
 from webviz.data.messages import encode
 from webviz.ros.types import message_class
-from webviz.shell.testing.messages import header
+from webviz.shell.testing.messages import header, stamped_transform
 from webviz.shell.testing.source import SECOND
 
 TF = "tf2_msgs/msg/TFMessage"
@@ -28,11 +28,7 @@ def transforms(*links: tuple[str, str, int, float]) -> Mapping[str, Any]:
     """A TFMessage of (parent, child, stamp in ns, x in metres)."""
     return {
         "transforms": [
-            {
-                "header": header(parent, stamp_ns),
-                "child_frame_id": child,
-                "transform": {"translation": {"x": x}, "rotation": {"w": 1.0}},
-            }
+            stamped_transform(parent, child, stamp_ns, (x, 0.0, 0.0))
             for parent, child, stamp_ns, x in links
         ]
     }

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 from typing import Any
+
+from waiting import until
 
 ARM = """
 <robot name="arm">
@@ -26,12 +27,8 @@ ARM = """
 
 def wait(at: Any, ready: Callable[[], bool]) -> None:
     """Turn the frame loop until slow work is done."""
-    deadline = time.monotonic() + 90
     at.turn()
-    while not ready():
-        assert time.monotonic() < deadline, at.statuses()
-        time.sleep(0.005)
-        at.turn()
+    until(ready, at.statuses, turn=at.turn, seconds=90.0)
 
 
 def is_loaded(at: Any) -> bool:

@@ -10,6 +10,7 @@ import building
 from bags import START_NS, TF, Bag, ns
 
 from webviz.shell.testing import header, turned
+from webviz.shell.testing.messages import stamped_transform
 from webviz_sim.pose import Pose2D
 
 Fault = Literal["turned", "misplaced", "obstacle", "none"]
@@ -21,12 +22,8 @@ BOX = 0.6
 
 
 def _transform(parent: str, child: str, at_s: float, pose: Pose2D, z: float = 0.0) -> Any:
-    quaternion = dict(zip("xyzw", turned(yaw=pose.yaw), strict=True))
-    return {
-        "header": header(parent, START_NS + ns(at_s)),
-        "child_frame_id": child,
-        "transform": {"translation": {"x": pose.x, "y": pose.y, "z": z}, "rotation": quaternion},
-    }
+    at_ns = START_NS + ns(at_s)
+    return stamped_transform(parent, child, at_ns, (pose.x, pose.y, z), turned(yaw=pose.yaw))
 
 
 def write(path: Path, fault: Fault, more: Mapping[float, str] | None = None) -> Path:

@@ -10,7 +10,8 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from processes import eventually, no_thread_left
+from processes import no_thread_left
+from waiting import until
 
 from webviz import Display, Level, Topic
 from webviz.shell.testing import LiveViewer
@@ -66,8 +67,8 @@ def test_what_does_not_come_about_says_why(webviz_viewer: Viewers) -> None:
             viewer.wait_until_drawn(display, seconds=0.2)
         return re.search(reason, str(error.value)) is not None
 
-    assert eventually(lambda: says("LaserScan", r"LaserScan has not drawn it\. Transform: .* no "))
-    assert eventually(lambda: says("Path", "Topic: No publisher on /plan"))
+    until(lambda: says("LaserScan", r"LaserScan has not drawn it\. Transform: .* no "))
+    until(lambda: says("Path", "Topic: No publisher on /plan"))
 
 
 def test_the_simulated_robot_drives_around(webviz_viewer: Viewers) -> None:

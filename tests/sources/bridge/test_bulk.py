@@ -6,7 +6,7 @@ from contextlib import closing
 
 import foxglove  # pyright: ignore[reportMissingImports]
 import numpy as np
-from processes import eventually
+from waiting import until
 
 from webviz.api.declared import Topic
 from webviz.data.messages import definition, encode
@@ -36,5 +36,5 @@ def test_large_clouds_come_whole_over_loopback() -> None:
         return received >= 20
 
     with closing(source):
-        assert eventually(has_come), f"{received} of 20 clouds"
+        until(has_come, lambda: f"{received} of 20 clouds")
     server.stop()

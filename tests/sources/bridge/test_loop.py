@@ -6,7 +6,7 @@ import json
 
 import pytest
 from bridges import foxglove_server
-from processes import eventually
+from waiting import until
 
 from webviz.shell.cli import main
 
@@ -24,7 +24,7 @@ def test_the_doctor_examines_a_robot_behind_a_bridge(capsys: pytest.CaptureFixtu
         return "TF003" in ids or "GRAPH008" in ids  # of the data, as with ROS
 
     with foxglove_server() as server:
-        assert eventually(has_found)
+        until(has_found)
     assert not any(id.startswith(("ENV", "SHM", "NET")) for id in ids)
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from bridges import FoxgloveServer, foxglove_server
-from processes import eventually
+from waiting import until
 
 import webviz
 from webviz.api.status import Level
@@ -66,8 +66,8 @@ def test_robots_are_drawn_remembered_and_saved_together(config: Path, tmp_path: 
                 and {"r1/laser", "r2/laser"} <= set(viewer.frames)
             )
 
-        assert eventually(is_drawn), (viewer.statuses, [d.statuses for d in viewer])
-        assert eventually(lambda: not clock_problem(viewer)), viewer.statuses
+        until(is_drawn, lambda: (viewer.statuses, [d.statuses for d in viewer]))
+        until(lambda: not clock_problem(viewer), lambda: viewer.statuses)
         viewer.rewind(0.5)
         assert viewer.state.playback
         assert viewer.state.playback.is_live is False
@@ -85,7 +85,7 @@ def test_a_config_that_is_opened_later_is_connected(config: Path, tmp_path: Path
     later.write_text(text.replace("displays:", broken + "displays:"))
     with webviz.Viewer(config, port=0) as viewer:
         viewer.attend(60)
-        assert eventually(lambda: "r2/laser" in viewer.frames)
+        until(lambda: "r2/laser" in viewer.frames)
         viewer.do(Open(str(later)))
 
         def is_drawn() -> bool:
@@ -93,7 +93,7 @@ def test_a_config_that_is_opened_later_is_connected(config: Path, tmp_path: Path
             levels = {each.name: each.status.level for each in viewer}
             return (levels["r1"], levels.get("r3")) == (Level.OK, Level.OK)
 
-        assert eventually(is_drawn), (viewer.statuses, [d.statuses for d in viewer])
+        until(is_drawn, lambda: (viewer.statuses, [d.statuses for d in viewer]))
         assert "Connection to r2" not in viewer.statuses
         assert "not the address of a bridge" in viewer.statuses["Connection to r4"].text
 

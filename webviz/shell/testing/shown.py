@@ -12,7 +12,7 @@ from webviz.data.messages import encode
 from webviz.engine.commands import SetFixedFrame, SetProperty
 from webviz.shell.pictures.browser import Pixels
 from webviz.shell.testing.comparing import TOLERANCE, PixelBox
-from webviz.shell.testing.messages import header
+from webviz.shell.testing.messages import header, stamped_transform
 from webviz.shell.testing.pictures import SnapshotFixture
 from webviz.shell.testing.recording import RecordingScene
 from webviz.shell.testing.seen import Seen, Vector
@@ -88,14 +88,7 @@ class Shown(Seen, ABC):
         stamp_ns: int | None = None,
     ) -> None:
         """Publish a transform, static unless it has a stamp."""
-        stamped = {
-            "header": header(parent, stamp_ns or 0),
-            "child_frame_id": child,
-            "transform": {
-                "translation": dict(zip("xyz", xyz, strict=True)),
-                "rotation": dict(zip("xyzw", xyzw, strict=True)),
-            },
-        }
+        stamped = stamped_transform(parent, child, stamp_ns or 0, xyz, xyzw)
         topic = "/tf_static" if stamp_ns is None else "/tf"
         self.publish(topic, "tf2_msgs/msg/TFMessage", {"transforms": [stamped]})
 

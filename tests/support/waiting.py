@@ -1,0 +1,35 @@
+"""Waiting for a state, however long a busy machine takes."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import TypeVar
+
+T = TypeVar("T")
+
+PATIENCE_S = 60.0
+LOOK_S = 0.005
+
+
+def until(
+    condition: Callable[[], T | None],
+    lacking: Callable[[], object] = lambda: "It does not happen.",
+    *,
+    turn: Callable[[], object] = lambda: None,
+    seconds: float = PATIENCE_S,
+) -> T:
+    """Wait until a condition holds, and return what it returns.
+
+    Args:
+        condition: looked at again and again.
+        lacking: returns what to report if it does not hold in time.
+        turn: called in between, such as a turn of a loop.
+        seconds: to wait at most.
+    """
+    deadline = time.monotonic() + seconds
+    while not (found := condition()):
+        assert time.monotonic() < deadline, lacking()
+        turn()
+        time.sleep(LOOK_S)
+    return found
