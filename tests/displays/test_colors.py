@@ -2,8 +2,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from numpy.typing import ArrayLike
 
-from webviz_displays.shared.colors import RAINBOW, bounds, faded, fractions, ramp
+from webviz_displays.shared.colors import RAINBOW, bounds, faded, ramp
 
 
 @pytest.mark.parametrize(
@@ -39,26 +40,43 @@ def test_long_ramps_are_as_short_ones() -> None:
         assert colors[i].tolist() == ramp(values[i : i + 1], -1.0, 1.0)[0].tolist()
 
 
-def test_fractions_are_clamped_between_the_bounds() -> None:
-    values = [-5.0, 2.0, 3.0, 4.0, 99.0, np.nan, np.inf, -np.inf]
-    assert fractions(values, 2.0, 4.0).tolist() == [0, 0, 0.5, 1, 1, 0, 1, 0]
+GREYS = ((0, 0, 0), (200, 200, 200))
+
+
+def greys(values: ArrayLike, low: float, high: float) -> list[int]:
+    colors = ramp(values, low, high, GREYS)
+    assert (colors == colors[:, :1]).all()
+    return colors[:, 0].tolist()
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_colors_are_those_of_the_bounds_beyond_them(dtype: type) -> None:
+    values = np.array([-5.0, 2.0, 3.0, 4.0, 99.0, np.nan, np.inf, -np.inf], dtype)
+    assert greys(values, 2.0, 4.0) == [0, 0, 100, 200, 200, 0, 200, 0]
+    assert greys(np.array([0, 128, 255], np.uint8), 0, 256) == [0, 100, 199]
+    most = np.finfo(dtype).max
+    assert greys(np.array([-most, 0.0, most], dtype), -float(most), float(most)) == [0, 100, 200]
 
 
 @pytest.mark.parametrize("high", [2.0, 1.0, np.nan])
 def test_without_a_span_everything_is_low(high: float) -> None:
-    assert fractions([1.0, 2.0, 3.0], 2.0, high).tolist() == [0, 0, 0]
+    assert greys([1.0, 2.0, 3.0], 2.0, high) == [0, 0, 0]
 
 
 @given(
     st.lists(st.floats(), max_size=5),
     st.floats(allow_nan=False, allow_infinity=False),
     st.floats(allow_nan=False, allow_infinity=False),
+    st.sampled_from([np.float32, np.float64]),
 )
-def test_fractions_lie_between_0_and_1_whatever_comes(
-    values: list[float], low: float, high: float
+def test_colors_are_in_the_order_of_the_values(
+    values: list[float], low: float, high: float, dtype: type
 ) -> None:
-    where = fractions(values, low, high)
-    assert ((where >= 0) & (where <= 1)).all()
+    with np.errstate(over="ignore"):
+        known = np.sort(np.array([each for each in values if each == each], dtype))
+    found = greys(known, low, high)
+    assert found == sorted(found)
+    assert all(0 <= each <= 200 for each in greys(values, low, high))
 
 
 def test_bounds_ignore_what_is_not_finite() -> None:

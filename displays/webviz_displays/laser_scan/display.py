@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -188,14 +188,15 @@ class LaserScan(PointsDisplay, Comparable, Sweep):
         xyz: F64,
         sample: Sample,
         ctx: Context,
-    ) -> F64:
+    ) -> NDArray[np.floating[Any]]:
         """Return the values (N,) that determine the colour."""
         if self.channel_name in ("x", "y", "z"):
-            return coordinate(sample.pose, xyz, "xyz".index(self.channel_name))
+            values, origin = coordinate(sample.pose, xyz, "xyz".index(self.channel_name))
+            return values + origin
         if self.channel_name == "intensity":
             count = len(scan.intensities)
             if count == points.total:
-                return scan.intensities[points.beams].astype(np.float64)
+                return scan.intensities[points.beams]
             if count:
                 ctx.warn(
                     "Intensity",
@@ -204,4 +205,4 @@ class LaserScan(PointsDisplay, Comparable, Sweep):
                 )
             else:
                 ctx.ok("Intensity", "The scan has no intensities; colouring by range.")
-        return scan.ranges[points.beams].astype(np.float64)
+        return scan.ranges[points.beams]

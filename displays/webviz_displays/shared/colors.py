@@ -35,22 +35,6 @@ _PART = 1 << 14
 """Values per block, so that intermediate arrays stay in the cache."""
 
 
-def fractions(values: ArrayLike, low: float, high: float) -> F64:
-    """Where values (N,) lie between `low` (0) and `high` (1); beyond them they are 0 or 1.
-
-    NaN counts as `low`, and so does every value if `low` equals `high`.
-    """
-    half_span = high / 2 - low / 2  # the difference might overflow
-    if not half_span > 0.0:
-        return np.zeros(np.shape(values))
-    with np.errstate(over="ignore", invalid="ignore"):  # overflows are clamped below
-        where = np.multiply(values, 0.5, dtype=np.float64)  # the same as to divide, but faster
-        where -= low / 2
-        where /= half_span
-    np.fmax(where, 0.0, out=where)  # fmax and fmin ignore NaN
-    return np.fmin(where, 1.0, out=where)
-
-
 def bounds(values: ArrayLike, least_span: float = 0.0) -> tuple[float, float]:
     """Return the smallest and largest finite value of (N,), at least `least_span` apart."""
     values = np.asarray(values)
@@ -67,17 +51,27 @@ def bounds(values: ArrayLike, least_span: float = 0.0) -> tuple[float, float]:
 def ramp(values: ArrayLike, low: float, high: float, stops: tuple[Rgb, ...] = RAINBOW) -> U8:
     """Colours (N, 3) of values (N,), from the first stop at `low` to the last one at `high`.
 
-    Stops are evenly spaced. The rainbow is the same as RViz's getRainbowColor(1 - fraction).
+    Stops are evenly spaced. The rainbow is the same as RViz's getRainbowColor(1 - fraction). Values
+    beyond the bounds have the nearest colour; NaN has the first, and so has every value if `low` is
+    not below `high`.
     """
     table = _table(stops)
     values = np.asarray(values)
     colors = np.empty(len(values), table.dtype)
-    for start in range(0, len(values), _PART):
-        where = fractions(values[start : start + _PART], low, high)
-        where *= len(table) - 1
-        index = np.rint(where, out=where).astype(np.intp)
-        # A colour as one item of three bytes: numpy copies matrix rows far more slowly.
-        table.take(index, mode="clip", out=colors[start : start + _PART])
+    half_span = high / 2 - low / 2  # the difference might overflow
+    last = len(table) - 1
+    # float32 for all that it resolves, in which numpy computes twice as fast.
+    number = np.result_type(values.dtype, np.float32).type
+    with np.errstate(all="ignore"):  # overflows are clamped, and NaN becomes the smallest integer
+        shift, scale = number(low / 2), number(last / half_span if half_span > 0.0 else 0.0)
+        for start in range(0, len(values), _PART):
+            where = np.multiply(values[start : start + _PART], number(0.5))
+            where -= shift
+            where *= scale
+            where += number(0.5)  # to round by cutting off
+            index = np.clip(where, 0, last, out=where).astype(np.intp)
+            # A colour as one item of three bytes: numpy copies matrix rows far more slowly.
+            table.take(index, mode="clip", out=colors[start : start + _PART])
     return colors.view(np.uint8).reshape(-1, 3)
 
 

@@ -199,13 +199,13 @@ class PointsDisplay(PointStyle):
             ctx: gets the colour scale.
         """
         pose = fixed if self.use_fixed_frame else own
-        values = coordinate(pose, xyz, _AXES.index(self.axis))
+        values, origin = coordinate(pose, xyz, _AXES.index(self.axis))
         limits = self.autocompute_value_bounds
         low, high = limits.min_value, limits.max_value
         if limits.value:
-            low, high = bounds(values, _LEAST_SPAN)
+            low, high = (each + origin for each in bounds(values, _LEAST_SPAN))
         ctx.color_scale = ColorScale(f"{self.axis.lower()} (m)", low, high, RAINBOW)
-        return ramp(values, low, high)
+        return ramp(values, low - origin, high - origin)
 
     def intensity_colors(self, values: ArrayLike, ctx: Context) -> U8:
         """Colours (N, 3) of Intensity for values (N,)."""
