@@ -86,6 +86,7 @@ class RosSource:
         # The service cannot describe types that are composed at run time (see `types`).
         silent = Parameter("start_type_description_service", value=False)
         self._node = Node(node_name, context=self._context, parameter_overrides=[silent])
+        self._resolved = functools.lru_cache(maxsize=1000)(self._node.resolve_topic_name)
         self._clock = self._node.get_clock()
         self._clock_messages = 0
         self._jumps = self._clock.create_jump_callback(ANY_JUMP, post_callback=self._count_clock)
@@ -133,7 +134,7 @@ class RosSource:
             ValueError: the name is invalid.
         """
         try:
-            return self._node.resolve_topic_name(topic)
+            return self._resolved(topic)
         except (InvalidTopicNameException, RuntimeError, ValueError) as error:
             reason = str(error).partition(", at /")[0].rpartition("name: ")[2]
             raise ValueError(f"{topic!r} is not a valid topic name: {reason}") from error

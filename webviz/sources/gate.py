@@ -66,6 +66,7 @@ class Gate:
         self._rights = rights
         self._publish = publish
         self._pattern = functools.lru_cache(maxsize=3)(self._compiled)
+        self._refusal = functools.lru_cache(maxsize=1000)(self._judged)
 
     @property
     def rights(self) -> Rights:
@@ -83,8 +84,10 @@ class Gate:
     def lasting_refusal(self, name: str) -> str:
         """Why nothing may ever be sent to a name, as far as is known; "" if it may."""
         graph = self._source.graph
-        if isinstance(graph, ReadOnly):
-            return graph.reason
+        return graph.reason if isinstance(graph, ReadOnly) else self._refusal(name, self._publish())
+
+    def _judged(self, name: str, narrowed: AllowList | None) -> str:
+        """Return the refusal of a name with the list of the current config."""
         if not self._rights.may_publish:
             return "This viewer was started with --no-publish. Restart it without this option."
         name = name.partition(_OF_ACTION)[0]
@@ -92,7 +95,6 @@ class Gate:
             return ""
         if not self._is_on(self._rights.names, name):
             return self._not_from_the_start(name)
-        narrowed = self._publish()
         if narrowed is not None and not self._is_on(narrowed, name):
             return f"{name} is not in the list `publish` of this config. Add it to the file."
         return ""
