@@ -11,7 +11,7 @@ import {
   rotate,
   turnedBy,
   unit,
-} from "../../webviz/page/web/handles/vectors.js";
+} from "../../webviz/page/web/vectors.js";
 
 const [X, Y, Z] = [
   [1, 0, 0],

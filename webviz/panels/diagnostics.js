@@ -35,7 +35,8 @@ const RULES = `
 
 /** @param {Page} page */
 export default function install(page) {
-  const { el, foldByKey, icon, iconButton, indent, rowList, searchField, set, setText } = page;
+  const { el, foldByKey, icon, iconButton, indent, rowList, searchField, set, setText, showText } =
+    page;
   const { style, svgElement, timeOfDay, touchable, widget } = page;
   style("diagnostics", RULES);
   /** @type {Map<string, {at: number, values: number[]}>} */
@@ -192,8 +193,7 @@ export default function install(page) {
     function update({ parts = 0, problem = "" }, part) {
       statuses = Array.from({ length: parts }, (_, i) => part(String(i))?.statuses ?? []).flat();
       remember(statuses);
-      setText(empty, problem);
-      set(empty, { hidden: !problem });
+      showText(empty, problem);
       draw();
     }
 

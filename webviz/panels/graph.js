@@ -29,8 +29,18 @@ export default function install(page) {
 
 /** @param {Page} page */
 function graph(page) {
-  const { download, el, fitted, iconButton, listenToPanning, set, setText, svgElement, watch } =
-    page;
+  const {
+    download,
+    el,
+    fitted,
+    iconButton,
+    listenToPanning,
+    set,
+    setText,
+    showText,
+    svgElement,
+    watch,
+  } = page;
   /** @type {Topic[]} */
   let topics = [];
   let given = ""; // of which topics the drawing is
@@ -170,8 +180,7 @@ function graph(page) {
    * @param {(key: string) => {topics: Topic[]} | undefined} part
    */
   function update({ parts = 0, problem = "" }, part) {
-    setText(empty, problem);
-    set(empty, { hidden: !problem });
+    showText(empty, problem);
     const next = Array.from({ length: parts }, (_, i) => part(String(i))?.topics ?? []).flat();
     const text = JSON.stringify(next);
     if (text === given) return;

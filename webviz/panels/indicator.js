@@ -19,7 +19,7 @@ const COLORS = {
 };
 
 /** @param {Page} page */
-export default function install({ el, set, setText, style, widget }) {
+export default function install({ el, set, setText, showText, style, widget }) {
   style("indicator", RULES);
   widget("indicator", () => {
     const lamp = el("i", { role: "img" });
@@ -32,8 +32,7 @@ export default function install({ el, set, setText, style, widget }) {
         lamp.style.setProperty("--lamp", COLORS[values.color] ?? COLORS.grey);
         set(lamp, { "aria-label": values.color });
         setText(label, values.label ?? "");
-        setText(empty, values.problem ?? "");
-        set(empty, { hidden: !values.problem });
+        showText(empty, values.problem ?? "");
       },
     };
   });

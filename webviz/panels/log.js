@@ -49,6 +49,7 @@ export default function install({
   searchField,
   set,
   setText,
+  showText,
   style,
   timeOfDay,
   toast,
@@ -180,8 +181,7 @@ export default function install({
       setText(count, `${number} line${shown.length === 1 ? "" : "s"}`);
       const sentence =
         problem || (shown.length ? "" : total ? "No line matches these filters." : "No line yet.");
-      setText(empty, sentence);
-      set(empty, { hidden: !sentence });
+      showText(empty, sentence);
       requestAnimationFrame(toEnd); // the list may have no height yet
     }
 

@@ -39,7 +39,7 @@ export default function install(page) {
  * @param {Page} page
  * @param {(tiles: Tile[]) => unknown} send
  */
-function outdoorMap({ el, fitted, iconButton, listenToPanning, set, setText }, send) {
+function outdoorMap({ el, fitted, iconButton, listenToPanning, set, setText, showText }, send) {
   const images = makeImages(soon);
   /** @type {Line[]} */
   let tracks = [];
@@ -161,10 +161,8 @@ function outdoorMap({ el, fitted, iconButton, listenToPanning, set, setText }, s
       asked = "";
       images.clear();
     }
-    setText(problem, values.problem ?? "");
-    set(problem, { hidden: !values.problem });
-    setText(credit, values.credit ?? "");
-    set(credit, { hidden: !values.credit });
+    showText(problem, values.problem ?? "");
+    showText(credit, values.credit ?? "");
     tracks = (values.tracks ?? []).map((track, index) => {
       /** @type {Vec2[]} */
       const lines = [];

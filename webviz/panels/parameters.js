@@ -30,6 +30,7 @@ export default function install({
   rowList,
   set,
   setText,
+  showText,
   style,
   ...page
 }) {
@@ -154,8 +155,7 @@ export default function install({
           .map((row) => ({ ...row, key: row.name })),
       );
       const sentence = [shown.problem, shown.outcome, shown.note].filter(Boolean).join(" ");
-      setText(said, sentence);
-      set(said, { hidden: !sentence });
+      showText(said, sentence);
       set(undo, { disabled: !shown.undo });
     }
 

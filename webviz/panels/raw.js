@@ -3,7 +3,7 @@
 /** @import {Page} from "../page/web/extensions.js" */
 
 /** @param {Page} page */
-export default function install({ el, messageRows, set, setText, widget }) {
+export default function install({ el, messageRows, showText, widget }) {
   widget("raw", () => {
     let path = "";
     const empty = el("div", { class: "wv-empty", role: "status" });
@@ -14,8 +14,7 @@ export default function install({ el, messageRows, set, setText, widget }) {
       update(values) {
         path = values.path ?? "";
         tree.show(values.tree ?? null);
-        setText(empty, values.problem ?? "");
-        set(empty, { hidden: !values.problem });
+        showText(empty, values.problem ?? "");
       },
       close: tree.close,
     };

@@ -30,6 +30,7 @@ export default function install({
   set,
   setChildren,
   setText,
+  showText,
   style,
   ...page
 }) {
@@ -119,8 +120,7 @@ export default function install({
         /** @param {Track} track */
         update(track) {
           shown = track;
-          setText(problem, track.problem);
-          set(problem, { hidden: !track.problem });
+          showText(problem, track.problem);
           if (!canvas.matches(":hover")) point(null);
           draw();
         },

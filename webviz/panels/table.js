@@ -29,6 +29,7 @@ export default function install({
   rowList,
   set,
   setText,
+  showText,
   style,
   ...page
 }) {
@@ -140,8 +141,7 @@ export default function install({
         );
         host.style.setProperty("--wv-least", `calc(${least}ch + ${8 * columns.length}px)`);
         setText(note, [`${rows.length} rows`, values.note].filter(Boolean).join(", "));
-        setText(empty, values.problem ?? "");
-        set(empty, { hidden: !values.problem });
+        showText(empty, values.problem ?? "");
         draw();
       },
       close: list.close,

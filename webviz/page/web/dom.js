@@ -62,6 +62,17 @@ export function setText(element, text) {
 }
 
 /**
+ * Shows a text in an element, which is hidden without one.
+ *
+ * @param {Element} element
+ * @param {string} text
+ */
+export function showText(element, text) {
+  setText(element, text);
+  set(element, { hidden: !text });
+}
+
+/**
  * Puts these children into an element, in this order. Others are removed first; what has the focus is
  * never moved, and nothing changes if they are in order.
  *

@@ -7,7 +7,7 @@ import { fitted } from "./charts/canvas.js";
 import { copy } from "./clipboard.js";
 import { indent, keyOf, rowList, touchable } from "./controls/rows.js";
 import { searchField } from "./controls/search_field.js";
-import { el, set, setChildren, setText, svgElement } from "./dom.js";
+import { el, set, setChildren, setText, showText, svgElement } from "./dom.js";
 import { icon, iconButton, textButton } from "./icons.js";
 import { overlay } from "./overlay/overlay.js";
 import { foldByKey } from "./panels/folds.js";
@@ -67,6 +67,7 @@ const page = Object.freeze({
   set,
   setChildren,
   setText,
+  showText,
   style,
   surfaceAt,
   svgElement,

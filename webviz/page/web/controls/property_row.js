@@ -1,7 +1,7 @@
 // One property: its label, its control, and what leads back to the default.
 
 import { holder, why } from "../access.js";
-import { el, set, setText } from "../dom.js";
+import { el, set, showText } from "../dom.js";
 import { icon } from "../icons.js";
 import { control } from "./control.js";
 import { bounds } from "./units.js";
@@ -30,8 +30,7 @@ export function row(property, send, { marks = true, command = "" } = {}) {
   const refusal = el("div", { class: "wv-refused", id, role: "alert", hidden: true });
   /** @param {string} text */
   const tell = (text) => {
-    setText(refusal, text);
-    refusal.hidden = !text;
+    showText(refusal, text);
     set(element, { "aria-invalid": text ? "true" : null });
   };
   const made = control(property, { label, change: (value) => send(path, value), refused: tell });

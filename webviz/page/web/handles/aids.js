@@ -4,7 +4,7 @@ import { set, svgElement } from "../dom.js";
 import { makeLayer } from "../tools/layer.js";
 import { beforeRender } from "../viser_page.js";
 import { projectionOf } from "./projection.js";
-import { add, scaled } from "./vectors.js";
+import { add, scaled } from "../vectors.js";
 
 /** @import {HandleControl} from "../contents.js" */
 /** @import {Projection} from "./projection.js" */

@@ -18,10 +18,10 @@ import {
   sub,
   turnedBy,
   unit,
-} from "./vectors.js";
+} from "../vectors.js";
 
 /** @import {HandleControl} from "../contents.js" */
-/** @import {Pose} from "./vectors.js" */
+/** @import {Pose} from "../vectors.js" */
 /** @import {Projection} from "./projection.js" */
 /** @import {Vec2, Vec3} from "../types.js" */
 

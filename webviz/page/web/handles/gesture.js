@@ -18,7 +18,7 @@ import { frameNode, projectionOf } from "./projection.js";
 /** @import {Commands} from "../messages.js" */
 /** @import {Moved} from "./drags.js" */
 /** @import {Part} from "./known.js" */
-/** @import {Pose} from "./vectors.js" */
+/** @import {Pose} from "../vectors.js" */
 /** @import {SceneEvent, Three, Vec2, Vec3} from "../types.js" */
 
 /**

@@ -5,10 +5,10 @@ import { nodeNamed } from "../scene/picking/things.js";
 import * as viser from "../viser_page.js";
 import * as known from "./known.js";
 import { frameNode } from "./projection.js";
-import { about, compose, inverse, rotate, scaled, turnedBy } from "./vectors.js";
+import { about, compose, inverse, rotate, scaled, turnedBy } from "../vectors.js";
 
 /** @import {Moved} from "./drags.js" */
-/** @import {Pose} from "./vectors.js" */
+/** @import {Pose} from "../vectors.js" */
 /** @import {SceneHandle} from "../contents.js" */
 /** @import {Three, Vec3, Wxyz} from "../types.js" */
 

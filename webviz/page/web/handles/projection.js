@@ -4,7 +4,7 @@ import constants from "../constants.js";
 import { casterAt } from "../scene/rays.js";
 import * as viser from "../viser_page.js";
 
-/** @import {Ray} from "./vectors.js" */
+/** @import {Ray} from "../vectors.js" */
 /** @import {Three, Vec2, Vec3} from "../types.js" */
 
 /** @typedef {ReturnType<typeof projectionOf>} Projection */

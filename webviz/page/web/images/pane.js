@@ -1,6 +1,6 @@
 // A pane: the picture of one display, its title, and the value under the mouse.
 
-import { el, set, setText } from "../dom.js";
+import { el, set, showText } from "../dom.js";
 import { sanitized } from "../sanitize.js";
 import { recall, remember } from "../remember.js";
 import { makeCamera } from "./camera.js";
@@ -109,8 +109,7 @@ export function makePane(id, changed, withScene) {
     head.update({ title, about, isFolded, isFull: isFull() });
     set(element, { "aria-label": `${readout ? "Text" : "Image"} ${title}` });
     set(canvas, { "aria-label": title });
-    setText(problem, failed || said);
-    problem.hidden = !(failed || said);
+    showText(problem, failed || said);
   }
 
   function tellRate() {

@@ -1,7 +1,7 @@
 // A note of what the server has reduced because the link to this page is slow.
 
 import * as channel from "../channel.js";
-import { el, setText } from "../dom.js";
+import { el, showText } from "../dom.js";
 
 export function build() {
   const note = el("output", { class: "wv-card wv-slow-link", hidden: true });
@@ -10,8 +10,7 @@ export function build() {
 
   /** @param {string} text */
   function show(text) {
-    setText(note, text);
-    note.hidden = text === "";
+    showText(note, text);
   }
   return note;
 }

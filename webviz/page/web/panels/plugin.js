@@ -3,7 +3,7 @@
 import { needs } from "../access.js";
 import { act } from "../act.js";
 import { form } from "../controls/form.js";
-import { el, set, setChildren, setText } from "../dom.js";
+import { el, set, setChildren, showText } from "../dom.js";
 import { provide } from "../shell/commands.js";
 import { watch } from "../stores.js";
 import { maker } from "./displays/properties.js";
@@ -89,8 +89,7 @@ function open(element, name) {
       order.flatMap((id) => drawn.get(id)?.element ?? []),
     );
     const sentence = values.get("/failure") ?? "";
-    setText(failure, sentence);
-    set(failure, { hidden: !sentence });
+    showText(failure, sentence);
   });
   return () => {
     end();

@@ -2,7 +2,7 @@
 
 import { copyAndTell } from "../clipboard.js";
 import { rowList, touchable } from "../controls/rows.js";
-import { el, set, setText } from "../dom.js";
+import { el, set, setText, showText } from "../dom.js";
 import { icon, iconButton, textButton } from "../icons.js";
 import { openPanel } from "../shell/layout.js";
 import { watch } from "../stores.js";
@@ -86,8 +86,7 @@ export const selectionPanel = {
         held < total ? `The first ${held} of ${total}.` : "",
         held > live ? "Too many items to update live: these are the values at selection." : "",
       ];
-      setText(note, notes.filter(Boolean).join(" "));
-      set(note, { hidden: !notes.some(Boolean) });
+      showText(note, notes.filter(Boolean).join(" "));
     }
 
     /**

@@ -4,7 +4,7 @@ import { needs } from "../access.js";
 import { act } from "../act.js";
 import { copyAndTell } from "../clipboard.js";
 import { wallNow } from "../clock.js";
-import { el, set, setText } from "../dom.js";
+import { el, set, setText, showText } from "../dom.js";
 import { iconButton, textButton } from "../icons.js";
 import { openMenuBelow } from "../shell/menu.js";
 import { toast } from "../shell/toasts.js";
@@ -88,8 +88,7 @@ export function inspector(place, name, dismiss) {
       disabled: fits.length === 0,
       "data-tip": fits.length ? "Add a display" : topic?.why,
     });
-    setText(why, topic?.why ?? "");
-    set(why, { hidden: !topic?.why });
+    showText(why, topic?.why ?? "");
     const texts = topic
       ? [
           topic.types.join(", "),
@@ -109,8 +108,7 @@ export function inspector(place, name, dismiss) {
     receivedAt = values.get("received") ?? 0;
     size = values.get("size") ?? 0;
     const sentence = values.get("problem") ?? "";
-    setText(problem, sentence);
-    set(problem, { hidden: !sentence });
+    showText(problem, sentence);
     set(copyMessage, { disabled: !message });
     tree.show(message);
     showAge();

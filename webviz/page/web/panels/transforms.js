@@ -3,7 +3,7 @@
 import { act } from "../act.js";
 import { keyOf, rowList, touchable } from "../controls/rows.js";
 import { searchField } from "../controls/search_field.js";
-import { el, set, setText } from "../dom.js";
+import { el, set, setText, showText } from "../dom.js";
 import { icon, iconButton, textButton } from "../icons.js";
 import { recall, remember } from "../remember.js";
 import { watch } from "../stores.js";
@@ -102,8 +102,7 @@ export const transforms = {
       setText(empty, hasFrames ? "No matching frames." : NOTHING);
       set(empty, { hidden: rows.length > 0 });
       const sentences = (values.get("/problems") ?? []).join(" ");
-      setText(problems, sentences);
-      set(problems, { hidden: !sentences });
+      showText(problems, sentences);
       showDetail();
     }
 

@@ -3,6 +3,7 @@
 // A camera is `[position, lookAt]` in the coordinates of a target frame, whose z points up.
 
 import constants from "../constants.js";
+import { add, norm, scaled, sub } from "../vectors.js";
 
 /** @import {Vec3} from "../types.js" */
 /** @import {View, ViewCamera, ViewRig} from "./types.js" */
@@ -17,12 +18,6 @@ const MARGIN = 1.15;
 const SMALLEST = 0.05;
 const HALF = Math.PI / 2;
 
-/** @param {Vec3} a @param {Vec3} b @returns {Vec3} */
-const plus = (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
-/** @param {Vec3} a @param {number} by @returns {Vec3} */
-const times = (a, by) => [a[0] * by, a[1] * by, a[2] * by];
-/** @param {Vec3} a @param {Vec3} b @returns {Vec3} */
-const minus = (a, b) => plus(a, times(b, -1));
 /** @param {number} yaw @param {number} pitch @returns {Vec3} */
 const direction = (yaw, pitch) => [
   Math.cos(yaw) * Math.cos(pitch),
@@ -65,19 +60,19 @@ export function cameraOf(view, height) {
   const { yaw = 0, pitch = 0 } = view;
   if (view.type === "FPS") {
     const position = view.position ?? [0, 0, 0];
-    return [position, minus(position, times(direction(yaw + Math.PI, pitch), EYE))];
+    return [position, sub(position, scaled(direction(yaw + Math.PI, pitch), EYE))];
   }
   if (view.type === "TopDownOrtho") {
     /** @type {Vec3} */
     const at = [view.x ?? 0, view.y ?? 0, 0];
     const distance = height / (view.scale ?? 10) / 2 / Math.tan(FLAT_FIELD_OF_VIEW / 2);
     const away = direction((view.angle ?? 0) - HALF, HALF - TILT);
-    return [plus(at, times(away, distance)), at];
+    return [add(at, scaled(away, distance)), at];
   }
   const distance = view.distance ?? 10;
   const raised = view.type === "Orbit" ? 0 : RAISED * distance;
-  const at = plus(view.focal_point ?? [0, 0, 0], times(up(yaw, pitch), raised));
-  return [plus(at, times(direction(yaw, pitch), distance)), at];
+  const at = add(view.focal_point ?? [0, 0, 0], scaled(up(yaw, pitch), raised));
+  return [add(at, scaled(direction(yaw, pitch), distance)), at];
 }
 
 /**
@@ -90,8 +85,8 @@ export function cameraOf(view, height) {
  * @returns {View}
  */
 export function viewOf(type, target_frame, [position, lookAt], height) {
-  const offset = minus(position, lookAt);
-  const distance = Math.max(Math.hypot(...offset), 1e-9);
+  const offset = sub(position, lookAt);
+  const distance = Math.max(norm(offset), 1e-9);
   const yaw = Math.atan2(offset[1], offset[0]);
   const slope = Math.asin(clamp(offset[2] / distance, -1, 1));
   const pitch = clamp(slope, -STEEPEST, STEEPEST);
@@ -109,7 +104,7 @@ export function viewOf(type, target_frame, [position, lookAt], height) {
     };
   }
   const raised = type === "Orbit" ? 0 : RAISED * distance;
-  const focal_point = minus(lookAt, times(up(yaw, pitch), raised));
+  const focal_point = sub(lookAt, scaled(up(yaw, pitch), raised));
   return { type, target_frame, distance, yaw, pitch, focal_point };
 }
 
@@ -121,13 +116,13 @@ const turned = ([x, y, z], yaw) => [
 ];
 /** @param {ViewRig} rig @param {ViewCamera} camera @returns {ViewCamera} */
 const outward = ({ origin, yaw }, [a, b]) => [
-  plus(turned(a, yaw), origin),
-  plus(turned(b, yaw), origin),
+  add(turned(a, yaw), origin),
+  add(turned(b, yaw), origin),
 ];
 /** @param {ViewRig} rig @param {ViewCamera} camera @returns {ViewCamera} */
 const inward = ({ origin, yaw }, [a, b]) => [
-  turned(minus(a, origin), -yaw),
-  turned(minus(b, origin), -yaw),
+  turned(sub(a, origin), -yaw),
+  turned(sub(b, origin), -yaw),
 ];
 
 /**
@@ -139,19 +134,19 @@ const inward = ({ origin, yaw }, [a, b]) => [
  */
 function eyeOf(view, height) {
   const [position, lookAt] = cameraOf(view, height);
-  const offset = minus(position, lookAt);
-  const length = Math.hypot(...offset);
+  const offset = sub(position, lookAt);
+  const length = norm(offset);
   if (view.type === "TopDownOrtho") {
     const flatter = Math.tan(FLAT_FIELD_OF_VIEW / 2) / Math.tan(FIELD_OF_VIEW / 2);
     const back = direction((view.angle ?? 0) - HALF, STEEPEST);
-    return [plus(lookAt, times(back, length * flatter)), lookAt];
+    return [add(lookAt, scaled(back, length * flatter)), lookAt];
   }
   if (view.type === "FPS") {
-    const forward = times(offset, -1 / length);
+    const forward = scaled(offset, -1 / length);
     const reach = Math.abs(forward[2]) > 1e-3 ? -position[2] / forward[2] : -1;
     return [
       position,
-      plus(position, times(forward, reach > 0 && reach < FARTHEST ? reach : REACH)),
+      add(position, scaled(forward, reach > 0 && reach < FARTHEST ? reach : REACH)),
     ];
   }
   return [position, lookAt];
@@ -166,9 +161,9 @@ function eyeOf(view, height) {
  * @param {number} height
  */
 function fitted(type, frame, [position, lookAt], height) {
-  const offset = minus(position, lookAt);
-  const distance = Math.hypot(...offset);
-  const back = times(offset, 1 / distance);
+  const offset = sub(position, lookAt);
+  const distance = norm(offset);
+  const back = scaled(offset, 1 / distance);
   const level = Math.hypot(back[0], back[1]);
   if (type === "TopDownOrtho") {
     const yaw = level > 1e-6 ? Math.atan2(back[1], back[0]) : -HALF;
@@ -188,7 +183,7 @@ function fitted(type, frame, [position, lookAt], height) {
     // Along the line of projection to where the focal point lies on the ground.
     const step = (lookAt[2] - raised * distance) / (back[2] + raised);
     if (NEAREST * distance < distance + step && distance + step < FARTHEST)
-      return viewOf(type, frame, [position, minus(lookAt, times(back, step))], height);
+      return viewOf(type, frame, [position, sub(lookAt, scaled(back, step))], height);
   }
   return viewOf(type, frame, [position, lookAt], height);
 }
@@ -220,12 +215,12 @@ export function mimic(view, rig, type, frame, newRig, height) {
  * @returns {View}
  */
 export function focus(view, rig, { low, high }, { width, height }) {
-  const radius = Math.max(Math.hypot(...minus(high, low)) / 2, SMALLEST);
+  const radius = Math.max(norm(sub(high, low)) / 2, SMALLEST);
   const narrow = Math.atan(Math.tan(FIELD_OF_VIEW / 2) * Math.min(1, width / height));
   const [position, lookAt] = outward(rig, eyeOf(view, height));
-  const offset = minus(position, lookAt);
-  const at = times(plus(low, high), 0.5);
+  const offset = sub(position, lookAt);
+  const at = scaled(add(low, high), 0.5);
   const distance = (MARGIN * radius) / Math.sin(narrow);
-  const eye = plus(at, times(offset, distance / Math.hypot(...offset)));
+  const eye = add(at, scaled(offset, distance / norm(offset)));
   return fitted(view.type, view.target_frame, inward(rig, [eye, at]), height);
 }

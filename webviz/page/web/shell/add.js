@@ -1,7 +1,7 @@
 // The dialog that adds displays: for topics that are published just now, or by type.
 
 import { act, newStep } from "../act.js";
-import { el, set, setText } from "../dom.js";
+import { el, set, setText, showText } from "../dom.js";
 import { recall, remember } from "../remember.js";
 import { watch } from "../stores.js";
 import { openDialog } from "./dialog.js";
@@ -110,8 +110,7 @@ export function openAdd({ group = "" } = {}) {
           return narrow.length ? narrow : rows;
         });
         list.show(found.slice(0, MAX_SHOWN).map(({ pick: _, ...row }) => row));
-        setText(note, remark(state, all, found.length));
-        note.hidden = note.textContent === "";
+        showText(note, remark(state, all, found.length));
         const button = input.closest("dialog")?.querySelector(".wv-primary");
         if (button) setText(button, checked.size > 1 ? `Add ${checked.size} displays` : "Add");
       };

@@ -1,6 +1,6 @@
 // The tree: global options, displays and groups, with what this browser has selected and folded.
 
-import { el, set, setText } from "../../dom.js";
+import { el, showText } from "../../dom.js";
 import { touchable } from "../../controls/rows.js";
 import { watch } from "../../stores.js";
 import { recall, remember } from "../../remember.js";
@@ -87,8 +87,7 @@ export function buildTree({ after, changed }) {
     }
     list.show(rows);
     const sentence = !model.items.length ? (isKnown ? EMPTY : "") : rows.length ? "" : NOT_FOUND;
-    setText(none, sentence);
-    set(none, { hidden: sentence === "" });
+    showText(none, sentence);
     changed({ items: editable(all(), selection.isSelected), search });
     selection.save(all());
   }
