@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Color, Prop, Remedy
+from webviz.data import messages
 from webviz_displays.vectors.vector_display import VectorDisplay, VectorLook
 
 
 class MotionDisplay(VectorDisplay):
     """Base of displays of a linear and an angular velocity or acceleration."""
+
+    units: ClassVar[tuple[str, str]] = ("m/s", "rad/s")
+    """SI units of the linear and the angular part."""
+    field: ClassVar[str] = ""
+    """The field of a message that has both, "" for the message itself."""
 
     linear_color: Annotated[Color, Prop(help="Colour of the linear part.")] = (204, 51, 51)
     angular_color: Annotated[Color, Prop(help="Colour of the angular part.")] = (204, 204, 51)
@@ -27,13 +33,14 @@ class MotionDisplay(VectorDisplay):
         Prop(rviz_default=True, help="Hide arrows whose shaft is not longer than Arrow Width."),
     ] = False
 
-    def units(self) -> tuple[str, str]:
-        """SI units of the linear and the angular part."""
-        raise NotImplementedError
+    def vectors(self, message: Any) -> tuple[messages.Vector3, messages.Vector3]:
+        """Return the linear and the angular part."""
+        both = getattr(message, self.field) if self.field else message
+        return both.linear, both.angular
 
     def looks(self) -> tuple[VectorLook, VectorLook]:
         """Return the linear and the angular part."""
-        linear, angular = self.units()
+        linear, angular = self.units
         return (
             VectorLook("linear", linear, self.linear_color, self.linear_arrow_scale),
             VectorLook("angular", angular, self.angular_color, self.angular_arrow_scale),

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Annotated, Any
+from typing import Annotated
 
 from webviz import Context, Input, Prop, Sample, Topic
-from webviz.data import messages
 from webviz_displays.shared.frame_names import frame_of
 from webviz_displays.vectors.motion_display import MotionDisplay
 
@@ -30,11 +29,3 @@ class Twist(MotionDisplay):
         if samples:
             group = ctx.follow(frame_of(self.reference_frame))
             self.draw_vectors(samples, (0.0, 0.0, 0.0), group, ctx)
-
-    def vectors(self, message: Any) -> tuple[messages.Vector3, messages.Vector3]:
-        """Linear and angular velocity."""
-        return message.linear, message.angular
-
-    def units(self) -> tuple[str, str]:
-        """Those of velocities."""
-        return "m/s", "rad/s"
