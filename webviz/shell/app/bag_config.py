@@ -114,7 +114,7 @@ def fixed_frame_of(links: Sequence[tuple[str, str]]) -> str:
     for name in FRAMES:
         if name in frames:
             return name
-    sizes = Counter(_root(frame, parents) for frame in frames)
+    sizes = Counter(root_of(frame, parents) for frame in frames)
     return min(sizes, key=lambda root: (-sizes[root], root), default="")
 
 
@@ -130,12 +130,13 @@ def robot_frame_of(links: Sequence[tuple[str, str]], fixed_frame: str) -> str:
         for frame in parents
         if (name := frame.rpartition("/")[2]) in BASES
         and frame != fixed_frame
-        and _root(frame, parents) == _root(fixed_frame, parents)
+        and root_of(frame, parents) == root_of(fixed_frame, parents)
     ]
     return min(robots, default=(0, ""))[1]
 
 
-def _root(frame: str, parents: Mapping[str, str]) -> str:
+def root_of(frame: str, parents: Mapping[str, str]) -> str:
+    """Return the frame at the root of the transforms above a frame."""
     seen = {frame}
     while (parent := parents.get(frame)) is not None and parent not in seen:
         seen.add(parent)

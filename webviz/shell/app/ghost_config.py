@@ -15,6 +15,7 @@ from webviz.api.registry import plugin_types
 from webviz.api.robots import NamespacedRobot
 from webviz.data.messages.message_paths import MessagePath
 from webviz.files.config import Branch, Config, Item
+from webviz.shell.app.bag_config import root_of
 from webviz.sources.bag.ghost import DIFFERENCE, DISTANCE, NAMESPACE, ROOT
 from webviz.sources.bag.source import BagSource
 
@@ -34,7 +35,8 @@ def with_ghost(config: Config, bag: BagSource) -> Config:
     """
     copies: list[Item] = list(filter(None, map(_copy, _displays(config.displays))))
     config.displays = [*config.displays, Branch(make(DisplayGroup, {"name": "Ghost"}), copies)]
-    root = _root(config.settings.fixed_frame, bag.links())
+    parents = {child: parent for parent, child in bag.links()}
+    root = root_of(config.settings.fixed_frame, parents)
     robot = NamespacedRobot(NAMESPACE, f"{NAMESPACE}/", (root,), tint=TINT, opacity=OPACITY)
     robots = (*config.settings.robots, robot)
     config.settings = msgspec.structs.replace(config.settings, robots=robots)
@@ -82,13 +84,3 @@ def _copy(display: Display) -> Display | None:
     if cls.__name__ in COVERING or getattr(display, "has_pane", False):
         values["enabled"] = False
     return make(cls, values)
-
-
-def _root(frame: str, links: Sequence[tuple[str, str]]) -> str:
-    """Return the frame at the root of the transforms above a frame."""
-    parents = {child: parent for parent, child in links}
-    seen = {frame}
-    while (parent := parents.get(frame)) is not None and parent not in seen:
-        seen.add(parent)
-        frame = parent
-    return frame

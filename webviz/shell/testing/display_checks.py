@@ -21,6 +21,7 @@ import pytest
 
 from webviz.api.declared import set_property
 from webviz.api.display import Display, inputs_of
+from webviz.api.properties import value_at
 from webviz.shell.testing.bench import DisplayBench
 from webviz.shell.testing.changes import Change, changes
 from webviz.shell.testing.extremes import Values, cases, change, faults, send
@@ -84,7 +85,7 @@ class DisplayChecks:
     ) -> None:
         """Other values of a property show, and the default shows what it did before."""
         needs = {**changed.needs, **self.needs.get(changed.path, {})}
-        before = _value(_made(self.display, needs), changed.path)
+        before = value_at(_made(self.display, needs), changed.path)
         others = self.other_values(replace(changed, value=before), tmp_path)
         valid = [each for each in others if _is_valid(self.display(), changed.path, each)]
         assert valid, f"Name other values of {changed.path} in `values`."
@@ -151,13 +152,6 @@ def _made(cls: type[Display], values: Mapping[str, Any]) -> Display:
     for path, value in values.items():
         set_property(display, path, value)
     return display
-
-
-def _value(display: Display, path: str) -> Any:
-    value: Any = display
-    for part in path.split("."):
-        value = getattr(value, part)
-    return value
 
 
 def _set(bench: DisplayBench, path: str, value: Any) -> None:
