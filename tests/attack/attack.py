@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import abc
 import enum
+import subprocess
+import sys
 from dataclasses import dataclass
 from random import Random
 
@@ -61,6 +63,12 @@ class Attack(abc.ABC):
 
     def close(self) -> None:  # noqa: B027 - most start nothing
         """End what it has started."""
+
+
+def piped(module: str) -> subprocess.Popen[str]:
+    """Start a module of this package, which reads and writes lines."""
+    command = [sys.executable, "-m", f"tests.attack.{module}"]
+    return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
 
 def random_of(seed: int, kind: str, number: int) -> Random:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import re
 import subprocess
-import sys
 import tempfile
 import threading
 from collections.abc import Mapping
@@ -18,7 +17,7 @@ from PIL import Image
 from rosbags.rosbag2 import StoragePlugin
 from trimesh.exchange.dae import export_collada
 
-from tests.attack.attack import Attack, Case, Outcome, Violation, mutated
+from tests.attack.attack import Attack, Case, Outcome, Violation, mutated, piped
 
 READ_S = 60.0
 """For one small file, on a busy machine."""
@@ -99,7 +98,7 @@ class Files(Attack):
         self._reader: subprocess.Popen[str] | None = None
 
     def start(self) -> None:
-        self._reader = self._started()
+        self._reader = piped("reader")
 
     def draw(self, random: Random) -> Case:
         name = random.choice(sorted(self._good))
@@ -111,7 +110,7 @@ class Files(Attack):
     def strike(self, case: Case) -> Outcome:
         path = self._folder / case.name
         path.write_bytes(case.data)
-        reader = self._reader = self._reader or self._started()
+        reader = self._reader = self._reader or piped("reader")
         assert reader.stdin is not None
         assert reader.stdout is not None
         timer = threading.Timer(READ_S, reader.kill)
@@ -139,14 +138,6 @@ class Files(Attack):
             self._reader.kill()
             self._reader.communicate()
         self._reader = None
-
-    def _started(self) -> subprocess.Popen[str]:
-        return subprocess.Popen(
-            [sys.executable, "-m", "tests.attack.reader"],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            text=True,
-        )
 
 
 ODD = (

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import subprocess
-import sys
 from pathlib import Path
 from random import Random
 
-from tests.attack.attack import Attack, Case, Outcome, Violation
+from tests.attack.attack import Attack, Case, Outcome, Violation, piped
 
 
 class Saving(Attack):
@@ -24,14 +23,14 @@ class Saving(Attack):
         self._saver: subprocess.Popen[str] | None = None
 
     def start(self) -> None:
-        self._saver = self._started()
+        self._saver = piped("saver")
 
     def draw(self, random: Random) -> Case:
         how = random.choice(("kill config", "kill picture", "full config", "full picture"))
         return Case(how, str(random.uniform(0.0, 0.03)).encode())
 
     def strike(self, case: Case) -> Outcome:
-        saver = self._saver = self._saver or self._started()
+        saver = self._saver = self._saver or piped("saver")
         assert saver.stdin is not None
         assert saver.stdout is not None
         # A file is kept from case to case: it is always a version that was saved once.
@@ -50,11 +49,3 @@ class Saving(Attack):
             self._saver.kill()
             self._saver.communicate()
         self._saver = None
-
-    def _started(self) -> subprocess.Popen[str]:
-        return subprocess.Popen(
-            [sys.executable, "-m", "tests.attack.saver"],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            text=True,
-        )

@@ -20,6 +20,7 @@ import trimesh
 from bags import Bag, strings
 from processes import command_lines, send
 from program import Program
+from several import several
 from waiting import until
 
 from webviz.shell.cli import main as cli
@@ -51,16 +52,12 @@ def refused(screenshot, tmp_path: Path) -> Callable[..., str]:
 @pytest.fixture
 def start(tmp_path: Path):
     """Start the command; it and the browser are ended at the end."""
-    programs: list[Program] = []
-
-    def start(*arguments: str) -> Program:
-        log = tmp_path.with_suffix(".log")
-        programs.append(Program([*COMMAND, *arguments], {**os.environ}, log))
-        return programs[-1]
-
-    yield start
-    for program in programs:
-        program.end(signal.SIGKILL)
+    log = tmp_path.with_suffix(".log")
+    with several(
+        lambda *arguments: Program([*COMMAND, *arguments], {**os.environ}, log),
+        lambda program: program.end(signal.SIGKILL),
+    ) as start:
+        yield start
 
 
 def while_drawing(program: Program, folder: Path) -> dict[psutil.Process, str]:

@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
+from several import several
 from waiting import until
 
 from webviz.api.vehicle import STILL, Velocity
@@ -108,15 +109,8 @@ def b(bench: Callable[..., Any]) -> Any:
 
 @pytest.fixture
 def hold(b: Any) -> Iterator[Callable[..., Hand]]:
-    hands: list[Hand] = []
-
-    def hold(browser: int = 1, held: Velocity = AHEAD) -> Hand:
-        hands.append(Hand(b, browser, held))
-        return hands[-1]
-
-    yield hold
-    for hand in hands:
-        hand.vanish()
+    with several(lambda browser=1, held=AHEAD: Hand(b, browser, held), Hand.vanish) as hold:
+        yield hold
 
 
 def teleop(b: Any) -> str:

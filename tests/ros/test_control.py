@@ -21,6 +21,7 @@ from rclpy.parameter import Parameter
 from rclpy.parameter_client import AsyncParameterClient
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.task import Future
+from several import several
 from std_msgs.msg import Int32
 from std_srvs.srv import Empty, Trigger
 
@@ -101,18 +102,15 @@ def client(webviz_domain: int) -> Iterator[Client]:
 @pytest.fixture
 def open_viewer(webviz_domain: int) -> Iterator[Callable[..., webviz.Viewer]]:
     """Begins a viewer on ROS; arguments by name are those of `webviz.Viewer`."""
-    viewers: list[webviz.Viewer] = []
 
     def open_viewer(
         config: Path | None = None, parameters: Sequence[str] = (), **options: Any
     ) -> webviz.Viewer:
         ros_args = ["--ros-args", *(word for given in parameters for word in ("-p", given))]
-        viewers.append(webviz.Viewer(config, port=0, ros_args=ros_args, **options))
-        return viewers[-1]
+        return webviz.Viewer(config, port=0, ros_args=ros_args, **options)
 
-    yield open_viewer
-    for viewer in viewers:
-        viewer.close()
+    with several(open_viewer) as opened:
+        yield opened
 
 
 @pytest.fixture

@@ -21,6 +21,7 @@ pytest.importorskip("rclpy", reason="a live viewer needs rclpy")
 from basic_controls import Control, add, basic_controls, box, marker
 from geometry_msgs.msg import Pose
 from marker_server import Feedback, MarkerServer
+from several import several
 from visualization_msgs.msg import InteractiveMarkerPose, InteractiveMarkerUpdate, MenuEntry
 
 NAN = math.nan
@@ -29,15 +30,12 @@ NAN = math.nan
 @pytest.fixture
 def serve(webviz_domain: int) -> Iterator[Callable[..., MarkerServer]]:
     """Start servers; those that run at the end are closed."""
-    servers: list[MarkerServer] = []
 
     def serve(namespace: str = "/arm", *markers: Any) -> MarkerServer:
-        servers.append(MarkerServer(namespace, webviz_domain, markers))
-        return servers[-1]
+        return MarkerServer(namespace, webviz_domain, markers)
 
-    yield serve
-    for server in servers:
-        server.close()
+    with several(serve) as served:
+        yield served
 
 
 def handles(viewer: LiveViewer) -> dict[str, Handle]:

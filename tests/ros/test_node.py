@@ -16,6 +16,7 @@ from nodes import node_of
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
+from several import several
 from std_msgs.msg import Int32, String
 
 from webviz import Display, Input, Topic
@@ -40,15 +41,8 @@ def talker(webviz_domain: int) -> Iterator[Node]:
 
 @pytest.fixture
 def listen(webviz_domain: int) -> Iterator[Callable[..., RosSource]]:
-    sources: list[RosSource] = []
-
-    def make(*args: str) -> RosSource:
-        sources.append(RosSource(args, domain_id=webviz_domain))
-        return sources[-1]
-
-    yield make
-    for source in sources:
-        source.close()
+    with several(lambda *args: RosSource(args, domain_id=webviz_domain)) as listen:
+        yield listen
 
 
 def qos(reliability: str, durability: str) -> QoSProfile:

@@ -6,6 +6,7 @@ import math
 import socket
 import time
 from collections.abc import Callable, Iterator
+from functools import partial
 from typing import Any, Protocol
 
 import msgspec
@@ -14,6 +15,7 @@ import pytest
 import viser
 import websockets.sync.client
 import zstandard
+from several import several
 
 from webviz.api.nodes import Rgb
 from webviz.scene import ViserScene, open_server
@@ -213,15 +215,8 @@ class Peer:
 @pytest.fixture
 def call(server: viser.ViserServer) -> Iterator[Callable[..., Peer]]:
     """Connect a `Peer`; headers as keyword arguments."""
-    peers: list[Peer] = []
-
-    def call(**headers: str) -> Peer:
-        peers.append(Peer(server, **headers))
-        return peers[-1]
-
-    yield call
-    for peer in peers:
-        peer.close()
+    with several(partial(Peer, server)) as call:
+        yield call
 
 
 @pytest.fixture

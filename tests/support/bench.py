@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
-from contextlib import contextmanager
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
 
+from several import several
 from waiting import until
 
 from webviz.data.messages import encode
@@ -123,15 +124,6 @@ class Bench:
         return {key: (status.level.name, status.text) for key, status in row.statuses.items()}
 
 
-@contextmanager
-def benches() -> Iterator[Callable[..., Bench]]:
+def benches() -> AbstractContextManager[Callable[..., Bench]]:
     """Make benches, and end them all."""
-    made: list[Bench] = []
-
-    def make(*displays: Item, **options: Any) -> Bench:
-        made.append(Bench(*displays, **options))
-        return made[-1]
-
-    yield make
-    for each in made:
-        each.viewer.close()
+    return several(Bench, lambda bench: bench.viewer.close())

@@ -83,32 +83,32 @@ IMU = {"orientation": {"z": 0.6, "w": 0.8}, "linear_acceleration": {"x": 1.0, "z
 FIELD = {"magnetic_field": {"x": 2e-5, "y": 1e-5, "z": -4e-5}}
 
 
-def costmaps(bench: Any) -> None:
-    """A costmap, and an update, in a frame that moved on."""
+def _map_and_update(
+    bench: Any, topic: str, whole: tuple[str, Any], update: tuple[str, Any]
+) -> None:
+    """A map and an update of it, in a frame that moved on."""
     for age, x in ((1, 1.0), (0, 2.0)):
         stamp_ns = bench.now_ns - age * SECOND
         bench.transform("map", "room", (x, 0.0, 0.0), stamp_ns=stamp_ns)
-    stamp_ns, topic = bench.now_ns - SECOND, "/local_costmap/costmap_raw"
-    bench.send("nav2_msgs/msg/Costmap", COSTMAP, frame="room", stamp_ns=stamp_ns, topic=topic)
-    bench.turn()
+    stamp_ns = bench.now_ns - SECOND
+    for name, (type_name, values) in ((topic, whole), (f"{topic}_updates", update)):
+        bench.send(type_name, values, frame="room", stamp_ns=stamp_ns, topic=name)
+        bench.turn()
+
+
+def costmaps(bench: Any) -> None:
+    """A costmap, and an update."""
     update = {"x": 1, "size_x": 1, "size_y": 1, "data": [77]}
-    type_name, topic = "nav2_msgs/msg/CostmapUpdate", f"{topic}_updates"
-    bench.send(type_name, update, frame="room", stamp_ns=stamp_ns, topic=topic)
-    bench.turn()
+    whole = "nav2_msgs/msg/Costmap", COSTMAP
+    changed = "nav2_msgs/msg/CostmapUpdate", update
+    _map_and_update(bench, "/local_costmap/costmap_raw", whole, changed)
 
 
 def seen_from_above(bench: Any) -> None:
-    """An octree, and an update, in a frame that moved on."""
-    for age, x in ((1, 1.0), (0, 2.0)):
-        stamp_ns = bench.now_ns - age * SECOND
-        bench.transform("map", "room", (x, 0.0, 0.0), stamp_ns=stamp_ns)
-    stamp_ns, topic = bench.now_ns - SECOND, "/octomap_binary"
-    bench.send(OCTOMAP, hill("OcTree"), frame="room", stamp_ns=stamp_ns, topic=topic)
-    bench.turn()
+    """An octree, and an update."""
     update = {"x": 0, "width": 1, "height": 1, "data": [30]}
-    type_name, topic = "map_msgs/msg/OccupancyGridUpdate", f"{topic}_updates"
-    bench.send(type_name, update, frame="room", stamp_ns=stamp_ns, topic=topic)
-    bench.turn()
+    changed = "map_msgs/msg/OccupancyGridUpdate", update
+    _map_and_update(bench, "/octomap_binary", (OCTOMAP, hill("OcTree")), changed)
 
 
 MAPPING_MESSAGES: dict[str, dict[str, Any]] = {

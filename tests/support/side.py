@@ -46,7 +46,3 @@ class Side:
             self.page.wait_for(lambda: not missing(), "", seconds)
         except TimeoutError:
             pytest.fail(f"the page lacks {missing()}: {self.text()}")
-
-    def wait_until_gone(self, words: str) -> None:
-        """Wait until the statuses and properties do not say this any more."""
-        self.page.wait_for(lambda: words not in self.text(), f"{words!r} is gone", PATIENCE_S)

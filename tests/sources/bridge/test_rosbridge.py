@@ -24,6 +24,7 @@ from rosbridge_recording import (
     do_all,
     read,
 )
+from several import several
 from websockets.sync.server import ServerConnection
 
 from webviz.data.messages import EncodeError, decode, encode, interfaces
@@ -41,15 +42,8 @@ CLOCK = "rosgraph_msgs/msg/Clock"
 @pytest.fixture
 def replay() -> Iterator[Callable[..., Replay]]:
     """Play a recording back."""
-    opened: list[Replay] = []
-
-    def replay(path: Path, port: int = 0) -> Replay:
-        opened.append(Replay(path, port))
-        return opened[-1]
-
-    yield replay
-    for each in opened:
-        each.close()
+    with several(Replay) as replay:
+        yield replay
 
 
 def test_the_same_is_sent_as_to_the_real_server(replay: Callable[..., Replay]) -> None:
