@@ -213,6 +213,7 @@ def test_move_group_is_asked_for_what_was_before(world: Any) -> None:
     world.set("move_group_namespace", "/arm")
     world.turn()
     world.turn()
+    world.settle()  # a thread reads the answer
     assert boxes(world) == [0.0, 1.0]
     assert "'cell': 2 objects" in world.statuses()["Scene"][1]
     tell(world, scene(box("c", 3.0)))

@@ -187,7 +187,10 @@ class Group:
     ) -> None:
         """Draw many solids; `scales` may be one size for all. See `webviz.api.nodes.Instances`."""
         xyz = _f32(positions, 3)
-        sizes = np.ascontiguousarray(np.broadcast_to(np.asarray(scales, np.float32), xyz.shape))
+        sizes = np.asarray(scales, np.float32)
+        if sizes.shape != xyz.shape:
+            sizes = np.broadcast_to(sizes, xyz.shape)
+        sizes = np.ascontiguousarray(sizes)
         turns = None if wxyzs is None else _f32(wxyzs, 4)
         self.nodes[key] = nodes.Instances(
             xyz, sizes, _colors(colors), shape, turns, opacity, is_data, ids

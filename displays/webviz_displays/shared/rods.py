@@ -29,19 +29,21 @@ class Rods(NamedTuple):
     wxyzs: F64
 
 
-def rods(tails: ArrayLike, tips: ArrayLike, diameters: ArrayLike, wxyzs: F64 | None = None) -> Rods:
-    """Rods from `tails` (N, 3) to `tips` (N, 3), with one diameter each or for all.
-
-    `wxyzs` are the rotations of z to their directions, if they are known, such as those of a shaft
-    for its head.
-    """
+def rods(tails: ArrayLike, tips: ArrayLike, diameters: ArrayLike) -> Rods:
+    """Rods from `tails` (N, 3) to `tips` (N, 3), with one diameter each or for all."""
     tails, tips = np.asarray(tails, np.float64), np.asarray(tips, np.float64)
     ways = tips - tails
     lengths = np.linalg.norm(ways, axis=1)
-    if wxyzs is None:
-        wxyzs = from_z(ways / np.maximum(lengths, _LEAST_LENGTH)[:, None])
-    widths = np.broadcast_to(np.asarray(diameters, np.float64), lengths.shape)
-    return Rods((tails + tips) / 2, np.stack((widths, widths, lengths), axis=1), wxyzs)
+    turns = from_z(ways / np.maximum(lengths, _LEAST_LENGTH)[:, None])
+    return turned_rods(tails, tips, diameters, lengths, turns)
+
+
+def turned_rods(tails: F64, tips: F64, diameters: ArrayLike, lengths: F64, wxyzs: F64) -> Rods:
+    """Rods whose lengths (N,) and rotations of z to their directions (N, 4) are known."""
+    scales = np.empty((len(lengths), 3))
+    scales[:, 0] = scales[:, 1] = diameters
+    scales[:, 2] = lengths
+    return Rods((tails + tips) / 2, scales, wxyzs)
 
 
 def from_z(directions: F64) -> F64:
@@ -78,11 +80,13 @@ def add_solid_arrows(
     tails, tips = segments[:, 0], segments[:, 1]
     ways = tips - tails
     lengths = np.maximum(np.linalg.norm(ways, axis=1), _LEAST_LENGTH)
-    necks = tips - np.minimum(head_length / lengths, 1.0)[:, None] * ways
+    heads = np.minimum(head_length, lengths)
+    necks = tips - (heads / lengths)[:, None] * ways
     turns = from_z(ways / lengths[:, None])
+    widths = 2 * np.asarray(shaft_radius), 2 * np.asarray(head_radius)
     kinds: tuple[tuple[str, Solid, Rods], ...] = (
-        ("shafts", "cylinder", rods(tails, necks, 2 * np.asarray(shaft_radius), turns)),
-        ("heads", "cone", rods(necks, tips, 2 * np.asarray(head_radius), turns)),
+        ("shafts", "cylinder", turned_rods(tails, necks, widths[0], lengths - heads, turns)),
+        ("heads", "cone", turned_rods(necks, tips, widths[1], heads, turns)),
     )
     for name, shape, solids in kinds:
         group.instances(

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from webviz import Group, Rgb, Solid
 from webviz.data.rotations import matrices
-from webviz_displays.shared.rods import Rods, from_z, rods
+from webviz_displays.shared.rods import Rods, from_z, rods, turned_rods
 from webviz_displays.tf.fading import faded
 
 F64 = NDArray[np.float64]
@@ -85,8 +85,8 @@ def add_arrows(group: Group, marks: Marks, tips: F64, scale: float) -> None:
     lengths = np.minimum(np.where(distances < full, full * distances, full), distances)
     necks = tips - (lengths / distances)[:, None] * ways
     turns = from_z(ways / distances[:, None])
-    shafts = rods(marks.positions, necks, SHAFT_DIAMETER * scale, turns)
-    heads = rods(necks, tips, HEAD_DIAMETER * scale, turns)
+    shafts = turned_rods(marks.positions, necks, SHAFT_DIAMETER * scale, distances - lengths, turns)
+    heads = turned_rods(necks, tips, HEAD_DIAMETER * scale, lengths, turns)
     shaft_colors, head_colors = _arrow_colors(marks.greyness)
     _add(group, "cylinder", "shafts", shafts, shaft_colors, marks.opacity, marks.names)
     _add(group, "cone", "heads", heads, head_colors, marks.opacity, marks.names)
