@@ -54,6 +54,14 @@ def scene(tab: Tab) -> dict[str, float]:
     return {key: float(value) for key, value in box.items() if isinstance(value, int | float)}
 
 
+def newest(loop: Loop) -> Layout:
+    """The arrangement that the page has asked for last."""
+    command = loop.commands[-1]
+    assert isinstance(command, SetLayout)
+    assert isinstance(command.layout, Layout)
+    return command.layout
+
+
 def test_a_tab_is_dragged_to_each_place_and_back(loop: Loop, tab: Tab) -> None:
     topics = tab.page.locator("#wv-tab-topics")
     room = scene(tab)
@@ -71,10 +79,8 @@ def test_a_tab_is_dragged_to_each_place_and_back(loop: Loop, tab: Tab) -> None:
     drag(tab, head, room["x"] + 300, room["y"] + 200)
     tab.wait_for(lambda: docked(tab) == {"topics": "wv-floats"})
     tab.wait_for(lambda: scene(tab) == room)
-    floating = loop.commands[-1]
-    assert isinstance(floating, SetLayout)
-    assert isinstance(floating.layout, Layout)
-    (over,) = floating.layout.over
+    tab.wait_for(lambda: newest(loop).over != ())
+    (over,) = newest(loop).over
     assert over.panel == "topics"
     assert 0 < over.left < 0.3
     assert 0 < over.top < 0.4
@@ -102,18 +108,13 @@ def test_an_arrangement_of_others_is_shown_and_sizes_can_be_changed(loop: Loop, 
     border.focus()
     tab.page.keyboard.press("ArrowLeft")
     tab.wait_for(lambda: bool(loop.commands))
-    wider = loop.commands[-1]
-    assert isinstance(wider, SetLayout)
-    assert isinstance(wider.layout, Layout)
-    assert wider.layout.width == 316
+    wider = newest(loop)
+    assert wider.width == 316
     corner = tab.page.locator("[data-panel=topics] .wv-docked-corner")
     x, y = middle(corner)
     drag(tab, corner, x + 60, y + 40)
-    tab.wait_for(lambda: loop.commands[-1] is not wider)
-    larger = loop.commands[-1]
-    assert isinstance(larger, SetLayout)
-    assert isinstance(larger.layout, Layout)
-    assert larger.layout.over[1].width > arranged.over[1].width
+    tab.wait_for(lambda: newest(loop) is not wider)
+    assert newest(loop).over[1].width > arranged.over[1].width
 
 
 def test_a_refused_arrangement_is_taken_back(loop: Loop, tab: Tab) -> None:
