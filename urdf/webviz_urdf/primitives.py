@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 
 from webviz_urdf.glb import MeshPart
@@ -30,10 +32,17 @@ def box(x: float, y: float, z: float) -> MeshPart:
 
 def sphere(radius: float) -> MeshPart:
     """Return a sphere around the origin, metres."""
+    vertices, faces = _unit_sphere()
+    return _part(radius * vertices, faces)
+
+
+@cache
+def _unit_sphere() -> tuple[np.ndarray, np.ndarray]:
+    """Vertices and faces of a sphere with radius 1; each link with a mass has one."""
     import trimesh  # by the process that loads robots; in a viewer only for centres of mass
 
-    ball = trimesh.creation.icosphere(subdivisions=3, radius=radius)
-    return _part(ball.vertices, ball.faces)
+    ball = trimesh.creation.icosphere(subdivisions=3)
+    return np.asarray(ball.vertices), np.asarray(ball.faces, np.uint32)
 
 
 def cylinder(radius: float, length: float) -> MeshPart:
