@@ -235,7 +235,11 @@ def test_there_are_not_too_many_tokens(path: Path, monkeypatch: pytest.MonkeyPat
         token_file.read(path)
 
 
-def test_programs_that_change_the_file_at_once_lose_nothing(path: Path) -> None:
+def test_programs_that_change_the_file_at_once_lose_nothing(
+    path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("webviz.files.config.atomic.LOCK_S", 60.0)  # the disk may be busy
+
     def add(number: int) -> None:
         token_file.modify(path, lambda tokens: [*tokens, token(str(number))])
 
