@@ -154,6 +154,7 @@ def moveit(bench: Any) -> None:
         bench.turn(seconds)
     after = time.monotonic() + 0.02  # of which half is the time that a scene stays
     while time.monotonic() < after:
+        time.sleep(0.002)
         bench.turn()
     settle(bench)
 

@@ -135,10 +135,14 @@ def as_trimesh() -> Callable[[Mesh | Glb], trimesh.Trimesh]:
         if isinstance(node, Mesh):
             return trimesh.Trimesh(node.vertices, node.faces, process=False)
         scene = trimesh.load_scene(io.BytesIO(node.data), "glb", process=False)
-        meshes = [mesh for mesh in scene.dump() if isinstance(mesh, trimesh.Trimesh)]
-        offsets = np.cumsum([0] + [len(mesh.vertices) for mesh in meshes[:-1]])
+        placed = [scene.graph[node] for node in scene.graph.nodes_geometry]
+        meshes = [scene.geometry[name] for _, name in placed]
+        moved = [
+            trimesh.transform_points(mesh.vertices, pose)
+            for mesh, (pose, _) in zip(meshes, placed, strict=True)
+        ]
+        offsets = np.cumsum([0] + [len(vertices) for vertices in moved[:-1]])
         faces = [mesh.faces + n for mesh, n in zip(meshes, offsets, strict=True)]
-        vertices = np.concatenate([mesh.vertices for mesh in meshes])
-        return trimesh.Trimesh(vertices, np.concatenate(faces), process=False)
+        return trimesh.Trimesh(np.concatenate(moved), np.concatenate(faces), process=False)
 
     return convert
