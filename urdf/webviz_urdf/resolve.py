@@ -62,11 +62,13 @@ class Resolver:
             ament_prefix_path = os.environ.get("AMENT_PREFIX_PATH", "")
         self.ament_prefix_path = ament_prefix_path
         self.base = None if base is None else Path(base).absolute()
+        self._found: dict[str, list[Path]] = {}
 
     def relative_to(self, base: str | Path) -> Resolver:
         """Return the same resolver for a description in the folder `base`."""
         resolver = copy.copy(self)
         resolver.base = Path(base).absolute()
+        resolver._found = {}
         return resolver
 
     def resolve(self, uri: str) -> Path:
@@ -117,7 +119,7 @@ class Resolver:
         for text in dict.fromkeys((path, unquote(path))):
             if os.path.isabs(text) or os.path.normpath(text).split(os.sep)[0] == "..":
                 raise ResolveError(f"'package://{rest}' leaves its package by '..'.")
-        folders = list(dict.fromkeys(self._package_folders(package))) if package.strip(".") else []
+        folders = self._package_folders(package) if package.strip(".") else []
         if not folders:
             raise ResolveError(
                 f"Package '{package}' is neither on AMENT_PREFIX_PATH nor below a mesh root or "
@@ -157,9 +159,15 @@ class Resolver:
             return True
         names = (_package_name(folder) for folder in target.parents)
         name = next(filter(None, names), None)
-        return name is not None and any(self._package_folders(name))
+        return name is not None and bool(self._package_folders(name))
 
-    def _package_folders(self, package: str) -> Iterator[Path]:
+    def _package_folders(self, package: str) -> list[Path]:
+        """Return the folders of a package, looked for once: a robot has dozens of meshes in it."""
+        if package not in self._found:
+            self._found[package] = list(dict.fromkeys(self._look_for(package)))
+        return self._found[package]
+
+    def _look_for(self, package: str) -> Iterator[Path]:
         yield from self._packages_below.get(package, ())
         for root in self.roots:
             for folder in (root, root / package):
