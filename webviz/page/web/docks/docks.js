@@ -3,6 +3,7 @@
 import { why } from "../access.js";
 import { act } from "../act.js";
 import { el, setChildren } from "../dom.js";
+import { listeners } from "../listeners.js";
 import { openMenuBelow } from "../shell/menu.js";
 import { watch } from "../stores.js";
 import { corner } from "./corner.js";
@@ -45,8 +46,7 @@ let panels = [];
 const frames = new Map();
 /** @type {Map<string, HTMLElement>} */
 const splitters = new Map();
-/** @type {Set<() => void>} */
-const listeners = new Set();
+const changes = listeners();
 const beside = el("div", { class: "wv-beside", hidden: true });
 const below = el("div", { class: "wv-below", hidden: true });
 const floats = el("div", { class: "wv-floats" });
@@ -79,12 +79,8 @@ export function install(page) {
   });
 }
 
-/**
- * Calls `listener` whenever other panels stand outside of the tabs.
- *
- * @param {() => void} listener
- */
-export const onPlaced = (listener) => listeners.add(listener);
+/** Calls a listener whenever other panels stand outside of the tabs. */
+export const onPlaced = changes.on;
 
 /**
  * Says which panels there are.
@@ -222,7 +218,7 @@ function draw() {
   const now = [...frames.keys()].sort().join();
   if (now === placed) return;
   placed = now;
-  for (const listener of listeners) listener();
+  changes.tell();
 }
 
 /**

@@ -1,6 +1,7 @@
 // The handles of the scene, and which of their parts is under a point of the window.
 
 import constants from "../constants.js";
+import { listeners } from "../listeners.js";
 import { depthOf } from "../scene/picking/lens.js";
 import { pickAt } from "../scene/picking/pick.js";
 import { nodeNamed } from "../scene/picking/things.js";
@@ -17,8 +18,7 @@ import { pathOf } from "./projection.js";
 const GROUP = /\|(m\d+)(?:\.([^|]*))?$/;
 const PART = /^c(\d+)\//;
 
-/** @type {Set<() => void>} */
-const listeners = new Set();
+const changes = listeners();
 /** @type {ValuesOf<"handles">} */
 let handles = new Map();
 /** @type {Map<string, HandleNodes> | null} */
@@ -29,19 +29,15 @@ export function install() {
   watch("handles", (values) => {
     handles = values;
     index = null;
-    for (const listener of listeners) listener();
+    changes.tell();
   });
 }
 
 /** All handles by id, those of the store `handles`. */
 export const all = () => handles;
 
-/**
- * Calls `listener` when handles change.
- *
- * @param {() => void} listener
- */
-export const onChange = (listener) => listeners.add(listener);
+/** Calls a listener when handles change. */
+export const onChange = changes.on;
 
 /**
  * The handle and the number of the control that a node belongs to, or null: `{id, control}`.

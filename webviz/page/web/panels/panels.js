@@ -4,6 +4,7 @@
 // what is to be done when it is not any more. The tab of one that `isOnDemand` is there while it is
 // open only.
 
+import { listeners } from "../listeners.js";
 import { displays } from "./displays/displays.js";
 import { doctor } from "./doctor.js";
 import { selectionPanel } from "./selection.js";
@@ -16,8 +17,7 @@ import { views } from "./views.js";
 
 /** @type {Panel[]} */
 export const panels = [];
-/** @type {Set<() => void>} */
-const listeners = new Set();
+const changes = listeners();
 
 /**
  * Adds a panel, or replaces that of the same name.
@@ -28,15 +28,11 @@ export function panel(added) {
   const index = panels.findIndex(({ name }) => name === added.name);
   if (index < 0) panels.push(added);
   else panels[index] = added;
-  for (const listener of listeners) listener();
+  changes.tell();
 }
 
-/**
- * Calls `listener` whenever there is another panel.
- *
- * @param {() => void} listener
- */
-export const onPanel = (listener) => listeners.add(listener);
+/** Calls a listener whenever there is another panel. */
+export const onPanel = changes.on;
 
 for (const own of [displays, selectionPanel, views, topics, transforms, toolsPanel, doctor])
   panel(own);

@@ -4,6 +4,7 @@ import { act } from "../act.js";
 import * as channel from "../channel.js";
 import { el, setText } from "../dom.js";
 import { icon } from "../icons.js";
+import { listeners } from "../listeners.js";
 import { watch } from "../stores.js";
 import { ask, openDialog } from "./dialog.js";
 import { download } from "./download.js";
@@ -18,8 +19,7 @@ const NEW_NAME = "webviz.yaml";
 
 /** @type {{path: string, is_changed: boolean, folder: string | null, others: string[]}} */
 let file = { path: "", is_changed: false, folder: null, others: [] };
-/** @type {Set<() => void>} */
-const listeners = new Set();
+const changes = listeners();
 
 /**
  * The last part of a path.
@@ -42,7 +42,7 @@ export function install() {
       folder: values.get("folder"),
       others: values.get("others"),
     };
-    for (const listener of [...listeners]) listener();
+    changes.tell();
   });
   channel.on("Download", ({ name, text }) => download(name, text));
 }
@@ -53,9 +53,8 @@ export function install() {
  * @param {() => void} listener
  */
 export function onFile(listener) {
-  listeners.add(listener);
   listener();
-  return () => listeners.delete(listener);
+  return changes.on(listener);
 }
 
 export const save = () => (file.path ? act("Save") : saveAs());

@@ -3,6 +3,7 @@
 import { why } from "../access.js";
 import { act } from "../act.js";
 import * as channel from "../channel.js";
+import { listeners } from "../listeners.js";
 import { watch } from "../stores.js";
 import { openMenuBelow } from "./menu.js";
 import { toast } from "./toasts.js";
@@ -15,8 +16,7 @@ import { toast } from "./toasts.js";
 const MAX_LISTED = 30;
 /** @type {Record<Way, HistoryStep[]>} */
 const steps = { undo: [], redo: [] };
-/** @type {Set<() => void>} */
-const listeners = new Set();
+const changes = listeners();
 /** @type {number | null} */
 let newest = null;
 
@@ -25,7 +25,7 @@ export function install() {
   channel.onOpen(() => (newest = null));
   watch("history", (values) => {
     for (const way of /** @type {const} */ (["undo", "redo"])) steps[way] = values.get(way) ?? [];
-    for (const listener of listeners) listener();
+    changes.tell();
     tell();
   });
 }
@@ -36,7 +36,7 @@ export function install() {
  * @param {() => void} listener
  */
 export function onSteps(listener) {
-  listeners.add(listener);
+  changes.on(listener);
   listener();
 }
 

@@ -4,6 +4,7 @@ import { el, set, setChildren } from "../dom.js";
 import * as gesture from "../handles/gesture.js";
 import * as glow from "../handles/glow.js";
 import { icon } from "../icons.js";
+import { listeners } from "../listeners.js";
 import { focusCamera, interact, moveCamera } from "../tools/camera.js";
 import * as goals from "../tools/goals.js";
 import { hint, tell } from "../tools/hint.js";
@@ -34,19 +35,14 @@ const EVENTS = /** @type {const} */ ([
   "pointercancel",
   "wheel",
 ]);
-/** @type {Set<() => void>} */
-const listeners = new Set();
+const changes = listeners();
 /** @type {Map<string, HTMLButtonElement>} */
 const made = new Map();
 /** @type {Tool | null} */
 let active = null;
 
-/**
- * Calls `listener` whenever there are other tools.
- *
- * @param {() => void} listener
- */
-export const onTools = (listener) => listeners.add(listener);
+/** Calls a listener whenever there are other tools. */
+export const onTools = changes.on;
 
 export function install() {
   registry.onChange(update);
@@ -100,7 +96,7 @@ function update() {
   );
   setChildren(icons, lean.map(buttonOf));
   setChildren(buttons, named.map(buttonOf));
-  if (count() !== before) for (const listener of listeners) listener();
+  if (count() !== before) changes.tell();
 }
 
 /** The tools that are icons, as items of a menu. */

@@ -2,6 +2,7 @@
 
 import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
+import { listeners } from "../listeners.js";
 import { canvas } from "../viser_page.js";
 import { duration } from "./time_text.js";
 import { toast } from "./toasts.js";
@@ -14,10 +15,7 @@ const MAX_S = 3600;
 
 /** @type {{recorder: MediaRecorder, parts: Blob[], bytes: number, began: number} | null} */
 let running = null;
-/** @type {Set<() => void>} */
-const listeners = new Set();
-
-const tellAll = () => listeners.forEach((listener) => listener());
+const changes = listeners();
 
 /** While a video is recorded: for how long and how much, and a button that stops it. */
 export function videoButton() {
@@ -42,7 +40,7 @@ export function videoButton() {
       "data-tip": "Stop and save the video",
     });
   };
-  listeners.add(show);
+  changes.on(show);
   show();
   return button;
 }
@@ -73,23 +71,23 @@ function start() {
     made.bytes += data.size;
     const isLong = made.bytes > MAX_BYTES || performance.now() - made.began > MAX_S * 1000;
     if (isLong && recorder.state === "recording") recorder.stop();
-    tellAll();
+    changes.tell();
   });
   recorder.addEventListener("error", () =>
     toast("The browser has stopped recording the video.", { level: "error" }),
   );
-  const ticking = setInterval(tellAll, PART_MS); // a scene at rest gives no data
+  const ticking = setInterval(changes.tell, PART_MS); // a scene at rest gives no data
   recorder.addEventListener("stop", () => {
     clearInterval(ticking);
     for (const track of stream.getTracks()) track.stop();
     running = null;
-    tellAll();
+    changes.tell();
     save(new Blob(made.parts, { type }), type);
   });
   running = made;
   recorder.start(PART_MS);
   toast("Recording the scene without panels. Stop to save the video.");
-  tellAll();
+  changes.tell();
 }
 
 /**

@@ -1,11 +1,12 @@
 // The gestures of tools by name, of the page and of plug-ins.
 
+import { listeners } from "../listeners.js";
+
 /** @import {Gesture, MadeGesture, ViewerTool} from "../types.js" */
 
 /** @type {Map<string, Gesture>} */
 const makers = new Map();
-/** @type {Set<() => void>} */
-const listeners = new Set();
+const changes = listeners();
 
 /**
  * Adds a gesture. `make(tool, done)` returns what a tool of the registry has besides its name:
@@ -17,15 +18,11 @@ const listeners = new Set();
  */
 export function gesture(name, make) {
   makers.set(name, make);
-  for (const listener of listeners) listener();
+  changes.tell();
 }
 
 /** @param {string} name */
 export const gestureOf = (name) => makers.get(name);
 
-/**
- * Calls `listener` whenever there is another gesture.
- *
- * @param {() => void} listener
- */
-export const onGesture = (listener) => listeners.add(listener);
+/** Calls a listener whenever there is another gesture. */
+export const onGesture = changes.on;

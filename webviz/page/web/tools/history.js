@@ -1,6 +1,7 @@
 // History of what this page has sent by tools, with the results: the newest first.
 
 import * as act from "../act.js";
+import { listeners } from "../listeners.js";
 import { watch } from "../stores.js";
 
 /** @import {MadeGesture, ToolFacts} from "../types.js" */
@@ -17,8 +18,7 @@ import { watch } from "../stores.js";
 
 const MAX_KEPT = 20;
 
-/** @type {Set<() => void>} */
-const listeners = new Set();
+const changes = listeners();
 /** @type {SentGesture[]} */
 let sent = [];
 let frame = "";
@@ -30,15 +30,8 @@ export function install() {
 export const all = () => sent;
 export const fixedFrame = () => frame;
 
-/**
- * Calls `listener` whenever something is new; returns what ends it.
- *
- * @param {() => void} listener
- */
-export function onChange(listener) {
-  listeners.add(listener);
-  return () => listeners.delete(listener);
-}
+/** Calls a listener whenever something is new; returns what ends it. */
+export const onChange = changes.on;
 
 /**
  * Sends a finished gesture of a tool, `{id, name, gesture}`, or poses that were collected.
@@ -52,7 +45,7 @@ export function send(tool, { points, yaw, keys, yaws = [], several = "" }) {
   const number = act.send("UseTool", { tool: tool.id, ...gesture });
   const entry = { number, tool, ...gesture, frame, time: new Date(), ...result };
   sent = [entry, ...sent].slice(0, MAX_KEPT);
-  tellAll();
+  changes.tell();
 }
 
 /**
@@ -86,9 +79,5 @@ export const published = (number, message) =>
  */
 function change(number, update) {
   sent = sent.map((entry) => (entry.number === number ? update(entry) : entry));
-  tellAll();
-}
-
-function tellAll() {
-  for (const listener of listeners) listener();
+  changes.tell();
 }

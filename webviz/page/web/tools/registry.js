@@ -7,13 +7,13 @@
 // `isLean`, whether its button is an icon only.
 // Interact is the default.
 
+import { listeners } from "../listeners.js";
 import { canvas } from "../viser_page.js";
 import { tell } from "./hint.js";
 
 /** @import {Tool} from "../types.js" */
 
-/** @type {Set<() => void>} */
-const listeners = new Set();
+const changes = listeners();
 /** @type {Map<string, Tool[]>} */
 const sets = new Map();
 /** @type {Tool | null} */
@@ -32,11 +32,11 @@ export function provide(origin, tools) {
   sets.set(origin, tools);
   const known = all();
   const id = current?.id;
-  if (!current || known.includes(current)) return tellAll();
+  if (!current || known.includes(current)) return changes.tell();
   const same = known.find((tool) => tool.id === id);
   if (same && !same.refusal) {
     current = same;
-    return tellAll();
+    return changes.tell();
   }
   select(null);
   if (same?.refusal) tell("warn", same.refusal);
@@ -69,7 +69,7 @@ export function select(tool) {
   current = tool ?? fallback;
   canvas().style.cursor = current?.cursor ?? "";
   current?.select?.();
-  tellAll();
+  changes.tell();
 }
 
 /**
@@ -79,16 +79,5 @@ export function select(tool) {
  */
 export const toggle = (tool) => select(tool === current ? null : tool);
 
-/**
- * Calls `listener` when tools change or another one is active; returns what ends it.
- *
- * @param {() => void} listener
- */
-export function onChange(listener) {
-  listeners.add(listener);
-  return () => listeners.delete(listener);
-}
-
-function tellAll() {
-  for (const listener of listeners) listener();
-}
+/** Calls a listener when tools change or another one is active; returns what ends it. */
+export const onChange = changes.on;

@@ -3,6 +3,7 @@
 
 import { act } from "../act.js";
 import * as channel from "../channel.js";
+import { listeners } from "../listeners.js";
 import { watch } from "../stores.js";
 
 /** @import {Picked, Selected, ValuesOf} from "../types.js" */
@@ -11,8 +12,7 @@ import { watch } from "../stores.js";
 /** The most things that are selected. */
 export const MAX_SELECTED = 1000;
 
-/** @type {Set<() => void>} */
-const listeners = new Set();
+const changes = listeners();
 /** @type {Map<number, Selected>} */
 let things = new Map(); // by id
 let total = 0;
@@ -34,15 +34,8 @@ export const totalCount = () => total;
  */
 export const moves = ({ id }) => known.get(String(id))?.[1] ?? false;
 
-/**
- * Calls `listener` whenever something else is selected; returns what ends it.
- *
- * @param {() => void} listener
- */
-export function onChange(listener) {
-  listeners.add(listener);
-  return () => listeners.delete(listener);
-}
+/** Calls a listener whenever something else is selected; returns what ends it. */
+export const onChange = changes.on;
 
 // A server that comes back knows nothing of this page, which gets another id.
 export function install() {
@@ -55,7 +48,7 @@ export function install() {
       known = values;
       dropUnknown();
     });
-    tellAll();
+    changes.tell();
   });
 }
 
@@ -118,7 +111,7 @@ export async function change(way, picks, found = picks.length) {
 async function put(keep, fresh, wanted) {
   things = new Map([...[...things].filter(([id]) => keep.includes(id)), ...fresh]);
   total = Math.max(wanted, things.size);
-  tellAll();
+  changes.tell();
   const fields = { picks: sendable(fresh.values()), keep, total };
   const { level, text } = await act("Select", fields, { quiet: true, errors: "caller" });
   // What the server tells of the selection comes before its answer.
@@ -138,9 +131,5 @@ function dropUnknown() {
 function drop(ids) {
   const gone = ids.filter((id) => things.delete(id));
   total -= gone.length;
-  if (gone.length) tellAll();
-}
-
-function tellAll() {
-  for (const listener of listeners) listener();
+  if (gone.length) changes.tell();
 }
