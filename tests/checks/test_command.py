@@ -10,6 +10,7 @@ from pathlib import Path
 import msgspec
 import pytest
 from bags import START_NS, Bag, ns
+from examining import SCAN, three_ranges
 
 import webviz
 import webviz.checks
@@ -53,7 +54,6 @@ ROS2 = {
     "topic type": set[str](),
 }
 """Verbs of ros2cli and ros2bag that checks name, each with the options of them that they use."""
-SCAN = "sensor_msgs/msg/LaserScan"
 
 
 @pytest.fixture
@@ -65,15 +65,7 @@ def run_bag(tmp_path: Path) -> Path:
     for number in range(60):
         at_s = number / 10
         bag.transform(at_s, "odom", "base_link", at_s)
-        seconds, rest = divmod(START_NS + ns(at_s), 1_000_000_000)
-        values = {
-            "header": {"frame_id": "lasr", "stamp": {"sec": seconds, "nanosec": rest}},
-            "angle_max": 1.0,
-            "angle_increment": 0.5,
-            "range_max": 10.0,
-            "ranges": [1.0, 2.0, 1.5],
-        }
-        bag.put(at_s + 0.05, "/scan", values)
+        bag.put(at_s + 0.05, "/scan", three_ranges("lasr", START_NS + ns(at_s)))
     return bag.write(tmp_path / "run")
 
 

@@ -10,7 +10,7 @@ import building
 import examining
 import numpy as np
 import pytest
-from examining import HERE, display, look
+from examining import HERE, SCAN, display, look
 
 import webviz
 from webviz import Finding, Severity, Symptom, Topic
@@ -26,7 +26,6 @@ from webviz_displays.path import Path
 from webviz_displays.robot_model import RobotModel
 from webviz_sim.pose import Pose2D
 
-SCAN = "sensor_msgs/msg/LaserScan"
 ROBOT = """<robot name="r"><link name="map"><visual><geometry>
 <mesh filename="package://nowhere/part.stl"/></geometry></visual></link></robot>"""
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import examining
 import pytest
-from examining import display
+from examining import SCAN, display, three_ranges
 
 from webviz import Display, Finding, OtherFixedFrame, Symptom, Topic
 from webviz.api.finding import CauseLevel
@@ -17,7 +17,6 @@ from webviz.shell.testing.source import SECOND
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.robot_model import RobotModel
 
-SCAN = "sensor_msgs/msg/LaserScan"
 AWAY = (0.1, 0.0, 0.0)
 LINKS = """<robot name="r"><link name="base_link"/><link name="arm"/>
 <joint name="j" type="revolute"><parent link="base_link"/><child link="arm"/>
@@ -49,22 +48,8 @@ def drive(stage: Harness, stamp_ns: int = 0, child: str = "odom") -> None:
 
 def scan(stage: Harness, frame: str = "laser", stamp_ns: int | None = None) -> None:
     """Publish a scan."""
-    values = {
-        "header": {
-            "frame_id": frame,
-            "stamp": stamp(stage.source.now if stamp_ns is None else stamp_ns),
-        },
-        "angle_max": 1.0,
-        "angle_increment": 0.5,
-        "range_max": 10.0,
-        "ranges": [1.0, 2.0, 1.5],
-    }
-    stage.publish("/scan", SCAN, values)
-
-
-def stamp(ns: int) -> dict[str, int]:
-    """A time as in messages."""
-    return {"sec": ns // SECOND, "nanosec": ns % SECOND}
+    stamp_ns = stage.source.now if stamp_ns is None else stamp_ns
+    stage.publish("/scan", SCAN, three_ranges(frame, stamp_ns))
 
 
 def mount(stage: Harness) -> None:

@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path as PathOfFile
 
 import pytest
-from examining import display, examined, live_findings
+from examining import SCAN, display, examined, live_findings
 from geometry_msgs.msg import PoseStamped
 from nodes import node_of
 from rclpy.duration import Duration
@@ -29,7 +29,6 @@ from webviz_displays.poses import Pose, PoseWithCovariance
 from webviz_displays.tf import TF
 
 BEST_EFFORT = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
-SCAN = "sensor_msgs/msg/LaserScan"
 POSE = "geometry_msgs/msg/PoseWithCovarianceStamped"
 
 

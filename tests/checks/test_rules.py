@@ -12,7 +12,7 @@ import building
 import examining
 import pytest
 from bags import START_NS, Bag, ns
-from examining import HERE, look
+from examining import HERE, SCAN, look, three_ranges
 
 from webviz.api.finding import CauseLevel
 from webviz.api.rule import parse_rule
@@ -24,7 +24,7 @@ from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Map
 from webviz_sim.pose import Pose2D
 
-SCAN, NUMBER = "sensor_msgs/msg/LaserScan", "std_msgs/msg/Float64"
+NUMBER = "std_msgs/msg/Float64"
 
 
 @pytest.fixture
@@ -40,15 +40,7 @@ def run(tmp_path: Path) -> Path:
         bag.put(at_s, "/charge", {"data": 0.1 if number == 57 else 1.0})
         if 5.0 < at_s < 15.0:
             continue
-        seconds, rest = divmod(START_NS + ns(at_s), 1_000_000_000)
-        values = {
-            "header": {"frame_id": "laser", "stamp": {"sec": seconds, "nanosec": rest}},
-            "angle_max": 1.0,
-            "angle_increment": 0.5,
-            "range_max": 10.0,
-            "ranges": [1.0, 2.0, 1.5],
-        }
-        bag.put(at_s, "/scan", values)
+        bag.put(at_s, "/scan", three_ranges("laser", START_NS + ns(at_s)))
     return bag.write(tmp_path / "run")
 
 

@@ -7,16 +7,17 @@ from collections.abc import Callable
 
 import examining
 import pytest
+from examining import SCAN, three_ranges
 
 from webviz import Finding
 from webviz.api.finding import CauseLevel
 from webviz.api.offer import Offer, Publisher
 from webviz.engine.commands import Reset
 from webviz.shell.testing.harness import Harness
+from webviz.shell.testing.messages import header
 from webviz.shell.testing.source import SECOND
 from webviz_displays.laser_scan import LaserScan
 
-SCAN = "sensor_msgs/msg/LaserScan"
 WALL_NS = 1_700_000_000 * SECOND
 SIMULATOR = Publisher("/simulator", "rosgraph_msgs/msg/Clock", "reliable", "volatile")
 PLAYER = Publisher("/player", "rosgraph_msgs/msg/Clock", "reliable", "volatile")
@@ -43,15 +44,7 @@ def scans(stage: Harness, stamp_ns: Callable[[int], int]) -> None:
     for _ in range(6):
         stage.source.now += SECOND // 4
         stage.clock += 0.25
-        sec, nanosec = divmod(stamp_ns(stage.source.now), SECOND)
-        values = {
-            "header": {"frame_id": "map", "stamp": {"sec": sec, "nanosec": nanosec}},
-            "angle_max": 1.0,
-            "angle_increment": 0.5,
-            "range_max": 10.0,
-            "ranges": [1.0, 2.0, 1.5],
-        }
-        stage.publish("/scan", SCAN, values)
+        stage.publish("/scan", SCAN, three_ranges("map", stamp_ns(stage.source.now)))
         stage.turn()
 
 
@@ -121,8 +114,7 @@ def test_transforms_of_another_clock(stage: Harness) -> None:
 def test_data_and_transforms_of_two_clocks(stage: Harness) -> None:
     stage.transform("map", "base_link", stamp_ns=50 * SECOND)
     stage.transform("map", "base_link", stamp_ns=51 * SECOND)
-    sec, _ = divmod(stage.source.now, SECOND)
-    stage.publish("/scan", SCAN, {"header": {"frame_id": "base_link", "stamp": {"sec": sec}}})
+    stage.publish("/scan", SCAN, {"header": header("base_link", stage.source.now)})
     stage.turn()
     assert "TIME011 base_link" in examined(stage)
 
@@ -131,9 +123,7 @@ def test_a_bag_that_started_again_beside_a_robot(stage: Harness) -> None:
     def publish(stamp_ns: int) -> None:
         stage.transform("map", "arm", stamp_ns=stage.source.now)
         stage.transform("map", "odom", stamp_ns=stamp_ns)
-        sec, nanosec = divmod(stamp_ns, SECOND)
-        stamp = {"sec": sec, "nanosec": nanosec}
-        stage.publish("/scan", SCAN, {"header": {"frame_id": "odom", "stamp": stamp}})
+        stage.publish("/scan", SCAN, {"header": header("odom", stamp_ns)})
 
     for _ in range(5):
         stage.source.now += SECOND // 10

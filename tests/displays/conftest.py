@@ -8,8 +8,10 @@ from typing import Any
 
 import pytest
 from inspecting import QUARTER
+from robot_arm import ARM, describe, place_arm
 
 from webviz.api.display import Display, inputs
+from webviz_displays.robot_model import RobotModel
 
 STRAIGHT = (0.0, 0.0, 0.0, 1.0)
 
@@ -18,6 +20,15 @@ STRAIGHT = (0.0, 0.0, 0.0, 1.0)
 def bench(webviz_bench: Callable[..., Any]) -> Callable[..., Any]:
     """Make a `DisplayBench` of a display."""
     return webviz_bench
+
+
+@pytest.fixture
+def arm(bench: Callable[..., Any]) -> Any:
+    """The bench of a RobotModel that shows an arm."""
+    at = bench(RobotModel())
+    place_arm(at)
+    describe(at, ARM)
+    return at
 
 
 @pytest.fixture

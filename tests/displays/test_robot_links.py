@@ -16,25 +16,22 @@ from webviz_displays.robot_model import RobotModel
 from webviz_displays.robot_model.parts import GREY, JointSettings, LinkSettings
 
 
-def test_a_link_that_loses_its_transform_turns_grey_where_it_was(bench) -> None:
-    at = bench(RobotModel())
-    place_arm(at)
-    describe(at, ARM)
-    before = at.poses()["tool visual grip"]
-    at.buffer.clear()  # forgets what moves
-    at.turn()
-    assert at.poses()["tool visual grip"] == before
-    assert at.nodes()["tool visual grip"].color == GREY
-    assert at.nodes()["base visual visual_0"].color == (0, 0, 255)
-    level, text = at.statuses()["Links"]
+def test_a_link_that_loses_its_transform_turns_grey_where_it_was(arm) -> None:
+    before = arm.poses()["tool visual grip"]
+    arm.buffer.clear()  # forgets what moves
+    arm.turn()
+    assert arm.poses()["tool visual grip"] == before
+    assert arm.nodes()["tool visual grip"].color == GREY
+    assert arm.nodes()["base visual visual_0"].color == (0, 0, 255)
+    level, text = arm.statuses()["Links"]
     assert level == "ERROR"
     assert text.startswith("1 of 2 links without a transform: tool.")
-    assert at.statuses()["Link tool"][0] == "ERROR"
-    assert "tool" in at.statuses()["Link tool"][1]
-    place_arm(at)
-    at.turn()
-    assert at.nodes()["tool visual grip"].color == (0, 0, 255)
-    assert at.statuses()["Links"][0] == "OK"
+    assert arm.statuses()["Link tool"][0] == "ERROR"
+    assert "tool" in arm.statuses()["Link tool"][1]
+    place_arm(arm)
+    arm.turn()
+    assert arm.nodes()["tool visual grip"].color == (0, 0, 255)
+    assert arm.statuses()["Links"][0] == "OK"
 
 
 def test_a_link_that_never_had_a_transform_is_not_drawn(bench) -> None:

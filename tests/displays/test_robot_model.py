@@ -15,7 +15,6 @@ import pytest
 import trimesh
 from built_in_checks import BuiltInChecks
 from display_scenes import OTHER_LINKS, robots
-from inspecting import Benches
 from processes import command_lines, send
 from psutil import wait_procs
 from robot_arm import ARM, describe, is_loaded, place_arm, wait
@@ -63,16 +62,13 @@ def slow_arm(tmp_path, monkeypatch) -> str:
     )
 
 
-def test_links_stand_where_their_transforms_say_and_shapes_where_the_links_say(bench) -> None:
-    at = bench(RobotModel())
-    place_arm(at)
-    describe(at, ARM)
-    assert set(at.nodes()) == {"base visual visual_0", "tool visual grip"}
-    assert at.poses()["base visual visual_0"].position == pytest.approx((1.0, 0.0, 0.0))
-    assert at.poses()["tool visual grip"].position == pytest.approx((1.0, 3.0, -2.0))
-    assert np.abs(at.poses()["tool visual grip"].wxyz) == pytest.approx([0, 1, 0, 0])
-    assert at.nodes()["tool visual grip"].color == (0, 0, 255)
-    statuses = at.statuses()
+def test_links_stand_where_their_transforms_say_and_shapes_where_the_links_say(arm) -> None:
+    assert set(arm.nodes()) == {"base visual visual_0", "tool visual grip"}
+    assert arm.poses()["base visual visual_0"].position == pytest.approx((1.0, 0.0, 0.0))
+    assert arm.poses()["tool visual grip"].position == pytest.approx((1.0, 3.0, -2.0))
+    assert np.abs(arm.poses()["tool visual grip"].wxyz) == pytest.approx([0, 1, 0, 0])
+    assert arm.nodes()["tool visual grip"].color == (0, 0, 255)
+    statuses = arm.statuses()
     assert statuses["URDF"] == ("OK", "'arm': 2 links, 2 of 2 visuals loaded.")
     assert statuses["Links"] == ("OK", "2 links placed by transforms.")
 
@@ -142,40 +138,31 @@ def test_no_loading_outlives_the_viewer(slow_arm) -> None:
     assert isinstance(future.exception(), LoadingStopped)
 
 
-def test_an_identical_description_is_not_loaded_again(bench) -> None:
-    at = bench(RobotModel())
-    place_arm(at)
-    describe(at, ARM)
-    before = at.nodes()
-    at.send("std_msgs/msg/String", {"data": ARM}, topic="/robot_description")
-    at.turn()
-    assert "Loading" not in at.statuses()
-    after = at.nodes()
+def test_an_identical_description_is_not_loaded_again(arm) -> None:
+    before = arm.nodes()
+    arm.send("std_msgs/msg/String", {"data": ARM}, topic="/robot_description")
+    arm.turn()
+    assert "Loading" not in arm.statuses()
+    after = arm.nodes()
     assert all(after[key] is before[key] for key in before)
 
 
-def test_a_new_description_replaces_the_robot_and_the_old_one_stays_till_then(bench) -> None:
-    at = bench(RobotModel())
-    place_arm(at)
-    describe(at, ARM)
+def test_a_new_description_replaces_the_robot_and_the_old_one_stays_till_then(arm) -> None:
     other = ARM.replace('name="grip"', 'name="claw"')
-    at.send("std_msgs/msg/String", {"data": other}, topic="/robot_description")
-    at.turn()
-    assert {"tool visual grip", "tool visual claw"} & set(at.nodes())
-    wait(at, lambda: "tool visual claw" in at.nodes())
-    assert "tool visual grip" not in at.nodes()
+    arm.send("std_msgs/msg/String", {"data": other}, topic="/robot_description")
+    arm.turn()
+    assert {"tool visual grip", "tool visual claw"} & set(arm.nodes())
+    wait(arm, lambda: "tool visual claw" in arm.nodes())
+    assert "tool visual grip" not in arm.nodes()
 
 
 @pytest.mark.parametrize(
     "text", ["", "no robot", "<robot name='r'><link name='a'/><link name='b'/></robot>"]
 )
-def test_a_description_that_is_no_robot_says_so_and_shows_nothing(bench, text) -> None:
-    at = bench(RobotModel())
-    place_arm(at)
-    describe(at, ARM)
-    at.send("std_msgs/msg/String", {"data": text}, topic="/robot_description")
-    wait(at, lambda: at.statuses().get("URDF", ("",))[0] == "ERROR")
-    assert at.nodes() == {}
+def test_a_description_that_is_no_robot_says_so_and_shows_nothing(arm, text) -> None:
+    arm.send("std_msgs/msg/String", {"data": text}, topic="/robot_description")
+    wait(arm, lambda: arm.statuses().get("URDF", ("",))[0] == "ERROR")
+    assert arm.nodes() == {}
 
 
 def test_missing_meshes_are_listed_while_the_rest_is_drawn(bench) -> None:
@@ -190,27 +177,21 @@ def test_missing_meshes_are_listed_while_the_rest_is_drawn(bench) -> None:
     assert text.startswith("1 shape missing. Link 'base': Package 'nowhere'")
 
 
-def test_collision_shapes_are_read_only_when_they_are_wanted(bench) -> None:
-    at = bench(RobotModel())
-    place_arm(at)
-    describe(at, ARM)
-    at.set("collision_enabled", True)
-    wait(at, lambda: "base collision collision_0" in at.nodes())
-    assert "base visual visual_0" in at.nodes()
-    at.set("visual_enabled", False)
-    assert set(at.nodes()) == {"base collision collision_0"}
-    at.set("collision_enabled", False)
-    assert at.nodes() == {}
-    assert at.statuses()["Shapes"][0] == "WARN"
+def test_collision_shapes_are_read_only_when_they_are_wanted(arm) -> None:
+    arm.set("collision_enabled", True)
+    wait(arm, lambda: "base collision collision_0" in arm.nodes())
+    assert "base visual visual_0" in arm.nodes()
+    arm.set("visual_enabled", False)
+    assert set(arm.nodes()) == {"base collision collision_0"}
+    arm.set("collision_enabled", False)
+    assert arm.nodes() == {}
+    assert arm.statuses()["Shapes"][0] == "WARN"
 
 
-def test_collision_shapes_that_are_no_longer_wanted_are_no_longer_waited_for(bench) -> None:
-    at = bench(RobotModel())
-    place_arm(at)
-    describe(at, ARM)
-    at.set("collision_enabled", True)
-    at.set("collision_enabled", False)
-    assert "Loading" not in at.statuses()
+def test_collision_shapes_that_are_no_longer_wanted_are_no_longer_waited_for(arm) -> None:
+    arm.set("collision_enabled", True)
+    arm.set("collision_enabled", False)
+    assert "Loading" not in arm.statuses()
 
 
 def test_missing_collision_meshes_count_only_when_they_are_wanted(bench) -> None:
@@ -349,12 +330,9 @@ class TestRobotModel(BuiltInChecks):
         return [[str(folder)]]
 
 
-def test_selecting_link_of_a_robot(bench: Benches) -> None:
-    at = bench(RobotModel())
-    place_arm(at)
-    describe(at, ARM)
+def test_selecting_link_of_a_robot(arm: Any) -> None:
     check_details(
-        at.pick("base visual visual_0", None, (0.5, 0.0, 0.0)),
+        arm.pick("base visual visual_0", None, (0.5, 0.0, 0.0)),
         "Link base",
         {
             "Mass": "6 kg",

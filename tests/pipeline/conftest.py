@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 import pytest
-from bench import Bench, benches
+from bench import Benches, benches
 
 
 @pytest.fixture
-def bench() -> Iterator[Callable[..., Bench]]:
+def bench() -> Iterator[Benches]:
     """Make a viewer of displays."""
     with benches() as make:
         yield make

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import importlib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Annotated, Any
 
 import pytest
+from bench import Benches
 
 from webviz import Context, Display, Input, Sample, Selective, Topic
 from webviz.api.capabilities import CAPABILITIES, Draggable, ProtocolClient, capability
@@ -79,7 +80,7 @@ def test_former_names_still_work(module: str, former: str, now: type) -> None:
 
 
 @pytest.mark.filterwarnings("ignore:OfBefore:DeprecationWarning")
-def test_hooks_without_their_base_class_still_work(bench: Callable[..., Any]) -> None:
+def test_hooks_without_their_base_class_still_work(bench: Benches) -> None:
     b = bench(OfBefore())
     b.transform("map", "base", b.source.now)
     b.pose("/pose", "base", b.source.now)

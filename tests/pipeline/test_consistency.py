@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import building
 import numpy as np
 import pytest
-from bench import Bench
+from bench import Bench, Benches
 
 from webviz.api.declared import Topic
 from webviz.engine.state.consistency import fit
@@ -22,7 +21,6 @@ from webviz_sim.pose import Pose2D
 S = 1_000_000_000
 HERE = Pose2D(-2.0, 0.0)
 SCAN, MAP, PATH = 0, 1, 2
-Benches = Callable[..., Bench]
 
 
 def place(b: Bench, pose: Pose2D, roll: float = 0.0, pitch: float = 0.0) -> None:

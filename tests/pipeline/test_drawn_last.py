@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable
 from typing import Annotated, Any, ClassVar
 
 import pytest
+from bench import Benches
 
 from webviz import Context, Display, Input, Prop, Sample, Topic
 from webviz.engine.commands import SetFixedFrame, SetProperty
@@ -27,7 +27,7 @@ class Link(Display):
 
 @pytest.mark.parametrize("other", ["elsewhere", "somewhere"])  # before and after "map"
 def test_what_stays_at_its_last_pose_does_so_in_one_fixed_frame_only(
-    bench: Callable[..., Any], other: str
+    bench: Benches, other: str
 ) -> None:
     b = bench(Link(name="Link"))
     b.transform("map", "base", T, x=3.0)
@@ -58,7 +58,7 @@ class Slow(Display):
         ctx.points("dots", [[0, 0, 0]] * self.count, (255, 0, 0), 0.1)
 
 
-def test_a_worker_draws_with_the_properties_of_its_start(bench: Callable[..., Any]) -> None:
+def test_a_worker_draws_with_the_properties_of_its_start(bench: Benches) -> None:
     drawn: list[int] = []
     b = bench(Slow(name="Slow"))
     b.transform("map", "base", T, static=True)

@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
+from bench import Benches
 from several import several
 from waiting import until
 
@@ -103,7 +104,7 @@ def lone() -> Iterator[Lone]:
 
 
 @pytest.fixture
-def b(bench: Callable[..., Any]) -> Any:
+def b(bench: Benches) -> Any:
     return bench(graph=RememberingGraph())
 
 
@@ -394,9 +395,7 @@ def test_a_page_learns_why_its_commands_reach_nobody(b: Any, hold: Callable[...,
     until(lambda: steer(b, teleop(b), 2, STILL).problem == "")
 
 
-def test_on_a_source_that_only_reads_it_says_why_and_nobody_gets_control(
-    bench: Callable[..., Any],
-) -> None:
+def test_on_a_source_that_only_reads_it_says_why_and_nobody_gets_control(bench: Benches) -> None:
     b = bench()
     answer = steer(b, teleop(b), 1, AHEAD)
     assert (answer.driver, answer.problem) == (None, "This source can only be read.")

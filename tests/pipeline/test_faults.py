@@ -6,10 +6,11 @@ import gc
 import inspect
 import sys
 import weakref
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, cast
 
 import pytest
+from bench import Benches
 
 from webviz import (
     Comparable,
@@ -162,7 +163,7 @@ def feed(b: Any) -> None:
 @pytest.mark.parametrize("leaves", [False, True], ids=["raises", "exits"])
 @pytest.mark.parametrize("hook", HOOKS)
 def test_what_a_hook_raises_is_a_status_of_its_display_and_logged_once(
-    bench: Callable[..., Any], caplog: pytest.LogCaptureFixture, hook: str, leaves: bool
+    bench: Benches, caplog: pytest.LogCaptureFixture, hook: str, leaves: bool
 ) -> None:
     faulty = (FaultyFold if hook == "fold" else Faulty)(name="Faulty", hook=hook, leaves=leaves)
     sound = Sound(name="Sound")
@@ -208,7 +209,7 @@ PARTS = {
 
 @pytest.mark.parametrize("part", PARTS)
 def test_what_a_part_raises_is_a_status_and_logged_once_and_the_rest_goes_on(
-    bench: Callable[..., Any],
+    bench: Benches,
     caplog: pytest.LogCaptureFixture,
     monkeypatch: pytest.MonkeyPatch,
     part: str,
@@ -248,7 +249,7 @@ def test_what_a_part_raises_is_a_status_and_logged_once_and_the_rest_goes_on(
 
 
 def test_a_command_that_raises_is_refused_and_the_next_is_done(
-    bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+    bench: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     b = bench(Sound(name="Sound"), strict=False)
 
@@ -267,7 +268,7 @@ def test_a_command_that_raises_is_refused_and_the_next_is_done(
 
 @pytest.mark.parametrize("part", PARTS)
 def test_strict_lets_through_what_a_part_raises(
-    bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch, part: str
+    bench: Benches, monkeypatch: pytest.MonkeyPatch, part: str
 ) -> None:
     b = bench(Faulty(name="Faulty"), Sound(name="Sound"))
     *path, name = part.split(".")
@@ -287,7 +288,7 @@ def test_strict_lets_through_what_a_part_raises(
 
 
 def test_a_turn_that_raises_does_not_end_the_loop(
-    bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+    bench: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     b = bench(strict=False)
     turns: list[int] = []
@@ -304,7 +305,7 @@ def test_a_turn_that_raises_does_not_end_the_loop(
     assert len(turns) == 3
 
 
-def test_a_command_that_fails_leaves_memory_at_once(bench: Callable[..., Any]) -> None:
+def test_a_command_that_fails_leaves_memory_at_once(bench: Benches) -> None:
     b = bench(Sound(name="Sound"))
     told: list[str] = []
     gc.collect()

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import pytest
+from bench import Benches
 
 from webviz.api.status import Level, Status
 from webviz.data.messages import encode
@@ -64,7 +64,7 @@ class Robot:
 
 
 @pytest.fixture
-def robot(bench: Callable[..., Any]) -> Robot:
+def robot(bench: Benches) -> Robot:
     return Robot(bench())
 
 
@@ -163,7 +163,7 @@ def test_a_goal_that_is_not_accepted_is_reported_to_its_sender_alone(robot: Robo
     ]
 
 
-def test_a_bag_refuses_goals_with_the_reason(bench: Callable[..., Any]) -> None:
+def test_a_bag_refuses_goals_with_the_reason(bench: Benches) -> None:
     b, told = bench(), list[Status]()
     b.do(UseTool("Nav2 Goal", ((1.0, 2.0, 0.0),), report=told.append))
     assert told == [Status(Level.ERROR, "This source can only be read.")]

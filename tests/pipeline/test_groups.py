@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import pytest
+from bench import Benches
 
 from webviz.api.group import DisplayGroup
 from webviz.engine.commands import AddDisplay, RemoveDisplay, SetProperty
@@ -68,15 +68,13 @@ def test_a_group_that_holds_itself_is_refused() -> None:
         parse("displays: &a\n- {type: Group, displays: *a}\n", "x.yaml")
 
 
-def test_the_list_shows_groups_before_what_is_in_them(bench: Callable[..., Any]) -> None:
+def test_the_list_shows_groups_before_what_is_in_them(bench: Benches) -> None:
     b = bench(*parse(NESTED, "x.yaml").displays, publish=None)
     assert [depth for _, depth in names(b)] == [0, 0, 1, 1, 2, 2, 0]
     assert dump(b.viewer.config()) == NESTED
 
 
-def test_a_group_switches_what_is_in_it_and_a_display_keeps_its_own_switch(
-    bench: Callable[..., Any],
-) -> None:
+def test_a_group_switches_what_is_in_it_and_a_display_keeps_its_own_switch(bench: Benches) -> None:
     b = bench(Branch(DisplayGroup(name="Group"), [Axes(name="A"), Axes(name="B", enabled=False)]))
     b.turn()
     assert len(list(b.scene.visible())) == 1
@@ -89,14 +87,14 @@ def test_a_group_switches_what_is_in_it_and_a_display_keeps_its_own_switch(
     assert len(list(b.scene.visible())) == 1
 
 
-def test_a_group_is_as_well_as_the_worst_display_in_it(bench: Callable[..., Any]) -> None:
+def test_a_group_is_as_well_as_the_worst_display_in_it(bench: Benches) -> None:
     b = bench(Branch(DisplayGroup(name="Group"), [Axes(name="Lost", reference_frame="nowhere")]))
     level, text = b.statuses(0)["Lost"]
     assert level == "ERROR"
     assert "nowhere" in text
 
 
-def test_displays_are_added_to_groups_and_go_with_them(bench: Callable[..., Any]) -> None:
+def test_displays_are_added_to_groups_and_go_with_them(bench: Benches) -> None:
     b = bench(DisplayGroup(name="Robot"), Axes(name="A"))
     b.viewer.enqueue(AddDisplay("Axes", {"name": "In"}, group="display1"))
     b.viewer.enqueue(AddDisplay("Group", {"name": "Deep"}, group="display1"))
@@ -106,7 +104,7 @@ def test_displays_are_added_to_groups_and_go_with_them(bench: Callable[..., Any]
     assert len(list(b.scene.visible())) == 1
 
 
-def test_only_groups_hold_displays(bench: Callable[..., Any]) -> None:
+def test_only_groups_hold_displays(bench: Benches) -> None:
     b = bench(Axes(name="A"))
     b.viewer.enqueue(AddDisplay("Axes", {"name": "B"}, group="display1"))
     assert names(b) == [("A", 0), ("B", 0)]

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Annotated, Any
 
 import pytest
+from bench import Benches
 
 from webviz import Context, Display, Input, Keep, Prop, Sample, Topic
 from webviz.engine.commands import RemoveDisplay, SetProperty
@@ -44,7 +44,7 @@ def note(bench: Any, length: int, second: float, topic: str = "/note") -> None:
     bench.turn()
 
 
-def test_the_oldest_go_when_messages_take_too_many_bytes(bench: Callable[..., Any]) -> None:
+def test_the_oldest_go_when_messages_take_too_many_bytes(bench: Benches) -> None:
     b = bench(Note(name="Note", count=0, seconds=10.0))
     for second in range(6):
         note(b, 600_000 + second, second)
@@ -52,7 +52,7 @@ def test_the_oldest_go_when_messages_take_too_many_bytes(bench: Callable[..., An
     assert b.statuses()["History"] == ("WARN", "Keeps 2.0 of 10 s: limit of 2 MB for all displays.")
 
 
-def test_the_newest_stays_however_large_it_is(bench: Callable[..., Any]) -> None:
+def test_the_newest_stays_however_large_it_is(bench: Benches) -> None:
     b = bench(Note(name="Note", count=5))
     note(b, 1000, 0)
     note(b, 3_000_000, 1)
@@ -65,9 +65,7 @@ def test_the_newest_stays_however_large_it_is(bench: Callable[..., Any]) -> None
     assert lengths(b) == [1001]
 
 
-def test_displays_share_the_limit_and_whichever_holds_most_drops_its_oldest(
-    bench: Callable[..., Any],
-) -> None:
+def test_displays_share_the_limit_and_whichever_holds_most_drops_its_oldest(bench: Benches) -> None:
     more = Note(name="More", count=0, seconds=10.0, topic=Topic("/more"))
     newest = Note(name="Newest", topic=Topic("/newest"))
     b = bench(Note(name="Note", count=0, seconds=10.0), more, newest)
@@ -87,7 +85,7 @@ def test_displays_share_the_limit_and_whichever_holds_most_drops_its_oldest(
     assert sorted(lengths(b))[:-1] == [300_000, 300_001, *range(300_010, 300_014)]
 
 
-def test_nothing_is_said_while_all_that_was_asked_for_is_kept(bench: Callable[..., Any]) -> None:
+def test_nothing_is_said_while_all_that_was_asked_for_is_kept(bench: Benches) -> None:
     b = bench(Note(name="Note", count=0, seconds=10.0))
     for second in range(6):
         note(b, 600_000, second)
@@ -97,7 +95,7 @@ def test_nothing_is_said_while_all_that_was_asked_for_is_kept(bench: Callable[..
     assert "History" not in b.statuses()
 
 
-def test_longer_than_any_clock_is_for_ever(bench: Callable[..., Any]) -> None:
+def test_longer_than_any_clock_is_for_ever(bench: Benches) -> None:
     b = bench(Note(name="Note", count=0, seconds=1e308))
     note(b, 1, 0)
     note(b, 2, 1000)
@@ -111,7 +109,7 @@ class Two(Note):
 
 
 def test_inputs_share_the_number_of_samples(
-    bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+    bench: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(history, "MAX_SAMPLES", 5)
     b = bench(Two(name="Two", count=0, seconds=100.0))
@@ -121,7 +119,7 @@ def test_inputs_share_the_number_of_samples(
     assert sorted(lengths(b)) == [12, 13, 22, 23]
 
 
-def test_one_message_at_a_time_is_no_shortage(bench: Callable[..., Any]) -> None:
+def test_one_message_at_a_time_is_no_shortage(bench: Benches) -> None:
     b = bench(Note(name="Note"))
     for second in range(6):
         note(b, 900_000, second)

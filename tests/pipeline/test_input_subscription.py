@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 from typing import Annotated, Any
 
 import pytest
+from bench import Benches
 
 from webviz import Context, Display, Input, Sample, Topic
 from webviz.api.status import OtherFixedFrame, Remedy
@@ -32,6 +32,12 @@ class Dot(Display):
         ctx.points("dot", [[sample.message.pose.position.x, 0, 0]], (255, 0, 0), 0.1)
 
 
+@pytest.fixture
+def b(bench: Benches) -> Any:
+    """A viewer of a dot."""
+    return bench(Dot(name="Dot"))
+
+
 def offer(
     type_name: str = POSE,
     reliability: Any = "reliable",
@@ -41,16 +47,14 @@ def offer(
     return Offer((Publisher("/talker", type_name, reliability, durability),), requested)
 
 
-def test_nobody_publishes(bench: Callable[..., Any]) -> None:
-    b = bench(Dot(name="Dot"))
+def test_nobody_publishes(b: Any) -> None:
     assert b.statuses()["Topic"] == (
         "WARN",
         "No publisher on /pose. Start the node that publishes it or choose another topic.",
     )
 
 
-def test_nobody_publishes_but_the_type_is_elsewhere(bench: Callable[..., Any]) -> None:
-    b = bench(Dot(name="Dot"))
+def test_nobody_publishes_but_the_type_is_elsewhere(b: Any) -> None:
     b.source.known = {"/another": offer(), "/goal_pose": offer()}
     text = "No publisher on /pose. Choose /goal_pose, the nearest topic of its type."
     assert b.statuses()["Topic"] == ("WARN", text)
@@ -58,8 +62,7 @@ def test_nobody_publishes_but_the_type_is_elsewhere(bench: Callable[..., Any]) -
     assert remedy == Remedy("topic.name", "/goal_pose", "Use /goal_pose")
 
 
-def test_another_type_names_both(bench: Callable[..., Any]) -> None:
-    b = bench(Dot(name="Dot"))
+def test_another_type_names_both(b: Any) -> None:
     b.source.known["/pose"] = offer("nav_msgs/msg/Odometry")
     level, text = b.statuses()["Topic"]
     assert level == "ERROR"
@@ -68,16 +71,14 @@ def test_another_type_names_both(bench: Callable[..., Any]) -> None:
 
 
 @pytest.mark.parametrize("name", ["", "a b"])
-def test_a_topic_that_is_none(bench: Callable[..., Any], name: str) -> None:
+def test_a_topic_that_is_none(bench: Benches, name: str) -> None:
     b = bench(Dot(name="Dot", topic=Topic(name)))
     level, text = b.statuses()["Topic"]
     assert level == "ERROR"
     assert text in ("No topic. Choose one.", "'a b' is not a valid topic name: it has a space")
 
 
-def test_qos_that_cannot_connect_names_both_sides_and_the_remedy(
-    bench: Callable[..., Any],
-) -> None:
+def test_qos_that_cannot_connect_names_both_sides_and_the_remedy(bench: Benches) -> None:
     b = bench(Dot(name="Dot", topic=Topic("/pose", reliability="reliable")))
     b.source.known["/pose"] = offer(reliability="best_effort")
     level, text = b.statuses()["Topic"]
@@ -91,21 +92,18 @@ def test_qos_that_cannot_connect_names_both_sides_and_the_remedy(
     assert b.source.wanted["/pose"].topic == Topic("/pose")
 
 
-def test_a_problem_of_the_source_is_told(bench: Callable[..., Any]) -> None:
-    b = bench(Dot(name="Dot"))
+def test_a_problem_of_the_source_is_told(b: Any) -> None:
     b.source.known["/pose"] = Offer((), None, "cannot subscribe: no such type")
     assert b.statuses()["Topic"] == ("ERROR", "/pose: cannot subscribe: no such type")
 
 
-def test_no_message_yet_names_the_publisher_and_its_qos(bench: Callable[..., Any]) -> None:
-    b = bench(Dot(name="Dot"))
+def test_no_message_yet_names_the_publisher_and_its_qos(b: Any) -> None:
     b.source.known["/pose"] = offer()
     text = "No message yet on /pose from /talker (reliable, volatile)."
     assert b.statuses()["Topic"] == ("WARN", text)
 
 
-def test_silence_after_a_stream_and_a_publisher_that_left(bench: Callable[..., Any]) -> None:
-    b = bench(Dot(name="Dot"))
+def test_silence_after_a_stream_and_a_publisher_that_left(b: Any) -> None:
     b.transform("map", "base", T, static=True)
     for _ in range(10):
         b.pose("/pose", "base", T)
@@ -133,8 +131,7 @@ def test_silence_after_a_stream_and_a_publisher_that_left(bench: Callable[..., A
     ]
 
 
-def test_a_slow_stream_is_late_after_five_of_its_gaps(bench: Callable[..., Any]) -> None:
-    b = bench(Dot(name="Dot"))
+def test_a_slow_stream_is_late_after_five_of_its_gaps(b: Any) -> None:
     b.transform("map", "base", T, static=True)
 
     def wait(seconds: int) -> str:
@@ -149,7 +146,7 @@ def test_a_slow_stream_is_late_after_five_of_its_gaps(bench: Callable[..., Any])
     assert (wait(9), wait(2)) == ("OK", "WARN")
 
 
-def test_messages_without_a_header_are_numbered_as_they_come(bench: Callable[..., Any]) -> None:
+def test_messages_without_a_header_are_numbered_as_they_come(bench: Benches) -> None:
     numbers: list[int] = []
 
     class Note(Display):
@@ -167,7 +164,7 @@ def test_messages_without_a_header_are_numbered_as_they_come(bench: Callable[...
     assert numbers == [0, 1, 2]
 
 
-def test_a_plan_is_no_stream_and_a_burst_shows_no_rate(bench: Callable[..., Any]) -> None:
+def test_a_plan_is_no_stream_and_a_burst_shows_no_rate(bench: Benches) -> None:
     b = bench(Path(name="Path"), Dot(name="Dot"))
     b.transform("map", "base", T, static=True)
     for pause in (0.1, 0.1, 0.1, 0.1, 0.1, 60.0):
@@ -185,10 +182,7 @@ def test_a_plan_is_no_stream_and_a_burst_shows_no_rate(bench: Callable[..., Any]
     assert (level, " Hz" in text) == ("OK", False)
 
 
-def test_messages_that_waited_together_have_the_rate_they_arrived_at(
-    bench: Callable[..., Any],
-) -> None:
-    b = bench(Dot(name="Dot"))
+def test_messages_that_waited_together_have_the_rate_they_arrived_at(b: Any) -> None:
     b.transform("map", "base", T, static=True)
     b.pose("/pose", "base", T)
     cdr = b.source.inbox.drain()["/pose"][0].cdr
@@ -206,8 +200,7 @@ def test_only_the_bytes_of_latched_messages_are_kept(is_latched: bool, kept: byt
     assert topic_statistics.last.cdr == kept
 
 
-def test_one_latched_message_is_not_silence(bench: Callable[..., Any]) -> None:
-    b = bench(Dot(name="Dot"))
+def test_one_latched_message_is_not_silence(b: Any) -> None:
     b.transform("map", "base", T, static=True)
     b.pose("/pose", "base", T)
     b.turn()
@@ -217,9 +210,8 @@ def test_one_latched_message_is_not_silence(bench: Callable[..., Any]) -> None:
 
 
 def test_a_missing_transform_is_explained_after_a_second_and_forgotten_when_it_comes(
-    bench: Callable[..., Any],
+    b: Any,
 ) -> None:
-    b = bench(Dot(name="Dot"))
     b.transform("map", "base_link", T, static=True)
     b.pose("/pose", "base", T)
     assert "Transform" not in b.statuses()
@@ -232,10 +224,9 @@ def test_a_missing_transform_is_explained_after_a_second_and_forgotten_when_it_c
 
 
 def test_messages_that_wait_for_a_transform_are_bounded_in_bytes(
-    bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+    b: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(transform_filter, "MAX_BYTES", 150)
-    b = bench(Dot(name="Dot"))
     for number in range(3):
         b.pose("/pose", "base", T + number, float(number))
     b.turn()
@@ -245,8 +236,7 @@ def test_messages_that_wait_for_a_transform_are_bounded_in_bytes(
     assert (level, text.endswith("2 messages were given up.")) == ("ERROR", True), text
 
 
-def test_of_two_trees_the_other_is_offered_as_fixed_frame(bench: Callable[..., Any]) -> None:
-    b = bench(Dot(name="Dot"))
+def test_of_two_trees_the_other_is_offered_as_fixed_frame(b: Any) -> None:
     b.transform("map", "base_link", T, static=True)
     b.transform("world", "drone", T, static=True)
     b.pose("/pose", "drone", T)
@@ -260,10 +250,7 @@ def test_of_two_trees_the_other_is_offered_as_fixed_frame(bench: Callable[..., A
     assert b.statuses()["Transform"] == ("OK", "Transform OK")
 
 
-def test_transforms_that_come_long_after_the_data_are_a_warning_until_they_keep_up(
-    bench: Callable[..., Any],
-) -> None:
-    b = bench(Dot(name="Dot"))
+def test_transforms_that_come_long_after_the_data_are_a_warning_until_they_keep_up(b: Any) -> None:
     late_ns = 6 * SECOND // 10
     for _ in range(20):
         b.source.now += SECOND // 10
@@ -286,10 +273,7 @@ def test_transforms_that_come_long_after_the_data_are_a_warning_until_they_keep_
     assert b.statuses()["Transform"] == ("OK", "Transform OK")
 
 
-def test_one_message_that_came_before_its_transform_is_no_warning_for_long(
-    bench: Callable[..., Any],
-) -> None:
-    b = bench(Dot(name="Dot"))
+def test_one_message_that_came_before_its_transform_is_no_warning_for_long(b: Any) -> None:
     b.pose("/pose", "base", T)
     b.turn()
     b.source.now += SECOND // 2
@@ -299,8 +283,7 @@ def test_one_message_that_came_before_its_transform_is_no_warning_for_long(
     assert b.statuses()["Transform"] == ("OK", "Transform OK")
 
 
-def test_messages_that_did_not_fit_the_inbox_are_counted(bench: Callable[..., Any]) -> None:
-    b = bench(Dot(name="Dot"))
+def test_messages_that_did_not_fit_the_inbox_are_counted(b: Any) -> None:
     b.transform("map", "base", T, static=True)
     b.turn()
     for _ in range(1005):
@@ -323,16 +306,14 @@ def test_messages_that_were_dropped_before_the_first_look_count() -> None:
     assert drops.recent(1, 100.1 + DROPS_S) == 0
 
 
-def test_a_flood_of_junk_leaves_the_viewer_running(bench: Callable[..., Any]) -> None:
-    b = bench(Dot(name="Dot"))
+def test_a_flood_of_junk_leaves_the_viewer_running(b: Any) -> None:
     for size in range(200):
         b.source.inbox.put("/pose", Raw(bytes(size), T))
     b.turn()
     assert b.statuses()["Message"][0] == "ERROR"
 
 
-def test_a_topic_that_another_display_reads_as_another_type(bench: Callable[..., Any]) -> None:
-    b = bench(Dot(name="Dot"))
+def test_a_topic_that_another_display_reads_as_another_type(b: Any) -> None:
     b.transform("map", "base", T, static=True)
     b.source.known["/pose"] = Offer((), ("reliable", "volatile"), type="nav_msgs/msg/Odometry")
     b.source.inbox.put("/pose", Raw(bytes(100), T))
@@ -343,8 +324,7 @@ def test_a_topic_that_another_display_reads_as_another_type(bench: Callable[...,
     assert "Message" not in b.statuses()
 
 
-def test_what_waits_is_forgotten_when_time_goes_back(bench: Callable[..., Any]) -> None:
-    b = bench(Dot(name="Dot"))
+def test_what_waits_is_forgotten_when_time_goes_back(b: Any) -> None:
     b.transform("map", "base", T - 2 * SECOND)
     b.pose("/pose", "base", T, x=7.0)
     b.turn()
@@ -357,10 +337,7 @@ def test_what_waits_is_forgotten_when_time_goes_back(bench: Callable[..., Any]) 
     assert b.statuses()["Topic"][1].startswith("No message yet")  # as in RViz after a reset
 
 
-def test_patience_with_transforms_begins_anew_when_time_goes_back(
-    bench: Callable[..., Any],
-) -> None:
-    b = bench(Dot(name="Dot"))
+def test_patience_with_transforms_begins_anew_when_time_goes_back(b: Any) -> None:
     b.transform("map", "odom", T, static=True)
     b.pose("/pose", "base", T)
     b.turn()

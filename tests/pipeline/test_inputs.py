@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Annotated, Any
 
 import pytest
+from bench import Benches
 
 from webviz import Context, Display, Input, Keep, Sample, Sync, Topic
 from webviz.api.display import inputs_of
@@ -55,7 +56,7 @@ def dots(bench: Any) -> list[tuple[str, float]]:
 
 @pytest.mark.parametrize("display", [Two, TwoAtOnce])
 def test_each_of_two_inputs_has_its_newest_message_drawn(
-    bench: Callable[..., Any], display: type[_Two]
+    bench: Benches, display: type[_Two]
 ) -> None:
     b = bench(display(name="Two"))
     b.transform("map", "base", T, static=True)
@@ -79,9 +80,7 @@ class Graded(_Two):
 
 
 @pytest.mark.parametrize("culprit", ["left", "right"])
-def test_a_warning_about_one_input_is_not_hidden_by_the_other(
-    bench: Callable[..., Any], culprit: str
-) -> None:
+def test_a_warning_about_one_input_is_not_hidden_by_the_other(bench: Benches, culprit: str) -> None:
     b = bench(Graded(name="Graded"))
     b.transform("map", "base", T, static=True)
     for name in ("left", "right"):
@@ -111,7 +110,7 @@ def lines(bench: Any) -> list[list[float]]:
     return [node.segments[0, :, 0].tolist() for _, _, node in bench.scene.visible()]
 
 
-def test_messages_of_one_stamp_are_drawn_together(bench: Callable[..., Any]) -> None:
+def test_messages_of_one_stamp_are_drawn_together(bench: Benches) -> None:
     b = bench(Pair(name="Pair"))
     b.transform("map", "base", T, static=True)
     b.pose("/left", "base", T, 1.0)
@@ -127,7 +126,7 @@ def test_messages_of_one_stamp_are_drawn_together(bench: Callable[..., Any]) -> 
     assert b.statuses()["Sync"] == ("OK", "2 sets of 2 messages with equal stamps.")
 
 
-def test_a_slop_lets_messages_of_nearby_stamps_meet(bench: Callable[..., Any]) -> None:
+def test_a_slop_lets_messages_of_nearby_stamps_meet(bench: Benches) -> None:
     b = bench(LoosePair(name="Pair"))
     b.transform("map", "base", T, static=True)
     b.pose("/left", "base", T, 1.0)
@@ -140,7 +139,7 @@ def test_a_slop_lets_messages_of_nearby_stamps_meet(bench: Callable[..., Any]) -
 
 
 def test_what_waits_for_its_partner_is_bounded_in_bytes(
-    bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+    bench: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(synchronizer, "MAX_BYTES", 150)
     b = bench(Pair(name="Pair"))
@@ -180,7 +179,7 @@ def test_what_waits_for_its_partner_is_bounded_in_bytes(
     ],
 )
 def test_a_status_says_what_the_sync_waits_for(
-    bench: Callable[..., Any], display: type[Pair], stamp_ns: int | None, text: str
+    bench: Benches, display: type[Pair], stamp_ns: int | None, text: str
 ) -> None:
     b = bench(display(name="Pair"))
     b.transform("map", "base", T, static=True)
@@ -193,9 +192,7 @@ def test_a_status_says_what_the_sync_waits_for(
     assert b.statuses()["Sync"] == ("WARN", text)
 
 
-def test_a_set_that_waits_for_a_transform_is_not_blamed_on_stamps(
-    bench: Callable[..., Any],
-) -> None:
+def test_a_set_that_waits_for_a_transform_is_not_blamed_on_stamps(bench: Benches) -> None:
     b = bench(Pair(name="Pair"))
     b.transform("map", "base", T, static=True)
     b.pose("/left", "base", T)
@@ -207,7 +204,7 @@ def test_a_set_that_waits_for_a_transform_is_not_blamed_on_stamps(
     assert statuses["Transform (right)"][0] == "ERROR"
 
 
-def test_a_reset_forgets_what_waits_for_its_partner(bench: Callable[..., Any]) -> None:
+def test_a_reset_forgets_what_waits_for_its_partner(bench: Benches) -> None:
     b = bench(Pair(name="Pair"))
     b.transform("map", "base", T, static=True)
     b.pose("/left", "base", T)
@@ -228,7 +225,7 @@ class WithHint(_Two):
         mark(sample, ctx, " ".join([sample.input, *sample.synced]))
 
 
-def test_an_optional_input_joins_a_sync_once_it_has_a_message(bench: Callable[..., Any]) -> None:
+def test_an_optional_input_joins_a_sync_once_it_has_a_message(bench: Benches) -> None:
     b = bench(WithHint(name="WithHint"))
     b.transform("map", "base", T, static=True)
     b.pose("/left", "base", T, 1.0)
@@ -252,7 +249,7 @@ class Apart(_Two):
             ctx.strip("ends", [end.position for end in ends], (0, 255, 0))
 
 
-def test_all_of_a_set_moves_into_a_new_fixed_frame(bench: Callable[..., Any]) -> None:
+def test_all_of_a_set_moves_into_a_new_fixed_frame(bench: Benches) -> None:
     b = bench(Apart(name="Apart"))
     b.transform("map", "a", T, 1.0, static=True)
     b.transform("map", "b", T, 5.0, static=True)

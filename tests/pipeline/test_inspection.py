@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 from typing import Any
 
 import pytest
+from bench import Benches
 
 from webviz.api.declared import Topic
 from webviz.api.status import Level
@@ -51,7 +51,7 @@ def drawn(b: Any) -> list[float]:
 
 
 def test_while_paused_the_picture_and_the_time_stand_still_and_messages_wait(
-    bench: Callable[..., Any],
+    bench: Benches,
 ) -> None:
     b = bench(Path(name="P", topic=Topic("/path")))
     publish(b, 1.0)
@@ -67,7 +67,7 @@ def test_while_paused_the_picture_and_the_time_stand_still_and_messages_wait(
     assert drawn(b) == [2.0]
 
 
-def test_times_count_from_the_start_and_from_a_reset(bench: Callable[..., Any]) -> None:
+def test_times_count_from_the_start_and_from_a_reset(bench: Benches) -> None:
     b = bench()
     b.source.now += 3 * SECOND
     assert do(b).clock.ros_elapsed_ns == 3 * SECOND
@@ -76,9 +76,7 @@ def test_times_count_from_the_start_and_from_a_reset(bench: Callable[..., Any]) 
     assert do(b).clock.ros_elapsed_ns == SECOND
 
 
-def test_the_rates_of_topics_are_measured_over_the_last_seconds(
-    bench: Callable[..., Any],
-) -> None:
+def test_the_rates_of_topics_are_measured_over_the_last_seconds(bench: Benches) -> None:
     b = bench(Path(name="P", topic=Topic("/path")))
     do(b)
     for _ in range(20):
@@ -95,7 +93,7 @@ def test_the_rates_of_topics_are_measured_over_the_last_seconds(
     assert do(b).traffic["/path"].rate_hz == 0.0
 
 
-def test_the_delay_of_a_topic_is_from_its_stamp_to_its_arrival(bench: Callable[..., Any]) -> None:
+def test_the_delay_of_a_topic_is_from_its_stamp_to_its_arrival(bench: Benches) -> None:
     b = bench(Path(name="P", topic=Topic("/path")))
     do(b)
     stamp = header("map", b.source.now)
@@ -106,7 +104,7 @@ def test_the_delay_of_a_topic_is_from_its_stamp_to_its_arrival(bench: Callable[.
 
 
 def test_the_delay_of_a_topic_is_measured_once_a_second_and_unknown_without_a_stamp(
-    bench: Callable[..., Any],
+    bench: Benches,
 ) -> None:
     b = bench(Path(name="P", topic=Topic("/path")))
     do(b)
@@ -126,7 +124,7 @@ def test_the_delay_of_a_topic_is_measured_once_a_second_and_unknown_without_a_st
     assert delay_s(2.0, header("map", 0)) is None
 
 
-def test_a_topic_that_no_display_shows_can_be_looked_into(bench: Callable[..., Any]) -> None:
+def test_a_topic_that_no_display_shows_can_be_looked_into(bench: Benches) -> None:
     b = bench()
     assert do(b, InspectTopic("/text")).inspected["/text"].problem == "No publisher on this topic."
     publisher = Publisher("/talker", STRING, "reliable", "volatile")
@@ -147,7 +145,7 @@ def test_a_topic_that_no_display_shows_can_be_looked_into(bench: Callable[..., A
     assert "/text" not in b.source.wanted
 
 
-def test_a_message_is_read_once_a_second_at_most(bench: Callable[..., Any]) -> None:
+def test_a_message_is_read_once_a_second_at_most(bench: Benches) -> None:
     b = bench()
     b.source.known["/text"] = Offer((Publisher("/talker", STRING, "reliable", "volatile"),))
     do(b, InspectTopic("/text"))
@@ -159,9 +157,7 @@ def test_a_message_is_read_once_a_second_at_most(bench: Callable[..., Any]) -> N
     assert do(b).inspected["/text"].message == {"fields": {"data": "'two'"}}
 
 
-def test_pages_look_into_several_topics_besides_that_of_a_program(
-    bench: Callable[..., Any],
-) -> None:
+def test_pages_look_into_several_topics_besides_that_of_a_program(bench: Benches) -> None:
     b = bench()
     state = do(b, InspectTopic("/a"), InspectTopics(frozenset({"/b", "/c"})))
     assert set(state.inspected) == {"/a", "/b", "/c"}
@@ -170,7 +166,7 @@ def test_pages_look_into_several_topics_besides_that_of_a_program(
     assert len(do(b, InspectTopics(many)).inspected) == MAX_INSPECTED + 1
 
 
-def test_a_message_that_cannot_be_read_is_told(bench: Callable[..., Any]) -> None:
+def test_a_message_that_cannot_be_read_is_told(bench: Benches) -> None:
     b = bench()
     publisher = Publisher("/talker", "nav_msgs/msg/Path", "reliable", "volatile")
     b.source.known["/path"] = Offer((publisher,))
@@ -179,9 +175,7 @@ def test_a_message_that_cannot_be_read_is_told(bench: Callable[..., Any]) -> Non
     assert do(b).inspected["/path"].problem.startswith("The last message cannot be read: ")
 
 
-def test_a_topic_that_a_display_shows_is_looked_into_with_its_subscription(
-    bench: Callable[..., Any],
-) -> None:
+def test_a_topic_that_a_display_shows_is_looked_into_with_its_subscription(bench: Benches) -> None:
     b = bench(Path(name="P", topic=Topic("/path", reliability="best_effort")))
     publish(b, 1.0)
     do(b, InspectTopic("/path"))
@@ -192,9 +186,7 @@ def test_a_topic_that_a_display_shows_is_looked_into_with_its_subscription(
     assert drawn(b) == [7.5]
 
 
-def test_the_tree_of_transforms_is_reported_while_somebody_wants_it(
-    bench: Callable[..., Any],
-) -> None:
+def test_the_tree_of_transforms_is_reported_while_somebody_wants_it(bench: Benches) -> None:
     b = bench()
     b.transform("map", "odom", 0, static=True)
     assert do(b).transforms is None
@@ -206,7 +198,7 @@ def test_the_tree_of_transforms_is_reported_while_somebody_wants_it(
     assert do(b, InspectTransforms(tree=False)).transforms is None
 
 
-def test_the_transform_between_two_frames_is_read_out(bench: Callable[..., Any]) -> None:
+def test_the_transform_between_two_frames_is_read_out(bench: Benches) -> None:
     b = bench()
     b.transform("map", "odom", 0, 1.0, static=True)
     b.transform("odom", "base", b.source.now - SECOND // 2)
@@ -220,7 +212,7 @@ def test_the_transform_between_two_frames_is_read_out(bench: Callable[..., Any])
     assert do(b, InspectTransforms(tree=False)).between == {}
 
 
-def test_what_only_a_hidden_pane_would_show_is_not_received(bench: Callable[..., Any]) -> None:
+def test_what_only_a_hidden_pane_would_show_is_not_received(bench: Benches) -> None:
     b = bench(Image(name="I", topic=Topic("/image")), Path(name="P", topic=Topic("/path")))
     b.turn()
     assert "/image" in b.source.wanted
@@ -237,9 +229,7 @@ def test_what_only_a_hidden_pane_would_show_is_not_received(bench: Callable[...,
     assert "/image" in b.source.wanted
 
 
-def test_a_display_that_nobody_watches_does_not_ask_for_something_to_draw(
-    bench: Callable[..., Any],
-) -> None:
+def test_a_display_that_nobody_watches_does_not_ask_for_something_to_draw(bench: Benches) -> None:
     b = bench(Path(name="P", topic=Topic("/path")))
     b.scene.watched = False
     publish(b, 1.0)

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from bench import Benches
 
 from webviz.engine.commands import (
     ChangeView,
@@ -43,7 +44,7 @@ def file(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def start(bench: Callable[..., Any], file: Path) -> Callable[..., Any]:
+def start(bench: Benches, file: Path) -> Callable[..., Any]:
     """Start a viewer of one and the same config."""
 
     def start(**options: Any) -> Any:
@@ -85,9 +86,7 @@ def test_a_viewer_that_changes_nothing_keeps_nothing(start: Callable[..., Any], 
     assert not file.exists()
 
 
-def test_what_is_saved_is_not_kept_twice(
-    bench: Callable[..., Any], file: Path, tmp_path: Path
-) -> None:
+def test_what_is_saved_is_not_kept_twice(bench: Benches, file: Path, tmp_path: Path) -> None:
     config = tmp_path / "lab.yaml"
     config.write_text("displays: [{type: Axes, name: A}]\n")
     before = config.read_text()
@@ -119,7 +118,7 @@ def test_what_a_browser_brought_is_restored_without_a_file(start: Callable[..., 
 
 
 def test_a_session_of_another_config_is_set_aside(
-    start: Callable[..., Any], bench: Callable[..., Any], file: Path
+    start: Callable[..., Any], bench: Benches, file: Path
 ) -> None:
     b = start()
     b.do(SetProperty("display1", "length", 2.5))

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
-from bench import Bench
+from bench import Bench, Benches
 
 from webviz.engine.commands import InspectLatency
 from webviz.engine.parts import latency
@@ -15,7 +13,6 @@ from webviz.engine.state.latency import Latency
 from webviz_displays.poses import Pose
 
 S = 1_000_000_000
-Benches = Callable[..., Bench]
 
 
 def measured(b: Bench) -> tuple[Latency, ...]:

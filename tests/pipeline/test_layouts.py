@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import pytest
+from bench import Benches
 
 from webviz.engine.commands import (
     AddPanel,
@@ -39,7 +39,7 @@ LAB = Layout(below=(DockedPanel(panel="Log", weight=2.0),))
 
 
 @pytest.fixture
-def b(bench: Callable[..., Any]) -> Any:
+def b(bench: Benches) -> Any:
     b = bench()
     b.do(Load(CONFIG, "x.yaml"))
     return b

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from bench import Benches
 
 from webviz import Error, commands
 from webviz.api.status import Level, Status
@@ -76,9 +77,7 @@ class Ticker(Part):
         return {"turns": self.turns}
 
 
-def test_a_part_that_is_added_does_its_commands_and_shows_its_state(
-    bench: Callable[..., Any],
-) -> None:
+def test_a_part_that_is_added_does_its_commands_and_shows_its_state(bench: Benches) -> None:
     b = bench(parts=[Counter])
     b.do(Count())
     state = b.do(Count(2), Sender(browser=4))
@@ -127,7 +126,7 @@ PARTS += [
 
 @pytest.mark.parametrize("name", PARTS)
 def test_a_part_that_raises_whatever_it_is_asked_does_not_stop_the_others(
-    bench: Callable[..., Any],
+    bench: Benches,
     monkeypatch: pytest.MonkeyPatch,
     caplog: pytest.LogCaptureFixture,
     tmp_path: Path,
@@ -170,7 +169,7 @@ def test_a_part_that_raises_whatever_it_is_asked_does_not_stop_the_others(
     assert len([record for record in caplog.records if record.exc_info]) == 1
 
 
-def test_a_command_that_no_part_owns_is_refused(bench: Callable[..., Any]) -> None:
+def test_a_command_that_no_part_owns_is_refused(bench: Benches) -> None:
     b = bench()
     answer = b.viewer.enqueue(Count())
     b.turn()
@@ -178,7 +177,7 @@ def test_a_command_that_no_part_owns_is_refused(bench: Callable[..., Any]) -> No
         answer.result(0)
 
 
-def test_only_commands_about_files_have_a_slow_part(bench: Callable[..., Any]) -> None:
+def test_only_commands_about_files_have_a_slow_part(bench: Benches) -> None:
     class Slow(Part):
         @property
         def handles(self) -> Mapping[type[Command], Handler]:
@@ -189,7 +188,7 @@ def test_only_commands_about_files_have_a_slow_part(bench: Callable[..., Any]) -
     assert b.do(Refresh())
 
 
-def test_two_parts_cannot_own_one_command(bench: Callable[..., Any]) -> None:
+def test_two_parts_cannot_own_one_command(bench: Benches) -> None:
     class Other(Part):
         @property
         def handles(self) -> Mapping[type[Command], Handler]:
@@ -199,9 +198,7 @@ def test_two_parts_cannot_own_one_command(bench: Callable[..., Any]) -> None:
         bench(parts=[Other])
 
 
-def test_every_command_and_every_field_of_the_state_has_one_owner(
-    bench: Callable[..., Any],
-) -> None:
+def test_every_command_and_every_field_of_the_state_has_one_owner(bench: Benches) -> None:
     b = bench()
     parts = b.viewer._parts._parts
     owned = [name for part in parts for name in part.state()]

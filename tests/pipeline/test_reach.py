@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Annotated, Any
 
 import pytest
+from bench import Benches
 
 from webviz import Context, Display, Input, Pose, Sample, Topic
 from webviz.data.transforms.geometry import REACH_M
@@ -52,7 +53,7 @@ def finite(b: Any) -> bool:
 @pytest.mark.parametrize("far", [1e308, math.inf, REACH_M])
 @pytest.mark.parametrize("others", [0, MANY], ids=["few", "many"])
 def test_what_does_not_compose_to_a_pose_within_reach_is_not_drawn_and_names_the_link(
-    bench: Callable[..., Any], far: float, others: int
+    bench: Benches, far: float, others: int
 ) -> None:
     b = bench(Marks(name="Marks"), TF(name="TF"))
     for _ in range(5):
@@ -77,7 +78,7 @@ def test_what_does_not_compose_to_a_pose_within_reach_is_not_drawn_and_names_the
     assert len(near.positions) == 1 + others + (far == REACH_M)
 
 
-def test_what_is_far_and_comes_back_is_drawn(bench: Callable[..., Any]) -> None:
+def test_what_is_far_and_comes_back_is_drawn(bench: Benches) -> None:
     b = bench(Marks(name="Marks"))
     b.transform("map", "a", T, 1e200)
     b.transform("a", "b", T, -1e200)
@@ -86,7 +87,7 @@ def test_what_is_far_and_comes_back_is_drawn(bench: Callable[..., Any]) -> None:
     assert sorted(key for key, *_ in b.scene.visible()) == ["follower", "sample"]
 
 
-def test_an_offset_out_of_reach_is_the_displays_fault(bench: Callable[..., Any]) -> None:
+def test_an_offset_out_of_reach_is_the_displays_fault(bench: Benches) -> None:
     b = bench(Marks(name="Marks", frame="a", offset=1e300), strict=False)
     b.transform("map", "a", T)
     b.turn()
@@ -96,7 +97,7 @@ def test_an_offset_out_of_reach_is_the_displays_fault(bench: Callable[..., Any])
     assert finite(b)
 
 
-def test_a_view_does_not_follow_a_frame_out_of_reach(bench: Callable[..., Any]) -> None:
+def test_a_view_does_not_follow_a_frame_out_of_reach(bench: Benches) -> None:
     b = bench(cameras=Following("b"))
     b.transform("map", "a", T, 1e308)
     b.transform("a", "b", T, 1e308)

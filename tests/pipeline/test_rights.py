@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from bench import Benches
 
 import webviz
 from webviz.api.status import Level, Status
@@ -37,7 +38,7 @@ OF_CONFIG = "{} is not in the list `publish` of this config. Add it to the file.
 
 
 @pytest.fixture
-def make(bench: Callable[..., Any]) -> Callable[..., Any]:
+def make(bench: Benches) -> Callable[..., Any]:
     def make(**options: Any) -> Any:
         b = bench(**options)
         b.source.graph = RememberingGraph()

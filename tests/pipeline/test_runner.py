@@ -6,10 +6,11 @@ import gc
 import threading
 import time
 import weakref
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Annotated, Any
 
 import pytest
+from bench import Benches
 
 from webviz import (
     Context,
@@ -44,6 +45,12 @@ class Dot(Display):
             raise ValueError("negative")
         ctx.points("dot", [[x, 0, 0]], (255, 0, 0), self.size)
         ctx.ok("Dot", f"at {x}")
+
+
+@pytest.fixture
+def b(bench: Benches) -> Any:
+    """A viewer of a dot."""
+    return bench(Dot(name="Dot"))
 
 
 class Trail(Display, Selective):
@@ -111,8 +118,7 @@ def at(bench: Any) -> list[float]:
     )
 
 
-def test_a_message_is_drawn_with_the_transform_at_its_stamp(bench: Callable[..., Any]) -> None:
-    b = bench(Dot(name="Dot"))
+def test_a_message_is_drawn_with_the_transform_at_its_stamp(b: Any) -> None:
     b.transform("map", "base", T - SECOND, 0.0)
     b.transform("map", "base", T, 10.0)
     b.pose("/pose", "base", T - SECOND // 2, 1.0)
@@ -120,8 +126,7 @@ def test_a_message_is_drawn_with_the_transform_at_its_stamp(bench: Callable[...,
     assert at(b) == [6.0]
 
 
-def test_a_message_waits_for_its_transform(bench: Callable[..., Any]) -> None:
-    b = bench(Dot(name="Dot"))
+def test_a_message_waits_for_its_transform(b: Any) -> None:
     b.transform("map", "base", T - SECOND, 0.0)
     b.pose("/pose", "base", T, 1.0)
     b.turn()
@@ -131,10 +136,7 @@ def test_a_message_waits_for_its_transform(bench: Callable[..., Any]) -> None:
     assert at(b) == [3.0]
 
 
-def test_a_newer_message_that_waits_does_not_displace_one_that_is_ready(
-    bench: Callable[..., Any],
-) -> None:
-    b = bench(Dot(name="Dot"))
+def test_a_newer_message_that_waits_does_not_displace_one_that_is_ready(b: Any) -> None:
     b.transform("map", "base", T - SECOND)
     b.transform("map", "base", T)
     b.pose("/pose", "base", T, 1.0)
@@ -143,8 +145,7 @@ def test_a_newer_message_that_waits_does_not_displace_one_that_is_ready(
     assert at(b) == [1.0]
 
 
-def test_a_new_value_of_a_property_shows_without_a_new_message(bench: Callable[..., Any]) -> None:
-    b = bench(Dot(name="Dot"))
+def test_a_new_value_of_a_property_shows_without_a_new_message(b: Any) -> None:
     b.transform("map", "base", T, static=True)
     b.pose("/pose", "base", T)
     b.turn()
@@ -154,8 +155,7 @@ def test_a_new_value_of_a_property_shows_without_a_new_message(bench: Callable[.
     assert node.size == 0.7
 
 
-def test_a_refused_value_changes_nothing(bench: Callable[..., Any]) -> None:
-    b = bench(Dot(name="Dot"))
+def test_a_refused_value_changes_nothing(b: Any) -> None:
     b.viewer.enqueue(SetProperty("display1", "size", -1))
     b.viewer.enqueue(SetProperty("display1", "nonsense", 1))
     b.viewer.enqueue(SetProperty("display9", "size", 1))
@@ -163,9 +163,7 @@ def test_a_refused_value_changes_nothing(bench: Callable[..., Any]) -> None:
     assert b.viewer.state().rows[0].display.size == 0.1
 
 
-def test_a_new_fixed_frame_moves_what_is_drawn_and_loses_nothing(
-    bench: Callable[..., Any],
-) -> None:
+def test_a_new_fixed_frame_moves_what_is_drawn_and_loses_nothing(bench: Benches) -> None:
     b = bench(Dot(name="Dot", count=3))
     b.transform("map", "odom", 0, 100.0, static=True)
     b.transform("odom", "base", T, 1.0)
@@ -180,9 +178,7 @@ def test_a_new_fixed_frame_moves_what_is_drawn_and_loses_nothing(
     assert b.scene.upserts > drawn
 
 
-def test_in_a_new_fixed_frame_data_stay_at_their_stamp_and_followers_follow(
-    bench: Callable[..., Any],
-) -> None:
+def test_in_a_new_fixed_frame_data_stay_at_their_stamp_and_followers_follow(bench: Benches) -> None:
     b = bench(Dot(name="Dot"), Poster(name="Poster"))
     b.transform("map", "odom", 0, 100.0, static=True)
     b.transform("odom", "base", T, 1.0)
@@ -198,8 +194,7 @@ def test_in_a_new_fixed_frame_data_stay_at_their_stamp_and_followers_follow(
     assert at(b) == [2.0, 50.0]
 
 
-def test_what_was_drawn_leaves_memory_when_it_is_replaced(bench: Callable[..., Any]) -> None:
-    b = bench(Dot(name="Dot"))
+def test_what_was_drawn_leaves_memory_when_it_is_replaced(b: Any) -> None:
     b.transform("map", "base", T, static=True)
     gc.collect()
     gc.disable()  # it may come late, and large messages often
@@ -214,7 +209,7 @@ def test_what_was_drawn_leaves_memory_when_it_is_replaced(bench: Callable[..., A
         gc.enable()
 
 
-def test_history_is_bounded_by_count(bench: Callable[..., Any]) -> None:
+def test_history_is_bounded_by_count(bench: Benches) -> None:
     b = bench(Dot(name="Dot", count=2))
     b.transform("map", "base", T, static=True)
     for x in range(5):
@@ -223,7 +218,7 @@ def test_history_is_bounded_by_count(bench: Callable[..., Any]) -> None:
     assert at(b) == [3.0, 4.0]
 
 
-def test_history_is_bounded_by_age(bench: Callable[..., Any]) -> None:
+def test_history_is_bounded_by_age(bench: Benches) -> None:
     b = bench(Dot(name="Dot", count=0, seconds=2.0))
     b.transform("map", "base", T, static=True)
     b.pose("/pose", "base", T, 1.0)
@@ -237,7 +232,7 @@ def test_history_is_bounded_by_age(bench: Callable[..., Any]) -> None:
     assert at(b) == [2.0]
 
 
-def test_a_display_chooses_which_messages_count(bench: Callable[..., Any]) -> None:
+def test_a_display_chooses_which_messages_count(bench: Benches) -> None:
     b = bench(Trail(name="Trail"))
     for n, x in enumerate((0.0, 0.4, 1.2, 1.5, 2.3)):
         b.transform("map", "base", T + n, x)
@@ -247,7 +242,7 @@ def test_a_display_chooses_which_messages_count(bench: Callable[..., Any]) -> No
     assert [round(float(x), 3) for x in node.segments[:, 1, 0]] == [1.2, 2.3]
 
 
-def test_inputs_can_fold_into_one(bench: Callable[..., Any]) -> None:
+def test_inputs_can_fold_into_one(bench: Benches) -> None:
     b = bench(Total(name="Total"))
     b.transform("map", "base", T, static=True)
     for topic, x in (("/pose", 1.0), ("/more", 10.0), ("/pose", 2.0)):
@@ -266,9 +261,7 @@ class Choosy(Total):
         return super().fold(name, sample, state) if x else None
 
 
-def test_messages_that_fold_into_nothing_or_fail_leave_what_was(
-    bench: Callable[..., Any],
-) -> None:
+def test_messages_that_fold_into_nothing_or_fail_leave_what_was(bench: Benches) -> None:
     b = bench(Choosy(name="Choosy"), strict=False)
     b.transform("map", "base", T, static=True)
     for x in (1.0, 0.0, -1.0):
@@ -281,7 +274,7 @@ def test_messages_that_fold_into_nothing_or_fail_leave_what_was(
 
 
 def test_what_follows_a_frame_is_hidden_without_a_transform_and_the_status_says_why(
-    bench: Callable[..., Any],
+    bench: Benches,
 ) -> None:
     b = bench(Marker(name="Marker"))
     b.transform("map", "other", T, static=True)
@@ -296,10 +289,7 @@ def test_what_follows_a_frame_is_hidden_without_a_transform_and_the_status_says_
     assert b.statuses() == {}
 
 
-def test_a_disabled_display_hears_nothing_and_draws_nothing_but_forgets_nothing(
-    bench: Callable[..., Any],
-) -> None:
-    b = bench(Dot(name="Dot"))
+def test_a_disabled_display_hears_nothing_and_draws_nothing_but_forgets_nothing(b: Any) -> None:
     b.transform("map", "base", T, static=True)
     b.pose("/pose", "base", T, 1.0)
     b.turn()
@@ -312,9 +302,7 @@ def test_a_disabled_display_hears_nothing_and_draws_nothing_but_forgets_nothing(
     assert "/pose" in b.source.wanted
 
 
-def test_nothing_is_drawn_while_nobody_watches_and_everything_for_who_joins(
-    bench: Callable[..., Any],
-) -> None:
+def test_nothing_is_drawn_while_nobody_watches_and_everything_for_who_joins(bench: Benches) -> None:
     b = bench(Dot(name="Dot"), Trail(name="Trail"))
     b.scene.watched = False
     drawn = b.scene.upserts
@@ -328,7 +316,7 @@ def test_nothing_is_drawn_while_nobody_watches_and_everything_for_who_joins(
     assert len(list(b.scene.visible())) == 2
 
 
-def test_a_crash_becomes_a_status_and_the_rest_goes_on(bench: Callable[..., Any]) -> None:
+def test_a_crash_becomes_a_status_and_the_rest_goes_on(bench: Benches) -> None:
     b = bench(Dot(name="Dot"), Trail(name="Trail"), strict=False)
     b.transform("map", "base", T, static=True)
     b.pose("/pose", "base", T, 1.0)
@@ -342,17 +330,14 @@ def test_a_crash_becomes_a_status_and_the_rest_goes_on(bench: Callable[..., Any]
     assert "Display" not in b.statuses(0)
 
 
-def test_strict_lets_a_crash_through(bench: Callable[..., Any]) -> None:
-    b = bench(Dot(name="Dot"))
+def test_strict_lets_a_crash_through(b: Any) -> None:
     b.transform("map", "base", T, static=True)
     b.pose("/pose", "base", T, -1.0)
     with pytest.raises(ValueError, match="negative"):
         b.turn()
 
 
-def test_slow_work_is_drawn_when_it_is_done_and_stale_work_never(
-    bench: Callable[..., Any],
-) -> None:
+def test_slow_work_is_drawn_when_it_is_done_and_stale_work_never(bench: Benches) -> None:
     GATE.clear()
     b = bench(Slow(name="Slow"))
     b.turn()
@@ -366,8 +351,7 @@ def test_slow_work_is_drawn_when_it_is_done_and_stale_work_never(
     assert at(b) == [20.0]
 
 
-def test_reset_and_a_jump_back_of_time_forget_what_was(bench: Callable[..., Any]) -> None:
-    b = bench(Dot(name="Dot"))
+def test_reset_and_a_jump_back_of_time_forget_what_was(b: Any) -> None:
     for command in (Reset(), None):
         b.transform("map", "base", T, static=True)
         b.pose("/pose", "base", T, 1.0)
@@ -381,10 +365,9 @@ def test_reset_and_a_jump_back_of_time_forget_what_was(bench: Callable[..., Any]
         assert at(b) == []
 
 
-def test_bytes_that_are_no_message_become_a_status(bench: Callable[..., Any]) -> None:
+def test_bytes_that_are_no_message_become_a_status(b: Any) -> None:
     from webviz.sources import Raw
 
-    b = bench(Dot(name="Dot"))
     b.transform("map", "base", T, static=True)
     b.pose("/pose", "base", T, 1.0)
     b.turn()
@@ -403,10 +386,9 @@ def test_bytes_that_are_no_message_become_a_status(bench: Callable[..., Any]) ->
     assert "/tf" not in b.states[-1].statuses
 
 
-def test_the_same_latched_message_again_is_ignored(bench: Callable[..., Any]) -> None:
+def test_the_same_latched_message_again_is_ignored(b: Any) -> None:
     from webviz.sources import Offer, Publisher
 
-    b = bench(Dot(name="Dot"))
     publisher = Publisher("/test", "geometry_msgs/msg/PoseStamped", "reliable", "transient_local")
     b.source.known["/pose"] = Offer((publisher,), ("reliable", "transient_local"))
     b.transform("map", "base", T, static=True)
@@ -423,9 +405,7 @@ class WithUpdates(Dot):
     ] = Topic()
 
 
-def test_an_optional_input_follows_the_first_ones_topic_and_may_be_silent(
-    bench: Callable[..., Any],
-) -> None:
+def test_an_optional_input_follows_the_first_ones_topic_and_may_be_silent(bench: Benches) -> None:
     b = bench(WithUpdates(name="Dot", topic=Topic("/goal")))
     assert set(b.source.wanted) >= {"/goal", "/goal_updates"}
     b.transform("map", "base", T, static=True)
@@ -446,9 +426,7 @@ class Poster(Dot):
         ctx.follow(sample.frame, when="now").points("dot", [[0, 0, 0]], (255, 0, 0), 0.1)
 
 
-def test_a_display_that_follows_a_frame_needs_no_transform_at_the_stamp(
-    bench: Callable[..., Any],
-) -> None:
+def test_a_display_that_follows_a_frame_needs_no_transform_at_the_stamp(bench: Benches) -> None:
     b = bench(Poster(name="Poster"))
     b.pose("/pose", "map", T - 3600 * SECOND)
     b.transform("odom", "map", T, 3.0)
@@ -471,7 +449,7 @@ class Counting(Display):
         ctx.ok("Drawn", f"{len(ctx.state)} times")
 
 
-def test_state_lasts_from_call_to_call_until_a_reset(bench: Callable[..., Any]) -> None:
+def test_state_lasts_from_call_to_call_until_a_reset(bench: Benches) -> None:
     b = bench(Counting(name="Counting"))
     b.transform("map", "base", T, static=True)
     for _ in range(2):

@@ -5,11 +5,11 @@ from __future__ import annotations
 import fcntl
 import os
 import time
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
+from bench import Benches
 
 from webviz.api.declared import Topic, to_values
 from webviz.api.group import DisplayGroup
@@ -72,7 +72,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_a_config_is_saved_under_a_name_and_then_again_without(
-    folder: Path, bench: Callable[..., Any]
+    folder: Path, bench: Benches
 ) -> None:
     b = bench(Axes(name="A"))
     assert b.ask(Save("lab.yaml")) == "Saved lab.yaml."
@@ -82,9 +82,7 @@ def test_a_config_is_saved_under_a_name_and_then_again_without(
     assert "length: 2.5" in (folder / "lab.yaml").read_text()
 
 
-def test_what_rvizs_format_cannot_hold_is_named_when_saving(
-    folder: Path, bench: Callable[..., Any]
-) -> None:
+def test_what_rvizs_format_cannot_hold_is_named_when_saving(folder: Path, bench: Benches) -> None:
     b = bench(Axes(name="A"))
     do(b, AddPanel("Plot"))
     answer = b.ask(Save("lab.rviz"))
@@ -92,12 +90,12 @@ def test_what_rvizs_format_cannot_hold_is_named_when_saving(
     assert answer.endswith(" Plot: Plot: skipped, because RViz has no such panel.")
 
 
-def test_a_config_without_a_file_needs_a_name(folder: Path, bench: Callable[..., Any]) -> None:
+def test_a_config_without_a_file_needs_a_name(folder: Path, bench: Benches) -> None:
     assert bench(Axes(name="A")).refused(Save()) == ("This config has no file yet. Choose a name.")
 
 
 def test_what_is_not_saved_is_marked_until_it_is_saved_or_undone(
-    folder: Path, bench: Callable[..., Any]
+    folder: Path, bench: Benches
 ) -> None:
     b = bench(Axes(name="A"))
     assert not do(b, Refresh()).file.is_changed
@@ -107,7 +105,7 @@ def test_what_is_not_saved_is_marked_until_it_is_saved_or_undone(
     assert not do(b, Save("a.yaml")).file.is_changed
 
 
-def test_another_file_replaces_what_is_shown(folder: Path, bench: Callable[..., Any]) -> None:
+def test_another_file_replaces_what_is_shown(folder: Path, bench: Benches) -> None:
     b = bench(Axes(name="A"))
     do(b, Save("a.yaml"))
     (folder / "b.yaml").write_text("fixed_frame: odom\ndisplays:\n- {type: Axes, name: B}\n")
@@ -132,7 +130,7 @@ def test_another_file_replaces_what_is_shown(folder: Path, bench: Callable[..., 
     ],
 )
 def test_a_file_that_cannot_be_opened_changes_nothing(
-    folder: Path, bench: Callable[..., Any], text: str | None, sentence: str
+    folder: Path, bench: Benches, text: str | None, sentence: str
 ) -> None:
     b = bench(Axes(name="A"))
     if text == "a FIFO":
@@ -144,9 +142,7 @@ def test_a_file_that_cannot_be_opened_changes_nothing(
     assert (names(state), state.file.path) == (["A"], "")
 
 
-def test_the_frame_loop_goes_on_while_files_wait_for_the_disk(
-    folder: Path, bench: Callable[..., Any]
-) -> None:
+def test_the_frame_loop_goes_on_while_files_wait_for_the_disk(folder: Path, bench: Benches) -> None:
     (folder / "b.yaml").write_text("displays:\n- {type: Axes, name: B}\n")
     b = bench(Axes(name="A"))
     descriptor = os.open(folder, os.O_RDONLY)
@@ -166,9 +162,7 @@ def test_the_frame_loop_goes_on_while_files_wait_for_the_disk(
     assert saved_config.settings.background != (1, 2, 3)  # as it was when somebody said Save
 
 
-def test_the_end_waits_for_a_file_that_is_being_written(
-    folder: Path, bench: Callable[..., Any]
-) -> None:
+def test_the_end_waits_for_a_file_that_is_being_written(folder: Path, bench: Benches) -> None:
     b = bench(Axes(name="A"))
     saved, later = b.viewer.enqueue(Save("a.yaml")), b.viewer.enqueue(Save("b.yaml"))
     b.turn()
@@ -178,7 +172,7 @@ def test_the_end_waits_for_a_file_that_is_being_written(
     assert [path.name for path in folder.iterdir()] == ["a.yaml"]
 
 
-def test_files_that_wait_are_not_more_than_a_few(bench: Callable[..., Any]) -> None:
+def test_files_that_wait_are_not_more_than_a_few(bench: Benches) -> None:
     b = bench()
     exports = [b.viewer.enqueue(Export(lambda _: None)) for _ in range(MAX_FILES + 2)]
     b.turn()
@@ -187,7 +181,7 @@ def test_files_that_wait_are_not_more_than_a_few(bench: Callable[..., Any]) -> N
     assert [each.result() for each in exports[:-1]] == [""] * (MAX_FILES + 1)
 
 
-def test_each_browser_waits_with_one_file(bench: Callable[..., Any]) -> None:
+def test_each_browser_waits_with_one_file(bench: Benches) -> None:
     b, page = bench(), Sender(browser=1, priority=1)
     exports = [b.viewer.enqueue(Export(lambda _: None), page) for _ in range(4)]
     other = b.viewer.enqueue(Export(lambda _: None), Sender(browser=2, priority=1))
@@ -198,7 +192,7 @@ def test_each_browser_waits_with_one_file(bench: Callable[..., Any]) -> None:
     assert [each.result(timeout=0) for each in exports[:2]] == ["", ""]
 
 
-def test_files_of_higher_roles_go_first(bench: Callable[..., Any]) -> None:
+def test_files_of_higher_roles_go_first(bench: Benches) -> None:
     b = bench()
     order: list[int] = []
     waiting = [
@@ -212,7 +206,7 @@ def test_files_of_higher_roles_go_first(bench: Callable[..., Any]) -> None:
     assert order == [1, 5, 6, 4, 2, 3]  # the first began before the others were known
 
 
-def test_a_lower_role_leaves_room_in_the_queue(bench: Callable[..., Any]) -> None:
+def test_a_lower_role_leaves_room_in_the_queue(bench: Benches) -> None:
     b = bench()
     refused: list[int] = []
     for priority in (1, 2, 3):
@@ -227,7 +221,7 @@ def test_a_lower_role_leaves_room_in_the_queue(bench: Callable[..., Any]) -> Non
 
 
 def test_the_text_of_a_file_from_elsewhere_is_shown_and_counts_as_not_saved(
-    folder: Path, bench: Callable[..., Any]
+    folder: Path, bench: Benches
 ) -> None:
     b = bench()
     state = do(b, Load("displays:\n- {type: Axes, name: Up}\n", "up.yaml"))
@@ -239,16 +233,12 @@ def test_the_text_of_a_file_from_elsewhere_is_shown_and_counts_as_not_saved(
     assert b.refused(Load(large, "l.yaml")).endswith("it is larger than 2 MB.")
 
 
-def test_a_file_in_a_folder_that_cannot_be_written_is_told(
-    folder: Path, bench: Callable[..., Any]
-) -> None:
+def test_a_file_in_a_folder_that_cannot_be_written_is_told(folder: Path, bench: Benches) -> None:
     refusal = bench(Axes(name="A")).refused(Save("nowhere/lab.yaml"))
     assert "No such file or directory" in refusal
 
 
-def test_the_config_files_of_the_folder_are_on_offer(
-    folder: Path, bench: Callable[..., Any]
-) -> None:
+def test_the_config_files_of_the_folder_are_on_offer(folder: Path, bench: Benches) -> None:
     for name in ("b.rviz", "a.yml", "notes.txt"):
         (folder / name).write_text("")
     b = bench()
@@ -257,9 +247,7 @@ def test_the_config_files_of_the_folder_are_on_offer(
     assert offers(b, "a.yml", "b.rviz", "c.yaml")
 
 
-def test_the_last_session_is_kept_in_a_file_of_its_own(
-    tmp_path: Path, bench: Callable[..., Any]
-) -> None:
+def test_the_last_session_is_kept_in_a_file_of_its_own(tmp_path: Path, bench: Benches) -> None:
     path = tmp_path / "deep" / "last.yaml"
     b = bench(Axes(name="A"), autosave=path)
     do(b, SetProperty("display1", "length", 2.5))
@@ -269,9 +257,7 @@ def test_the_last_session_is_kept_in_a_file_of_its_own(
     assert axes.length == 2.5
 
 
-def test_a_session_keeps_the_list_of_what_may_be_written(
-    tmp_path: Path, bench: Callable[..., Any]
-) -> None:
+def test_a_session_keeps_the_list_of_what_may_be_written(tmp_path: Path, bench: Benches) -> None:
     b = bench(publish=None, autosave=tmp_path / "last.yaml")
     do(b, SetToolProperty("2D Goal Pose", "topic.name", "/cmd_vel_raw"))
     b.viewer.close()
@@ -284,13 +270,13 @@ def test_a_session_keeps_the_list_of_what_may_be_written(
 
 @pytest.mark.skipif(os.geteuid() == 0 and not Path("/dev/full").exists(), reason="no /dev/full")
 def test_a_session_that_cannot_be_kept_is_logged(
-    bench: Callable[..., Any], caplog: pytest.LogCaptureFixture
+    bench: Benches, caplog: pytest.LogCaptureFixture
 ) -> None:
     bench(Axes(name="A"), autosave=Path("/dev/null/last.yaml")).viewer.close()
     assert "The session is not saved" in caplog.text
 
 
-def test_a_config_is_handed_out_as_text(folder: Path, bench: Callable[..., Any]) -> None:
+def test_a_config_is_handed_out_as_text(folder: Path, bench: Benches) -> None:
     b, texts = bench(Axes(name="A")), list[str]()
     do(b, Export(texts.append))
     do(b, Export(texts.append, "a.rviz"))
@@ -298,9 +284,7 @@ def test_a_config_is_handed_out_as_text(folder: Path, bench: Callable[..., Any])
     assert "Class: rviz_default_plugins/Axes" in texts[1]
 
 
-def test_a_config_handed_out_as_rviz_is_answered_with_what_is_left_out(
-    bench: Callable[..., Any],
-) -> None:
+def test_a_config_handed_out_as_rviz_is_answered_with_what_is_left_out(bench: Benches) -> None:
     b = bench(Axes(name="A"), Text(name="B"))
     answers = {n: b.viewer.enqueue(Export(lambda _: None, n)) for n in ("a.yaml", "a.rviz")}
     b.until_done(answers["a.rviz"])
@@ -314,9 +298,7 @@ def test_a_config_handed_out_as_rviz_is_answered_with_what_is_left_out(
 # The list
 
 
-def test_a_copy_stands_behind_its_original_under_a_name_of_its_own(
-    bench: Callable[..., Any],
-) -> None:
+def test_a_copy_stands_behind_its_original_under_a_name_of_its_own(bench: Benches) -> None:
     b = bench(Axes(name="A", length=3.0), Axes(name="B"))
     assert names(do(b, DuplicateDisplay("display1"))) == ["A", "A 2", "B"]
     state = do(b, DuplicateDisplay("display1"))
@@ -328,7 +310,7 @@ def test_a_copy_stands_behind_its_original_under_a_name_of_its_own(
     assert copy.length == 3.0
 
 
-def test_a_group_is_copied_with_all_that_is_in_it(bench: Callable[..., Any]) -> None:
+def test_a_group_is_copied_with_all_that_is_in_it(bench: Benches) -> None:
     unreadable = Unreadable({"type": "Gone", "list": [1]}, "displays[0]: no such type")
     group = Branch(
         DisplayGroup(name="G"), [Axes(name="A"), Branch(DisplayGroup(name="H"), [unreadable])]
@@ -338,9 +320,7 @@ def test_a_group_is_copied_with_all_that_is_in_it(bench: Callable[..., Any]) -> 
     assert names(state) == ["G", "  A", "  H", "    Gone", "G 2", "  A", "  H", "    Gone", "B"]
 
 
-def test_a_reset_display_keeps_its_name_its_switch_and_its_topic(
-    bench: Callable[..., Any],
-) -> None:
+def test_a_reset_display_keeps_its_name_its_switch_and_its_topic(bench: Benches) -> None:
     topic = Topic("/front", reliability="reliable")
     scan = LaserScan(name="Front", enabled=False, topic=topic, size=0.5, decay_time=3.0)
     state = do(bench(scan, DisplayGroup(name="G")), ResetDisplay("display1"))
@@ -354,7 +334,7 @@ def test_a_reset_display_keeps_its_name_its_switch_and_its_topic(
     assert names(do(bench(DisplayGroup(name="G")), ResetDisplay("display1"))) == ["G"]
 
 
-def test_displays_are_written_as_a_config_file_has_them(bench: Callable[..., Any]) -> None:
+def test_displays_are_written_as_a_config_file_has_them(bench: Benches) -> None:
     unreadable = Unreadable({"type": "Gone", "list": [1]}, "displays[0]: no such type")
     group = Branch(DisplayGroup(name="G"), [Axes(name="A", length=3.0), unreadable])
     b = bench(group, Axes(name="B"), Grid(name="Grid"))
@@ -365,7 +345,7 @@ def test_displays_are_written_as_a_config_file_has_them(bench: Callable[..., Any
     )
 
 
-def test_no_more_displays_are_added_than_a_config_may_have(bench: Callable[..., Any]) -> None:
+def test_no_more_displays_are_added_than_a_config_may_have(bench: Benches) -> None:
     b = bench(Branch(DisplayGroup(name="G"), [Axes(name=f"A{i}") for i in range(299)]))
     commands = [DuplicateDisplay("display1"), *[AddDisplay("Axes")] * 201]
     answers = [b.viewer.enqueue(command) for command in commands]
@@ -376,9 +356,7 @@ def test_no_more_displays_are_added_than_a_config_may_have(bench: Callable[..., 
     assert "G 2" not in names(state)
 
 
-def test_displays_are_moved_within_the_list_and_into_and_out_of_groups(
-    bench: Callable[..., Any],
-) -> None:
+def test_displays_are_moved_within_the_list_and_into_and_out_of_groups(bench: Benches) -> None:
     b = bench(Branch(DisplayGroup(name="G"), [Axes(name="A")]), Axes(name="B"), Axes(name="C"))
     g, a, first, c = (row.id for row in b.states[-1].rows)
     assert names(do(b, MoveDisplay(c, before=first))) == ["G", "  A", "C", "B"]
@@ -388,7 +366,7 @@ def test_displays_are_moved_within_the_list_and_into_and_out_of_groups(
     assert names(do(b, MoveDisplay(a, g))) == ["C", "G", "  B", "  A"]
 
 
-def test_a_group_is_not_moved_into_itself(bench: Callable[..., Any]) -> None:
+def test_a_group_is_not_moved_into_itself(bench: Benches) -> None:
     b = bench(Branch(DisplayGroup(name="G"), [Branch(DisplayGroup(name="H"), [Axes(name="A")])]))
     g, h, _ = (row.id for row in b.states[-1].rows)
     before = names(b.states[-1])
@@ -397,9 +375,7 @@ def test_a_group_is_not_moved_into_itself(bench: Callable[..., Any]) -> None:
     assert names(do(b, MoveDisplay("gone", g))) == before
 
 
-def test_a_display_that_is_moved_into_a_group_that_is_off_is_hidden(
-    bench: Callable[..., Any],
-) -> None:
+def test_a_display_that_is_moved_into_a_group_that_is_off_is_hidden(bench: Benches) -> None:
     b = bench(DisplayGroup(name="Off", enabled=False), Axes(name="A"))
     b.transform("map", "base", 0, static=True)
     b.turn()
@@ -411,7 +387,7 @@ def test_a_display_that_is_moved_into_a_group_that_is_off_is_hidden(
 # Settings and answers
 
 
-def test_background_and_frame_rate_are_set(bench: Callable[..., Any]) -> None:
+def test_background_and_frame_rate_are_set(bench: Benches) -> None:
     b = bench()
     settings = do(b, SetBackground((1, 2, 3))).settings
     assert (settings.background, b.scene.background) == ((1, 2, 3), (1, 2, 3))
@@ -439,7 +415,7 @@ def test_background_and_frame_rate_are_set(bench: Callable[..., Any]) -> None:
     ],
 )
 def test_what_is_refused_is_told_and_changes_nothing(
-    bench: Callable[..., Any],
+    bench: Benches,
     command: Command,
     sentence: str,
     caplog: pytest.LogCaptureFixture,
@@ -451,7 +427,7 @@ def test_what_is_refused_is_told_and_changes_nothing(
     assert document(b.viewer.config()) == document(before)
 
 
-def test_who_asks_after_the_end_is_refused(bench: Callable[..., Any]) -> None:
+def test_who_asks_after_the_end_is_refused(bench: Benches) -> None:
     b = bench()
     waiting = b.viewer.enqueue(SetFrameRate(10.0))
     b.viewer.close()
@@ -459,7 +435,7 @@ def test_who_asks_after_the_end_is_refused(bench: Callable[..., Any]) -> None:
         assert str(future.exception(timeout=0)) == "The viewer has ended."
 
 
-def test_what_nobody_waits_for_any_more_is_not_done(bench: Callable[..., Any]) -> None:
+def test_what_nobody_waits_for_any_more_is_not_done(bench: Benches) -> None:
     b = bench()
     assert b.viewer.enqueue(SetFrameRate(10.0)).cancel()
     b.turn()
@@ -469,9 +445,7 @@ def test_what_nobody_waits_for_any_more_is_not_done(bench: Callable[..., Any]) -
 @pytest.mark.parametrize(
     "path", ["../a.yaml", "/etc/hosts", "sub/a.yaml", ".", "..", ".yaml", "a.sh", "a", "./a.yaml"]
 )
-def test_a_page_stays_in_the_folder_of_the_config(
-    bench: Callable[..., Any], folder: Path, path: str
-) -> None:
+def test_a_page_stays_in_the_folder_of_the_config(bench: Benches, folder: Path, path: str) -> None:
     (folder / "sub").mkdir()
     b = bench(Axes(name="A"))
     for command in (Save(path), Open(path)):
@@ -498,7 +472,7 @@ DASH = "The name begins with a dash, which programs take for an option. Remove i
     ],
 )
 def test_a_page_gives_no_file_a_name_that_deceives(
-    bench: Callable[..., Any],
+    bench: Benches,
     folder: Path,
     name: str,
     sentence: str,
@@ -526,14 +500,12 @@ def test_a_page_gives_no_file_a_name_that_deceives(
     ],
 )
 def test_a_view_or_picture_has_no_name_that_deceives(
-    bench: Callable[..., Any], command: Command, sentence: str
+    bench: Benches, command: Command, sentence: str
 ) -> None:
     assert bench().refused(command) == sentence
 
 
-def test_names_of_displays_and_of_files_from_elsewhere_are_made_readable(
-    bench: Callable[..., Any],
-) -> None:
+def test_names_of_displays_and_of_files_from_elsewhere_are_made_readable(bench: Benches) -> None:
     b = bench()
     b.do(AddDisplay("Grid", {"name": f"a\nb{BIDI}c\ud800"}))
     assert names(b.states[-1]) == ["a b c "]
@@ -551,16 +523,14 @@ def test_names_of_displays_and_of_files_from_elsewhere_are_made_readable(
     "text", ['version: "\\ud800"', 'tools: [{type: GoalPose, name: "\\ud800"}]', '"\\udfff": 1']
 )
 @pytest.mark.parametrize("suffix", ["yaml", "rviz"])
-def test_a_config_with_half_a_letter_is_refused(
-    bench: Callable[..., Any], text: str, suffix: str
-) -> None:
+def test_a_config_with_half_a_letter_is_refused(bench: Benches, text: str, suffix: str) -> None:
     answer = bench().refused(Load(text, f"x.{suffix}"))
     half = "a text contains half of a surrogate pair, such as \\ud800. Remove it."
     assert answer == f"x.{suffix}:1: {half}"
 
 
 def test_a_page_follows_no_link_out_of_the_folder_and_opens_no_device(
-    bench: Callable[..., Any], folder: Path, tmp_path_factory: pytest.TempPathFactory
+    bench: Benches, folder: Path, tmp_path_factory: pytest.TempPathFactory
 ) -> None:
     elsewhere = tmp_path_factory.mktemp("elsewhere") / "secret.yaml"
     elsewhere.write_text("version: 1\n")

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Annotated, Any
 
 import pytest
+from bench import Benches
 
 from webviz import Context, Display, Input, Keep, Sample, Topic
 from webviz.engine.commands import DuplicateDisplay, Pause, Reset
@@ -27,6 +27,12 @@ class Dot(Display):
         ctx.points("dot", [[sample.message.pose.position.x, 0, 0]], (255, 0, 0), 0.1)
 
 
+@pytest.fixture
+def b(bench: Benches) -> Any:
+    """A viewer of a dot."""
+    return bench(Dot(name="Dot"))
+
+
 def statuses(b: Any) -> dict[str, tuple[str, str]]:
     """Level and sentence by key of the viewer as a whole, a second later."""
     b.clock += 1.1
@@ -42,10 +48,7 @@ def publishes(b: Any, topic: str, *nodes: str) -> None:
     b.source.known[topic] = Offer(tuple(Publisher(n, "", "reliable", "volatile") for n in nodes))
 
 
-def test_before_the_first_clock_the_viewer_waits_and_says_for_what(
-    bench: Callable[..., Any],
-) -> None:
-    b = bench(Dot(name="Dot"))
+def test_before_the_first_clock_the_viewer_waits_and_says_for_what(b: Any) -> None:
     b.source.now = 0
     level, text = statuses(b)["Time"]
     assert level == "WARN"
@@ -57,8 +60,7 @@ def test_before_the_first_clock_the_viewer_waits_and_says_for_what(
     assert "Time" not in statuses(b)
 
 
-def test_paused_time_is_told_and_nothing_fades(bench: Callable[..., Any]) -> None:
-    b = bench(Dot(name="Dot"))
+def test_paused_time_is_told_and_nothing_fades(b: Any) -> None:
     publishes(b, "/clock", "/gazebo")
     b.transform("map", "base", T, static=True)
     b.pose("/pose", "base", T, 1.0)
@@ -77,10 +79,7 @@ def test_paused_time_is_told_and_nothing_fades(bench: Callable[..., Any]) -> Non
     assert "Time" not in statuses(b)
 
 
-def test_a_jump_back_of_the_clock_starts_over_but_keeps_static_transforms(
-    bench: Callable[..., Any],
-) -> None:
-    b = bench(Dot(name="Dot"))
+def test_a_jump_back_of_the_clock_starts_over_but_keeps_static_transforms(b: Any) -> None:
     b.transform("base", "laser", T, 10.0, static=True)
     b.transform("map", "base", T)
     b.pose("/pose", "laser", T, 1.0)
@@ -105,8 +104,7 @@ def elapsed_s(b: Any) -> float:
     return b.states[-1].clock.ros_elapsed_ns / SECOND
 
 
-def test_elapsed_time_restarts_when_time_goes_back(bench: Callable[..., Any]) -> None:
-    b = bench(Dot(name="Dot"))
+def test_elapsed_time_restarts_when_time_goes_back(b: Any) -> None:
     assert elapsed_s(b) == 0.0
     b.source.now -= SECOND // 20
     assert elapsed_s(b) == 0.0, "too little for a reset"
@@ -126,10 +124,7 @@ def test_elapsed_time_restarts_when_time_goes_back(bench: Callable[..., Any]) ->
     assert elapsed_s(b) == 0.0
 
 
-def test_messages_that_do_not_fit_while_paused_are_no_sign_of_haste(
-    bench: Callable[..., Any],
-) -> None:
-    b = bench(Dot(name="Dot"))
+def test_messages_that_do_not_fit_while_paused_are_no_sign_of_haste(b: Any) -> None:
     b.transform("map", "base", T, static=True)
     b.pose("/pose", "base", T, 1.0)
     b.turn()
@@ -146,10 +141,7 @@ def test_messages_that_do_not_fit_while_paused_are_no_sign_of_haste(
     assert "Time" not in statuses(b)
 
 
-def test_the_end_of_a_loop_that_comes_with_the_jump_does_not_spoil_the_next(
-    bench: Callable[..., Any],
-) -> None:
-    b = bench(Dot(name="Dot"))
+def test_the_end_of_a_loop_that_comes_with_the_jump_does_not_spoil_the_next(b: Any) -> None:
     b.transform("map", "base", T)
     b.turn()
     b.transform("map", "base", T + SECOND)
@@ -161,8 +153,7 @@ def test_the_end_of_a_loop_that_comes_with_the_jump_does_not_spoil_the_next(
     assert shown(b) == [2.0]
 
 
-def test_a_clock_that_is_set_right_by_a_little_resets_nothing(bench: Callable[..., Any]) -> None:
-    b = bench(Dot(name="Dot"))
+def test_a_clock_that_is_set_right_by_a_little_resets_nothing(b: Any) -> None:
     b.transform("map", "base", T, static=True)
     b.pose("/pose", "base", T, 1.0)
     b.turn()
@@ -171,10 +162,7 @@ def test_a_clock_that_is_set_right_by_a_little_resets_nothing(bench: Callable[..
     assert shown(b) == [1.0]
 
 
-def test_after_a_reset_what_is_latched_is_asked_for_again_and_welcome(
-    bench: Callable[..., Any],
-) -> None:
-    b = bench(Dot(name="Dot"))
+def test_after_a_reset_what_is_latched_is_asked_for_again_and_welcome(b: Any) -> None:
     policies = ("reliable", "transient_local")
     b.source.known["/pose"] = Offer(
         (Publisher("/map_server", "geometry_msgs/msg/PoseStamped", *policies),), policies
@@ -204,10 +192,7 @@ def loop(b: Any, first: int, last: int, *frames: str) -> None:
         b.turn()
 
 
-def test_a_bag_that_loops_without_a_clock_is_noticed_and_its_new_loop_is_shown(
-    bench: Callable[..., Any],
-) -> None:
-    b = bench(Dot(name="Dot"))
+def test_a_bag_that_loops_without_a_clock_is_noticed_and_its_new_loop_is_shown(b: Any) -> None:
     loop(b, 10, 40, "base")
     assert shown(b)[-1] == 39.5
     loop(b, 10, 13, "base")
@@ -222,18 +207,16 @@ def test_a_bag_that_loops_without_a_clock_is_noticed_and_its_new_loop_is_shown(
 
 
 def test_too_many_frames_are_a_status_while_they_arrive(
-    bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+    b: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz.data.transforms.buffer.MAX_FRAMES", 3)
-    b = bench(Dot(name="Dot"))
     loop(b, 10, 13, "base", "arm", "tool")
     assert statuses(b)["Transforms"][1].startswith('6 transforms, the last of "tool", were ignored')
     loop(b, 13, 60, "base", "arm")
     assert "Transforms" not in statuses(b)
 
 
-def test_many_old_transforms_at_once_are_no_new_loop(bench: Callable[..., Any]) -> None:
-    b = bench(Dot(name="Dot"))
+def test_many_old_transforms_at_once_are_no_new_loop(b: Any) -> None:
     loop(b, 10, 40, "base")
     for half in range(20, 60):
         b.transform("map", "base", half * SECOND // 2)
@@ -241,10 +224,7 @@ def test_many_old_transforms_at_once_are_no_new_loop(bench: Callable[..., Any]) 
     assert b.viewer.buffer.tree.caches["base"].newest_stamp == 39.5 * SECOND
 
 
-def test_one_frame_that_goes_back_while_others_go_on_resets_nothing(
-    bench: Callable[..., Any],
-) -> None:
-    b = bench(Dot(name="Dot"))
+def test_one_frame_that_goes_back_while_others_go_on_resets_nothing(b: Any) -> None:
     loop(b, 10, 40, "base", "arm")
     for half in range(80, 140):
         b.transform("map", "base", half * SECOND // 2)
@@ -261,10 +241,7 @@ def test_one_frame_that_goes_back_while_others_go_on_resets_nothing(
     assert "Transforms" not in statuses(b)
 
 
-def test_a_machine_whose_clock_is_ahead_is_named_with_its_offset(
-    bench: Callable[..., Any],
-) -> None:
-    b = bench(Dot(name="Dot"))
+def test_a_machine_whose_clock_is_ahead_is_named_with_its_offset(b: Any) -> None:
     b.transform("map", "odom", T)
     b.transform("map", "odom", T + 1)
     b.transform("odom", "camera", T + 2 * SECOND)
@@ -280,8 +257,7 @@ def test_a_machine_whose_clock_is_ahead_is_named_with_its_offset(
     assert "Clocks" not in statuses(b)
 
 
-def test_a_second_static_publisher_is_found_by_asking_again(bench: Callable[..., Any]) -> None:
-    b = bench(Dot(name="Dot"))
+def test_a_second_static_publisher_is_found_by_asking_again(b: Any) -> None:
     publishes(b, "/tf_static", "/first", "/second")
     b.turn()
     for _ in range(2):
@@ -305,10 +281,7 @@ def test_a_second_static_publisher_is_found_by_asking_again(bench: Callable[...,
     assert "Transforms" not in statuses(b)
 
 
-def test_a_static_publisher_that_restarts_with_another_pose_is_no_quarrel(
-    bench: Callable[..., Any],
-) -> None:
-    b = bench(Dot(name="Dot"))
+def test_a_static_publisher_that_restarts_with_another_pose_is_no_quarrel(b: Any) -> None:
     for x in (1.0, 2.0):
         b.transform("base", "laser", T, x, static=True)
         b.clock += 5.0
@@ -324,7 +297,7 @@ def test_a_static_publisher_that_restarts_with_another_pose_is_no_quarrel(
 
 
 def test_a_second_display_of_a_topic_asks_for_what_the_first_one_got_latched(
-    bench: Callable[..., Any],
+    bench: Benches,
 ) -> None:
     b = bench(Dot(name="One"))
     first = b.source.wanted["/pose"].asked

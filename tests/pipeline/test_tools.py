@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import pytest
+from bench import Benches
 
 from webviz.api.status import Level, Status
 from webviz.engine.commands import SetToolProperty, UseTool
@@ -17,7 +17,7 @@ QUARTER = math.pi / 2
 
 
 @pytest.fixture
-def b(bench: Callable[..., Any]) -> Any:
+def b(bench: Benches) -> Any:
     b = bench()
     b.source.graph = RememberingGraph()
     b.source.now = 112_000_000_345

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from bench import Benches
 
 from webviz.api.views import Orbit
 from webviz.engine.commands import (
@@ -54,7 +55,7 @@ tools:
 
 
 @pytest.fixture
-def b(bench: Callable[..., Any]) -> Any:
+def b(bench: Benches) -> Any:
     b = bench()
     b.do(Load(CONFIG, "x.yaml"))
     return b

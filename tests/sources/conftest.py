@@ -37,6 +37,12 @@ class Player:
         arrived = self.source.inbox.drain().get(topic, ())
         return [decode(type_name, raw.cdr).data for raw in arrived]
 
+    def words_until(self, to_s: float) -> Sequence[str]:
+        """The strings of /words up to so many seconds from the start."""
+        self.want("/words")
+        self.play(to_s)
+        return self.heard()
+
 
 @pytest.fixture
 def opened() -> Iterator[Callable[..., Player]]:

@@ -40,9 +40,7 @@ def test_what_was_recorded_arrives_up_to_the_time_played(tmp_path, opened, stora
 def test_a_file_of_a_bag_is_a_bag(tmp_path, opened, storage, ending):
     (file,) = files(strings(0, 1).write(tmp_path / "bag", storage), ending)
     bag = opened(file)
-    bag.want("/words")
-    bag.play(1)
-    assert bag.heard() == ["0", "1"]
+    assert bag.words_until(1) == ["0", "1"]
 
 
 def test_a_message_arrives_with_the_time_of_its_recording(tmp_path, opened):
@@ -108,9 +106,7 @@ def test_a_dense_bag_is_played_in_steps_of_a_tenth_of_a_second(tmp_path, opened)
 def test_a_topic_that_is_wanted_late_begins_with_the_newest_message(tmp_path, opened):
     bag = opened(strings(0, 1, 2).write(tmp_path / "bag"))
     bag.play(1)
-    bag.want("/words")
-    bag.play(2)
-    assert bag.heard() == ["1", "2"]
+    assert bag.words_until(2) == ["1", "2"]
 
 
 def test_another_topic_that_is_wanted_meanwhile_loses_nothing_of_the_first(tmp_path, opened):

@@ -152,9 +152,7 @@ def test_a_message_that_unfolds_to_more_than_memory(tmp_path, opened, monkeypatc
                     database.execute("UPDATE messages SET data = ? WHERE id = ?", (new, row))
         database.close()
     bag = opened(folder)
-    bag.want("/words")
-    bag.play(2)
-    heard = bag.heard()
+    heard = bag.words_until(2)
     assert heard == (["0", "2"] if storage is StoragePlugin.SQLITE3 else [])
     (warning,) = bag.source.warnings
     assert re.search(r"skipped \((the first because )?it", warning)
@@ -166,9 +164,7 @@ def test_a_file_that_unfolds_to_more_than_the_limit(tmp_path, opened, monkeypatc
     packed_file = tmp_path / "run.mcap.zst"
     packed_file.write_bytes(zstandard.compress(file.read_bytes() + bytes(4 << 20)))
     bag = opened(packed_file)
-    bag.want("/words")
-    bag.play(1)
-    assert bag.heard() == ["0", "1"]
+    assert bag.words_until(1) == ["0", "1"]
     assert "it expands to more than 1 048 576 bytes" in bag.source.warnings[0]
 
 
@@ -193,9 +189,7 @@ def test_a_database_that_computes_its_messages(tmp_path, opened):
     )
     database.close()
     bag = opened(file)
-    bag.want("/words")
-    bag.play(1)
-    assert bag.heard() == ["0", "1"]
+    assert bag.words_until(1) == ["0", "1"]
     (warning,) = bag.source.warnings
     assert warning == (
         "bag.db3 is damaged: 1 message is skipped (the database is damaged); everything else is "
@@ -219,6 +213,4 @@ def test_messages_that_are_a_view_are_refused(tmp_path, opened):
 def test_compressed_files_and_messages_of_ros_still_open(tmp_path, opened):
     for mode in (CompressionMode.FILE, CompressionMode.MESSAGE):
         bag = opened(strings(0, 1).write(tmp_path / mode.name, StoragePlugin.SQLITE3, mode))
-        bag.want("/words")
-        bag.play(1)
-        assert bag.heard() == ["0", "1"]
+        assert bag.words_until(1) == ["0", "1"]

@@ -47,9 +47,7 @@ def test_a_folder_without_metadata_is_read_as_one_that_is_still_recorded(tmp_pat
     (folder / "metadata.yaml").unlink()
     (file,) = folder.iterdir()
     bag = opened(folder)
-    bag.want("/words")
-    bag.play(1)
-    assert bag.heard() == ["0", "1"]
+    assert bag.words_until(1) == ["0", "1"]
     assert bag.source.warnings == [
         "bag has no metadata.yaml: it is still being recorded, or its recorder was interrupted. "
         f"Reading {file.name}."
@@ -90,9 +88,7 @@ def test_a_folder_whose_only_file_was_renamed_is_read(tmp_path, opened, storage)
     assert bag.source.warnings == [
         f"{file.name}, named by metadata.yaml, is missing. Reading renamed{file.suffix}."
     ]
-    bag.want("/words")
-    bag.play(1)
-    assert bag.heard() == ["0", "1"]
+    assert bag.words_until(1) == ["0", "1"]
 
 
 @pytest.mark.parametrize("storage", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
@@ -105,18 +101,14 @@ def test_a_qos_profile_may_lack_a_policy(tmp_path, opened, storage, lost):
     bag = opened(folder)
     (publisher,) = bag.source.offers()["/words"].publishers
     assert publisher.reliability == "best_effort"
-    bag.want("/words")
-    bag.play(1)
-    assert bag.heard() == ["0", "1"]
+    assert bag.words_until(1) == ["0", "1"]
 
 
 def test_an_unreadable_qos_profile_is_left_out(tmp_path, opened):
     (file,) = files(strings(0, 1).write(tmp_path / "bag"), ".mcap")
     file.write_bytes(file.read_bytes().replace(b"history:", b"[history"))
     bag = opened(file)
-    bag.want("/words")
-    bag.play(1)
-    assert bag.heard() == ["0", "1"]
+    assert bag.words_until(1) == ["0", "1"]
 
 
 @pytest.mark.parametrize("share", [0.0, 0.01, 0.1])
@@ -285,9 +277,7 @@ def test_a_bag_under_any_name_is_read(tmp_path, opened, storage, name):
     folder = strings(0, 1).write(tmp_path / "bag", storage)
     (file,) = [each for each in folder.iterdir() if each.suffix != ".yaml"]
     bag = opened(file.rename(tmp_path / name))
-    bag.want("/words")
-    bag.play(1)
-    assert bag.heard() == ["0", "1"]
+    assert bag.words_until(1) == ["0", "1"]
 
 
 @pytest.mark.parametrize("name", ["run.mcap.zst", "run.mcap.zstd", "run.db3.zstd"])
@@ -298,9 +288,7 @@ def test_a_compressed_file_is_read(tmp_path, opened, name):
     packed = tmp_path / name
     packed.write_bytes(zstandard.compress(file.read_bytes()))
     bag = opened(packed)
-    bag.want("/words")
-    bag.play(1)
-    assert bag.heard() == ["0", "1"]
+    assert bag.words_until(1) == ["0", "1"]
     assert bag.source.warnings == []
 
 
@@ -316,9 +304,7 @@ def test_a_folder_of_several_files_is_read_without_those_that_are_missing_or_bro
     names = f"- {first.name}\n  - bag_1.mcap\n  - bag_2.mcap\n  - bag_3.mcap\n"
     metadata.write_text(metadata.read_text().replace(f"- {first.name}\n", names))
     bag = opened(folder)
-    bag.want("/words")
-    bag.play(3)
-    assert bag.heard() == ["0", "1", "2", "3"]
+    assert bag.words_until(3) == ["0", "1", "2", "3"]
     assert bag.source.warnings == [
         "bag_3.mcap, named by metadata.yaml, is missing. Reading "
         f"{first.name}, bag_1.mcap, bag_2.mcap.",
@@ -425,9 +411,7 @@ def test_a_database_that_is_still_written_shows_what_it_had(tmp_path, opened, jo
         if journal_mode == "wal":
             recorder.commit()
         bag = opened(file)
-        bag.want("/words")
-        bag.play(1)
-        assert bag.heard() == ["0", "1"]
+        assert bag.words_until(1) == ["0", "1"]
         (warning,) = bag.source.warnings
         assert warning.startswith(f"{file.name} has no end: it is still being recorded, or ")
         recorder.rollback()
@@ -438,9 +422,7 @@ def test_a_topic_whose_qos_is_no_text_is_read_all_the_same(tmp_path, opened):
     with contextlib.closing(sqlite3.connect(file)) as db, db:
         db.execute("UPDATE topics SET offered_qos_profiles = CAST(x'2d0a20ff0a' AS TEXT)")
     bag = opened(file)
-    bag.want("/words")
-    bag.play(1)
-    assert bag.heard() == ["0", "1"]
+    assert bag.words_until(1) == ["0", "1"]
 
 
 def test_what_a_database_cites_of_itself_stays_short_and_on_one_line(tmp_path):

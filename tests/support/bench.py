@@ -124,6 +124,10 @@ class Bench:
         return {key: (status.level.name, status.text) for key, status in row.statuses.items()}
 
 
-def benches() -> AbstractContextManager[Callable[..., Bench]]:
+Benches = Callable[..., Any]
+"""The fixture `bench`, which makes a `Bench`; `Any`, for tests know the kinds of what is drawn."""
+
+
+def benches() -> AbstractContextManager[Benches]:
     """Make benches, and end them all."""
     return several(Bench, lambda bench: bench.viewer.close())

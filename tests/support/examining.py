@@ -53,6 +53,17 @@ def display(viewer: Harness | LiveViewer, name: str) -> str:
     return next(row.id for row in viewer.viewer.snapshot().rows if row.name == name)
 
 
+def three_ranges(frame: str, stamp_ns: int) -> dict[str, Any]:
+    """A scan."""
+    return {
+        "header": header(frame, stamp_ns),
+        "angle_max": 1.0,
+        "angle_increment": 0.5,
+        "range_max": 10.0,
+        "ranges": [1.0, 2.0, 1.5],
+    }
+
+
 def look(stage: Harness, pose: Pose2D, scan: Any = None, roll: float = 0.0) -> None:
     """Publish where the laser is said to be, the map, and what it sees from `HERE`."""
     w, x, y, z = from_rpy(roll, 0.0, pose.yaw)

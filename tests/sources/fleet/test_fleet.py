@@ -19,6 +19,7 @@ from webviz.api.declared import Topic
 from webviz.api.robots import NamespacedRobot
 from webviz.data.messages import decode, encode, interfaces
 from webviz.engine.parts.bridges import status_of
+from webviz.shell.testing.messages import header
 from webviz.sources import Advertisement, NotConnected, Subscription
 from webviz.sources.bridge.address import HEADERS, address, headers_of
 from webviz.sources.fleet.source import FleetSource
@@ -116,9 +117,8 @@ def test_what_is_sent_goes_to_the_right_robot_with_stamps_by_its_clock(
     fleet.want(r2__scan=SCAN)
     fleet.until(lambda: fleet.source.bridges[1].clock_s)
     assert fleet.source.graph.advertise([GOAL]).result(20) is None
-    sec, nanosec = divmod(time.time_ns(), 10**9)
-    header = {"stamp": {"sec": sec, "nanosec": nanosec}, "frame_id": "map"}
-    sent = fleet.source.graph.publish(GOAL, encode(GOAL.type, {"header": header}))
+    stamped = {"header": header("map", time.time_ns())}
+    sent = fleet.source.graph.publish(GOAL, encode(GOAL.type, stamped))
     assert sent.result(20) >= 0
     assert servers[1].said("advertised") == "/goal_pose"
     goal = decode(GOAL.type, base64.b64decode(servers[1].said("message")))
