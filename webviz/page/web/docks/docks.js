@@ -313,7 +313,7 @@ function between(place, panel, next) {
   if (known) return known;
   const made = splitter({
     label: "Size of the panels",
-    along: place === "beside" ? "y" : "x",
+    along: () => (place === "beside" ? "y" : "x"),
     size: () => length(panel),
     move(pixels, before) {
       const both = length(panel) + length(next);
@@ -336,7 +336,7 @@ function between(place, panel, next) {
 function border(along, key, label) {
   return splitter({
     label,
-    along,
+    along: () => along,
     size: () => (key === "width" ? beside.offsetWidth : below.offsetHeight),
     move(pixels, before) {
       layout = sized(layout, key, before - pixels);

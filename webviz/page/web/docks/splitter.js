@@ -2,27 +2,25 @@
 
 import { el } from "../dom.js";
 
-const STEP = 16;
-
 /**
  * `move(pixels, before)` is called with the distance from where the drag began and the `size()` then,
- * `end()` after it.
+ * `end()` after it; an arrow key moves it by `step` pixels.
  *
  * @param {{
- *   label: string, along: "x" | "y", size(): number, move(pixels: number, before: number): void,
- *   end(): void,
+ *   label: string, along(): "x" | "y", size(): number, move(pixels: number, before: number): void,
+ *   end(): void, step?: number, class?: string, ondblclick?: () => void, "data-tip"?: string,
  * }} options
  * @returns {HTMLElement}
  */
-export function splitter({ label, along, size, move, end }) {
-  const isAcross = along === "x";
+export function splitter({ label, along, size, move, end, step = 16, ...attributes }) {
+  const isAcross = () => along() === "x";
   let [start, before] = [0, 0];
   /** @param {PointerEvent} event */
-  const at = (event) => (isAcross ? event.clientX : event.clientY);
+  const at = (event) => (isAcross() ? event.clientX : event.clientY);
   /** @param {KeyboardEvent} event */
-  const step = (event) => {
-    const keys = isAcross ? ["ArrowLeft", "ArrowRight"] : ["ArrowUp", "ArrowDown"];
-    const change = { [keys[0]]: -STEP, [keys[1]]: STEP }[event.key];
+  const press = (event) => {
+    const keys = isAcross() ? ["ArrowLeft", "ArrowRight"] : ["ArrowUp", "ArrowDown"];
+    const change = { [keys[0]]: -step, [keys[1]]: step }[event.key];
     if (!change) return;
     event.preventDefault();
     event.stopPropagation(); // viser's camera turns by them
@@ -31,12 +29,12 @@ export function splitter({ label, along, size, move, end }) {
   };
   /** @type {HTMLElement} */
   const bar = el("div", {
-    class: `wv-splitter wv-splitter-${along}`,
+    class: `wv-splitter wv-splitter-${along()}`,
     role: "separator",
     tabindex: 0,
-    "aria-orientation": isAcross ? "vertical" : "horizontal",
+    "aria-orientation": isAcross() ? "vertical" : "horizontal",
     "aria-label": label,
-    onkeydown: step,
+    onkeydown: press,
     onpointerdown: (event) => {
       bar.setPointerCapture(event.pointerId);
       [start, before] = [at(event), size()];
@@ -44,6 +42,7 @@ export function splitter({ label, along, size, move, end }) {
     onpointermove: (event) =>
       bar.hasPointerCapture(event.pointerId) && move(at(event) - start, before),
     onpointerup: end,
+    ...attributes,
   });
   return bar;
 }

@@ -1,5 +1,6 @@
 // The dock beside the scene, below it where there is little room: a pane for each display with a picture.
 
+import { splitter } from "../docks/splitter.js";
 import { el, setChildren } from "../dom.js";
 import { recall, remember } from "../remember.js";
 import { watch } from "../stores.js";
@@ -11,7 +12,6 @@ const MIN_SIZE = 120;
 // Of what the panels leave: by itself, and by hand.
 const FAIR_SHARE = 0.5;
 const MAX_SHARE = 0.75;
-const STEP = 16;
 const FOLDED = 34;
 const LEAST_ROOM = 400; // for scene and images beside each other
 
@@ -22,16 +22,27 @@ export function install(page) {
   /** @type {Map<string, ReturnType<typeof makePane>>} */
   const panes = new Map();
   const list = el("div", { class: "wv-panes" });
-  /** @type {HTMLElement} */
-  const border = el("div", {
+  const side = /** @type {HTMLElement} */ (page.querySelector(".wv-side"));
+  const beside = /** @type {HTMLElement} */ (page.querySelector(".wv-beside"));
+  let size = recall("dock", /** @type {number | null} */ (null));
+
+  // What the panels leave; on a phone they lie over it.
+  const width = () => innerWidth - side.offsetWidth - beside.offsetWidth;
+  const isBelow = () => narrow.matches || width() < LEAST_ROOM;
+  const room = () => (isBelow() ? innerHeight : width());
+  const wanted = () =>
+    Math.max(
+      MIN_SIZE,
+      Math.min(size ?? STANDARD, (size === null ? FAIR_SHARE : MAX_SHARE) * room()),
+    );
+
+  const border = splitter({
+    label: "Size of the images",
+    along: () => (isBelow() ? "y" : "x"),
+    size: wanted,
+    move: (pixels, before) => resize(before - pixels),
+    end: keep,
     class: "wv-dock-border",
-    role: "separator",
-    tabindex: 0,
-    "aria-label": "Size of the images",
-    onpointerdown: (event) => border.setPointerCapture(event.pointerId),
-    onpointermove: drag,
-    onpointerup: keep,
-    onkeydown: step,
     ondblclick: () => {
       resize(null);
       keep();
@@ -44,8 +55,6 @@ export function install(page) {
     border,
   );
   page.append(dock);
-  const side = /** @type {HTMLElement} */ (page.querySelector(".wv-side"));
-  let size = recall("dock", /** @type {number | null} */ (null));
 
   watch("panes", (rows) => {
     for (const [id, pane] of panes) {
@@ -70,18 +79,7 @@ export function install(page) {
   narrow.addEventListener("change", layOut);
   window.addEventListener("resize", layOut);
   new ResizeObserver(frames.refresh).observe(list);
-  const beside = /** @type {HTMLElement} */ (page.querySelector(".wv-beside"));
   for (const each of [side, beside]) new ResizeObserver(layOut).observe(each);
-
-  // What the panels leave; on a phone they lie over it.
-  const width = () => innerWidth - side.offsetWidth - beside.offsetWidth;
-  const isBelow = () => narrow.matches || width() < LEAST_ROOM;
-  const room = () => (isBelow() ? innerHeight : width());
-  const wanted = () =>
-    Math.max(
-      MIN_SIZE,
-      Math.min(size ?? STANDARD, (size === null ? FAIR_SHARE : MAX_SHARE) * room()),
-    );
 
   function layOut() {
     const open = [...panes.values()].some((pane) => !pane.isFolded());
@@ -96,24 +94,6 @@ export function install(page) {
     style.setProperty("--wv-dock-height", `${isShown && below ? low : 0}px`);
     border.setAttribute("aria-orientation", below ? "horizontal" : "vertical");
     frames.refresh();
-  }
-
-  /** @param {PointerEvent} event */
-  function drag(event) {
-    if (!border.hasPointerCapture(event.pointerId)) return;
-    const box = dock.getBoundingClientRect();
-    resize(isBelow() ? box.bottom - event.clientY : box.right - event.clientX);
-  }
-
-  /** @param {KeyboardEvent} event */
-  function step(event) {
-    const keys = isBelow() ? ["ArrowUp", "ArrowDown"] : ["ArrowLeft", "ArrowRight"];
-    const change = { [keys[0]]: STEP, [keys[1]]: -STEP }[event.key];
-    if (!change) return;
-    event.preventDefault();
-    event.stopPropagation(); // viser's camera turns by them
-    resize(wanted() + change);
-    keep();
   }
 
   /** @param {number | null} pixels */

@@ -159,11 +159,14 @@ export async function ask(text, { confirm = "OK", title = "Are you sure?", dange
  * Asks for a name; resolves with it, null if there is none to be.
  *
  * @param {string} noun what has the name, such as "layout"
- * @param {{title: string, confirm: string, taken: string[], value?: string}} options `value` is there
- *   at first, by default one that is not `taken`
+ * @param {{
+ *   title: string, confirm: string, taken: string[], value?: string,
+ *   accept?: (name: string) => unknown,
+ * }} options `value` is there at first, by default one that is not `taken`; the name is taken only
+ *   once `accept` says true
  * @returns {Promise<string | null>}
  */
-export async function askName(noun, { title, confirm, taken, value }) {
+export async function askName(noun, { title, confirm, taken, value, accept }) {
   const stem = noun[0].toUpperCase() + noun.slice(1);
   let number = 1;
   while (taken.includes(`${stem} ${number}`)) number += 1;
@@ -177,7 +180,12 @@ export async function askName(noun, { title, confirm, taken, value }) {
   });
   const buttons = [
     { label: "Cancel", value: false },
-    { label: confirm, value: true, primary: true },
+    {
+      label: confirm,
+      value: true,
+      primary: true,
+      accept: accept && (() => accept(field.value.trim())),
+    },
   ];
   return (await openDialog({ title, content: field, buttons })) ? field.value.trim() : null;
 }

@@ -1,13 +1,13 @@
 // Layout of the side: its width, and whether it is folded away.
 
 import { reveal } from "../docks/docks.js";
+import { splitter } from "../docks/splitter.js";
 import { el } from "../dom.js";
 import { recall, remember } from "../remember.js";
 import * as viser from "../viser_page.js";
 
 const MIN_WIDTH = 240;
 const MAX_SHARE = 0.7;
-const STEP = 16;
 const FIT_MS = 1000;
 
 const narrow = matchMedia("(max-width: 640px)");
@@ -74,31 +74,13 @@ function setWidth(pixels) {
  *
  * @param {HTMLElement} side
  */
-export function border(side) {
-  /** @param {PointerEvent} event */
-  const drag = (event) => {
-    if (bar.hasPointerCapture(event.pointerId)) setWidth(event.clientX);
-  };
-  /** @param {KeyboardEvent} event */
-  const step = (event) => {
-    const change = { ArrowLeft: -STEP, ArrowRight: STEP }[event.key];
-    if (!change) return;
-    event.preventDefault();
-    event.stopPropagation(); // viser's camera turns by them
-    remember("width", setWidth(side.offsetWidth + change));
-  };
-  /** @type {HTMLElement} */
-  const bar = el("div", {
+export const border = (side) =>
+  splitter({
+    label: "Width of the panels",
+    along: () => "x",
+    size: () => side.offsetWidth,
+    move: (pixels, before) => setWidth(before + pixels),
+    end: () => remember("width", side.offsetWidth),
     class: "wv-border",
-    role: "separator",
-    tabindex: 0,
-    "aria-orientation": "vertical",
-    "aria-label": "Width of the panels",
-    onkeydown: step,
-    onpointermove: drag,
-    onpointerdown: (event) => bar.setPointerCapture(event.pointerId),
-    onpointerup: () => remember("width", side.offsetWidth),
     ondblclick: () => remember("width", setWidth(320)),
   });
-  return bar;
-}

@@ -1,8 +1,7 @@
 // Menus of views: their types, and those that were saved.
 
 import { act } from "../act.js";
-import { el } from "../dom.js";
-import { ask, openDialog } from "./dialog.js";
+import { ask, askName } from "./dialog.js";
 
 /** @import {MenuItem} from "./menu.js" */
 
@@ -55,27 +54,13 @@ export const savedMenu = (saved) => [
  * @param {() => string[]} saved names that there are
  */
 export async function saveView(saved) {
-  const numbers = Array.from({ length: saved().length + 1 }, (_, index) => `View ${index + 1}`);
-  const input = el("input", {
-    class: "wv-field",
-    type: "text",
-    "aria-label": "Name",
-    autofocus: true,
-  });
-  input.value = numbers.find((name) => !saved().includes(name)) ?? "";
-  input.select();
-  const accept = async () => {
-    const name = input.value.trim();
-    return (
+  const name = await askName("view", {
+    title: "Save this view",
+    confirm: "Save",
+    taken: saved(),
+    accept: (name) =>
       name !== "" &&
-      (!saved().includes(name) || ask(`Replace the view ${name}?`, { confirm: "Replace" }))
-    );
-  };
-  const buttons = [
-    { label: "Cancel", value: null },
-    { label: "Save", value: true, primary: true, accept },
-  ];
-  if (await openDialog({ title: "Save this view", content: input, buttons })) {
-    act("SaveView", { name: input.value.trim() });
-  }
+      (!saved().includes(name) || ask(`Replace the view ${name}?`, { confirm: "Replace" })),
+  });
+  if (name !== null) act("SaveView", { name });
 }

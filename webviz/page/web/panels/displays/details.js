@@ -1,5 +1,6 @@
 // Below the tree: statuses and properties of the display that is selected, with a border to drag.
 
+import { splitter } from "../../docks/splitter.js";
 import { el, set, setText } from "../../dom.js";
 import { iconButton } from "../../icons.js";
 import { sanitized } from "../../sanitize.js";
@@ -12,16 +13,11 @@ import { severalProperties } from "./several.js";
 /** @import {Item} from "./types.js" */
 
 const LEAST = 90; // pixels of the tree and of the properties
-const STEP = 24;
 const HEIGHT_KEY = "displays.height";
 const OPEN_KEY = "displays.details";
 
-/**
- * Builds the border and what is below it; `panel` is what both share with the tree.
- *
- * @param {HTMLElement} panel
- */
-export function buildDetails(panel) {
+/** Builds the border and what is below it. */
+export function buildDetails() {
   /** @type {Item[]} */
   let shown = [];
   /** @type {(() => void) | null} */
@@ -35,28 +31,16 @@ export function buildDetails(panel) {
   const close = iconButton("close", "Close properties", () => setOpen(false));
   const head = el("div", { class: "wv-details-head" }, title, ...tools, close);
   const body = el("div", { class: "wv-details-body" });
-  /** @type {HTMLElement} */
-  const border = el("div", {
+  const border = splitter({
+    label: "Height of the properties",
+    along: () => "y",
+    size: () => element.offsetHeight,
+    move: (pixels, before) => setHeight(before - pixels),
+    end: () => remember(HEIGHT_KEY, element.offsetHeight),
+    step: 24,
     class: "wv-details-border",
-    role: "separator",
-    tabindex: 0,
-    "aria-orientation": "horizontal",
-    "aria-label": "Height of the properties",
     "data-tip": "Drag, or double click to close",
     ondblclick: () => setOpen(false),
-    onpointerdown: (event) => border.setPointerCapture(event.pointerId),
-    onpointermove: (event) => {
-      const { bottom } = panel.getBoundingClientRect();
-      if (border.hasPointerCapture(event.pointerId)) setHeight(bottom - event.clientY);
-    },
-    onpointerup: () => remember(HEIGHT_KEY, element.offsetHeight),
-    onkeydown: (event) => {
-      const change = event.key === "ArrowUp" ? STEP : event.key === "ArrowDown" ? -STEP : 0;
-      if (!change) return;
-      event.preventDefault();
-      setHeight(element.offsetHeight + change);
-      remember(HEIGHT_KEY, element.offsetHeight);
-    },
   });
   /** @type {HTMLElement} */
   const element = el(

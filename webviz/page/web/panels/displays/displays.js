@@ -43,7 +43,7 @@ export const displays = {
       el("kbd", { "aria-hidden": "true" }, keyText("Insert")),
     );
     needs("AddDisplay", add);
-    const details = buildDetails(panel);
+    const details = buildDetails();
     const tree = buildTree({
       after: add,
       changed({ items, search }) {
