@@ -78,6 +78,12 @@ def corner_of_cell(pose, x, y):
     )
 
 
+@pytest.fixture
+def at(bench):
+    """The bench of a map."""
+    return bench(Map())
+
+
 def test_a_map_is_drawn_cell_by_cell_in_the_colours_of_its_scheme(bench) -> None:
     at = bench(Map(alpha=1.0))
     cells = [[0, 100, -1], [50, 99, 1]]
@@ -114,14 +120,12 @@ def test_a_map_of_whatever_shape_is_a_bounded_number_of_pictures(bench, shape) -
     assert sum(node is nodes[key] for key, node in at.nodes().items()) == len(nodes) - 1
 
 
-def test_a_map_longer_than_any_picture_is_refused(bench) -> None:
-    at = bench(Map())
+def test_a_map_longer_than_any_picture_is_refused(at) -> None:
     send_map(at, np.zeros((1, MAX_CELLS + 1)))
     assert "at most 1048576 along an edge" in at.statuses()["Map"][1]
 
 
-def test_tiles_lie_along_the_axes_of_an_origin_with_yaw(bench) -> None:
-    at = bench(Map())
+def test_tiles_lie_along_the_axes_of_an_origin_with_yaw(at) -> None:
     half = math.radians(90) / 2
     yaw = (0.0, 0.0, math.sin(half), math.cos(half))
     send_map(at, np.zeros((TILE + 44, TILE + 44)), resolution=0.1, origin=(5.0, 7.0, 1.0), xyzw=yaw)
@@ -186,8 +190,7 @@ def test_use_timestamp_without_a_transform_then_or_a_stamp_follows_the_frame(ben
     assert at.statuses()["Transform"][0] == "OK"
 
 
-def test_a_map_in_a_new_fixed_frame_needs_no_new_message(bench) -> None:
-    at = bench(Map())
+def test_a_map_in_a_new_fixed_frame_needs_no_new_message(at) -> None:
     at.transform("odom", "map", (4.0, 0.0, 0.0))
     send_map(at, [[0]])
     at.fixed_frame = "odom"
@@ -209,8 +212,7 @@ def test_an_update_changes_its_cells_and_makes_only_its_tiles_anew(bench) -> Non
     assert at.statuses()["Update"] == ("OK", "1 update since the last whole map.")
 
 
-def test_a_map_that_comes_again_with_one_other_cell_makes_one_tile_anew(bench) -> None:
-    at = bench(Map())
+def test_a_map_that_comes_again_with_one_other_cell_makes_one_tile_anew(at) -> None:
     cells = np.zeros((TILE + 44, TILE + 44), np.int8)
     send_map(at, cells)
     before = at.nodes()
@@ -220,16 +222,14 @@ def test_a_map_that_comes_again_with_one_other_cell_makes_one_tile_anew(bench) -
     assert {key for key in after if after[key] is not before[key]} == {f"tile {TILE} {TILE}"}
 
 
-def test_a_smaller_map_leaves_no_tile_of_the_larger_one(bench) -> None:
-    at = bench(Map())
+def test_a_smaller_map_leaves_no_tile_of_the_larger_one(at) -> None:
     send_map(at, np.zeros((TILE + 1, TILE + 1)))
     send_map(at, np.zeros((2, 2)))
     assert list(at.nodes()) == ["tile 0 0"]
 
 
 @pytest.mark.parametrize(("x", "y"), [(-1, 0), (0, -1), (3, 0), (0, 2)])
-def test_an_update_outside_of_the_map_is_refused_and_said(bench, x, y) -> None:
-    at = bench(Map())
+def test_an_update_outside_of_the_map_is_refused_and_said(at, x, y) -> None:
     send_map(at, np.zeros((3, 4)))
     before = at.nodes()["tile 0 0"]
     send_update(at, x, y, [[100, 100], [100, 100]])
@@ -239,8 +239,7 @@ def test_an_update_outside_of_the_map_is_refused_and_said(bench, x, y) -> None:
     assert f"2 x 2 cells at ({x}, {y}) reaches outside of the map of 4 x 3" in text
 
 
-def test_an_update_with_too_little_data_is_refused_and_said(bench) -> None:
-    at = bench(Map())
+def test_an_update_with_too_little_data_is_refused_and_said(at) -> None:
     send_map(at, np.zeros((3, 4)))
     values = update_values(0, 0, [[100, 100]]) | {"height": 2}
     at.send(UPDATE, values, frame="map", topic="/map_updates")
@@ -251,8 +250,7 @@ def test_an_update_with_too_little_data_is_refused_and_said(bench) -> None:
     )
 
 
-def test_an_update_in_another_frame_is_refused_and_said(bench) -> None:
-    at = bench(Map())
+def test_an_update_in_another_frame_is_refused_and_said(at) -> None:
     at.transform("map", "odom")
     send_map(at, [[0]])
     at.send(UPDATE, update_values(0, 0, [[100]]), frame="odom", topic="/map_updates")
@@ -268,22 +266,19 @@ def test_updates_come_from_the_topic_beside_the_map(bench) -> None:
     }
 
 
-def test_a_map_that_nobody_updates_is_ok(bench) -> None:
-    at = bench(Map())
+def test_a_map_that_nobody_updates_is_ok(at) -> None:
     send_map(at, [[0]])
     assert {level for level, _ in at.statuses().values()} == {"OK"}
 
 
-def test_an_empty_update_changes_nothing(bench) -> None:
-    at = bench(Map())
+def test_an_empty_update_changes_nothing(at) -> None:
     send_map(at, [[0]])
     before = at.nodes()["tile 0 0"]
     send_update(at, 0, 0, np.zeros((0, 0)))
     assert at.nodes()["tile 0 0"] is before
 
 
-def test_updates_before_the_map_are_ignored(bench) -> None:
-    at = bench(Map())
+def test_updates_before_the_map_are_ignored(at) -> None:
     send_update(at, 0, 0, [[100]])
     assert at.nodes() == {}
     assert at.statuses()["Map"] == (
@@ -310,8 +305,7 @@ def test_updates_before_the_map_are_ignored(bench) -> None:
         ({"info": {"origin": {"orientation": {"w": math.inf}}}}, "origin is not finite"),
     ],
 )
-def test_a_map_that_cannot_be_drawn_says_why(bench, change, said) -> None:
-    at = bench(Map())
+def test_a_map_that_cannot_be_drawn_says_why(at, change, said) -> None:
     values = grid_values(np.zeros((2, 3)))
     values["info"] = values["info"] | change["info"]
     at.send(GRID, values, frame="map", topic="/map")
@@ -344,14 +338,12 @@ def test_after_a_map_that_cannot_be_drawn_the_one_before_stays_as_it_was(bench) 
 
 
 @pytest.mark.parametrize("xyzw", [(0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 3.0)])
-def test_an_orientation_of_another_length_is_put_right(bench, xyzw) -> None:
-    at = bench(Map())
+def test_an_orientation_of_another_length_is_put_right(at, xyzw) -> None:
     send_map(at, [[0]], xyzw=xyzw)
     assert at.poses()["tile 0 0"].wxyz == pytest.approx((1.0, 0.0, 0.0, 0.0))
 
 
-def test_changes_of_the_look_show_without_a_new_message(bench) -> None:
-    at = bench(Map())
+def test_changes_of_the_look_show_without_a_new_message(at) -> None:
     send_map(at, [[0, 100]])
     at.set("alpha", 1.0)
     assert whole_picture(at).tolist() == [[[255, 255, 255, 255], [0, 0, 0, 255]]]
@@ -388,7 +380,7 @@ class TestMap(BuiltInChecks):
     )
 
 
-def test_selecting_cell_of_a_map(bench: Benches) -> None:
+def test_selecting_cell_of_a_map(at: Benches) -> None:
     """In the second tile of a turned map."""
     cells = np.zeros((3, 600), np.int8)
     cells[1, 520] = 100
@@ -398,7 +390,6 @@ def test_selecting_cell_of_a_map(bench: Benches) -> None:
         "height": 3,
         "origin": {"position": {"x": 10.0}, "orientation": {"z": QUARTER[2], "w": QUARTER[3]}},
     }
-    at = bench(Map())
     at.send("nav_msgs/msg/OccupancyGrid", {"info": info, "data": cells.ravel()}, frame="map")
     at.turn()
     check_details(

@@ -35,8 +35,13 @@ def age_one_frame(at, seconds: float) -> None:
     at.turn(seconds)
 
 
-def test_every_frame_has_axes_where_it_is(bench) -> None:
-    at = bench(TF())
+@pytest.fixture
+def at(bench):
+    """The bench of the TF display."""
+    return bench(TF())
+
+
+def test_every_frame_has_axes_where_it_is(at) -> None:
     at.transform("map", "odom", (1.0, 0.0, 0.0))
     at.transform("odom", "robot", (0.0, 2.0, 0.0), (0.0, 0.0, 1.0, 0.0))
     at.turn()
@@ -49,8 +54,7 @@ def test_every_frame_has_axes_where_it_is(bench) -> None:
     assert at.statuses()["Frames"] == ("OK", "3 frames shown.")
 
 
-def test_arrows_point_from_child_to_parent_in_the_colours_of_rviz(bench) -> None:
-    at = bench(TF())
+def test_arrows_point_from_child_to_parent_in_the_colours_of_rviz(at) -> None:
     at.transform("map", "odom", (1.0, 0.0, 0.0))
     at.turn()
     shafts, heads = at.nodes()["shafts"], at.nodes()["heads"]
@@ -67,15 +71,13 @@ def test_arrows_point_from_child_to_parent_in_the_colours_of_rviz(bench) -> None
 
 
 @pytest.mark.parametrize(("distance", "has_arrow"), [(0.0, False), (0.001, False), (0.0011, True)])
-def test_a_frame_within_a_millimetre_of_its_parent_has_no_arrow(bench, distance, has_arrow) -> None:
-    at = bench(TF())
+def test_a_frame_within_a_millimetre_of_its_parent_has_no_arrow(at, distance, has_arrow) -> None:
     at.transform("map", "odom", (distance, 0.0, 0.0))
     at.turn()
     assert ("shafts" in at.nodes()) == has_arrow
 
 
-def test_an_arrow_shorter_than_a_head_has_a_flat_head_and_stays_between_its_frames(bench) -> None:
-    at = bench(TF())
+def test_an_arrow_shorter_than_a_head_has_a_flat_head_and_stays_between_its_frames(at) -> None:
     for name, distance in (("near", 0.05), ("nearer", 0.01), ("far", 0.5)):
         at.transform("map", name, (0.0, 0.0, distance))
     at.turn()
@@ -99,8 +101,7 @@ def test_names_are_drawn_only_when_wanted_and_below_their_frames(bench) -> None:
     assert labels.height == pytest.approx(0.2)
 
 
-def test_each_kind_of_mark_has_its_switch(bench) -> None:
-    at = bench(TF())
+def test_each_kind_of_mark_has_its_switch(at) -> None:
     at.transform("map", "odom", (1.0, 0.0, 0.0))
     at.turn()
     at.set("show_axes", False)
@@ -161,8 +162,7 @@ def test_a_frame_beyond_the_timeout_is_hidden_counted_and_comes_back(bench) -> N
     assert at.statuses()["Frames"] == ("OK", "2 frames shown.")
 
 
-def test_while_ros_time_stands_still_nothing_ages(bench) -> None:
-    at = bench(TF())
+def test_while_ros_time_stands_still_nothing_ages(at) -> None:
     age_one_frame(at, 0.0)
     for _ in range(3):
         at.turn(0.0)
@@ -207,8 +207,7 @@ def test_a_frame_that_appears_later_goes_through_the_filters_too(bench) -> None:
     assert set(at.nodes()["names"].texts) == {"map", "odom", "wheel"}
 
 
-def test_an_arrow_leads_to_the_new_parent_when_a_frame_changes_it(bench) -> None:
-    at = bench(TF())
+def test_an_arrow_leads_to_the_new_parent_when_a_frame_changes_it(at) -> None:
     at.transform("map", "shelf", (0.0, 5.0, 0.0))
     at.transform("map", "box", (3.0, 0.0, 0.0), stamp_ns=at.now_ns)
     at.turn()

@@ -9,6 +9,12 @@ from webviz.shell.testing import SECOND
 from webviz_displays.tf import TF
 
 
+@pytest.fixture
+def at(bench):
+    """The bench of the TF display."""
+    return bench(TF())
+
+
 def test_a_bad_regular_expression_is_said_and_ignored(bench) -> None:
     at = bench(TF(filter_whitelist="(", filter_blacklist="map"))
     at.transform("map", "odom", (1.0, 0.0, 0.0))
@@ -37,8 +43,7 @@ def test_an_expression_beyond_linear_time_is_said_and_ignored(bench) -> None:
     assert at.nodes()
 
 
-def test_a_long_name_takes_no_memory_for_each_frame(bench) -> None:
-    at = bench(TF())
+def test_a_long_name_takes_no_memory_for_each_frame(at) -> None:
     for number in range(2000):
         at.transform("map", f"f{number}")
     at.transform("map", 50_000 * "n")
@@ -50,8 +55,7 @@ def test_a_long_name_takes_no_memory_for_each_frame(bench) -> None:
     assert peak < 50e6
 
 
-def test_without_any_transform_the_topic_to_look_at_is_named(bench) -> None:
-    at = bench(TF())
+def test_without_any_transform_the_topic_to_look_at_is_named(at) -> None:
     at.turn()
     level, text = at.statuses()["Frames"]
     assert level == "WARN"
@@ -70,8 +74,7 @@ def test_with_everything_switched_off_it_is_not_ok(bench) -> None:
     at.press("Frames")
 
 
-def test_frames_of_another_tree_are_named_and_not_drawn(bench) -> None:
-    at = bench(TF())
+def test_frames_of_another_tree_are_named_and_not_drawn(at) -> None:
     at.transform("map", "odom", (1.0, 0.0, 0.0))
     at.transform("camera", "lens", (1.0, 0.0, 0.0))
     at.turn()
@@ -83,8 +86,7 @@ def test_frames_of_another_tree_are_named_and_not_drawn(bench) -> None:
     assert at.fixed_frame_remedy("camera") == OtherFixedFrame("camera")
 
 
-def test_lost_frames_are_counted_and_a_few_reasons_told_once_each(bench) -> None:
-    at = bench(TF())
+def test_lost_frames_are_counted_and_a_few_reasons_told_once_each(at) -> None:
     at.transform("map", "odom")
     for number in range(20):
         at.transform(f"elsewhere_{number // 2}", f"lost_{number}")
@@ -94,8 +96,7 @@ def test_lost_frames_are_counted_and_a_few_reasons_told_once_each(bench) -> None
     assert "30 have no transform" in statuses["Frames"][1]
 
 
-def test_a_fixed_frame_that_does_not_exist_is_told_once(bench) -> None:
-    at = bench(TF())
+def test_a_fixed_frame_that_does_not_exist_is_told_once(at) -> None:
     for number in range(20):
         at.transform("odom", f"frame_{number}")
     at.turn()
@@ -106,8 +107,7 @@ def test_a_fixed_frame_that_does_not_exist_is_told_once(bench) -> None:
     ]
 
 
-def test_the_tree_of_frames_is_told(bench) -> None:
-    at = bench(TF())
+def test_the_tree_of_frames_is_told(at) -> None:
     for parent, child in (("map", "odom"), ("odom", "base"), ("base", "wheel"), ("base", "laser")):
         at.transform(parent, child)
     at.transform("lab", "shelf")
@@ -118,8 +118,7 @@ def test_the_tree_of_frames_is_told(bench) -> None:
     assert at.statuses()["Tree"] == ("OK", "lab, map (odom (base (laser, wheel), shelf)).")
 
 
-def test_of_a_large_tree_only_a_part_is_told(bench) -> None:
-    at = bench(TF())
+def test_of_a_large_tree_only_a_part_is_told(at) -> None:
     for number in range(500):
         at.transform(f"f{number}", f"f{number + 1}")
     at.turn()
@@ -148,8 +147,7 @@ def test_a_frame_that_is_switched_on_says_where_it_is(bench) -> None:
     assert "map" not in statuses  # has no parent
 
 
-def test_a_frame_that_is_lost_within_the_same_second_is_named(bench) -> None:
-    at = bench(TF())
+def test_a_frame_that_is_lost_within_the_same_second_is_named(at) -> None:
     at.transform("map", "odom")
     at.transform("camera", "lens")
     at.turn()
@@ -159,8 +157,7 @@ def test_a_frame_that_is_lost_within_the_same_second_is_named(bench) -> None:
     assert "arm" in at.statuses()
 
 
-def test_the_reason_why_a_frame_is_lost_is_that_of_now(bench) -> None:
-    at = bench(TF())
+def test_the_reason_why_a_frame_is_lost_is_that_of_now(at) -> None:
     start_ns = at.now_ns
     for seconds in (0, 1):
         at.transform("map", "odom", stamp_ns=start_ns + seconds * SECOND)

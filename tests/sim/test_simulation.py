@@ -33,8 +33,13 @@ def run(simulation, seconds, step=STEP):
         simulation.step(step)
 
 
-def test_a_command_moves_the_robot_by_its_velocity_times_its_duration(simulate):
-    simulation = simulate()
+@pytest.fixture
+def simulation(simulate):
+    """A robot that stands still."""
+    return simulate()
+
+
+def test_a_command_moves_the_robot_by_its_velocity_times_its_duration(simulation):
     for _ in range(20):
         simulation.command(0.3, 0.2)
         run(simulation, 0.1)
@@ -49,15 +54,13 @@ def test_a_command_holds_for_its_timeout_only(simulate):
     assert simulation.robot.linear == 0.0
 
 
-def test_commands_beyond_what_the_robot_can_do_are_limited(simulate):
-    simulation = simulate()
+def test_commands_beyond_what_the_robot_can_do_are_limited(simulation):
     simulation.command(100.0, 0.0)
     run(simulation, 0.4)
     assert simulation.robot.pose.x == pytest.approx(0.4 * MAX_LINEAR)
 
 
-def test_without_a_tour_the_robot_stays_where_it_is(simulate):
-    simulation = simulate()
+def test_without_a_tour_the_robot_stays_where_it_is(simulation):
     run(simulation, 10.0)
     assert simulation.robot.pose == Pose2D()
     assert len(simulation.path) == 0
@@ -92,8 +95,7 @@ def test_switching_the_tour_off_stops_the_robot(simulate):
     assert simulation.robot.pose == before
 
 
-def test_a_goal_is_reached_with_its_heading(simulate):
-    simulation = simulate()
+def test_a_goal_is_reached_with_its_heading(simulation):
     goal = Pose2D(1.2, 2.5, -2.0)
     assert simulation.go_to(goal)
     run(simulation, 30.0)
@@ -125,14 +127,12 @@ def test_a_goal_without_a_way_is_refused_and_changes_nothing(draw):
     assert simulation.robot.pose == Pose2D(1.0, 1.0)
 
 
-def test_a_goal_far_from_any_free_place_is_refused(simulate):
-    simulation = simulate()
+def test_a_goal_far_from_any_free_place_is_refused(simulation):
     assert not simulation.go_to(Pose2D(1000.0, 0.0))
     assert len(simulation.path) == 0
 
 
-def test_putting_the_robot_elsewhere_does_not_move_its_odometry(simulate):
-    simulation = simulate()
+def test_putting_the_robot_elsewhere_does_not_move_its_odometry(simulation):
     simulation.command(0.3, 0.0)
     run(simulation, 0.4)
     odometry = simulation.robot.odometry
@@ -141,8 +141,7 @@ def test_putting_the_robot_elsewhere_does_not_move_its_odometry(simulate):
     assert simulation.robot.odometry == odometry
 
 
-def test_resetting_the_odometry_does_not_move_the_robot(simulate):
-    simulation = simulate()
+def test_resetting_the_odometry_does_not_move_the_robot(simulation):
     simulation.command(0.3, 0.0)
     run(simulation, 0.4)
     pose = simulation.robot.pose
