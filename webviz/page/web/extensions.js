@@ -6,7 +6,7 @@ import { act } from "./act.js";
 import { fitted } from "./charts/canvas.js";
 import { copy } from "./clipboard.js";
 import { indent, keyOf, rowList, touchable } from "./controls/rows.js";
-import { searchField } from "./controls/search_field.js";
+import { searchField } from "./controls/fields.js";
 import { el, set, setChildren, setText, showText, svgElement } from "./dom.js";
 import { icon, iconButton, textButton } from "./icons.js";
 import { overlay } from "./overlay/overlay.js";

@@ -2,6 +2,7 @@
 
 import { el, set } from "../dom.js";
 import { entry } from "./entry.js";
+import { textField } from "./fields.js";
 
 /** @import {Control, ControlOptions} from "../types.js" */
 /** @import {DeclaredProperty} from "../contents.js" */
@@ -16,12 +17,7 @@ import { entry } from "./entry.js";
 export function color({ default: standard }, options) {
   const { label } = options;
   const isOptional = standard === null;
-  const text = el("input", {
-    class: "wv-field",
-    type: "text",
-    "aria-label": `${label}, as text`,
-    placeholder: isOptional ? "automatic" : null,
-  });
+  const text = textField(`${label}, as text`, { placeholder: isOptional ? "automatic" : null });
   const swatch = el("input", { class: "wv-swatch", type: "color", "aria-label": label });
   const field = entry(text, {
     ...options,

@@ -2,6 +2,7 @@
 
 import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
+import { textField } from "./fields.js";
 import { listbox } from "./listbox.js";
 import { MIXED, MIXED_TEXT } from "./mixed.js";
 import { sync } from "./sync.js";
@@ -39,11 +40,8 @@ export function combobox({
   let current = value;
   let isTyped = false; // since the list was opened or the last choice
 
-  const input = el("input", {
-    class: "wv-field",
-    type: "text",
+  const input = textField(label, {
     role: "combobox",
-    "aria-label": label,
     "aria-expanded": "false",
     "aria-autocomplete": "list",
     autocomplete: "off",

@@ -3,6 +3,7 @@
 import { el, set } from "../dom.js";
 import { drag } from "./drag.js";
 import { entry } from "./entry.js";
+import { textField } from "./fields.js";
 import { MIXED_TEXT } from "./mixed.js";
 import { format, parse, stepOf, within } from "./units.js";
 
@@ -21,12 +22,9 @@ const DOUBLE_PX = 70; // for what can only be positive, right doubles and left h
  * @param {ControlOptions & {prefix?: string}} options
  */
 export function number(property, { label, change, refused, prefix = "" }) {
-  const input = el("input", {
-    class: "wv-field",
-    type: "text",
+  const input = textField(label, {
     role: "spinbutton",
     inputmode: "decimal",
-    "aria-label": label,
     "aria-valuemin": property.low ?? property.above,
     "aria-valuemax": property.high ?? property.below,
   });

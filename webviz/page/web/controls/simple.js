@@ -3,6 +3,7 @@
 import { el, set } from "../dom.js";
 import { icon } from "../icons.js";
 import { entry } from "./entry.js";
+import { textField } from "./fields.js";
 import { MIXED, MIXED_TEXT } from "./mixed.js";
 import { sync } from "./sync.js";
 
@@ -88,6 +89,6 @@ export function choice({ choices = [] }, { label, change, refused }) {
  * @returns {Control}
  */
 export function text(_, options) {
-  const input = el("input", { class: "wv-field", type: "text", "aria-label": options.label });
+  const input = textField(options.label);
   return entry(input, { ...options, encode: String, decode: (typed) => typed });
 }

@@ -6,6 +6,7 @@ import { icon, textButton } from "../icons.js";
 import { sanitized } from "../sanitize.js";
 import { watch } from "../stores.js";
 import { wordsOf } from "../words.js";
+import { searchField } from "./fields.js";
 import { rowList, touchable } from "./rows.js";
 import { sync } from "./sync.js";
 
@@ -37,14 +38,7 @@ export function switches({ offered }, { label, change, refused }) {
   /** @type {string[]} */
   let shown = [];
 
-  const search = el("input", {
-    class: "wv-field",
-    type: "search",
-    autocomplete: "off",
-    spellcheck: "false",
-    "aria-label": `Filter ${noun}`,
-    oninput: show,
-  });
+  const search = searchField(`Filter ${noun}`, show, { autocomplete: "off", spellcheck: "false" });
   /**
    * @param {string} text
    * @param {boolean} value

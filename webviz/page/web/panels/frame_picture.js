@@ -1,6 +1,6 @@
 // The tree of frames as a picture, in a dialog: moved by dragging, zoomed by the wheel, searched.
 
-import { searchField } from "../controls/search_field.js";
+import { searchField } from "../controls/fields.js";
 import { el, set, setText } from "../dom.js";
 import { listenToPanning } from "../panning.js";
 import { openDialog } from "../shell/dialog.js";

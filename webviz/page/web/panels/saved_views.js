@@ -2,6 +2,7 @@
 
 import { needs, why } from "../access.js";
 import { act } from "../act.js";
+import { textField } from "../controls/fields.js";
 import { el, set, setChildren, setText } from "../dom.js";
 import { icon, iconButton, textButton } from "../icons.js";
 
@@ -15,11 +16,7 @@ export function savedViews() {
   const lines = new Map();
   const list = el("ul", { class: "wv-saved" });
   const empty = el("p", { class: "wv-saved-none wv-quiet" }, "No views are saved yet.");
-  const name = el("input", {
-    class: "wv-field",
-    type: "text",
-    "aria-label": "Name of the view to save",
-  });
+  const name = textField("Name of the view to save");
   const save = el(
     "form",
     {
@@ -95,10 +92,7 @@ function line(name) {
     type,
     mark,
   );
-  const field = el("input", {
-    class: "wv-field",
-    type: "text",
-    "aria-label": `New name of ${name}`,
+  const field = textField(`New name of ${name}`, {
     hidden: true,
     onblur: () => take(),
     onkeydown(event) {

@@ -4,7 +4,7 @@ import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
 import { recall, remember } from "../remember.js";
 import { rowList, touchable } from "../controls/rows.js";
-import { searchField } from "../controls/search_field.js";
+import { searchField } from "../controls/fields.js";
 import { watch } from "../stores.js";
 import { inspector } from "./topics_inspector.js";
 import { arranged, COLUMNS, makeHead, makeRow, updateRow } from "./topics_table.js";

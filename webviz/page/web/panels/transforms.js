@@ -2,7 +2,7 @@
 
 import { act } from "../act.js";
 import { keyOf, rowList, touchable } from "../controls/rows.js";
-import { searchField } from "../controls/search_field.js";
+import { searchField } from "../controls/fields.js";
 import { el, set, setText, showText } from "../dom.js";
 import { icon, iconButton, textButton } from "../icons.js";
 import { recall, remember } from "../remember.js";

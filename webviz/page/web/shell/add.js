@@ -1,6 +1,7 @@
 // The dialog that adds displays: for topics that are published just now, or by type.
 
 import { act, newStep } from "../act.js";
+import { textField } from "../controls/fields.js";
 import { el, set, setText, showText } from "../dom.js";
 import { recall, remember } from "../remember.js";
 import { watch } from "../stores.js";
@@ -30,12 +31,7 @@ export function openAdd({ group = "" } = {}) {
   };
   /** @type {Map<string, Choice>} */
   const checked = new Map();
-  const input = el("input", {
-    class: "wv-field wv-search",
-    type: "text",
-    "aria-label": "Search",
-    placeholder: "Search",
-  });
+  const input = textField("Search", { class: "wv-field wv-search", placeholder: "Search" });
   const note = el("p", { class: "wv-quiet wv-nothing", hidden: true });
   let show = () => {};
   /** @type {() => Choice[] | null} */

@@ -2,6 +2,7 @@
 
 import { why } from "../access.js";
 import { act } from "../act.js";
+import { textField } from "../controls/fields.js";
 import { el } from "../dom.js";
 import { watch } from "../stores.js";
 import { all, keysOf, run } from "./commands.js";
@@ -39,10 +40,8 @@ export function provideFrom(stores, make) {
 
 export function openCommandList() {
   if (document.querySelector(".wv-command-list[open]")) return;
-  const input = el("input", {
+  const input = textField("Command", {
     class: "wv-field wv-search",
-    type: "text",
-    "aria-label": "Command",
     placeholder: "Type a command",
   });
   /** @type {Values} */

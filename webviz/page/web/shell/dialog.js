@@ -1,5 +1,6 @@
 // Dialogs over everything else: they have the focus until they are closed.
 
+import { textField } from "../controls/fields.js";
 import { el } from "../dom.js";
 import { icon } from "../icons.js";
 
@@ -170,10 +171,7 @@ export async function askName(noun, { title, confirm, taken, value, accept }) {
   const stem = noun[0].toUpperCase() + noun.slice(1);
   let number = 1;
   while (taken.includes(`${stem} ${number}`)) number += 1;
-  const field = el("input", {
-    class: "wv-field",
-    type: "text",
-    "aria-label": `Name of the ${noun}`,
+  const field = textField(`Name of the ${noun}`, {
     value: value ?? `${stem} ${number}`,
     autofocus: true,
     onfocus: (/** @type {FocusEvent & {target: HTMLInputElement}} */ { target }) => target.select(),

@@ -2,6 +2,7 @@
 
 import { act } from "../act.js";
 import * as channel from "../channel.js";
+import { textField } from "../controls/fields.js";
 import { el, setText } from "../dom.js";
 import { icon } from "../icons.js";
 import { listeners } from "../listeners.js";
@@ -68,12 +69,7 @@ export const exportAs = (suffix) =>
   act("Export", { name: `${(fileName() || NEW_NAME).replace(/\.[^.]*$/, "")}.${suffix}` });
 
 export function saveAs() {
-  const input = el("input", {
-    class: "wv-field",
-    type: "text",
-    "aria-label": "File name",
-    autofocus: true,
-  });
+  const input = textField("File name", { autofocus: true });
   input.value = fileName() || NEW_NAME;
   const problem = el("p", { class: "wv-problem", role: "alert" });
   let confirmed = "";

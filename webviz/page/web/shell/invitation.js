@@ -1,6 +1,7 @@
 // A form that makes a link for somebody else, and shows it with its QR code.
 
 import { act } from "../act.js";
+import { textField } from "../controls/fields.js";
 import { el, setText } from "../dom.js";
 import { textButton } from "../icons.js";
 
@@ -26,13 +27,7 @@ const isOfThisMachine = () => /^(localhost|127\..*|\[::1\])$/.test(location.host
  * @param {(link: string) => unknown} copy
  */
 export function invitation(copy) {
-  const name = el("input", {
-    class: "wv-field",
-    type: "text",
-    "aria-label": "Name",
-    placeholder: "Name",
-    maxlength: 40,
-  });
+  const name = textField("Name", { placeholder: "Name", maxlength: 40 });
   const role = select("Role", ["watcher", "operator", "owner"]);
   const end = select(
     "End",

@@ -2,6 +2,7 @@
 
 import { needs } from "../access.js";
 import { act } from "../act.js";
+import { textField } from "../controls/fields.js";
 import { el, set, setText } from "../dom.js";
 import { iconButton } from "../icons.js";
 import { openMenu } from "../shell/menu.js";
@@ -57,10 +58,8 @@ export function transport(seek, step, topics, bookmarks) {
     act("SetLoop", { loop: !recording.get("loop") }),
   );
   const list = button("list", "Topics", "When each topic has messages", topics.toggle);
-  const field = el("input", {
+  const field = textField("Go to time", {
     class: "wv-field wv-position wv-number",
-    type: "text",
-    "aria-label": "Go to time",
     autocomplete: "off",
     spellcheck: "false",
     "data-tip": HELP,

@@ -1,6 +1,7 @@
 // The panel "Displays": the search field, the tree, and the properties of what is selected.
 
 import { needs } from "../../access.js";
+import { searchField } from "../../controls/fields.js";
 import { el } from "../../dom.js";
 import { icon, iconButton } from "../../icons.js";
 import { openAdd } from "../../shell/add.js";
@@ -22,12 +23,8 @@ export const displays = {
   name: "displays",
   title: "Displays",
   open(panel) {
-    const field = el("input", {
-      type: "search",
-      class: "wv-field",
-      placeholder: "Filter displays",
+    const field = searchField("Filter displays", () => tree.setSearch(field.value), {
       spellcheck: "false",
-      "aria-label": "Filter displays",
       autocomplete: "off",
     });
     const hint = el("kbd", { class: "wv-tree-hint", "aria-hidden": "true" }, keyText("Ctrl+f"));
@@ -85,7 +82,6 @@ export const displays = {
       ];
     }
 
-    field.addEventListener("input", () => tree.setSearch(field.value));
     field.addEventListener("keydown", (event) => {
       if (event.key === "Escape" && field.value) tree.setSearch((field.value = ""));
       else if (event.key === "ArrowDown") tree.showActive();
