@@ -87,7 +87,7 @@ export function icon(name, size = 16) {
  * @param {string} name
  * @param {string} label
  * @param {(event: MouseEvent) => unknown} onclick
- * @param {Record<string, Attribute> & {tip?: string, size?: number}} [options] and other attributes
+ * @param {Record<string, Attribute> & {tip?: string | null, size?: number}} [options] and other attributes
  */
 export const iconButton = (name, label, onclick, { tip = label, size, ...attributes } = {}) =>
   el(

@@ -1,6 +1,6 @@
 // Findings of the doctor: what explains a status, and the way to them.
 
-import { el } from "../dom.js";
+import { textButton } from "../icons.js";
 import { openPanel } from "../shell/layout.js";
 import { watch } from "../stores.js";
 
@@ -49,20 +49,15 @@ export function onFindings(listener) {
  * @param {ShownFinding} finding
  */
 export function findingLink(finding) {
-  return el(
-    "button",
-    {
-      type: "button",
-      class: "wv-link wv-finding-link",
-      "data-finding": keyOf(finding),
-      "data-tip": finding.cause,
-      onclick: () => {
-        wanted = keyOf(finding);
-        openPanel("doctor");
-      },
-    },
-    `Cause: ${finding.id}`,
-  );
+  const open = () => {
+    wanted = keyOf(finding);
+    openPanel("doctor");
+  };
+  return textButton(`Cause: ${finding.id}`, open, {
+    class: "wv-link wv-finding-link",
+    "data-finding": keyOf(finding),
+    tip: finding.cause,
+  });
 }
 
 /** The key of the finding that a link has led to, once; "" for none. */

@@ -3,7 +3,7 @@
 import { needs } from "../access.js";
 import { keyOf, rowList, touchable } from "../controls/rows.js";
 import { el, set, setText } from "../dom.js";
-import { icon } from "../icons.js";
+import { iconButton } from "../icons.js";
 import { foldByKey, foldMark, showFold } from "./folds.js";
 import { rowsOf } from "./message_tree.js";
 import { plotField } from "./plot_field.js";
@@ -38,18 +38,12 @@ export function messageRows({ label, topic }) {
 
   function make() {
     /** @type {HTMLButtonElement} */
-    const plot = el(
-      "button",
-      {
-        type: "button",
-        class: "wv-icon wv-field-plot",
-        tabindex: -1,
-        "aria-label": "Plot",
-        "data-tip": "Plot this field",
-        onclick: () => plotField(topic(), pathOf(keyOf(plot))),
-      },
-      icon("odometry", 14),
-    );
+    const plot = iconButton("odometry", "Plot", () => plotField(topic(), pathOf(keyOf(plot))), {
+      class: "wv-icon wv-field-plot",
+      tabindex: -1,
+      tip: "Plot this field",
+      size: 14,
+    });
     return makeRow(needs("AddPanel", plot));
   }
 

@@ -4,6 +4,7 @@ import { needs } from "../access.js";
 import { act } from "../act.js";
 import { form } from "../controls/form.js";
 import { el, set, setChildren, showText } from "../dom.js";
+import { textButton } from "../icons.js";
 import { provide } from "../shell/commands.js";
 import { watch } from "../stores.js";
 import { maker } from "./displays/properties.js";
@@ -119,16 +120,10 @@ function properties(name) {
     el("summary", {}, "Properties"),
     place,
   );
-  const remove = el(
-    "button",
-    {
-      type: "button",
-      class: "wv-plugin-remove",
-      hidden: true,
-      onclick: () => act("RemovePanel", { panel: id }),
-    },
-    "Remove panel",
-  );
+  const remove = textButton("Remove panel", () => act("RemovePanel", { panel: id }), {
+    class: "wv-plugin-remove",
+    hidden: true,
+  });
   needs("RemovePanel", remove);
   const made = maker(place, (declared, values) => {
     return form(declared, {

@@ -2,7 +2,7 @@
 
 import { textField } from "../controls/fields.js";
 import { el } from "../dom.js";
-import { icon } from "../icons.js";
+import { iconButton } from "../icons.js";
 
 /** @import {Child} from "../types.js" */
 
@@ -73,16 +73,7 @@ export function openDialog({ title, content, buttons = [], isLight = false, clas
         "header",
         { class: "wv-dialog-head" },
         el("h2", { id }, title),
-        el(
-          "button",
-          {
-            type: "button",
-            class: "wv-icon",
-            "aria-label": "Close",
-            onclick: () => close(),
-          },
-          icon("close"),
-        ),
+        iconButton("close", "Close", () => close(), { tip: null }),
       ),
       el(
         "div",

@@ -4,7 +4,7 @@ import { act } from "../act.js";
 import * as channel from "../channel.js";
 import { textField } from "../controls/fields.js";
 import { el, setText } from "../dom.js";
-import { icon } from "../icons.js";
+import { icon, textButton } from "../icons.js";
 import { listeners } from "../listeners.js";
 import { watch } from "../stores.js";
 import { ask, openDialog } from "./dialog.js";
@@ -152,16 +152,10 @@ export function open() {
         el("p", { class: "wv-quiet" }, `In ${file.folder} of the machine that runs webviz:`),
         list,
         upload,
-        el(
-          "button",
-          {
-            type: "button",
-            class: "wv-button wv-upload",
-            onclick: () => upload.click(),
-          },
-          icon("upload"),
-          "Upload from this computer",
-        ),
+        textButton("Upload from this computer", () => upload.click(), {
+          class: "wv-button wv-upload",
+          icon: "upload",
+        }),
       ];
     },
     buttons: [{ label: "Cancel", value: null }],

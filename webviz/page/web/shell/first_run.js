@@ -2,7 +2,7 @@
 
 import { copy } from "../clipboard.js";
 import { el } from "../dom.js";
-import { icon, iconButton } from "../icons.js";
+import { iconButton } from "../icons.js";
 import { recall, remember } from "../remember.js";
 import { watch } from "../stores.js";
 
@@ -27,11 +27,7 @@ export function install(scene) {
         "header",
         {},
         el("h2", {}, "Nothing is published yet"),
-        el(
-          "button",
-          { type: "button", class: "wv-icon", "aria-label": "Close", onclick: close },
-          icon("close"),
-        ),
+        iconButton("close", "Close", close, { tip: null }),
       ),
       el("p", {}, "Start your robot, a simulator or a bag: its topics appear here by themselves."),
       el("p", {}, "For a robot to try things with, run this in a terminal:"),

@@ -6,7 +6,7 @@ import * as docks from "../docks/docks.js";
 import { el, set, setChildren, setText } from "../dom.js";
 import { onPanel, panels } from "../panels/panels.js";
 import { followPlugins } from "../panels/plugin.js";
-import { icon } from "../icons.js";
+import { iconButton } from "../icons.js";
 import { recall, remember } from "../remember.js";
 import { provideFrom } from "./command_list.js";
 import { openPanel } from "./layout.js";
@@ -21,32 +21,16 @@ export function tabs() {
   const list = el("div", { class: "wv-tabs", role: "tablist", "aria-label": "Panels" });
   /** @type {Map<string, HTMLButtonElement>} */
   const buttons = new Map();
-  const add = el(
-    "button",
-    {
-      type: "button",
-      class: "wv-icon wv-tabs-add",
-      hidden: true,
-      "aria-label": "Add a panel",
-      "data-tip": "Add a panel",
-      onclick: chooseType,
-    },
-    icon("plus"),
-  );
+  const add = iconButton("plus", "Add a panel", chooseType, {
+    class: "wv-icon wv-tabs-add",
+    hidden: true,
+  });
   needs("AddPanel", add);
-  const more = el(
-    "button",
-    {
-      type: "button",
-      class: "wv-icon wv-tabs-more",
-      hidden: true,
-      "aria-haspopup": "menu",
-      "aria-label": "All panels",
-      "data-tip": "All panels",
-      onclick: chooseTab,
-    },
-    icon("chevron-down"),
-  );
+  const more = iconButton("chevron-down", "All panels", chooseTab, {
+    class: "wv-icon wv-tabs-more",
+    hidden: true,
+    "aria-haspopup": "menu",
+  });
   new ResizeObserver(fit).observe(list);
   /** @type {PanelType[]} */
   let types = [];

@@ -1,7 +1,7 @@
 // Short messages over the scene, which go by themselves. The pointer goes through them.
 
 import { el, set, setText } from "../dom.js";
-import { icon } from "../icons.js";
+import { iconButton } from "../icons.js";
 
 /**
  * @typedef {{
@@ -68,8 +68,7 @@ function make(place, key) {
   };
   const text = el("span");
   const button = el("button", { type: "button", class: "wv-link", onclick: act });
-  const close = { type: "button", class: "wv-icon", "aria-label": "Dismiss", onclick: remove };
-  const parts = [text, button, el("button", close, icon("close"))];
+  const parts = [text, button, iconButton("close", "Dismiss", remove, { tip: null })];
   const element = el("div", { class: "wv-toast" }, parts);
   /** @type {Toast} */
   const one = { count: 0, timer: 0, run: undefined, element, text, button, remove };

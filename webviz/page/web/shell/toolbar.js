@@ -5,7 +5,7 @@ import { act } from "../act.js";
 import * as channel from "../channel.js";
 import { combobox } from "../controls/combobox.js";
 import { el, set, setText } from "../dom.js";
-import { icon } from "../icons.js";
+import { icon, iconButton } from "../icons.js";
 import { watch } from "../stores.js";
 import { actions, item } from "./actions.js";
 import { command } from "./commands.js";
@@ -24,18 +24,10 @@ const shown = { type: "", target: FIXED, frame: "", frames: [], views: [] };
 /** @param {{toolbar: HTMLElement, status: HTMLElement}} places */
 export function install(places) {
   tools.install();
-  const open = el(
-    "button",
-    {
-      type: "button",
-      class: "wv-icon wv-unfold",
-      "aria-label": "Show the panels",
-      "data-tip": "Show the panels",
-      "data-key": "Ctrl+b",
-      onclick: () => fold(false),
-    },
-    icon("menu"),
-  );
+  const open = iconButton("menu", "Show the panels", () => fold(false), {
+    class: "wv-icon wv-unfold",
+    "data-key": "Ctrl+b",
+  });
   const type = button("orbit", "", "View", () => openMenuBelow(type, typeMenu(shown.type)));
   const views = button("bookmark", "Saved views", "Saved views", () =>
     openMenuBelow(views, savedMenu(saved)),
@@ -191,17 +183,7 @@ const targetOptions = () => [
  * @param {() => unknown} run
  */
 function button(iconName, label, tip, run) {
-  const made = el(
-    "button",
-    {
-      type: "button",
-      class: "wv-icon wv-bar-button",
-      "aria-label": tip,
-      "data-tip": tip,
-      onclick: run,
-    },
-    icon(iconName),
-  );
+  const made = iconButton(iconName, tip, run, { class: "wv-icon wv-bar-button" });
   if (label !== null) made.append(el("span", { class: "wv-bar-name" }, label));
   return made;
 }

@@ -4,7 +4,7 @@ import { needs } from "../access.js";
 import { act } from "../act.js";
 import { textField } from "../controls/fields.js";
 import { el, set, setText } from "../dom.js";
-import { iconButton } from "../icons.js";
+import { iconButton, textButton } from "../icons.js";
 import { openMenu } from "../shell/menu.js";
 import { duration } from "../shell/time_text.js";
 import { toast } from "../shell/toasts.js";
@@ -69,17 +69,11 @@ export function transport(seek, step, topics, bookmarks) {
     onkeydown: key,
   });
   const length = el("span", { class: "wv-quiet wv-number" });
-  const live = el(
-    "button",
-    {
-      type: "button",
-      class: "wv-button wv-primary wv-live",
-      hidden: true,
-      "data-tip": "Return to live (L)",
-      onclick: returnToLive,
-    },
-    "Live (L)",
-  );
+  const live = textButton("Live (L)", returnToLive, {
+    class: "wv-button wv-primary wv-live",
+    hidden: true,
+    tip: "Return to live (L)",
+  });
   const element = el(
     "div",
     { class: "wv-transport" },

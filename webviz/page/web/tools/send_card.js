@@ -1,6 +1,7 @@
 // Asks at the preview of a gesture whether to send it.
 
 import { el } from "../dom.js";
+import { textButton } from "../icons.js";
 import { canvas } from "../viser_page.js";
 
 /** @import {Vec2} from "../types.js" */
@@ -17,19 +18,12 @@ const BAR = 96; // of the toolbar and the hint
  * @param {() => void} cancel
  */
 export function sendCard(send, cancel) {
-  /**
-   * @param {string} name
-   * @param {string} label
-   * @param {() => void} run
-   */
-  const button = (name, label, run) =>
-    el("button", { type: "button", class: `wv-button ${name}`, onclick: run }, label);
-  const first = button("wv-primary", "Send", send);
+  const first = textButton("Send", send, { class: "wv-button wv-primary" });
   const element = el(
     "div",
     { class: "wv-send wv-card", role: "group", "aria-label": "Send this?" },
     first,
-    button("", "Cancel", cancel),
+    textButton("Cancel", cancel),
   );
   return {
     element,

@@ -1,7 +1,7 @@
 // Collects poses of a tool that takes several, and sends them together.
 
 import { el, set, setChildren, setText } from "../dom.js";
-import { icon, iconButton } from "../icons.js";
+import { icon, iconButton, textButton } from "../icons.js";
 import { watch } from "../stores.js";
 import { tell } from "./hint.js";
 import * as history from "./history.js";
@@ -117,11 +117,7 @@ export function install() {
 
 /** @param {string} label */
 const sendButton = (label) =>
-  el(
-    "button",
-    { type: "button", class: "wv-button wv-primary", onclick: () => send(label) },
-    label,
-  );
+  textButton(label, () => send(label), { class: "wv-button wv-primary" });
 
 function toggle() {
   isCollecting = !isCollecting;

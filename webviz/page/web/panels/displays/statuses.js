@@ -3,7 +3,7 @@
 import { needs } from "../../access.js";
 import { act } from "../../act.js";
 import { el, set, setChildren, setText } from "../../dom.js";
-import { icon } from "../../icons.js";
+import { icon, textButton } from "../../icons.js";
 import { findingLink, keyOf, onFindings } from "../findings.js";
 
 /** @import {Commands} from "../../messages.js" */
@@ -34,15 +34,7 @@ const run = (command, fields) =>
 export const remedyButton = ({ label, command, arguments: fields }) =>
   needs(
     command,
-    el(
-      "button",
-      {
-        type: "button",
-        class: "wv-button wv-remedy",
-        onclick: () => run(command, fields),
-      },
-      label,
-    ),
+    textButton(label, () => run(command, fields), { class: "wv-button wv-remedy" }),
   );
 
 /**
