@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from bench import Bench, benches
+from bench import Bench, Benches, benches
 
 from webviz.api.status import Level
 from webviz.data.messages import decode, encode
@@ -154,7 +154,7 @@ def test_rules_are_saved_as_they_were_written() -> None:
 
 
 @pytest.fixture
-def make(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., Bench]]:
+def make(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Benches]:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(black_box, "AFTER_S", 0.2)
     monkeypatch.setattr(black_box, "SETTLE_S", 0.0)
@@ -197,7 +197,7 @@ def saved(bench: Bench) -> list[Path]:
     return [each.path for each in shown.saved] if shown else []
 
 
-def test_a_rule_saves_what_was_and_what_comes(make: Callable[..., Bench]) -> None:
+def test_a_rule_saves_what_was_and_what_comes(make: Benches) -> None:
     bench = make(WatchRule(display="Plan", status="error"))
     publish(bench, 1.0)
     publish(bench, 2.0)
@@ -214,7 +214,7 @@ def test_a_rule_saves_what_was_and_what_comes(make: Callable[..., Bench]) -> Non
     recording.close()
 
 
-def test_a_violated_condition_saves_what_led_to_it(make: Callable[..., Bench]) -> None:
+def test_a_violated_condition_saves_what_led_to_it(make: Benches) -> None:
     bench = make(WatchRule(rule="Plan.status < error"))
     publish(bench, 1.0)
     bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
@@ -223,7 +223,7 @@ def test_a_violated_condition_saves_what_led_to_it(make: Callable[..., Bench]) -
     assert path.name.endswith("_Plan_status_error")
 
 
-def test_no_more_is_saved_than_the_limits_allow(make: Callable[..., Bench]) -> None:
+def test_no_more_is_saved_than_the_limits_allow(make: Benches) -> None:
     bench = make(WatchRule(display="Plan", status="error"), per_day=0)
     publish(bench, 1.0)
     bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
@@ -239,7 +239,7 @@ def test_no_more_is_saved_than_the_limits_allow(make: Callable[..., Bench]) -> N
     "rule", [WatchRule(display="Plan", status="warn"), WatchRule(rule="Plan.status < warn")]
 )
 def test_a_display_that_has_received_nothing_yet_fires_no_rule(
-    make: Callable[..., Bench], rule: WatchRule
+    make: Benches, rule: WatchRule
 ) -> None:
     bench = make(rule)
     bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
@@ -255,7 +255,7 @@ def test_a_display_that_has_received_nothing_yet_fires_no_rule(
 
 
 def test_a_status_does_not_count_while_a_robot_starts(
-    make: Callable[..., Bench], monkeypatch: pytest.MonkeyPatch
+    make: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(black_box, "SETTLE_S", 1e9)
     bench = make(WatchRule(display="Plan", status="error"))
@@ -268,7 +268,7 @@ def test_a_status_does_not_count_while_a_robot_starts(
     saved(bench)
 
 
-def test_a_recording_stays_below_the_limit(make: Callable[..., Bench]) -> None:
+def test_a_recording_stays_below_the_limit(make: Benches) -> None:
     bench = make(WatchRule(display="Plan", status="error"), gigabytes=0.0001)
     for x in range(10):
         noise = np.random.default_rng(x).bytes(15_000).hex()[:15_000]
@@ -290,7 +290,7 @@ def test_a_recording_stays_below_the_limit(make: Callable[..., Bench]) -> None:
     assert bench.do(Refresh()).statuses["Black box"].text.startswith("The last recording was cut")
 
 
-def test_a_driver_that_crashes_fires_a_rule_about_its_rate(make: Callable[..., Bench]) -> None:
+def test_a_driver_that_crashes_fires_a_rule_about_its_rate(make: Benches) -> None:
     bench = make(WatchRule(topic="/path", rate="<5"))
     bench.do(Refresh())
     began_s = time.monotonic() - SPAN_S
@@ -306,7 +306,7 @@ def test_a_driver_that_crashes_fires_a_rule_about_its_rate(make: Callable[..., B
     recording.close()
 
 
-def test_a_recording_that_was_cut_off_is_listed(make: Callable[..., Bench]) -> None:
+def test_a_recording_that_was_cut_off_is_listed(make: Benches) -> None:
     bench = make(WatchRule(display="Plan", status="error"))
     publish(bench, 1.0)
     bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
@@ -317,7 +317,7 @@ def test_a_recording_that_was_cut_off_is_listed(make: Callable[..., Bench]) -> N
     assert saved(bench) == [path]
 
 
-def test_a_rule_about_a_display_that_is_not_there_says_so(make: Callable[..., Bench]) -> None:
+def test_a_rule_about_a_display_that_is_not_there_says_so(make: Benches) -> None:
     bench = make(WatchRule(display="Plam", status="error"))
     bench.do(Refresh())
     text = bench.do(Refresh()).statuses["Black box"].text

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
-from bench import Bench
+from bench import Benches
 from ruamel.yaml import YAML
 
 from webviz import Display, ProtocolClient
@@ -66,9 +65,7 @@ def test_a_display_belongs_to_the_robot_whose_namespace_its_topics_have() -> Non
     assert robot_of(["/scan", "/robot11/scan"], (one, ten)) is None
 
 
-def test_frames_of_a_robot_follow_each_message_whatever_was_named_before(
-    bench: Callable[..., Bench],
-) -> None:
+def test_frames_of_a_robot_follow_each_message_whatever_was_named_before(bench: Benches) -> None:
     b = bench(Pose(topic=Topic("/robot1/pose")), robots=("robot1",))
 
     def move(names: str, x: float, second: int) -> None:
@@ -87,9 +84,7 @@ def test_frames_of_a_robot_follow_each_message_whatever_was_named_before(
         assert found.translation[0] == 2.0
 
 
-def test_two_robots_with_equal_frames_are_drawn_where_each_is(
-    bench: Callable[..., Bench],
-) -> None:
+def test_two_robots_with_equal_frames_are_drawn_where_each_is(bench: Benches) -> None:
     displays = [Pose(topic=Topic(f"/{name}/pose")) for name in ("robot1", "robot2")]
     b = bench(*displays, robots=("robot1", "robot2"))
     for x, name in ((1.0, "robot1"), (5.0, "robot2")):
@@ -105,9 +100,7 @@ def test_two_robots_with_equal_frames_are_drawn_where_each_is(
     assert buffer.lookup("map", "robot2/base_link", 0).translation[0] == 5.5
 
 
-def test_a_missing_transform_is_explained_with_the_frame_of_the_robot(
-    bench: Callable[..., Bench],
-) -> None:
+def test_a_missing_transform_is_explained_with_the_frame_of_the_robot(bench: Benches) -> None:
     b = bench(Pose(topic=Topic("/robot1/pose")), robots=("robot1",))
     b.pose("/robot1/pose", "base_link", S)
     for _ in range(3):
@@ -129,7 +122,7 @@ def test_entries_with_a_placeholder_are_repeated_for_each_robot() -> None:
 
 
 def test_saving_keeps_a_placeholder_until_one_of_its_robots_differs(
-    bench: Callable[..., Bench], tmp_path: Path
+    bench: Benches, tmp_path: Path
 ) -> None:
     file = tmp_path / "fleet.yaml"
     file.write_text(TEMPLATE)
@@ -172,7 +165,7 @@ NAMES: list[str] = []
 
 
 def test_a_display_with_a_protocol_of_its_own_belongs_to_the_robot_of_its_topics(
-    bench: Callable[..., Bench],
+    bench: Benches,
 ) -> None:
     b = bench(Follower(), robots=("robot1",))
     b.turn()

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
-from bench import Bench
+from bench import Benches
 
 from webviz.engine.commands import Pause, Refresh, RemoveDisplay, SetProperty, Undo
 from webviz_displays.grid import Grid
 
 
-def test_only_what_has_changed_is_a_new_object(bench: Callable[..., Bench]) -> None:
+def test_only_what_has_changed_is_a_new_object(bench: Benches) -> None:
     viewer = bench(Grid(name="a"), Grid(name="b"))
     before = viewer.do(Refresh())
     now = viewer.do(Pause(True))

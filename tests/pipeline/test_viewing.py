@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import pytest
-from bench import Bench
+from bench import Bench, Benches
 from msgspec.structs import replace
 
 from webviz.api.status import Level
@@ -95,7 +95,7 @@ class Looking:
 
 
 @pytest.fixture
-def looking(bench: Callable[..., Bench]) -> Looking:
+def looking(bench: Benches) -> Looking:
     cameras = TwoBrowsers()
     b = bench(Axes(name="A", length=2.0, reference_frame="map"), cameras=cameras)
     b.transform("map", "base", 0, x=4.0, static=True)
@@ -250,7 +250,7 @@ def test_a_picture_is_asked_of_one_browser(looking: Looking) -> None:
     assert looking.cameras.images == [("robot.png", BOB)]
 
 
-def test_without_browsers_there_is_nothing_to_change(bench: Callable[..., Bench]) -> None:
+def test_without_browsers_there_is_nothing_to_change(bench: Benches) -> None:
     looking = Looking(bench(cameras=(cameras := TwoBrowsers())), cameras)
     cameras.shown.clear()
     assert "No browser is connected" in looking.refused(ResetView())

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 from bags import START_NS, Bag, ns
-from bench import Bench, benches
+from bench import Bench, Benches, benches
 from drives import CONFIG, recorded
 
 from tests.playback.conftest import Drive
@@ -134,7 +134,7 @@ def test_playing_from_the_past_becomes_live(drive: Callable[..., Drive]) -> None
 
 
 @pytest.fixture
-def make() -> Iterator[Callable[..., Bench]]:
+def make() -> Iterator[Benches]:
     """A viewer of a path, of which messages arrived 5, 4, 3, 2 and 1 s ago."""
     with benches() as make_bench:
 
@@ -149,7 +149,7 @@ def make() -> Iterator[Callable[..., Bench]]:
 
 
 @pytest.fixture
-def bench(make: Callable[..., Bench]) -> Bench:
+def bench(make: Benches) -> Bench:
     return make()
 
 
@@ -200,7 +200,7 @@ def test_steps_lead_into_the_past(bench: Bench) -> None:
     assert places(bench) == {3.0}
 
 
-def test_a_moment_that_is_shown_is_not_forgotten(make: Callable[..., Bench]) -> None:
+def test_a_moment_that_is_shown_is_not_forgotten(make: Benches) -> None:
     bench = make(memory=MemorySettings(megabytes=0.002))
     first_s = rewind(bench, 1.5).first_s
     for _ in range(20):
@@ -210,7 +210,7 @@ def test_a_moment_that_is_shown_is_not_forgotten(make: Callable[..., Bench]) -> 
     assert playback(bench.do(ReturnToLive())).first_s > first_s
 
 
-def test_nothing_is_remembered_without_a_memory(make: Callable[..., Bench]) -> None:
+def test_nothing_is_remembered_without_a_memory(make: Benches) -> None:
     bench = make(memory=MemorySettings(seconds=0))
     assert bench.do(Refresh()).playback is None
     assert bench.refused(Seek(0.0)) == MEMORY_OFF
@@ -247,7 +247,7 @@ def test_time_that_went_back_is_shown_as_it_was(bench: Bench) -> None:
     assert bench.do(Refresh()).clock.ros_ns == ns(2.5)
 
 
-def test_nothing_is_sent_while_the_past_is_shown(make: Callable[..., Bench]) -> None:
+def test_nothing_is_sent_while_the_past_is_shown(make: Benches) -> None:
     graph = RememberingGraph()
     bench = make(graph=graph)
     gate, goal = bench.viewer._core.gate, Advertisement("/goal", PATH)
@@ -261,7 +261,7 @@ def test_nothing_is_sent_while_the_past_is_shown(make: Callable[..., Bench]) -> 
     gate.publish(goal, encode(PATH, {})).result()
 
 
-def test_a_driven_vehicle_stops_first(make: Callable[..., Bench]) -> None:
+def test_a_driven_vehicle_stops_first(make: Benches) -> None:
     graph = RememberingGraph()
     bench = make(graph=graph)
     controllers, advertisement = (
@@ -302,7 +302,7 @@ def test_a_seek_looks_back_as_far_as_displays_need_now() -> None:
 
 
 def test_a_recording_goes_on_while_the_past_is_shown(
-    make: Callable[..., Bench], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    make: Benches, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
     bench = make()
@@ -314,7 +314,7 @@ def test_a_recording_goes_on_while_the_past_is_shown(
     assert bench.ask(StopRecording()) == "Recorded 2 messages to run."
 
 
-def test_the_timeline_counts_what_is_in_memory_or_shown(make: Callable[..., Bench]) -> None:
+def test_the_timeline_counts_what_is_in_memory_or_shown(make: Benches) -> None:
     begun_s = time.monotonic()
     bench = make()
 
@@ -335,7 +335,7 @@ def test_the_timeline_counts_what_is_in_memory_or_shown(make: Callable[..., Benc
     assert counted()[1][: len(counts)] == counts
 
 
-def test_the_timeline_marks_what_nodes_log_meanwhile(make: Callable[..., Bench]) -> None:
+def test_the_timeline_marks_what_nodes_log_meanwhile(make: Benches) -> None:
     bench = make()
     publisher = Publisher("/driver", LOG, "reliable", "transient_local")
     bench.source.known[ROSOUT] = Offer((publisher,), type=LOG)

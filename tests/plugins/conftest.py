@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from bench import Bench, benches
+from bench import Benches, benches
 
 from webviz.api import registry
 from webviz.api.display import Display
@@ -16,7 +16,7 @@ EXAMPLE = Path(__file__).with_name("polygon.py")
 
 
 @pytest.fixture
-def bench() -> Iterator[Callable[..., Bench]]:
+def bench() -> Iterator[Benches]:
     """Make a viewer of displays."""
     with benches() as make:
         yield make

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import pytest
-from bench import Bench
+from bench import Benches
 
 from webviz.api.errors import Error
 from webviz.api.status import Level, Status
@@ -198,9 +197,7 @@ def test_the_defaults_of_a_form_can_be_sent(type_: str) -> None:
     assert fields_of(values)
 
 
-def test_nothing_is_published_to_a_read_only_source(
-    bench: Callable[..., Bench],
-) -> None:
+def test_nothing_is_published_to_a_read_only_source(bench: Benches) -> None:
     b = bench()
     b.do(AddPanel("PublishMessage", {"topic": "/cmd", "message_type": STRING}))
     b.do(OpenPanels(frozenset({"PublishMessage"})))
