@@ -145,20 +145,23 @@ def test_the_hash_of_tf_message_is_the_published_one():
     assert type_hash("tf2_msgs/msg/TFMessage") == TF_HASH
 
 
-def test_hashes_equal_those_of_every_installed_message():
-    share = Path(sys.prefix) / "share"
-    paths = sorted(share.glob("*/msg/*.json"))
-    if not paths:
-        pytest.skip("no message descriptions are installed under this Python's prefix")
-    checked = 0
-    for path in paths:
+def installed_hashes(kind):
+    """The hash of every type whose description is installed, by name."""
+    found = {}
+    for path in sorted((Path(sys.prefix) / "share").glob(f"*/{kind}/*.json")):
         described = json.loads(path.read_text())
         name = described["type_description_msg"]["type_description"]["type_name"]
-        if type_exists(name):
-            hashes = {h["type_name"]: h["hash_string"] for h in described["type_hashes"]}
-            assert type_hash(name) == hashes[name], name
-            checked += 1
-    assert checked > 100
+        hashes = {each["type_name"]: each["hash_string"] for each in described["type_hashes"]}
+        found[name] = hashes[name]
+    if not found:
+        pytest.skip(f"no {kind} descriptions are installed under this Python's prefix")
+    return found
+
+
+def test_hashes_equal_those_of_every_installed_message():
+    known = {name: found for name, found in installed_hashes("msg").items() if type_exists(name)}
+    assert {name: type_hash(name) for name in known} == known
+    assert len(known) > 100
 
 
 def test_a_composed_class_has_no_instances():
@@ -262,16 +265,9 @@ def test_a_subscription_without_raw_raises_instead_of_crashing(ros):
 
 
 def test_hashes_equal_those_of_every_installed_service():
-    share = Path(sys.prefix) / "share"
-    paths = sorted(share.glob("*/srv/*.json"))
-    if not paths:
-        pytest.skip("no service descriptions are installed under this Python's prefix")
-    for path in paths:
-        described = json.loads(path.read_text())
-        name = described["type_description_msg"]["type_description"]["type_name"]
+    for name, found in installed_hashes("srv").items():
         learn(name)  # with the messages that the service holds
-        hashes = {h["type_name"]: h["hash_string"] for h in described["type_hashes"]}
-        assert type_hash(name) == hashes[name], name
+        assert type_hash(name) == found, name
 
 
 SERVER = """

@@ -563,12 +563,19 @@ PLAIN = """\
 """
 
 
-def test_the_plain_displays_have_rvizs_names_and_report_nothing() -> None:
-    config, report = opened(PLAIN)
+def values_by_name(text: str) -> dict[str, Any]:
+    """The values of the displays of a file about which nothing is reported."""
+    config, report = opened(text)
     assert said(report) == ""
-    values = {item.name: to_values(item) for item in config.displays if isinstance(item, Display)}
-    for each in values.values():
-        each.pop("name")
+    displays = [item for item in config.displays if isinstance(item, Display)]
+    return {
+        display.name: {key: value for key, value in to_values(display).items() if key != "name"}
+        for display in displays
+    }
+
+
+def test_the_plain_displays_have_rvizs_names_and_report_nothing() -> None:
+    values = values_by_name(PLAIN)
     motor = {"invert_rainbow": False, "max_intensity": 80.0, "size": 0.5}
     assert values["Motor"] == motor | {"topic": {"name": "/motor", "reliability": "best_effort"}}
     assert values["Speed"] == {
@@ -636,11 +643,7 @@ MAPPING = """\
 
 def test_the_displays_of_maps_have_rvizs_names_and_report_nothing() -> None:
     """Infinite heights and transformers that the plug-in itself does not offer are defaults."""
-    config, report = opened(MAPPING)
-    assert said(report) == ""
-    values = {item.name: to_values(item) for item in config.displays if isinstance(item, Display)}
-    for each in values.values():
-        each.pop("name")
+    values = values_by_name(MAPPING)
     voxels = {"voxel_alpha": 0.5, "max_octree_depth": 14, "voxel_rendering": "All Voxels"}
     assert values["Voxels"] == voxels | {"voxel_coloring": "Cell Probability"}
     terrain = {"invert_rainbow": True, "show_grid_lines": False, "color_layer": "variance"}
