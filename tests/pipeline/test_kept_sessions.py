@@ -59,9 +59,7 @@ def frames(b: Any) -> list[str]:
     return [row.name for row in b.viewer.state().rows]
 
 
-def test_unsaved_changes_are_restored_and_undone_in_one_step(
-    start: Callable[..., Any], file: Path
-) -> None:
+def test_unsaved_changes_are_restored_and_undone_in_one_step(start: Benches, file: Path) -> None:
     b = start()
     b.do(SetProperty("display1", "length", 2.5))
     b.do(RemoveDisplay("display2"))
@@ -81,7 +79,7 @@ def test_unsaved_changes_are_restored_and_undone_in_one_step(
     assert not file.exists(), "there is nothing to keep"
 
 
-def test_a_viewer_that_changes_nothing_keeps_nothing(start: Callable[..., Any], file: Path) -> None:
+def test_a_viewer_that_changes_nothing_keeps_nothing(start: Benches, file: Path) -> None:
     start().viewer.close()
     assert not file.exists()
 
@@ -108,7 +106,7 @@ def test_what_is_saved_is_not_kept_twice(bench: Benches, file: Path, tmp_path: P
     assert start().viewer.state().history.undo == ()
 
 
-def test_what_a_browser_brought_is_restored_without_a_file(start: Callable[..., Any]) -> None:
+def test_what_a_browser_brought_is_restored_without_a_file(start: Benches) -> None:
     b = start()
     b.ask(Load("fixed_frame: odom\ndisplays: [{type: Grid, name: Floor}]", "mine.yaml"))
     b.viewer.close()
@@ -118,7 +116,7 @@ def test_what_a_browser_brought_is_restored_without_a_file(start: Callable[..., 
 
 
 def test_a_session_of_another_config_is_set_aside(
-    start: Callable[..., Any], bench: Benches, file: Path
+    start: Benches, bench: Benches, file: Path
 ) -> None:
     b = start()
     b.do(SetProperty("display1", "length", 2.5))
@@ -133,7 +131,7 @@ def test_a_session_of_another_config_is_set_aside(
     assert axes.length == 2.5
 
 
-def test_another_fixed_frame_at_the_start_holds(start: Callable[..., Any]) -> None:
+def test_another_fixed_frame_at_the_start_holds(start: Benches) -> None:
     b = start()
     b.do(SetProperty("display1", "length", 2.5))
     b.do(SetFixedFrame("base"))
@@ -144,9 +142,7 @@ def test_another_fixed_frame_at_the_start_holds(start: Callable[..., Any]) -> No
     assert state.rows[0].display.length == 2.5
 
 
-def test_no_restore_shows_the_config_and_loses_nothing(
-    start: Callable[..., Any], file: Path
-) -> None:
+def test_no_restore_shows_the_config_and_loses_nothing(start: Benches, file: Path) -> None:
     b = start()
     b.do(RemoveDisplay("display2"))
     b.viewer.close()
@@ -167,7 +163,7 @@ def test_no_restore_shows_the_config_and_loses_nothing(
     ],
 )
 def test_a_damaged_session_is_set_aside_and_said(
-    start: Callable[..., Any], file: Path, damage: Callable[[str], str]
+    start: Benches, file: Path, damage: Callable[[str], str]
 ) -> None:
     b = start()
     b.do(RemoveDisplay("display2"))
@@ -225,7 +221,7 @@ def test_a_folder_that_cannot_be_written_is_logged_once(
     assert len(caplog.records) == 1
 
 
-def test_watchers_leave_nothing_in_a_session(start: Callable[..., Any], file: Path) -> None:
+def test_watchers_leave_nothing_in_a_session(start: Benches, file: Path) -> None:
     done = (
         ChangeView("distance", 3.0),
         Export(lambda text: None),

@@ -130,7 +130,7 @@ def test_only_the_gate_reaches_the_graph_of_a_source() -> None:
     assert {path.name for path in users if path.parent.name != "fleet"} == {"gate.py"}
 
 
-def test_without_the_right_to_publish_every_tool_says_why(make: Callable[..., Any]) -> None:
+def test_without_the_right_to_publish_every_tool_says_why(make: Benches) -> None:
     b = make(may_publish=False)
     assert set(refusals(b).values()) == {NO_PUBLISH}
     assert use(b) == NO_PUBLISH
@@ -138,7 +138,7 @@ def test_without_the_right_to_publish_every_tool_says_why(make: Callable[..., An
     assert use(b) == NO_PUBLISH
 
 
-def test_a_list_refuses_the_tools_it_does_not_name(make: Callable[..., Any]) -> None:
+def test_a_list_refuses_the_tools_it_does_not_name(make: Benches) -> None:
     b = make(publish=("/goal_pose", "/clicked*", "/navigate*"))
     refusal = OF_START.format("/initialpose")
     assert refusals(b) == {"2D Pose Estimate": refusal}
@@ -155,7 +155,7 @@ def test_a_list_refuses_the_tools_it_does_not_name(make: Callable[..., Any]) -> 
     assert refusals(b) == {"2D Goal Pose": OF_START.format("/cmd_vel")}
 
 
-def test_a_tool_is_refused_if_all_that_it_uses_is(make: Callable[..., Any]) -> None:
+def test_a_tool_is_refused_if_all_that_it_uses_is(make: Benches) -> None:
     def refusal(*names: str) -> str:
         tools = make(publish=names).do(Refresh()).tools
         return next(tool.refusal for tool in tools if tool.name == "Nav2 Goal")
@@ -165,15 +165,13 @@ def test_a_tool_is_refused_if_all_that_it_uses_is(make: Callable[..., Any]) -> N
     assert refusal("/navigate_to_pose") == ""
 
 
-def test_a_tool_without_a_valid_topic_is_not_refused(make: Callable[..., Any]) -> None:
+def test_a_tool_without_a_valid_topic_is_not_refused(make: Benches) -> None:
     b = make(publish=())
     b.do(SetToolProperty("Publish Point", "topic.name", ""))
     assert set(refusals(b)) == {"2D Pose Estimate", "2D Goal Pose"}
 
 
-def test_a_config_that_is_opened_later_narrows_the_list_and_never_widens_it(
-    make: Callable[..., Any],
-) -> None:
+def test_a_config_that_is_opened_later_narrows_the_list_and_never_widens_it(make: Benches) -> None:
     b = make(publish=("/goal_pose", "/initialpose", "/navigate*"))
     b.do(Load("version: 1\npublish: ['/*']\n", "all.yaml"))
     assert use(b, "Publish Point") == OF_START.format("/clicked_point")
@@ -192,7 +190,7 @@ def test_a_config_that_is_opened_later_narrows_the_list_and_never_widens_it(
     assert set(refusals(b)) == {"Publish Point"}
 
 
-def test_without_a_list_a_viewer_writes_only_what_its_config_uses(make: Callable[..., Any]) -> None:
+def test_without_a_list_a_viewer_writes_only_what_its_config_uses(make: Benches) -> None:
     b = make(publish=None)
     assert refusals(b) == {}
     assert use(b) == "Published to /goal_pose, 1 subscription."
@@ -209,7 +207,7 @@ def test_without_a_list_a_viewer_writes_only_what_its_config_uses(make: Callable
     assert use(b) == OF_CONFIG.format("/goal_pose")
 
 
-def test_names_that_are_allowed_besides_need_no_list(make: Callable[..., Any]) -> None:
+def test_names_that_are_allowed_besides_need_no_list(make: Benches) -> None:
     for publish in (None, ()):
         b = make(publish=publish, allow_publish=("/robot/*",))
         b.do(SetToolProperty("2D Goal Pose", "topic.name", "/robot/goal"))
@@ -298,7 +296,7 @@ def test_a_plug_in_that_cannot_name_what_it_uses_adds_nothing(
     assert not any("lifecycle" in name for name in names)
 
 
-def test_every_button_says_that_a_source_can_only_be_read(make: Callable[..., Any]) -> None:
+def test_every_button_says_that_a_source_can_only_be_read(make: Benches) -> None:
     b = make()
     assert refusals(b) == {}
     b.source.graph = HandFedSource().graph

@@ -14,6 +14,7 @@ import numpy as np
 import PIL.Image
 import pytest
 from bags import strings
+from bench import Benches
 
 import webviz
 from webviz.api import registry
@@ -51,7 +52,7 @@ def publish(bench: Any, stamp_ns: int, focal_length: float, *names: str) -> None
 
 
 def test_camera_view_draws_an_image_with_the_calibration_of_its_stamp(
-    bench: Callable[..., Any], camera_view: type[Display]
+    bench: Benches, camera_view: type[Display]
 ) -> None:
     b = bench(camera_view(name="Camera"))
     b.transform("map", "camera", T, static=True)
@@ -71,7 +72,7 @@ def test_camera_view_draws_an_image_with_the_calibration_of_its_stamp(
 
 
 def test_camera_view_says_that_a_camera_is_not_calibrated(
-    bench: Callable[..., Any], camera_view: type[Display]
+    bench: Benches, camera_view: type[Display]
 ) -> None:
     b = bench(camera_view(name="Camera"))
     b.transform("map", "camera", T, static=True)
@@ -97,7 +98,7 @@ float64 y
     ],
 )
 def test_the_display_of_rviz_tutorial_shows_a_point_in_its_frame(
-    bench: Callable[..., Any], x: float, expected: tuple[str, str]
+    bench: Benches, x: float, expected: tuple[str, str]
 ) -> None:
     path = EXAMPLES / "point_2d.py"
     cls = load(path)["PointDisplay"]
@@ -118,9 +119,7 @@ def test_the_display_of_rviz_tutorial_shows_a_point_in_its_frame(
         registry.register(str(path), {})
 
 
-def test_spawn_turtle_is_a_tool_that_calls_a_service_with_the_clicked_point(
-    bench: Callable[..., Any],
-) -> None:
+def test_spawn_turtle_is_a_tool_that_calls_a_service_with_the_clicked_point(bench: Benches) -> None:
     path = EXAMPLES / "spawn_turtle.py"
     told: list[Status] = []
     try:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import pytest
+from bench import Benches
 from waiting import until
 
 from webviz.engine.commands import AddPanel, OpenPanels, Sender
@@ -94,7 +94,7 @@ class Bench:
 
 
 @pytest.fixture
-def hand(bench: Callable[..., Any]) -> Bench:
+def hand(bench: Benches) -> Bench:
     made = Bench(bench(graph=RememberingGraph()))
     assert "No robot description received on /robot_description" in made.texts()
     made.describe(HAND)
@@ -144,7 +144,7 @@ def test_a_value_that_no_slider_has_is_refused(hand: Bench) -> None:
     assert hand.published() == []
 
 
-def test_a_viewer_that_may_not_publish_says_so(bench: Callable[..., Any]) -> None:
+def test_a_viewer_that_may_not_publish_says_so(bench: Benches) -> None:
     made = Bench(bench(graph=RememberingGraph(), publish=("/cmd_vel",)))
     made.describe(HAND)
     made.move("bend", 1.0)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
+from bench import Benches
 
 from webviz.api import registry
 from webviz.data.messages import encode
@@ -69,7 +70,7 @@ def test_what_a_file_says_of_panels_is_read_overridden_and_written_again(file: P
         override(config, ["panels.Note.most=9"])
 
 
-def test_a_panel_that_cannot_be_used_is_kept_with_the_reason(bench: Callable[..., Any]) -> None:
+def test_a_panel_that_cannot_be_used_is_kept_with_the_reason(bench: Benches) -> None:
     config = parse("displays: []\npanels:\n- {type: Notes, most: 7}\n", "x.yaml")
     (panel,) = config.panels
     assert isinstance(panel, Unreadable)
@@ -81,7 +82,7 @@ def test_a_panel_that_cannot_be_used_is_kept_with_the_reason(bench: Callable[...
 
 
 def test_a_property_is_set_saved_undone_and_kept_when_the_file_is_edited(
-    file: Path, bench: Callable[..., Any]
+    file: Path, bench: Benches
 ) -> None:
     b = bench(strict=False)
 
@@ -122,9 +123,7 @@ class Wired(Panel):
 """
 
 
-def test_an_open_panel_reads_topics_and_is_advertised(
-    tmp_path: Path, bench: Callable[..., Any]
-) -> None:
+def test_an_open_panel_reads_topics_and_is_advertised(tmp_path: Path, bench: Benches) -> None:
     path = tmp_path / "panels.py"
     path.write_text(WIRED)
     wired: Any = load(path)["Wired"]
@@ -152,7 +151,7 @@ def test_an_open_panel_reads_topics_and_is_advertised(
         registry.register(str(path), {})
 
 
-def test_a_service_answers_or_says_why_not(bench: Callable[..., Any]) -> None:
+def test_a_service_answers_or_says_why_not(bench: Benches) -> None:
     b = bench(graph=RememberingGraph())
     answers: list[Any] = []
     call = CallService(
@@ -168,7 +167,7 @@ def test_a_service_answers_or_says_why_not(bench: Callable[..., Any]) -> None:
     assert unknown == "Not called: No definition of std_srvs/srv/Nothing is known."
 
 
-def test_a_panel_on_request_is_added_and_removed_by_a_command(bench: Callable[..., Any]) -> None:
+def test_a_panel_on_request_is_added_and_removed_by_a_command(bench: Benches) -> None:
     b = bench()
     assert [tab.tab for tab in b.viewer.state().panels] == []
     added = [AddPanel("Nav2"), AddPanel("Nav2", {"namespace": "robot1", "name": "Second"})]

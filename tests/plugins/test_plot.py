@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 import tracemalloc
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
+from bench import Benches
 from msgspec.structs import replace
 
 from webviz.api.errors import Error
@@ -265,9 +265,7 @@ def test_a_time_of_a_chart_is_gone_to_within_what_is_recorded() -> None:
     assert bench.sent == []
 
 
-def test_topics_are_read_while_the_panel_is_open_and_time_can_start_over(
-    bench: Callable[..., Any],
-) -> None:
+def test_topics_are_read_while_the_panel_is_open_and_time_can_start_over(bench: Benches) -> None:
     b = bench()
     b.do(AddPanel("Plot", {"curves": ["/cmd_vel.linear.x"]}))
     (tab,) = b.viewer.state().panels

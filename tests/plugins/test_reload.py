@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import pytest
 import rviz_trees
+from bench import Benches
 
 from webviz import Topic
 from webviz.api.declared import make
@@ -42,7 +42,7 @@ def shown(b: Any, plugin: Any) -> Any:
 
 
 @pytest.fixture
-def b(plugin: Any, bench: Callable[..., Any]) -> Any:
+def b(plugin: Any, bench: Benches) -> Any:
     """A viewer that has heard one polygon, never to be published again."""
     b = bench(make(plugin.load(), {}), strict=False)
     publish(b)
@@ -75,9 +75,7 @@ def test_values_are_kept_and_defaults_follow_the_file(b: Any, plugin: Any) -> No
     assert display.topic == Topic("/polygon", depth=7)
 
 
-def test_a_changed_display_stays_where_it_is_in_the_list(
-    plugin: Any, bench: Callable[..., Any]
-) -> None:
+def test_a_changed_display_stays_where_it_is_in_the_list(plugin: Any, bench: Benches) -> None:
     cls = plugin.load()
     displays = [make(cls, {"name": name}) for name in ("A", "B", "C")]
     b = bench(*displays)
@@ -226,7 +224,7 @@ def test_any_hook_may_raise_or_return_nonsense_and_the_viewer_goes_on(
 
 
 def test_an_entry_of_the_config_comes_to_life_with_its_property(
-    plugin: Any, bench: Callable[..., Any]
+    plugin: Any, bench: Benches
 ) -> None:
     plugin.load()
     text = "displays: [{type: Area, width: 7.0}, {type: Nowhere}]"
@@ -294,7 +292,7 @@ def test_a_reset_after_a_reload_forgets_as_ever(b: Any, plugin: Any) -> None:
 
 
 def test_a_display_kept_of_rviz_comes_to_life_and_keeps_what_only_rviz_knows(
-    plugin: Any, bench: Callable[..., Any]
+    plugin: Any, bench: Benches
 ) -> None:
     plugin.load()
     kept = "{Class: x/Outline, Name: Fence, Value: true, Topic: /polygon, Color: blue, Glow: 1}"

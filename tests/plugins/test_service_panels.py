@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import msgspec
 import pytest
+from bench import Benches
 
 from webviz.api.errors import Error
 from webviz.api.panel import Panel
@@ -34,7 +34,7 @@ PARAMETERS = "rcl_interfaces/srv/GetParameters"
 class Bench(OpenedPanel):
     """A panel in a viewer on a graph that remembers."""
 
-    def __init__(self, bench: Callable[..., Any], cls: type[Panel], **values: Any) -> None:
+    def __init__(self, bench: Benches, cls: type[Panel], **values: Any) -> None:
         self.graph = RememberingGraph()
         self.viewer = bench(graph=self.graph)
         super().__init__(cls, self.viewer.do, self.viewer.viewer.state, **values)
@@ -45,7 +45,7 @@ class Bench(OpenedPanel):
 
 
 @pytest.fixture
-def tools(bench: Callable[..., Any]) -> Bench:
+def tools(bench: Benches) -> Bench:
     return Bench(bench, RvizVisualToolsGui)
 
 
@@ -66,7 +66,7 @@ def test_a_press_that_nobody_hears_is_said(tools: Bench) -> None:
 
 
 def test_plug_ins_are_those_of_the_servers_and_the_choice_is_latched(
-    bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+    bench: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz.panels.selector.ASK_S", 0.0)
     b = Bench(bench, Selector, namespace="/robot1/")
@@ -92,7 +92,7 @@ def test_plug_ins_are_those_of_the_servers_and_the_choice_is_latched(
 
 
 def test_a_robot_docks_by_id_and_at_a_pose_and_undocks(
-    bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+    bench: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz.panels.docking.ASK_S", 0.0)
     b = Bench(bench, Docking)
@@ -147,7 +147,7 @@ def test_a_robot_docks_by_id_and_at_a_pose_and_undocks(
 
 
 @pytest.fixture
-def slam(bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch) -> Bench:
+def slam(bench: Benches, monkeypatch: pytest.MonkeyPatch) -> Bench:
     monkeypatch.setattr("webviz.panels.slam_toolbox.ASK_S", 0.0)
     return Bench(bench, SlamToolbox)
 
