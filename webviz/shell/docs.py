@@ -247,16 +247,13 @@ def property_rows(found: tuple[Property, ...], declared: Declared) -> Iterator[t
 
 def values(each: Property | inspect.Field) -> str:
     """Return the valid values of a property, in words."""
-    if isinstance(each, Property) and is_topic(each):
-        return "topic"
-    if (
-        isinstance(each, Property)
-        and each.widget == "frame"
-        and isinstance(each.type, inspect.StrType)
-    ):
-        return "frame"
-    if isinstance(each, Property) and each.choices:
-        return ", ".join(f"`{choice}`" for choice in each.choices)
+    if isinstance(each, Property):
+        if is_topic(each):
+            return "topic"
+        if each.widget == "frame" and isinstance(each.type, inspect.StrType):
+            return "frame"
+        if each.choices:
+            return ", ".join(f"`{choice}`" for choice in each.choices)
     return type_words(each.type)
 
 
