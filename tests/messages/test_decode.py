@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from itertools import product
 from pathlib import Path
 from random import Random
@@ -13,7 +14,7 @@ from hypothesis import strategies as st
 from known_types import ROS_TYPES, TYPES, ros_classes
 from rosbags.highlevel import AnyReader
 
-from webviz.data.messages import decode, encode, message_class, peek_header
+from webviz.data.messages import DecodeError, decode, encode, message_class, peek_header
 from webviz.data.messages.classes import WRITTEN, attribute
 from webviz.data.messages.markers import NOTHING, Marker
 from webviz.data.messages.typestore import constants, fields
@@ -270,3 +271,25 @@ def test_markers_of_texts_make_no_empty_lists_of_their_own():
         assert content.colors is NOTHING.colors
         assert content.uv_coordinates is NOTHING.uv_coordinates
         assert content.texture is NOTHING.texture
+
+
+@given(
+    st.lists(st.sampled_from(["", "x", "abc", "a long one", "wall"]), min_size=1, max_size=5),
+    st.integers(0, 40),
+    st.lists(st.sampled_from(["", "ab"]), max_size=5),
+    st.integers(0, 2**31 - 1),
+)
+def test_markers_that_repeat_are_read_as_each_by_itself(
+    cycle: list[str], times: int, others: list[str], cut: int
+) -> None:
+    texts = [*others, *cycle * times, *others, *cycle * 3]
+    markers = [
+        {"ns": text, "id": i, "text": text[: i % 3], "points": [{"x": i}] * (len(text) % 2)}
+        for i, text in enumerate(texts)
+    ]
+    name = "visualization_msgs/msg/Marker"
+    array = encode(f"{name}Array", {"markers": markers})
+    found = decode(f"{name}Array", array).markers
+    assert [encode(name, each) for each in found] == [encode(name, each) for each in markers]
+    with contextlib.suppress(DecodeError):
+        decode(f"{name}Array", array[: cut % len(array)])

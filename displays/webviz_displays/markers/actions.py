@@ -90,7 +90,12 @@ def effect_of(markers: MarkerSequence) -> Effect:
 
 
 def _add(effect: Effect, namespaces: list[str], ids: list[int], start: int, stop: int) -> None:
-    added = effect.added
+    added, namespace = effect.added, namespaces[start]
+    if namespace not in added and namespaces.count(namespace) == len(namespaces):
+        numbers = dict(zip(ids[start:stop], range(start, stop), strict=True))
+        if len(numbers) == stop - start:  # all of one namespace, as most arrays have them
+            added[namespace] = numbers
+            return
     for i in range(start, stop):
         same = added.get(namespaces[i])
         if same is None:

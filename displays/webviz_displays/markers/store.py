@@ -16,7 +16,7 @@ from webviz_displays.markers.actions import Key, effect_of
 from webviz_displays.markers.contents import Memory, detached, is_same, size_of
 from webviz_displays.markers.faults import is_valid
 from webviz_displays.markers.remarks import REMEMBERED, Gone, Remarks
-from webviz_displays.markers.table import FOREVER, LOOK, Table
+from webviz_displays.markers.table import FOREVER, LOOK, LOOK_NAMES, Table
 
 MAX_MARKERS = 100_000
 """Of a display; further ones are refused."""
@@ -131,66 +131,80 @@ class Store:
         received_ns: int,
     ) -> None:
         """Add markers of these numbers, or new versions of them, as far as they are `ok`."""
-        table = self.table
-        rows: list[int] = []
-        taken: list[int] = []
-        each = numbers.tolist(), markers.ids[numbers].tolist(), ok[numbers].tolist()
-        for i, id, is_ok in zip(*each, strict=True):
-            key = markers.namespaces[i], id
-            if not is_ok:
-                self.remarks.refuse(key, "It has a number that is not finite, or more than 1e9 m.")
-                continue
-            content = markers.contents[i]
-            if content is not NOTHING and (length := len(content.text)) > MAX_TEXT:
-                why = f"Its text has {length} characters; the limit is {MAX_TEXT}."
-                self.remarks.refuse(key, why)
-                continue
-            row = table.rows.get(key)
-            if row is None:
-                if len(table) >= MAX_MARKERS:
-                    self.remarks.overflow += 1
-                    continue
-                row = table.row_of(key)
-            is_kept = content is table.wanted_contents[row]  # most have none
-            if not is_kept and not self._put_content(row, content):
-                self.remarks.refuse(key, "The markers of this display exceed 256 MB.")
-                if not table.is_shown[row]:
-                    self._remove(key, "Deleted", received_ns)
-                continue
-            rows.append(row)
-            taken.append(i)
+        table, wanted = self.table, self.table.wanted_contents
+        numbered = numbers.tolist()
+        keys = list(
+            zip(
+                [markers.namespaces[i] for i in numbered],
+                markers.ids[numbers].tolist(),
+                strict=True,
+            )
+        )
+        contents = [markers.contents[i] for i in numbered]
+        found = [table.rows.get(key) for key in keys]
+        each = zip(found, contents, ok[numbers].tolist(), strict=True)
+        # Most are there, with what they have; a step each in the interpreter is most of the time.
+        is_easy = [
+            row is not None and content is wanted[row] and is_ok for row, content, is_ok in each
+        ]
+        for place in [place for place, easy in enumerate(is_easy) if not easy]:
+            i = numbered[place]
+            found[place] = self._row_for(keys[place], contents[place], bool(ok[i]), received_ns)
+        rows = [row for row in found if row is not None]
+        taken = [i for i, row in zip(numbered, found, strict=True) if row is not None]
         if not rows:
             return
-        where, of = np.array(rows), np.array(taken)
-        new = self._looks(markers, of, received_ns)
-        old = table.wanted[where]
-        is_new = ~table.is_shown[where]
-        for name, *_ in LOOK:
-            is_new |= (new[name] != old[name]).reshape(len(of), -1).any(axis=1)
-        is_new |= new["stamp_ns"] != old["stamp_ns"]
+        new = self._looks(markers, np.array(taken), received_ns)
+        where = _span(np.array(rows))
+        is_new = ~table.is_shown[where] | _is_other(new, table.wanted[where])
+        is_new |= new["stamp_ns"] != table.wanted["stamp_ns"][where]
         table.wanted[where] = new
         self._next_expiry = min(self._next_expiry, int(new["expires_ns"].min()))
-        frames, frame_ids = table.frames, markers.frame_ids
-        for row, i, changed in zip(rows, taken, is_new.tolist(), strict=True):
-            frame = frame_ids[i].removeprefix("/")
-            if changed or frame != frames[row]:
+        self._todo.update(itertools.compress(rows, is_new.tolist()))
+        frames, wanted, shown = table.frames, table.wanted_contents, table.shown_contents
+        named = {frame: frame.removeprefix("/") for frame in set(markers.frame_ids)}
+        given = [named[markers.frame_ids[i]] for i in taken]
+        for row, frame in zip(rows, given, strict=True):
+            if frame != frames[row] or wanted[row] is not shown[row]:
                 frames[row] = frame
-                self._todo.add(row)
-            elif table.wanted_contents[row] is not table.shown_contents[row]:
                 self._todo.add(row)
         self.remarks.accept(table.keys[row] for row in rows)
 
+    def _row_for(self, key: Key, content: Content, is_ok: bool, received_ns: int) -> int | None:
+        """Return the row of a marker, which keeps its content; None if that is refused."""
+        table, remarks = self.table, self.remarks
+        if not is_ok:
+            remarks.refuse(key, "It has a number that is not finite, or more than 1e9 m.")
+            return None
+        if content is not NOTHING and (length := len(content.text)) > MAX_TEXT:
+            why = f"Its text has {length} characters; the limit is {MAX_TEXT}."
+            remarks.refuse(key, why)
+            return None
+        row = table.rows.get(key)
+        if row is None:
+            if len(table) >= MAX_MARKERS:
+                remarks.overflow += 1
+                return None
+            row = table.row_of(key)
+        if not self._put_content(row, content):
+            remarks.refuse(key, "The markers of this display exceed 256 MB.")
+            if not table.is_shown[row]:
+                self._remove(key, "Deleted", received_ns)
+            return None
+        return row
+
     def _looks(
-        self, markers: MarkerSequence, of: NDArray[np.intp], received_ns: int
+        self, markers: MarkerSequence, numbers: NDArray[np.intp], received_ns: int
     ) -> NDArray[Any]:
-        new = np.zeros(len(of), self.table.wanted.dtype)
+        new = np.zeros(len(numbers), self.table.wanted.dtype)
+        of = _span(numbers)
         xyzw = markers.orientations[of]
         wxyz, _ = normalized(w_first(xyzw))
         with np.errstate(over="ignore"):
             is_tilted = np.abs(np.linalg.norm(xyzw, axis=1) - 1.0) > TILTED
         tilted = self.remarks.tilted
         if is_tilted.any() or tilted:
-            for i, is_so in zip(of.tolist(), is_tilted.tolist(), strict=True):
+            for i, is_so in zip(numbers.tolist(), is_tilted.tolist(), strict=True):
                 key = markers.namespaces[i], int(markers.ids[i])
                 (tilted.add if is_so else tilted.discard)(key)
         new["type"], new["locked"] = markers.types[of], markers.frame_locked[of]
@@ -259,6 +273,9 @@ class Store:
         """Rows by what their pose depends on; locked ones need none."""
         frames, some = self.table.frames, self.table.wanted[np.array(rows, np.intp)]
         found: dict[Place, list[int]] = {}
+        stamps, names = some["stamp_ns"], {frames[row] for row in rows}
+        if len(names) == 1 and not some["locked"].any() and (stamps == stamps[0]).all():
+            return {(names.pop(), int(stamps[0])): list(rows)}  # as most arrays have them
         each = zip(rows, some["locked"].tolist(), some["stamp_ns"].tolist(), strict=True)
         for row, is_locked, stamp_ns in each:
             place = ("", 0) if is_locked else (frames[row], stamp_ns)
@@ -268,26 +285,26 @@ class Store:
     def _show(self, rows: NDArray[np.intp], pose: Pose) -> None:
         """Draw the newest versions of some markers, whose frame has this pose."""
         table = self.table
-        new = table.wanted[rows]
+        where = _span(rows)
+        new = table.wanted[where]
         look = np.zeros(len(rows), LOOK)
-        for name, *_ in LOOK:
+        for name in LOOK_NAMES:
             look[name] = new[name]
         look["position"], look["wxyz"] = _moved(new["position"], new["wxyz"], pose)
-        old = table.shown[rows]
-        changed = ~table.is_shown[rows]
-        for name, *_ in LOOK:
-            changed |= (look[name] != old[name]).reshape(len(rows), -1).any(axis=1)
-        table.shown[rows], table.is_shown[rows] = look, True
+        changed = ~table.is_shown[where] | _is_other(look, table.shown[where])
+        table.shown[where], table.is_shown[where] = look, True
+        self.changed.update(rows[changed].tolist())
         is_locked = bool(new["locked"].any())
-        for row, is_changed in zip(rows.tolist(), changed.tolist(), strict=True):
-            content = table.wanted_contents[row]
-            frame = table.frames[row]
-            is_changed |= content is not table.shown_contents[row]
-            if is_changed or (is_locked and frame != table.shown_frames[row]):
+        frames, shown_frames = table.frames, table.shown_frames
+        wanted, shown = table.wanted_contents, table.shown_contents
+        for row in rows.tolist():
+            if frames[row] != shown_frames[row]:
+                shown_frames[row] = frames[row]
+                if is_locked:
+                    self.changed.add(row)
+            if wanted[row] is not shown[row]:
+                table.show_content(row, wanted[row])
                 self.changed.add(row)
-            if content is not table.shown_contents[row]:
-                table.show_content(row, content)
-            table.shown_frames[row] = frame
         self.version += 1
 
     def _move(self, frames: Frames) -> None:
@@ -316,6 +333,22 @@ class Store:
                 self._todo.update(rows)
         self.changed.update(loose)
         self.version += 1
+
+
+def _span(rows: NDArray[np.intp]) -> slice | NDArray[np.intp]:
+    """Return rows as a slice if each follows the one before, of which numpy makes no copies."""
+    first, last = int(rows[0]), int(rows[-1])
+    is_span = last - first == len(rows) - 1 and bool((np.diff(rows) == 1).all())
+    return slice(first, last + 1) if is_span else rows
+
+
+def _is_other(new: NDArray[Any], old: NDArray[Any]) -> NDArray[np.bool_]:
+    """Return which looks (N,) differ."""
+    found = np.zeros(len(new), np.bool_)
+    for name in LOOK_NAMES:
+        differs = new[name] != old[name]
+        found |= differs if differs.ndim == 1 else differs.any(axis=1)
+    return found
 
 
 def _pose(place: Place, frames: Frames) -> Pose | None:

@@ -17,7 +17,7 @@ from webviz_displays.markers.batch import MarkerBatch
 FOREVER = np.iinfo(np.int64).max
 """When markers without a lifetime expire."""
 
-LOOK = [
+_LOOK = [
     ("type", np.int32),
     ("position", np.float64, 3),
     ("wxyz", np.float64, 4),
@@ -26,8 +26,10 @@ LOOK = [
     ("own_materials", np.bool_),
     ("locked", np.bool_),
 ]
-"""Appearance of a marker, apart from its content."""
 _TIMES = [("stamp_ns", np.int64), ("expires_ns", np.int64), ("received_ns", np.int64)]
+LOOK: np.dtype[np.void] = np.dtype(_LOOK, align=True)
+"""Appearance of a marker, apart from its content."""
+LOOK_NAMES = tuple(name for name, *_ in _LOOK)
 _FIRST = 64
 
 
@@ -54,7 +56,7 @@ class Table:
         self.shown_frames: list[str] = []
         self.wanted_contents: list[Content] = []
         self.shown_contents: list[Content] = []
-        self.wanted: NDArray[Any] = np.zeros(_FIRST, LOOK + _TIMES)
+        self.wanted: NDArray[Any] = np.zeros(_FIRST, np.dtype(_LOOK + _TIMES, align=True))
         self.shown: NDArray[Any] = np.zeros(_FIRST, LOOK)
         self.is_shown = np.zeros(_FIRST, np.bool_)
         self.counts = np.zeros(_FIRST, np.intp)

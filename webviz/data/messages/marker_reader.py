@@ -2,15 +2,18 @@
 
 Almost all markers of an array have the layout of one before them: the same lengths of names, texts
 and lists. So of each marker only the lengths are read, in one call, and compared with those that
-followed last time. The fixed fields of all markers of one layout are then read as arrays.
+followed last time; of markers whose layouts repeat, all at once. The fixed fields of all markers of
+one layout are then read as arrays.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from struct import Struct
 from typing import Any
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from webviz.data.messages.cdr import CdrError, Reader
@@ -33,6 +36,11 @@ _UV, _TEXT, _MESH, _FILE, _FILE_DATA = 8, 9, 10, 11, 12
 _FLOAT64, _FLOAT32, _UINT8 = np.dtype(np.float64), np.dtype(np.float32), np.dtype(np.uint8)
 _EMPTY_STRINGS = (0, 1)
 _NO_BYTES = NO_FILE.data
+_FIRST_TRY = 8
+"""Markers that follow as expected before their repetition is looked for; twice as many after each
+failure."""
+_LONGEST = 4
+"""Of the runs of markers whose repetition is looked for."""
 _UINT = {order: Struct(order + "I").unpack_from for order in "<>"}
 
 
@@ -50,6 +58,7 @@ class _Layout:
         self._data, self._end, self._uint = reader.data, reader.size, _UINT[reader.order]
         self._pos = self._start = reader.pos
         self.phase = reader.pos & 7
+        self.words = np.dtype(reader.order + "u4")
         counts: list[int] = []
         self.places: list[int] = []
         """Of the counts in `counts`."""
@@ -138,7 +147,7 @@ def read_markers(reader: Reader) -> MarkerSequence:
     for number, layout in enumerate(layouts):
         rows = np.flatnonzero(which == number)
         first = places[rows]
-        heads = data[first[:, None] + np.arange(layout.locked + 1)]
+        heads = sliding_window_view(data, layout.locked + 1)[first]
 
         def read(start: int, width: int, dtype: str, heads: Any = heads) -> NDArray[Any]:
             part = heads[:, start : start + width * np.dtype(dtype).itemsize]
@@ -160,7 +169,7 @@ def read_markers(reader: Reader) -> MarkerSequence:
             for row, text in zip(listed, _strings(column), strict=True):
                 texts[row] = text
         has_content = np.full(len(rows), not layout.is_empty)
-        has_content |= data[first[:, None] + layout.texture_stamp + np.arange(8)].any(axis=1)
+        has_content |= sliding_window_view(data, 8)[first + layout.texture_stamp].any(axis=1)
         for index in np.flatnonzero(has_content).tolist():
             contents[listed[index]] = _content(reader, layout, int(first[index]))
     if layouts:
@@ -195,10 +204,13 @@ def _walk(reader: Reader, count: int) -> tuple[list[_Layout], list[int], list[in
     starts: list[int] = []
     numbers: list[int] = []
     last = -1
-    for _ in range(count):
+    expected, next_try = 0, _FIRST_TRY
+    while len(starts) < count:
         pos = (pos + 3) & ~3
         number = next_of.get(last, -1)
+        expected += 1
         if number < 0 or not layouts[number].fits(data, pos, end):
+            expected = 0
             reader.pos = pos
             layout = _Layout(reader)
             number = known.setdefault((layout.phase, *layout.counts), len(layouts))
@@ -209,7 +221,49 @@ def _walk(reader: Reader, count: int) -> tuple[list[_Layout], list[int], list[in
         numbers.append(number)
         pos += layouts[number].size
         last = number
+        if expected >= next_try:
+            cycle, most = _cycle(numbers), count - len(starts)
+            pos = (pos + 3) & ~3
+            size = pos - starts[-len(cycle)] if cycle else 0
+            again = _repeated([layouts[each] for each in cycle], data, pos, size, most)
+            if again:
+                jumps = np.arange(1, again + 1)[:, None] * size
+                starts += (np.array(starts[-len(cycle) :]) + jumps).ravel().tolist()
+                numbers += cycle * again
+                pos = starts[-1] + layouts[last].size
+            expected, next_try = 0, _FIRST_TRY if again else 2 * next_try
     return layouts, starts, numbers
+
+
+def _cycle(numbers: list[int]) -> list[int]:
+    """Return the last layouts if those before them were the same, [] if they were not."""
+    for length in range(1, _LONGEST + 1):
+        if numbers[-length:] == numbers[-2 * length : -length]:
+            return numbers[-length:]
+    return []
+
+
+def _repeated(
+    cycle: Sequence[_Layout], data: bytes | memoryview, pos: int, size: int, most: int
+) -> int:
+    """Return how many times markers of these layouts follow at `pos`, `most` markers at most.
+
+    Args:
+        size: bytes of the cycle, up to where the next one begins.
+    """
+    times = min(most // len(cycle), (len(data) - pos) // size) if cycle else 0
+    if times < 1 or size % 8:
+        return 0
+    words = np.frombuffer(data, cycle[0].words, len(data) // 4)
+    places, counts, start = [], [], pos
+    for layout in cycle:
+        start = (start + 3) & ~3
+        places += [start + place for place in layout.places]
+        counts += layout.counts
+        start += layout.size
+    each = np.array(places) // 4 + np.arange(times)[:, None] * (size // 4)
+    is_same = (words[each] == np.array(counts, np.uint32)).all(axis=1)
+    return times if is_same.all() else int(is_same.argmin())
 
 
 def _strings(column: NDArray[np.uint8]) -> list[str]:
