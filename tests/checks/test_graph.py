@@ -30,6 +30,7 @@ from webviz_displays.tf import TF
 
 BEST_EFFORT = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 POSE = "geometry_msgs/msg/PoseWithCovarianceStamped"
+Viewers = Callable[..., LiveViewer]
 
 
 @pytest.fixture
@@ -53,9 +54,7 @@ def wait_for(viewer: LiveViewer, *ids: str) -> dict[str, webviz.Finding]:
     return live_findings(viewer, CauseLevel.GRAPH)
 
 
-def test_every_fault_of_a_topic_has_its_own_finding(
-    robot: Node, webviz_viewer: Callable[..., LiveViewer]
-) -> None:
+def test_every_fault_of_a_topic_has_its_own_finding(robot: Node, webviz_viewer: Viewers) -> None:
     robot.create_publisher(LaserScan, "/front/scan", BEST_EFFORT)
     robot.create_publisher(LaserScan, "/scan_rear", BEST_EFFORT)
     robot.create_publisher(LaserScan, "/plan", BEST_EFFORT)
@@ -86,7 +85,7 @@ def test_every_fault_of_a_topic_has_its_own_finding(
     )
 
 
-def test_a_remedy_ends_its_finding(robot: Node, webviz_viewer: Callable[..., LiveViewer]) -> None:
+def test_a_remedy_ends_its_finding(robot: Node, webviz_viewer: Viewers) -> None:
     publisher = robot.create_publisher(LaserScan, "/scan", BEST_EFFORT)
     viewer = webviz_viewer(scan("/scan", reliability="reliable"))
     found = wait_for(viewer, "GRAPH005 /scan")
@@ -103,9 +102,7 @@ def test_a_remedy_ends_its_finding(robot: Node, webviz_viewer: Callable[..., Liv
     wait_for(viewer, "GRAPH011 /scan")
 
 
-def test_a_goal_that_nobody_has_sent_is_a_note(
-    robot: Node, webviz_viewer: Callable[..., LiveViewer]
-) -> None:
+def test_a_goal_that_nobody_has_sent_is_a_note(robot: Node, webviz_viewer: Viewers) -> None:
     robot.create_publisher(PoseStamped, "/goal_pose", 1)
     viewer = webviz_viewer(Pose(topic=webviz.Topic("/goal_pose")))
 
@@ -133,7 +130,7 @@ def test_a_graph_without_any_other_node(webviz_domain: int, tmp_path: PathOfFile
 
 
 def test_messages_above_the_limit(
-    robot: Node, webviz_viewer: Callable[..., LiveViewer], monkeypatch: pytest.MonkeyPatch
+    robot: Node, webviz_viewer: Viewers, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(webviz.ros.node, "MAX_MESSAGE", 1000)
     publisher = robot.create_publisher(LaserScan, "/scan", 1)
@@ -152,9 +149,7 @@ def test_messages_above_the_limit(
     viewer.wait_for(lambda: not found())
 
 
-def test_a_deadline_that_nobody_meets(
-    robot: Node, webviz_viewer: Callable[..., LiveViewer]
-) -> None:
+def test_a_deadline_that_nobody_meets(robot: Node, webviz_viewer: Viewers) -> None:
     slow, quick = (QoSProfile(depth=1, deadline=Duration(seconds=s)) for s in (1.0, 0.1))
     publisher = robot.create_publisher(PoseStamped, "/pose", slow)
     listener = robot.create_subscription(PoseStamped, "/pose", print, quick)
@@ -179,9 +174,7 @@ def test_a_deadline_that_nobody_meets(
     wait_for(viewer)
 
 
-def test_a_node_that_was_started_twice(
-    robot: Node, webviz_viewer: Callable[..., LiveViewer]
-) -> None:
+def test_a_node_that_was_started_twice(robot: Node, webviz_viewer: Viewers) -> None:
     lidars = [Node("lidar", context=robot.context, enable_rosout=False) for _ in range(2)]
     viewer = webviz_viewer(TF())
     viewer.wait_for(lambda: noted(viewer) == {"GRAPH015": webviz.Severity.NOTE})
@@ -194,9 +187,7 @@ def test_a_node_that_was_started_twice(
     lidars[1].destroy_node()
 
 
-def test_large_messages_that_are_not_repeated(
-    robot: Node, webviz_viewer: Callable[..., LiveViewer]
-) -> None:
+def test_large_messages_that_are_not_repeated(robot: Node, webviz_viewer: Viewers) -> None:
     viewer = webviz_viewer(scan("/scan"))
     publisher = robot.create_publisher(LaserScan, "/scan", BEST_EFFORT)
     message = LaserScan(ranges=[1.0] * 150_000)
@@ -245,9 +236,7 @@ def test_a_pose_that_is_sent_while_the_robot_moves(webviz_harness: Callable[...,
     assert found.severity is webviz.Severity.NOTE
 
 
-def test_a_lifecycle_node_that_is_not_active(
-    webviz_domain: int, webviz_viewer: Callable[..., LiveViewer]
-) -> None:
+def test_a_lifecycle_node_that_is_not_active(webviz_domain: int, webviz_viewer: Viewers) -> None:
     with node_of(webviz_domain, "lidar", LifecycleNode) as node:
         publisher = node.create_lifecycle_publisher(LaserScan, "/scan", 1)
         node.trigger_configure()

@@ -51,6 +51,9 @@ class Hand:
         self._thread.join()
 
 
+Hands = Callable[..., Hand]
+
+
 class Lone:
     """The velocity controllers of one vehicle, without a viewer."""
 
@@ -109,7 +112,7 @@ def b(bench: Benches) -> Any:
 
 
 @pytest.fixture
-def hold(b: Any) -> Iterator[Callable[..., Hand]]:
+def hold(b: Any) -> Iterator[Hands]:
     with several(lambda browser=1, held=AHEAD: Hand(b, browser, held), Hand.vanish) as hold:
         yield hold
 
@@ -149,7 +152,7 @@ def advertised(b: Any) -> set[Advertisement]:
 
 
 def test_commands_are_published_without_the_frame_loop_until_the_page_is_silent(
-    b: Any, hold: Callable[..., Hand]
+    b: Any, hold: Hands
 ) -> None:
     hand = hold()
     until(lambda: speeds(b)[-1:] == [0.5])  # no turn of the loop since the press
@@ -170,9 +173,7 @@ def test_a_silent_driver_is_stopped_between_two_commands(
     assert len(speeds(b)) <= 3
 
 
-def test_the_topic_is_the_robots_alone_while_nobody_attends(
-    b: Any, hold: Callable[..., Hand]
-) -> None:
+def test_the_topic_is_the_robots_alone_while_nobody_attends(b: Any, hold: Hands) -> None:
     assert advertised(b) == set()
     assert "/odom" not in b.source.wanted
     assert steer(b, teleop(b), 1, STILL).driver is None
@@ -203,7 +204,7 @@ def test_the_topic_is_the_robots_alone_while_nobody_attends(
     ],
 )
 def test_what_is_driven_stops_when_it_is_taken_away(
-    b: Any, hold: Callable[..., Hand], change: Callable[[Any], object], goes_on: bool
+    b: Any, hold: Hands, change: Callable[[Any], object], goes_on: bool
 ) -> None:
     tool = teleop(b)
     hand = hold()
@@ -217,9 +218,7 @@ def test_what_is_driven_stops_when_it_is_taken_away(
     assert (steer(b, tool, 1, AHEAD).driver == 1) == goes_on
 
 
-def test_a_viewer_that_is_told_to_stop_brakes_nothing_gently(
-    b: Any, hold: Callable[..., Hand]
-) -> None:
+def test_a_viewer_that_is_told_to_stop_brakes_nothing_gently(b: Any, hold: Hands) -> None:
     hold()
     until(lambda: speeds(b)[-1:] == [0.5])
     b.viewer.stop()
@@ -229,7 +228,7 @@ def test_a_viewer_that_is_told_to_stop_brakes_nothing_gently(
 
 
 def test_a_command_that_could_not_be_published_in_time_is_not_published_late(
-    b: Any, hold: Callable[..., Hand], caplog: pytest.LogCaptureFixture
+    b: Any, hold: Hands, caplog: pytest.LogCaptureFixture
 ) -> None:
     sent: list[Future[int]] = []
 
@@ -250,7 +249,7 @@ def test_a_command_that_could_not_be_published_in_time_is_not_published_late(
 
 
 def test_whoever_closes_a_viewer_waits_until_its_last_commands_are_published(
-    b: Any, hold: Callable[..., Hand], monkeypatch: pytest.MonkeyPatch
+    b: Any, hold: Hands, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz.engine.driving.velocity_controllers.ENDING_S", PATIENCE_S)
     publish, sent = b.source.graph.publish, list[Future[int]]()
@@ -350,9 +349,7 @@ def test_a_robot_speeds_up_from_standstill_after_a_broken_link(lone: Lone) -> No
     assert lone.speeds[before] <= 2 * PERIOD_S * Teleop().acceleration
 
 
-def test_undo_of_a_property_changes_the_limits_of_the_next_moment(
-    b: Any, hold: Callable[..., Hand]
-) -> None:
+def test_undo_of_a_property_changes_the_limits_of_the_next_moment(b: Any, hold: Hands) -> None:
     b.do(SetToolProperty("Teleop", "linear", 0.123))  # which no step of a ramp to 0.5 meets
     hold()
     until(lambda: speeds(b)[-1:] == [0.123])
@@ -361,7 +358,7 @@ def test_undo_of_a_property_changes_the_limits_of_the_next_moment(
 
 
 def test_the_second_driver_learns_who_has_control_also_through_another_tool(
-    b: Any, hold: Callable[..., Hand]
+    b: Any, hold: Hands
 ) -> None:
     b.do(Load("tools: [{type: Teleop}, {type: Teleop, name: Slow, linear: 0.1}]\n", "x.yaml"))
     first = hold(browser=7)
@@ -374,9 +371,7 @@ def test_the_second_driver_learns_who_has_control_also_through_another_tool(
     until(lambda: speeds(b)[-1:] == [0.0])
 
 
-def test_vehicles_on_different_topics_have_drivers_of_their_own(
-    b: Any, hold: Callable[..., Hand]
-) -> None:
+def test_vehicles_on_different_topics_have_drivers_of_their_own(b: Any, hold: Hands) -> None:
     others = "{type: Teleop, name: A, topic: /a}, {type: Teleop, name: Z, topic: /z}"
     b.do(Load(f"tools: [{{type: Teleop}}, {others}]\n", "x.yaml"))
     hold(browser=7)
@@ -385,7 +380,7 @@ def test_vehicles_on_different_topics_have_drivers_of_their_own(
     assert [steer(b, tool, 8, AHEAD).driver for tool in tools] == [8, 8]
 
 
-def test_a_page_learns_why_its_commands_reach_nobody(b: Any, hold: Callable[..., Hand]) -> None:
+def test_a_page_learns_why_its_commands_reach_nobody(b: Any, hold: Hands) -> None:
     assert "no valid topic, or is gone" in steer(b, "tool99", 1, AHEAD).problem
     b.source.graph.subscriptions = 0
     hold()

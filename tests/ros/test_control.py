@@ -45,6 +45,7 @@ views:
   Close: {distance: 1.0}
 displays: []
 """
+Viewers = Callable[..., webviz.Viewer]
 
 
 class Client(SpunNode):
@@ -100,7 +101,7 @@ def client(webviz_domain: int) -> Iterator[Client]:
 
 
 @pytest.fixture
-def open_viewer(webviz_domain: int) -> Iterator[Callable[..., webviz.Viewer]]:
+def open_viewer(webviz_domain: int) -> Iterator[Viewers]:
     """Begins a viewer on ROS; arguments by name are those of `webviz.Viewer`."""
 
     def open_viewer(
@@ -121,7 +122,7 @@ def config(tmp_path: Path) -> Path:
 
 
 def test_parameters_follow_the_state_of_the_viewer(
-    open_viewer: Callable[..., webviz.Viewer], client: Client, config: Path
+    open_viewer: Viewers, client: Client, config: Path
 ) -> None:
     viewer = open_viewer()
     client.until(lambda: client.get("fixed_frame") == "map", "the parameter has the frame")
@@ -133,16 +134,14 @@ def test_parameters_follow_the_state_of_the_viewer(
     assert client.get("fixed_frame") == "odom"
 
 
-def test_every_parameter_of_the_viewer_is_described(
-    open_viewer: Callable[..., webviz.Viewer], client: Client
-) -> None:
+def test_every_parameter_of_the_viewer_is_described(open_viewer: Viewers, client: Client) -> None:
     open_viewer()
     described = client.describe(["config_file", "fixed_frame", "view", "use_sim_time"])
     assert all(described.values()), described
 
 
 def test_parameters_given_at_the_start_choose_file_and_frame(
-    open_viewer: Callable[..., webviz.Viewer], client: Client, config: Path
+    open_viewer: Viewers, client: Client, config: Path
 ) -> None:
     viewer = open_viewer(parameters=[f"config_file:={config}"])
     assert (viewer.path, viewer.fixed_frame) == (str(config), "odom")
@@ -151,7 +150,7 @@ def test_parameters_given_at_the_start_choose_file_and_frame(
 
 
 def test_the_command_line_is_stronger_than_parameters_and_they_than_the_file(
-    open_viewer: Callable[..., webviz.Viewer], config: Path, tmp_path: Path
+    open_viewer: Viewers, config: Path, tmp_path: Path
 ) -> None:
     other = tmp_path / "other.yaml"
     other.write_text("displays: []")
@@ -162,15 +161,13 @@ def test_the_command_line_is_stronger_than_parameters_and_they_than_the_file(
     assert (viewer.path, viewer.fixed_frame) == (str(other), "odom")
 
 
-def test_a_file_at_the_start_that_is_missing_is_refused(
-    open_viewer: Callable[..., webviz.Viewer],
-) -> None:
+def test_a_file_at_the_start_that_is_missing_is_refused(open_viewer: Viewers) -> None:
     with pytest.raises(webviz.Error, match=r"^Cannot read /nowhere.yaml: No such file"):
         open_viewer(parameters=["config_file:=/nowhere.yaml"])
 
 
 def test_any_fixed_frame_is_accepted_and_the_status_says_whether_it_exists(
-    open_viewer: Callable[..., webviz.Viewer], client: Client
+    open_viewer: Viewers, client: Client
 ) -> None:
     viewer = open_viewer()
     client.publish_frames("base_link", "laser")
@@ -199,7 +196,7 @@ def test_any_fixed_frame_is_accepted_and_the_status_says_whether_it_exists(
 
 
 def test_another_config_is_opened_by_a_parameter(
-    open_viewer: Callable[..., webviz.Viewer], client: Client, config: Path, tmp_path: Path
+    open_viewer: Viewers, client: Client, config: Path, tmp_path: Path
 ) -> None:
     other = tmp_path / "other.yaml"
     other.write_text("displays: []")
@@ -218,7 +215,7 @@ def test_another_config_is_opened_by_a_parameter(
 
 
 def test_only_configs_of_its_folder_and_of_those_allowed_are_opened_by_a_parameter(
-    open_viewer: Callable[..., webviz.Viewer], client: Client, config: Path, tmp_path: Path
+    open_viewer: Viewers, client: Client, config: Path, tmp_path: Path
 ) -> None:
     for name in ("allowed/deep/a.yaml", "below/b.yaml", "secret.txt", "allowed/secret.txt"):
         path = tmp_path / name
@@ -243,15 +240,13 @@ def test_only_configs_of_its_folder_and_of_those_allowed_are_opened_by_a_paramet
     assert client.call("/webviz/load_config").success
 
 
-def test_parameters_of_ros_itself_go_on(
-    open_viewer: Callable[..., webviz.Viewer], client: Client
-) -> None:
+def test_parameters_of_ros_itself_go_on(open_viewer: Viewers, client: Client) -> None:
     open_viewer(parameters=["use_sim_time:=true"])
     assert client.set("use_sim_time", False) == ""
 
 
 def test_a_config_is_loaded_again_and_saved_by_services(
-    open_viewer: Callable[..., webviz.Viewer], client: Client, config: Path
+    open_viewer: Viewers, client: Client, config: Path
 ) -> None:
     viewer = open_viewer(config)
     viewer["Floor"].cell_size = 4.0
@@ -264,9 +259,7 @@ def test_a_config_is_loaded_again_and_saved_by_services(
     assert "cell_size: 5.0" in config.read_text()
 
 
-def test_without_a_file_the_services_say_what_to_do(
-    open_viewer: Callable[..., webviz.Viewer], client: Client
-) -> None:
+def test_without_a_file_the_services_say_what_to_do(open_viewer: Viewers, client: Client) -> None:
     open_viewer()
     for name in ("load_config", "save_config"):
         answer = client.call(f"/webviz/{name}")
@@ -275,7 +268,7 @@ def test_without_a_file_the_services_say_what_to_do(
 
 
 def test_services_record_and_save_the_last_seconds(
-    open_viewer: Callable[..., webviz.Viewer],
+    open_viewer: Viewers,
     client: Client,
     config: Path,
     monkeypatch: pytest.MonkeyPatch,
@@ -298,7 +291,7 @@ def test_services_record_and_save_the_last_seconds(
 
 @pytest.mark.parametrize(("name", "type"), [("reset", Trigger), ("reset_time", Empty)])
 def test_a_reset_forgets_messages(
-    open_viewer: Callable[..., webviz.Viewer], client: Client, name: str, type: Any
+    open_viewer: Viewers, client: Client, name: str, type: Any
 ) -> None:
     viewer = open_viewer()
     before = viewer.state.clock.wall_elapsed_s
@@ -308,7 +301,7 @@ def test_a_reset_forgets_messages(
 
 
 def test_a_picture_is_written_beside_the_config(
-    open_viewer: Callable[..., webviz.Viewer], client: Client, config: Path
+    open_viewer: Viewers, client: Client, config: Path
 ) -> None:
     open_viewer(config)
     answer = client.wait(client.ask("/webviz/screenshot"), 90.0)
@@ -412,7 +405,7 @@ def test_without_std_srvs_the_rest_works(
 
 
 def test_a_saved_view_is_chosen_by_a_parameter(
-    open_viewer: Callable[..., webviz.Viewer], client: Client, tmp_path: Path
+    open_viewer: Viewers, client: Client, tmp_path: Path
 ) -> None:
     path = tmp_path / "views.yaml"
     path.write_text(VIEWS)
@@ -428,9 +421,7 @@ def test_a_saved_view_is_chosen_by_a_parameter(
     client.until(lambda: client.get("view") == "", "the parameter is empty for an unsaved view")
 
 
-def test_a_view_at_the_start_that_is_not_saved_is_refused(
-    open_viewer: Callable[..., webviz.Viewer],
-) -> None:
+def test_a_view_at_the_start_that_is_not_saved_is_refused(open_viewer: Viewers) -> None:
     with pytest.raises(webviz.Error, match=r"^Unknown saved view `Above`: none are known$"):
         open_viewer(parameters=["view:=Above"])
 
@@ -460,7 +451,7 @@ def test_the_program_of_the_readme_does_what_it_says(
 
 
 def test_without_control_the_node_only_reports(
-    open_viewer: Callable[..., webviz.Viewer], client: Client, config: Path
+    open_viewer: Viewers, client: Client, config: Path
 ) -> None:
     viewer = open_viewer(config, control=False)
     client.until(lambda: client.get("fixed_frame") == "odom", "the parameter has the frame")
@@ -475,7 +466,7 @@ def test_without_control_the_node_only_reports(
 
 
 def test_findings_are_returned_by_a_service_and_published_on_request(
-    open_viewer: Callable[..., webviz.Viewer], client: Client, config: Path
+    open_viewer: Viewers, client: Client, config: Path
 ) -> None:
     open_viewer(config)  # its fixed frame is not there
     found = client.call("/webviz/doctor", SelfTest)

@@ -25,10 +25,12 @@ from several import several
 from visualization_msgs.msg import InteractiveMarkerPose, InteractiveMarkerUpdate, MenuEntry
 
 NAN = math.nan
+Viewers = Callable[..., LiveViewer]
+Serve = Callable[..., MarkerServer]
 
 
 @pytest.fixture
-def serve(webviz_domain: int) -> Iterator[Callable[..., MarkerServer]]:
+def serve(webviz_domain: int) -> Iterator[Serve]:
     """Start servers; those that run at the end are closed."""
 
     def serve(namespace: str = "/arm", *markers: Any) -> MarkerServer:
@@ -69,7 +71,7 @@ def connected(viewer: LiveViewer, count: int) -> None:
 
 
 def test_updates_are_applied_in_order_and_gaps_ask_again(
-    webviz_viewer: Callable[..., LiveViewer], serve: Callable[..., MarkerServer]
+    webviz_viewer: Viewers, serve: Serve
 ) -> None:
     viewer = webviz_viewer(InteractiveMarkers(interactive_markers_namespace="/arm/"))
     viewer.wait_for(lambda: "No interactive marker server at /arm" in status(viewer))
@@ -115,7 +117,7 @@ def test_updates_are_applied_in_order_and_gaps_ask_again(
 
 
 def test_thousands_of_markers_are_drawn_while_the_frame_loop_goes_on(
-    webviz_viewer: Callable[..., LiveViewer], serve: Callable[..., MarkerServer]
+    webviz_viewer: Viewers, serve: Serve
 ) -> None:
     """Each status is one that the loop shows between two turns."""
     count = 3_000
@@ -135,7 +137,7 @@ def test_thousands_of_markers_are_drawn_while_the_frame_loop_goes_on(
 
 
 def test_faulty_servers_are_reported_and_the_rest_is_shown(
-    webviz_viewer: Callable[..., LiveViewer], serve: Callable[..., MarkerServer]
+    webviz_viewer: Viewers, serve: Serve
 ) -> None:
     viewer = webviz_viewer(InteractiveMarkers(interactive_markers_namespace="/arm"))
     bad, lost = boxed("bad"), boxed("lost", frame="nowhere")
@@ -175,7 +177,7 @@ def test_faulty_servers_are_reported_and_the_rest_is_shown(
 
 
 def test_hostile_updates_leave_a_status_and_the_markers_of_the_server(
-    webviz_viewer: Callable[..., LiveViewer], serve: Callable[..., MarkerServer]
+    webviz_viewer: Viewers, serve: Serve
 ) -> None:
     viewer = webviz_viewer(InteractiveMarkers(interactive_markers_namespace="/arm"))
     round_menu = boxed("menu")
@@ -214,7 +216,7 @@ def test_hostile_updates_leave_a_status_and_the_markers_of_the_server(
 
 
 def test_feedback_is_that_of_rviz_and_poses_of_the_server_wait_for_the_release(
-    webviz_viewer: Callable[..., LiveViewer], serve: Callable[..., MarkerServer]
+    webviz_viewer: Viewers, serve: Serve
 ) -> None:
     from webviz import Pose as At
 
@@ -269,7 +271,7 @@ def test_feedback_is_that_of_rviz_and_poses_of_the_server_wait_for_the_release(
 
 
 def test_the_scene_of_the_tutorials_is_shown_as_a_whole(
-    webviz_viewer: Callable[..., LiveViewer], serve: Callable[..., MarkerServer]
+    webviz_viewer: Viewers, serve: Serve
 ) -> None:
     viewer = webviz_viewer(
         InteractiveMarkers(interactive_markers_namespace="/basic"), fixed_frame="base_link"

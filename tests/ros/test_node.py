@@ -31,6 +31,7 @@ from webviz.ros.node import RosSource
 from webviz.sources import Advertisement, Gate, Rights, Subscription, merged
 
 STRING = "std_msgs/msg/String"
+Listen = Callable[..., RosSource]
 
 
 @pytest.fixture
@@ -40,7 +41,7 @@ def talker(webviz_domain: int) -> Iterator[Node]:
 
 
 @pytest.fixture
-def listen(webviz_domain: int) -> Iterator[Callable[..., RosSource]]:
+def listen(webviz_domain: int) -> Iterator[Listen]:
     with several(lambda *args: RosSource(args, domain_id=webviz_domain)) as listen:
         yield listen
 
@@ -69,7 +70,7 @@ def requested(source: RosSource) -> tuple[str, str] | None:
 @pytest.mark.parametrize("reliability", ["reliable", "best_effort"])
 @pytest.mark.parametrize("durability", ["volatile", "transient_local"])
 def test_auto_asks_for_what_the_publisher_offers(
-    talker: Node, listen: Callable[..., RosSource], reliability: str, durability: str
+    talker: Node, listen: Listen, reliability: str, durability: str
 ) -> None:
     publisher = talker.create_publisher(String, "/words", qos(reliability, durability))
     source = listen()
@@ -94,7 +95,7 @@ def test_auto_asks_for_what_the_publisher_offers(
 
 
 def test_a_publisher_that_takes_the_place_of_another_is_known_by_its_qos(
-    talker: Node, listen: Callable[..., RosSource], monkeypatch: pytest.MonkeyPatch
+    talker: Node, listen: Listen, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(node, "THOROUGH_EVERY", 2)
     first = talker.create_publisher(String, "/words", qos("reliable", "volatile"))
@@ -106,9 +107,7 @@ def test_a_publisher_that_takes_the_place_of_another_is_known_by_its_qos(
     until(lambda: requested(source) == ("best_effort", "volatile"))
 
 
-def test_a_latched_message_from_before_arrives(
-    talker: Node, listen: Callable[..., RosSource]
-) -> None:
+def test_a_latched_message_from_before_arrives(talker: Node, listen: Listen) -> None:
     publisher = talker.create_publisher(String, "/words", qos("reliable", "transient_local"))
     publisher.publish(String(data="long ago"))
     source = listen()
@@ -116,9 +115,7 @@ def test_a_latched_message_from_before_arrives(
     until(lambda: "long ago" in heard(source))
 
 
-def test_publishers_of_both_durabilities_are_all_heard(
-    talker: Node, listen: Callable[..., RosSource]
-) -> None:
+def test_publishers_of_both_durabilities_are_all_heard(talker: Node, listen: Listen) -> None:
     latched = talker.create_publisher(String, "/words", qos("reliable", "transient_local"))
     volatile = talker.create_publisher(String, "/words", qos("reliable", "volatile"))
     latched.publish(String(data="latched"))
@@ -135,7 +132,7 @@ def test_publishers_of_both_durabilities_are_all_heard(
 
 
 def test_an_explicit_qos_is_used_even_if_it_matches_no_publisher(
-    talker: Node, listen: Callable[..., RosSource]
+    talker: Node, listen: Listen
 ) -> None:
     publisher = talker.create_publisher(String, "/words", qos("best_effort", "volatile"))
     source = listen()
@@ -154,7 +151,7 @@ class Words(Display):
 
 @pytest.mark.parametrize("first", [0, 1], ids=["the strict one first", "the strict one last"])
 def test_the_qos_of_each_display_is_judged_by_itself(
-    talker: Node, listen: Callable[..., RosSource], first: int
+    talker: Node, listen: Listen, first: int
 ) -> None:
     """A display that requests what no publisher offers says so, and costs others no message."""
     publisher = talker.create_publisher(String, "/words", qos("best_effort", "volatile"))
@@ -186,7 +183,7 @@ def test_the_qos_of_each_display_is_judged_by_itself(
 
 
 def test_a_topic_of_another_type_is_reported_and_not_subscribed(
-    talker: Node, listen: Callable[..., RosSource]
+    talker: Node, listen: Listen
 ) -> None:
     talker.create_publisher(Int32, "/words", 5)
     source = listen()
@@ -202,9 +199,7 @@ def test_a_topic_of_another_type_is_reported_and_not_subscribed(
     until(lambda: talker.count_subscribers("/words") == 0)
 
 
-def test_what_is_no_longer_wanted_is_unsubscribed(
-    talker: Node, listen: Callable[..., RosSource]
-) -> None:
+def test_what_is_no_longer_wanted_is_unsubscribed(talker: Node, listen: Listen) -> None:
     publisher = talker.create_publisher(String, "/words", 5)
     source = listen()
     want(source)
@@ -213,7 +208,7 @@ def test_what_is_no_longer_wanted_is_unsubscribed(
     until(lambda: publisher.get_subscription_count() == 0)
 
 
-def test_an_unknown_type_is_reported(listen: Callable[..., RosSource]) -> None:
+def test_an_unknown_type_is_reported(listen: Listen) -> None:
     source = listen()
     source.want({"/x": Subscription("no_such_msgs/msg/Thing", Topic("/x"))})
     offer = until(lambda: o if (o := source.offers().get("/x")) and o.problem else None)
@@ -221,7 +216,7 @@ def test_an_unknown_type_is_reported(listen: Callable[..., RosSource]) -> None:
 
 
 def test_a_message_that_is_too_large_is_a_problem_until_a_smaller_one_comes(
-    talker: Node, listen: Callable[..., RosSource], monkeypatch: pytest.MonkeyPatch
+    talker: Node, listen: Listen, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(node, "MAX_MESSAGE", 1 << 20)
     publisher = talker.create_publisher(String, "/words", 5)
@@ -241,9 +236,7 @@ def test_a_message_that_is_too_large_is_a_problem_until_a_smaller_one_comes(
     assert "short" in heard(source)
 
 
-def test_names_are_resolved_and_remapped_those_that_may_be_published_too(
-    listen: Callable[..., RosSource],
-) -> None:
+def test_names_are_resolved_and_remapped_those_that_may_be_published_too(listen: Listen) -> None:
     source = listen("--ros-args", "-r", "/scan:=/front/scan", "-r", "__ns:=/robot")
     assert source.resolve("/scan") == "/front/scan"
     assert source.resolve("odom") == "/robot/odom"
@@ -256,7 +249,7 @@ def test_names_are_resolved_and_remapped_those_that_may_be_published_too(
     assert all(map(gate.refusal, ("/scan", "/odom", "/arm/goal", "/webviz/x")))
 
 
-def test_simulated_time_is_the_clock_topic(talker: Node, listen: Callable[..., RosSource]) -> None:
+def test_simulated_time_is_the_clock_topic(talker: Node, listen: Listen) -> None:
     source = listen("--ros-args", "-p", "use_sim_time:=true")
     assert source.now_ns() == 0
     publisher = talker.create_publisher(Clock, "/clock", 1)
@@ -275,7 +268,7 @@ def test_simulated_time_is_the_clock_topic(talker: Node, listen: Callable[..., R
 
 
 def test_subscriptions_end_while_events_of_incompatible_publishers_wait(
-    talker: Node, listen: Callable[..., RosSource]
+    talker: Node, listen: Listen
 ) -> None:
     names = [f"/words{number}" for number in range(20)]
     for name in names:

@@ -8,12 +8,12 @@ import inspect
 import io
 import time
 import weakref
-from collections.abc import Callable
 from typing import Any, get_type_hints
 
 import numpy as np
 import PIL.Image
 import pytest
+from several import Make
 from viser import _messages as wire
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 from viser.infra._messages import wire_field_names
@@ -104,7 +104,7 @@ def test_a_blank_image_is_added_as_viser_adds_one(scene: ViserScene) -> None:
 
 
 def test_of_a_thousand_moves_a_joining_browser_is_sent_the_last_one(
-    scene: ViserScene, call: Callable[..., Any]
+    scene: ViserScene, call: Make
 ) -> None:
     for x in range(1000):
         scene.link.set_position("/webviz/a", (float(x), 0.0, 0.0))
@@ -112,9 +112,7 @@ def test_of_a_thousand_moves_a_joining_browser_is_sent_the_last_one(
     assert [m["position"] for m in moves if m["name"] == "/webviz/a"] == [[999.0, 0.0, 0.0]]
 
 
-def test_many_moves_at_once_leave_what_single_ones_leave(
-    scene: ViserScene,
-) -> None:
+def test_many_moves_at_once_leave_what_single_ones_leave(scene: ViserScene) -> None:
     link, turned = scene.link, (0.6, 0.8, 0.0, 0.0)
     for _ in range(2):
         link.set_position("/webviz/a", (1.0, 0.0, 0.0))
@@ -138,9 +136,7 @@ def pretend_that_were_sent(scene: ViserScene, messages: int) -> None:
         scene.link._buffer.message_counter += messages
 
 
-def test_joining_does_not_depend_on_how_much_was_ever_sent(
-    scene: ViserScene, call: Callable[..., Any]
-) -> None:
+def test_joining_does_not_depend_on_how_much_was_ever_sent(scene: ViserScene, call: Make) -> None:
     """Walking the numbers one by one would take minutes."""
     before = len(call().replay())
     pretend_that_were_sent(scene, 10**9)
@@ -149,7 +145,7 @@ def test_joining_does_not_depend_on_how_much_was_ever_sent(
 
 
 def test_a_connected_browser_goes_on_after_a_gap_in_the_numbers(
-    scene: ViserScene, call: Callable[..., Any]
+    scene: ViserScene, call: Make
 ) -> None:
     peer = call()
     peer.replay()
@@ -158,9 +154,7 @@ def test_a_connected_browser_goes_on_after_a_gap_in_the_numbers(
     assert [m["type"] for m in peer.receive()] == ["SetPositionMessage"]
 
 
-def test_the_replay_comes_in_windows_and_in_order(
-    scene: ViserScene, call: Callable[..., Any]
-) -> None:
+def test_the_replay_comes_in_windows_and_in_order(scene: ViserScene, call: Make) -> None:
     for index in range(300):
         scene.link.set_position(f"/webviz/{index}", (0.0, 0.0, 0.0))
     peer = call()
@@ -172,9 +166,7 @@ def test_the_replay_comes_in_windows_and_in_order(
     assert names[-300:] == [f"/webviz/{index}" for index in range(300)]
 
 
-def test_what_is_queued_atomically_arrives_in_one_frame(
-    scene: ViserScene, call: Callable[..., Any]
-) -> None:
+def test_what_is_queued_atomically_arrives_in_one_frame(scene: ViserScene, call: Make) -> None:
     peer = call()
     peer.replay()
     with scene.link.atomic():
@@ -183,9 +175,7 @@ def test_what_is_queued_atomically_arrives_in_one_frame(
     assert len(peer.receive()) == 500
 
 
-def test_a_browser_that_does_not_read_costs_no_memory(
-    scene: ViserScene, call: Callable[..., Any]
-) -> None:
+def test_a_browser_that_does_not_read_costs_no_memory(scene: ViserScene, call: Make) -> None:
     call()  # reads nothing
     scene.link.update("/webviz/a", {"points": np.zeros(1)})
     live = scene.link.live_messages
@@ -203,7 +193,7 @@ def test_a_browser_that_does_not_read_costs_no_memory(
 
 def test_a_browser_that_never_hears_of_removed_nodes_is_let_go(
     scene: ViserScene,
-    call: Callable[..., Any],
+    call: Make,
 ) -> None:
     """Each removal waits for the slowest browser; the memory for that has a bound."""
     call()  # reads nothing
@@ -229,7 +219,7 @@ def test_acknowledging_without_browsers_returns_at_once(scene: ViserScene) -> No
 
 def test_acknowledgement_waits_for_every_browser_and_leaves_nothing_behind(
     scene: ViserScene,
-    call: Callable[..., Any],
+    call: Make,
 ) -> None:
     peer = call()
     peer.look()

@@ -7,7 +7,7 @@ import contextlib
 import http.client
 import re
 import urllib.request
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, cast
 
@@ -16,6 +16,7 @@ import playwright.sync_api as playwright
 import pytest
 import websockets.exceptions
 import websockets.sync.client
+from several import Make
 from waiting import until
 from websockets.sync.connection import Connection
 
@@ -79,7 +80,7 @@ def hello(key: str) -> str:
 
 def test_a_message_reaches_the_listener_with_the_browser_that_sent_it(
     server: Server,
-    call: Callable[..., Any],
+    call: Make,
 ) -> None:
     acknowledged: list[tuple[int, Wish]] = []
     server.channel.on(Wish, lambda browser, wish: acknowledged.append((browser, wish)))
@@ -93,7 +94,7 @@ def test_a_message_reaches_the_listener_with_the_browser_that_sent_it(
 
 
 def test_a_page_receives_what_waited_for_it_and_only_the_newest_of_what_is_kept(
-    server: Server, call: Callable[..., Any]
+    server: Server, call: Make
 ) -> None:
     server.channel.send(Weather("rain"))
     server.channel.send(News("no browser is here"))
@@ -111,7 +112,7 @@ def test_a_page_receives_what_waited_for_it_and_only_the_newest_of_what_is_kept(
 
 
 def test_a_page_measures_its_way_before_the_viewer_is_ready(
-    server: Server, call: Callable[..., Any], caplog: pytest.LogCaptureFixture
+    server: Server, call: Make, caplog: pytest.LogCaptureFixture
 ) -> None:
     _, key = key_of(call())
     with channel(server) as page:
@@ -126,7 +127,7 @@ def test_a_page_measures_its_way_before_the_viewer_is_ready(
     "first", [hello("x"), hello(""), "", "[", '{"type":"Hello"}', b"\x00", '{"type":"Wish"}']
 )
 def test_a_client_without_a_key_is_sent_away(
-    server: Server, call: Callable[..., Any], first: str | bytes
+    server: Server, call: Make, first: str | bytes
 ) -> None:
     key_of(call())
     with channel(server) as page:
@@ -137,7 +138,7 @@ def test_a_client_without_a_key_is_sent_away(
             page.recv(60)
 
 
-def test_a_key_opens_one_channel_only(server: Server, call: Callable[..., Any]) -> None:
+def test_a_key_opens_one_channel_only(server: Server, call: Make) -> None:
     _, key = key_of(call())
     with channel(server) as page, channel(server) as thief:
         server.channel.send(News("hello"))
@@ -171,11 +172,7 @@ def test_a_channel_from_another_site_is_refused(server: Server) -> None:
         b'{"type":"Wish","text":"a"}',
     ],
 )
-def test_nonsense_is_ignored(
-    server: Server,
-    call: Callable[..., Any],
-    nonsense: str | bytes,
-) -> None:
+def test_nonsense_is_ignored(server: Server, call: Make, nonsense: str | bytes) -> None:
     acknowledged: list[Wish] = []
     server.channel.on(Wish, lambda _, wish: acknowledged.append(wish))
     _, key = key_of(call())
@@ -190,7 +187,7 @@ def test_nonsense_is_ignored(
 @pytest.mark.parametrize(("count", "size"), [(40 * MAX_WAITING, 10_000), (60, 1 << 20)])
 def test_a_page_that_reads_nothing_has_to_connect_anew(
     server: Server,
-    call: Callable[..., Any],
+    call: Make,
     count: int,
     size: int,
 ) -> None:
@@ -207,10 +204,7 @@ def test_a_page_that_reads_nothing_has_to_connect_anew(
         until(lambda: browser not in live)
 
 
-def test_when_the_channel_ends_viser_notifies_the_page(
-    server: Server,
-    call: Callable[..., Any],
-) -> None:
+def test_when_the_channel_ends_viser_notifies_the_page(server: Server, call: Make) -> None:
     browser, key = key_of(call())
     with channel(server) as page:
         page.send(hello(key))
@@ -219,9 +213,7 @@ def test_when_the_channel_ends_viser_notifies_the_page(
     until(lambda: browser not in server._websock_server._live_connections)
 
 
-def test_when_viser_s_connection_ends_so_does_the_channel(
-    server: Server, call: Callable[..., Any]
-) -> None:
+def test_when_viser_s_connection_ends_so_does_the_channel(server: Server, call: Make) -> None:
     """A page that keeps only its channel would keep a file descriptor as well."""
     peer = call()
     _, key = key_of(peer)

@@ -6,12 +6,11 @@ import contextlib
 import socket
 import subprocess
 import sys
-from collections.abc import Callable
-from typing import Any
 
 import pytest
 import viser
 import websockets.exceptions
+from several import Make
 from waiting import until
 from websockets.frames import Frame, Opcode
 
@@ -24,10 +23,7 @@ from webviz.server.http.rate_limits import MAX_REMEMBERED, RateLimit, SpentRates
 PAGE = b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"
 
 
-def test_one_browser_too_many_is_refused_with_the_reason(
-    ask: Callable[..., Any],
-    call: Callable[..., Any],
-) -> None:
+def test_one_browser_too_many_is_refused_with_the_reason(ask: Make, call: Make) -> None:
     peers = [call() for _ in range(MAX_BROWSERS)]
     with pytest.raises(websockets.exceptions.InvalidStatus, match="503"):
         call()
@@ -38,7 +34,7 @@ def test_one_browser_too_many_is_refused_with_the_reason(
 
 
 def test_connections_that_never_ask_keep_no_browser_out(
-    server: viser.ViserServer, ask: Callable[..., Any]
+    server: viser.ViserServer, ask: Make
 ) -> None:
     address = ("127.0.0.1", server.get_port())
     clients = [socket.create_connection(address, timeout=60) for _ in range(3 * MAX_BROWSERS)]
@@ -181,7 +177,7 @@ def test_of_too_many_that_stay_away_the_first_may_come_back() -> None:
 
 def test_a_browser_that_sends_too_much_waits_and_others_do_not(
     server: viser.ViserServer,
-    call: Callable[..., Any],
+    call: Make,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(connections, "RateLimit", lambda *_: RateLimit(rate=1e-9, burst=3.5))
@@ -204,7 +200,7 @@ def seen(server: viser.ViserServer) -> list[float]:
     "frame", [Frame(Opcode.PING, 125 * b"x"), Frame(Opcode.CONT, b"x", fin=False)], ids=str
 )
 def test_who_floods_with_what_cannot_wait_is_let_go(
-    server: viser.ViserServer, call: Callable[..., Any], frame: Frame
+    server: viser.ViserServer, call: Make, frame: Frame
 ) -> None:
     peer = call()
     raw = peer._socket.socket
@@ -219,7 +215,7 @@ def test_who_floods_with_what_cannot_wait_is_let_go(
 
 
 def test_a_turn_of_the_event_loop_reads_little_from_each_browser(
-    call: Callable[..., Any],
+    call: Make,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     sizes: list[int] = []
@@ -238,7 +234,7 @@ def test_a_turn_of_the_event_loop_reads_little_from_each_browser(
 
 def test_a_message_that_is_too_large_is_dropped_and_one_without_bounds_ends_the_connection(
     server: viser.ViserServer,
-    call: Callable[..., Any],
+    call: Make,
 ) -> None:
     clicked: list[str] = []
     names = "/" + 10_000 * "x", "/short"
@@ -270,9 +266,9 @@ def test_a_message_that_is_too_large_is_dropped_and_one_without_bounds_ends_the_
 
 
 def test_a_server_that_stops_waits_for_no_browser(
-    call: Callable[..., Any],
+    call: Make,
     server: viser.ViserServer,
-    ask: Callable[..., Any],
+    ask: Make,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(connections, "RateLimit", lambda *_: RateLimit(rate=1e-9, burst=1.5))

@@ -5,12 +5,12 @@ from __future__ import annotations
 import http.client
 import socket
 import threading
-from collections.abc import Callable
 from typing import Any
 
 import pytest
 import viser
 import websockets.exceptions
+from several import Make
 from waiting import until
 
 from webviz.scene import CannotListen, PortInUse, open_server
@@ -70,7 +70,7 @@ def test_a_page_of_another_origin_is_refused(server: viser.ViserServer, origin: 
     assert status(server, ("Host", "127.0.0.1:PORT"), ("Origin", origin)) == 403
 
 
-def test_a_websocket_from_another_origin_is_refused(call: Callable[..., Any]) -> None:
+def test_a_websocket_from_another_origin_is_refused(call: Make) -> None:
     with pytest.raises(websockets.exceptions.InvalidStatus, match="403"):
         call(Origin="http://evil.example")
 
@@ -138,7 +138,7 @@ def test_a_stopped_server_leaves_no_thread_no_port_and_no_word(
 
 def test_nothing_that_viser_shows_itself_can_be_operated(
     server: viser.ViserServer,
-    call: Callable[..., Any],
+    call: Make,
 ) -> None:
     pressed: list[str] = []
     gui = server.gui
@@ -197,7 +197,7 @@ def test_nothing_that_viser_shows_itself_can_be_operated(
 def test_a_message_that_webviz_does_not_know_is_dropped_and_the_next_one_heard(
     message: Any,
     server: viser.ViserServer,
-    call: Callable[..., Any],
+    call: Make,
 ) -> None:
     peer = call()
     peer.send(message)

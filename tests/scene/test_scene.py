@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 import pytest
+from several import Make
 
 from webviz.api.nodes import (
     U8,
@@ -67,7 +67,7 @@ def test_an_equal_node_sends_nothing(
 
 @pytest.mark.parametrize("make", NODES.values(), ids=NODES)
 def test_removing_a_node_leaves_a_joining_browser_without_it(
-    make: Callable[[], Node], scene: ViserScene, call: Callable[..., Any]
+    make: Callable[[], Node], scene: ViserScene, call: Make
 ) -> None:
     scene.flush()
     before = len(call().replay())
@@ -79,7 +79,7 @@ def test_removing_a_node_leaves_a_joining_browser_without_it(
 
 
 def test_an_update_is_one_message_and_carries_what_belongs_together(
-    scene: ViserScene, call: Callable[..., Any]
+    scene: ViserScene, call: Make
 ) -> None:
     scene.upsert("laser", "hits", Points(XYZ, np.zeros((2, 3), np.uint8), 0.1))
     scene.flush()
@@ -92,9 +92,7 @@ def test_an_update_is_one_message_and_carries_what_belongs_together(
     assert set(message["updates"]) == {"points", "colors", "cloud", "plane"}
 
 
-def test_a_new_look_does_not_send_the_data_again(
-    scene: ViserScene, call: Callable[..., Any]
-) -> None:
+def test_a_new_look_does_not_send_the_data_again(scene: ViserScene, call: Make) -> None:
     scene.upsert("laser", "hits", Points(XYZ, RED, 0.1))
     scene.flush()
     peer = call()
@@ -105,9 +103,7 @@ def test_a_new_look_does_not_send_the_data_again(
     assert set(message["updates"]) == {"point_size", "point_shape"}
 
 
-def test_poses_and_data_of_a_tick_arrive_in_one_frame(
-    scene: ViserScene, call: Callable[..., Any]
-) -> None:
+def test_poses_and_data_of_a_tick_arrive_in_one_frame(scene: ViserScene, call: Make) -> None:
     for index in range(200):
         scene.upsert(f"link{index}", "body", Points(XYZ, RED, 0.1))
     scene.flush()
@@ -141,9 +137,7 @@ def test_a_node_that_comes_and_goes_within_a_tick_is_never_sent(
 
 
 @pytest.mark.parametrize("step", [1e-3, 3.0, 1e-9])
-def test_the_smallest_move_far_out_is_sent(
-    step: float, scene: ViserScene, call: Callable[..., Any]
-) -> None:
+def test_the_smallest_move_far_out_is_sent(step: float, scene: ViserScene, call: Make) -> None:
     scene.set_pose("utm", Pose((500_000.0, 0.0, 0.0)))
     scene.flush()
     scene.set_pose("utm", Pose((500_000.0 + step, 0.0, 0.0)))
@@ -182,7 +176,7 @@ def test_a_pose_that_is_not_finite_is_refused_with_the_groups_name(
 
 
 def test_a_hidden_group_is_hidden_and_goes_on_changing(
-    scene: ViserScene, sent: Callable[[], int], call: Callable[..., Any]
+    scene: ViserScene, sent: Callable[[], int], call: Make
 ) -> None:
     scene.upsert("a", "it", image())
     sent()
@@ -200,9 +194,7 @@ def test_a_hidden_group_is_hidden_and_goes_on_changing(
     assert visible["/webviz/a"] is False
 
 
-def test_another_kind_of_node_replaces_the_one_of_that_key(
-    scene: ViserScene, call: Callable[..., Any]
-) -> None:
+def test_another_kind_of_node_replaces_the_one_of_that_key(scene: ViserScene, call: Make) -> None:
     scene.upsert("a", "it", Points(XYZ, RED, 0.1))
     scene.flush()
     scene.upsert("a", "it", Lines(SEGMENTS, RED))
@@ -247,7 +239,7 @@ def test_only_the_tiles_of_a_picture_that_changed_are_sent(
     assert sent() == 1
 
 
-def test_names_of_groups_may_be_anything(scene: ViserScene, call: Callable[..., Any]) -> None:
+def test_names_of_groups_may_be_anything(scene: ViserScene, call: Make) -> None:
     groups = ["", "/", "a/b", "a%2Fb", "基座", "\udcff", "__proto__", " ", "."]
     for group in groups:
         scene.upsert(group, group, Points(XYZ, RED, 0.1))
@@ -269,7 +261,7 @@ def test_a_malformed_node_is_named_once_and_the_rest_is_sent(
 
 
 def test_a_text_that_is_no_unicode_is_sent_with_question_marks(
-    scene: ViserScene, call: Callable[..., Any]
+    scene: ViserScene, call: Make
 ) -> None:
     scene.upsert("tf", "names", Labels(XYZ, ("caf\udce9", "基座"), 0.1))
     scene.flush()

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 import numpy as np
 import pytest
+from several import Make
 from viser import _messages as wire
 from viser.infra._infra import ClientId
 from websockets.frames import Frame, Opcode
@@ -21,9 +19,7 @@ def test_headers_are_those_of_whole_binary_frames(size: int) -> None:
     assert header(size) + data == Frame(Opcode.BINARY, data).serialize(mask=False)
 
 
-def test_browsers_that_lack_the_same_receive_the_same_bytes(
-    scene: ViserScene, call: Callable[..., Any]
-) -> None:
+def test_browsers_that_lack_the_same_receive_the_same_bytes(scene: ViserScene, call: Make) -> None:
     """Packed for each, the times in the frames would differ."""
     peers = [call() for _ in range(3)]
     for peer in peers:
@@ -34,9 +30,7 @@ def test_browsers_that_lack_the_same_receive_the_same_bytes(
         assert len({peer.frame() for peer in peers}) == 1
 
 
-def test_a_browser_is_not_sent_what_it_is_excluded_from(
-    scene: ViserScene, call: Callable[..., Any]
-) -> None:
+def test_a_browser_is_not_sent_what_it_is_excluded_from(scene: ViserScene, call: Make) -> None:
     peers = [call(), call()]
     for peer in peers:
         peer.replay()
@@ -49,9 +43,7 @@ def test_a_browser_is_not_sent_what_it_is_excluded_from(
     assert sorted(names) == [["/webviz/a", "/webviz/b"], ["/webviz/b"]]
 
 
-def test_messages_queued_while_a_browser_joins_reach_it(
-    scene: ViserScene, call: Callable[..., Any]
-) -> None:
+def test_messages_queued_while_a_browser_joins_reach_it(scene: ViserScene, call: Make) -> None:
     for index in range(300):
         scene.link.set_position(f"/webviz/{index}", (0.0, 0.0, 0.0))
     peer = call()

@@ -8,6 +8,8 @@ from operator import methodcaller
 from typing import Any, TypeVar
 
 T = TypeVar("T")
+Make = Callable[..., Any]
+"""A fixture that makes a thing at each call."""
 
 
 @contextmanager

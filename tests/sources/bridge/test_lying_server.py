@@ -22,6 +22,8 @@ from websockets.sync.server import ServerConnection
 from webviz.data.messages import definition, encode, type_exists
 from webviz.sources.bridge import foxglove, foxglove_channels, json_frames, source
 
+Liar = Callable[..., Reader]
+
 
 def channel(id: int, topic: str, type: str = STRING, **fields: Any) -> dict[str, Any]:
     text = definition(type) if type_exists(type) else ""
@@ -62,7 +64,7 @@ MALFORMED = {
 }
 
 
-def test_malformed_frames_are_counted_and_the_rest_is_read(liar: Callable[..., Reader]) -> None:
+def test_malformed_frames_are_counted_and_the_rest_is_read(liar: Liar) -> None:
     def script(connection: ServerConnection) -> None:
         for frame in MALFORMED.values():
             connection.send(frame)
@@ -80,7 +82,7 @@ def test_malformed_frames_are_counted_and_the_rest_is_read(liar: Callable[..., R
     reader.until(lambda: any(remark.startswith(ignored) for remark in reader.bridge.remarks))
 
 
-def test_a_hundred_thousand_channels_are_cut_and_said(liar: Callable[..., Reader]) -> None:
+def test_a_hundred_thousand_channels_are_cut_and_said(liar: Liar) -> None:
     def script(connection: ServerConnection) -> None:
         channels = [channel(i, f"/topic{i}") for i in range(100_000)]
         connection.send(advertise(channel(100_001, "/words"), *channels))
@@ -94,7 +96,7 @@ def test_a_hundred_thousand_channels_are_cut_and_said(liar: Callable[..., Reader
 
 
 def test_definitions_of_all_channels_are_bounded(
-    liar: Callable[..., Reader], monkeypatch: pytest.MonkeyPatch
+    liar: Liar, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(foxglove_channels, "MAX_SCHEMAS", 10_000)
     texts = [f"string data # {'x' * 3000} {i}" for i in range(5)]
@@ -135,7 +137,7 @@ def nested(text: str, depth: int, names: str = "A") -> str:
     ],
 )
 def test_hostile_definitions_are_problems_of_their_topic(
-    liar: Callable[..., Reader], schema: str, problem: str
+    liar: Liar, schema: str, problem: str
 ) -> None:
     bad = "bad_msgs/msg/Bad"
     reader = liar(lambda c: c.send(advertise(channel(1, "/bad", bad, schema=schema))))
@@ -153,7 +155,7 @@ def test_hostile_definitions_are_problems_of_their_topic(
     ],
 )
 def test_unread_encodings_are_listed_with_the_reason(
-    liar: Callable[..., Reader], fields: dict[str, str], problem: str
+    liar: Liar, fields: dict[str, str], problem: str
 ) -> None:
     reader = liar(lambda c: c.send(advertise(channel(1, "/words", **fields))))
     reader.want(words=STRING)
@@ -161,7 +163,7 @@ def test_unread_encodings_are_listed_with_the_reason(
     assert problem in reader.source.offers()["/words"].problem
 
 
-def test_names_that_ros_does_not_allow_are_left_out(liar: Callable[..., Reader]) -> None:
+def test_names_that_ros_does_not_allow_are_left_out(liar: Liar) -> None:
     names = ["no slash", "/a b", "/" + "x" * 10_000, "/evil\x1b[2J\n", ""]
     channels = [channel(i, name) for i, name in enumerate(names)]
     reader = liar(lambda c: c.send(advertise(channel(9, "/good"), *channels)))
@@ -170,7 +172,7 @@ def test_names_that_ros_does_not_allow_are_left_out(liar: Callable[..., Reader])
     assert all("\x1b" not in r and len(r) < 400 for r in reader.bridge.remarks)
 
 
-def test_a_flood_of_statuses_keeps_the_newest(liar: Callable[..., Reader]) -> None:
+def test_a_flood_of_statuses_keeps_the_newest(liar: Liar) -> None:
     def script(connection: ServerConnection) -> None:
         for i in range(5000):
             connection.send(
@@ -183,7 +185,7 @@ def test_a_flood_of_statuses_keeps_the_newest(liar: Callable[..., Reader]) -> No
 
 
 def test_a_message_above_the_limit_is_a_problem_of_its_topic(
-    liar: Callable[..., Reader], monkeypatch: pytest.MonkeyPatch
+    liar: Liar, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(source, "MAX_TOTAL", 1000)
 
@@ -198,7 +200,7 @@ def test_a_message_above_the_limit_is_a_problem_of_its_topic(
 
 
 def test_a_frame_above_all_limits_ends_the_connection(
-    liar: Callable[..., Reader], monkeypatch: pytest.MonkeyPatch
+    liar: Liar, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(source, "MAX_TOTAL", 1000)
     begun: list[float] = []
@@ -212,7 +214,7 @@ def test_a_frame_above_all_limits_ends_the_connection(
     reader.until(lambda: len(begun) >= 2)  # it is tried again
 
 
-def test_a_message_of_endless_empty_parts_ends_the_connection(liar: Callable[..., Reader]) -> None:
+def test_a_message_of_endless_empty_parts_ends_the_connection(liar: Liar) -> None:
     def script(connection: ServerConnection) -> None:
         connection.send(iter(lambda: b"", None))
 
@@ -220,16 +222,14 @@ def test_a_message_of_endless_empty_parts_ends_the_connection(liar: Callable[...
     reader.until(lambda: "a message in more than" in reader.bridge.problem)
 
 
-def test_a_text_above_its_limit_is_ignored(
-    liar: Callable[..., Reader], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_text_above_its_limit_is_ignored(liar: Liar, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(json_frames, "MAX_TEXT", 1000)
     reader = liar(lambda connection: connection.send(advertise(channel(1, "/" + "x" * 2000))))
     reader.until(lambda: any("above the limit" in remark for remark in reader.bridge.remarks))
 
 
 def test_calls_that_are_never_answered_end_and_are_bounded(
-    liar: Callable[..., Reader], monkeypatch: pytest.MonkeyPatch
+    liar: Liar, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(foxglove, "MAX_PENDING", 3)
     offer = {"id": 1, "name": "/sleep", "type": "std_srvs/srv/Empty"}
@@ -258,16 +258,14 @@ def refuse(status: int, body: str) -> Callable[[ServerConnection, Request], Resp
         (404, "", "answers with HTTP 404"),
     ],
 )
-def test_refusals_are_explained(
-    liar: Callable[..., Reader], status: int, body: str, said: str
-) -> None:
+def test_refusals_are_explained(liar: Liar, status: int, body: str, said: str) -> None:
     reader = liar(lambda connection: None, process_request=refuse(status, body))
     reader.until(lambda: said in reader.bridge.problem)
     assert reader.bridge.remedy
     assert body in reader.bridge.problem
 
 
-def test_no_redirection_is_followed(liar: Callable[..., Reader], tmp_path: Path) -> None:
+def test_no_redirection_is_followed(liar: Liar, tmp_path: Path) -> None:
     got: list[Request] = []
 
     def steal(connection: ServerConnection, request: Request) -> None:
@@ -287,7 +285,7 @@ def test_no_redirection_is_followed(liar: Callable[..., Reader], tmp_path: Path)
     assert all(request.path != "/steal" for request in got)
 
 
-def test_tokens_are_sent_in_headers(liar: Callable[..., Reader], tmp_path: Path) -> None:
+def test_tokens_are_sent_in_headers(liar: Liar, tmp_path: Path) -> None:
     got: list[str] = []
 
     def check(connection: ServerConnection, request: Request) -> None:
@@ -302,7 +300,7 @@ def test_tokens_are_sent_in_headers(liar: Callable[..., Reader], tmp_path: Path)
     assert got[-1] == "Bearer secret"
 
 
-def test_old_bridges_are_spoken_to(liar: Callable[..., Reader]) -> None:
+def test_old_bridges_are_spoken_to(liar: Liar) -> None:
     reader = liar(lambda c: c.send(advertise(channel(1, "/scan", SCAN))), "foxglove.websocket.v1")
     reader.until(lambda: "/scan" in reader.source.offers())
 
@@ -327,7 +325,7 @@ def test_what_is_no_websocket_is_said() -> None:
 
 
 def test_certificates_must_be_trusted(
-    liar: Callable[..., Reader], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    liar: Liar, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     authority = trustme.CA()
     context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)

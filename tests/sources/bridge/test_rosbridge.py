@@ -37,6 +37,7 @@ from webviz.sources.graph import Advertisement, NotConnected
 DEMO = Path(__file__).with_name("rosbridge_demo.jsonl.gz")
 FRAGMENTS = Path(__file__).with_name("rosbridge_fragments.jsonl.gz")
 CLOCK = "rosgraph_msgs/msg/Clock"
+Liar = Callable[..., Reader]
 
 
 @pytest.fixture
@@ -131,7 +132,7 @@ def test_everything_is_asked_for_again_after_a_break(replay: Callable[..., Repla
         reader.until(lambda: {"advertise", "subscribe"} <= {each["op"] for each in second.got})
 
 
-def test_the_clock_is_followed(liar: Callable[..., Reader]) -> None:
+def test_the_clock_is_followed(liar: Liar) -> None:
     reader = liar(lambda c: _serve(c, {"/clock": CLOCK}, {"/clock": {"clock": {"sec": 42}}}))
     reader.until(lambda: reader.source.now_ns() == 42_000_000_000)
     assert reader.source.clock_messages() == 1
@@ -171,7 +172,7 @@ def test_values_that_do_not_fit_are_refused(values: dict[str, Any]) -> None:
 
 
 @pytest.fixture
-def liar(liar: Callable[..., Reader]) -> Callable[[Callable[[ServerConnection], None]], Reader]:
+def liar(liar: Liar) -> Callable[[Callable[[ServerConnection], None]], Reader]:
     """Run a script for each connection, and read from it."""
     return functools.partial(liar, protocol="")
 
@@ -224,7 +225,7 @@ MALFORMED = {
 }
 
 
-def test_malformed_frames_are_counted_and_the_rest_is_read(liar: Callable[..., Reader]) -> None:
+def test_malformed_frames_are_counted_and_the_rest_is_read(liar: Liar) -> None:
     def script(connection: ServerConnection) -> None:
         for frame in MALFORMED.values():
             connection.send(frame)
@@ -249,7 +250,7 @@ def test_lists_that_are_none_are_malformed(values: Any) -> None:
         rosbridge_wire.converted(values, rosbridge_wire.Topics)
 
 
-def test_a_hundred_thousand_topics_are_cut_and_said(liar: Callable[..., Reader]) -> None:
+def test_a_hundred_thousand_topics_are_cut_and_said(liar: Liar) -> None:
     types = {"/words": STRING, "no name": STRING} | {f"/t{i}": STRING for i in range(100_000)}
     reader = liar(lambda c: _serve(c, types, {"/words": {"data": "first"}}))
     reader.want(words=STRING)
@@ -259,7 +260,7 @@ def test_a_hundred_thousand_topics_are_cut_and_said(liar: Callable[..., Reader])
     assert any("no name" in remark for remark in reader.bridge.remarks)
 
 
-def test_a_server_without_rosapi_is_explained(liar: Callable[..., Reader]) -> None:
+def test_a_server_without_rosapi_is_explained(liar: Liar) -> None:
     def script(connection: ServerConnection) -> None:
         for frame in connection:
             answer = {"op": "service_response", "id": json.loads(frame)["id"], "result": False}
@@ -271,15 +272,13 @@ def test_a_server_without_rosapi_is_explained(liar: Callable[..., Reader]) -> No
     assert not reader.source.offers()
 
 
-def test_silence_of_rosapi_is_said(
-    liar: Callable[..., Reader], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_silence_of_rosapi_is_said(liar: Liar, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(rosapi, "LATE_S", 0.0)
     reader = liar(lambda connection: None)
     reader.until(lambda: any("rosapi has not answered" in r for r in reader.bridge.remarks))
 
 
-def test_a_flood_of_statuses_keeps_the_newest(liar: Callable[..., Reader]) -> None:
+def test_a_flood_of_statuses_keeps_the_newest(liar: Liar) -> None:
     def script(connection: ServerConnection) -> None:
         for i in range(1000):
             status = {"op": "status", "level": "warning", "msg": f"{i} " + "x" * 999}
@@ -291,7 +290,7 @@ def test_a_flood_of_statuses_keeps_the_newest(liar: Callable[..., Reader]) -> No
 
 
 def test_calls_that_are_never_answered_end_and_are_bounded(
-    liar: Callable[..., Reader], monkeypatch: pytest.MonkeyPatch
+    liar: Liar, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(rosbridge, "MAX_PENDING", 3)
     interfaces.service("std_srvs/srv/Empty")
@@ -305,9 +304,7 @@ def test_calls_that_are_never_answered_end_and_are_bounded(
     assert "does not answer" in str(call("/sleep", "std_srvs/srv/Empty", empty, 0.1).exception(20))
 
 
-def test_without_its_library_that_is_said(
-    liar: Callable[..., Reader], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_without_its_library_that_is_said(liar: Liar, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(rosbridge_wire, "is_readable", lambda: False)
     reader = liar(lambda c: _serve(c, {"/words": STRING}))
     reader.want(words=STRING)
