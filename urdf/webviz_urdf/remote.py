@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import atexit
 import contextlib
-import copy
 import functools
 import posixpath
 import re
@@ -53,9 +52,7 @@ def with_remote_files(text: str, resolver: Resolver) -> Resolver:
     missing = [uri for uri in uris if not _is_here(resolver, *uri)]
     for _ in range(3):  # a mesh, its materials, their pictures
         missing = _fetch_all(missing, sources)
-    found = copy.copy(resolver)
-    found.roots = (*resolver.roots, _folder())
-    return found
+    return resolver.with_root(_folder())
 
 
 def _fetch_all(uris: Sequence[tuple[str, str]], sources: Sequence[Fetch]) -> list[tuple[str, str]]:

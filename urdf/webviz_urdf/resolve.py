@@ -12,6 +12,7 @@ import re
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 from urllib.parse import unquote, urlsplit
 
 from webviz_urdf.files import read_file
@@ -66,9 +67,15 @@ class Resolver:
 
     def relative_to(self, base: str | Path) -> Resolver:
         """Return the same resolver for a description in the folder `base`."""
+        return self._with(base=Path(base).absolute())
+
+    def with_root(self, root: Path) -> Resolver:
+        """Return the same resolver with one more root."""
+        return self._with(roots=(*self.roots, root))
+
+    def _with(self, **changed: Any) -> Resolver:
         resolver = copy.copy(self)
-        resolver.base = Path(base).absolute()
-        resolver._found = {}
+        vars(resolver).update(changed, _found={})  # what was not there may be now
         return resolver
 
     def resolve(self, uri: str) -> Path:
