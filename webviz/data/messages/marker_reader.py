@@ -41,6 +41,8 @@ _FIRST_TRY = 8
 failure."""
 _LONGEST = 4
 """Of the runs of markers whose repetition is looked for."""
+_AT_ONCE = 10_000
+"""Repetitions that are compared in one step, which takes 200 bytes for each marker."""
 _UINT = {order: Struct(order + "I").unpack_from for order in "<>"}
 
 
@@ -251,8 +253,10 @@ def _repeated(
     Args:
         size: bytes of the cycle, up to where the next one begins.
     """
-    times = min(most // len(cycle), (len(data) - pos) // size) if cycle else 0
-    if times < 1 or size % 8:
+    if not cycle or size % 8:
+        return 0
+    times = min(most // len(cycle), (len(data) - pos) // size, _AT_ONCE)
+    if times < 1:
         return 0
     words = np.frombuffer(data, cycle[0].words, len(data) // 4)
     places, counts, start = [], [], pos
