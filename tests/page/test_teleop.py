@@ -14,7 +14,10 @@ from webviz.engine.state import Driving, ToolButton
 from webviz.scene.server import Server
 from webviz.tools.teleop import Teleop
 
-CAMERA = "window.__viserMutable.cameraControl.toJSON()"
+CAMERA = """(() => {
+  const { position, target } = JSON.parse(window.__viserMutable.cameraControl.toJSON());
+  return [...position, ...target];
+})()"""
 """Where the camera goes: where it is still follows the last drag, by frames of another test."""
 PAD = """(axes) => { navigator.getGamepads = () => [{connected: true, axes}] }"""
 
@@ -79,7 +82,8 @@ def test_keys_drive_while_they_are_held_and_leave_the_camera_and_other_tools_alo
     wait_for_share(driver, *STILL)
     keys.up("s")
     keys.press("t")
-    assert driver.page.evaluate(CAMERA) == before
+    # A wheel that another test has turned may still move it by micrometres.
+    assert driver.page.evaluate(CAMERA) == pytest.approx(before, abs=1e-3)
 
 
 def test_the_mouse_moves_the_camera_while_a_key_drives(driver: Tab) -> None:
