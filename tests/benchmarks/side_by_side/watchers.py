@@ -148,12 +148,13 @@ class FileWatcher:
 
     def __init__(self, path: Path) -> None:
         self._path = path
-        self._start = path.stat().st_size if path.exists() else 0
+        # The newest counts, as whoever joins gets it, too: nothing else comes where nothing moves.
+        self._start = max(0, path.stat().st_size - RECORD.size) if path.exists() else 0
         self.is_connected = True
 
     @property
     def sightings(self) -> list[Sighting]:
-        """All since it was made."""
+        """All since it was made, and the one before."""
         data = self._path.read_bytes()[self._start :] if self._path.exists() else b""
         whole = data[: len(data) // RECORD.size * RECORD.size]
         return [Sighting(now, None, stamp) for _, _, stamp, now in RECORD.iter_unpack(whole)]
