@@ -118,7 +118,7 @@ def pixels_at_rest(page: Page) -> NDArray[np.uint8]:
     def rests() -> bool:
         page.draw()
         pictures.append(pixels(page))
-        return np.array_equal(*(each[MIDDLE] for each in pictures[-2:]))
+        return np.array_equal(pictures[-2][MIDDLE], pictures[-1][MIDDLE])
 
     page.wait_for(rests, "the picture rests")
     return pictures[-1]
