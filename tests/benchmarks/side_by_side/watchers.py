@@ -148,7 +148,8 @@ class FileWatcher:
 
     def __init__(self, path: Path) -> None:
         self._path = path
-        # The newest counts, as whoever joins gets it, too: nothing else comes where nothing moves.
+        # From the newest record on: a client that joins late gets that message, too, and in a scene
+        # where nothing moves no other follows.
         self._start = max(0, path.stat().st_size - RECORD.size) if path.exists() else 0
         self.is_connected = True
 

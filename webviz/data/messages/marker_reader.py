@@ -60,7 +60,6 @@ class _Layout:
         self._data, self._end, self._uint = reader.data, reader.size, _UINT[reader.order]
         self._pos = self._start = reader.pos
         self.phase = reader.pos & 7
-        self.words = np.dtype(reader.order + "u4")
         counts: list[int] = []
         self.places: list[int] = []
         """Of the counts in `counts`."""
@@ -200,6 +199,7 @@ def read_markers(reader: Reader) -> MarkerSequence:
 def _walk(reader: Reader, count: int) -> tuple[list[_Layout], list[int], list[int]]:
     """Return the layouts, and the first byte and the number of the layout of each marker."""
     data, end, pos = reader.data, reader.size, reader.pos
+    words = np.frombuffer(data, f"{reader.order}u4", len(data) // 4)
     layouts: list[_Layout] = []
     known: dict[tuple[int, ...], int] = {}
     next_of: dict[int, int] = {}
@@ -227,7 +227,7 @@ def _walk(reader: Reader, count: int) -> tuple[list[_Layout], list[int], list[in
             cycle, most = _cycle(numbers), count - len(starts)
             pos = (pos + 3) & ~3
             size = pos - starts[-len(cycle)] if cycle else 0
-            again = _repeated([layouts[each] for each in cycle], data, pos, size, most)
+            again = _repeated([layouts[each] for each in cycle], words, pos, size, most)
             if again:
                 jumps = np.arange(1, again + 1)[:, None] * size
                 starts += (np.array(starts[-len(cycle) :]) + jumps).ravel().tolist()
@@ -246,19 +246,19 @@ def _cycle(numbers: list[int]) -> list[int]:
 
 
 def _repeated(
-    cycle: Sequence[_Layout], data: bytes | memoryview, pos: int, size: int, most: int
+    cycle: Sequence[_Layout], words: NDArray[np.uint32], pos: int, size: int, most: int
 ) -> int:
     """Return how many times markers of these layouts follow at `pos`, `most` markers at most.
 
     Args:
+        words: of the message.
         size: bytes of the cycle, up to where the next one begins.
     """
     if not cycle or size % 8:
         return 0
-    times = min(most // len(cycle), (len(data) - pos) // size, _AT_ONCE)
+    times = min(most // len(cycle), (words.nbytes - pos) // size, _AT_ONCE)
     if times < 1:
         return 0
-    words = np.frombuffer(data, cycle[0].words, len(data) // 4)
     places, counts, start = [], [], pos
     for layout in cycle:
         start = (start + 3) & ~3
