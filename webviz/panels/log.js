@@ -42,7 +42,7 @@ const textOf = ({ stamp, level, name, text }) =>
 
 /** @param {Page} page */
 export default function install({
-  copy,
+  copyAndTell,
   el,
   iconButton,
   rowList,
@@ -52,7 +52,6 @@ export default function install({
   showText,
   style,
   timeOfDay,
-  toast,
   touchable,
   widget,
 }) {
@@ -79,7 +78,7 @@ export default function install({
     const text = searchField("Text", filter);
     const follow = iconButton("follow", "Follow the newest line", () => setFollowing(!isFollowing));
     const all = iconButton("copy", "Copy the visible lines", () =>
-      copied(shown.map(textOf).join("\n")),
+      copyAndTell(shown.map(textOf).join("\n")),
     );
     const count = el("span", { class: "wv-quiet wv-number" });
     const empty = el("div", { class: "wv-empty", role: "status" });
@@ -128,13 +127,6 @@ export default function install({
       top = list.element.scrollTop; // the browser takes less
     }
 
-    /** @param {string} what */
-    async function copied(what) {
-      const isDone = await copy(what);
-      const level = isDone ? "ok" : "error";
-      toast(isDone ? "Copied." : "This browser does not allow copying.", { level });
-    }
-
     /** @param {Line} line */
     function open(line) {
       const [chunk, place] = line.key.split("/").map(Number);
@@ -145,7 +137,7 @@ export default function install({
           el("b", { class: "wv-ellipsis" }, `${nameOf(line.level)} of ${line.name}`),
           iconButton("clock", "Go to this time", () => send([chunk, place])),
           iconButton("copy", "Copy this line", () =>
-            copied(`${textOf(line)}${line.place ? ` (${line.place})` : ""}`),
+            copyAndTell(`${textOf(line)}${line.place ? ` (${line.place})` : ""}`),
           ),
           iconButton("close", "Close", () => set(detail, { hidden: true })),
         ),

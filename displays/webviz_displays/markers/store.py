@@ -133,13 +133,8 @@ class Store:
         """Add markers of these numbers, or new versions of them, as far as they are `ok`."""
         table, wanted = self.table, self.table.wanted_contents
         numbered = numbers.tolist()
-        keys = list(
-            zip(
-                [markers.namespaces[i] for i in numbered],
-                markers.ids[numbers].tolist(),
-                strict=True,
-            )
-        )
+        namespaces = [markers.namespaces[i] for i in numbered]
+        keys = list(zip(namespaces, markers.ids[numbers].tolist(), strict=True))
         contents = [markers.contents[i] for i in numbered]
         found = [table.rows.get(key) for key in keys]
         each = zip(found, contents, ok[numbers].tolist(), strict=True)
@@ -336,7 +331,7 @@ class Store:
 
 
 def _span(rows: NDArray[np.intp]) -> slice | NDArray[np.intp]:
-    """Return rows as a slice if each follows the one before, of which numpy makes no copies."""
+    """Return consecutive rows as a slice, through which numpy reads without a copy."""
     first, last = int(rows[0]), int(rows[-1])
     is_span = last - first == len(rows) - 1 and bool((np.diff(rows) == 1).all())
     return slice(first, last + 1) if is_span else rows

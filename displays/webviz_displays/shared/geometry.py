@@ -44,7 +44,8 @@ def coordinate(
     """One coordinate of `transformed`, at a sixth of the cost.
 
     Returns:
-        It from the position of the pose on, (N,), as precise as `xyz`; and that of the position.
+        The coordinate relative to the position of the pose, (N,), as precise as `xyz`; and the
+        coordinate of that position.
     """
     row = matrices(pose.wxyz)[axis]
     columns = [xyz[:, i] * row[i].astype(xyz.dtype) for i in np.flatnonzero(row)]

@@ -3,6 +3,9 @@
 import { el } from "./dom.js";
 import { toast } from "./shell/toasts.js";
 
+export const NOT_COPIED =
+  "This browser does not allow copying. Allow the clipboard for this page in the browser's settings.";
+
 /**
  * Copies a text; whether that was possible.
  *
@@ -33,5 +36,5 @@ export async function copy(text) {
  */
 export async function copyAndTell(text, done = "Copied.") {
   if (await copy(text)) toast(done);
-  else toast("This browser does not allow copying.", { level: "error" });
+  else toast(NOT_COPIED, { level: "error" });
 }

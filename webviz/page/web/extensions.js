@@ -4,7 +4,7 @@
 import { needs } from "./access.js";
 import { act } from "./act.js";
 import { fitted } from "./charts/canvas.js";
-import { copy } from "./clipboard.js";
+import { copy, copyAndTell } from "./clipboard.js";
 import { indent, keyOf, rowList, touchable } from "./controls/rows.js";
 import { searchField } from "./controls/fields.js";
 import { el, set, setChildren, setText, showText, svgElement } from "./dom.js";
@@ -43,6 +43,7 @@ const page = Object.freeze({
   camera,
   canvas,
   copy,
+  copyAndTell,
   download,
   el,
   fitted,

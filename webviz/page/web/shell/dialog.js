@@ -148,7 +148,7 @@ export async function ask(text, { confirm = "OK", title = "Are you sure?", dange
 }
 
 /**
- * Asks for a name; resolves with it, null if there is none to be.
+ * Asks for a name; resolves with it, or with null if the dialog is cancelled.
  *
  * @param {string} noun what has the name, such as "layout"
  * @param {{

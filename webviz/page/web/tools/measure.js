@@ -1,7 +1,7 @@
 // The tool that measures between points of surfaces. Its lines stay where they are in the fixed
 // frame.
 
-import { copy } from "../clipboard.js";
+import { NOT_COPIED, copy } from "../clipboard.js";
 import { el, set, setText, svgElement } from "../dom.js";
 import { onCanvas, surfaceAt } from "../scene/ground.js";
 import { watch } from "../stores.js";
@@ -173,7 +173,7 @@ function removeAll() {
 async function copyLine(line) {
   const isCopied = await copy(words(line));
   if (isCopied) tell("ok", `Copied ${words(line)}.`);
-  else tell("error", "The browser does not allow copying.");
+  else tell("error", NOT_COPIED);
 }
 
 /** @param {Line} line one without an end has no length */
