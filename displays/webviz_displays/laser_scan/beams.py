@@ -77,7 +77,7 @@ def project(scan: messages.LaserScan) -> BeamPoints:
         ranges = scan.ranges.astype(np.float64)
     farthest = min(scan.range_max, FARTHEST)
     is_hit = np.isfinite(ranges) & (ranges >= scan.range_min) & (ranges < farthest)
-    beams = np.flatnonzero(is_hit)
+    (beams,) = is_hit.nonzero()
     over = max(len(beams) - MAX_BEAMS, 0)
     if over:
         beams = beams[evenly(len(beams), MAX_BEAMS)]

@@ -69,7 +69,7 @@ def ramp(values: ArrayLike, low: float, high: float, stops: tuple[Rgb, ...] = RA
             where -= shift
             where *= scale
             where += number(0.5)  # to round by cutting off
-            index = np.clip(where, 0, last, out=where).astype(np.intp)
+            index = np.minimum(where, last, out=where).astype(np.intp)
             # A colour as one item of three bytes: numpy copies matrix rows far more slowly.
             table.take(index, mode="clip", out=colors[start : start + _PART])
     return colors.view(np.uint8).reshape(-1, 3)

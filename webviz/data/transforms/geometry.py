@@ -30,7 +30,9 @@ Finite transforms may compose to infinity or NaN, which no viewer can draw.
 
 def is_within_reach(pose: PoseTuple) -> bool:
     """Return whether a pose is finite and near enough to be drawn."""
-    return all(abs(value) <= REACH_M for value in pose)
+    x, y, z, qx, qy, qz, qw = map(abs, pose)  # of NaN, no comparison holds
+    is_near = x <= REACH_M and y <= REACH_M and z <= REACH_M
+    return is_near and qx <= REACH_M and qy <= REACH_M and qz <= REACH_M and qw <= REACH_M
 
 
 def to_matrix(x: float, y: float, z: float, w: float) -> Matrix:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Collection, Iterator, Mapping
 from typing import Any
 
@@ -135,10 +134,10 @@ class PanelsPart(Part):
         return [tab.panel for tab in self._attended()]
 
     def _tabs(self) -> Iterator[PanelTab]:
-        count: Counter[str] = Counter()
+        count: dict[str, int] = {}
         for id, panel in self.list.usable().items():
             name = type_name(type(panel))
-            count[name] += 1
+            count[name] = count.get(name, 0) + 1
             yield PanelTab(id, name if count[name] == 1 else f"{name} {count[name]}", panel)
 
     def _topics(self, panel: Panel, hook: str) -> Mapping[str, str]:

@@ -148,10 +148,12 @@ class FleetSource:
     @property
     def _clock(self) -> Source | None:
         """The source whose simulated time counts, or any; None without robots and other topics."""
+        if not self._members:
+            return self._base
         members: list[Source] = [member.source for member in self._members]
         sources = members if self._base is None else [self._base, *members]
         simulated = (s for s in sources if s.clock_messages() is not None)
-        return next(simulated, sources[0] if sources else None)
+        return next(simulated, sources[0])
 
 
 def _connected(robots: Sequence[NamespacedRobot]) -> Sequence[NamespacedRobot]:
