@@ -213,11 +213,9 @@ MAKERS_OF_PANELS: Mapping[str, Callable[[PluginPanels, State, str], PageStore | 
 
 
 def _types() -> list[PanelType]:
-    """Return the types of panels."""
-    return [
-        PanelType(name, clean(cls.title or name))
-        for name, cls in sorted(plugin_types(Panel).items())
-    ]
+    """Return the types of panels, in the order of their titles."""
+    found = [PanelType(name, clean(cls.title or name)) for name, cls in plugin_types(Panel).items()]
+    return sorted(found, key=lambda each: each.title.casefold())
 
 
 def _note_refusal(answer: Future[str]) -> None:
