@@ -25,7 +25,7 @@ from webviz.files.config import Config
 from webviz.page.recorded_ui import RecordedUi
 from webviz.panels.calling import ActionGoal, ServiceCall
 from webviz.panels.publish import PublishMessage
-from webviz.panels.sending import HISTORY, MAX_PRESETS, fields_of, template
+from webviz.panels.sending import HISTORY, MAX_PRESETS, SendingPanel, fields_of, template
 from webviz.panels.yaml_text import MAX_CHARACTERS, write_yaml
 from webviz.sources import Endpoint, Offer, Publisher
 
@@ -179,12 +179,19 @@ def test_a_service_and_an_action_have_forms_of_their_requests() -> None:
     unnamed.panel.use({}, 1)
     assert unnamed.sent[0].request.type == "nav2_msgs/action/UndockRobot"
     for panel in (
-        ServiceCall(service_type="no/srv/Such"),
-        ActionGoal(action_type="no/action/Such"),
+        ServiceCall(service="/such", service_type="no/srv/Such"),
+        ActionGoal(action="/such", action_type="no/action/Such"),
     ):
         assert "No definition of no/" in Opened(panel).show()["about"]
         with pytest.raises(Error, match="message type is unknown"):
             panel.use({}, 1)
+
+
+@pytest.mark.parametrize("panel", [PublishMessage(topic=""), ServiceCall(), ActionGoal()])
+def test_a_panel_without_a_name_asks_for_it(panel: SendingPanel) -> None:
+    assert Opened(panel).show()["about"] == f"Enter the name of the {panel.target}."
+    with pytest.raises(Error, match=f"No {panel.target} is chosen"):
+        panel.use({}, 1)
 
 
 @pytest.mark.parametrize(

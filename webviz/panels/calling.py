@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Annotated, Any
 
 from webviz.api.declared import Prop
-from webviz.api.errors import Error
 from webviz.api.goal import goal_request
 from webviz.api.panel import Send, Ui
 from webviz.api.status import Level, Status
@@ -67,8 +66,6 @@ class ServiceCall(SendingPanel):
     def act(self, value: Any, browser: int | None) -> None:
         """Call the service."""
         values = self.values()
-        if not self.service:
-            raise Error("No service is chosen. Enter its name.")
         self.response = None
         self.report(Status(Level.OK, "Waiting ..."))
         call = CallService(
@@ -122,8 +119,6 @@ class ActionGoal(SendingPanel):
     def act(self, value: Any, browser: int | None) -> None:
         """Send the goal."""
         values = self.values()
-        if not self.action:
-            raise Error("No action is chosen. Enter its name.")
         request = goal_request(self.action, self.type, values, definition=self.definition)
         self.send(SendGoal(request, f"panel {self.id}", self.name, self.report), browser)
 

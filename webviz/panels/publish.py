@@ -66,8 +66,8 @@ class PublishMessage(SendingPanel):
         topics = sorted(named)[:2000]
         about = type_ or "Nothing publishes or reads this topic. Enter its type in Properties."
         form = {"verb": "Publish", "name": self.topic, "label": "Topic", "names": topics}
-        form["about"] = about if self.topic else "Enter a topic."
-        self.show_form(state, type_, {**form, "repeats": self.is_repeating, "rate": self.rate})
+        repeating = {"repeats": self.is_repeating, "rate": self.rate}
+        self.show_form(state, type_, {**form, "about": about, **repeating})
 
     def act(self, value: Any, browser: int | None) -> None:
         """Publish once, or begin or end to repeat."""

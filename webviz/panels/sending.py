@@ -81,6 +81,8 @@ class SendingPanel(Panel):
             extra: what else pages need: `verb` of the button, `name` and `label` of the target,
                 other `names` to choose from, and `about`, its type or why it has no form.
         """
+        if not extra["name"]:
+            extra = {**extra, "about": f"Enter the name of the {self.target}."}
         self.id = next((tab.id for tab in state.panels if tab.panel is self), "")
         with self.lock:
             if type_ != self.type_shown:
@@ -150,8 +152,10 @@ class SendingPanel(Panel):
         """Return the values, checked.
 
         Raises:
-            Error: the text is not YAML, or does not fit the type.
+            Error: no target is named, or the text is not YAML or does not fit the type.
         """
+        if not getattr(self, self.target):
+            raise Error(f"No {self.target} is chosen. Enter its name.")
         with self.lock:
             values = self._values()
             if self.text in self.history:
