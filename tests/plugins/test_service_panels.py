@@ -120,6 +120,7 @@ def test_a_robot_docks_by_id_and_at_a_pose_and_undocks(
     (shown,) = b.viewer.do(Refresh()).goals
     assert shown.status is not None
     assert "Failed (904): the dock was not detected" in shown.status.text
+    assert shown.status.text in b.text(), "it no longer says that the goal is accepted"
 
     b.offers("/docking_server/get_parameters", ["simple"])
     b.show()

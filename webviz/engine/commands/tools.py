@@ -80,7 +80,7 @@ class SendGoal(Command, frozen=True):
         request: the goal; see `webviz.api.goal.goal_request`.
         by: id of the sender, such as a panel's name.
         title: what pages call it.
-        report: called with whether the goal is accepted; must not block.
+        report: called with whether the goal is accepted, and then with its outcome; must not block.
     """
 
     request: GoalRequest

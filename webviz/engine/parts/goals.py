@@ -9,6 +9,7 @@ from webviz.api.errors import Error
 from webviz.api.goal import GoalRequest
 from webviz.api.status import Level, Status
 from webviz.engine.commands import CancelGoal, Command, DismissGoal, Sender, SendGoal
+from webviz.engine.commands.command import ignore
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.state import GoalProgress
 from webviz.engine.state.goals import RunningGoal
@@ -35,7 +36,12 @@ class GoalsPart(Part):
         return {CancelGoal: self._cancel, DismissGoal: self._dismiss, SendGoal: self._send}
 
     def send(
-        self, tool: str, title: str, request: GoalRequest, report: Callable[[Status], None]
+        self,
+        tool: str,
+        title: str,
+        request: GoalRequest,
+        report: Callable[[Status], None],
+        ended: Callable[[Status], None] = ignore,
     ) -> None:
         """Send a goal of a tool instead of its previous one.
 
@@ -44,6 +50,7 @@ class GoalsPart(Part):
             title: its name.
             request: of the tool.
             report: called with whether the goal is accepted.
+            ended: called with the outcome of one that was.
 
         Raises:
             Error: too many goals are active, or the name of the action is invalid.
@@ -69,8 +76,9 @@ class GoalsPart(Part):
         self._goals = {
             id: goal for id, goal in self._goals.items() if goal.is_active or goal.tool != tool
         }
-        self._goals[shown.id] = RunningGoal(tool, action, shown, request, send, before, report)
-        self._turn(self._goals[shown.id])
+        goal = RunningGoal(tool, action, shown, request, send, before, report, ended)
+        self._goals[shown.id] = goal
+        self._turn(goal)
 
     def keep_up(self, commanded: bool) -> None:
         """Follow the goals, and forget those that nobody needs to see any more."""
@@ -103,7 +111,8 @@ class GoalsPart(Part):
         return self._goals[id]
 
     def _send(self, command: SendGoal, sender: Sender) -> None:
-        self.send(command.by, command.title, command.request, command.report)
+        report = command.report
+        self.send(command.by, command.title, command.request, report, ended=report)
 
     def _cancel(self, command: CancelGoal, sender: Sender) -> None:
         self._find(command.goal).cancel()

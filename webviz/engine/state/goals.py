@@ -38,6 +38,7 @@ class RunningGoal:
         send: sends it; gets what to call with feedback.
         before: goals of the same tool that it replaces.
         report: tells its sender whether it is accepted.
+        ended: tells it the outcome of one that was.
     """
 
     def __init__(
@@ -49,6 +50,7 @@ class RunningGoal:
         send: Callable[[Callable[[bytes], object]], Goal],
         before: Sequence[RunningGoal],
         report: Callable[[Status], None],
+        ended: Callable[[Status], None],
     ) -> None:
         self.tool = tool
         self.action = action
@@ -60,6 +62,7 @@ class RunningGoal:
         self._request = request
         self._send = send
         self._report = report
+        self._ended = ended
         self._sent: Goal | None = None
         self._newest: bytes | None = None
         self._values: Mapping[str, str] = {}
@@ -240,6 +243,8 @@ class RunningGoal:
 
     def _end(self, outcome: Status, now: float) -> None:
         self.outcome, self.ended_s, self.before = outcome, now, ()
+        if self.is_accepted:
+            self._ended(outcome)
         if self._sent is not None:
             self._sent.result.cancel()  # wait for it no longer
 
