@@ -16,7 +16,7 @@ import pytest
 from doc_blocks import CONFIG, ROOT, Block, blocks
 
 from webviz.files import opening
-from webviz.shell.cli.commands import app, split_ros_arguments, with_command
+from webviz.shell.cli.commands import app, split_ros_arguments, with_openers
 from webviz.shell.cli.options import ConfigOptions
 from webviz_sim.world import load_world
 
@@ -58,7 +58,7 @@ def test_every_option_of_a_command_exists_and_fits_the_config(
     monkeypatch.chdir(tmp_path)
     Path("lab.yaml").write_text(CONFIG.text)
     own, _ = split_ros_arguments(arguments)
-    _, given, _ = app.parse_args(with_command(own), exit_on_error=False, print_error=False)
+    _, given, _ = app.parse_args(with_openers(own), exit_on_error=False, print_error=False)
     for options in given.arguments.values():
         if isinstance(options, ConfigOptions) and options.display_config == Path("lab.yaml"):
             options.read(options.display_config)

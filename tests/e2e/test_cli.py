@@ -15,6 +15,7 @@ from processes import command_lines
 from program import Program
 
 from webviz.shell.cli import main as cli
+from webviz.shell.cli.commands import with_openers
 
 ROOT = Path(__file__).parents[2]
 PATIENCE_S = 180.0
@@ -40,6 +41,27 @@ def refused(*arguments: str, status: int = 1) -> str:
     return result.stderr.strip()
 
 
+@pytest.mark.parametrize(
+    ("given", "meant"),
+    [
+        ("lab.rviz", "--display-config lab.rviz"),
+        ("Run.MCAP lab.yaml --port 0", "--bag Run.MCAP --display-config lab.yaml --port 0"),
+        ("run", "--bag run"),
+        ("demo", "demo"),
+        ("bug.zip --port 0", "open bug.zip --port 0"),
+        ("-d lab.conf", "-d lab.conf"),
+        ("", ""),
+    ],
+)
+def test_files_are_opened_without_options(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, given: str, meant: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for folder in ("run", "demo"):
+        (tmp_path / folder).mkdir()
+    assert with_openers(given.split()) == meant.split()
+
+
 def test_help_lists_every_command_and_option() -> None:
     result = run("--help")
     assert result.returncode == 0
@@ -54,8 +76,8 @@ def test_help_lists_every_command_and_option() -> None:
     [
         (["screenshoot"], "Unknown command `screenshoot`: did you mean `screenshot`?"),
         (
-            ["lab.rviz"],
-            "Unknown command `lab.rviz`. To open it as a config, run `webviz -d lab.rviz`.",
+            ["lab.conf"],
+            "Unknown command `lab.conf`. To open it as a config, run `webviz -d lab.conf`.",
         ),
         (["--port", "0", "demo"], "The command must come first: `webviz demo ...`."),
         (["demo", "now"], "Unexpected argument for `webviz demo`: `now`."),

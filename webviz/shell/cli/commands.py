@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 
 from cyclopts import (
     App,
@@ -24,6 +25,12 @@ from webviz.shell.cli import viewing
 from webviz.shell.cli.options import ROS_ARGS_HELP
 
 FAILED, WRONG_USAGE = 1, 2
+CONFIG, BAG = "--display-config", "--bag"
+OPENERS = {
+    **dict.fromkeys((".rviz", ".yaml", ".yml"), CONFIG),
+    **dict.fromkeys((".mcap", ".db3", ".bag", ".zst", ".zstd", ".lz4"), BAG),
+}
+"""Options that open a file, by the end of its name."""
 KINDS = {int: "a whole number", float: "a number"}
 
 app = App(
@@ -69,7 +76,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
     logging.basicConfig(format="%(name)s: %(message)s", level=logging.WARNING)
     try:
         command, given, unparsed = app.parse_args(
-            with_command(own), exit_on_error=False, print_error=False, verbose=False
+            with_openers(own), exit_on_error=False, print_error=False, verbose=False
         )
         if "ros" in unparsed:
             given.arguments["ros"] = ros
@@ -103,13 +110,22 @@ def split_ros_arguments(arguments: Sequence[str]) -> tuple[list[str], list[str]]
     return own, ros
 
 
-def with_command(arguments: list[str]) -> list[str]:
-    """Return the arguments, with the command `open` if they begin with the file of a bug report."""
-    return ["open", *arguments] if arguments and _is_report(arguments[0]) else arguments
+def with_openers(arguments: Sequence[str]) -> list[str]:
+    """Return the arguments, with what opens the files that they begin with.
 
-
-def _is_report(word: str) -> bool:
-    return word.lower().endswith(".zip") and not word.startswith("-")
+    That is the command `open` of a bug report, `--display-config` of a config and `--bag` of a bag,
+    so that `webviz lab.rviz run.mcap` needs no options.
+    """
+    opened: list[str] = []
+    for place, word in enumerate(arguments):
+        path = Path(word)
+        if not opened and path.suffix.lower() == ".zip" and not word.startswith("-"):
+            return ["open", *arguments]
+        option = OPENERS.get(path.suffix.lower(), BAG if path.is_dir() else "")
+        if not option or word.startswith("-") or word in app:
+            return [*opened, *arguments[place:]]
+        opened += [option, word]
+    return opened
 
 
 def _mistake(error: CycloptsError) -> str:

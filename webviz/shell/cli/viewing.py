@@ -12,9 +12,9 @@ from webviz_sim.options import fault_parameter
 EXAMPLES = """\
 Examples:
   webviz                          show the usual topics of the ROS graph
-  webviz -d lab.yaml -f odom      open a config, in another fixed frame
-  webviz -d nav2.rviz             open a config of RViz
-  webviz --bag run.mcap           play a bag, without ROS
+  webviz lab.yaml -f odom         open a config, in another fixed frame
+  webviz nav2.rviz                open a config of RViz; -d opens one whatever its name
+  webviz run.mcap                 play a bag, without ROS; --bag plays one whatever its name
   webviz --bag today.mcap --ghost yesterday.mcap
   webviz --connect ws://robot:8765
                                   show a robot through its bridge, without ROS
