@@ -13,7 +13,6 @@ from webviz.api.offer import Endpoint, Offer, Publisher
 from webviz.api.robots import NamespacedRobot
 from webviz.data.messages.stamps import shifted
 from webviz.sources.bridge.address import Address
-from webviz.sources.bridge.source import BridgeSource
 from webviz.sources.inbox import Inbox, Raw
 from webviz.sources.source import Subscription
 
@@ -89,6 +88,9 @@ class FleetMember:
     def __init__(
         self, robot: NamespacedRobot, address: Address, inbox: Inbox, now_ns: Callable[[], int]
     ) -> None:
+        # Here, as viewers without such robots, which are most, do without its thirty modules.
+        from webviz.sources.bridge.source import BridgeSource
+
         self.robot = robot
         self._now_ns = now_ns
         self._types: dict[str, str] = {}
