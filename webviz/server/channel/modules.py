@@ -32,15 +32,7 @@ class Modules:
     """
 
     def __init__(self, constants: Mapping[str, Any]) -> None:
-        files = _files()
-        content = repr((constants, sorted(files.items()))).encode()
-        self._version = hashlib.sha256(content).hexdigest()[:16]
-        shared = json.dumps({**constants, "VERSION": self._version})
-        modules = {name: text for name, text in files.items() if name.endswith(".js")}
-        modules["constants.js"] = f"export default {shared};\n"
-        head = _STYLE.sub(lambda link: f"<style>\n{files[link[1]]}</style>", files["head.html"])
-        # Nothing in a module may end the element that it is in.
-        self.head = head.replace(_MODULES, json.dumps(modules).replace("<", r"\u003c")).encode()
+        self._version, self.head = _built(json.dumps(constants))
 
     def connect(self, browser: int, key: str) -> str:
         """Return a script that makes a page open the channel.
@@ -62,10 +54,18 @@ class Modules:
 
 
 @functools.cache
-def _files() -> dict[str, str]:
-    """Return the texts of all files of the page, by their paths below its folder."""
-    return {
+def _built(constants: str) -> tuple[str, bytes]:
+    """Return the version and the head of a page with these constants, as JSON."""
+    files = {
         file.relative_to(_FOLDER).as_posix(): file.read_text("utf-8")
         for file in _FOLDER.rglob("*")
         if file.suffix in (".js", ".css", ".html")
     }
+    content = repr((constants, sorted(files.items()))).encode()
+    version = hashlib.sha256(content).hexdigest()[:16]
+    shared = json.dumps({**json.loads(constants), "VERSION": version})
+    modules = {name: text for name, text in files.items() if name.endswith(".js")}
+    modules["constants.js"] = f"export default {shared};\n"
+    head = _STYLE.sub(lambda link: f"<style>\n{files[link[1]]}</style>", files["head.html"])
+    # Nothing in a module may end the element that it is in.
+    return version, head.replace(_MODULES, json.dumps(modules).replace("<", r"\u003c")).encode()
