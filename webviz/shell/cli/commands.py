@@ -31,6 +31,11 @@ OPENERS = {
     **dict.fromkeys((".mcap", ".db3", ".bag", ".zst", ".zstd", ".lz4"), BAG),
 }
 """Options that open a file, by the end of its name."""
+OPENING = {
+    **dict.fromkeys(("doctor", "export", "report", "screenshot", "test"), (CONFIG, BAG)),
+    "frames": (BAG,),
+}
+"""Which of them commands have."""
 KINDS = {int: "a whole number", float: "a number"}
 
 app = App(
@@ -114,15 +119,18 @@ def with_openers(arguments: Sequence[str]) -> list[str]:
     """Return the arguments, with what opens the files that they begin with.
 
     That is the command `open` of a bug report, `--display-config` of a config and `--bag` of a bag,
-    so that `webviz lab.rviz run.mcap` needs no options.
+    so that `webviz lab.rviz run.mcap` and `webviz frames run.mcap` need no options.
     """
-    opened: list[str] = []
-    for place, word in enumerate(arguments):
+    first = arguments[0] if arguments else ""
+    if first.lower().endswith(".zip") and not first.startswith("-"):
+        return ["open", *arguments]
+    has_command = first in OPENING
+    known = OPENING[first] if has_command else (CONFIG, BAG)
+    opened = [first] if has_command else []
+    for place, word in enumerate(arguments[has_command:], has_command):
         path = Path(word)
-        if not opened and path.suffix.lower() == ".zip" and not word.startswith("-"):
-            return ["open", *arguments]
         option = OPENERS.get(path.suffix.lower(), BAG if path.is_dir() else "")
-        if not option or word.startswith("-") or word in app:
+        if option not in known or word.startswith("-") or word in app:
             return [*opened, *arguments[place:]]
         opened += [option, word]
     return opened

@@ -22,7 +22,7 @@ Examples:
   webviz demo                     show a simulated robot
   webviz demo --robots 3          show several, each in a namespace of its own
   webviz record -o run            record all topics
-  webviz screenshot -d lab.yaml --bag run.mcap -o lab.png
+  webviz screenshot lab.yaml run.mcap -o lab.png
   webviz --ros-args -p use_sim_time:=true -r /scan:=/front/scan
 
 Run `webviz COMMAND --help` for the options of a command.
