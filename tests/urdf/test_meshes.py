@@ -320,6 +320,15 @@ def test_a_mesh_with_corners_at_infinity_is_missing(tmp_path, one_mesh, x):
     assert "not finite" in missing.reason
 
 
+def test_a_mesh_that_its_file_moves_to_infinity_is_missing(tmp_path, one_mesh, tetrahedron_dae):
+    path = tmp_path / "far.dae"
+    matrix = "<matrix>1e308 0 0 0 0 1e308 0 0 0 0 1e308 0 0 0 0 1</matrix>"
+    text = tetrahedron_dae(unit="1e308", up="Y_UP")
+    path.write_text(text.replace('<node id="n">', f'<node id="n">{matrix}'))
+    (missing,) = one_mesh(path).missing
+    assert "a vertex is not finite" in missing.reason
+
+
 def test_nothing_below_a_mesh_is_fetched_from_a_network(tmp_path, one_mesh):
     document = {
         "asset": {"version": "2.0"},

@@ -127,7 +127,9 @@ def scaled(part: MeshPart, scale: Scale) -> MeshPart:
     return replace(part, vertices=part.vertices * factors, faces=faces, normals=normals)
 
 
+@np.errstate(all="ignore")
 def _parts(data: bytes, suffix: str, textures: TextureFolder) -> list[MeshPart]:
+    # What overflows on the way, within trimesh, too, is found by its result.
     scene = trimesh.load_scene(io.BytesIO(data), suffix, resolver=textures, process=False)
     parts = []
     for node in scene.graph.nodes_geometry:
@@ -143,10 +145,9 @@ def _part(mesh: trimesh.Trimesh, transform: np.ndarray, unit: float) -> MeshPart
     """Return the mesh in the scene's frame, in metres."""
     exact, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
     linear, is_moved = transform[:3, :3], not np.array_equal(transform, np.eye(4))
-    with np.errstate(over="ignore", invalid="ignore"):
-        if is_moved:
-            exact = exact @ linear.T + transform[:3, 3]
-        vertices = exact.astype(np.float32) if unit == 1.0 else (exact * unit).astype(np.float32)
+    if is_moved:
+        exact = exact @ linear.T + transform[:3, 3]
+    vertices = exact.astype(np.float32) if unit == 1.0 else (exact * unit).astype(np.float32)
     if not np.isfinite(vertices).all():
         raise ValueError("a vertex is not finite, or too far away")
     surface, uvs = _surface(mesh)
