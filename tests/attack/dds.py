@@ -21,7 +21,7 @@ from webviz.api.registry import display_types
 from webviz.data.messages import DecodeError, decode, encode
 from webviz.data.messages.typestore import fields
 from webviz.ros.types import message_class
-from webviz.shell.testing.extremes import LAST, cases, change
+from webviz.shell.testing.extremes import LAST, cases, changed
 from webviz.shell.testing.messages import header
 
 DISCOVERY_S = 60.0
@@ -96,7 +96,7 @@ class Dds(Attack):
         if random.random() < 0.5:
             known = list(cases(type_name, values))
             for case in random.sample(known, min(len(known), random.randint(1, 4))):
-                change(values, case)
+                values = changed(values, case)
             cdr = encode(type_name, values).replace(LAST.encode(), b"\xff")
         else:
             cdr = mutated(random, encode(type_name, values))

@@ -71,6 +71,7 @@ def test_without_p_a_camera_has_k() -> None:
         ({"p": [0.0] * 12, "k": [float("inf")] * 9}, "inf of K are invalid"),
         ({"p": [*P[:2], 1e308, *P[3:]]}, "do not fit an image of 640 x 480"),
         ({"p": [1e308, *P[1:5], 1e308, *P[6:]]}, "do not fit"),
+        ({"p": [5e-324, *P[1:5], 5e-324, *P[6:]]}, "do not fit"),
         ({"width": 2**32 - 1}, "do not fit"),
         ({"roi": {"x_offset": 2**32 - 1}}, "do not fit"),
         ({"p": [1e308, *P[1:3], 1e308, *P[4:5], 1e-300, *P[6:7], 1e308, *P[8:]]}, "1000 km"),

@@ -2,26 +2,30 @@
 
 from __future__ import annotations
 
-import copy
 import importlib.util
+import random
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from functools import reduce
+from itertools import islice
 from pathlib import Path
 from typing import Any, ClassVar
 
 import pytest
 from display_messages import MESSAGES
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
 
 from webviz import Display
 from webviz.api.display import inputs_of
 from webviz.shell.testing import DisplayChecks
 from webviz.shell.testing.display_checks import PATIENCE_S, Benches
-from webviz.shell.testing.extremes import cases, change, faults, send
+from webviz.shell.testing.extremes import Case, cases, changed, faults, send
 
-SHARED = (HealthCheck.function_scoped_fixture, HealthCheck.differing_executors)
-"""All checks of a display take the same bench, and all displays the same checks."""
+HANDS = 128
+"""Messages with several extreme values, for each input of a display."""
+MOST = 5
+"""Extreme values in one of them."""
+IN_A_ROW = 3
+"""Messages that the same display receives."""
 FOLDER = Path(__file__).parents[1] / "displays"
 
 
@@ -38,27 +42,37 @@ class BuiltInChecks(DisplayChecks):
         else:
             scene(bench)
 
-    @settings(max_examples=60, deadline=None, suppress_health_check=SHARED)
-    @given(data=st.data())
     def test_several_extreme_values_at_once_are_no_worse(
         self,
         webviz_bench: Benches,
         made: Callable[[], Display],
         name: str,
         monkeypatch: pytest.MonkeyPatch,
-        data: st.DataObject,
     ) -> None:
+        """Messages with several of them follow each other."""
         monkeypatch.setattr(PATIENCE_S, -1.0)
-        bench = self.at_work(webviz_bench, made, name)
-        type_name = inputs_of(type(bench.display))[name].type
+        type_name = inputs_of(type(made()))[name].type
         known = list(cases(type_name, self.messages[type_name]))
-        for _ in range(data.draw(st.integers(1, 3))):
-            values = copy.deepcopy(self.messages[type_name])
-            for index in data.draw(st.lists(st.integers(0, len(known) - 1), max_size=5)):
-                change(values, known[index])
-            send(bench, name, values)
-            bench.now_ns += 10**8
-            assert faults(bench) == []
+        found = []
+        hands = dealt(known)
+        while row := list(islice(hands, IN_A_ROW)):
+            bench = self.at_work(webviz_bench, made, name)
+            for hand in row:
+                send(bench, name, reduce(changed, hand, self.messages[type_name]))
+                bench.now_ns += 10**8
+                found += [f"{hand!r:.200}: {fault}" for fault in faults(bench)]
+        assert found == []
+
+
+def dealt(known: Sequence[Case]) -> Iterator[Sequence[Case]]:
+    """Deal values like cards, so that each comes before one comes again."""
+    draw = random.Random(0)
+    pack: list[Case] = []
+    for _ in range(HANDS):
+        size = draw.randint(1, MOST)
+        if len(pack) < size:
+            pack += draw.sample(known, len(known))
+        yield [pack.pop() for _ in range(size)]
 
 
 def built_in_checks() -> dict[str, BuiltInChecks]:

@@ -140,7 +140,8 @@ class CameraModel(msgspec.Struct, frozen=True):
 
 def _checked(model: CameraModel) -> CameraModel:
     """Return a model whose image is somewhere in front of the camera, and not a point."""
-    corners = np.abs(model.corners(1.0) - (*model.center, 0.0))[:, :2]
+    with np.errstate(over="ignore"):  # refused below
+        corners = np.abs(model.corners(1.0) - (*model.center, 0.0))[:, :2]
     spans = model.width / model.fx, model.height / model.fy
     if not (corners.max() < WIDEST and min(spans) > NARROWEST):
         raise ImageError(

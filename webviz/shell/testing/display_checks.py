@@ -9,7 +9,6 @@ A subclass in the test file of a display is all that they need.
 
 from __future__ import annotations
 
-import copy
 import time
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -24,7 +23,7 @@ from webviz.api.display import Display, inputs_of
 from webviz.api.properties import value_at
 from webviz.shell.testing.bench import DisplayBench
 from webviz.shell.testing.changes import Change, changes
-from webviz.shell.testing.extremes import Values, cases, change, faults, send
+from webviz.shell.testing.extremes import Values, cases, changed, faults, send
 
 MAX_CASES = 128
 """Of one message; of twice as many every other one is tried."""
@@ -62,7 +61,7 @@ class DisplayChecks:
         for _ in range(2):
             for name, spec in inputs_of(type(bench.display)).items():
                 if spec.type in self.messages:
-                    send(bench, name, copy.deepcopy(self.messages[spec.type]))
+                    send(bench, name, self.messages[spec.type])
 
     def pytest_generate_tests(self, metafunc: pytest.Metafunc) -> None:
         """One test for each property, and for each input of each variant."""
@@ -121,10 +120,8 @@ class DisplayChecks:
         known = list(cases(type_name, self.messages[type_name]))
         found = []
         for case in known[:: len(known) // MAX_CASES or 1]:
-            values = copy.deepcopy(self.messages[type_name])
-            change(values, case)
             bench = self.at_work(webviz_bench, made, name)
-            send(bench, name, values)
+            send(bench, name, changed(self.messages[type_name], case))
             found += [f"{case[0]} = {str(case[1])[:40]}: {fault}" for fault in faults(bench)]
         assert found == []
 
@@ -135,7 +132,7 @@ class DisplayChecks:
         bench.transform("map", "sensor", (1.0, 2.0, 0.0), (0.0, 0.0, 0.6, 0.8))
         for number, (other, spec) in enumerate(inputs_of(type(bench.display)).items()):
             if other != name and (number == 0 or spec.latched) and spec.type in cls.messages:
-                send(bench, other, copy.deepcopy(cls.messages[spec.type]))
+                send(bench, other, cls.messages[spec.type])
         return bench
 
 

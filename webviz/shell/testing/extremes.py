@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import fields as dataclass_fields
 from typing import Any
 
@@ -64,22 +64,28 @@ def cases(type_name: str, values: Values, path: tuple[str | int, ...] = ()) -> I
                 yield from cases(field.base, element, (*here, index))
 
 
-def change(values: Values, case: Case) -> None:
-    """Put an extreme value in its place; a place that is gone stays gone."""
+def changed(values: Values, case: Case) -> Values:
+    """Return the values with an extreme one in its place; a place that is gone stays gone.
+
+    Only the parts on the way there are copied.
+    """
     (*path, last), value = case
-    part: Any = values
+    part: Any = (found := dict(values))
     for key in path:
         if isinstance(key, int) and key >= len(part):
-            return
-        part = part[key] if isinstance(key, int) else part.setdefault(key, {})
+            return found
+        below = part[key] if isinstance(key, int) else part.get(key, {})
+        part[key] = dict(below) if isinstance(below, Mapping) else list(below)
+        part = part[key]
     part[last] = value
+    return found
 
 
-def send(at: DisplayBench, name: str, values: Values) -> None:
+def send(at: DisplayBench, name: str, values: Mapping[str, Any]) -> None:
     """Publish a message for an input and let the display draw it, slow work included."""
     type_name = inputs_of(type(at.display))[name].type
     if fields(type_name)[0].base == "std_msgs/msg/Header":
-        values.setdefault("header", header("sensor", at.now_ns))
+        values = {"header": header("sensor", at.now_ns), **values}
     cdr = encode(type_name, values).replace(LAST.encode(), b"\xff")
     topic = next(topic.name for input, _, topic in inputs(at.display) if input == name)
     at.send_bytes(type_name, cdr, topic)
