@@ -118,6 +118,20 @@ def test_back_at_now_everything_is_shown_that_came_meanwhile(drive: Callable[...
     assert live.shown() == before
 
 
+def test_displays_that_never_catch_up_are_live_after_a_while(
+    drive: Callable[..., Drive], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("webviz.engine.playback.control.RETURNING_S", 0.05)
+    live = drive(recorded(4), LASTING)
+    before = live.shown()
+    live.seek(1.08)
+    with monkeypatch.context() as patch:
+        patch.setattr("webviz.engine.pipeline.runner.Runner.is_late", lambda runner: True)
+        live.do(ReturnToLive())
+    assert live.playback.is_live
+    assert live.shown() == before
+
+
 def test_playing_from_the_past_becomes_live(drive: Callable[..., Drive]) -> None:
     live = drive(recorded(5), LASTING)
     live.do(Refresh())

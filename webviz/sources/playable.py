@@ -79,8 +79,8 @@ class Playable(Protocol):
         """
         ...
 
-    def rejoin(self) -> bool:
-        """Become live if the position is as good as now; whether it is."""
+    def rejoin(self, at_once: bool = False) -> bool:
+        """Become live if the position is as good as now, or `at_once`; whether it is."""
         ...
 
     def neighbour(self, topic: str, is_forward: bool) -> int | None:

@@ -162,9 +162,10 @@ class Rewindable:
         self._replay.seek(at_ns, self._channels_to_read(), self._wanted, ended_ns)
         self._served = {topic: subscription.type for topic, subscription in self._wanted.items()}
 
-    def rejoin(self) -> bool:
+    def rejoin(self, at_once: bool = False) -> bool:
         """`Playable.rejoin`."""
-        if self._replay is not None and self.end_ns - self._replay.position_ns <= 2 * NEARLY_NS:
+        position_ns = self.position_ns
+        if self._replay is not None and (at_once or self.end_ns - position_ns <= 2 * NEARLY_NS):
             self._become_live()
         return self.is_live
 

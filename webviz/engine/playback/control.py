@@ -14,6 +14,9 @@ END_NS = 2**63
 """A position after all others."""
 MAX_STEP_S = 0.25
 """Wall time that one step makes up for: playing slows down where drawing is slow."""
+RETURNING_S = 3.0
+"""After which topics are live although displays have not caught up: they may never, if more comes
+than they can take. Of what was missed, queues drop what they would of live topics."""
 
 
 class PlaybackControl:
@@ -36,6 +39,8 @@ class PlaybackControl:
         self._is_playing = False
         self._target_ns: int | None = None
         self._is_returning = False
+        self._returns_s = 0.0
+        """When topics are live at the latest, if it is returning."""
         self._has_to_jump = False
         self._stepped_s = 0.0
         self._offset_ns = 0
@@ -89,6 +94,7 @@ class PlaybackControl:
         """
         playback = self.playback
         self._is_returning = at_ns >= playback.end_ns
+        self._returns_s = time.monotonic() + RETURNING_S
         at_ns = min(max(at_ns, playback.start_ns), playback.end_ns)
         if playback.is_live and self._is_returning:
             self._target_ns = None
@@ -125,14 +131,15 @@ class PlaybackControl:
         now_s = time.monotonic()
         passed_s = min(now_s - self._stepped_s, MAX_STEP_S)
         self._stepped_s = now_s
-        if is_busy:
+        is_overdue = self._is_returning and now_s > self._returns_s
+        if is_busy and not is_overdue:
             return False
         if self._has_to_jump and self._target_ns is not None:
             self._jump(self._target_ns)
             return True
         if self._target_ns is not None:
             self.playback.play_step(self._target_ns)
-            if self._is_returning and self.playback.rejoin():
+            if self._is_returning and self.playback.rejoin(at_once=is_overdue):
                 self._end_replay()
             elif self.playback.position_ns >= self._target_ns:
                 end_ns = self.playback.end_ns

@@ -156,7 +156,7 @@ class BagSource:
             self._put(Recorded(extra.topic, extra.type, extra.cdr, self._file.start_ns))
         self._served = _types(self._wanted)
 
-    def rejoin(self) -> bool:
+    def rejoin(self, at_once: bool = False) -> bool:
         """Do nothing."""
         return False
 
