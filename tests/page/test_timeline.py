@@ -66,6 +66,7 @@ def show(pages: Loop, /, **changes: object) -> None:
 @pytest.fixture
 def timeline(loop: Loop, tab: Tab) -> Tab:
     """The tab with a recording of 100 s at 12.5 s."""
+    tab.wait_for(lambda: tab.page.locator(".wv-track").count() == 0)  # of the test before
     show(loop)
     tab.wait_for(lambda: tab.page.locator(".wv-track").count() == 1)
     return tab
