@@ -44,6 +44,14 @@ TIDY = """() => {
 }"""
 """Removes what tests put beside the panels, and forgets widths and folds."""
 
+CATCH_UP = """async () => {
+  const { on, send } = await import("/webviz/channel.js");
+  const answered = new Promise((resolve) => on("Pong", resolve));
+  send({ type: "Ping" });
+  await answered;
+}"""
+"""Returns when the page shows what the server has sent before."""
+
 
 class Arrow(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     length: Annotated[float, Prop(gt=0, unit="m")] = 0.3
@@ -237,6 +245,9 @@ def tidy(lasting: Tab) -> Tab:
     page.mouse.move(WIDTH - 1, HEIGHT - 1)
     page.keyboard.press("Escape")
     lasting.show_tab("Displays")
+    lasting.loop.state = State()
+    lasting.loop.turn()
+    page.evaluate(CATCH_UP)  # images beside the scene would go while a test measures it
     page.evaluate(TIDY)
     return lasting
 
