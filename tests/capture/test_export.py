@@ -58,6 +58,11 @@ BOX = """async () => {
   const { left, top, width, height } = viser.canvas().getBoundingClientRect();
   return [left, top, width, height];
 }"""
+COUNT_DONE = """async () => {
+  const { on } = await import(new URL("webviz/channel.js", location.href));
+  window.done = 0;
+  on("Done", () => (window.done += 1));
+}"""
 FOLLOW = """async (value) => {
   const { act } = await import(new URL("webviz/act.js", location.href));
   return act("ChangeView", { key: "target_frame", value });
@@ -82,14 +87,23 @@ class OpenFile:
         page.add_init_script(COUNT_UNPACKING)
         page.goto(f"{path.as_uri()}?fixedDpr={resolution}")  # also if the machine is slow
         page.wait_for_function("window.webviz?.hasView()")
+        page.evaluate(COUNT_DONE)
+
+    @contextlib.contextmanager
+    def done(self) -> Iterator[None]:
+        """Do something on the page, and wait until it is done and drawn."""
+        before = self.page.evaluate("window.done")
+        yield
+        self.page.wait_for_function("(before) => window.done > before", arg=before)
+        assert self.page.evaluate(SETTLE, 60_000.0)
 
     def seek(self, at_s: float) -> None:
         """Type a time, and wait until the page shows it."""
         field = self.page.get_by_label("Go to time")
-        field.fill(f"{at_s:g}")
-        field.press("Enter")
+        with self.done():
+            field.fill(f"{at_s:g}")
+            field.press("Enter")
         expect(field).to_have_value(f"0:00:0{at_s:.3f}")
-        assert self.page.evaluate(SETTLE, 60_000.0)
 
     def pixels(self) -> np.ndarray:
         """The picture of the scene, uint8 (H, W, 3)."""
@@ -153,13 +167,13 @@ def test_displays_are_switched_off_and_on_also_in_other_frames(file: OpenFile) -
     file.seek(3.0)
     before = file.pixels()
     switch = file.page.get_by_role("checkbox", name="Show Map")
-    switch.uncheck()
-    assert file.page.evaluate(SETTLE, 60_000.0)
+    with file.done():
+        switch.uncheck()
     assert not np.array_equal(file.pixels(), before)
     file.seek(1.0)
     without = file.pixels()
-    switch.check()
-    assert file.page.evaluate(SETTLE, 60_000.0)
+    with file.done():
+        switch.check()
     assert not np.array_equal(file.pixels(), without)
     file.seek(3.0)
     np.testing.assert_array_equal(file.pixels(), before)
