@@ -68,8 +68,8 @@ def while_drawing(program: Program, folder: Path) -> dict[psutil.Process, str]:
         family.update(command_lines(program.process.pid))
         return any(" --type=renderer" in line for line in family.values())
 
-    # The file is begun before the browser is there.
-    until(lambda: has_tab() and any(folder.glob(".*.part")))
+    # The file is begun before the browser is there; to list processes takes long.
+    until(lambda: any(folder.glob(".*.part")) and has_tab(), look_s=0.1)
     return family
 
 

@@ -46,7 +46,7 @@ def shared(viewer: webviz.Viewer, holds: Callable[[SharingState], bool]) -> Shar
         told = viewer.state.sharing
         return told if told is not None and holds(told) else None
 
-    return until(told, lambda: f"still {viewer.state.sharing}", seconds=PATIENCE_S)
+    return until(told, lambda: f"still {viewer.state.sharing}", seconds=PATIENCE_S, look_s=0.1)
 
 
 def test_live_topics_are_shared_one_file_at_a_time(live: webviz.Viewer, tmp_path: Path) -> None:

@@ -10,6 +10,7 @@ T = TypeVar("T")
 
 PATIENCE_S = 60.0
 LOOK_S = 0.005
+"""Between two looks at what costs nothing to look at."""
 
 
 def until(
@@ -18,6 +19,7 @@ def until(
     *,
     turn: Callable[[], object] = lambda: None,
     seconds: float = PATIENCE_S,
+    look_s: float = LOOK_S,
 ) -> T:
     """Wait until a condition holds, and return what it returns.
 
@@ -26,10 +28,11 @@ def until(
         lacking: returns what to report if it does not hold in time.
         turn: called in between, such as a turn of a loop.
         seconds: to wait at most.
+        look_s: between two looks, longer where each takes much of a processor.
     """
     deadline = time.monotonic() + seconds
     while not (found := condition()):
         assert time.monotonic() < deadline, lacking()
         turn()
-        time.sleep(LOOK_S)
+        time.sleep(look_s)
     return found
