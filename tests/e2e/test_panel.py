@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-import contextlib
-import os
 import signal
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
+import building
 import numpy as np
 import photos
 import playwright.sync_api as playwright
 import pytest
-from numpy.typing import NDArray
 from program import Program
 from side import Side
 
 from webviz.data.messages import encode
 from webviz.shell.pictures.browser import Page, Pixels
+from webviz.shell.testing import header
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 
@@ -50,8 +50,23 @@ def colors(pixels: Pixels) -> int:
     return int((counts > pixels.size / 3000).sum())
 
 
+@pytest.fixture
+def publish(ros_env: dict[str, str]) -> Iterator[Callable[..., None]]:
+    """Publish a message over DDS, for as long as the test takes."""
+    talker = PublisherNode("robot", int(ros_env["ROS_DOMAIN_ID"]))
+
+    def publish(topic: str, type_name: str, values: dict[str, Any]) -> None:
+        talker.open(topic, type_name, latched=True).publish(encode(type_name, values))
+
+    yield publish
+    talker.close()
+
+
 def test_what_is_added_and_saved_comes_back_and_what_a_kill_left_unsaved_is_restored(
-    start: Callable[..., Program], open_page: Callable[..., Page], tmp_path: Path
+    start: Callable[..., Program],
+    open_page: Callable[..., Page],
+    publish: Callable[..., None],
+    tmp_path: Path,
 ) -> None:
     """One tab sees three viewers on one port."""
     config, lab, state = tmp_path / "empty.yaml", tmp_path / "lab.yaml", tmp_path / "state"
@@ -61,7 +76,7 @@ def test_what_is_added_and_saved_comes_back_and_what_a_kill_left_unsaved_is_rest
         arguments = ("webviz", "--port", str(port), "-d", str(path))
         return start(*arguments, env={"XDG_STATE_HOME": str(state)})
 
-    start("webviz_sim", "--ros-args", "-p", "tour:=false")
+    publish("/map", "nav_msgs/msg/OccupancyGrid", building.grid() | {"header": header("map", 0)})
     viewer = view(config, 0)
     page = open_page(url := viewer.url(), 1000, 700, 0.3)
     page.hold()
@@ -93,11 +108,12 @@ def test_what_is_added_and_saved_comes_back_and_what_a_kill_left_unsaved_is_rest
     side.select("Map")
     page.wait_for(lambda: (picture(page) == changed).all(), "the same picture", 60)
 
-    with camera(np.full((24, 32, 3), BRICK, np.uint8)):
-        add(tab, "/camera/image_raw Image")
-        pane = tab.get_by_label("Image /camera/image_raw", exact=True)
-        canvas = pane.locator("canvas")
-        page.wait_for(lambda: np.abs(canvas.evaluate(MIDDLE) - BRICK).max() < 4, "the image", 60)
+    bricks = photos.raw(np.full((24, 32, 3), BRICK, np.uint8), "rgb8")
+    publish("/camera/image_raw", photos.RAW, bricks)
+    add(tab, "/camera/image_raw Image")
+    pane = tab.get_by_label("Image /camera/image_raw", exact=True)
+    canvas = pane.locator("canvas")
+    page.wait_for(lambda: np.abs(canvas.evaluate(MIDDLE) - BRICK).max() < 4, "the image", 60)
     side.select("Map")
     tab.keyboard.press("Delete")
     page.wait_for(lambda: page.draw() or colors(page.pixels()) == 1, "nothing")
@@ -140,15 +156,3 @@ MIDDLE = """(canvas) => {
   const place = [canvas.width >> 1, canvas.height >> 1, 1, 1];
   return [...canvas.getContext("2d").getImageData(...place).data.slice(0, 3)];
 }"""
-
-
-@contextlib.contextmanager
-def camera(pixels: NDArray[np.uint8]) -> Iterator[None]:
-    """An image over DDS."""
-    talker = PublisherNode("camera", int(os.environ["ROS_DOMAIN_ID"]))
-    try:
-        cdr = encode(photos.RAW, photos.raw(pixels, "rgb8"))
-        talker.open("/camera/image_raw", photos.RAW, latched=True).publish(cdr)
-        yield
-    finally:
-        talker.close()
