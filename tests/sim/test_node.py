@@ -259,11 +259,11 @@ def test_commands_move_it_by_the_commanded_amount_and_no_farther(sim, robot):
 
 def test_a_stale_command_stops_it(sim, robot):
     sim("tour:=false", "stamped_cmd_vel:=true", "start_pose:=[0.0, 0.0, 0.0]")
-    odometry = robot.listen("/odom", Odometry)
+    odometry = robot.listen("/odom", Odometry, 1000)  # as long as this process has to wait
     publisher = robot.create_publisher(TwistStamped, "/cmd_vel", 10)
     robot.spin_until(lambda: odometry and publisher.get_subscription_count() > 0)
     publisher.publish(TwistStamped(twist=twist(0.4, 0.0)))
-    robot.spin_until(lambda: odometry[-1].twist.twist.linear.x > 0)
+    robot.spin_until(lambda: any(each.twist.twist.linear.x > 0 for each in odometry))
     robot.spin_until(lambda: odometry[-1].twist.twist.linear.x == 0)
     assert robot.pose().x == pytest.approx(0.4 * 0.5, abs=0.02)
 
