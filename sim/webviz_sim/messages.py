@@ -22,6 +22,9 @@ from webviz_sim.world import World
 # Variances as diff_drive_controller's examples set them: x, y, z, roll, pitch, yaw.
 _COVARIANCE = np.diag([0.001, 0.001, 0.001, 0.001, 0.001, 0.01]).ravel()
 
+FARTHEST = 1e9
+"""Metres to a pose along an axis; numbers of cells of a map overflow far beyond."""
+
 
 def stamp(nanoseconds: int) -> Time:
     """Return a time as ROS has it."""
@@ -48,7 +51,11 @@ def to_map_pose(header: Any, pose: Any) -> Pose2D | str:
     """Return the pose in the map, or why it is invalid."""
     if header.frame_id.removeprefix("/") != "map":
         return f"in the frame {header.frame_id!r}: send it in map"
-    return to_pose(pose.position, pose.orientation) or "that is not finite"
+    found = to_pose(pose.position, pose.orientation)
+    if found is None:
+        return "that is not finite"
+    is_near = max(abs(found.x), abs(found.y)) <= FARTHEST
+    return found if is_near else f"that is farther than {FARTHEST:g} m"
 
 
 def clock(nanoseconds: int) -> bytes:

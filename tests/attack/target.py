@@ -27,6 +27,8 @@ MEMORY_MB = 1750.0
 """Of the viewer, its simulator and what reads meshes for it; 450 MB when nothing happens."""
 INTERNAL = re.compile(r"^.*(?:Traceback|[Ii]nternal (?:server )?error|handler failed).*$", re.M)
 """Lines of the log that an internal error leaves."""
+WARNINGS = {"PYTHONWARNINGS": "error::RuntimeWarning"}
+"""An overflow that nobody expected would be printed to users."""
 EVERY_S = 0.5
 SECRETS = {role: f"token-of-the-attacked-{role.label}" for role in Role}
 PARAMETERS = {role: parameter for parameter, role in LINKS.items()}
@@ -69,7 +71,7 @@ class Target:
         home.mkdir()
         self._program = Program(
             [sys.executable, "-m", "webviz", "demo", "-d", str(path), "--port", "0"],
-            {**environment, **TOKENS, "PYTHONUNBUFFERED": "1", **homes(home)},
+            {**environment, **TOKENS, **WARNINGS, "PYTHONUNBUFFERED": "1", **homes(home)},
             folder / "log.txt",
             cwd=home,  # where an owner records
         )

@@ -11,6 +11,7 @@ from rosbags.typesys import Stores, get_typestore
 from webviz.data.messages import FrameTransform
 from webviz_sim import messages
 from webviz_sim.description import demo_description, read_joints
+from webviz_sim.pose import Pose2D
 
 STORE = get_typestore(Stores.ROS2_JAZZY)
 FRAMES = st.text(st.characters(codec="utf-8", exclude_characters="\0"), max_size=12)
@@ -96,3 +97,17 @@ def test_a_serialised_path_is_read_back_with_poses_along_it():
         assert pose.header.frame_id == "map"
     yaws = [2 * math.atan2(p.pose.orientation.z, p.pose.orientation.w) for p in path.poses]
     assert yaws == pytest.approx([math.pi / 4, math.atan2(2, 1), math.atan2(1, -1), math.pi])
+
+
+@pytest.mark.parametrize(
+    ("x", "reason"),
+    [(math.nan, "that is not finite"), (-1e308, "that is farther than 1e+09 m"), (3.0, "")],
+)
+def test_a_pose_must_be_finite_and_within_reach(x: float, reason: str) -> None:
+    pose = messages.encode(
+        "geometry_msgs/msg/PoseStamped",
+        {"header": {"frame_id": "map"}, "pose": {"position": {"x": x}, "orientation": {"w": 1.0}}},
+    )
+    read = read_cdr(pose, "geometry_msgs/msg/PoseStamped")
+    found = messages.to_map_pose(read.header, read.pose)
+    assert found == (reason or Pose2D(x, 0.0, 0.0))
