@@ -46,7 +46,7 @@ JAGGED = """{
 card."""
 
 CALM = """{
-  const FRAME_MS = 66;
+  const FRAME_MS = 100;
   const request = window.requestAnimationFrame.bind(window);
   const waiting = new Map();
   let count = 0;
@@ -70,7 +70,7 @@ CALM = """{
   };
   window.cancelAnimationFrame = (number) => waiting.delete(number);
 }"""
-"""Draws at most 15 frames a second: without a graphics card, the 60 of a robot that moves take a
+"""Draws at most ten frames a second: without a graphics card, the 60 of a robot that moves take a
 whole processor."""
 
 
