@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
-from pages import COARSE
+from pages import let_mouse_in
 from program import Program
 from side import GLOBAL_OPTIONS, Side
 
@@ -242,14 +242,12 @@ def test_seen_from_the_robot_the_map_moves(page: Page, driver: Driver) -> None:
     check_drive_in_base(page, driver)
 
 
-def test_a_laser_that_is_moved_on_the_page_alone_is_found_again(
-    page: Page, open_page: Callable[..., Page]
-) -> None:
+def test_a_laser_that_is_moved_on_the_page_alone_is_found_again(page: Page) -> None:
     choose_fixed_frame(page, "map")
     settled(page)
-    # A page that is held has no place for a mouse.
-    page = open_page(page.tab.url, 900, 700, COARSE)
     tab = page.tab
+    tab.set_viewport_size({"width": 900, "height": 700})
+    let_mouse_in(page)
     tab.get_by_role("tab", name="TF", exact=True).click()
     tab.locator(".wv-frame", has_text="base_scan").click()
     tab.get_by_role("button", name="What if…").click()

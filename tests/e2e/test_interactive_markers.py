@@ -27,6 +27,8 @@ from visualization_msgs.msg import MenuEntry
 
 from webviz.ros.node import RosSource
 
+RESOLUTION = 0.2
+"""Pixels of the scene per pixel of the page."""
 KEEP_ALIVE, UPDATE, MENU, CLICK, DOWN, UP = range(6)
 NAMESPACE = "/basic_controls"
 CONFIG = f"""\
@@ -59,7 +61,7 @@ def viewer(ros_env: dict[str, str]) -> Iterator[webviz.Viewer]:
 def pages(
     browser: playwright.Browser, viewer: webviz.Viewer, server: MarkerServer
 ) -> Iterator[list[Page]]:
-    with open_pages(browser, viewer.url, 900, 700, resolution=0.2) as opened:
+    with open_pages(browser, viewer.url, 900, 700, resolution=RESOLUTION) as opened:
         for page in opened:
             page.wait_for(lambda page=page: len(known(page)) == 13, "all markers", 60)
             page.tab.evaluate("document.body.classList.add('wv-folded')")
@@ -342,13 +344,13 @@ def test_controls_are_lit_under_the_pointer_and_hidden_from_other_tools(
     look_at(page, viewer, 3.0, -3.0)
     at, _ = pose(page, "chess_piece")
     ring = on_screen(page, (at[0] + 0.57, at[1], 0.0))
-    dark = page.tab.screenshot(clip=clip(ring))
+    dark = around(page, ring)
     page.tab.mouse.move(*ring)
-    page.wait_for(lambda: page.tab.screenshot(clip=clip(ring)) != dark, "light")
+    page.wait_for(lambda: around(page, ring) != dark, "light")
     hint = page.tab.locator(".wv-hint")
     page.wait_for(lambda: "Left-click: Move." in (hint.text_content() or ""), "what it does")
     page.tab.mouse.move(450, 695)
-    page.wait_for(lambda: page.tab.screenshot(clip=clip(ring)) == dark, "no light")
+    page.wait_for(lambda: around(page, ring) == dark, "no light")
     page.tab.keyboard.press("m")
     page.wait_for(lambda: not is_visible(page, "chess_piece", 1), "no ring")
     assert is_visible(page, "chess_piece", 0), "the box is always visible"
@@ -356,8 +358,14 @@ def test_controls_are_lit_under_the_pointer_and_hidden_from_other_tools(
     page.wait_for(lambda: is_visible(page, "chess_piece", 1), "the ring")
 
 
-def clip(place: tuple[float, float]) -> Any:
-    return {"x": place[0] - 4, "y": place[1] - 4, "width": 8, "height": 8}
+def around(page: Page, place: tuple[float, float]) -> list[Any]:
+    """The colours of the scene around a place of the window."""
+    left, top = page.evaluate("""() => {
+      const { left, top } = document.querySelector("canvas").getBoundingClientRect();
+      return [left, top];
+    }""")
+    column, row = (round(RESOLUTION * each) for each in (place[0] - left, place[1] - top))
+    return page.pixels()[row - 1 : row + 2, column - 1 : column + 2].tolist()
 
 
 def is_visible(page: Page, name: str, control: int) -> bool:

@@ -8,10 +8,18 @@ from contextlib import contextmanager
 import playwright.sync_api as playwright
 
 from webviz.shell.pictures.browser import Page
+from webviz.shell.pictures.browser_scripts import VISER
 
 COARSE = 0.1
 """Pixels of the scene per pixel of the page, for tests that do not look at the scene: to draw it in
 full takes most of the time of a browser without a graphics card."""
+
+VISIBLE = f"async () => {{ {VISER} viser.canvas().style.visibility = ''; }}"
+
+
+def let_mouse_in(page: Page) -> None:
+    """Let a mouse find the scene of a page that is held, which still draws only in `pixels`."""
+    page.evaluate(VISIBLE)
 
 
 @contextmanager
@@ -23,8 +31,14 @@ def open_pages(
     count: int = 2,
     resolution: float = COARSE,
 ) -> Iterator[list[Page]]:
-    """Open pages and close them at the end; their scripts must not have failed by then."""
+    """Open pages and close them at the end; their scripts must not have failed by then.
+
+    They draw the scene only in `pixels`, although a mouse finds it.
+    """
     opened = [Page(browser, url, width, height, resolution=resolution) for _ in range(count)]
+    for page in opened:
+        page.hold()
+        let_mouse_in(page)
     yield opened
     errors = [error for page in opened for error in page.errors]
     for page in opened:
