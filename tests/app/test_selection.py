@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import io
 import itertools
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import PIL.Image
 import playwright.sync_api as playwright
 import pytest
 from clouds import xyz_cloud
 from numpy.typing import NDArray
+from pages import open_pages
 from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 
@@ -47,6 +46,8 @@ MARKED = """() => {
   const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
   return data.some((byte) => byte > 0);
 }"""
+SIZE = 1100, 700
+"""Of the window in pixels."""
 TITLE = ".wv-selection [data-thing] .wv-field-name"
 
 
@@ -63,10 +64,8 @@ def viewer(source: HandFedSource) -> Iterator[webviz.Viewer]:
 
 @pytest.fixture(scope="module")
 def page(browser: playwright.Browser, viewer: webviz.Viewer) -> Iterator[Page]:
-    page = Page(browser, viewer.url, 1100, 700)
-    yield page
-    assert page.errors == []
-    page.close()
+    with open_pages(browser, viewer.url, *SIZE, count=1, resolution=1.0) as (page,):
+        yield page
 
 
 def random_places() -> NDArray[np.float64]:
@@ -104,7 +103,13 @@ def numbered_cloud(xyz: NDArray[np.float64]) -> dict[str, Any]:
 
 
 def pixels(page: Page) -> NDArray[np.uint8]:
-    return np.asarray(PIL.Image.open(io.BytesIO(page.tab.screenshot())).convert("RGB"))
+    """The scene at its place in the window."""
+    box = page.tab.locator("canvas").first.bounding_box()
+    assert box is not None
+    scene, window = page.pixels(), np.zeros((*reversed(SIZE), 3), np.uint8)
+    left, top = round(box["x"]), round(box["y"])
+    window[top : top + len(scene), left : left + scene.shape[1]] = scene
+    return window
 
 
 MIDDLE = np.s_[120:600, 400:900]
