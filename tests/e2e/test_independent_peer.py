@@ -14,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from pages import let_mouse_in
 from program import Program
 from side import Side
 
@@ -144,9 +145,10 @@ def test_what_either_side_sends_reaches_the_other(
     tmp_path: Path,
 ) -> None:
     page = open_page(viewer.url)
+    page.hold()
+    let_mouse_in(page)
     check_tools_and_sliders(page, peer, tmp_path)
     page.tab.get_by_role("tab", name="Displays").click()
-    page.hold()
     peer(str(PEER), "pub", "all")
     page.wait_for(lambda: count(page, (255, 0, 255)) > 300, "the scan", 60)
     page.wait_for(lambda: count(page, (255, 255, 0)) > 100, "the path")
