@@ -14,7 +14,9 @@ import PIL.Image
 import playwright.sync_api as playwright
 import pytest
 from numpy.typing import NDArray
+from pages import let_mouse_in
 
+from tests.scene import conftest
 from webviz.api.nodes import Instances, Labels, Lines, Pose
 from webviz.api.views import (
     FIELD_OF_VIEW,
@@ -43,7 +45,7 @@ AXES = """async () => {
 
 
 class Window(Page):
-    """One browser tab."""
+    """One browser tab, which draws only when it is looked at."""
 
     def __init__(self, browser: playwright.Browser, scene: ViserScene) -> None:
         self.scene = scene
@@ -52,6 +54,8 @@ class Window(Page):
         url = f"http://127.0.0.1:{self.server.get_port()}"
         super().__init__(browser, url, WIDTH, HEIGHT)
         self.wait_for(scene.cameras.views, "the page has reported its view")
+        self.hold()
+        let_mouse_in(self)
         self.server.scene.on_click()(self.clicks.append)
 
     @property
@@ -412,16 +416,17 @@ def test_f_looks_at_what_is_under_the_mouse(window: Window, view: View) -> None:
 # Pictures
 
 
-def test_a_picture_of_what_is_seen_is_downloaded(window: Window, tmp_path: Any) -> None:
-    window.scene.upsert("box", "b", box(0.0, 0.0, 0.5, 1.0, 1.0, 1.0))
-    window.look(Orbit(distance=5.0))
+def test_a_picture_of_what_is_seen_is_downloaded(view: conftest.View, tmp_path: Any) -> None:
+    """Of a page that draws all the time."""
+    view.scene.upsert("box", "b", box(0.0, 0.0, 0.5, 1.0, 1.0, 1.0))
+    view.show()
     for name in ("robot.png", ""):
-        with window.tab.expect_download() as download:
-            window.scene.cameras.save_image(name)
+        with view.tab.expect_download() as download:
+            view.scene.cameras.save_image(name)
         file = download.value
         file.save_as(tmp_path / "saved.png")
         picture = np.asarray(PIL.Image.open(tmp_path / "saved.png").convert("RGB"))
-        np.testing.assert_array_equal(picture, window.pixels())
+        np.testing.assert_array_equal(picture, view.pixels())
         if name:
             assert file.suggested_filename == name
         else:
