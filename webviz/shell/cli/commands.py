@@ -35,7 +35,7 @@ OPENING = {
     **dict.fromkeys(("doctor", "export", "report", "screenshot", "test"), (CONFIG, BAG)),
     "frames": (BAG,),
 }
-"""Which of them commands have."""
+"""Those options that a command has, by its name."""
 KINDS = {int: "a whole number", float: "a number"}
 
 app = App(
