@@ -8,6 +8,7 @@ from typing import Any, cast
 import pytest
 
 from webviz.engine.pipeline import connection
+from webviz.engine.pipeline.background import Workers
 from webviz.engine.pipeline.connection import DisplayConnection
 from webviz.sources import Offer, Publisher, Raw
 
@@ -18,7 +19,7 @@ WORDS = "/words"
 def connected() -> DisplayConnection:
     """A connection by which a display listens to a topic."""
     gate = cast(Any, SimpleNamespace(refusal=lambda name: ""))
-    services = cast(Any, SimpleNamespace(resolve=lambda name: name))
+    services = cast(Any, SimpleNamespace(resolve=lambda name: name, workers=Workers(lambda: None)))
     made = DisplayConnection(services, gate)
     listen(made)
     return made
@@ -99,3 +100,11 @@ def test_a_publisher_counts_once_its_type_fits_and_the_topic_is_subscribed(
         found = connected.listen(WORDS, right.type, 10)
         assert (found.publishers, found.endpoints) == (("/a",), {b"1"})
         assert found.is_ready == is_ready
+
+
+def test_work_is_under_way_until_its_result_can_be_taken(connected: DisplayConnection) -> None:
+    job = connected.run(len, "result")
+    assert job.result(60) == 6
+    assert connected.is_busy(), "nobody has taken the result"
+    connected.look()
+    assert not connected.is_busy()

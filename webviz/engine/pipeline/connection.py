@@ -114,7 +114,7 @@ class DisplayConnection:
     def run(self, fn: Callable[..., T], *args: Any) -> Future[T]:
         """Run slow work in a thread; see `GraphConnection.listen`."""
         job = self._services.workers.submit(fn, *args)
-        self._jobs = [each for each in self._jobs if not each.done()] + [job]
+        self._jobs.append(job)
         return job
 
     def wake(self) -> None:
@@ -136,8 +136,12 @@ class DisplayConnection:
         return list(self._advertisements.values())
 
     def is_busy(self) -> bool:
-        """Return whether slow work is under way."""
-        return not all(job.done() for job in self._jobs)
+        """Return whether the result of slow work was not there for `communicate` yet."""
+        return bool(self._jobs)
+
+    def look(self) -> None:
+        """Note the work that is done, whose results `communicate` finds next."""
+        self._jobs = [job for job in self._jobs if not job.done()]
 
     def take(self, batches: Mapping[str, Iterable[Raw]], offers: Mapping[str, Offer]) -> None:
         """Keep the messages of this turn; cheap, since they are not read yet."""

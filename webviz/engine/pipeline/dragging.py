@@ -66,7 +66,7 @@ class Dragging:
         return self._placed
 
     def is_busy(self) -> bool:
-        """Return whether slow work of the protocol is under way."""
+        """Return whether the protocol has not taken the result of slow work yet."""
         return self._connection is not None and self._connection.is_busy()
 
     def take(self, batches: Mapping[str, Iterable[Raw]], offers: Mapping[str, Offer]) -> None:
@@ -83,6 +83,7 @@ class Dragging:
         """Let the display send and receive, and take up its handles."""
         if self._connection is not None and self._client is not None:
             self._unseen = 0
+            self._connection.look()
             guard("communicate", self._client.communicate, self._connection, ctx)
             self._connection.forget_unnamed()
         if self._draggable is not None:
