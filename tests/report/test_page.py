@@ -48,6 +48,7 @@ def made(viewer: webviz.Viewer, browser: playwright.Browser, folder: Path) -> Un
         page.settle()
         viewer.view = Orbit(distance=6.0, pitch=1.5, focal_point=(-2.0, 0.0, 0.0))
         page.wait_for(lambda: has_distance(viewer, 6.0), "the view")
+        page.settle()  # a click goes to what the page has drawn
         page.tab.keyboard.press("s")
         page.tab.mouse.click(*page.pixel_of(-2.0, 0.0))
         page.wait_for(lambda: any(viewer.state.selected.values()), "a selection")
