@@ -91,6 +91,19 @@ def test_plug_ins_are_those_of_the_servers_and_the_choice_is_latched(
     assert b.widget("Controller").value == "RPP"
 
 
+def test_the_end_of_a_goal_that_was_replaced_is_not_told(bench: Benches) -> None:
+    b = Bench(bench, Docking)
+    b.widget("Dock id").use("home", 1)
+    for _ in range(2):
+        b.widget("Dock").use(None, 1)
+        b.graph.goals[-1].accepted.set_result(True)
+        b.viewer.do(Refresh())
+    answer = encode("nav2_msgs/action/DockRobot_GetResult_Response", {"status": 6})
+    b.graph.goals[-2].result.set_result((6, answer))
+    b.viewer.do(Refresh())
+    assert "borted" not in b.text(), "the newer goal is active"
+
+
 def test_a_robot_docks_by_id_and_at_a_pose_and_undocks(
     bench: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:

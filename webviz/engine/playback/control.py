@@ -93,7 +93,8 @@ class PlaybackControl:
         The end of live topics is now, so that they are live again.
         """
         playback = self.playback
-        self._is_returning = at_ns >= playback.end_ns
+        # Displays of a bag catch up first however long that takes, as it has no now to miss.
+        self._is_returning = not playback.names and at_ns >= playback.end_ns
         self._returns_s = time.monotonic() + RETURNING_S
         at_ns = min(max(at_ns, playback.start_ns), playback.end_ns)
         if playback.is_live and self._is_returning:

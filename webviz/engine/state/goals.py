@@ -38,7 +38,7 @@ class RunningGoal:
         send: sends it; gets what to call with feedback.
         before: goals of the same tool that it replaces.
         report: tells its sender whether it is accepted.
-        ended: tells it the outcome of one that was.
+        ended: tells it the outcome of one that was, unless it was replaced.
     """
 
     def __init__(
@@ -243,7 +243,7 @@ class RunningGoal:
 
     def _end(self, outcome: Status, now: float) -> None:
         self.outcome, self.ended_s, self.before = outcome, now, ()
-        if self.is_accepted:
+        if self.is_accepted and not self.is_replaced:
             self._ended(outcome)
         if self._sent is not None:
             self._sent.result.cancel()  # wait for it no longer
