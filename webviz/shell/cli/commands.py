@@ -124,10 +124,10 @@ def with_openers(arguments: Sequence[str]) -> list[str]:
     first = arguments[0] if arguments else ""
     if first.lower().endswith(".zip") and not first.startswith("-"):
         return ["open", *arguments]
-    has_command = first in OPENING
-    known = OPENING[first] if has_command else (CONFIG, BAG)
-    opened = [first] if has_command else []
-    for place, word in enumerate(arguments[has_command:], has_command):
+    known = OPENING.get(first, (CONFIG, BAG))
+    opened = [first] if first in OPENING else []
+    begin = len(opened)
+    for place, word in enumerate(arguments[begin:], begin):
         path = Path(word)
         option = OPENERS.get(path.suffix.lower(), BAG if path.is_dir() else "")
         if option not in known or word.startswith("-") or word in app:
