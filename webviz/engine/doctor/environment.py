@@ -22,8 +22,10 @@ PREFIXES = ("ROS", "RMW", "FASTRTPS", "FASTDDS", "CYCLONEDDS", "ZENOH", "AMENT",
 PROFILES = ("FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE", "CYCLONEDDS_URI")
 RMW_INDEX = "share/ament_index/resource_index/rmw_typesupport_cpp"
 SHM = Path("/dev/shm")
-LOCKS = "fastrtps_port*_el"
-SEGMENTS = "fastrtps_*", "fastdds_*"
+PORT = "fastrtps_port"
+LOCK = "_el"
+"""Ends the name of a lock file, which is otherwise that of its port."""
+SEGMENTS = "fastrtps_", "fastdds_"
 RMEM_MAX = Path("/proc/sys/net/core/rmem_max")
 SNMP = Path("/proc/net/snmp")
 PROBE_S = 0.5
@@ -142,22 +144,24 @@ def _multicast_returns() -> bool | None:
 def _shared_memory() -> SharedMemory | None:
     try:
         status = os.statvfs(SHM)
-        segments = (path for pattern in SEGMENTS for path in SHM.glob(pattern))
-        foreign = [path.name for path in segments if _is_foreign(path)]
+        with os.scandir(SHM) as entries:
+            segments = {each.name: each for each in entries if each.name.startswith(SEGMENTS)}
+        foreign = sorted(name for name, each in segments.items() if _is_foreign(each))
     except OSError:
         return None
-    locks = [path.name for path in SHM.glob(LOCKS)]
-    stale = [name for name in locks if not (SHM / name.removesuffix("_el")).exists()]
-    size, free = status.f_blocks * status.f_frsize, status.f_bavail * status.f_frsize
-    return SharedMemory(
-        size, free, tuple(sorted(foreign)), tuple(sorted(stale)), programs_apart(SHM)
+    stale = sorted(
+        name
+        for name in segments
+        if name.startswith(PORT) and name.endswith(LOCK) and name.removesuffix(LOCK) not in segments
     )
+    size, free = status.f_blocks * status.f_frsize, status.f_bavail * status.f_frsize
+    return SharedMemory(size, free, tuple(foreign), tuple(stale), programs_apart(SHM))
 
 
-def _is_foreign(path: Path) -> bool:
+def _is_foreign(file: os.DirEntry[str]) -> bool:
     """Return whether a file belongs to another user; one that is gone meanwhile does not."""
     try:
-        return path.stat().st_uid != os.geteuid()
+        return file.stat().st_uid != os.geteuid()
     except FileNotFoundError:
         return False
 
