@@ -15,6 +15,7 @@ from webviz.data.rotations import matrices
 from webviz_displays.point_cloud2.decimation import evenly
 from webviz_displays.shared.geometry import FARTHEST, is_drawable
 
+F32 = NDArray[np.float32]
 F64 = NDArray[np.float64]
 
 MAX_ANGLE = 1000.0
@@ -29,13 +30,13 @@ class BeamPoints(msgspec.Struct, frozen=True):
 
     Args:
         beams: int (N,), index of each in the message.
-        xyz: float64 (N, 3), metres in the frame of the scan.
+        xyz: float32 (N, 3), metres in the frame of the scan.
         total: beams of the message.
         dropped: counts of the other beams by reason; reasons without beams are omitted.
     """
 
     beams: NDArray[np.intp]
-    xyz: F64
+    xyz: F32
     total: int
     dropped: dict[str, int]
 
@@ -52,6 +53,9 @@ def fault(scan: messages.LaserScan) -> str:
     """Return a sentence why no beam of a scan can be placed, "" if they can."""
     if not len(scan.ranges):
         return "The scan has no ranges. Check the laser driver."
+    is_placed = abs(scan.angle_min) <= MAX_ANGLE and abs(scan.angle_increment) <= math.tau
+    if is_placed and scan.range_min < scan.range_max:
+        return ""
     for name in ("angle_min", "angle_increment", "range_min", "range_max"):
         value = getattr(scan, name)
         if math.isnan(value) or (name.startswith("angle") and math.isinf(value)):
@@ -73,10 +77,9 @@ def project(scan: messages.LaserScan) -> BeamPoints:
     The rules are those of laser_geometry: a range counts if range_min <= range < range_max, and
     beam i points at angle_min + i * angle_increment from x towards y.
     """
-    with np.errstate(invalid="ignore"):  # numpy warns of a signalling NaN
-        ranges = scan.ranges.astype(np.float64)
-    farthest = min(scan.range_max, FARTHEST)
-    is_hit = np.isfinite(ranges) & (ranges >= scan.range_min) & (ranges < farthest)
+    ranges = scan.ranges
+    nearest, farthest = max(scan.range_min, -FARTHEST), min(scan.range_max, FARTHEST)
+    is_hit = (ranges >= nearest) & (ranges < farthest)  # of NaN, no comparison holds
     (beams,) = is_hit.nonzero()
     over = max(len(beams) - MAX_BEAMS, 0)
     if over:
@@ -86,39 +89,39 @@ def project(scan: messages.LaserScan) -> BeamPoints:
     else:
         xyz = _unit_vectors(scan.angle_min + beams * scan.angle_increment)
     xyz *= ranges.take(beams)[:, None]
-    dropped = {} if len(beams) == len(ranges) else _reasons(scan, ranges[~is_hit], farthest)
+    dropped = {} if len(beams) == len(ranges) else _reasons(scan, ranges[~is_hit])
     if over:
         dropped[f"over the limit of {MAX_BEAMS}"] = over
     return BeamPoints(beams, xyz, len(ranges), dropped)
 
 
 @functools.lru_cache(maxsize=8)
-def _directions(angle_min: float, angle_increment: float, count: int) -> F64:
+def _directions(angle_min: float, angle_increment: float, count: int) -> F32:
     """Return unit vectors (count, 3) of all beams; most lasers have the same in every scan."""
     return _unit_vectors(angle_min + np.arange(count) * angle_increment)
 
 
-def _unit_vectors(angles: NDArray[np.floating]) -> F64:
+def _unit_vectors(angles: NDArray[np.floating]) -> F32:
     """Return unit vectors (N, 3) in the x-y plane at angles (N,) from x towards y, in rad."""
-    found = np.zeros((len(angles), 3))
+    found = np.zeros((len(angles), 3), np.float32)
     found[:, 0], found[:, 1] = np.cos(angles), np.sin(angles)
     return found
 
 
-def _reasons(scan: messages.LaserScan, ranges: F64, farthest: float) -> dict[str, int]:
+def _reasons(scan: messages.LaserScan, ranges: F32) -> dict[str, int]:
     """Return counts of the ranges (N,) of a scan that hit nothing, by reason."""
-    nan, infinite = np.isnan(ranges), np.isinf(ranges)
-    near, far = ~infinite & (ranges < scan.range_min), ~infinite & (ranges >= farthest)
+    finite = ranges[np.isfinite(ranges)]
+    nan, near = int(np.isnan(ranges).sum()), int((finite < scan.range_min).sum())
     counts = {
         "NaN": nan,
-        "infinite": infinite,
+        "infinite": len(ranges) - len(finite) - nan,
         f"nearer than range_min ({scan.range_min:g} m)": near,
-        f"not nearer than range_max ({scan.range_max:g} m)": far,
+        f"not nearer than range_max ({scan.range_max:g} m)": len(finite) - near,
     }
-    return {reason: int(mask.sum()) for reason, mask in counts.items() if mask.any()}
+    return {reason: count for reason, count in counts.items() if count}
 
 
-def deskew(points: BeamPoints, sample: Sample, frames: Frames) -> tuple[F64, int]:
+def deskew(points: BeamPoints, sample: Sample, frames: Frames) -> tuple[F32 | F64, int]:
     """Return the points as if all beams had been measured at the stamp of the scan.
 
     Each beam is placed in the fixed frame with the transform at its own time, stamp +
@@ -130,7 +133,7 @@ def deskew(points: BeamPoints, sample: Sample, frames: Frames) -> tuple[F64, int
         frames: knows the fixed frame and the transforms.
 
     Returns:
-        Points float64 (N, 3) in the frame of the scan at its stamp, and the number of beams
+        Points (N, 3) in the frame of the scan at its stamp, and the number of beams
         without a transform of their own.
     """
     ahead_ns = np.round(points.beams * (sample.message.time_increment * 1e9)).astype(np.int64)

@@ -27,13 +27,12 @@ from webviz.api.consistency import ScanPoints
 from webviz.api.nodes import Node
 from webviz.api.picking import Column, Columns, rows_of
 from webviz.data import messages
-from webviz.data.rotations import conjugate
 from webviz_displays.laser_scan import beams
 from webviz_displays.shared.geometry import coordinate
 from webviz_displays.shared.opaque import opaque
 from webviz_displays.shared.points_display import PointsDisplay
 
-F64 = NDArray[np.float64]
+Floats = NDArray[np.floating[Any]]
 U8 = NDArray[np.uint8]
 
 LONG_SCAN_S = 1.0
@@ -100,7 +99,8 @@ class LaserScan(PointsDisplay, Comparable, Sweep):
         xyz = self._place(points, sample, ctx)
         colors = self._colors(scan, points, xyz, sample, ctx)
         # RViz draws scans in the fixed frame, so the sides of boxes lie along its axes.
-        turn = conjugate(sample.pose.wxyz)
+        w, x, y, z = sample.pose.wxyz
+        turn = w, -x, -y, -z
         self.draw_points(xyz, colors, ctx, ctx, turn, ids=points.beams)
 
     def consistency_input(self, samples: Sequence[Sample], ctx: Context) -> ScanPoints | None:
@@ -108,7 +108,7 @@ class LaserScan(PointsDisplay, Comparable, Sweep):
         if not samples or beams.fault(samples[-1].message):
             return None
         sample = samples[-1]
-        xyz = self._place(beams.project(sample.message), sample, ctx)
+        xyz = self._place(beams.project(sample.message), sample, ctx).astype(np.float64)
         return ScanPoints(sample.frame, sample.stamp_ns, xyz)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
@@ -139,7 +139,7 @@ class LaserScan(PointsDisplay, Comparable, Sweep):
             values["Time after the first beam"] = Column(times_ms, "{} ms")
         return Columns("Beam {}", values | {"Beams in the scan": str(len(scan.ranges))})
 
-    def _place(self, points: beams.BeamPoints, sample: Sample, ctx: Context) -> F64:
+    def _place(self, points: beams.BeamPoints, sample: Sample, ctx: Context) -> Floats:
         """Return the points in the frame of the laser at the stamp."""
         scan: messages.LaserScan = sample.message
         duration = (points.total - 1) * scan.time_increment
@@ -170,7 +170,7 @@ class LaserScan(PointsDisplay, Comparable, Sweep):
         self,
         scan: messages.LaserScan,
         points: beams.BeamPoints,
-        xyz: F64,
+        xyz: Floats,
         sample: Sample,
         ctx: Context,
     ) -> U8 | Rgb:
@@ -185,10 +185,10 @@ class LaserScan(PointsDisplay, Comparable, Sweep):
         self,
         scan: messages.LaserScan,
         points: beams.BeamPoints,
-        xyz: F64,
+        xyz: Floats,
         sample: Sample,
         ctx: Context,
-    ) -> NDArray[np.floating[Any]]:
+    ) -> Floats:
         """Return the values (N,) that determine the colour."""
         if self.channel_name in ("x", "y", "z"):
             values, origin = coordinate(sample.pose, xyz, "xyz".index(self.channel_name))
@@ -196,7 +196,7 @@ class LaserScan(PointsDisplay, Comparable, Sweep):
         if self.channel_name == "intensity":
             count = len(scan.intensities)
             if count == points.total:
-                return scan.intensities[points.beams]
+                return scan.intensities.take(points.beams)
             if count:
                 ctx.warn(
                     "Intensity",
@@ -205,4 +205,4 @@ class LaserScan(PointsDisplay, Comparable, Sweep):
                 )
             else:
                 ctx.ok("Intensity", "The scan has no intensities; colouring by range.")
-        return scan.ranges[points.beams]
+        return scan.ranges.take(points.beams)
