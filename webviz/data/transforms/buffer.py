@@ -28,6 +28,8 @@ QUATERNION_TOLERANCE = 10e-3
 """Tolerance of the squared length of a normalised quaternion around 1 (tf2's constant)."""
 MAX_FRAMES = 20_000
 """Frames that are kept; tf2 has no limit."""
+MAX_FOUND = 100
+"""Results of `lookup` that are kept until the next transform."""
 
 _SILENT = np.errstate(over="ignore", invalid="ignore")
 """Huge transforms compose to infinity and NaN silently, as floats do."""
@@ -73,6 +75,9 @@ class TransformBuffer:
         self._topology: tuple[tuple[int, str, list[str]], Topology] | None = None
         """The cached shape of the last query for many frames, by structure version and query."""
         self._largest: tuple[int, tuple[str, int]] | None = None
+        self._found: dict[tuple[str, str, int], Transform] = {}
+        """Results of `lookup` at `_found_at`: a message is placed when it comes and when drawn."""
+        self._found_at = 0, 0
 
     @property
     def tree(self) -> FrameTree:
@@ -197,8 +202,13 @@ class TransformBuffer:
             ConnectivityException: nothing connects the frames.
             ExtrapolationException: a link has no data around that time; one of its three kinds.
         """
-        pose, stamp_ns = self._pose(target, source, stamp_ns)
-        return _transform(pose, stamp_ns)
+        versions = self.version, self.structure_version
+        if self._found_at != versions or len(self._found) >= MAX_FOUND:
+            self._found_at, self._found = versions, {}
+        key = target, source, stamp_ns
+        if (found := self._found.get(key)) is None:
+            found = self._found[key] = Transform.of(*self._pose(target, source, stamp_ns))
+        return found
 
     @_SILENT
     def lookup_many(
@@ -304,7 +314,7 @@ class TransformBuffer:
         if cache is None or (newest := cache.newest) is None:
             return None
         pose, parent = newest
-        return NewestTransform(parent, _transform(pose, cache.newest_stamp), cache.is_static)
+        return NewestTransform(parent, Transform.of(pose, cache.newest_stamp), cache.is_static)
 
     def rigid_root(self, frame: str) -> str:
         """Return the uppermost frame that static transforms join with this one, at least itself.
@@ -386,9 +396,3 @@ class TransformBuffer:
             return True
         self.refusals.exceed(child, received_ns)
         return False
-
-
-def _transform(pose: PoseTuple, stamp_ns: int) -> Transform:
-    """tf2 returns a rotation only after the way through a matrix."""
-    x, y, z, qx, qy, qz, qw = pose
-    return Transform((x, y, z), canonical(qx, qy, qz, qw), stamp_ns)

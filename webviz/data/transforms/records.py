@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from math import isnan
 
 from webviz.data.transforms.errors import format_stamp
+from webviz.data.transforms.geometry import PoseTuple, canonical
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,6 +22,12 @@ class Transform:
     translation: tuple[float, float, float]
     rotation: tuple[float, float, float, float]
     stamp_ns: int
+
+    @classmethod
+    def of(cls, pose: PoseTuple, stamp_ns: int) -> Transform:
+        """Return a pose of the tree as tf2 does, with a rotation that went through a matrix."""
+        x, y, z, qx, qy, qz, qw = pose
+        return cls((x, y, z), canonical(qx, qy, qz, qw), stamp_ns)
 
 
 @dataclass(frozen=True, slots=True)
