@@ -7,13 +7,9 @@ from typing import Protocol
 
 import msgspec
 import numpy as np
-import re2  # pyright: ignore[reportMissingTypeStubs]
 from numpy.typing import NDArray
 
 from webviz import Frames
-
-_QUIET = re2.Options()
-_QUIET.log_errors = False
 
 
 class Pattern(Protocol):
@@ -37,8 +33,12 @@ def compiled(text: str) -> Pattern:
     Raises:
         PatternFault: it is not valid.
     """
+    import re2  # pyright: ignore[reportMissingTypeStubs]  # here, as it takes 1.6 MB
+
+    quiet = re2.Options()
+    quiet.log_errors = False
     try:
-        return re2.compile(text, _QUIET)
+        return re2.compile(text, quiet)
     except re2.error as error:
         (reason,) = error.args
         raise PatternFault(reason.decode(errors="replace")) from None

@@ -20,16 +20,23 @@ from webviz.data.recordings.recording import (
     TimeParts,
 )
 from webviz.data.recordings.ros1 import Ros1Recording
-from webviz.data.recordings.sqlite import SqliteRecording
 from webviz.data.recordings.unpacking import unpack_file
 
 SQLITE = b"SQLite format 3\0"
 COMPRESSED = {b"\x28\xb5\x2f\xfd": "zstd", b"\x04\x22\x4d\x18": "lz4"}
 ROS_1 = b"#ROSBAG V"
 _LOOKED_AT = 512
+
+
+def _sqlite(path: Path) -> Recording:
+    from webviz.data.recordings.sqlite import SqliteRecording  # here, as SQLite takes 1 MB
+
+    return SqliteRecording(path)
+
+
 CONTAINERS: dict[str, Callable[[Path], Recording]] = {
     "mcap": McapRecording,
-    "sqlite": SqliteRecording,
+    "sqlite": _sqlite,
     "ros1": Ros1Recording,
 }
 

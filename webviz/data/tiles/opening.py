@@ -6,7 +6,6 @@ from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 from webviz.data.tiles.folder import Folder
-from webviz.data.tiles.mbtiles import MBTiles
 from webviz.data.tiles.server import TileServer
 from webviz.data.tiles.source import TileError, TileSource
 
@@ -45,6 +44,8 @@ def open_tiles(address: str, timeout_s: float) -> TileSource:
     if not is_file:
         raise TileError(f"{path} does not exist, or is not a file or folder.")
     if path.suffix == ".mbtiles":
+        from webviz.data.tiles.mbtiles import MBTiles  # here, as SQLite takes 1 MB
+
         return MBTiles(path)
     if path.suffix == ".pmtiles":
         try:

@@ -8,13 +8,15 @@ import os
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import IO
+from typing import IO, TYPE_CHECKING
 
 import PIL.Image
-import PIL.ImageDraw
-import PIL.ImageFont
 
 from webviz.api.errors import Error
+
+if TYPE_CHECKING:
+    from PIL.ImageDraw import ImageDraw
+    from PIL.ImageFont import FreeTypeFont, ImageFont
 
 STILLS = (".png", ".webp", ".jpg", ".jpeg", ".gif")
 ANIMATIONS = (".gif", ".webp")
@@ -85,8 +87,7 @@ def save_animation(images: Iterable[PIL.Image.Image], path: Path, fps: float) ->
 def with_clock(image: PIL.Image.Image, text: str) -> PIL.Image.Image:
     """Return a picture with a line of text in its lower left corner, on a dark ground."""
     image = image.copy()
-    draw = PIL.ImageDraw.Draw(image)
-    font = PIL.ImageFont.load_default(max(12, image.height // 36))
+    draw, font = pen(image, max(12, image.height // 36))
     place = GAP * 2, image.height - GAP * 2
     left, top, right, bottom = draw.textbbox(place, text, font, "ld")
     draw.rectangle((left - GAP, top - GAP, right + GAP, bottom + GAP), PAPER)
@@ -108,8 +109,7 @@ def contact_sheet(pictures: Sequence[tuple[str, PIL.Image.Image]], columns: int)
     total = sheet_size((width, height), len(pictures), columns)
     mode = pictures[0][1].mode
     sheet = PIL.Image.new(mode, total, PAPER)
-    draw = PIL.ImageDraw.Draw(sheet)
-    font = PIL.ImageFont.load_default(13)
+    draw, font = pen(sheet, 13)
     for index, (caption, picture) in enumerate(pictures):
         row, column = divmod(index, columns)
         x, y = GAP + column * (width + GAP), GAP + row * (height + CAPTION)
@@ -170,3 +170,11 @@ def writing(path: Path) -> Iterator[IO[bytes]]:
 
 def _format(path: Path) -> str:
     return {".jpg": "JPEG"}.get(path.suffix.lower(), path.suffix[1:].upper())
+
+
+def pen(image: PIL.Image.Image, size: float) -> tuple[ImageDraw, FreeTypeFont | ImageFont]:
+    """Return what draws on an image, and a font of a size in pixels."""
+    import PIL.ImageDraw  # here, as few viewers ever write, and it takes 1.5 MB
+    import PIL.ImageFont
+
+    return PIL.ImageDraw.Draw(image), PIL.ImageFont.load_default(size)

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image
 
 from webviz.api.pictures import Readout
 from webviz.data.messages.tree import Tree
+from webviz.shell.pictures.files import pen
 
 FONT_PX = 13
 LINE_PX = 18
@@ -27,8 +28,7 @@ def written(readout: Readout, size: tuple[int, int]) -> Image.Image:
         size: width and height in pixels.
     """
     sheet = Image.new("RGB", size, BACKGROUND)
-    draw = ImageDraw.Draw(sheet)
-    font = ImageFont.load_default(FONT_PX)
+    draw, font = pen(sheet, FONT_PX)
     lines = [(0, " · ".join(filter(None, (readout.topic, readout.type))), "")]
     lines += _lines(readout.tree(), 0)
     for row, (depth, name, value) in enumerate(lines[: size[1] // LINE_PX + 1]):
