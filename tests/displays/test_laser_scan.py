@@ -78,6 +78,7 @@ def test_a_range_counts_from_range_min_to_just_below_range_max(lab: Benches) -> 
         (scan([1.0], angle_min=-3e38), "ERROR", "angle_min is -3e+38 rad"),
         (scan([1.0], angle_increment=3e38), "ERROR", "expected a number from -6.28319 to"),
         (scan([1e30], range_max=INF), "WARN", "Showing 0 of 1"),
+        (scan([-INF], range_min=-INF), "WARN", "1 infinite"),
     ],
 )
 def test_a_scan_without_points_says_why(
