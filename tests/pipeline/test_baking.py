@@ -82,6 +82,14 @@ def test_the_identity_keeps_the_very_arrays() -> None:
     assert baked(node, Pose(), (0.0, 0.0, 0.0)) is node
 
 
+@pytest.mark.parametrize("length", [0.0, 1e-200])
+def test_a_quaternion_without_length_turns_nothing(length: float) -> None:
+    node = Points(np.ones((2, 3), np.float32), (1, 2, 3), 0.1)
+    moved = baked(node, Pose((1.0, 2.0, 3.0), (length, 0.0, 0.0, 0.0)), (0.0, 0.0, 0.0))
+    assert isinstance(moved, Points)
+    np.testing.assert_array_equal(moved.xyz, [(2, 3, 4)] * 2)
+
+
 def test_far_out_the_origin_comes_along_so_that_millimetres_survive() -> None:
     far = (500_000.0, 4_600_000.0, 0.0)
     origin = origin_near(far, (0.0, 0.0, 0.0))

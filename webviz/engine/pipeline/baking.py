@@ -16,8 +16,7 @@ from numpy.typing import ArrayLike
 from webviz.api.context import Group, Placement
 from webviz.api.frames import compose
 from webviz.api.nodes import F32, Arrows, Axes, Instances, Labels, Lines, Models, Node, Points, Pose
-from webviz.data.rotations import multiply_many
-from webviz.data.transforms.geometry import to_matrix
+from webviz.data.rotations import matrices, multiply_many
 
 N = TypeVar("N", bound=Node)
 
@@ -81,8 +80,7 @@ def baked(node: Node, pose: Pose, origin: Position) -> Node:
     shift = [p - o for p, o in zip(pose.position, origin, strict=True)]
     if pose.wxyz == (1.0, 0.0, 0.0, 0.0) and not any(shift):
         return node
-    w, x, y, z = pose.wxyz
-    rotation = np.reshape(to_matrix(x, y, z, w), (3, 3))
+    rotation = matrices(pose.wxyz)
 
     def move(xyz: F32) -> F32:
         return _moved(xyz.reshape(-1, 3), rotation, shift).reshape(xyz.shape)
