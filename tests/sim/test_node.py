@@ -209,7 +209,7 @@ def test_a_scan_placed_by_tf_at_its_stamp_lies_on_the_walls_of_the_map(sim, robo
     sim("scan_noise:=0.0", "odom_drift:=0.05")
     robot.listen_tf()
     scans = robot.listen("/scan", LaserScan, qos_profile_sensor_data)
-    odometry = robot.listen("/odom", Odometry)
+    odometry = robot.listen("/odom", Odometry, 100)
     robot.spin_until(lambda: len(scans) > 30 and abs(robot.pose().x) > 0.5)
     robot.spin(0.5)
 
