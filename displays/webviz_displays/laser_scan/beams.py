@@ -53,8 +53,8 @@ def fault(scan: messages.LaserScan) -> str:
     """Return a sentence why no beam of a scan can be placed, "" if they can."""
     if not len(scan.ranges):
         return "The scan has no ranges. Check the laser driver."
-    is_placed = abs(scan.angle_min) <= MAX_ANGLE and abs(scan.angle_increment) <= math.tau
-    if is_placed and scan.range_min < scan.range_max:
+    are_angles = abs(scan.angle_min) <= MAX_ANGLE and abs(scan.angle_increment) <= math.tau
+    if are_angles and scan.range_min < scan.range_max:  # nearly always, and sooner known
         return ""
     for name in ("angle_min", "angle_increment", "range_min", "range_max"):
         value = getattr(scan, name)
@@ -63,12 +63,10 @@ def fault(scan: messages.LaserScan) -> str:
     for name, most in (("angle_min", MAX_ANGLE), ("angle_increment", math.tau)):
         if abs(value := getattr(scan, name)) > most:
             return f"{name} is {value:g} rad; expected a number from {-most:g} to {most:g}."
-    if scan.range_max <= scan.range_min:
-        return (
-            f"range_max ({scan.range_max:g} m) is not greater than range_min "
-            f"({scan.range_min:g} m), so no range is valid. Fix them in the laser driver."
-        )
-    return ""
+    return (
+        f"range_max ({scan.range_max:g} m) is not greater than range_min "
+        f"({scan.range_min:g} m), so no range is valid. Fix them in the laser driver."
+    )
 
 
 def project(scan: messages.LaserScan) -> BeamPoints:

@@ -6,6 +6,7 @@ import gc
 import logging
 import sys
 import threading
+import webbrowser
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -158,8 +159,6 @@ def _announce(options: ViewingOptions, viewer: Viewer, note: str) -> None:
         show_links(viewer.access.tokens, viewer.url, options.host, options.allow_host)
     sys.stdout.flush()
     if options.open:
-        import webbrowser  # here, as it takes 1.5 MB
-
         tokens = viewer.access.tokens if viewer.access.asks else ()
         address = next((link(viewer.url, token) for token in tokens), "") or viewer.url
         # Browsers in a terminal run until they are closed.
