@@ -139,6 +139,26 @@ def test_a_simulator_that_has_to_be_killed_leaves_nothing(start: Callable[..., P
     assert "stopped" in check_end(program, signal.SIGTERM, "beside a simulator that is busy")
 
 
+def test_a_program_that_is_still_starting_leaves_nothing_of_a_busy_simulator(
+    ros_env: dict[str, str], tmp_path: Path
+) -> None:
+    code = """
+import subprocess, sys, time
+from webviz.shell.cli.ending import until_signal
+def work(stop):
+    subprocess.Popen([sys.executable, "-m", "webviz_sim"])
+    time.sleep(1000)
+until_signal(work)
+"""
+    program = Program([sys.executable, "-c", code], ros_env, tmp_path / "log.txt")
+    while not (files := shared_memory(family_of(program))):
+        time.sleep(0.05)
+    family = family_of(program)
+    family[1].suspend()
+    assert program.end(signal.SIGTERM) == 130
+    check_nothing_is_left(family, files)
+
+
 def test_a_closed_terminal_ends_the_demo_cleanly(ros_env: dict[str, str]) -> None:
     command = [sys.executable, "-m", "webviz", "demo", "--port", "0"]
     pid, terminal = pty.fork()

@@ -11,7 +11,7 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from types import FrameType
 from typing import NoReturn
@@ -104,11 +104,30 @@ def end_children() -> None:
     import psutil  # here, as it takes a tenth of the time of --help
 
     children = psutil.Process().children(recursive=True)
-    for number in (signal.SIGTERM, signal.SIGKILL):
-        for child in children:
-            with contextlib.suppress(psutil.NoSuchProcess):
-                child.send_signal(number)
-        _, children = psutil.wait_procs(children, CHILD_PATIENCE_S)
+    for child in children:
+        with contextlib.suppress(psutil.NoSuchProcess):
+            child.terminate()
+    _, busy = psutil.wait_procs(children, CHILD_PATIENCE_S)
+    kill([child.pid for child in busy])
+
+
+def kill(children: Sequence[int]) -> None:
+    """Kill child processes, given by their ids, and remove the shared memory of those with ROS."""
+    if not children:
+        return
+    import psutil
+
+    from webviz.ros.shared_memory import remove_unused, segments_of
+
+    segments = {segment for child in children for segment in segments_of(child)}
+    processes: list[psutil.Process] = []
+    for child in children:
+        with contextlib.suppress(psutil.NoSuchProcess):
+            process = psutil.Process(child)
+            process.kill()
+            processes.append(process)
+    psutil.wait_procs(processes, CHILD_PATIENCE_S)
+    remove_unused(segments)
 
 
 class Stop:

@@ -9,7 +9,7 @@ import threading
 from collections.abc import Iterator, Sequence
 
 from webviz.api.errors import Error
-from webviz.shell.cli.ending import Stop
+from webviz.shell.cli.ending import Stop, kill
 from webviz.shell.ros_source import NO_ROS
 
 RANGE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
@@ -61,15 +61,5 @@ def simulator(ros: Sequence[str], stop: Stop) -> Iterator[str]:
         try:
             simulator.wait(max(0.0, stop.left_s - SPARE_S))
         except subprocess.TimeoutExpired:
-            _kill(simulator)
+            kill([simulator.pid])  # such as one that is still starting
         watcher.join()
-
-
-def _kill(simulator: subprocess.Popen[bytes]) -> None:
-    """End a simulator that does not end by itself, such as one that is still starting."""
-    from webviz.ros.shared_memory import remove_unused, segments_of
-
-    segments = segments_of(simulator.pid)
-    simulator.kill()
-    simulator.wait()
-    remove_unused(segments)
