@@ -38,7 +38,8 @@ WIDTH, HEIGHT = 900, 800
 """Of a tab in pixels."""
 
 TIDY = """() => {
-  document.querySelectorAll("#bench, .wv-toast").forEach((one) => one.remove());
+  document.querySelectorAll("#bench").forEach((one) => one.remove());
+  document.querySelectorAll(".wv-toast [aria-label=Dismiss]").forEach((one) => one.click());
   document.activeElement?.blur();
   localStorage.clear();
 }"""
@@ -258,7 +259,8 @@ def tab(tidy: Tab) -> Iterator[Tab]:
     lasting = tidy
     lasting.loop.state = State()
     lasting.loop.answer = lasting.loop.made = ""
-    lasting.turn()
+    lasting.loop.turn()
+    lasting.page.evaluate(CATCH_UP)  # else a test may see what the one before has left, and its end
     lasting.loop.commands.clear()
     lasting.loop.senders.clear()
     yield lasting
