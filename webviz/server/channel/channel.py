@@ -222,7 +222,7 @@ class Channel:
 
         Args:
             browser: viser's id of it.
-            pace: of its link.
+            congestion: control of its link.
         """
         key = secrets.token_urlsafe(32)
         with self._lock:
