@@ -260,7 +260,7 @@ def tab(tidy: Tab) -> Iterator[Tab]:
     lasting.loop.state = State()
     lasting.loop.answer = lasting.loop.made = ""
     lasting.loop.turn()
-    lasting.page.evaluate(CATCH_UP)  # else a test may see what the one before has left, and its end
+    lasting.page.evaluate(CATCH_UP)  # else it may lose what a test before has left there
     lasting.loop.commands.clear()
     lasting.loop.senders.clear()
     yield lasting

@@ -14,7 +14,10 @@ import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from types import FrameType
-from typing import NoReturn
+from typing import TYPE_CHECKING, NoReturn
+
+if TYPE_CHECKING:
+    import psutil
 
 INTERRUPTED = 130
 PATIENCE_S = 3.0
@@ -108,24 +111,20 @@ def end_children() -> None:
         with contextlib.suppress(psutil.NoSuchProcess):
             child.terminate()
     _, busy = psutil.wait_procs(children, CHILD_PATIENCE_S)
-    kill([child.pid for child in busy])
+    if busy:
+        kill(busy)
 
 
-def kill(children: Sequence[int]) -> None:
-    """Kill child processes, given by their ids, and remove the shared memory of those with ROS."""
-    if not children:
-        return
+def kill(processes: "Sequence[psutil.Process]") -> None:
+    """Kill processes, and remove the shared memory that those with ROS leave behind."""
     import psutil
 
     from webviz.ros.shared_memory import remove_unused, segments_of
 
-    segments = {segment for child in children for segment in segments_of(child)}
-    processes: list[psutil.Process] = []
-    for child in children:
+    segments = {segment for process in processes for segment in segments_of(process.pid)}
+    for process in processes:
         with contextlib.suppress(psutil.NoSuchProcess):
-            process = psutil.Process(child)
             process.kill()
-            processes.append(process)
     psutil.wait_procs(processes, CHILD_PATIENCE_S)
     remove_unused(segments)
 

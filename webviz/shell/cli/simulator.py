@@ -61,5 +61,8 @@ def simulator(ros: Sequence[str], stop: Stop) -> Iterator[str]:
         try:
             simulator.wait(max(0.0, stop.left_s - SPARE_S))
         except subprocess.TimeoutExpired:
-            kill([simulator.pid])  # such as one that is still starting
+            import psutil  # here, as it is seldom needed
+
+            with contextlib.suppress(psutil.NoSuchProcess):  # it has ended meanwhile
+                kill([psutil.Process(simulator.pid)])  # such as one that is still starting
         watcher.join()
