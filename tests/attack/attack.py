@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import abc
 import enum
+import os
 import subprocess
 import sys
 from dataclasses import dataclass
 from random import Random
+from typing import Any
 
 
 class Outcome(enum.Enum):
@@ -68,7 +70,11 @@ class Attack(abc.ABC):
 def piped(module: str) -> subprocess.Popen[str]:
     """Start a module of this package, which reads and writes lines."""
     command = [sys.executable, "-m", f"tests.attack.{module}"]
-    return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    # Where the modules of the tests are found here, they are found there.
+    env = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    return subprocess.Popen(
+        command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=env
+    )
 
 
 def random_of(seed: int, kind: str, number: int) -> Random:
@@ -99,3 +105,17 @@ def mutated(random: Random, data: bytes) -> bytes:
                 other = random.randrange(len(changed) + 1)
                 changed[at : at + 8] = changed[other : other + 8]
     return bytes(changed)
+
+
+ODD: tuple[Any, ...] = (None, -1, 2**64, 1e999, "", "x" * 5000, [], {}, [[[]]], True)
+
+
+def changed_part(random: Random, value: Any) -> Any:
+    """JSON of which one part is another."""
+    if isinstance(value, dict) and value and random.random() < 0.8:
+        key = random.choice(sorted(value))
+        return {**value, key: changed_part(random, value[key])}
+    if isinstance(value, list) and value and random.random() < 0.8:
+        place = random.randrange(len(value))
+        return [*value[:place], changed_part(random, value[place]), *value[place + 1 :]]
+    return random.choice(ODD)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import re
 import subprocess
@@ -10,6 +11,7 @@ import threading
 from collections.abc import Mapping
 from pathlib import Path
 from random import Random
+from typing import Any
 
 import trimesh
 from bags import strings
@@ -82,6 +84,62 @@ def _timeless(collada: bytes) -> bytes:
     return re.sub(rb"<(created|modified)>[^<]*", rb"<\1>", collada)
 
 
+class Reader:
+    """A process that reads files, one after another, and is started again if it ends.
+
+    Args:
+        module: of this package; it takes names, and answers in JSON.
+    """
+
+    def __init__(self, module: str) -> None:
+        self._module = module
+        self._process: subprocess.Popen[str] | None = None
+
+    def start(self) -> subprocess.Popen[str]:
+        """Start the process, if it does not run."""
+        self._process = self._process or piped(self._module)
+        return self._process
+
+    def read(self, path: Path) -> Mapping[str, Any]:
+        """Have a file read.
+
+        Raises:
+            Violation: that takes too long, or ends the process.
+        """
+        process = self.start()
+        assert process.stdin is not None
+        assert process.stdout is not None
+        timer = threading.Timer(READ_S, process.kill)
+        timer.start()
+        try:
+            process.stdin.write(f"{path}\n")
+            process.stdin.flush()
+            line = process.stdout.readline()
+        except BrokenPipeError:
+            line = ""
+        finally:
+            is_late = not timer.is_alive()
+            timer.cancel()
+        if not line:
+            self.close()
+            how = f"takes longer than {READ_S:g} s" if is_late else "ends the process"
+            raise Violation(f"reading {path.name} {how}")
+        return json.loads(line)
+
+    def close(self) -> None:
+        """End the process."""
+        if self._process is not None:
+            self._process.kill()
+            self._process.communicate()
+        self._process = None
+
+
+@functools.cache
+def reader_of(module: str) -> Reader:
+    """Return the reader that all attacks with a module share: each takes a second to start."""
+    return Reader(module)
+
+
 class Files(Attack):
     """Reads changed files in a process of its own, as the viewer reads them.
 
@@ -91,14 +149,16 @@ class Files(Attack):
     """
 
     kind = "files"
+    reader = "reader"
+    """The module that reads them."""
 
     def __init__(self, folder: Path, good: Mapping[str, bytes] | None = None) -> None:
         self._folder = folder
         self._good = corpus() if good is None else good
-        self._reader: subprocess.Popen[str] | None = None
+        self._reader = reader_of(self.reader)
 
     def start(self) -> None:
-        self._reader = piped("reader")
+        self._reader.start()
 
     def draw(self, random: Random) -> Case:
         name = random.choice(sorted(self._good))
@@ -110,34 +170,13 @@ class Files(Attack):
     def strike(self, case: Case) -> Outcome:
         path = self._folder / case.name
         path.write_bytes(case.data)
-        reader = self._reader = self._reader or piped("reader")
-        assert reader.stdin is not None
-        assert reader.stdout is not None
-        timer = threading.Timer(READ_S, reader.kill)
-        timer.start()
-        try:
-            reader.stdin.write(f"{path}\n")
-            reader.stdin.flush()
-            line = reader.stdout.readline()
-        except BrokenPipeError:
-            line = ""
-        finally:
-            is_late = not timer.is_alive()
-            timer.cancel()
-        if not line:
-            self.close()
-            how = f"takes longer than {READ_S:g} s" if is_late else "ends the process"
-            raise Violation(f"reading {case.name} {how}")
-        found = json.loads(line)
+        found = self._reader.read(path)
         if found["broken"]:
             raise Violation(found["broken"])
         return Outcome.REFUSED if found["refused"] else Outcome.SURVIVED
 
     def close(self) -> None:
-        if self._reader is not None:
-            self._reader.kill()
-            self._reader.communicate()
-        self._reader = None
+        self._reader.close()
 
 
 ODD = (

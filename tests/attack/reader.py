@@ -6,18 +6,27 @@ import json
 import logging
 import resource
 import sys
+import tempfile
 import traceback
 from pathlib import Path
 
+from tests.attack.bridges import read_bridge
+from tests.attack.media import read_media
+from tests.attack.tiles import read_tiles
 from webviz.api.declared import Topic
 from webviz.api.errors import Error
+from webviz.data.images import ImageError
+from webviz.data.tiles import TileError
 from webviz.files import opening
+from webviz.files.report import read_report
 from webviz.sources import Subscription
 from webviz.sources.bag.source import BagSource
 from webviz_urdf import Resolver, load_robot
 from webviz_urdf.robot import RobotDescriptionError
 from webviz_urdf.textures import TextureError, open_image
 
+REFUSALS = (Error, RobotDescriptionError, TextureError, ImageError, TileError)
+"""What the viewer shows as a sentence."""
 MESH = (
     "<robot name='r'><link name='a'><visual><geometry><mesh filename='{}'/></geometry></visual>"
     "</link></robot>"
@@ -26,10 +35,6 @@ MAX_MEMORY = 3 << 30
 """Bytes of address space, half a gigabyte of which is taken by imports."""
 MAX_STEPS = 1000
 """Of a bag that claims to be long."""
-
-
-class _Refused(Exception):
-    pass
 
 
 def read(path: Path) -> None:
@@ -42,6 +47,14 @@ def read(path: Path) -> None:
                 _play(path)
             except MemoryError as error:
                 raise AssertionError("a bag took all memory") from error
+        case ".zip":
+            _read_report(path)
+        case ".image" | ".depth" | ".raw" | ".video":
+            read_media(path)
+        case ".mbtiles" | ".pmtiles" | ".http":
+            read_tiles(path)
+        case ".foxglove" | ".rosbridge":
+            read_bridge(path)
         case ".png":
             open_image(path).load()
         case ".urdf":
@@ -49,7 +62,17 @@ def read(path: Path) -> None:
         case _:
             robot = load_robot(MESH.format(path), Resolver(roots=[path.parent]))
             if robot.missing:
-                raise _Refused
+                raise RobotDescriptionError(f"{path.name} is missing")
+
+
+def _read_report(path: Path) -> None:
+    """Unpack a bug report, and play what it contains."""
+    with tempfile.TemporaryDirectory() as folder:
+        found = read_report(path, Path(folder))
+        opening.text_of(opening.load(found.config), found.config.name)
+        if found.picture is not None:
+            open_image(found.picture).load()
+        _play(found.bag)
 
 
 def _play(path: Path) -> None:
@@ -79,7 +102,7 @@ def main() -> None:
         broken, is_refused = "", False
         try:
             read(Path(line.rstrip("\n")))
-        except (Error, RobotDescriptionError, TextureError, _Refused) as error:
+        except REFUSALS as error:
             is_refused = True
             broken = f"several lines: {error}" if "\n" in str(error) else ""
         except MemoryError:

@@ -9,20 +9,26 @@ from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, closing
 from pathlib import Path
 
+from tests.attack.agents import Agents
 from tests.attack.attack import Attack, Case, Violation, random_of
 from tests.attack.bombs import Bombs
+from tests.attack.bridges import Bridges
 from tests.attack.crowds import Crowds
 from tests.attack.dds import Dds
 from tests.attack.disks import Disks
+from tests.attack.exported import Exported
 from tests.attack.files import Files
 from tests.attack.graphs import Graphs
 from tests.attack.http_requests import Requests
+from tests.attack.media import Media
 from tests.attack.queues import Queues
 from tests.attack.report import Breach, Report
+from tests.attack.reports import Reports
 from tests.attack.saving import Saving
 from tests.attack.simulator import Simulator
 from tests.attack.sockets import Sockets, kind_of
 from tests.attack.target import Target
+from tests.attack.tiles import Tiles
 from tests.attack.uploads import Uploads
 from tests.attack.weights import Weights
 from webviz.server.access.roles import Role
@@ -38,6 +44,7 @@ ROLES = (None, *Role)
 KINDS = (
     *(class_.kind for class_ in (Dds, Requests, Uploads, Files, Saving, Simulator)),
     *(class_.kind for class_ in (Bombs, Graphs, Disks, Crowds, Queues, Weights)),
+    *(class_.kind for class_ in (Media, Tiles, Reports, Bridges, Agents, Exported)),
     *map(kind_of, ROLES),
 )
 """Of attacks."""
@@ -84,7 +91,7 @@ def _started(attacks: Iterator[Attack], only: Sequence[str], stack: ExitStack) -
 
 def local_attacks(folder: Path) -> Iterator[Attack]:
     """Those that attack no viewer, but what it reads and how it saves."""
-    for class_ in (Files, Saving, Bombs, Disks):
+    for class_ in (Files, Saving, Bombs, Disks, Media, Tiles, Reports, Bridges, Agents, Exported):
         own = folder / class_.kind
         own.mkdir()
         yield class_(own)

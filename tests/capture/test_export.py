@@ -158,6 +158,34 @@ def test_the_file_shows_what_the_viewer_shows_at_any_time_in_any_order(
         np.testing.assert_array_equal(file.pixels(), wanted[at_s], f"at {at_s} s")
 
 
+@pytest.mark.parametrize(
+    ("how", "sentence"),
+    [
+        ("cut off within the modules", "This file is incomplete."),
+        ("cut off within the recording", "This file is incomplete."),
+        ("a changed byte", "This file is damaged, and shows only a part of its recording."),
+        ("a changed index", "This file is damaged, and shows only a part of its recording."),
+    ],
+)
+def test_a_file_that_was_damaged_on_its_way_says_so(
+    folder: Path, tmp_path: Path, browser: playwright.Browser, how: str, sentence: str
+) -> None:
+    whole = (folder / "run.html").read_bytes()
+    chunk, about = (whole.index(b'type="webviz/%s">' % kind) for kind in (b"chunk", b"about"))
+    damaged = {
+        "cut off within the modules": whole[: len(whole) // 4],
+        "cut off within the recording": whole[: chunk + 200],
+        "a changed byte": whole[: chunk + 200] + b"@" + whole[chunk + 201 :],
+        "a changed index": whole[: about + 40] + b"@" + whole[about + 41 :],
+    }[how]
+    (tmp_path / "run.html").write_bytes(damaged)
+    context = browser.new_context(viewport=SIZE, offline=True)
+    page = context.new_page()
+    page.goto(f"{(tmp_path / 'run.html').as_uri()}?fixedDpr=0.1")
+    expect(page.get_by_text(sentence)).to_be_visible()
+    context.close()
+
+
 def test_the_file_asks_no_server_for_anything(file: OpenFile) -> None:
     others = [url for url in file.requests if not url.startswith(("blob:", "data:"))]
     assert len(others) == 1

@@ -35,7 +35,7 @@ def unpack(data: bytes) -> tuple[dict[str, Any], bytes]:
     end = _START.size + int.from_bytes(data[12:16], "little")
     try:
         return msgspec.json.decode(data[_START.size : end]), data[end:]
-    except msgspec.DecodeError as error:
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise ValueError("The JSON of the binary glTF is invalid.") from error
 
 

@@ -8,9 +8,10 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
+from webviz.data import words
 from webviz.data.recordings.recording import RecordingError
 from webviz.data.recordings.sqlite_times import connected
-from webviz.data.tiles.source import MAX_BYTES, TileError, plain
+from webviz.data.tiles.source import MAX_BYTES, MAX_REASON, TileError, plain
 
 PATIENCE_S = 3.0
 """For one query: a database may define its table by anything that SQL can compute."""
@@ -56,6 +57,8 @@ class MBTiles:
                 db.set_progress_handler(lambda: time.monotonic() > until, STEPS)
                 yield db
         except sqlite3.Error as error:
-            raise TileError(f"{self._path} is damaged: {str(error)[:80]}.") from error
+            # It may quote names of the database.
+            reason = words.plain(str(error), MAX_REASON)
+            raise TileError(f"{self._path} is damaged: {reason}.") from error
         except RecordingError as error:
             raise TileError(str(error)) from error

@@ -17,7 +17,8 @@ from typing import Any
 from urllib.parse import urlsplit
 
 from webviz.data.tiles.folder import filled
-from webviz.data.tiles.source import MAX_BYTES, TileError
+from webviz.data.tiles.source import MAX_BYTES, MAX_REASON, TileError
+from webviz.data.words import plain
 
 VARIABLE = "WEBVIZ_TILE_SERVERS"
 """Environment variable: the beginnings of addresses that may be asked, separated by spaces."""
@@ -95,7 +96,9 @@ class TileServer:
             if isinstance(error, TileError):
                 raise
             reason = getattr(error, "reason", error)
-            raise TileError(f"{self._host} does not answer: {str(reason)[:100]}.") from None
+            # A server may answer with any bytes instead of a status line.
+            text = plain(str(reason), MAX_REASON)
+            raise TileError(f"{self._host} does not answer: {text}.") from None
         if not tile:
             return None
         self._cache.write(zoom, x, y, bytes(tile))

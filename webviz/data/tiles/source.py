@@ -16,6 +16,8 @@ MAX_BYTES = 4 << 20
 """Of a tile as it is stored."""
 MAX_EDGE = 1024
 """Of a tile in pixels; 256 and 512 are usual."""
+MAX_REASON = 100
+"""Characters that are quoted of an error."""
 MAX_TEXT = 300
 """Characters of an attribution."""
 

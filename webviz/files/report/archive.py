@@ -140,7 +140,7 @@ def _unpack(archive: zipfile.ZipFile, info: zipfile.ZipInfo, target: Path) -> No
 def _decoded(path: Path, text: bytes) -> BugReport:
     try:
         report = msgspec.json.decode(text, type=BugReport)
-    except (msgspec.DecodeError, RecursionError) as error:
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise _no_report(path, f"report.json is invalid ({error})") from error
     if report.version != VERSION:
         raise _no_report(path, f"its version is {report.version}, not {VERSION}")

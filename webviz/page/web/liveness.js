@@ -4,6 +4,7 @@
 // that a server hangs nor that a radio link broke.
 
 import * as channel from "./channel.js";
+import { notice } from "./notice.js";
 import * as viser from "./viser_page.js";
 
 const TICK_MS = 500;
@@ -36,10 +37,8 @@ export function install() {
   // viser's page looks for its server only while it has the focus; on a second screen it has not.
   document.hasFocus = () => true;
 
-  const banner = document.createElement("div");
+  const banner = notice();
   banner.id = "webviz-contact";
-  banner.setAttribute("role", "alert");
-  banner.className = "wv-contact";
 
   function age() {
     const seconds = Math.round((Date.now() - heard) / 1000);

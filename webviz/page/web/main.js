@@ -18,6 +18,7 @@ import * as inStep from "./scene/in_step.js";
 import * as labels from "./scene/labels.js";
 import * as lines from "./scene/lines.js";
 import * as mouse from "./scene/mouse.js";
+import { notice } from "./notice.js";
 import * as overlay from "./overlay/overlay.js";
 import * as page from "./page.js";
 import * as points from "./scene/points.js";
@@ -55,34 +56,38 @@ async function install() {
     pieces,
   ];
   for (const part of [shell, page, inStep, ...ofScene]) part.install();
-  if (!run) liveness.install();
+  if (!isExported) liveness.install();
   await viser.until(() => viser.hasCamera() && viser.node(constants.ROOT));
   for (const part of [view, mouse, handles, saveImage, overlay, capacity, blocks]) part.install();
-  if (!run) vitals.install();
+  if (!isExported) vitals.install();
   toolbar.install(shell.places);
   extensions.install();
 }
 
-/** @param {About} run */
+/** @param {About | null} run what is recorded, null if it cannot be read */
 async function play(run) {
   decideBy(refusal);
   const feed = await viser.connectToNothing();
-  const { socket, open } = connection(run, feed);
+  if (!run) return say(DAMAGED);
+  const { socket, open } = connection(run, feed, (error) => {
+    console.info(error);
+    say(DAMAGED);
+  });
   await installed;
   window.webviz.browser = 0;
   channel.open(socket, "");
   open();
 }
 
-// viser's page stays empty then, and nothing else of this one is installed.
-function noWebGL() {
-  const notice = document.createElement("p");
-  notice.className = "wv-contact";
-  notice.setAttribute("role", "alert");
-  notice.textContent =
-    "This browser has no WebGL 2, with which webviz draws. Switch on hardware acceleration in its " +
-    "settings, or use another browser.";
-  document.body.append(notice);
+const NO_WEBGL =
+  "webviz needs WebGL 2, which this browser does not support. Switch on hardware acceleration in " +
+  "its settings, or use another browser.";
+const DAMAGED =
+  "This file is damaged, and shows only a part of its recording. Copy it again, or export it anew.";
+
+/** @param {string} text */
+function say(text) {
+  if (!document.querySelector(".wv-contact")) document.body.append(notice(text));
   viser.reveal();
 }
 
@@ -91,10 +96,11 @@ const answer = (token) => channel.send({ type: "Answer", token });
 channel.on("Ask", ({ token }) => answer(token));
 
 /** @type {About | null} */
-const run = window.webvizRun ? about() : null; // of a page that was exported
+const run = window.webvizRun ? about() : null;
+const isExported = Boolean(window.webvizRun);
 theme.install();
 const installed = install();
-if (run) play(run);
+if (isExported) play(run);
 else viser.connectToFolder();
 const address = new URL("webviz/channel", location.href).href.replace(/^http/, "ws");
 
@@ -114,5 +120,5 @@ window.webviz = {
   hasView: () => view.type() !== "",
   pick: mouse.pick,
 };
-if (!hasWebGL()) noWebGL();
+if (!hasWebGL()) say(NO_WEBGL); // viser's page stays empty, and nothing else is installed
 window.webvizStarted();

@@ -26,10 +26,15 @@ POLICY = "; ".join(
     )
 )
 """As the server's (`webviz.server.http.requests.add_policy`), without any server."""
+INCOMPLETE = "This file is incomplete. Copy it again, or export it anew."
 HEAD = (
     f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">'
     '<meta name="referrer" content="no-referrer">'
-    "<script>window.webvizRun = true;</script>"
+    "<script>window.webvizRun = true;"
+    # What comes last is missing from a file that was cut off, maybe with all modules.
+    """addEventListener("load", () => document.querySelector('script[type="webviz/about"]') ||"""
+    f'(document.body.textContent = "{INCOMPLETE}", document.documentElement.dataset.wvShown = ""));'
+    "</script>"
 )
 END = b"</body>"
 LINE = 3 << 18

@@ -30,11 +30,16 @@ function bytesOf(element) {
   return bytes;
 }
 
-/** The facts of the file about its run; null of a page from a server. */
+/** The facts of the file about its run; null if it is damaged. */
 export function about() {
   const element = document.querySelector('script[type="webviz/about"]');
-  if (!element) return null;
-  return /** @type {About} */ (JSON.parse(new TextDecoder().decode(bytesOf(element))));
+  try {
+    const text = new TextDecoder().decode(bytesOf(/** @type {Element} */ (element)));
+    return /** @type {About} */ (JSON.parse(text));
+  } catch (error) {
+    console.info(error);
+    return null;
+  }
 }
 
 /** The chunks of the file: a function that unpacks the one of a number, if it is not unpacked. */

@@ -47,8 +47,9 @@ export function refusal(what, { path }) {
  *
  * @param {About} about
  * @param {(messages: ViserMessage[]) => Promise<void>} feed
+ * @param {(error: unknown) => void} fail called when a part of the file cannot be shown
  */
-export function connection(about, feed) {
+export function connection(about, feed, fail) {
   /** @type {Set<string>} */
   const own = new Set(); // names of watched stores that are made here
   /** @type {Map<string, {waiting: number[], next: (() => ArrayBuffer)[] | null}>} */
@@ -95,8 +96,12 @@ export function connection(about, feed) {
 
   /** @param {number} at */
   async function show(at) {
-    await run.show(at);
-    await applied;
+    try {
+      await run.show(at);
+      await applied;
+    } catch (error) {
+      fail(error); // and other times can still be shown
+    }
   }
 
   /** @param {string} display */
