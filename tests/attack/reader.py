@@ -26,7 +26,7 @@ from webviz_urdf.robot import RobotDescriptionError
 from webviz_urdf.textures import TextureError, open_image
 
 REFUSALS = (Error, RobotDescriptionError, TextureError, ImageError, TileError)
-"""What the viewer shows as a sentence."""
+"""Errors that the viewer shows as a sentence."""
 MESH = (
     "<robot name='r'><link name='a'><visual><geometry><mesh filename='{}'/></geometry></visual>"
     "</link></robot>"
