@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 import re
+from datetime import datetime
+from pathlib import Path
 
 MAX_NAME = 200
 """Characters of a name."""
@@ -38,3 +41,17 @@ def file_problem_of(name: str) -> str:
     if len(name.encode(errors="replace")) > MAX_FILE_BYTES:
         return f"The name is too long; the limit is {MAX_FILE_BYTES} bytes."
     return problem_of(name)
+
+
+def new_path(stem: str, suffix: str = "", folder: Path = Path()) -> Path:
+    """Return the path of a file or folder that does not exist yet, named by the time.
+
+    Args:
+        stem: beginning of its name.
+        suffix: of its name, such as ".html".
+        folder: for it; by default the working folder.
+    """
+    name = f"{stem}_{datetime.now():%Y_%m_%d-%H_%M_%S}"
+    numbered = (f"{name}_{number}" for number in itertools.count(2))
+    paths = (folder.absolute() / f"{each}{suffix}" for each in itertools.chain([name], numbered))
+    return next(path for path in paths if not path.exists())

@@ -10,6 +10,7 @@ from typing import Any
 
 from webviz.api.errors import Error
 from webviz.api.status import Level, Status
+from webviz.data.names import new_path
 from webviz.data.recordings import RecordingError
 from webviz.data.recordings.folder_writing import RecordingFolder
 from webviz.data.words import counted, joined
@@ -18,7 +19,7 @@ from webviz.engine.commands.requests import Job
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.parts.settings import SettingsPart
 from webviz.sources.past_state import MemoryState, RecordingState
-from webviz.sources.recording import Recorder, library, new_name
+from webviz.sources.recording import Recorder, library
 from webviz.sources.rewindable import Rewindable
 
 MEGABYTE = 1_000_000
@@ -170,7 +171,7 @@ class RecordingPart(Part):
     def _new_path(self, path: str, sender: Sender) -> Path:
         if path and sender.browser is not None:
             raise Error("A page cannot choose the folder of a recording.")
-        return Path(path) if path else Path(new_name())
+        return Path(path) if path else new_path("webviz")
 
 
 def new_folder(path: Path) -> RecordingFolder:

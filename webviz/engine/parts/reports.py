@@ -19,6 +19,7 @@ import PIL.Image
 
 from webviz.api.errors import Error
 from webviz.api.offer import Offer
+from webviz.data.names import new_path
 from webviz.data.transforms import diagnose, tree_text
 from webviz.data.words import counted
 from webviz.engine.commands import (
@@ -32,7 +33,7 @@ from webviz.engine.commands import (
 from webviz.engine.commands.requests import Job
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.part import Core, Handler, Part
-from webviz.engine.parts.shown_moment import as_seen, new_path, slice_around
+from webviz.engine.parts.shown_moment import as_seen, slice_around
 from webviz.engine.playback import PlaybackControl
 from webviz.engine.state import State
 from webviz.files import config as config_file

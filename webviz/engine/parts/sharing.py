@@ -15,11 +15,12 @@ import msgspec
 from webviz.api.errors import Error
 from webviz.api.status import Level
 from webviz.data.disk import DiskThreads
+from webviz.data.names import new_path
 from webviz.data.words import counted
 from webviz.engine.commands import Command, ListMoment, Sender, ShareMoment, StopSharing
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.part import Core, Handler, Part
-from webviz.engine.parts.shown_moment import as_seen, new_path, slice_around
+from webviz.engine.parts.shown_moment import as_seen, slice_around
 from webviz.engine.playback import PlaybackControl
 from webviz.engine.state import State
 from webviz.files import config as config_file

@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
-from datetime import datetime
-from pathlib import Path
-
 import msgspec
 from msgspec.structs import replace
 
@@ -51,13 +47,3 @@ def as_seen(config: Config, state: State, sender: Sender) -> Config:
     if view is None:
         return config
     return replace(config, settings=msgspec.structs.replace(config.settings, view=view))
-
-
-def new_path(stem: str, suffix: str) -> Path:
-    """Return a new file in the working folder, named by the time."""
-    name = f"{stem}_{datetime.now():%Y_%m_%d-%H_%M_%S}"
-    for number in itertools.count(1):
-        path = Path(f"{name}{suffix}" if number == 1 else f"{name}_{number}{suffix}").absolute()
-        if not path.exists():
-            return path
-    raise AssertionError("unreachable")

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import itertools
 import os
-import time
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -15,6 +13,7 @@ import PIL.Image
 
 from webviz.api.errors import Error
 from webviz.api.views import View, with_type
+from webviz.data.names import new_path
 from webviz.engine.state import State
 from webviz.files import config as config_file
 from webviz.shell.pictures import files as picture_files
@@ -119,13 +118,7 @@ class PictureControls(ABC):
 
     def save_screenshot(self) -> Path:
         """Save a picture of the scene next to the config, named by the time."""
-        stem = time.strftime("webviz_screenshot_%Y_%m_%d-%H_%M_%S")
-        folder = Path(self.state.file.folder)
-        path = folder / f"{stem}.png"
-        for number in itertools.count(2):
-            if not path.exists():
-                break
-            path = folder / f"{stem}_{number}.png"
+        path = new_path("webviz_screenshot", ".png", Path(self.state.file.folder))
         self.screenshot(path)
         return path
 

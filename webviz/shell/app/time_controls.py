@@ -9,6 +9,7 @@ from abc import ABC, abstractmethod
 from pathlib import Path
 
 from webviz.api.errors import Error
+from webviz.data.names import new_path
 from webviz.engine.commands import (
     Command,
     OpenRecording,
@@ -24,7 +25,6 @@ from webviz.engine.commands import (
 from webviz.engine.state import State
 from webviz.shell.pictures.times import At, position_ns, seconds_from_start
 from webviz.sources.past_state import PlaybackState
-from webviz.sources.recording import new_name
 from webviz.sources.rewindable import MEMORY_OFF
 
 
@@ -62,7 +62,7 @@ class TimeControls(ABC):
         Raises:
             Error: it cannot be written, a recording goes on, or a bag is played.
         """
-        path = Path(folder or new_name()).absolute()
+        path = Path(folder).absolute() if folder else new_path("webviz")
         self.do(StartRecording(str(path)))
         return path
 
@@ -87,7 +87,7 @@ class TimeControls(ABC):
         Raises:
             Error: nothing is remembered, or the folder cannot be written.
         """
-        path = Path(folder or new_name()).absolute()
+        path = Path(folder).absolute() if folder else new_path("webviz")
         self.do(SaveMemory(seconds, str(path)))
         return path
 

@@ -79,11 +79,12 @@ def record(
 
     def work(stop: Stop) -> int:
         from webviz.api.errors import Error
+        from webviz.data.names import new_path
         from webviz.data.recordings import RecordingError
         from webviz.data.recordings.folder_writing import RecordingFolder, RecordingLimits
         from webviz.files.opening import load
         from webviz.shell.recording import TopicRecorder, topics_of
-        from webviz.sources.recording import library, new_name
+        from webviz.sources.recording import library
 
         limits = RecordingLimits(
             options.split or options.keep // 10, options.split_time, options.keep
@@ -94,7 +95,7 @@ def record(
                 patterns = ("*",) if options.all else options.topics
                 if config is not None:
                     patterns = topics_of(config, source.resolve)
-                folder = RecordingFolder(options.output or Path(new_name()), library(), limits)
+                folder = RecordingFolder(options.output or new_path("webviz"), library(), limits)
                 with TopicRecorder(source, folder, patterns) as recorder:
                     _follow(recorder, stop)
         except RecordingError as error:

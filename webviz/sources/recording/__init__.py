@@ -1,6 +1,6 @@
 """Recording of what arrives: the last minutes in memory, and files."""
 
-from webviz.sources.recording.channels import Channels, library, new_name
+from webviz.sources.recording.channels import Channels, library
 from webviz.sources.recording.recent import Entry, RecentMessages, Remembered
 from webviz.sources.recording.recorder import ForwardClock, Recorder
 
@@ -12,5 +12,4 @@ __all__ = [
     "Recorder",
     "Remembered",
     "library",
-    "new_name",
 ]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from datetime import datetime
 
 from webviz.api.offer import Offer, Publisher
 from webviz.data.messages import UnknownTypeError, definition
@@ -17,11 +16,6 @@ def library() -> str:
     import importlib.metadata  # here, as it is slow
 
     return f"webviz {importlib.metadata.version('ros-webviz')}"
-
-
-def new_name() -> str:
-    """Return the name of a recording that begins now."""
-    return f"webviz_{datetime.now():%Y_%m_%d-%H_%M_%S}"
 
 
 class Channels:
