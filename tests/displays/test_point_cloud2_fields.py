@@ -187,6 +187,16 @@ def test_rows_with_a_senseless_row_step_are_read_as_dense_and_it_is_said(row_ste
     assert f"row_step is {row_step}, less than width x point_step, 24" in read.remark
 
 
+@pytest.mark.parametrize("row_step", [48, 36, 2**32 - 1])
+def test_rows_without_gaps_are_drawn_whatever_row_step_says(row_step: int) -> None:
+    points = [{"x": [i], "y": [0], "z": [0]} for i in range(4)]
+    read = Cloud(decoded(cloud(XYZ, points, height=2) | {"row_step": row_step}))
+    assert read.positions()[0][:, 0].tolist() == [0, 1, 2, 3]
+    assert read.remark.startswith(
+        f"row_step is {row_step}, although the data fits width x point_step, 24;"
+    )
+
+
 def test_bytes_behind_the_points_are_ignored_and_it_is_said() -> None:
     values = xyz_cloud([(1, 2, 3)])
     read = Cloud(decoded(values | {"data": np.append(values["data"], np.zeros(2, np.uint8))}))

@@ -53,9 +53,11 @@ class Cloud:
         self.remark = ""
         row, size = message.width * message.point_step, len(message.data)
         self._row_step = message.row_step if message.height > 1 else row
-        if self._row_step < row:
+        if self._row_step < row or (self._row_step != row and size == row * message.height):
+            # Drivers have written the size of all rows, or nothing, and RViz ignores the field.
+            less = "less than" if self._row_step < row else "although the data fits"
             self.remark = (
-                f"row_step is {message.row_step}, less than width x point_step, {row}; "
+                f"row_step is {message.row_step}, {less} width x point_step, {row}; "
                 "reading the rows as contiguous. Fix the publisher."
             )
             self._row_step = row
