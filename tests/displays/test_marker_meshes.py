@@ -18,6 +18,7 @@ from webviz.data.messages.geometry import Vector3
 from webviz.data.messages.markers import ColorRGBA
 from webviz_displays.markers import MarkerArray, assets, meshes
 from webviz_displays.markers.batch import batch_of
+from webviz_displays.markers.faults import faults_of
 from webviz_displays.markers.meshes import NO_TINT, LoadedMesh
 from webviz_displays.markers.nodes import Files, nodes_of
 from webviz_urdf import MeshContent, MeshPart, Surface
@@ -52,6 +53,31 @@ def test_meshes_of_one_file_are_one_node_with_a_colour_each() -> None:
     assert isinstance(node, Instances)
     np.testing.assert_array_equal(node.colors, [(255, 0, 0), (0, 0, 255)])
     np.testing.assert_array_equal(node.shape.vertices, CORNERS)  # pyright: ignore[reportAttributeAccessIssue]
+
+
+def test_a_mesh_without_materials_is_white_unless_the_marker_has_a_colour() -> None:
+    part = MeshPart(CORNERS, FACE)
+    (node,) = drawn(((0, 0, 0, 0), True), ((1, 0, 0, 1), True), part=part).values()
+    np.testing.assert_array_equal(node.colors, [(255, 255, 255), (255, 0, 0)])
+    assert node.opacity == 1.0
+
+
+@pytest.mark.parametrize(
+    ("rgba", "own", "is_seen"),
+    [((0, 0, 0, 0), True, True), ((0, 0, 0, 0), False, False), ((1, 0, 0, 0), True, False)],
+)
+def test_a_mesh_that_its_alpha_makes_invisible_says_so(
+    rgba: tuple[float, ...], own: bool, is_seen: bool
+) -> None:
+    marker = Marker(
+        type=Marker.MESH_RESOURCE,
+        scale=Vector3(1.0, 1.0, 1.0),
+        color=ColorRGBA(*rgba),
+        mesh_resource="file:///a.stl",
+        mesh_use_embedded_materials=own,
+    )
+    texts = [text for _, _, text in faults_of(batch_of(MarkerSequence.of([marker])))]
+    assert texts == ([] if is_seen else ["It is invisible: alpha of the color is 0. Set it to 1."])
 
 
 @pytest.mark.parametrize(

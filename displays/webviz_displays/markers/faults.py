@@ -79,12 +79,17 @@ def faults_of(batch: MarkerBatch) -> Iterator[Fault]:
         if is_text[row] and content.text.strip():
             continue  # quickly, as there may be many
         color = batch.colors[row]
-        if fault := _fault(int(types[row]), content, scales[row].tolist(), color):
+        keeps_materials = bool(batch.own_materials[row]) and not color.any()
+        if fault := _fault(int(types[row]), content, scales[row].tolist(), color, keeps_materials):
             yield row, *fault
 
 
 def _fault(
-    type_: int, content: Content, scale: list[float], color: NDArray[np.float32]
+    type_: int,
+    content: Content,
+    scale: list[float],
+    color: NDArray[np.float32],
+    keeps_materials: bool,
 ) -> tuple[Level, str] | None:
     name = type_name(type_)
     count = len(content.points)
@@ -106,15 +111,16 @@ def _fault(
         return Level.WARN, "The text is empty."
     if type_ == Marker.MESH_RESOURCE and not content.mesh_resource:
         return Level.ERROR, "The MESH_RESOURCE names no mesh. Set mesh_resource."
-    return _invisible(type_, content, scale, color)
+    return _invisible(type_, content, scale, None if keeps_materials else color)
 
 
 def _invisible(
-    type_: int, content: Content, scale: list[float], color: NDArray[np.float32]
+    type_: int, content: Content, scale: list[float], color: NDArray[np.float32] | None
 ) -> tuple[Level, str] | None:
+    """Return why a marker is not seen; without `color`, a mesh has the materials of its file."""
     if needed := _missing_scale(type_, len(content.points), scale):
         return Level.WARN, f"The scale is 0 in {needed}. Set it to the size in metres."
-    if _is_clear(type_, content, color):
+    if color is not None and _is_clear(type_, content, color):
         whose = "every color" if len(content.colors) else "the color"
         return Level.WARN, f"It is invisible: alpha of {whose} is 0. Set it to 1."
     return None
@@ -139,8 +145,6 @@ def _is_clear(type_: int, content: Content, color: NDArray[np.float32]) -> bool:
     if color[3] > 0.0:
         each = corner_colors(content) if type_ == Marker.TRIANGLE_LIST else _colors(type_, content)
         return each is not None and not (each[:, 3] > 0.0).any()
-    if type_ == Marker.MESH_RESOURCE:
-        return bool(color[:3].any())  # all zeros keep the materials of the file
     each = corner_colors(content) if type_ == Marker.TRIANGLE_LIST else _colors(type_, content)
     return each is None or not (each[:, 3] > 0.0).any()
 
