@@ -161,6 +161,11 @@ def srgb_to_linear(srgb: NDArray[np.floating]) -> NDArray[np.floating]:
     return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
 
 
+def linear_to_srgb(linear: NDArray[np.floating]) -> NDArray[np.floating]:
+    """sRGB 0 to 1 from linear light 0 to 1 (IEC 61966-2-1)."""
+    return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+
+
 class _Writer:
     """Collects the parts of one file."""
 

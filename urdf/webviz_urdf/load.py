@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import codecs
+import re
 from collections.abc import Mapping
 from pathlib import Path, PurePosixPath
 from types import MappingProxyType
@@ -19,6 +21,12 @@ from webviz_urdf.textures import TextureError, encode, open_image, parse_image
 
 MAX_BYTES = 16 << 20
 """Of a file with a description."""
+_MARKS = {
+    codecs.BOM_UTF8: "utf-8-sig",
+    codecs.BOM_UTF16_LE: "utf-16",
+    codecs.BOM_UTF16_BE: "utf-16",
+}
+_DECLARATION = re.compile(rb"""<\?xml[^>]{0,100}?\sencoding\s*=\s*["']([A-Za-z][\w.-]{0,40})["']""")
 
 
 def load_robot(
@@ -85,10 +93,27 @@ def load_asset(request: LoadRequest, resolver: Resolver) -> MeshContent | Pictur
 
 def _read(path: Path) -> str:
     try:
-        return read_file(path, MAX_BYTES).decode("utf-8-sig")
+        data = read_file(path, MAX_BYTES)
+        encoding = _encoding_of(data)
+        return data.decode(encoding)
     except OSError as error:
         raise RobotDescriptionError(f"{path} cannot be read: {error.strerror}.") from error
     except UnicodeDecodeError as error:
-        raise RobotDescriptionError(f"{path} is not UTF-8 text: {error.reason}.") from error
+        raise RobotDescriptionError(
+            f"{path} is not {error.encoding} text: {error.reason}."
+        ) from error
+    except LookupError as error:
+        raise RobotDescriptionError(
+            f"{path} declares an encoding that is unknown: {error}."
+        ) from error
     except ValueError as error:
         raise RobotDescriptionError(f"{str(path)!r} is not a usable path: {error}.") from error
+
+
+def _encoding_of(data: bytes) -> str:
+    """Return the encoding of an XML file, by its first bytes or its declaration (XML 1.0, F)."""
+    for mark, encoding in _MARKS.items():
+        if data.startswith(mark):
+            return encoding
+    declared = _DECLARATION.match(data)
+    return declared[1].decode("ascii") if declared else "utf-8"

@@ -9,13 +9,15 @@ from typing import Any
 
 import numpy as np
 import trimesh
+from PIL import Image
 from trimesh.visual.material import PBRMaterial, SimpleMaterial
 
 from webviz.api.nodes import U8
 from webviz_urdf.dae import only_xml, without_broken_materials
 from webviz_urdf.files import read_file
-from webviz_urdf.glb import MeshContent, MeshPart, Surface
+from webviz_urdf.glb import MeshContent, MeshPart, Surface, linear_to_srgb
 from webviz_urdf.resolve import Resolver
+from webviz_urdf.stl import whole_stl
 from webviz_urdf.textures import TextureFolder, encode
 
 Scale = tuple[float, float, float]
@@ -28,6 +30,9 @@ MAX_TRIANGLES = 2_000_000
 
 FORMATS = ("dae", "stl", "obj", "ply", "off", "glb", "gltf")
 """No archives, which can expand to any size."""
+GLTF = ("glb", "gltf")
+Z_UP = np.array(((1, 0, 0, 0), (0, 0, -1, 0), (0, 1, 0, 0), (0, 0, 0, 1)), np.float64)
+"""Turns the up axis of glTF, y (glTF 2.0, section 3.4), to z, as RViz does since ros2/rviz#1482."""
 
 
 class MeshError(Exception):
@@ -38,7 +43,7 @@ def read_mesh(path: Path, resolver: Resolver) -> MeshContent:
     """Read a mesh file of one of `FORMATS`.
 
     A COLLADA file's unit is applied and its up axis is not, as in RViz, which makes Assimp
-    ignore it. Faces keep the shading of the file.
+    ignore it; that of glTF is. Faces keep the shading of the file.
 
     Raises:
         MeshError: it cannot be read, has no triangles or too many, or is an archive.
@@ -103,6 +108,8 @@ def _check_format(path: Path) -> str:
 
 def _read(data: bytes, suffix: str, textures: TextureFolder) -> tuple[list[MeshPart], list[str]]:
     """Return the file's parts, and the ids of materials that could not be used."""
+    if suffix == "stl":
+        data = whole_stl(data)
     if suffix != "dae":
         return _parts(data, suffix, textures), []
     data = only_xml(data)
@@ -137,11 +144,16 @@ def _parts(data: bytes, suffix: str, textures: TextureFolder) -> list[MeshPart]:
         mesh = scene.geometry[name]
         if isinstance(mesh, trimesh.Trimesh) and len(mesh.faces):
             unit = _unit_metres(mesh) if suffix == "dae" else 1.0
-            parts.append(_part(mesh, np.asarray(transform, np.float64), unit))
+            place = np.asarray(transform, np.float64)
+            if suffix in GLTF:
+                place = Z_UP @ place
+            parts.append(_part(mesh, place, unit, is_linear=suffix in GLTF))
     return parts
 
 
-def _part(mesh: trimesh.Trimesh, transform: np.ndarray, unit: float) -> MeshPart:
+def _part(
+    mesh: trimesh.Trimesh, transform: np.ndarray, unit: float, *, is_linear: bool
+) -> MeshPart:
     """Return the mesh in the scene's frame, in metres."""
     exact, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
     linear, is_moved = transform[:3, :3], not np.array_equal(transform, np.eye(4))
@@ -151,7 +163,7 @@ def _part(mesh: trimesh.Trimesh, transform: np.ndarray, unit: float) -> MeshPart
     if not np.isfinite(vertices).all():
         raise ValueError("a vertex is not finite, or too far away")
     surface, uvs = _surface(mesh)
-    colors = _vertex_colors(mesh)
+    colors = _vertex_colors(mesh, is_linear=is_linear)
     # trimesh has no public way to ask whether the file gave normals; without, it computes some.
     normals = mesh._cache.cache.get("vertex_normals")
     if normals is None:
@@ -190,8 +202,8 @@ def _surface(mesh: trimesh.Trimesh) -> tuple[Surface | None, np.ndarray | None]:
     uvs = None if visual.uv is None else np.asarray(visual.uv, np.float32)
     material = visual.material
     if isinstance(material, PBRMaterial):
-        factor, image = material.baseColorFactor, material.baseColorTexture
-    elif isinstance(material, SimpleMaterial) and material.kwargs:
+        return _gltf_surface(material, has_uvs=uvs is not None), uvs
+    if isinstance(material, SimpleMaterial) and material.kwargs:
         factor, image = material.diffuse, material.image
     else:  # trimesh's placeholder for texture coordinates without a material
         return None, uvs
@@ -203,11 +215,38 @@ def _surface(mesh: trimesh.Trimesh) -> tuple[Surface | None, np.ndarray | None]:
     return Surface((r, g, b, a or 1.0)), uvs
 
 
-def _vertex_colors(mesh: trimesh.Trimesh) -> U8 | None:
+def _gltf_surface(material: PBRMaterial, *, has_uvs: bool) -> Surface:
+    """Return the surface of a material of glTF 2.0, section 3.9.
+
+    The factor of its colour is linear light, and alpha counts if its mode is BLEND only; those of
+    MASK are drawn as solid.
+    """
+    factor, image = material.baseColorFactor, material.baseColorTexture
+    is_clear = material.alphaMode == "BLEND"
+    rgba = np.ones(4) if factor is None else np.asarray(factor, np.float64) / 255.0
+    alpha = float(rgba[3]) if is_clear else 1.0
+    if image is not None and has_uvs:
+        shown = image if is_clear else _without_alpha(image)
+        return Surface((1.0, 1.0, 1.0, alpha), encode(shown))
+    r, g, b = linear_to_srgb(rgba[:3]).tolist()
+    return Surface((r, g, b, alpha))
+
+
+def _without_alpha(image: Image.Image) -> Image.Image:
+    plain = image.convert("RGB")
+    plain.format = image.format  # by which it is encoded
+    return plain
+
+
+def _vertex_colors(mesh: trimesh.Trimesh, *, is_linear: bool) -> U8 | None:
     visual: Any = mesh.visual
     if visual.kind not in ("vertex", "face"):
         return None
-    return np.asarray(visual.vertex_colors, np.uint8)
+    colors = np.array(visual.vertex_colors, np.uint8)
+    if is_linear:
+        shares = colors[:, :3] / 255.0
+        colors[:, :3] = np.rint(255.0 * linear_to_srgb(shares))
+    return colors
 
 
 def _unit(vectors: np.ndarray) -> np.ndarray:

@@ -29,6 +29,15 @@ class TextureError(Exception):
     """A picture cannot be drawn; the text says why, in one or two sentences."""
 
 
+_MAP_OPTIONS = {
+    **dict.fromkeys(("-blendu", "-blendv", "-boost", "-texres", "-clamp", "-bm"), 1),
+    **dict.fromkeys(("-imfchan", "-type", "-cc"), 1),
+    "-mm": 2,
+    **dict.fromkeys(("-o", "-s", "-t"), 3),
+}
+"""Most values of each option of a texture map in MTL; the first is always there."""
+
+
 class TextureFolder(TrimeshResolver):
     """Finds the files that a mesh names: by URI, or next to the mesh by path or bare name.
 
@@ -49,14 +58,15 @@ class TextureFolder(TrimeshResolver):
             ResolveError: it cannot be used; `refused` has the reason.
         """
         reason = ""
+        name = without_options(key)
         # Exporters on Windows write backslashes, and absolute paths of the author's machine.
-        plain = key.replace("\\", "/")
-        for candidate in (key, plain, plain.rpartition("/")[2]):
+        plain = name.replace("\\", "/")
+        for candidate in (name, plain, plain.rpartition("/")[2]):
             try:
                 return self._read(self._resolver.resolve(candidate))
             except (ResolveError, TextureError) as error:
                 reason = reason or str(error)
-        self.refused[key] = reason
+        self.refused[name] = reason
         raise ResolveError(reason)
 
     def _read(self, path: Path) -> bytes:
@@ -80,6 +90,30 @@ class TextureFolder(TrimeshResolver):
     def namespaced(self, namespace: str) -> TextureFolder:
         """Return the resolver for files below the folder `namespace`."""
         return TextureFolder((self._resolver.base or Path()) / namespace, self._resolver)
+
+
+def without_options(name: str) -> str:
+    """Return the file of a map of an MTL file, which may have options before it.
+
+    They place and scale the texture (Wavefront's MTL, "Options for texture map statements") and are
+    ignored, as by RViz.
+    """
+    words = name.split(" ")
+    while len(words) > 1 and (most := _MAP_OPTIONS.get(words[0].lower())):
+        del words[0]
+        for index in range(most):
+            if len(words) < 2 or (index and not _is_number(words[0])):
+                break
+            del words[0]
+    return " ".join(words)
+
+
+def _is_number(word: str) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
 
 
 def open_image(path: Path) -> Image.Image:
