@@ -125,10 +125,12 @@ def mesh_solids(batch: MarkerBatch, meshes: Meshes) -> Iterator[Solids]:
         for piece, surface in mesh.pieces if len(with_own) else ():
             if surface is _NO_SURFACE:  # such as an STL file's
                 is_default = ~with_own.colors.any(axis=1, keepdims=True)
-                colors = np.where(is_default, np.float32(_NO_SURFACE.rgba), with_own.colors)
+                colors = np.where(
+                    is_default, np.array(_NO_SURFACE.rgba, np.float32), with_own.colors
+                )
             else:
                 tints = np.array([tint_of(color) for color in with_own.colors], np.float32)
-                colors = np.float32(surface.rgba) * tints
+                colors = np.array(surface.rgba, np.float32) * tints
             yield from piece.solids(with_own, colors)
 
 

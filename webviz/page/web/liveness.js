@@ -9,11 +9,34 @@ import * as viser from "./viser_page.js";
 
 const TICK_MS = 500;
 const LOST_TICKS = 8;
+const JOINED_MS = 8000;
+const REFUSED =
+  "webviz serves this page, but its websocket does not open. A proxy must forward the headers " +
+  "Host, with its port, and Upgrade, and no browser extension may block websockets.";
+const SILENT = "webviz does not answer. Check that it is running; this page connects by itself.";
+
+/**
+ * Says why, if the page has not joined the viewer in time, and takes it back once it has.
+ *
+ * @param {() => boolean} hasJoined
+ */
+export async function untilJoined(hasJoined) {
+  const later = () => new Promise((resolve) => setTimeout(resolve, TICK_MS));
+  const since = Date.now();
+  while (!hasJoined() && Date.now() - since < JOINED_MS) await later();
+  if (hasJoined()) return;
+  const answer = await fetch("./", { method: "HEAD" }).catch(() => null);
+  const bar = notice(answer?.ok ? REFUSED : SILENT);
+  document.body.append(bar);
+  viser.reveal();
+  while (!hasJoined()) await later();
+  bar.remove();
+}
 
 export function install() {
   // Not a clock: of a page that was busy or asleep itself, the time does not count.
   let ticks = 0;
-  let heard = Date.now();
+  let heard = 0; // when, in ms; 0 before the page has joined
   function hear() {
     [ticks, heard] = [0, Date.now()];
     hide();
@@ -59,6 +82,7 @@ export function install() {
   }
 
   function tick() {
+    if (!heard) return;
     ticks += 1;
     if (ticks < LOST_TICKS) return;
     if (ticks % LOST_TICKS === 0) askAgain();

@@ -120,5 +120,6 @@ window.webviz = {
   hasView: () => view.type() !== "",
   pick: mouse.pick,
 };
+if (!isExported) liveness.untilJoined(() => window.webviz.browser !== null);
 if (!hasWebGL()) say(NO_WEBGL); // viser's page stays empty, and nothing else is installed
 window.webvizStarted();
