@@ -64,7 +64,8 @@ def test_a_range_out_of_its_limits_has_no_cone(
     at = turned(Range(), message)
     lengths = [node.scales[0, 2] for node in at.nodes().values()]
     assert lengths == ([distance] if distance else [])
-    assert at.statuses()["Range"][0] == ("OK" if distance else "WARN")
+    is_fault = not distance and message["range"] != INF
+    assert at.statuses()["Range"][0] == ("WARN" if is_fault else "OK")
 
 
 @pytest.mark.parametrize("angle", [0.0, -0.5, math.pi, NAN])

@@ -46,6 +46,9 @@ class Range(Display):
             )
             return
         distance, sentence = measured(message)
+        if message.range == math.inf:  # no fault, but what the sensor sees
+            ctx.ok("Range", sentence)
+            return
         radius = distance * math.tan(angle / 2)
         if not 0 < distance < FARTHEST or radius > FARTHEST:
             ctx.warn("Range", sentence)
@@ -74,14 +77,18 @@ class Range(Display):
 def measured(message: Any) -> tuple[float, str]:
     """Return the distance in metres of a sensor_msgs/Range, 0 if none is drawn, and a sentence.
 
-    With equal limits it is a sensor that only says whether something is within that distance, as
-    REP 117 has it: -inf if so, +inf if not.
+    By REP 117, +inf is that nothing is in range, and -inf that something is too close. With equal
+    limits it is a sensor that only says whether something is within that distance.
     """
     low, high, distance = message.min_range, message.max_range, message.range
     if low == high:
         if distance == -math.inf or distance == low:
             return low, f"Something is within {low:g} m."
         return 0.0, f"Nothing is within {low:g} m, so there is no cone."
+    if distance == math.inf:
+        return 0.0, f"Nothing is in range, which is {high:g} m, so there is no cone."
+    if distance == -math.inf:
+        return 0.0, f"Something is closer than {low:g} m, so its distance is unknown."
     if low <= distance <= high:
         return distance, f"Showing {distance:.4g} m."
     return 0.0, f"The range {distance:g} m is not between {low:g} and {high:g} m; there is no cone."
