@@ -6,13 +6,18 @@ import json
 import logging
 import resource
 import sys
+import time
 import traceback
 from pathlib import Path
 
 from webviz.api.declared import Topic
 from webviz.api.errors import Error
+from webviz.data.map_file import MapFileError, read_map
 from webviz.files import opening
+from webviz.panels.parameter_values import of_node
+from webviz.panels.yaml_text import read_yaml
 from webviz.sources import Subscription
+from webviz.sources.bag.qos import profiles_of
 from webviz.sources.bag.source import BagSource
 from webviz_urdf import Resolver, load_robot
 from webviz_urdf.robot import RobotDescriptionError
@@ -26,6 +31,11 @@ MAX_MEMORY = 3 << 30
 """Bytes of address space, half a gigabyte of which is taken by imports."""
 MAX_STEPS = 1000
 """Of a bag that claims to be long."""
+MAX_SENTENCE = 2000
+"""Characters of an error."""
+TEXTS = (".yaml", ".rviz", ".qos", ".metadata", ".map", ".params")
+MAX_TEXT_S = 20.0
+"""Time of the processor for one text, of which the longest takes a second."""
 
 
 class _Refused(Exception):
@@ -46,6 +56,20 @@ def read(path: Path) -> None:
             open_image(path).load()
         case ".urdf":
             load_robot(path.read_bytes().decode(errors="replace"), Resolver(roots=[]))
+        case ".qos":
+            profiles_of(path.read_bytes().decode(errors="replace"))
+        case ".metadata":
+            folder = path.with_suffix("")
+            folder.mkdir(exist_ok=True)
+            path.replace(folder / "metadata.yaml")
+            BagSource(folder).close()
+        case ".map":
+            try:
+                read_map(path)
+            except MapFileError as error:
+                raise Error(str(error)) from error
+        case ".params":
+            of_node(read_yaml(path.read_bytes().decode(errors="replace")), "/a")
         case _:
             robot = load_robot(MESH.format(path), Resolver(roots=[path.parent]))
             if robot.missing:
@@ -71,21 +95,33 @@ def _play(path: Path) -> None:
         source.close()
 
 
+def _unreadable(sentence: str) -> str:
+    """Return why an error is not a sentence; "" if it is one."""
+    if "\n" in sentence:
+        return f"several lines: {sentence[:MAX_SENTENCE]}"
+    return f"{len(sentence)} characters: {sentence[:200]}" if len(sentence) > MAX_SENTENCE else ""
+
+
 def main() -> None:
     """Read files until there are no more names."""
     logging.disable()
     resource.setrlimit(resource.RLIMIT_AS, (MAX_MEMORY, MAX_MEMORY))
     for line in sys.stdin:
         broken, is_refused = "", False
+        path, start_s = Path(line.rstrip("\n")), time.process_time()
         try:
-            read(Path(line.rstrip("\n")))
+            read(path)
         except (Error, RobotDescriptionError, TextureError, _Refused) as error:
             is_refused = True
-            broken = f"several lines: {error}" if "\n" in str(error) else ""
+            broken = _unreadable(str(error))
         except MemoryError:
             is_refused = True
+            broken = f"{path.name} took all memory" if path.suffix in TEXTS else ""
         except Exception:
             broken = traceback.format_exc()
+        taken_s = time.process_time() - start_s
+        if path.suffix in TEXTS and taken_s > MAX_TEXT_S and not broken:
+            broken = f"{path.name} took {taken_s:.0f} s"
         print(json.dumps({"refused": is_refused, "broken": broken}), flush=True)
 
 

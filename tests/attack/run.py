@@ -25,6 +25,7 @@ from tests.attack.sockets import Sockets, kind_of
 from tests.attack.target import Target
 from tests.attack.uploads import Uploads
 from tests.attack.weights import Weights
+from tests.attack.yaml_texts import YamlTexts
 from webviz.server.access.roles import Role
 from webviz.shell.testing.domain import isolated_domain
 
@@ -38,6 +39,7 @@ ROLES = (None, *Role)
 KINDS = (
     *(class_.kind for class_ in (Dds, Requests, Uploads, Files, Saving, Simulator)),
     *(class_.kind for class_ in (Bombs, Graphs, Disks, Crowds, Queues, Weights)),
+    *(class_.kind for class_ in (YamlTexts,)),
     *map(kind_of, ROLES),
 )
 """Of attacks."""
@@ -84,7 +86,7 @@ def _started(attacks: Iterator[Attack], only: Sequence[str], stack: ExitStack) -
 
 def local_attacks(folder: Path) -> Iterator[Attack]:
     """Those that attack no viewer, but what it reads and how it saves."""
-    for class_ in (Files, Saving, Bombs, Disks):
+    for class_ in (Files, Saving, Bombs, Disks, YamlTexts):
         own = folder / class_.kind
         own.mkdir()
         yield class_(own)
