@@ -142,6 +142,12 @@ class BagSource:
         self.inbox.arrived.set()
 
     @property
+    def next_ns(self) -> int:
+        """Stamp of the next message of the subscriptions; that of the end after the last one."""
+        next_ns = self._replay.next_ns
+        return self.end_ns if next_ns is None else next_ns
+
+    @property
     def names(self) -> Sequence[str]:
         """Names of the files or folders."""
         return self._file.names
