@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import logging
 import resource
@@ -13,9 +14,17 @@ from pathlib import Path
 from webviz.api.declared import Topic
 from webviz.api.errors import Error
 from webviz.data.map_file import MapFileError, read_map
+from webviz.engine.commands import Seek
+from webviz.engine.loop import FrameLoop
 from webviz.files import opening
+from webviz.files.config import WatchRule
 from webviz.panels.parameter_values import of_node
 from webviz.panels.yaml_text import read_yaml
+from webviz.shell.app.reading import read_config
+from webviz.shell.doctor.examination import examine_bag
+from webviz.shell.doctor.rule_results import RuleResults
+from webviz.shell.doctor.scene import NoScene
+from webviz.shell.frames.reading import read_bag
 from webviz.sources import Subscription
 from webviz.sources.bag.qos import profiles_of
 from webviz.sources.bag.source import BagSource
@@ -33,9 +42,9 @@ MAX_STEPS = 1000
 """Of a bag that claims to be long."""
 MAX_SENTENCE = 2000
 """Characters of an error."""
-TEXTS = (".yaml", ".rviz", ".qos", ".metadata", ".map", ".params")
-MAX_TEXT_S = 20.0
-"""Time of the processor for one text, of which the longest takes a second."""
+SMALL = (".yaml", ".rviz", ".qos", ".metadata", ".map", ".params", ".examined")
+MAX_SMALL_S = 20.0
+"""Time of the processor for one text or a bag of some messages, which take a second."""
 
 
 class _Refused(Exception):
@@ -70,6 +79,8 @@ def read(path: Path) -> None:
                 raise Error(str(error)) from error
         case ".params":
             of_node(read_yaml(path.read_bytes().decode(errors="replace")), "/a")
+        case ".examined":
+            _examine(path.rename(path.with_suffix(".mcap")))
         case _:
             robot = load_robot(MESH.format(path), Resolver(roots=[path.parent]))
             if robot.missing:
@@ -95,6 +106,40 @@ def _play(path: Path) -> None:
         source.close()
 
 
+def _examine(path: Path) -> None:
+    """Read a bag as `webviz frames`, `doctor`, `export` and `screenshot` do."""
+    for examine in (_frames, _doctor, _shown):
+        with contextlib.closing(BagSource(path)) as source:
+            examine(source)
+            if source.position_ns < source.end_ns:
+                raise AssertionError(f"{examine.__name__} ends before the end")
+
+
+def _frames(source: BagSource) -> None:
+    read_bag(source, source.end_ns, lambda what, share: None)
+
+
+def _doctor(source: BagSource) -> None:
+    results = RuleResults("bag", [WatchRule(rule="/marker.rate > 0.1")])
+    examine_bag(source, read_config(None, source), "bag", lambda what, share: None, results)
+
+
+def _shown(source: BagSource) -> None:
+    loop = FrameLoop(read_config(None, source), source, NoScene())
+    try:
+        loop.turn()
+        length_s = (source.end_ns - source.start_ns) / 1e9
+        for at_s in (0.0, length_s / 2, length_s):
+            answer = loop.enqueue(Seek(at_s))
+            for _ in range(MAX_STEPS):
+                loop.turn()
+                if answer.done():
+                    break
+            answer.result(0)
+    finally:
+        loop.close()
+
+
 def _unreadable(sentence: str) -> str:
     """Return why an error is not a sentence; "" if it is one."""
     if "\n" in sentence:
@@ -116,11 +161,11 @@ def main() -> None:
             broken = _unreadable(str(error))
         except MemoryError:
             is_refused = True
-            broken = f"{path.name} took all memory" if path.suffix in TEXTS else ""
+            broken = f"{path.name} took all memory" if path.suffix in SMALL else ""
         except Exception:
             broken = traceback.format_exc()
         taken_s = time.process_time() - start_s
-        if path.suffix in TEXTS and taken_s > MAX_TEXT_S and not broken:
+        if path.suffix in SMALL and taken_s > MAX_SMALL_S and not broken:
             broken = f"{path.name} took {taken_s:.0f} s"
         print(json.dumps({"refused": is_refused, "broken": broken}), flush=True)
 

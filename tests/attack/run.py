@@ -11,6 +11,7 @@ from pathlib import Path
 
 from tests.attack.attack import Attack, Case, Violation, random_of
 from tests.attack.bombs import Bombs
+from tests.attack.clocks import Clocks
 from tests.attack.crowds import Crowds
 from tests.attack.dds import Dds
 from tests.attack.disks import Disks
@@ -39,7 +40,7 @@ ROLES = (None, *Role)
 KINDS = (
     *(class_.kind for class_ in (Dds, Requests, Uploads, Files, Saving, Simulator)),
     *(class_.kind for class_ in (Bombs, Graphs, Disks, Crowds, Queues, Weights)),
-    *(class_.kind for class_ in (YamlTexts,)),
+    *(class_.kind for class_ in (YamlTexts, Clocks)),
     *map(kind_of, ROLES),
 )
 """Of attacks."""
@@ -86,7 +87,7 @@ def _started(attacks: Iterator[Attack], only: Sequence[str], stack: ExitStack) -
 
 def local_attacks(folder: Path) -> Iterator[Attack]:
     """Those that attack no viewer, but what it reads and how it saves."""
-    for class_ in (Files, Saving, Bombs, Disks, YamlTexts):
+    for class_ in (Files, Saving, Bombs, Disks, YamlTexts, Clocks):
         own = folder / class_.kind
         own.mkdir()
         yield class_(own)

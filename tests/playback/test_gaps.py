@@ -11,7 +11,7 @@ import time
 from pathlib import Path
 
 import pytest
-from bags import START_NS, Bag
+from bags import START_NS, Bag, ns
 
 from webviz.api.declared import Topic
 from webviz.engine.commands import Seek
