@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import io
 import json
 import logging
 import resource
@@ -10,10 +11,13 @@ import sys
 import time
 import traceback
 from pathlib import Path
+from xml.etree import ElementTree
 
 from webviz.api.declared import Topic
 from webviz.api.errors import Error
 from webviz.data.map_file import MapFileError, read_map
+from webviz.data.names import readable
+from webviz.data.transforms.picture import draw_tree
 from webviz.engine.commands import Seek
 from webviz.engine.loop import FrameLoop
 from webviz.files import opening
@@ -21,7 +25,9 @@ from webviz.files.config import WatchRule
 from webviz.panels.parameter_values import of_node
 from webviz.panels.yaml_text import read_yaml
 from webviz.shell.app.reading import read_config
+from webviz.shell.cli.terminal import say, warn
 from webviz.shell.doctor.examination import examine_bag
+from webviz.shell.doctor.report import to_text
 from webviz.shell.doctor.rule_results import RuleResults
 from webviz.shell.doctor.scene import NoScene
 from webviz.shell.frames.reading import read_bag
@@ -42,7 +48,7 @@ MAX_STEPS = 1000
 """Of a bag that claims to be long."""
 MAX_SENTENCE = 2000
 """Characters of an error."""
-SMALL = (".yaml", ".rviz", ".qos", ".metadata", ".map", ".params", ".examined")
+SMALL = (".yaml", ".rviz", ".qos", ".metadata", ".map", ".params", ".examined", ".reported")
 MAX_SMALL_S = 20.0
 """Time of the processor for one text or a bag of some messages, which take a second."""
 
@@ -81,6 +87,8 @@ def read(path: Path) -> None:
             of_node(read_yaml(path.read_bytes().decode(errors="replace")), "/a")
         case ".examined":
             _examine(path.rename(path.with_suffix(".mcap")))
+        case ".reported":
+            _report(path.rename(path.with_suffix(".mcap")))
         case _:
             robot = load_robot(MESH.format(path), Resolver(roots=[path.parent]))
             if robot.missing:
@@ -113,6 +121,33 @@ def _examine(path: Path) -> None:
             examine(source)
             if source.position_ns < source.end_ns:
                 raise AssertionError(f"{examine.__name__} ends before the end")
+
+
+def _report(path: Path) -> None:
+    """Check what `webviz frames` and `webviz doctor` write of a bag."""
+    told: list[str] = []
+    with contextlib.closing(BagSource(path)) as source:
+        tree = read_bag(source, source.end_ns, lambda what, share: None)
+        told += tree.text().split("\n")
+        picture = draw_tree(tree.diagnosis, "frames", tree.notes()).svg
+        told += [each for each in ElementTree.fromstring(picture).itertext() if each.strip()]
+        sentences = [*source.warnings, *tree.diagnosis.problems]
+    with contextlib.closing(BagSource(path)) as source:
+        config = read_config(None, source)
+        report = examine_bag(source, config, "bag", lambda what, share: None)
+    told += to_text(report, is_colored=False).split("\n")
+    with contextlib.redirect_stdout(io.StringIO()) as out, contextlib.redirect_stderr(out):
+        say(*sentences)
+        warn(*(finding.cause for finding in report.findings))
+    count = out.getvalue().count("\n")
+    if count != max(1, len(sentences)) + max(1, len(report.findings)):
+        raise AssertionError(f"{count} lines of {len(sentences)} and {len(report.findings)} texts")
+    told += out.getvalue().split("\n")
+    for line in told:
+        if any(readable(part) != part for part in line.split("\n")):
+            raise AssertionError(f"a line commands the terminal: {line!a}")
+        if line.startswith("forged"):
+            raise AssertionError(f"a line is forged: {line!a}")
 
 
 def _frames(source: BagSource) -> None:

@@ -24,6 +24,7 @@ from tests.attack.saving import Saving
 from tests.attack.simulator import Simulator
 from tests.attack.sockets import Sockets, kind_of
 from tests.attack.target import Target
+from tests.attack.terminals import Terminals
 from tests.attack.uploads import Uploads
 from tests.attack.weights import Weights
 from tests.attack.yaml_texts import YamlTexts
@@ -40,7 +41,7 @@ ROLES = (None, *Role)
 KINDS = (
     *(class_.kind for class_ in (Dds, Requests, Uploads, Files, Saving, Simulator)),
     *(class_.kind for class_ in (Bombs, Graphs, Disks, Crowds, Queues, Weights)),
-    *(class_.kind for class_ in (YamlTexts, Clocks)),
+    *(class_.kind for class_ in (YamlTexts, Clocks, Terminals)),
     *map(kind_of, ROLES),
 )
 """Of attacks."""
@@ -87,7 +88,7 @@ def _started(attacks: Iterator[Attack], only: Sequence[str], stack: ExitStack) -
 
 def local_attacks(folder: Path) -> Iterator[Attack]:
     """Those that attack no viewer, but what it reads and how it saves."""
-    for class_ in (Files, Saving, Bombs, Disks, YamlTexts, Clocks):
+    for class_ in (Files, Saving, Bombs, Disks, YamlTexts, Clocks, Terminals):
         own = folder / class_.kind
         own.mkdir()
         yield class_(own)

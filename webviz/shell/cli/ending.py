@@ -17,6 +17,8 @@ from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING, NoReturn
 
+from webviz.data.names import readable
+
 if TYPE_CHECKING:
     import psutil
 
@@ -53,9 +55,10 @@ def piped(command: Callable[[], int]) -> int:
 
 
 def say(line: str) -> None:
-    """Write a line to standard error, if that is still open."""
+    """Write a line to standard error, if that is still open; it may begin with a line break."""
+    shown = "\n".join(map(readable, line.split("\n")))
     with contextlib.suppress(OSError):
-        os.write(sys.stderr.fileno(), f"{line}\n".encode())
+        os.write(sys.stderr.fileno(), f"{shown}\n".encode(errors="replace"))
 
 
 _has_said_end = threading.Lock()

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 import msgspec
 
+from webviz.data.names import readable
 from webviz.data.transforms import Diagnosis, TransformBuffer, diagnose, tree_text
 from webviz.engine.pipeline.listener import TransformListener
 from webviz.sources import Source
@@ -42,7 +43,7 @@ class TreeRead(msgspec.Struct, frozen=True):
     def text(self) -> str:
         """Return the tree for a terminal, with its faults and publishers."""
         tree = self.tree or "No transforms arrived on /tf or /tf_static."
-        return "\n".join([tree, *self.diagnosis.problems, *self.notes()])
+        return "\n".join([tree, *map(readable, (*self.diagnosis.problems, *self.notes()))])
 
 
 def read_live(source: Source, seconds: float, progress: Progress) -> TreeRead:
