@@ -13,6 +13,14 @@ import pytest
 from webviz.files.report import BugReport, PrivateNames, ReportError, read_report, write_report
 
 REPORT = BugReport(source="live", made=1.0, at_ns=2, first_ns=1, last_ns=3)
+
+
+def with_number(name: str, digits: str) -> bytes:
+    """The main part of a report with another number."""
+    values = msgspec.to_builtins(REPORT) | {name: msgspec.Raw(digits.encode())}
+    return msgspec.json.encode(values)
+
+
 WHOLE: Mapping[str, bytes] = {
     "report.json": msgspec.json.encode(REPORT),
     "config.yaml": b"version: 1\n",
@@ -54,6 +62,10 @@ def test_members_of_other_names_are_never_unpacked(tmp_path: Path) -> None:
         ({"report.json": b"{}"}, "config.yaml is missing"),
         ({**WHOLE, "report.json": b"{}"}, "report.json is invalid"),
         ({**WHOLE, "report.json": b"[" * 100_000}, "report.json is invalid"),
+        ({**WHOLE, "report.json": with_number("at_ns", "9" * 400)}, "report.json is invalid"),
+        ({**WHOLE, "report.json": with_number("first_ns", "-" + "9" * 400)}, "json is invalid"),
+        ({**WHOLE, "report.json": with_number("last_ns", str(2**63))}, "report.json is invalid"),
+        ({**WHOLE, "report.json": with_number("made", "1e999")}, "report.json is invalid"),
         ({**WHOLE, "config.yaml": bytes(5 << 20)}, "config.yaml is larger than 4 MB"),
         ({**WHOLE, "picture.png": bytes(33 << 20)}, "picture.png is larger than 32 MB"),
         ({**WHOLE, **{f"{number}": b"" for number in range(2000)}}, "too many files"),
