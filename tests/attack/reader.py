@@ -8,6 +8,7 @@ import json
 import logging
 import resource
 import sys
+import tempfile
 import time
 import traceback
 from pathlib import Path
@@ -22,6 +23,7 @@ from webviz.engine.commands import Seek
 from webviz.engine.loop import FrameLoop
 from webviz.files import opening
 from webviz.files.config import WatchRule
+from webviz.files.report import read_report
 from webviz.panels.parameter_values import of_node
 from webviz.panels.yaml_text import read_yaml
 from webviz.shell.app.reading import read_config
@@ -48,7 +50,7 @@ MAX_STEPS = 1000
 """Of a bag that claims to be long."""
 MAX_SENTENCE = 2000
 """Characters of an error."""
-SMALL = (".yaml", ".rviz", ".qos", ".metadata", ".map", ".params", ".examined", ".reported")
+SMALL = (".yaml", ".rviz", ".qos", ".metadata", ".map", ".params", ".examined", ".reported", ".zip")
 MAX_SMALL_S = 20.0
 """Time of the processor for one text or a bag of some messages, which take a second."""
 
@@ -87,6 +89,11 @@ def read(path: Path) -> None:
             of_node(read_yaml(path.read_bytes().decode(errors="replace")), "/a")
         case ".examined":
             _examine(path.rename(path.with_suffix(".mcap")))
+        case ".zip":
+            with tempfile.TemporaryDirectory() as folder:
+                unpacked = read_report(path, Path(folder))
+                f"{unpacked.report.at_s:.1f} {unpacked.report.made:.1f}"  # as it is announced
+                BagSource(unpacked.bag).close()
         case ".reported":
             _report(path.rename(path.with_suffix(".mcap")))
         case _:

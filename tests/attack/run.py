@@ -20,6 +20,7 @@ from tests.attack.graphs import Graphs
 from tests.attack.http_requests import Requests
 from tests.attack.queues import Queues
 from tests.attack.report import Breach, Report
+from tests.attack.reports import Reports
 from tests.attack.saving import Saving
 from tests.attack.simulator import Simulator
 from tests.attack.sockets import Sockets, kind_of
@@ -41,7 +42,7 @@ ROLES = (None, *Role)
 KINDS = (
     *(class_.kind for class_ in (Dds, Requests, Uploads, Files, Saving, Simulator)),
     *(class_.kind for class_ in (Bombs, Graphs, Disks, Crowds, Queues, Weights)),
-    *(class_.kind for class_ in (YamlTexts, Clocks, Terminals)),
+    *(class_.kind for class_ in (YamlTexts, Clocks, Terminals, Reports)),
     *map(kind_of, ROLES),
 )
 """Of attacks."""
@@ -88,7 +89,7 @@ def _started(attacks: Iterator[Attack], only: Sequence[str], stack: ExitStack) -
 
 def local_attacks(folder: Path) -> Iterator[Attack]:
     """Those that attack no viewer, but what it reads and how it saves."""
-    for class_ in (Files, Saving, Bombs, Disks, YamlTexts, Clocks, Terminals):
+    for class_ in (Files, Saving, Bombs, Disks, YamlTexts, Clocks, Terminals, Reports):
         own = folder / class_.kind
         own.mkdir()
         yield class_(own)

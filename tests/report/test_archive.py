@@ -80,6 +80,19 @@ def test_bombs_and_foreign_zip_files(
         read_report(path, tmp_path / "out")
 
 
+def test_a_name_of_a_member_that_has_no_end_is_not_quoted(tmp_path: Path) -> None:
+    data = zipped(tmp_path / "bug.zip", WHOLE).read_bytes()
+    at = data.index(b"config.yaml") - 4
+    long = data[:at] + (50_000).to_bytes(2, "little") + data[at + 2 :] + bytes(50_000)
+    # The table of contents stays where it was: only the header of the member claims the name.
+    path = tmp_path / "long.zip"
+    path.write_bytes(long[: len(data)])
+    (tmp_path / "out").mkdir()
+    with pytest.raises(ReportError) as error:
+        read_report(path, tmp_path / "out")
+    assert len(str(error.value)) < 500
+
+
 def test_a_member_that_is_there_twice(tmp_path: Path) -> None:
     path = zipped(tmp_path / "bug.zip", WHOLE)
     with zipfile.ZipFile(path, "a") as archive, pytest.warns(UserWarning, match="Duplicate"):
