@@ -20,7 +20,7 @@ from webviz.shell.cli.terminal import LogFormatter, say, say_json, warn
 
 ROOT = Path(__file__).parents[2]
 FORGED = "webviz: All is well (121 checks)."
-HOSTILE = f"a\x1b[2J\x1b]0;title\x07\u202eb\x9b31m\r\n{FORGED}\u2028{FORGED}\u2066c"
+HOSTILE = f"a\x1b[2J\x1b]0;title\x07\u202eb\x9b31m\n{FORGED}\n\r\n{FORGED}\u2028{FORGED}\u2066c"
 COMMANDING = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]")
 NOT_TEXT = ("webviz/shell/docs.py", "webviz/shell/typings.py")
 """Programs of those who develop webviz."""

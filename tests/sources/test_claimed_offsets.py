@@ -78,6 +78,16 @@ def test_messages_of_many_channels_outside_of_chunks_are_found_in_seconds(tmp_pa
     assert taken_s < SECONDS
 
 
+def test_messages_of_one_time_stay_in_the_order_of_the_file(tmp_path: Path) -> None:
+    path = tmp_path / "a.mcap"
+    parts = [message(3, "a"), Chunk(message(3, "b"), len(message(3, "b")), span_ns=(3, 3))]
+    path.write_bytes(mcap([*parts, message(3, "c")], with_summary=False))
+    recording = open_recording(path)
+    found = [each.data[-2:-1] for each in recording.messages(recording.channels, 0, 9)]
+    assert found == [b"a", b"b", b"c"]
+    recording.close()
+
+
 def test_regions_end_where_something_else_lies_between(tmp_path: Path) -> None:
     parts = [message(1, "a"), message(2, "b"), plain(3), message(5, "c"), plain(6), message(4, "d")]
     path = tmp_path / "a.mcap"

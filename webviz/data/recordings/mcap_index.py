@@ -245,7 +245,6 @@ class McapIndex:
     def _note(self, opcode: int, start: int, length: int) -> int:
         """Note what a record in the file contains; where the next one begins that says more."""
         if opcode == CHUNK:
-            self._end_region()
             chunk = self._chunk(start, length)
             if indexed := self._indexed(chunk):
                 self.chunks.append(indexed)
