@@ -47,7 +47,7 @@ class YamlLimits(NamedTuple):
     depth: int = 64
     """Levels; real files have fewer than 20."""
     has_aliases: bool = True
-    """Whether aliases are supported."""
+    """False refuses all aliases."""
 
 
 DEFAULTS = YamlLimits()

@@ -39,9 +39,9 @@ class Replay(Generic[C, M]):
         return self._next is None
 
     @property
-    def next_ns(self) -> int | None:
-        """The time of the next message to deliver; None after the last one."""
-        return None if self._next is None else self._next.stamp_ns
+    def next_ns(self) -> int:
+        """The time of the next message to deliver; that of the end after the last one."""
+        return self.past.end_ns if self._next is None else self._next.stamp_ns
 
     def play(self, until_ns: int) -> None:
         """Deliver everything recorded until a time, or a part of it that an inbox can hold."""

@@ -144,8 +144,7 @@ class BagSource:
     @property
     def next_ns(self) -> int:
         """Stamp of the next message of the subscriptions; that of the end after the last one."""
-        next_ns = self._replay.next_ns
-        return self.end_ns if next_ns is None else next_ns
+        return self._replay.next_ns
 
     @property
     def names(self) -> Sequence[str]:
