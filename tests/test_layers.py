@@ -61,6 +61,10 @@ EDGES = {
     "viser": ("webviz.scene", "webviz.server.http"),
 }
 """Who may know a library."""
+YAML_READER = "webviz.data.plain_yaml"
+"""The only module that reads YAML, and so bounds it."""
+YAML_NODES = ("ruamel.yaml.nodes", "ruamel.yaml.representer")
+"""Of the library, others may know the parts of documents, and how values are written."""
 MESSAGES = "webviz.data.messages"
 SHARED_WITH_THE_SIMULATOR = (
     MESSAGES,
@@ -161,6 +165,17 @@ def test_libraries_stay_at_their_edges() -> None:
         if any(is_within(other, library) for other in imports(name))
     }
     assert not wrong
+
+
+def test_yaml_is_read_by_one_module() -> None:
+    readers = {
+        name
+        for name in MODULES
+        for other in imports(name)
+        if is_within(other, "ruamel", "yaml", "strictyaml", "oyaml")
+        and not is_within(other, *YAML_NODES)
+    }
+    assert readers == {YAML_READER}
 
 
 @pytest.mark.parametrize("room", FOLDERS)

@@ -13,6 +13,7 @@ from tests.attack.agents import Agents
 from tests.attack.attack import Attack, Case, Violation, random_of
 from tests.attack.bombs import Bombs
 from tests.attack.bridges import Bridges
+from tests.attack.clocks import Clocks
 from tests.attack.crowds import Crowds
 from tests.attack.dds import Dds
 from tests.attack.disks import Disks
@@ -28,9 +29,11 @@ from tests.attack.saving import Saving
 from tests.attack.simulator import Simulator
 from tests.attack.sockets import Sockets, kind_of
 from tests.attack.target import Target
+from tests.attack.terminals import Terminals
 from tests.attack.tiles import Tiles
 from tests.attack.uploads import Uploads
 from tests.attack.weights import Weights
+from tests.attack.yaml_texts import YamlTexts
 from webviz.server.access.roles import Role
 from webviz.shell.testing.domain import isolated_domain
 
@@ -41,10 +44,15 @@ TURN_S = 2.0
 """Duration of one kind of attack before the next begins."""
 MAX_BREACHES = 20
 ROLES = (None, *Role)
+LOCAL = (
+    *(Files, Saving, Bombs, Disks, Media, Tiles, Reports, Bridges, Agents, Exported),
+    *(YamlTexts, Clocks, Terminals),
+)
+"""Attacks on no viewer, but on what it reads and how it saves; each has a folder."""
 KINDS = (
-    *(class_.kind for class_ in (Dds, Requests, Uploads, Files, Saving, Simulator)),
-    *(class_.kind for class_ in (Bombs, Graphs, Disks, Crowds, Queues, Weights)),
-    *(class_.kind for class_ in (Media, Tiles, Reports, Bridges, Agents, Exported)),
+    *(class_.kind for class_ in LOCAL),
+    *(class_.kind for class_ in (Dds, Requests, Uploads, Simulator)),
+    *(class_.kind for class_ in (Graphs, Crowds, Queues, Weights)),
     *map(kind_of, ROLES),
 )
 """Of attacks."""
@@ -91,7 +99,7 @@ def _started(attacks: Iterator[Attack], only: Sequence[str], stack: ExitStack) -
 
 def local_attacks(folder: Path) -> Iterator[Attack]:
     """Those that attack no viewer, but what it reads and how it saves."""
-    for class_ in (Files, Saving, Bombs, Disks, Media, Tiles, Reports, Bridges, Agents, Exported):
+    for class_ in LOCAL:
         own = folder / class_.kind
         own.mkdir()
         yield class_(own)

@@ -244,6 +244,14 @@ def test_numbers_that_cannot_be_written_are_refused(number: str) -> None:
         parse(f"version: 1\ndisplays: [{{type: Nothing, x: {number}}}]\n", "x.yaml")
 
 
+@pytest.mark.parametrize("key", ["? [a]", "2001-01-01", "!!binary aGk=", "~", "? {a: 1}"])
+@pytest.mark.parametrize("place", ["fixed_frame", "watch", "displays", "view", "rviz"])
+def test_keys_that_are_no_words_are_refused_by_a_sentence(key: str, place: str) -> None:
+    with pytest.raises(ConfigError) as error:
+        parse(f"{place}: {{{key} : b}}", "x.yaml")
+    assert str(error.value).startswith("x.yaml:1")
+
+
 def test_words_that_aliases_repeat_count_each_time() -> None:
     words = ", ".join(["*a"] * 500)
     with pytest.raises(ConfigError, match="is larger than 4 MB, including aliases"):

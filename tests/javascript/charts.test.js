@@ -144,6 +144,7 @@ test("the value at a time is the newest up to then", () => {
 test("CSV quotes names and leaves gaps out", () => {
   const curves = [{ name: 'a "b",ü', pieces: [piece([1, 2, 3], [1e308, NaN, Infinity])] }];
   assert.equal(csv(curves), 'curve,time (s),value\n"a ""b"",ü",1.000000,1e+308\n');
+  assert.match(csv([{ name: "=1+1", pieces: curves[0].pieces }]), /\n"'=1\+1",1\.000000,/);
   assert.equal(csv([]), "curve,time (s),value\n");
 });
 

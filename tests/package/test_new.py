@@ -64,6 +64,13 @@ def test_a_name_that_no_package_can_have_is_refused(tmp_path: Path, name: str) -
     assert not list(tmp_path.parent.glob("x"))
 
 
+@pytest.mark.parametrize("name", ["webviz", "os", "test", "numpy", "webviz_displays", "viser"])
+def test_a_package_hides_no_module(tmp_path: Path, name: str) -> None:
+    with pytest.raises(Error, match=f"already has a module `{name}`"):
+        write_package("display", name, tmp_path)
+    assert not list(tmp_path.iterdir())
+
+
 def test_nothing_is_overwritten(tmp_path: Path) -> None:
     write_package("tool", "mine", tmp_path)
     with pytest.raises(Error, match="mine already exists"):

@@ -98,6 +98,29 @@ def test_a_jump_back_of_the_clock_starts_over_but_keeps_static_transforms(b: Any
     assert "Time" not in statuses(b)
 
 
+def test_a_clock_that_jumps_at_each_message_is_logged_once_a_minute(
+    b: Any, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    now = [1000.0]
+    monkeypatch.setattr("webviz.engine.pipeline.ros_time.time.monotonic", lambda: now[0])
+    caplog.set_level("WARNING", "webviz")
+    for _ in range(50):
+        b.source.now += 10 * SECOND
+        b.turn()
+        b.source.now -= 10 * SECOND
+        b.turn()
+    assert statuses(b)["Time"][1].startswith("Time went back by 10")
+    lines = [each.message for each in caplog.records if "Time went back" in each.message]
+    assert len(lines) == 1
+    now[0] += 61.0
+    b.source.now -= 5 * SECOND
+    b.turn()
+    lines = [each.message for each in caplog.records if "Time went back" in each.message]
+    assert lines[1:] == [
+        "Time went back by 5.0 s: everything was reset. (49 similar lines omitted)"
+    ]
+
+
 def elapsed_s(b: Any) -> float:
     b.clock += 1.1
     b.statuses()

@@ -13,6 +13,14 @@ import pytest
 from webviz.files.report import BugReport, PrivateNames, ReportError, read_report, write_report
 
 REPORT = BugReport(source="live", made=1.0, at_ns=2, first_ns=1, last_ns=3)
+
+
+def with_number(name: str, digits: str) -> bytes:
+    """The main part of a report with another number."""
+    values = msgspec.to_builtins(REPORT) | {name: msgspec.Raw(digits.encode())}
+    return msgspec.json.encode(values)
+
+
 WHOLE: Mapping[str, bytes] = {
     "report.json": msgspec.json.encode(REPORT),
     "config.yaml": b"version: 1\n",
@@ -54,6 +62,10 @@ def test_members_of_other_names_are_never_unpacked(tmp_path: Path) -> None:
         ({"report.json": b"{}"}, "config.yaml is missing"),
         ({**WHOLE, "report.json": b"{}"}, "report.json is invalid"),
         ({**WHOLE, "report.json": b"[" * 100_000}, "report.json is invalid"),
+        ({**WHOLE, "report.json": with_number("at_ns", "9" * 400)}, "report.json is invalid"),
+        ({**WHOLE, "report.json": with_number("first_ns", "-" + "9" * 400)}, "json is invalid"),
+        ({**WHOLE, "report.json": with_number("last_ns", str(2**63))}, "report.json is invalid"),
+        ({**WHOLE, "report.json": with_number("made", "1e999")}, "report.json is invalid"),
         ({**WHOLE, "config.yaml": bytes(5 << 20)}, "config.yaml is larger than 4 MB"),
         ({**WHOLE, "picture.png": bytes(33 << 20)}, "picture.png is larger than 32 MB"),
         ({**WHOLE, **{f"{number}": b"" for number in range(2000)}}, "too many files"),
@@ -66,6 +78,19 @@ def test_bombs_and_foreign_zip_files(
     (tmp_path / "out").mkdir()
     with pytest.raises(ReportError, match=reason):
         read_report(path, tmp_path / "out")
+
+
+def test_a_name_of_a_member_that_has_no_end_is_not_quoted(tmp_path: Path) -> None:
+    data = zipped(tmp_path / "bug.zip", WHOLE).read_bytes()
+    at = data.index(b"config.yaml") - 4
+    long = data[:at] + (50_000).to_bytes(2, "little") + data[at + 2 :] + bytes(50_000)
+    # The table of contents stays where it was: only the header of the member claims the name.
+    path = tmp_path / "long.zip"
+    path.write_bytes(long[: len(data)])
+    (tmp_path / "out").mkdir()
+    with pytest.raises(ReportError) as error:
+        read_report(path, tmp_path / "out")
+    assert len(str(error.value)) < 500
 
 
 def test_a_member_that_is_there_twice(tmp_path: Path) -> None:

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from webviz.sources import Publisher
-from webviz.sources.bag.qos import MAX_PROFILES, MAX_TEXT, profiles_of, text_of
+from webviz.sources.bag.qos import LIMITS, MAX_PROFILES, profiles_of, text_of
 
 RELIABLE = ("reliable", "volatile")
 LATCHED = ("reliable", "transient_local")
@@ -28,8 +28,8 @@ SENSOR = ("best_effort", "volatile")
         ("- 7", []),
         ("- {depth: many}", []),
         ("[{", []),
-        ("- {depth: 1}".ljust(MAX_TEXT), [(*RELIABLE, 1)]),
-        ("- {depth: 1}".ljust(MAX_TEXT + 1), []),
+        ("- {depth: 1}".ljust(LIMITS.characters), [(*RELIABLE, 1)]),
+        ("- {depth: 1}".ljust(LIMITS.characters + 1), []),
     ],
 )
 def test_profiles_are_read_as_recorders_write_them(text: str, profiles: list[Any]) -> None:

@@ -258,6 +258,13 @@ def test_nothing_is_loaded_from_a_server_that_nobody_allowed(
         ("https://user@maps.example/a/{z}", False),
         ("https://{x}.maps.example/a/{z}", False),
         ("file:///etc/passwd", False),
+        ("https://maps.example/a/../b/{z}", False),
+        ("https://maps.example/a/%2e%2E/b/{z}", False),
+        ("https://maps.example/a/..%2fb/{z}", False),
+        ("https://maps.example/a/..\\b/{z}", False),
+        ("https://maps.example/a/%252e%252e/b/{z}", False),
+        ("https://maps.example/a/x..y/{z}", True),
+        ("https://maps.example/a/./{z}", False),
     ],
 )
 def test_an_allowed_server_allows_no_other(address: str, is_so: bool) -> None:

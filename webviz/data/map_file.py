@@ -10,9 +10,15 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
-from ruamel.yaml import YAML, YAMLError
+
+from webviz.data.plain_yaml import YamlDocumentError, YamlLimits, read_plain
+from webviz.data.words import shortened
 
 OCCUPIED, FREE, UNKNOWN = 100, 0, -1
+LIMITS = YamlLimits(values=1000, characters=1 << 16, depth=16)
+"""Of the yaml file of a map."""
+MAX_SHOWN, MAX_PATH = 60, 200
+"""Characters of a value, and of the path of an image, in an error."""
 
 
 class MapFileError(ValueError):
@@ -40,10 +46,13 @@ def read_map(path: Path) -> MapFile:
         MapFileError: A file is missing or unreadable, or an entry is missing or invalid.
     """
     try:
-        entries = YAML(typ="safe", pure=True).load(path.read_text())
+        with path.open(encoding="utf-8") as file:
+            entries = read_plain(file.read(LIMITS.characters + 1), LIMITS)
     except OSError as error:
         raise MapFileError(f"Cannot read the map {path}: {error.strerror}.") from None
-    except (YAMLError, UnicodeDecodeError):
+    except YamlDocumentError as error:
+        raise MapFileError(error.sentence(f"The map {path}")) from None
+    except UnicodeDecodeError:
         raise MapFileError(f"The map {path} is not valid YAML.") from None
     if not isinstance(entries, dict):
         raise MapFileError(f"Invalid map {path}: expected the keys image, resolution and origin.")
@@ -59,13 +68,13 @@ def _read(entries: dict[str, Any], folder: Path) -> MapFile:
         raise MapFileError(f"resolution must be above 0, not {resolution:g}")
     origin = entries.get("origin")
     if not (isinstance(origin, list) and len(origin) == 3 and all(map(_finite, origin))):
-        raise MapFileError(f"origin must be three finite numbers (x, y, yaw), not {origin}")
+        raise MapFileError(f"origin must be three finite numbers (x, y, yaw), not {_shown(origin)}")
     image = entries.get("image")
     if not isinstance(image, str) or not image:
         raise MapFileError("image must name a file")
     mode = entries.get("mode", "trinary")
     if mode not in ("trinary", "scale", "raw"):
-        raise MapFileError(f"mode must be trinary, scale or raw, not {mode}")
+        raise MapFileError(f"mode must be trinary, scale or raw, not {_shown(mode)}")
     shade, alpha = _load_image(folder / image)
     cells = occupancy(
         shade,
@@ -131,12 +140,16 @@ def _load_image(path: Path) -> tuple[NDArray[np.float64], NDArray[np.float64] | 
             has_alpha = "A" in image.getbands() or "transparency" in image.info
             pixels = np.asarray(image.convert("RGBA"), dtype=np.float64)
     except FileNotFoundError:
-        raise MapFileError(f"its image {path} does not exist") from None
+        raise MapFileError(f"its image {_shown(path, MAX_PATH)} does not exist") from None
     except (OSError, ValueError, SyntaxError, Image.DecompressionBombError):
-        raise MapFileError(f"its image {path} cannot be read") from None
+        raise MapFileError(f"its image {_shown(path, MAX_PATH)} cannot be read") from None
     # Divided once, as by map_server: a mean of quotients is off by a bit, which decides ties of .5.
     shade = pixels[..., :3].mean(axis=-1) / 255.0
     return shade, pixels[..., 3] / 255.0 if has_alpha else None
+
+
+def _shown(value: Any, most: int = MAX_SHOWN) -> str:
+    return shortened(str(value), most)
 
 
 def _finite(value: Any) -> bool:
@@ -147,7 +160,7 @@ def _number(entries: dict[str, Any], key: str) -> float:
     if key not in entries:
         raise MapFileError(f"{key} is missing")
     if not _finite(entries[key]):
-        raise MapFileError(f"{key} must be a finite number, not {entries[key]}")
+        raise MapFileError(f"{key} must be a finite number, not {_shown(entries[key])}")
     return float(entries[key])
 
 
@@ -158,4 +171,4 @@ def _flag(entries: dict[str, Any], key: str) -> bool:
         return bool(value)
     if isinstance(value, str) and value.lower() in ("yes", "on", "y", "no", "off", "n"):
         return value.lower() in ("yes", "on", "y")
-    raise MapFileError(f"{key} must be 0 or 1, not {value}")
+    raise MapFileError(f"{key} must be 0 or 1, not {_shown(value)}")

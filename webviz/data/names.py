@@ -18,9 +18,18 @@ _UNREADABLE = re.compile(
 """Control characters, line ends, marks that turn the direction of text, halves of pairs."""
 
 
-def readable(name: str) -> str:
-    """Return a name as one line that is read in one direction."""
-    return _UNREADABLE.sub(" ", name)
+def readable(name: str, mark: str = " ") -> str:
+    """Return a name as one line that is read in one direction; `mark` replaces what prevents it."""
+    return _UNREADABLE.sub(mark, name)
+
+
+def escaped(json: str) -> str:
+    """Return JSON whose texts have only readable characters; it means the same."""
+    return _UNREADABLE.sub(lambda found: found[0] if found[0] == "\n" else _escape(found[0]), json)
+
+
+def _escape(character: str) -> str:
+    return f"\\u{ord(character):04x}"
 
 
 def problem_of(name: str) -> str:

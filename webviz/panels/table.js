@@ -23,6 +23,7 @@ const RULES = `
 
 /** @param {Page} page */
 export default function install({
+  csvText,
   download,
   el,
   iconButton,
@@ -69,10 +70,7 @@ export default function install({
     });
     host.append(head, list.element);
     const save = iconButton("download", "Download as CSV", () => {
-      const lines = [columns, ...rows.map(({ cells }) => cells)].map((cells) =>
-        cells.map((cell) => `"${String(cell).replaceAll('"', '""')}"`).join(","),
-      );
-      download("table.csv", `${lines.join("\n")}\n`);
+      download("table.csv", csvText([columns, ...rows.map(({ cells }) => cells)]));
     });
 
     /**

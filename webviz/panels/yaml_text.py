@@ -8,19 +8,17 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from ruamel.yaml import YAML, YAMLError
-from ruamel.yaml.events import AliasEvent
-
 from webviz.api.errors import Error
+from webviz.data.plain_yaml import YamlDocumentError, YamlLimits, read_plain
 
 MAX_CHARACTERS = 20_000
-MAX_DEPTH = 30
+LIMITS = YamlLimits(values=MAX_CHARACTERS, characters=MAX_CHARACTERS, depth=30, has_aliases=False)
 _PLAIN = re.compile(r"[A-Za-z_/][\w/.-]*")
 _WORDS = frozenset({"true", "false", "yes", "no", "on", "off", "null", "y", "n"})
 
 
 def read_yaml(text: str) -> Any:
-    """Return the values of a short YAML text, without aliases.
+    """Return the values of a short YAML text.
 
     Raises:
         Error: it cannot be read; a sentence.
@@ -28,18 +26,10 @@ def read_yaml(text: str) -> Any:
     if len(text) > MAX_CHARACTERS:
         raise Error(f"The text has {len(text)} characters; the limit is {MAX_CHARACTERS}.")
     try:
-        depth = 0
-        for event in YAML(typ="safe", pure=True).parse(text):
-            if isinstance(event, AliasEvent):
-                raise Error("Aliases (*name) are not supported. Write the value out.")
-            kind = type(event).__name__
-            depth += kind.endswith("StartEvent") - kind.endswith("EndEvent")
-            if depth > MAX_DEPTH:
-                raise Error(f"The text is nested more than {MAX_DEPTH} levels deep.")
-        return YAML(typ="safe", pure=True).load(text)
-    except (YAMLError, ValueError, OverflowError, RecursionError) as error:
-        first = str(error).strip().partition("\n")[0][:200]
-        raise Error(f"This is not valid YAML: {first or type(error).__name__}.") from None
+        return read_plain(text, LIMITS)
+    except YamlDocumentError as error:
+        place = f"Line {error.line}" if error.line else "The text"
+        raise Error(f"{place}{error.problem}") from None
 
 
 def write_yaml(values: Mapping[str, Any]) -> str:

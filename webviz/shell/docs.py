@@ -17,7 +17,6 @@ from typing import Any
 import msgspec
 import msgspec.inspect as inspect
 from PIL import Image
-from ruamel.yaml import YAML
 
 from webviz.api.declared import Color, Declared, P, Topic
 from webviz.api.display import Display, inputs_of
@@ -25,6 +24,7 @@ from webviz.api.ports import ANY, Input
 from webviz.api.properties import FIRST, Property, properties_of, value_at
 from webviz.api.registry import plugin_types
 from webviz.api.tool import Tool, outputs_of
+from webviz.data import plain_yaml
 from webviz.files.rviz import docs as rviz
 from webviz.files.rviz.docs import table
 from webviz.shell import check_docs, reference, typings
@@ -82,7 +82,7 @@ def groups(types: Mapping[str, type[Display]]) -> dict[str, list[str]]:
         ValueError: a group names a display that does not exist, or that another one has.
     """
     text = (PAGES / "groups.yaml").read_text(encoding="utf-8")
-    found = msgspec.convert(YAML(typ="safe", pure=True).load(text), dict[str, list[str]])
+    found = msgspec.convert(plain_yaml.read_plain(text), dict[str, list[str]])
     listed = [name for names in found.values() for name in names]
     if wrong := {name for name in listed if listed.count(name) > 1 or name not in types}:
         raise ValueError(f"groups.yaml is wrong about {', '.join(sorted(wrong))}.")
@@ -99,7 +99,7 @@ def built_in(base: type[P]) -> dict[str, type[P]]:
 def read_notes() -> Mapping[str, Notes]:
     """Return the notes by display."""
     text = (PAGES / "notes.yaml").read_text(encoding="utf-8")
-    return msgspec.convert(YAML(typ="safe", pure=True).load(text), dict[str, Notes])
+    return msgspec.convert(plain_yaml.read_plain(text), dict[str, Notes])
 
 
 def page_name(name: str) -> str:

@@ -38,6 +38,11 @@ class Replay(Generic[C, M]):
         """Return whether everything that was read is delivered."""
         return self._next is None
 
+    @property
+    def next_ns(self) -> int:
+        """The time of the next message to deliver; that of the end after the last one."""
+        return self.past.end_ns if self._next is None else self._next.stamp_ns
+
     def play(self, until_ns: int) -> None:
         """Deliver everything recorded until a time, or a part of it that an inbox can hold."""
         count = size = 0

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import contextlib
-import io
 import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import msgspec
-from ruamel.yaml import YAML
 
+from webviz.data import plain_yaml
 from webviz.data.messages import UnknownTypeError, type_hash
 from webviz.data.recordings.latched import LatchedMessages
 from webviz.data.recordings.mcap_writing import McapFile
@@ -185,10 +184,9 @@ class RecordingFolder:
             return
         self._told = told
         path = self.path / METADATA
-        text = io.StringIO()
-        YAML(typ="safe").dump({INFORMATION: self._information()}, text)
+        text = plain_yaml.write({INFORMATION: self._information()})
         new = path.with_suffix(".new")
-        new.write_text(text.getvalue(), encoding="utf-8")
+        new.write_text(text, encoding="utf-8")
         new.replace(path)
 
     def _information(self) -> dict[str, Any]:
@@ -229,7 +227,10 @@ class RecordingFolder:
 
 
 def _topic(channel: RecordedChannel) -> dict[str, Any]:
-    profiles = YAML(typ="safe").load(channel.profiles) if channel.profiles else []
+    try:
+        profiles = plain_yaml.read_plain(channel.profiles) if channel.profiles else []
+    except plain_yaml.YamlDocumentError:  # of a bag whose messages are copied
+        profiles = []
     return {
         "name": channel.topic,
         "type": channel.type,

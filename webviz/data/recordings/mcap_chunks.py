@@ -126,7 +126,8 @@ def _counts(offsets: bytes, size: int) -> tuple[ChannelCounts | None, tuple[int,
         (number, (end - offset - INDEX_FIELDS.size) // INDEX_ENTRY.itemsize)
         for (offset, number), end in zip(places, ends, strict=True)
     ]
-    if not all(0 < count < 1 << 32 for _, count in counts):  # its writer left out the index
+    is_given = all(0 < count < 1 << 32 for _, count in counts) and first + size < 1 << 63
+    if not is_given:  # its writer left out the index
         return counts_of((number, 0) for number, _ in counts), (0, 0)
     return counts_of(counts), (first, size)
 

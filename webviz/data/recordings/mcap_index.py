@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections import Counter
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import BinaryIO
 from zlib import crc32
@@ -76,6 +76,17 @@ _START = re.compile(rb"[\x03-\x06].{4}\0{4}", re.DOTALL)
 """Perhaps the beginning of a record with less than 4 GiB."""
 
 
+@dataclass
+class _Region:
+    """Messages outside of chunks that follow each other."""
+
+    offset: int
+    first_ns: int
+    last_ns: int
+    size: int = 0
+    counts: Counter[int] = field(default_factory=Counter[int])
+
+
 class McapIndex:
     """Schemas, channels and chunks of a file.
 
@@ -99,6 +110,7 @@ class McapIndex:
         self._allowance = TextAllowance()
         self._left_to_search = MAX_SEARCHED
         self._index_size = INDEX_BYTES
+        self._region: _Region | None = None
         profile = self._profile()
         if profile not in ("ros2", ""):
             raise RecordingError(
@@ -122,8 +134,9 @@ class McapIndex:
         return found
 
     def _read(self, offset: int, size: int) -> bytes:
-        self._file.seek(offset)
-        return self._file.read(size)
+        """Return bytes of the file, fewer behind its end, which claims in it may exceed by far."""
+        self._file.seek(min(offset, self._size))
+        return self._file.read(min(size, self._size))
 
     def _prefix(self, offset: int) -> tuple[int, int]:
         data = self._read(offset, PREFIX.size)
@@ -186,6 +199,8 @@ class McapIndex:
 
     def _checksum(self, chunk: McapChunk) -> int:
         data = self._read(header_of(chunk) + CRC_OFFSET, 4)
+        if len(data) < 4:
+            raise BrokenRecord
         return int.from_bytes(data, "little")
 
     def _chunk(self, offset: int, length: int) -> McapChunk:
@@ -223,6 +238,7 @@ class McapIndex:
             else:
                 is_ended = opcode == FOOTER
                 at = end
+        self._end_region()
         if not is_ended:
             self._losses.others.append(END_MISSING)
 
@@ -298,18 +314,24 @@ class McapIndex:
         if stamp_ns > FOREVER_NS or not self._is_followed(start + length):
             raise BrokenRecord
         offset, size = start - PREFIX.size, length + PREFIX.size
-        last = self.chunks[-1] if self.chunks else None
-        is_region = last and not (last.crc or last.compression) and last.packed_size == last.size
-        if last and is_region and last.offset + last.size == offset and last.size < REGION:
-            size += last.size
-            first_ns, last_ns = min(last.start_ns, stamp_ns), max(last.end_ns, stamp_ns)
-            counts = dict([] if last.counts is None else last.counts.tolist())
-            counts[number] = counts.get(number, 0) + 1
-            own = counts_of(counts.items())
-            self.chunks[-1] = McapChunk(last.offset, size, size, 0, "", first_ns, last_ns, own)
-        else:
-            own = counts_of([(number, 1)])
-            self.chunks.append(McapChunk(offset, size, size, 0, "", stamp_ns, stamp_ns, own))
+        region = self._region
+        if region is None or region.offset + region.size != offset or region.size >= REGION:
+            self._end_region()
+            region = self._region = _Region(offset, stamp_ns, stamp_ns)
+        region.size += size
+        region.first_ns = min(region.first_ns, stamp_ns)
+        region.last_ns = max(region.last_ns, stamp_ns)
+        region.counts[number] += 1
+
+    def _end_region(self) -> None:
+        """Note the messages outside of chunks that were found one after the other."""
+        region, self._region = self._region, None
+        if region is not None:
+            counts = counts_of(region.counts.items())
+            span_ns = region.first_ns, region.last_ns
+            self.chunks.append(
+                McapChunk(region.offset, region.size, region.size, 0, "", *span_ns, counts)
+            )
 
     def _looked_into(self, chunk: McapChunk) -> list[McapChunk]:
         """Return the chunk with the times of its messages, none if it has none.

@@ -6,15 +6,16 @@ from collections.abc import Mapping
 from pathlib import Path, PurePath
 from typing import Any
 
-from ruamel.yaml import YAML
-
 from webviz.data.lfs import is_lfs
+from webviz.data.plain_yaml import YamlLimits, read_plain
 from webviz.data.recordings.recording import RecordingError
 from webviz.data.recordings.unpacking import COMPRESSIONS
+from webviz.data.words import shortened
 
 METADATA = "metadata.yaml"
 INFORMATION = "rosbag2_bagfile_information"
-MAX_METADATA = 16 << 20
+LIMITS = YamlLimits(values=200_000, characters=2 << 20, depth=16)
+"""A file of a recording takes 13 values, a topic 50 for each publisher, in ten seconds at most."""
 
 
 def read_metadata(folder: Path) -> tuple[list[str], str]:
@@ -37,7 +38,8 @@ def read_metadata(folder: Path) -> tuple[list[str], str]:
     except Exception as error:  # of YAML, or of the wrong types
         raise RecordingError(f"{path} is damaged: {remedy}") from error
     if compression not in COMPRESSIONS:
-        raise RecordingError(f"{folder} has messages in {compression!r}, which is unsupported.")
+        name = repr(shortened(compression, 40))
+        raise RecordingError(f"{folder} has messages in {name}, which is unsupported.")
     return list(dict.fromkeys(names)), compression
 
 
@@ -61,10 +63,8 @@ def recorded_counts(file: Path) -> Mapping[str, int]:
 
 def _text(path: Path) -> bytes:
     with path.open("rb") as file:
-        return file.read(MAX_METADATA + 1)
+        return file.read(4 * LIMITS.characters + 1)
 
 
 def _information(text: bytes) -> dict[str, Any]:
-    if len(text) > MAX_METADATA:
-        raise ValueError
-    return YAML(typ="safe").load(text)[INFORMATION]
+    return read_plain(text.decode(), LIMITS)[INFORMATION]

@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from http.client import HTTPException
 from pathlib import Path
 from typing import Any
-from urllib.parse import urlsplit
+from urllib.parse import unquote, urlsplit
 
 from webviz.data.tiles.folder import filled
 from webviz.data.tiles.source import MAX_BYTES, MAX_REASON, TileError
@@ -113,9 +113,11 @@ def is_allowed(address: str, allowed: Sequence[str]) -> bool:
     """Return whether an address begins with one of those that the owner named.
 
     Scheme, host and port must be equal, so that `https://maps.example` does not allow
-    `https://maps.example.evil`.
+    `https://maps.example.evil`; and no step of the path leads up again.
     """
     parts = urlsplit(address)
+    if _leaves(parts.path):
+        return False
     if parts.scheme not in ("http", "https") or "{" in parts.netloc:
         return False
     for each in allowed:
@@ -125,6 +127,13 @@ def is_allowed(address: str, allowed: Sequence[str]) -> bool:
         ):
             return True
     return False
+
+
+def _leaves(path: str) -> bool:
+    """Return whether a server may read a path as one of another folder, however often encoded."""
+    while (plain := unquote(path)) != path:
+        path = plain
+    return not {".", ".."}.isdisjoint(path.replace("\\", "/").split("/"))
 
 
 def user_cache() -> Path:

@@ -6,6 +6,7 @@ from itertools import islice, pairwise
 
 import msgspec
 
+from webviz.data.names import readable
 from webviz.data.transforms.buffer import TransformBuffer
 from webviz.data.transforms.cache import Cache, TimeCache
 from webviz.data.transforms.errors import NS_PER_S
@@ -114,7 +115,10 @@ def loops(buffer: TransformBuffer) -> tuple[tuple[str, ...], ...]:
 
 
 def tree_text(buffer: TransformBuffer, now_ns: int = 0) -> str:
-    """Return the tree as indented lines, each frame with its kind, rate, age and publisher."""
+    """Return the tree as indented lines, each frame with its kind, rate, age and publisher.
+
+    A name is one readable line, so that none forges another line.
+    """
     diagnosis = diagnose(buffer, now_ns)
     reports = {report.frame: report for report in diagnosis.frames}
     children: dict[str, list[str]] = {}
@@ -129,12 +133,12 @@ def tree_text(buffer: TransformBuffer, now_ns: int = 0) -> str:
     while pending:
         frame, lead, below = pending.pop()
         if frame in met:
-            lines.append(f"{lead}{frame} (loop)")
+            lines.append(f"{lead}{readable(frame)} (loop)")
             continue
         met.add(frame)
         report = reports.get(frame)
-        shown = f"  [{', '.join(facts(report))}]" if report else ""
-        lines.append(f"{lead}{frame}{shown}{'  !' if report and report.problems else ''}")
+        shown = f"  [{', '.join(map(readable, facts(report)))}]" if report else ""
+        lines.append(f"{lead}{readable(frame)}{shown}{'  !' if report and report.problems else ''}")
         forks = [("├─ ", "│  ")] * (len(children.get(frame, [])) - 1) + [("└─ ", "   ")]
         own = [
             (child, f"{below}{fork}", f"{below}{rest}")

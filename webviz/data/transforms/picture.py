@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import unicodedata
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from xml.sax.saxutils import escape
 
 import msgspec
 
+from webviz.data.names import readable
 from webviz.data.transforms.diagnosis import Diagnosis, FrameReport, facts
 from webviz.data.transforms.layout import Edge, FramePlace, TreeLayout, lay_out
 from webviz.data.words import counted
@@ -123,7 +124,7 @@ class _Drawing:
             own = ["No transform connects this tree with the others."]
         lines = [
             f'<g class="{_kind(report, bool(own))}">',
-            f"<title>{_escaped(chr(10).join([frame, *_lines(report), *own]))}</title>",
+            f"<title>{chr(10).join(map(_escaped, [frame, *_lines(report), *own]))}</title>",
             f'<rect x="{x:.0f}" y="{y:.0f}" width="{self._widths[place.column]:.0f}" '
             f'height="{BOX_HEIGHT}"/>',
             _text(_short(frame), x + PADDING / 2, y + 19, "name"),
@@ -176,15 +177,13 @@ def _text(text: str, x: float, y: float, kind: str = "") -> str:
 
 
 def _escaped(text: str) -> str:
-    """Return a text without markup, and without the characters that XML does not have."""
-    return escape("".join(_legal(text)))
+    """Return a text in one line, without markup, and without characters that XML does not have."""
+    return escape("".join(map(_legal, readable(text, "\N{REPLACEMENT CHARACTER}"))))
 
 
-def _legal(text: str) -> Iterator[str]:
-    for character in text:
-        category = unicodedata.category(character)
-        is_control = category in ("Cc", "Cs", "Cn") and character != "\n"
-        yield "\N{REPLACEMENT CHARACTER}" if is_control else character
+def _legal(character: str) -> str:
+    is_missing = unicodedata.category(character) in ("Cc", "Cs", "Cn")
+    return "\N{REPLACEMENT CHARACTER}" if is_missing else character
 
 
 def _short(text: str) -> str:

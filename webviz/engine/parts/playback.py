@@ -30,6 +30,7 @@ from webviz.engine.parts.black_box import FOLDER
 from webviz.engine.parts.part import Batches, Core, Handler, Part
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.playback import DisplayEvents, PlaybackControl
+from webviz.engine.playback.control import END_NS
 from webviz.engine.state import Row
 from webviz.files.config import nearest
 from webviz.sources.bag.source import BagSource
@@ -37,8 +38,6 @@ from webviz.sources.past_state import Event, PlaybackState
 from webviz.sources.switchable import Switchable
 
 MIN_RATE, MAX_RATE = 0.01, 1000.0
-MAX_S = 1e9
-"""Of a recording."""
 BUCKETS = 500
 """Parts of the span whose messages are counted: about one for each three pixels of a wide page."""
 LIVE = "Topics are live, so there is nothing to play. Seek to a past moment first."
@@ -260,8 +259,11 @@ class PlaybackPart(Part):
         playback = self._known().playback
         if math.isnan(seconds):
             raise Error("NaN is not a valid time. Give seconds from the start of the recording.")
-        first_s = (playback.start_ns - playback.origin_ns) / 1e9
-        return playback.origin_ns + round(min(max(seconds, first_s), MAX_S) * 1e9)
+        origin_ns, end_ns = playback.origin_ns, playback.end_ns
+        first_s, last_s = ((each - origin_ns) / 1e9 for each in (playback.start_ns, END_NS))
+        at_ns = origin_ns + round(min(max(seconds, first_s), last_s) * 1e9)
+        # Seconds of a recording of years are not accurate to a nanosecond.
+        return end_ns if seconds == (end_ns - origin_ns) / 1e9 else at_ns
 
 
 def _state_of(control: PlaybackControl, is_opened: bool) -> PlaybackState:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import time
 from collections.abc import Callable, Mapping
 
 from webviz.api.status import Level, Status
@@ -16,6 +17,8 @@ JUMP_NS = 100_000_000
 STILL_S = 2.0
 EVENT_S = 15.0
 """Duration for which a jump back of time is shown."""
+LOG_S = 60.0
+"""Between two lines of the log, since a clock may jump at each message."""
 
 
 class RosTime:
@@ -31,6 +34,8 @@ class RosTime:
         self._moved_at = clock()
         self._event = ""
         self._event_at = 0.0
+        self._logged_s = -LOG_S
+        self._omitted = 0
 
     def step(self, now_ns: int) -> bool:
         """Take the time of a turn, 0 while it is unknown; whether it went back."""
@@ -48,9 +53,15 @@ class RosTime:
         self._now_ns, self._moved_at, self._event = now_ns, self._clock(), ""
 
     def note(self, event: str) -> None:
-        """Log a sentence, and show it for a while."""
-        log.warning("%s", event)
+        """Show a sentence for a while, and log it unless one was just logged."""
         self._event, self._event_at = event, self._clock()
+        now_s = time.monotonic()
+        if now_s - self._logged_s < LOG_S:
+            self._omitted += 1
+            return
+        more = f" ({self._omitted} similar lines omitted)" if self._omitted else ""
+        log.warning("%s%s", event, more)
+        self._logged_s, self._omitted = now_s, 0
 
     def status(self, offers: Mapping[str, Offer]) -> Status | None:
         """Return whether time is missing, paused or went back; None if all is well."""

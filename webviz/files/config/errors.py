@@ -50,7 +50,10 @@ def shown(value: Any) -> str:
         return f"`{_short(value)}`"
     if isinstance(value, float):
         return f"{value:g}"
-    return _short(json.dumps(value, default=str, ensure_ascii=False))
+    try:
+        return _short(json.dumps(value, default=str, ensure_ascii=False))
+    except TypeError:  # a key is a date, or a list
+        return _short(str(value))
 
 
 def _short(text: str) -> str:

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
 from typing import Any
 
 import msgspec
-from ruamel.yaml import YAML
 from ruamel.yaml.nodes import MappingNode, Node, SequenceNode
 
 from webviz.api.declared import Declared, to_values
 from webviz.api.registry import type_name
 from webviz.api.views import Orbit, View
+from webviz.data import plain_yaml
 from webviz.files.config.model import (
     VERSION,
     Branch,
@@ -72,14 +71,8 @@ def dump_displays(items: Sequence[Item]) -> str:
 
 
 def _text(values: Any) -> str:
-    yaml = YAML(typ="safe", pure=True)
-    yaml.Representer = _Representer
-    yaml.default_flow_style = None  # short lists such as colours stay on one line
-    yaml.width = 1 << 20  # a key with a line break cannot be read back
-    yaml.sort_base_mapping_type_on_output = False  # pyright: ignore[reportAttributeAccessIssue]
-    stream = io.StringIO()
-    yaml.dump(values, stream)
-    return stream.getvalue()
+    # Short lists such as colours stay on one line. A key with a line break cannot be read back.
+    return plain_yaml.write(values, representer=_Representer, is_sorted=False)
 
 
 class _Representer(Representer):

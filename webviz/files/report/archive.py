@@ -14,6 +14,7 @@ from pathlib import Path
 
 import msgspec
 
+from webviz.data.words import plain
 from webviz.files.report.content import VERSION, BugReport, ReportError, UnpackedReport
 
 REPORT, CONFIG, SLICE = "report.json", "config.yaml", "slice.mcap"
@@ -32,6 +33,8 @@ END, END_64 = b"PK\x05\x06", b"PK\x06\x07"
 """Signatures of the end of a zip file, and of the extension that allows for larger tables."""
 END_BYTES = 22 + (1 << 16)
 """Of the end with its comment."""
+MAX_REASON = 200
+"""Characters of why a file is no report."""
 BLOCK = 1 << 20
 
 
@@ -148,7 +151,7 @@ def _decoded(path: Path, text: bytes) -> BugReport:
 
 
 def _no_report(path: Path, why: str) -> ReportError:
-    reason = why.rstrip(".")
+    reason = plain(why, MAX_REASON).rstrip(".")  # zipfile quotes names of up to 64 KB
     return ReportError(
         f"{path} is not a bug report that can be opened: {reason}. Make it again with "
         "`webviz report`."

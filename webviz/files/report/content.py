@@ -4,12 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Annotated
 
 import msgspec
 
 from webviz.api.errors import Error
 
 VERSION = 1
+
+
+Stamp = Annotated[int, msgspec.Meta(ge=-(2**63), le=2**63 - 1)]
+"""Nanoseconds since 1970."""
+Number = Annotated[int, msgspec.Meta(ge=0, le=2**53)]
 
 
 class ReportError(Error):
@@ -67,12 +73,12 @@ class ReportedPick(msgspec.Struct, frozen=True):
         color: of a point, None if all have the same.
     """
 
-    display: int
+    display: Number
     group: str
     key: str
-    number: int | None
+    number: Number | None
     at: tuple[float, float, float]
-    color: tuple[int, int, int] | None = None
+    color: tuple[Number, Number, Number] | None = None
 
 
 class BugReport(msgspec.Struct, frozen=True, kw_only=True):
@@ -93,9 +99,9 @@ class BugReport(msgspec.Struct, frozen=True, kw_only=True):
     version: int = VERSION
     source: str
     made: float
-    at_ns: int
-    first_ns: int
-    last_ns: int
+    at_ns: Stamp
+    first_ns: Stamp
+    last_ns: Stamp
     has_names: bool = False
     statuses: tuple[StatusEntry, ...] = ()
     findings: tuple[FindingEntry, ...] = ()

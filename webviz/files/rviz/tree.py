@@ -7,15 +7,14 @@ window such as 00001e20 is not a number.
 
 from __future__ import annotations
 
-import io
 import math
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
-from ruamel.yaml import YAML
 from ruamel.yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
+from webviz.data import plain_yaml
 from webviz.files.config import ConfigError, YamlDocument
 from webviz.files.config.representer import Representer
 
@@ -80,14 +79,8 @@ _Representer.add_representer(
 
 def write(tree: Tree) -> str:
     """Return a tree as YAML text, keys sorted, as RViz writes it."""
-    yaml = YAML(typ="safe", pure=True)
-    yaml.Representer = _Representer
-    yaml.default_flow_style = False
-    yaml.indent(mapping=2, sequence=4, offset=2)
-    yaml.width = 1 << 20  # RViz breaks no lines
-    stream = io.StringIO()
-    yaml.dump(_tidied(tree), stream)
-    return stream.getvalue()
+    # RViz breaks no lines.
+    return plain_yaml.write(_tidied(tree), representer=_Representer, flow=False, indent=(2, 4, 2))
 
 
 def _tidied(value: Any) -> Any:

@@ -16,6 +16,7 @@ import { panel } from "./panels/panels.js";
 import { widget } from "./panels/plugin_widgets.js";
 import { listenToPanning } from "./panning.js";
 import { groundAt, onCanvas, planeAt, surfaceAt } from "./scene/ground.js";
+import { csvText } from "./csv.js";
 import { download } from "./shell/download.js";
 import { timeOfDay } from "./shell/time_text.js";
 import { toast } from "./shell/toasts.js";
@@ -44,6 +45,7 @@ const page = Object.freeze({
   canvas,
   copy,
   copyAndTell,
+  csvText,
   download,
   el,
   fitted,

@@ -9,6 +9,7 @@ from webviz.files import config as config_file
 from webviz.files import rviz
 from webviz.files.config import ConfigError
 from webviz.files.rviz.report import percent
+from webviz.shell.cli.terminal import say
 
 
 def print_check(paths: Sequence[Path]) -> None:
@@ -22,17 +23,17 @@ def print_check(paths: Sequence[Path]) -> None:
         try:
             config, report = rviz.read(config_file.read_text(path), str(path))
         except ConfigError as error:
-            print(f"{path}: {error}")
+            say(f"{path}: {error}")
             unreadable += 1
             continue
         whole.total += report.total
         whole.carried += report.carried
         complete += report.is_complete
         counts = ", ".join(f"{report.carried[k]} of {report.total[k]} {k}" for k in report.missing)
-        print(f"{path}: {counts or 'complete'}")
+        say(f"{path}: {counts or 'complete'}")
         for sentence in config.report:
-            print(f"  {sentence}")
-    print(f"\nComplete: {complete} of {len(paths)} files, {percent(complete, len(paths)).strip()}")
-    print(whole.table())
+            say(f"  {sentence}")
+    say("", f"Complete: {complete} of {len(paths)} files, {percent(complete, len(paths)).strip()}")
+    say(*whole.table().split("\n"))
     if unreadable:
         raise ConfigError(f"{unreadable} of {len(paths)} files cannot be read.")

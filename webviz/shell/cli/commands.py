@@ -23,6 +23,7 @@ from cyclopts import (
 from webviz.api.errors import Error
 from webviz.shell.cli import viewing
 from webviz.shell.cli.options import ROS_ARGS_HELP
+from webviz.shell.cli.terminal import LogFormatter, warn
 
 FAILED, WRONG_USAGE = 1, 2
 CONFIG, BAG = "--display-config", "--bag"
@@ -78,7 +79,9 @@ def run(arguments: Sequence[str] | None = None) -> int:
         `webviz screenshot` has more.
     """
     own, ros = split_ros_arguments(sys.argv[1:] if arguments is None else arguments)
-    logging.basicConfig(format="%(name)s: %(message)s", level=logging.WARNING)
+    terminal = logging.StreamHandler()
+    terminal.setFormatter(LogFormatter())
+    logging.basicConfig(handlers=[terminal], level=logging.WARNING)
     try:
         command, given, unparsed = app.parse_args(
             with_openers(own), exit_on_error=False, print_error=False, verbose=False
@@ -87,10 +90,10 @@ def run(arguments: Sequence[str] | None = None) -> int:
             given.arguments["ros"] = ros
         return command(*given.args, **given.kwargs) or 0
     except CycloptsError as error:
-        print(f"webviz: {_mistake(error)}", file=sys.stderr)
+        warn(f"webviz: {_mistake(error)}")
         return WRONG_USAGE
     except Error as error:
-        print(f"webviz: {error}", file=sys.stderr)
+        warn(f"webviz: {error}")
         return FAILED
 
 

@@ -12,6 +12,7 @@ from webviz.files import opening, rviz
 from webviz.files.config import ConfigError
 from webviz.shell.cli.checking import print_check
 from webviz.shell.cli.options import File, Flag, Plugins, report_unsupported
+from webviz.shell.cli.terminal import say
 
 EXAMPLES = """\
 Examples:
@@ -78,7 +79,7 @@ def convert(
     else:
         config = opening.load(source)
     if report and imported is not None:
-        print(imported.table())
+        say(*imported.table().split("\n"))
     if target is None:
         return
     if target.exists() and target.samefile(source):
@@ -89,4 +90,4 @@ def convert(
     else:
         text = config_file.dump(config)
     config_file.write_text(text, target)
-    print(f"webviz: wrote {target}")
+    say(f"webviz: wrote {target}")

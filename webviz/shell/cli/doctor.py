@@ -21,6 +21,7 @@ from webviz.shell.cli.options import (
     check_source,
 )
 from webviz.shell.cli.progress import progress
+from webviz.shell.cli.terminal import say, say_json, say_painted
 
 if TYPE_CHECKING:
     from webviz.shell.doctor.report import DoctorReport
@@ -88,7 +89,10 @@ def doctor(
 
         def tell(report: DoctorReport) -> int:
             is_colored = sys.stdout.isatty() and not os.environ.get("NO_COLOR")
-            print(to_json(report) if options.json else to_text(report, is_colored), flush=True)
+            if options.json:
+                say_json(f"{to_json(report)}\n")
+            else:
+                say_painted(to_text(report, is_colored))
             return UNKNOWN if report.is_unknown else 0 if report.is_well else FOUND
 
         return _examine(options, connect, ros, until_s, tell)
@@ -150,11 +154,12 @@ def _explain(id: str) -> int:
     texts = {check.id: CheckText(check) for check in known_checks()}
     if id == "all":
         for text in texts.values():
-            print(f"{text.id:9} {text.title}")
+            say(f"{text.id:9} {text.title}")
         return 0
     if (text := texts.get(id.upper())) is None:
         raise Error(f"Unknown finding {id}: {nearest(id.upper(), texts)}")
-    print(f"{text.id}: {text.title}\n")
+    say(f"{text.id}: {text.title}", "")
     for title, parts in (("", text.what), ("Why", text.why), ("Repair", text.repair)):
-        print("\n\n".join((*([f"{title}:"] if title else []), *parts)) + "\n")
+        for part in (*([f"{title}:"] if title else []), *parts):
+            say(*part.split("\n"), "")
     return 0

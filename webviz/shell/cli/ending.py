@@ -11,10 +11,13 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future
+from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING, NoReturn
+
+from webviz.data.names import readable
 
 if TYPE_CHECKING:
     import psutil
@@ -52,9 +55,10 @@ def piped(command: Callable[[], int]) -> int:
 
 
 def say(line: str) -> None:
-    """Write a line to standard error, if that is still open."""
+    """Write a line to standard error, if that is still open; it may begin with a line break."""
+    shown = "\n".join(map(readable, line.split("\n")))
     with contextlib.suppress(OSError):
-        os.write(sys.stderr.fileno(), f"{line}\n".encode())
+        os.write(sys.stderr.fileno(), f"{shown}\n".encode(errors="replace"))
 
 
 _has_said_end = threading.Lock()
@@ -67,11 +71,33 @@ def say_end(line: str) -> None:
         say(line)
 
 
+_unfinished = set[Path]()
+"""Files that are being written beside those that they replace."""
+
+
+@contextlib.contextmanager
+def unfinished(path: Path) -> Iterator[None]:
+    """Remove a file if the program exits by force within the block."""
+    _unfinished.add(path)
+    try:
+        yield
+    finally:
+        _unfinished.discard(path)
+
+
+def _exit(status: int) -> NoReturn:
+    """Exit without unwinding any thread; child processes and unfinished files go with it."""
+    end_children()
+    for path in tuple(_unfinished):
+        with contextlib.suppress(OSError):
+            path.unlink(missing_ok=True)
+    os._exit(status)
+
+
 def leave() -> NoReturn:
     """Exit at once, ending child processes only."""
     say_end("webviz: interrupted.")
-    end_children()
-    os._exit(INTERRUPTED)
+    _exit(INTERRUPTED)
 
 
 def finish(status: int) -> NoReturn:
@@ -82,8 +108,7 @@ def finish(status: int) -> NoReturn:
     for stream in (sys.stdout, sys.stderr):
         with contextlib.suppress(OSError):  # a closed pipe or terminal
             stream.flush()
-    end_children()
-    os._exit(status)
+    _exit(status)
 
 
 def end_in_time() -> None:
@@ -92,8 +117,7 @@ def end_in_time() -> None:
     def end() -> None:
         time.sleep(PATIENCE_S)
         say(f"webviz: still busy after {PATIENCE_S:g} s; exiting by force.")
-        end_children()
-        os._exit(1)
+        _exit(1)
 
     threading.Thread(target=end, name="webviz-ending", daemon=True).start()
 

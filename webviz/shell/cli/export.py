@@ -12,6 +12,7 @@ from webviz.shell.cli.ghost_options import GhostOptions
 from webviz.shell.cli.options import ConfigOptions, File, Size
 from webviz.shell.cli.progress import progress
 from webviz.shell.cli.screenshot_options import Seconds, Time
+from webviz.shell.cli.terminal import say, warn
 
 EXAMPLES = """\
 Examples:
@@ -65,7 +66,6 @@ def export(
 
 def _make(bag: Path, options: ExportOptions) -> int:
     import contextlib
-    import sys
 
     from webviz.engine.pipeline import plugins
     from webviz.shell.export.export import export as write
@@ -90,17 +90,16 @@ def _make(bag: Path, options: ExportOptions) -> int:
         )
         made = write(order, options.output, lambda share: progress("webviz: exporting", share))
         for warning in source.warnings:
-            print(f"webviz: {bag}: {warning}", file=sys.stderr)
+            warn(f"webviz: {bag}: {warning}")
     for note in made.notes:
-        print(f"webviz: to stay below --max-size: {note}", file=sys.stderr)
+        warn(f"webviz: to stay below --max-size: {note}")
     if made.bytes > options.max_size:
-        print(
+        warn(
             "webviz: the file is larger than --max-size, even without everything large. "
-            "Choose a shorter span, or fewer displays.",
-            file=sys.stderr,
+            "Choose a shorter span, or fewer displays."
         )
     size, page = (f"{count / 1e6:.1f} MB" for count in (made.bytes, made.client_bytes))
-    print(
+    say(
         f"webviz: wrote {options.output}: {made.seconds:g} s, {made.frames} frames, {size} "
         f"({page} of it the page)."
     )

@@ -1,7 +1,6 @@
 """`webviz frames`: prints or draws the tree of transforms, live or of a bag."""
 
 import contextlib
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,6 +19,7 @@ from webviz.shell.cli.options import (
 )
 from webviz.shell.cli.progress import progress
 from webviz.shell.cli.screenshot_options import Time
+from webviz.shell.cli.terminal import say, warn
 
 if TYPE_CHECKING:
     from webviz.shell.frames.reading import TreeRead
@@ -74,7 +74,7 @@ def frames(
     def work(stop: Stop) -> int:
         tree, title = _read(options, connect, ros)
         if output is None:
-            print(tree.text(), flush=True)
+            say(*tree.text().split("\n"))
         else:
             _draw(tree, title, output)
         return FAULTY if tree.diagnosis.problems else 0
@@ -98,7 +98,7 @@ def _read(
         title = f"Frames of {options.bag.name} at {seconds_from_start(at_ns, bag):.1f} s"
         tree = read_bag(bag, at_ns, progress)
         for warning in bag.warnings:
-            print(f"webviz: {options.bag}: {warning}", file=sys.stderr)
+            warn(f"webviz: {options.bag}: {warning}")
         return tree, title
 
 
@@ -114,6 +114,6 @@ def _draw(tree: "TreeRead", title: str, output: Path) -> None:
     with writing(output) as file:
         file.write(content)
     number = counted(len(tree.diagnosis.names), "frame")
-    print(f"webviz: wrote {output}, {number}.")
+    say(f"webviz: wrote {output}, {number}.")
     for problem in tree.diagnosis.problems:
-        print(f"webviz: {problem}", file=sys.stderr)
+        warn(f"webviz: {problem}")

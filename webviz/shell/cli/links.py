@@ -10,6 +10,7 @@ from datetime import UTC, datetime
 from webviz.server.access.announcing import reachable
 from webviz.server.access.starting import link
 from webviz.server.access.tokens import Token
+from webviz.shell.cli.terminal import say, say_painted
 
 ELSEWHERE = (
     "webviz: this viewer requires a link with a token. Run `webviz token list --links` in a "
@@ -27,15 +28,15 @@ def show_links(tokens: Sequence[Token], url: str, host: str, names: Sequence[str
         names: that it may be addressed by.
     """
     if not sys.stdout.isatty():
-        print(ELSEWHERE)
+        say(ELSEWHERE)
         return
     address = reachable(url, host, names)
     for token in tokens:
         for line in lines_of(token, [address]):
-            print(f"  {line}")
+            say(f"  {line}")
     if tokens:
-        print(f"  As a QR code, the link of {tokens[0].name}:")
-        print(qr_code(link(address, tokens[0])))
+        say(f"  As a QR code, the link of {tokens[0].name}:")
+        say_painted(qr_code(link(address, tokens[0])))
 
 
 def lines_of(token: Token, addresses: Sequence[str]) -> list[str]:

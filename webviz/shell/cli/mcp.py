@@ -1,6 +1,5 @@
 """`webviz mcp`: lets agents see, ask and act."""
 
-import sys
 import threading
 from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -10,6 +9,7 @@ from cyclopts import App, Parameter, validators
 from webviz.api.errors import Error
 from webviz.shell.cli.ending import Stop, until_signal
 from webviz.shell.cli.options import ROS_ARGS_HELP, RosArgs
+from webviz.shell.cli.terminal import warn
 from webviz.shell.cli.viewing_options import BagOptions, ViewingOptions
 
 if TYPE_CHECKING:
@@ -70,10 +70,10 @@ def mcp(
             tools = AgentTools(viewer, lambda who, text: viewer.note(who.visitor(), text))
             if http is not None:
                 server = HttpServer(tools, viewer.access, "127.0.0.1", http)
-                print(f"webviz: agents at http://127.0.0.1:{http}/mcp", file=sys.stderr)
+                warn(f"webviz: agents at http://127.0.0.1:{http}/mcp")
                 threading.Thread(target=server.run, name="webviz-mcp", daemon=True).start()
                 return
-            print(f"webviz: the page is at {viewer.url}", file=sys.stderr)
+            warn(f"webviz: the page is at {viewer.url}")
 
             def talk() -> None:
                 serve_stdio(tools, AgentCaller("agent", Role[role.upper()]))

@@ -7,6 +7,7 @@ from typing import Annotated
 
 from cyclopts import App, Parameter
 
+from webviz.shell.cli.terminal import say
 from webviz.shell.new.writing import Kind, write_package
 
 EXAMPLES = """\
@@ -34,11 +35,12 @@ def new(
         output: Folder to write it to (default: the working folder).
     """
     for path in write_package(kind, name, output):
-        print(path)
+        say(str(path))
     where = output / name
-    print(
-        f"\nwebviz: wrote {where}. Next:\n"
-        f"  pip install -e {where}\n"
-        f"  pytest {where}\n"
-        f"  webviz demo -d {where / 'demo.yaml'}"
+    say(
+        "",
+        f"webviz: wrote {where}. Next:",
+        f"  pip install -e {where}",
+        f"  pytest {where}",
+        f"  webviz demo -d {where / 'demo.yaml'}",
     )

@@ -3,7 +3,6 @@
 # Without `from __future__ import annotations`: cyclopts would resolve the annotations of a base
 # class in the module of the subclass.
 import os
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,6 +12,7 @@ from cyclopts import Parameter
 
 from webviz.api.errors import Error
 from webviz.shell.cli.amounts import bytes_of
+from webviz.shell.cli.terminal import warn
 
 if TYPE_CHECKING:
     from webviz.files.config import Config
@@ -155,6 +155,6 @@ def check_source(
 def report_unsupported(path: Path, sentences: Sequence[str]) -> None:
     """Print to standard error which parts of a file are unsupported."""
     if sentences:
-        print(f"webviz: parts of {path} are unsupported:", file=sys.stderr)
+        warn(f"webviz: parts of {path} are unsupported:")
         for sentence in sentences:
-            print(f"  {sentence}", file=sys.stderr)
+            warn(f"  {sentence}")

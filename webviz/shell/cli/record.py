@@ -11,6 +11,7 @@ from cyclopts import App, Parameter, validators
 
 from webviz.shell.cli.ending import Stop, say_end, until_signal
 from webviz.shell.cli.options import ROS_ARGS_HELP, ConnectOptions, RosArgs, Size
+from webviz.shell.cli.terminal import show, warn
 
 if TYPE_CHECKING:
     from webviz.shell.recording import TopicRecorder
@@ -109,15 +110,15 @@ def _follow(recorder: "TopicRecorder", stop: Stop) -> None:
     """Record until the program is asked to end, and say how far it is."""
     stop.hold()
     stop.then(recorder.wake)
-    print(f"webviz: recording to {recorder.path} (press Ctrl-C to stop)", file=sys.stderr)
+    warn(f"webviz: recording to {recorder.path} (press Ctrl-C to stop)")
     said_s = time.monotonic()
     is_terminal = sys.stderr.isatty()
     while not stop.is_asked:
         recorder.turn()
         for problem in recorder.new_problems():
-            print(f"webviz: {problem}", file=sys.stderr)
+            warn(f"webviz: {problem}")
         if is_terminal and time.monotonic() - said_s >= SAY_S:
             said_s = time.monotonic()
-            print(f"\r{recorder.progress()}\x1b[K", end="", file=sys.stderr, flush=True)
+            show(recorder.progress())
     recorder.close()
     say_end(f"{chr(10) if is_terminal else ''}webviz: {recorder.progress()}.")

@@ -2,7 +2,6 @@
 
 # Without `from __future__ import annotations`, see `webviz.shell.cli.options`.
 import contextlib
-import sys
 from pathlib import Path
 from typing import Annotated
 
@@ -10,6 +9,7 @@ from cyclopts import App, Parameter
 
 from webviz.shell.cli.ending import INTERRUPTED, Stop, say_end, until_signal
 from webviz.shell.cli.progress import progress
+from webviz.shell.cli.terminal import warn
 
 EXAMPLES = """\
 Examples:
@@ -74,5 +74,5 @@ def _copy(bag: Path, path: Path, stop: Stop) -> int:
     state = f"is damaged: {losses}" if str(losses) else "is whole"
     state = "has no end" if losses.is_unfinished else state
     wrote = f"wrote {counted(folder.messages, 'message')} to {path}"
-    print(f"webviz: {wrote}. The original {state}.", file=sys.stderr)
+    warn(f"webviz: {wrote}. The original {state}.")
     return 0

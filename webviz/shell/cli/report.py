@@ -1,7 +1,6 @@
 """`webviz report`: writes a bug report of a bag or of live topics."""
 
 import contextlib
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
@@ -20,6 +19,7 @@ from webviz.shell.cli.options import (
 )
 from webviz.shell.cli.progress import progress
 from webviz.shell.cli.screenshot_options import Time
+from webviz.shell.cli.terminal import say, warn
 
 if TYPE_CHECKING:
     from webviz.sources import Source
@@ -108,7 +108,7 @@ def report(
             wants_picture = not (options.list or options.no_picture)
             with reported_scene(config, wants_picture) as (scene, problem):
                 if problem:
-                    print(f"webviz: the report has no picture: {problem}", file=sys.stderr)
+                    warn(f"webviz: the report has no picture: {problem}")
                 answer = make_report(
                     config,
                     source,
@@ -121,7 +121,7 @@ def report(
                     with_names=options.with_names,
                     progress=progress,
                 )
-        print(answer if options.list else f"webviz: {answer}", flush=True)
+        say(*(answer.split("\n") if options.list else [f"webviz: {answer}"]))
         return 0
 
     return until_signal(work)

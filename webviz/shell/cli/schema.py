@@ -15,6 +15,7 @@ from webviz.engine.pipeline import plugins
 from webviz.files.config import write_text
 from webviz.files.config.schema import schema as json_schema
 from webviz.shell.cli.options import File, Plugins
+from webviz.shell.cli.terminal import say, say_json
 
 SHIPPED = Path(__file__).parents[2] / "files" / "config" / "webviz.schema.json"
 """The schema of the displays and tools that come with webviz."""
@@ -49,10 +50,10 @@ def schema(
         plugins.load(path)
     written = text()
     if output is None:
-        print(written, end="")
+        say_json(written)
     else:
         write_text(written, output)
-        print(f"webviz: wrote {output}")
+        say(f"webviz: wrote {output}")
 
 
 def text() -> str:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import logging
 import math
-import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from datetime import datetime
@@ -20,6 +19,7 @@ from webviz.engine.pipeline import plugins
 from webviz.shell.cli.ending import INTERRUPTED, end_children, end_in_time, on_signal, say_end
 from webviz.shell.cli.options import ROS_ARGS_HELP, ConnectOptions, RosArgs
 from webviz.shell.cli.screenshot_options import EXAMPLES, FPS, ScreenshotOptions, check
+from webviz.shell.cli.terminal import say, warn
 from webviz.shell.pictures import files as picture_files
 from webviz.shell.pictures.files import OutputError
 from webviz.shell.pictures.times import At, every
@@ -95,7 +95,7 @@ def _make(options: ScreenshotOptions, connect: ConnectOptions, ros: Sequence[str
         status = _write(options, order)
         if isinstance(source, BagSource):
             for warning in [*source.warnings, *([_topics(source)] if status else [])]:
-                print(f"webviz: {options.bag}: {warning}", file=sys.stderr)
+                warn(f"webviz: {options.bag}: {warning}")
         return status
 
 
@@ -152,7 +152,7 @@ def _write(options: ScreenshotOptions, order: Order) -> int:
     width, height = report.size
     names = f"{written[0]}" if len(written) == 1 else f"{written[0]} to {written[-1]}"
     number = "1 picture" if report.count == 1 else f"{report.count} pictures"
-    print(f"webviz: wrote {names}, {number} of {width} x {height} pixels.")
+    say(f"webviz: wrote {names}, {number} of {width} x {height} pixels.")
     return report.print(options.timeout)
 
 
@@ -183,7 +183,7 @@ class _Report:
             return 0
         when = f"within {timeout:g} s" if first.at_s is None else f"at {first.at_s:g} s of the bag"
         more = f", nor in {self._bad - 1} more pictures" if self._bad > 1 else ""
-        print(f"webviz: not all displays are OK {when}{more}:", file=sys.stderr)
+        warn(f"webviz: not all displays are OK {when}{more}:")
         # Unsupported parts were reported when the config was read; the bag is reported afterwards.
         general = {
             key: status
@@ -191,7 +191,7 @@ class _Report:
             if status.level is not Level.OK and key not in ("Import", "Bag")
         }
         for line in _table(first.statuses | general):
-            print(f"  {line}", file=sys.stderr)
+            warn(f"  {line}")
         return NOT_OK
 
 
@@ -244,7 +244,7 @@ def _save_animation(images: Iterable[PIL.Image.Image], path: Path, fps: float) -
         save_video(images, path, fps, name)
         return path
     path = path.with_suffix(".webp")
-    print(f"webviz: {path} instead of a video, since {reason}.", file=sys.stderr)
+    warn(f"webviz: {path} instead of a video, since {reason}.")
     picture_files.save_animation(images, path, fps)
     return path
 

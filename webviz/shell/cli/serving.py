@@ -21,6 +21,7 @@ from webviz.shell.app.viewer import Viewer
 from webviz.shell.cli.ending import INTERRUPTED, Stop, say_end
 from webviz.shell.cli.links import show_links
 from webviz.shell.cli.options import ConnectOptions
+from webviz.shell.cli.terminal import say
 from webviz.shell.cli.viewing_options import BagOptions, ViewingOptions
 from webviz.sources import Source
 
@@ -149,11 +150,11 @@ def calm_collector() -> None:
 
 
 def _announce(options: ViewingOptions, viewer: Viewer, note: str) -> None:
-    print(f"webviz: open {viewer.url} (press Ctrl-C to stop)")
+    say(f"webviz: open {viewer.url} (press Ctrl-C to stop)")
     if note:
-        print(note)
+        say(note)
     if viewer.restored:
-        print(f"{viewer.restored} Start with --no-restore to see the config as it is saved.")
+        say(f"{viewer.restored} Start with --no-restore to see the config as it is saved.")
     if viewer.access.asks:
         logging.getLogger("webviz.journal").setLevel(logging.INFO)
         show_links(viewer.access.tokens, viewer.url, options.host, options.allow_host)

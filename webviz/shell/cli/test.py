@@ -17,6 +17,7 @@ from webviz.shell.cli.options import (
     Repeatable,
     RosArgs,
 )
+from webviz.shell.cli.terminal import say
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -110,12 +111,12 @@ def check_rules(
         if report is not None and options.output is not None:
             from webviz.shell.report.writing import write_test
 
-            print(f"webviz: {write_test(report, options.output, options.check)}", flush=True)
+            say(f"webviz: {write_test(report, options.output, options.check)}")
             return 0
         from webviz.files.config.atomic import write_text
 
         results = _examined(options, connect, ros)
-        print(results.to_text(), flush=True)
+        say(*results.to_text().split("\n"))
         if options.junit is not None:
             write_text(results.to_junit(), options.junit)
         return VIOLATED if results.failed else 0

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import socket
-import sys
 from datetime import UTC, datetime
 from typing import Annotated
 
@@ -18,6 +17,7 @@ from webviz.server.access.token_file import Tokens
 from webviz.server.access.tokens import RoleName, Token, TokenError, make
 from webviz.shell.cli.links import lines_of, qr_code
 from webviz.shell.cli.options import Flag
+from webviz.shell.cli.terminal import say, say_painted, warn
 
 EXAMPLES = """\
 Examples:
@@ -47,10 +47,10 @@ def list_tokens(*, links: Flag = False, url: Url = "") -> None:
     """
     tokens = token_file.read(token_file.standard_path())
     if not tokens:
-        print("No tokens. Make one with `webviz token make NAME`.")
+        say("No tokens. Make one with `webviz token make NAME`.")
     addresses = _addresses(url) if links and tokens else []
     for token in tokens:
-        print("\n".join(lines_of(token, addresses)))
+        say(*lines_of(token, addresses))
 
 
 @app.command(name="make")
@@ -112,7 +112,7 @@ def revoke_token(name: str, /) -> None:
         return tuple(token for token in tokens if token is not gone)
 
     token_file.modify(token_file.standard_path(), remove)
-    print(f"webviz: revoked {name}.")
+    say(f"webviz: revoked {name}.")
 
 
 def _find(tokens: Tokens, name: str) -> Token:
@@ -124,8 +124,8 @@ def _find(tokens: Tokens, name: str) -> Token:
 
 def _print(token: Token, url: str) -> None:
     addresses = _addresses(url)
-    print("\n".join(lines_of(token, addresses)))
-    print(qr_code(link(addresses[0], token)))
+    say(*lines_of(token, addresses))
+    say_painted(qr_code(link(addresses[0], token)))
 
 
 def _addresses(url: str) -> list[str]:
@@ -133,9 +133,8 @@ def _addresses(url: str) -> list[str]:
     if found := [url] if url else announced():
         return found
     guess = f"http://{socket.gethostname()}:8080"
-    print(
+    warn(
         f"No running viewer requires tokens. Links work once one serves {guess}; for another "
         "address give --url.",
-        file=sys.stderr,
     )
     return [guess]

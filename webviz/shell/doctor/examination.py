@@ -18,7 +18,7 @@ from webviz.api.finding import CauseLevel, Finding
 from webviz.api.observation import Observation
 from webviz.api.two_ends import TwoEnds
 from webviz.data.transforms import TransformBuffer
-from webviz.engine.commands import Seek, SetFixedFrame
+from webviz.engine.commands import SetFixedFrame
 from webviz.engine.doctor.ordering import ordered
 from webviz.engine.loop import FrameLoop
 from webviz.engine.state import State
@@ -29,6 +29,7 @@ from webviz.shell.doctor.rule_results import RuleResults
 from webviz.shell.doctor.scene import NoScene
 from webviz.sources import Offer, Source
 from webviz.sources.bag.source import BagSource
+from webviz.sources.bag.steps import steps_of
 
 DISCOVERY_S = 4.3
 """Time for the graph, which is read every two seconds: the first reading may be half of it."""
@@ -129,13 +130,12 @@ class Examination:
         self._loop.doctor.slice_s = math.inf
         length_ns = bag.end_ns - bag.start_ns
         state = self._turn()
-        for step in range(math.ceil(length_ns / STEP_NS) + 1):
-            at_ns = min(step * STEP_NS, length_ns)
-            self._loop.enqueue(Seek(at_ns / 1e9))
-            state = self._turn()
-            while bag.position_ns < bag.start_ns + at_ns:
+        for at_ns in steps_of(bag, bag.start_ns, bag.end_ns, STEP_NS):
+            while bag.position_ns < at_ns:
+                if not self._loop.is_busy():  # displays catch up first
+                    bag.play(at_ns)
                 state = self._turn()
-            self._progress("playing", at_ns / max(1, length_ns))
+            self._progress("playing", (at_ns - bag.start_ns) / max(1, length_ns))
         for _ in range(ROUNDS):  # a bag may be shorter than the time between two
             self._loop.doctor.hasten()
             state = self._turn()

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Annotated
+from typing import Annotated, Any
 
 import msgspec
 
 from webviz.api.finding import Fact, Finding, Severity
 from webviz.api.status import Level, Measurement
+from webviz.data.names import readable
 from webviz.data.words import counted
 from webviz.engine.state import State
 
@@ -161,7 +162,17 @@ def to_text(report: DoctorReport, is_colored: bool) -> str:
         report: the report.
         is_colored: whether the terminal knows ANSI colours.
     """
-    return "\n".join(_lines(report, is_colored))
+    shown = msgspec.convert(_readable(msgspec.to_builtins(report)), DoctorReport)
+    return "\n".join(_lines(shown, is_colored))
+
+
+def _readable(value: Any) -> Any:
+    """Return plain values with each text in one line."""
+    if isinstance(value, dict):
+        return {key: _readable(each) for key, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [_readable(each) for each in value]
+    return readable(value) if isinstance(value, str) else value
 
 
 def _lines(report: DoctorReport, is_colored: bool) -> Iterator[str]:

@@ -8,6 +8,7 @@ from xml.etree import ElementTree
 import msgspec
 
 from webviz.api.rule import Rule, Verdict
+from webviz.data.names import readable
 from webviz.files.config import WatchRule
 
 
@@ -88,9 +89,9 @@ class RuleResults:
     def to_text(self) -> str:
         """Return the results for a person."""
         lines = [
-            f"FAILED {each.rule.text}\n       {each.problem}"
+            f"FAILED {readable(each.rule.text)}\n       {readable(each.problem)}"
             if each.problem
-            else f"ok     {each.rule.text} ({each.extent})"
+            else f"ok     {readable(each.rule.text)} ({each.extent})"
             for each in self.all.values()
         ]
         held = len(self.all) - len(self.failed)

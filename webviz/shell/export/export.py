@@ -59,4 +59,5 @@ def export(
             facts = about(order, span, recorder, tape.index, limit.notes())
             made.finish(facts)
     seconds = (span.last_ns - span.first_ns) / 1e9
-    return ExportedFile(seconds, len(span.times_ns()), made.bytes, made.client_bytes, limit.notes())
+    frames = sum(len(chunk.times) for chunk in tape.index)
+    return ExportedFile(seconds, frames, made.bytes, made.client_bytes, limit.notes())

@@ -6,7 +6,7 @@ import contextlib
 import itertools
 import math
 import time
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator
 
 import msgspec
 
@@ -27,6 +27,7 @@ from webviz.shell.export.stores import VALUES, RecordingChannel
 from webviz.shell.export.tape import TapeFrame
 from webviz.shell.pictures.offline_viewer import OfflineViewer
 from webviz.sources.bag.source import BagSource
+from webviz.sources.bag.steps import steps_of
 
 SLOW_S = 1.0
 """Between two records of the stores that change all the time."""
@@ -79,12 +80,6 @@ class ExportSpan(msgspec.Struct, frozen=True):
     last_ns: int
     rate_hz: float
 
-    def times_ns(self) -> Sequence[int]:
-        """Return the times of the frames; the last one is that of the end."""
-        count = math.ceil((self.last_ns - self.first_ns) / 1e9 * self.rate_hz - 1e-6)
-        steps = [self.first_ns + round(number * 1e9 / self.rate_hz) for number in range(count)]
-        return [*steps, self.last_ns]
-
 
 class RunRecorder:
     """A viewer whose scene, panels and panes are recorded.
@@ -133,8 +128,9 @@ class RunRecorder:
             span: what to record.
             tell: called with the share that is done.
         """
-        times = span.times_ns()
         slow_s = -math.inf
+        length_s = (span.last_ns - span.first_ns) / 1e9
+        times = steps_of(self._source, span.first_ns, span.last_ns, 1e9 / span.rate_hz)
         for number, at_ns in enumerate(times):
             deadline = time.monotonic() + PATIENCE_S
             at_s = (at_ns - span.first_ns) / 1e9
@@ -153,7 +149,7 @@ class RunRecorder:
             stores = self.channel.take(is_slow_due)
             columns = self._columns.take()
             yield TapeFrame(at_s, ros_s, self._tape.take(), stores, columns, pictures)
-            tell((number + 1) / len(times))
+            tell(at_s / length_s if length_s else 1.0)
 
     def _show_values(self) -> None:
         """Record the details of what can be selected."""

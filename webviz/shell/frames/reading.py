@@ -7,13 +7,12 @@ from collections.abc import Callable, Mapping, Sequence
 
 import msgspec
 
+from webviz.data.names import readable
 from webviz.data.transforms import Diagnosis, TransformBuffer, diagnose, tree_text
 from webviz.engine.pipeline.listener import TransformListener
 from webviz.sources import Source
 from webviz.sources.bag.source import BagSource
 
-STEP_NS = 1_000_000_000
-"""Of a bag at once, so that the inbox drops nothing."""
 REST_S = 0.1
 
 Progress = Callable[[str, float], object]
@@ -44,7 +43,7 @@ class TreeRead(msgspec.Struct, frozen=True):
     def text(self) -> str:
         """Return the tree for a terminal, with its faults and publishers."""
         tree = self.tree or "No transforms arrived on /tf or /tf_static."
-        return "\n".join([tree, *self.diagnosis.problems, *self.notes()])
+        return "\n".join([tree, *map(readable, (*self.diagnosis.problems, *self.notes()))])
 
 
 def read_live(source: Source, seconds: float, progress: Progress) -> TreeRead:
@@ -69,15 +68,11 @@ def read_bag(bag: BagSource, at_ns: int, progress: Progress) -> TreeRead:
     """
     reader = _Reader(bag)
     span = max(1, at_ns - bag.start_ns)
-    until_ns = bag.start_ns
-    while True:
-        progress("reading", (until_ns - bag.start_ns) / span)
-        bag.play(until_ns)
+    while bag.position_ns < at_ns:
+        bag.play_step(at_ns)
         reader.take()
-        if bag.position_ns >= at_ns:
-            return reader.read()
-        if bag.position_ns >= until_ns:
-            until_ns = min(until_ns + STEP_NS, at_ns)
+        progress("reading", (bag.position_ns - bag.start_ns) / span)
+    return reader.read()
 
 
 class _Reader:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import importlib.util
 import keyword
 import re
+import sys
 from pathlib import Path
 from string import Template
 from typing import Literal, get_args
@@ -31,12 +33,18 @@ def write_package(kind: Kind, name: str, folder: Path) -> list[Path]:
         The files.
 
     Raises:
-        Error: the name is not one of a ROS package, the folder exists, or cannot be written.
+        Error: the name is not one of a ROS package or is one of a module, the folder exists, or
+            cannot be written.
     """
     if not NAME.fullmatch(name) or len(name) > LONGEST or keyword.iskeyword(name):
         raise Error(
             f"`{name[:LONGEST]}` is not the name of a ROS package. Use lower-case letters, digits "
             "and single underscores, such as `docking_station`."
+        )
+    if _is_taken(name):
+        raise Error(
+            f"Python already has a module `{name}`, which the package would hide. Choose another "
+            f"name, such as `my_{name}`."
         )
     root = folder / name
     if root.exists():
@@ -62,6 +70,18 @@ def write_package(kind: Kind, name: str, folder: Path) -> list[Path]:
         write_text(Template(text).substitute(values), path)
         written.append(path)
     return written
+
+
+def _is_taken(name: str) -> bool:
+    """Return whether Python or an installed package has a module of this name."""
+    if name in sys.stdlib_module_names:
+        return True
+    try:
+        found = importlib.util.find_spec(name)
+    except (ImportError, ValueError):
+        return True
+    # A folder that only has this name is none.
+    return found is not None and found.origin is not None
 
 
 def _files(kind: Kind, name: str) -> dict[str, str]:

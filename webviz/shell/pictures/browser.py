@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from webviz.api.errors import Error
 from webviz.api.nodes import Pane
 from webviz.server.images.frames import camera_of, warp_of
+from webviz.shell.cli.terminal import say
 from webviz.shell.pictures.browser_scripts import (
     CANVAS,
     COUNT_UNPACKING,
@@ -314,4 +315,4 @@ if __name__ == "__main__":  # the last step of `make install`
         with launched():
             pass
     except NoBrowser as error:
-        print(f"webviz is ready, but cannot make pictures yet. {error}")
+        say(f"webviz is ready, but cannot make pictures yet. {error}")

@@ -13,6 +13,7 @@ from typing import IO, TYPE_CHECKING
 import PIL.Image
 
 from webviz.api.errors import Error
+from webviz.shell.cli.ending import unfinished
 
 if TYPE_CHECKING:
     from PIL.ImageDraw import ImageDraw
@@ -153,7 +154,7 @@ def writing(path: Path) -> Iterator[IO[bytes]]:
     is_device = path.exists() and not path.is_file()
     part = path if is_device else path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
-        with part.open("wb") as file:
+        with part.open("wb") as file, contextlib.nullcontext() if is_device else unfinished(part):
             yield file
             file.flush()
             if not is_device:

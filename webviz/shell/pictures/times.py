@@ -89,13 +89,17 @@ def seconds_from_start(position_ns: int, span: Span) -> float:
 def every(first: At, last: At, step_s: float, span: Span, name: str) -> Sequence[float]:
     """Return times in equal steps, in seconds from the start of a bag, including `last`.
 
+    Those that would mean a Unix time, in a bag of decades, are Unix times.
+
     Raises:
         TimeError: a time is outside of the bag, or there are none or too many.
     """
     begin, end = (seconds_from_start(position_ns(at, span, name), span) for at in (first, last))
     if begin > end:
         raise TimeError(f"--from {begin:g} s is later than --to {end:g} s. Swap them.")
-    count = math.floor((end - begin) / step_s + 1e-6) + 1
+    steps = (end - begin) / step_s + 1e-6
+    count = math.floor(min(steps, 1e18)) + 1
     if count > MAX_TIMES:
         raise TimeError(f"That makes {count} pictures; the limit is {MAX_TIMES}. Raise --every.")
-    return [begin + index * step_s for index in range(count)]
+    times = [begin + index * step_s for index in range(count)]
+    return [each if each < ABSOLUTE_S else span.start_ns / 1e9 + each for each in times]

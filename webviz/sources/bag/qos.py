@@ -6,16 +6,17 @@ Recorders other than rosbag2 write only some policies. The messages of such bags
 from __future__ import annotations
 
 import functools
-import io
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 
-from ruamel.yaml import YAML
-
 from webviz.api.offer import Durability, Publisher, Reliability
+from webviz.data.plain_yaml import YamlLimits, read_plain, write
 
-MAX_TEXT = 1 << 20
+LIMITS = YamlLimits(values=5000, characters=1 << 16, depth=8)
+"""Of the text of one topic."""
 MAX_PROFILES = 100
+MAX_DEPTH = 1 << 31
+"""Of a queue, which is a number of 32 bits in DDS."""
 
 
 class BagProfile(NamedTuple):
@@ -38,22 +39,29 @@ def profiles_of(text: str) -> tuple[BagProfile, ...]:
         The profiles, reliable and volatile where nothing else is recorded; none if they are
         unreadable.
     """
-    if not text or len(text) > MAX_TEXT:
-        return ()
     try:
-        return tuple(map(_profile, YAML(typ="safe").load(text)[:MAX_PROFILES]))
-    except Exception:  # of YAML, or of wrong types
+        given = read_plain(text, LIMITS)
+        return tuple(map(_profile, given[:MAX_PROFILES] if isinstance(given, list) else ()))
+    except (ValueError, OverflowError):
         return ()
 
 
-def _profile(given: dict[str, Any]) -> BagProfile:
-    is_best_effort = str(given.get("reliability")).lower() in ("2", "best_effort")
-    is_latched = str(given.get("durability")).lower() in ("1", "transient_local")
+def _profile(given: Any) -> BagProfile:
+    if not isinstance(given, dict):
+        raise ValueError
+    is_best_effort = _word(given, "reliability") in ("2", "best_effort")
+    is_latched = _word(given, "durability") in ("1", "transient_local")
     return BagProfile(
         "best_effort" if is_best_effort else "reliable",
         "transient_local" if is_latched else "volatile",
-        max(0, int(given.get("depth", 0))),
+        min(max(0, int(_word(given, "depth") or 0)), MAX_DEPTH),
     )
+
+
+def _word(policies: dict[Any, Any], name: str) -> str:
+    """Return a policy as text; lists and mappings count as missing."""
+    word = policies.get(name)
+    return str(word).lower() if isinstance(word, int | str) else ""
 
 
 def text_of(publishers: Iterable[Publisher]) -> str:
@@ -76,6 +84,4 @@ def text_of(publishers: Iterable[Publisher]) -> str:
         }
         for publisher in publishers
     ]
-    text = io.StringIO()
-    YAML(typ="safe").dump(profiles, text)
-    return text.getvalue()
+    return write(profiles)

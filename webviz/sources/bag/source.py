@@ -142,6 +142,11 @@ class BagSource:
         self.inbox.arrived.set()
 
     @property
+    def next_ns(self) -> int:
+        """Stamp of the next message of the subscriptions; that of the end after the last one."""
+        return self._replay.next_ns
+
+    @property
     def names(self) -> Sequence[str]:
         """Names of the files or folders."""
         return self._file.names

@@ -1,5 +1,7 @@
 // The values of curves, as the server sends them in pieces, and what is drawn of them.
 
+import { csvText } from "../csv.js";
+
 /** @import {Curve, Facts, Piece, Range, ValuesOf, Vec2} from "../types.js" */
 
 /**
@@ -166,14 +168,14 @@ function boundsOf(piece) {
  * @param {Curve[]} curves
  */
 export function csv(curves) {
-  const lines = ["curve,time (s),value"];
+  const parts = ["curve,time (s),value\n"];
   for (const { name, pieces } of curves) {
-    const quoted = `"${name.replaceAll('"', '""')}"`;
+    const first = csvText([[name]]).trimEnd();
     for (const { times, values } of pieces) {
       times.forEach((time, i) => {
-        if (Number.isFinite(values[i])) lines.push(`${quoted},${time.toFixed(6)},${values[i]}`);
+        if (Number.isFinite(values[i])) parts.push(`${first},${time.toFixed(6)},${values[i]}\n`);
       });
     }
   }
-  return `${lines.join("\n")}\n`;
+  return parts.join("");
 }

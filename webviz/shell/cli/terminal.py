@@ -1,0 +1,63 @@
+"""The only door to the terminal: a line is one line, and contains nothing that commands a terminal.
+
+Names of frames, topics and nodes, texts of logs and of errors come from others. What they contain
+must not forge a line, hide one, turn its direction or change the terminal.
+"""
+
+from __future__ import annotations
+
+import logging
+import sys
+from typing import TextIO
+
+from webviz.data.names import escaped, readable
+
+
+def say(*lines: str) -> None:
+    """Write lines to standard output, each as one line of readable text."""
+    _write(sys.stdout, lines)
+
+
+def warn(*lines: str) -> None:
+    """Write lines to standard error, each as one line of readable text."""
+    _write(sys.stderr, lines)
+
+
+def say_painted(text: str) -> None:
+    """Write lines with colours of the terminal, whose other parts are `readable` already."""
+    print(text, flush=True)
+
+
+def say_json(text: str) -> None:
+    """Write JSON; what its texts contain that is not readable is escaped."""
+    print(escaped(text), end="", flush=True)
+
+
+def show(text: str, end: str = "") -> None:
+    """Show a line on standard error, if that is a terminal, until the next one is written.
+
+    Args:
+        text: the line.
+        end: "\\r" if the next one does not begin with it.
+    """
+    if sys.stderr.isatty():
+        print(f"\r{readable(text)}\x1b[K{end}", end="", file=sys.stderr, flush=True)
+
+
+class LogFormatter(logging.Formatter):
+    """Writes each message of a log as one line, and the lines of tracebacks below it."""
+
+    def __init__(self) -> None:
+        super().__init__("%(name)s: %(message)s")
+
+    def formatMessage(self, record: logging.LogRecord) -> str:
+        """Return a message as one line."""
+        return readable(super().formatMessage(record))
+
+    def format(self, record: logging.LogRecord) -> str:
+        """Return a message, and below it a traceback, whose last line may be a text of others."""
+        return "\n".join(map(readable, super().format(record).split("\n")))
+
+
+def _write(stream: TextIO, lines: tuple[str, ...]) -> None:
+    print(*map(readable, lines), sep="\n", file=stream, flush=True)
