@@ -20,7 +20,7 @@ class Axes(Display):
         FIXED_FRAME
     )
     length: Annotated[Metres, Prop(help="Length of each axis.")] = 1.0
-    radius: Annotated[Metres, Prop(help="Radius of each axis.")] = 0.1
+    radius: Annotated[Metres, Prop(rviz_factor=2.0, help="Radius of each axis.")] = 0.1
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """Axes that follow the reference frame."""

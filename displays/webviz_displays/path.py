@@ -66,7 +66,9 @@ class Path(Display, Comparable):
         Literal["None", "Axes", "Arrows"], Prop(help="How to draw each pose of the path.")
     ] = "None"
     length: Annotated[Metres, Prop(when=("pose_style", "Axes"), help="Length of the axes.")] = 0.3
-    radius: Annotated[Metres, Prop(when=("pose_style", "Axes"), help="Radius of the axes.")] = 0.03
+    radius: Annotated[
+        Metres, Prop(when=("pose_style", "Axes"), rviz_factor=2.0, help="Radius of the axes.")
+    ] = 0.03
     pose_color: Annotated[
         Color, Prop(when=("pose_style", "Arrows"), help="Colour of the arrows.")
     ] = (255, 85, 255)

@@ -587,7 +587,8 @@ def test_the_plain_displays_have_rvizs_names_and_report_nothing() -> None:
         "linear_color": (1, 2, 3),
     }
     assert values["Wrist"] == {"topic": "", "accept_nan_values": True, "force_arrow_scale": 0.5}
-    amcl = {"topic": "", "shape": "Axes", "axes_length": 0.5}
+    halves = {"axes_radius": 0.05, "head_radius": 0.05, "shaft_radius": 0.025}
+    amcl = {"topic": "", "shape": "Axes", "axes_length": 0.5, **halves}
     assert values["Amcl"] == amcl | {"covariance": {"position": {"value": False}}}
     particles = {"topic": "", "shape": "Arrow (3D)", "max_arrow_length": 0.5}
     assert values["Particles"] == particles

@@ -478,3 +478,28 @@ def test_a_background_is_written_unless_it_follows_the_theme(background: Any) ->
     text, _ = rviz.write(config)
     assert ("Background Color" in text) == (background is not None)
     assert parse(text, "a.rviz").settings.background == background
+
+
+THICK = """\
+Visualization Manager:
+  Displays:
+    - {Class: rviz_default_plugins/Axes, Name: Axes, Radius: 0.3}
+    - {Class: rviz_default_plugins/Pose, Name: Pose, Shaft Radius: 0.07, Axes Radius: 0.1}
+    - {Class: rviz_default_plugins/PointStamped, Name: Point}
+    - Class: rviz_default_plugins/Odometry
+      Name: Odometry
+      Shape: {Value: Axes, Axes Radius: 0.02, Shaft Radius: 0.05}
+"""
+
+
+def test_radii_of_rviz_which_are_diameters_are_halved_and_doubled_again() -> None:
+    config = parse(THICK, "a.rviz")
+    axes, pose, point, odometry = (each for each in config.displays)
+    read = [axes.radius, pose.shaft_radius, pose.head_radius, point.radius]  # pyright: ignore[reportAttributeAccessIssue]
+    assert read == [0.15, 0.035, 0.05, 0.1]
+    assert odometry.shape.axes_radius == 0.01  # pyright: ignore[reportAttributeAccessIssue]
+    written, _ = opening.text_of(config, "b.rviz")
+    for line in ("Radius: 0.3\n", "Shaft Radius: 0.07\n", "Axes Radius: 0.02\n"):
+        assert line in written
+    again = parse(written, "b.rviz").displays
+    assert [again[0].radius, again[3].shape] == [axes.radius, odometry.shape]  # pyright: ignore[reportAttributeAccessIssue]

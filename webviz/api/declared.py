@@ -42,6 +42,7 @@ def Prop(
     unit: str = "",
     rviz: str = "",
     rviz_default: object = None,
+    rviz_factor: float = 1.0,
     when: tuple[str, object] | None = None,
     widget: Literal["", "displays", "frame", "names"] = "",
     otherwise: str = "",
@@ -57,6 +58,8 @@ def Prop(
         unit: "m", "s", "px", ...
         rviz: RViz's name, if it differs from this name with spaces and capitals.
         rviz_default: RViz's default, if it differs: what a .rviz file without the property means.
+        rviz_factor: RViz's number for what this one is 1 for, such as 2 for a radius that RViz
+            draws as a diameter.
         when: (property, value) at which this property has an effect; several values as a tuple.
         widget: the control, if the type alone does not determine it; "frame" for the id of a frame,
             or for switches by the ids of frames; "names" for switches by names that the display
@@ -68,6 +71,8 @@ def Prop(
     extra: dict[str, object] = {key: value for key, value in hints.items() if value}
     if rviz_default is not None:
         extra["rviz_default"] = rviz_default
+    if rviz_factor != 1.0:
+        extra["rviz_factor"] = rviz_factor
     bounds: dict[str, Any] = {"gt": gt, "ge": ge, "lt": lt, "le": le}
     return msgspec.Meta(description=help or None, extra=extra, **bounds)
 

@@ -28,7 +28,7 @@ class Property:
         label: RViz's name, with the unit.
         help: one sentence, or "".
         unit: "m", "s", "px", ... or "".
-        rviz, rviz_default: see `webviz.Prop`.
+        rviz, rviz_default, rviz_factor: see `webviz.Prop`.
         widget: see `webviz.Prop`.
         otherwise: path of the property that holds for names without a value here, or "".
         hint: its Python type without annotations.
@@ -46,6 +46,7 @@ class Property:
     unit: str
     rviz: str
     rviz_default: object
+    rviz_factor: float
     widget: str
     otherwise: str
     hint: Any
@@ -140,6 +141,7 @@ def _properties(cls: type[msgspec.Struct], prefix: str, group: str) -> tuple[Pro
                 unit=said.get("unit", ""),
                 rviz=said.get("rviz", ""),
                 rviz_default=said.get("rviz_default"),
+                rviz_factor=said.get("rviz_factor", 1.0),
                 widget=said.get("widget", ""),
                 otherwise=prefix + other if (other := said.get("otherwise")) else "",
                 hint=bare(hint),

@@ -28,7 +28,7 @@ class PointStamped(Display):
     ] = Topic("/clicked_point")
     color: Annotated[Color, Prop(help="Colour of the spheres.")] = (204, 41, 204)
     alpha: Annotated[Alpha, Prop(help="Opacity; 0 is invisible.")] = 1.0
-    radius: Annotated[Length, Prop(help="Radius of the spheres.")] = 0.2
+    radius: Annotated[Length, Prop(rviz_factor=2.0, help="Radius of the spheres.")] = 0.2
     history_length: HistoryLength = 1
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:

@@ -38,11 +38,17 @@ class PoseArray(Display):
     shaft_length: Annotated[
         float, Prop(ge=0, le=LONGEST, unit="m", when=BY_SOLID, help="Length of the shafts.")
     ] = 0.23
-    shaft_radius: Annotated[Length, Prop(when=BY_SOLID, help="Radius of the shafts.")] = 0.01
+    shaft_radius: Annotated[
+        Length, Prop(when=BY_SOLID, rviz_factor=2.0, help="Radius of the shafts.")
+    ] = 0.01
     head_length: Annotated[Length, Prop(when=BY_SOLID, help="Length of the heads.")] = 0.07
-    head_radius: Annotated[Length, Prop(when=BY_SOLID, help="Radius of the heads.")] = 0.03
+    head_radius: Annotated[
+        Length, Prop(when=BY_SOLID, rviz_factor=2.0, help="Radius of the heads.")
+    ] = 0.03
     axes_length: Annotated[Length, Prop(when=BY_AXES, help="Length of each axis.")] = 0.3
-    axes_radius: Annotated[Length, Prop(when=BY_AXES, help="Radius of each axis.")] = 0.01
+    axes_radius: Annotated[
+        Length, Prop(when=BY_AXES, rviz_factor=2.0, help="Radius of each axis.")
+    ] = 0.01
     history_length: HistoryLength = 1
 
     def draw(self, sample: Sample, ctx: Context) -> None:

@@ -36,11 +36,17 @@ class PoseDisplay(Display):
     shaft_length: Annotated[
         float, Prop(ge=0, le=LONGEST, unit="m", when=BY_ARROW, help="Length of the shaft.")
     ] = 1.0
-    shaft_radius: Annotated[Length, Prop(when=BY_ARROW, help="Radius of the shaft.")] = 0.05
+    shaft_radius: Annotated[
+        Length, Prop(when=BY_ARROW, rviz_factor=2.0, help="Radius of the shaft.")
+    ] = 0.05
     head_length: Annotated[Length, Prop(when=BY_ARROW, help="Length of the head.")] = 0.3
-    head_radius: Annotated[Length, Prop(when=BY_ARROW, help="Radius of the head.")] = 0.1
+    head_radius: Annotated[
+        Length, Prop(when=BY_ARROW, rviz_factor=2.0, help="Radius of the head.")
+    ] = 0.1
     axes_length: Annotated[Length, Prop(when=BY_AXES, help="Length of each axis.")] = 1.0
-    axes_radius: Annotated[Length, Prop(when=BY_AXES, help="Radius of each axis.")] = 0.1
+    axes_radius: Annotated[
+        Length, Prop(when=BY_AXES, rviz_factor=2.0, help="Radius of each axis.")
+    ] = 0.1
     history_length: HistoryLength = 1
 
     def new_state(self) -> GrowingTrail:

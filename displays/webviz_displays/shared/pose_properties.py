@@ -28,13 +28,17 @@ class PoseShape(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
     shaft_length: Annotated[
         float, Prop(ge=0, unit="m", when=("value", "Arrow"), help="Length of the shaft.")
     ] = 1.0
-    shaft_radius: Annotated[Metres, Prop(when=("value", "Arrow"), help="Radius of the shaft.")] = (
-        0.05
-    )
+    shaft_radius: Annotated[
+        Metres, Prop(when=("value", "Arrow"), rviz_factor=2.0, help="Radius of the shaft.")
+    ] = 0.05
     head_length: Annotated[Metres, Prop(when=("value", "Arrow"), help="Length of the head.")] = 0.3
-    head_radius: Annotated[Metres, Prop(when=("value", "Arrow"), help="Radius of the head.")] = 0.1
+    head_radius: Annotated[
+        Metres, Prop(when=("value", "Arrow"), rviz_factor=2.0, help="Radius of the head.")
+    ] = 0.1
     axes_length: Annotated[Metres, Prop(when=("value", "Axes"), help="Length of each axis.")] = 1.0
-    axes_radius: Annotated[Metres, Prop(when=("value", "Axes"), help="Radius of each axis.")] = 0.1
+    axes_radius: Annotated[
+        Metres, Prop(when=("value", "Axes"), rviz_factor=2.0, help="Radius of each axis.")
+    ] = 0.1
 
 
 class PositionCovariance(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

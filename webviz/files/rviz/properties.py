@@ -30,6 +30,7 @@ class RvizProperty(msgspec.Struct, frozen=True):
         low: least number allowed.
         high: greatest number allowed.
         port: of a topic, whether it is subscribed to or published.
+        factor: number in RViz for what is 1 here.
         is_tree: whether it has a switch for each display, nested as displays are in groups.
     """
 
@@ -41,6 +42,7 @@ class RvizProperty(msgspec.Struct, frozen=True):
     low: float | None = None
     high: float | None = None
     port: Input | Output | None = None
+    factor: float = 1.0
     is_tree: bool = False
 
 
@@ -58,16 +60,20 @@ def keys(cls: type[Declared]) -> frozenset[str]:
 
 
 def _property(declared: Property) -> RvizProperty:
+    missing = declared.rviz_default
+    if declared.rviz_factor != 1.0:  # its default is RViz's number
+        missing = declared.default / declared.rviz_factor
     ge, gt, le, lt = (getattr(declared.type, bound, None) for bound in ("ge", "gt", "le", "lt"))
     return RvizProperty(
         declared.path,
         tuple(declared.rviz.split("/")) if declared.rviz else (_rviz_name(declared.path),),
         declared.hint,
         declared.default,
-        declared.rviz_default,
+        missing,
         ge if gt is None else gt + LEAST,
         le if lt is None else lt - LEAST,
         declared.port,
+        declared.rviz_factor,
         declared.widget == "displays",
     )
 

@@ -52,6 +52,9 @@ class Reading(msgspec.Struct):
             raw = _at(tree, place.path)
             if raw is None and place.missing is not None:
                 result[place.name] = place.missing
+            elif raw is None and _is_struct(place.kind):
+                if missing := self.struct(place.kind, {}):
+                    result[place.name] = missing
             elif raw is not None:
                 path = (*above, *place.path)
                 try:
@@ -64,7 +67,7 @@ class Reading(msgspec.Struct):
         self, place: RvizProperty, raw: Any, path: Path, all: tuple[RvizProperty, ...]
     ) -> Any:
         origin = typing.get_origin(place.kind)
-        if isinstance(place.kind, type) and issubclass(place.kind, msgspec.Struct):
+        if _is_struct(place.kind):
             if not isinstance(raw, Mapping):  # of an old file
                 self.used.add(path)
             return self.struct(place.kind, _opened(raw), path)
@@ -81,6 +84,8 @@ class Reading(msgspec.Struct):
             self.used |= {path, (*path, "Value")}
             return values.AUTO if values.AUTO in typing.get_args(place.kind) else place.default
         value = values.read(_limited(raw, place), place.kind)
+        if place.factor != 1.0:
+            value /= place.factor
         is_leaf = not isinstance(raw, Mapping) or origin is tuple
         self.used |= set(leaves(raw, path)) if is_leaf else {(*path, "Value")}
         return self._bounded(value, place, path)
@@ -90,7 +95,7 @@ class Reading(msgspec.Struct):
         if not isinstance(raw, Mapping):
             raise Unfit("expected entries")
         result = {}
-        is_struct = isinstance(kind, type) and issubclass(kind, msgspec.Struct)
+        is_struct = _is_struct(kind)
         for name, entry in raw.items():
             must_be_open = is_struct or path[-1] in WITH_CHILDREN
             if name in others or (must_be_open and not isinstance(entry, Mapping)):
@@ -148,7 +153,11 @@ def _written(value: Any, place: RvizProperty, first: Topic) -> Any:
         }
     if isinstance(value, list):
         return msgspec.to_builtins(value)
-    return values.write(value, place.kind)
+    return values.write(value if place.factor == 1.0 else value * place.factor, place.kind)
+
+
+def _is_struct(kind: Any) -> bool:
+    return isinstance(kind, type) and issubclass(kind, msgspec.Struct)
 
 
 def _at(tree: Any, path: Path) -> Any:
