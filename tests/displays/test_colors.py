@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import ArrayLike
 
-from webviz_displays.shared.colors import RAINBOW, bounds, faded, ramp
+from webviz_displays.shared.colors import LAYERS, RAINBOW, bounds, layers, ramp
 
 
 @pytest.mark.parametrize(
@@ -85,7 +85,12 @@ def test_bounds_ignore_what_is_not_finite() -> None:
     assert bounds([5.0, 5.0], least_span=0.5) == (5.0, 5.5)
 
 
-def test_alpha_fades_towards_the_background_of_rviz() -> None:
-    assert faded(np.array([[160, 160, 164]], np.uint8), 0.5).tolist() == [[104, 104, 106]]
-    assert faded(np.array([[248, 48, 0]], np.uint8), 0.25).tolist() == [[98, 48, 36]]
-    assert faded(np.array([[255, 25, 0]], np.uint8), 0.0).tolist() == [[48, 48, 48]]
+def test_each_opacity_is_a_layer() -> None:
+    found = [(level, mask.tolist()) for level, mask in layers(np.array([1.0, 0.5, 0.0, 0.5]))]
+    assert found == [(0.5, [False, True, False, True]), (1.0, [True, False, False, False])]
+
+
+def test_many_opacities_are_rounded_up_to_few_layers() -> None:
+    found = list(layers(np.linspace(0.0, 1.0, 256)))
+    assert [level for level, _ in found] == [step / LAYERS for step in range(1, LAYERS + 1)]
+    assert sum(int(mask.sum()) for _, mask in found) == 255

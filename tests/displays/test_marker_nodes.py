@@ -157,13 +157,17 @@ def test_an_odd_list_of_lines_is_not_drawn() -> None:
     assert not drawn(marker(Marker.LINE_LIST, points=points((0, 0, 0), (1, 0, 0), (2, 0, 0))))
 
 
-def test_points_are_squares_and_fade_to_the_background() -> None:
+def test_points_are_squares_and_each_opacity_is_a_node() -> None:
     where = points((0, 0, 0), (1, 0, 0), (2, 0, 0))
     each = colors((1, 1, 1, 1), (1, 1, 1, 0.5), (1, 1, 1, 0))
-    node = drawn(marker(Marker.POINTS, (0.2, 0.2, 0), points=where, colors=each))["points 0.2"]
-    assert isinstance(node, Points)
-    np.testing.assert_array_equal(node.colors, [(255, 255, 255), (152, 152, 152)])
-    assert (node.size, node.shape) == (0.2, "square")
+    nodes = drawn(marker(Marker.POINTS, (0.2, 0.2, 0), points=where, colors=each))
+    for (key, node), (x, opacity) in zip(
+        sorted(nodes.items()), [(10.0, 1.0), (11.0, 128 / 255)], strict=True
+    ):
+        assert isinstance(node, Points), key
+        np.testing.assert_array_equal(node.xyz, [(x, 0, 0)])
+        assert (node.colors, node.opacity) == ((255, 255, 255), opacity)
+        assert (node.size, node.shape) == (0.2, "square")
 
 
 def test_texts_of_one_height_are_one_node() -> None:
@@ -178,6 +182,15 @@ def test_texts_of_one_height_are_one_node() -> None:
     assert isinstance(node, Labels)
     assert node.texts == ("ab\ncd", "\u6e2f")
     np.testing.assert_array_equal(node.colors, [(255, 0, 0), (0, 0, 255)])
+
+
+def test_texts_keep_their_colour_below_full_opacity() -> None:
+    nodes = drawn(
+        marker(Marker.TEXT_VIEW_FACING, (0, 0, 0.3), (1, 0, 0, 0.3), text="faint"),
+        marker(Marker.TEXT_VIEW_FACING, (0, 0, 0.3), (1, 0, 0, 1), text="solid"),
+    )
+    found = {node.texts: (node.colors, node.opacity) for node in nodes.values()}  # pyright: ignore[reportAttributeAccessIssue]
+    assert found == {("faint",): ((255, 0, 0), 0.5), ("solid",): ((255, 0, 0), 1.0)}
 
 
 def test_triangles_are_scaled_and_those_of_one_colour_are_one_node() -> None:

@@ -276,8 +276,10 @@ def test_red_green_and_blue_as_integers_go_to_255(lab: Benches) -> None:
 def test_the_alpha_of_rgba_fades_points_and_hides_those_of_0(lab: Benches) -> None:
     packed = rgb(0xFFF83000, 0x00FFFFFF, 0x80F83000)
     bench = lab(xyz_cloud(THREE, {"rgba": packed}))
-    assert colors(bench) == [[248, 48, 0], [148, 48, 24]]
-    np.testing.assert_allclose(bench.xyz("points")[:, 0], [1, 3])
+    nodes = bench.nodes()
+    found = {node.opacity: (node.xyz[:, 0].tolist(), node.ids.tolist()) for node in nodes.values()}
+    assert found == {1.0: ([1], [0]), 128 / 255: ([3], [2])}
+    assert {tuple(color) for node in nodes.values() for color in node.colors} == {(248, 48, 0)}
     level, text = bench.statuses()["Points"]
     assert level == "OK"
     assert "1 of them are invisible: their rgba has alpha 0." in text

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from webviz import Labels, Lines, Node, Points, Rgb
 from webviz.data.messages.markers import Marker
-from webviz_displays.markers.batch import F32, U8, MarkerBatch, Rows, opacities, rgb
+from webviz_displays.markers.batch import U8, MarkerBatch, Rows, opacities, rgb
 from webviz_displays.markers.items import items_of
-from webviz_displays.shared.colors import faded
+from webviz_displays.shared.colors import layers
 
 
 def lines_of(batch: MarkerBatch) -> dict[str, Node]:
@@ -54,26 +54,23 @@ def _pairing(rows: Rows, is_list: NDArray[np.bool_]) -> Callable[[NDArray[Any]],
 
 
 def points_of(batch: MarkerBatch) -> dict[str, Node]:
-    """Return a node for the points of each size."""
+    """Return a node for the points of each size and opacity."""
     sizes = batch.scales[:, 0]
     nodes: dict[str, Node] = {}
     is_list = (batch.types == Marker.POINTS) & (batch.counts > 0)
     for size, of_size in _by_value(sizes, is_list & (sizes > 0.0)):
         items = items_of(batch, np.flatnonzero(of_size))
-        is_visible = items.colors[:, 3] > 0.0
-        chosen = slice(None) if is_visible.all() else is_visible
-        if is_visible.any():
+        for opacity, alike in layers(opacities(items.colors[:, 3])):
+            chosen = alike if len(items.colors) > 1 else slice(None)  # one colour is that of all
             xyz, ids = items.xyz[chosen].astype(np.float32), batch.ids[items.rows[chosen]]
-            alphas = opacities(items.colors[chosen][:, 3])
-            is_even = bool((alphas == alphas[0]).all())
-            colors = _one(rgb(items.colors[chosen])) if is_even else _opaque(items.colors[chosen])
-            opacity = float(alphas[0]) if is_even else 1.0
-            nodes[f"points {size:.6g}"] = Points(xyz, colors, size, "square", ids, opacity=opacity)
+            colors = _one(rgb(items.colors[alike]))
+            key = _key("points", size, opacity)
+            nodes[key] = Points(xyz, colors, size, "square", ids, opacity=opacity)
     return nodes
 
 
 def texts_of(batch: MarkerBatch) -> dict[str, Node]:
-    """Return a node for the texts of each height.
+    """Return a node for the texts of each height and opacity.
 
     Texts face the camera whatever their orientation is.
     """
@@ -85,11 +82,18 @@ def texts_of(batch: MarkerBatch) -> dict[str, Node]:
     ]
     nodes: dict[str, Node] = {}
     for height, some in _by_value(heights, is_visible):
-        texts = tuple(batch.contents[row].text for row in np.flatnonzero(some).tolist())
-        positions = batch.positions[some].astype(np.float32)
-        colors = _opaque(batch.colors[some])
-        ids = batch.ids[some]
-        nodes[f"texts {height:.6g}"] = Labels(positions, texts, height, colors=colors, ids=ids)
+        # Labels have four steps of opacity.
+        steps = np.where(some, np.ceil(4.0 * opacities(batch.colors[:, 3])) / 4.0, 0.0)
+        for opacity, chosen in layers(steps):
+            rows = np.flatnonzero(chosen)
+            nodes[_key("texts", height, opacity)] = Labels(
+                batch.positions[rows].astype(np.float32),
+                tuple(batch.contents[row].text for row in rows.tolist()),
+                height,
+                colors=_one(rgb(batch.colors[rows])),
+                ids=batch.ids[rows],
+                opacity=opacity,
+            )
     return nodes
 
 
@@ -101,9 +105,8 @@ def _by_value(
         yield value, among & (values == value)
 
 
-def _opaque(colors: F32) -> U8 | Rgb:
-    """Colours (..., 4) blended with the background by their alpha; one if all are equal."""
-    return _one(faded(rgb(colors), opacities(colors[..., 3])[..., None]))
+def _key(kind: str, size: float, opacity: float) -> str:
+    return f"{kind} {size:.6g}" + (f" {round(255 * opacity)}" if opacity < 1.0 else "")
 
 
 def _one(colors: U8) -> U8 | Rgb:

@@ -21,7 +21,7 @@ from webviz_displays.point_cloud2.cloud_colors import (
     separate_colors,
 )
 from webviz_displays.point_cloud2.decimation import Rows, evenly, one_per_voxel
-from webviz_displays.shared.colors import faded
+from webviz_displays.shared.colors import layers
 from webviz_displays.shared.opaque import opaque
 from webviz_displays.shared.points_display import BY_INTENSITY, DOTS_LIMIT, PointsDisplay
 
@@ -156,7 +156,7 @@ class CloudDisplay(PointsDisplay):
         if opacities is not None and opacities.min(initial=255) < 255:
             seen = opacities > 0
             xyz, rows = xyz[seen], np.flatnonzero(seen) if rows is None else rows[seen]
-            colors = faded(np.asarray(colors)[seen], opacities[seen, None] / 255.0)
+            colors, opacities = np.asarray(colors)[seen], opacities[seen]
             if hidden := len(seen) - len(xyz):
                 sentence += f" {spaced(hidden)} of them are invisible: their rgba has alpha 0."
         state.newest = sample.number  # not before, as this may have taken seconds
@@ -166,7 +166,20 @@ class CloudDisplay(PointsDisplay):
             return
         group = ctx.follow(None, offset=fixed) if any(origin) else ctx
         # As in RViz, boxes turn with the sensor.
-        self.draw_points(xyz, colors, group, ctx, ids=rows, thins=thins)
+        if opacities is None or opacities.min(initial=255) == 255:
+            self.draw_points(xyz, colors, group, ctx, ids=rows, thins=thins)
+            return
+        ids = np.arange(len(xyz)) if rows is None else rows
+        for opacity, chosen in layers(opacities / 255.0):
+            self.draw_points(
+                xyz[chosen],
+                np.asarray(colors)[chosen],
+                group,
+                ctx,
+                ids=ids[chosen],
+                opacity=opacity,
+                of=len(xyz),
+            )
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
         """All fields of a point."""

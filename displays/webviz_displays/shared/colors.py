@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import math
+from collections.abc import Iterator
 from typing import Annotated, Any
 
 import msgspec
@@ -15,8 +16,8 @@ from webviz import Rgb
 U8 = NDArray[np.uint8]
 F64 = NDArray[np.float64]
 
-BACKGROUND = (48, 48, 48)
-"""RViz's default background."""
+LAYERS = 8
+"""Most opacities of points or texts that are drawn apart."""
 
 RAINBOW: tuple[Rgb, ...] = (
     (255, 0, 0),
@@ -91,13 +92,15 @@ def _table(stops: tuple[Rgb, ...]) -> NDArray[np.void]:
     return table.view("V3")[:, 0]
 
 
-def faded(colors: U8, alpha: float | F64) -> U8:
-    """Colours (..., 3) blended with RViz's background; `alpha` is a scalar or (..., 1).
+def layers(opacities: F64) -> Iterator[tuple[float, NDArray[np.bool_]]]:
+    """Yield each opacity above 0 of values (N,), with the mask (N,) of those that have it.
 
-    The browser draws some points and flat arrows with one opacity, so this stands in for
-    an opacity of each.
+    A node has one opacity, so several become several nodes: more than `LAYERS` are rounded up
+    to that many steps.
     """
-    if np.min(alpha, initial=1.0) >= 1.0:
-        return colors
-    mixed = alpha * np.asarray(colors, dtype=np.float64) + (1.0 - alpha) * np.array(BACKGROUND)
-    return np.round(mixed).astype(np.uint8)
+    levels = np.unique(opacities)
+    if len(levels) > LAYERS:
+        opacities = np.ceil(opacities * LAYERS) / LAYERS
+        levels = np.unique(opacities)
+    for level in levels[levels > 0.0].tolist():
+        yield level, opacities == level

@@ -93,6 +93,7 @@ class PointStyle(Display):
         plane: Plane | None = None,
         thins: bool = False,
         of: int = 0,
+        opacity: float = 1.0,
     ) -> None:
         """Draw points in the chosen style.
 
@@ -108,8 +109,10 @@ class PointStyle(Display):
             plane: the size is that at 1 m from this plane, and grows with the distance.
             thins: whether browsers may draw only some of them, which are in an order for
                 `Points.thins`; not for the style Points.
-            of: number of all points of the display, if it draws them in several groups.
+            of: number of all points of the display, if it draws them in several nodes.
+            opacity: that of these points, by which `alpha` is multiplied.
         """
+        alpha, layer = self.alpha * opacity, "" if opacity == 1.0 else f" {round(255 * opacity)}"
         size = self.size if size is None else size
         total = of or len(xyz)
         too_many = thins or total > SOLIDS_LIMIT
@@ -117,13 +120,15 @@ class PointStyle(Display):
             wxyzs = None if box_wxyz is None else np.tile(np.asarray(box_wxyz), (len(xyz), 1))
             shape = _SOLIDS[self.style]
             scales = size if plane is None else size * (xyz @ plane[:3] + plane[3])[:, None]
-            group.instances("solids", shape, xyz, scales, colors, wxyzs, self.alpha, True, ids)
+            key = f"solids{layer}"
+            group.instances(key, shape, xyz, scales, colors, wxyzs, alpha, True, ids)
             return
         if self.style == "Points":
             dots = np.stack((xyz - _DOT / 2, xyz + _DOT / 2), axis=1)
             if not isinstance(colors, tuple):
                 colors = np.repeat(colors[:, None], 2, axis=1)
-            group.lines("points", dots, colors, self.size_pixels, ids=ids, opacity=self.alpha)
+            key = f"points{layer}"
+            group.lines(key, dots, colors, self.size_pixels, ids=ids, opacity=alpha)
             return
         outline = "circle" if self.style == "Spheres" else "square"
         if self.style in _SOLIDS:
@@ -135,7 +140,7 @@ class PointStyle(Display):
         elif self.style != "Flat Squares":
             ctx.ok("Style", f"{self.style} are drawn as flat squares that face the camera.")
         key = "blocks" if thins else "points"  # nodes do not begin or cease to be thinned
-        group.points(key, xyz, colors, size, outline, ids, thins, self.alpha, plane)
+        group.points(key + layer, xyz, colors, size, outline, ids, thins, alpha, plane)
 
 
 InvertRainbow = Annotated[
