@@ -129,7 +129,7 @@ def nested(text: str, depth: int, names: str = "A") -> str:
         ("(" * 50_000, "not valid .msg text"),
         (nested("A{0} a\nA{0} b", 60), "more than 20000 fields"),
         (nested("A{0} a\nB{0} b", 60, "AB"), "more than 20000 fields"),
-        (nested("A{0} a", 5000), "recursion"),
+        (nested("A{0} a", 5000), "nested deeper than 64 levels"),
         (
             f"std_msgs/Header header\n{'=' * 80}\nMSG: std_msgs/Header\nuint8 x",
             "differs from ROS 2's",
