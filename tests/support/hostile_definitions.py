@@ -107,3 +107,8 @@ READ: Mapping[str, str] = {
     "constant like a field": msg("uint8 x=5\nuint8 x"),
 }
 """Definitions of `NAME` that are valid, and take much to read or to use."""
+
+
+def renamed(text: str, package: str) -> str:
+    """Return a definition with its types in another package; a type has one definition only."""
+    return text.replace("evil_msgs", package)
