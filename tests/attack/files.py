@@ -91,6 +91,8 @@ class Files(Attack):
     """
 
     kind = "files"
+    reader = "reader"
+    """Module of the process that reads them."""
 
     def __init__(self, folder: Path, good: Mapping[str, bytes] | None = None) -> None:
         self._folder = folder
@@ -98,7 +100,7 @@ class Files(Attack):
         self._reader: subprocess.Popen[str] | None = None
 
     def start(self) -> None:
-        self._reader = piped("reader")
+        self._reader = piped(self.reader)
 
     def draw(self, random: Random) -> Case:
         name = random.choice(sorted(self._good))
@@ -110,7 +112,7 @@ class Files(Attack):
     def strike(self, case: Case) -> Outcome:
         path = self._folder / case.name
         path.write_bytes(case.data)
-        reader = self._reader = self._reader or piped("reader")
+        reader = self._reader = self._reader or piped(self.reader)
         assert reader.stdin is not None
         assert reader.stdout is not None
         timer = threading.Timer(READ_S, reader.kill)

@@ -7,10 +7,12 @@ import logging
 import resource
 import sys
 import traceback
+from collections.abc import Callable
 from pathlib import Path
 
 from webviz.api.declared import Topic
 from webviz.api.errors import Error
+from webviz.data.messages import MessageError
 from webviz.files import opening
 from webviz.sources import Subscription
 from webviz.sources.bag.source import BagSource
@@ -71,15 +73,19 @@ def _play(path: Path) -> None:
         source.close()
 
 
-def main() -> None:
-    """Read files until there are no more names."""
+def serve(read: Callable[[Path], object]) -> None:
+    """Read files until there are no more names.
+
+    Args:
+        read: reads one; raises what the viewer shows as a sentence.
+    """
     logging.disable()
     resource.setrlimit(resource.RLIMIT_AS, (MAX_MEMORY, MAX_MEMORY))
     for line in sys.stdin:
         broken, is_refused = "", False
         try:
             read(Path(line.rstrip("\n")))
-        except (Error, RobotDescriptionError, TextureError, _Refused) as error:
+        except (Error, MessageError, RobotDescriptionError, TextureError, _Refused) as error:
             is_refused = True
             broken = f"several lines: {error}" if "\n" in str(error) else ""
         except MemoryError:
@@ -90,4 +96,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    serve(read)

@@ -13,6 +13,7 @@ from tests.attack.attack import Attack, Case, Violation, random_of
 from tests.attack.bombs import Bombs
 from tests.attack.crowds import Crowds
 from tests.attack.dds import Dds
+from tests.attack.definitions import Definitions
 from tests.attack.disks import Disks
 from tests.attack.files import Files
 from tests.attack.graphs import Graphs
@@ -38,6 +39,7 @@ ROLES = (None, *Role)
 KINDS = (
     *(class_.kind for class_ in (Dds, Requests, Uploads, Files, Saving, Simulator)),
     *(class_.kind for class_ in (Bombs, Graphs, Disks, Crowds, Queues, Weights)),
+    Definitions.kind,
     *map(kind_of, ROLES),
 )
 """Of attacks."""
@@ -84,7 +86,7 @@ def _started(attacks: Iterator[Attack], only: Sequence[str], stack: ExitStack) -
 
 def local_attacks(folder: Path) -> Iterator[Attack]:
     """Those that attack no viewer, but what it reads and how it saves."""
-    for class_ in (Files, Saving, Bombs, Disks):
+    for class_ in (Files, Saving, Bombs, Disks, Definitions):
         own = folder / class_.kind
         own.mkdir()
         yield class_(own)

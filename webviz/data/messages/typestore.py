@@ -191,8 +191,6 @@ def add(type_name: str, text: str, fixed: Container[str]) -> None:
     """
     name = full_name(type_name)
     learnt = types_in(name, text)
-    if name not in learnt:  # such as that of a service
-        raise DefinitionError(f"The definition of {name} does not define it.")
     for key in learnt:
         if key in fixed and _fields_of(learnt[key]) != fields(key):
             raise DefinitionError(
@@ -231,15 +229,17 @@ def parsed(name: str, text: str) -> Types:
         raise DefinitionError(f"The definition of {name} is longer than {MAX_TEXT >> 20} MB.")
     language = "IDL" if is_idl(text) else ".msg text"
     try:
-        if language != "IDL":
-            return types_in_msg(text, name)
-        found: Types = {}
-        for file in filter(str.strip, _IDL.split(text)):
-            found |= types_in_idl(file)
+        if language == "IDL":
+            files = filter(str.strip, _IDL.split(text))
+            found = {key: each for file in files for key, each in types_in_idl(file).items()}
+        else:
+            found = types_in_msg(text, name)
     except TextError as error:
         raise DefinitionError(
             f"The definition of {name} is not valid {language}: {error}."
         ) from error
+    if name not in found:  # such as that of a service
+        raise DefinitionError(f"The definition of {name} does not define it.")
     return found
 
 
