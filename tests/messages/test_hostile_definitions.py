@@ -111,6 +111,15 @@ def test_elements_of_arrays_count_as_those_of_sequences(
             read(name, cdr)
 
 
+def test_stamps_behind_too_many_elements_stay(monkeypatch: pytest.MonkeyPatch) -> None:
+    name = "evil_msgs/msg/Late"
+    register(name, msg("Nothing[4] a\ntime at", Nothing=""))
+    cdr = encode(name, {"at": {"sec": 5}})
+    assert decode(name, shifted(name, cdr, 10**9)).at.sec == 6
+    monkeypatch.setattr(cdr_module, "MAX_ELEMENTS", 3)
+    assert shifted(name, cdr, 10**9) == cdr
+
+
 def test_elements_count_as_the_objects_that_their_bytes_do_not_pay_for(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

@@ -60,6 +60,16 @@ REFUSED: Mapping[str, tuple[str, str]] = {
     "field twice in Python": (msg("uint8 if_\nuint8 if"), "has the field if twice"),
     "900 levels": (chain(900), "nested deeper than 64 levels"),
     "5000 levels": (chain(5000, "[]"), "nested deeper than 64 levels"),
+    "levels that are known already": (
+        msg(
+            "A0 a\nB0 b",
+            **{f"A{level}": f"A{level + 1} a" for level in range(60)},
+            A60="uint8 x",
+            **{f"B{level}": f"B{level + 1} b" for level in range(5)},
+            B5="A0 a",
+        ),
+        "nested deeper than 64 levels",
+    ),
     "many types": (
         msg(
             "\n".join(f"A{i} a{i}" for i in range(2000)),
