@@ -23,7 +23,7 @@ STRING = "std_msgs/msg/String"
 TEXTS = {name: text for name, (text, _) in REFUSED.items()}
 PLAIN = {name: text for name, text in TEXTS.items() if not is_idl(text)}
 ROS_1_LIMITS = ("many types",)
-"""What is refused of ROS 2 only, as ROS 1 makes no class of a type."""
+"""Refused of ROS 2 only, as ROS 1 makes no class of a type."""
 
 
 def mcap(path: Path) -> tuple[Path, Mapping[str, str]]:

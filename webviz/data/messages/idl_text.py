@@ -31,7 +31,7 @@ MAX_DEPTH = 16
 MAX_TOKENS = 200_000
 """Words and signs, which take half a second; those of ROS have a tenth of them."""
 _PREPROCESSOR = re.compile(r"^[ \t]*#.*$", re.MULTILINE)
-"""What these lines include follows in the definition."""
+"""Lines that are not read; what they include follows in the definition."""
 _TOKEN = re.compile(
     r"""\s+|//[^\n]*|/\*[\s\S]*?\*/
     |(?P<token>(?:::)?[A-Za-z]\w*(?:::[A-Za-z]\w*)*
