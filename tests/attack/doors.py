@@ -41,7 +41,7 @@ class Door(NamedTuple):
 
 DOORS: Mapping[str, Door] = {
     "topics": Door(
-        ("dds", "graphs", "weights"),
+        ("dds", "graphs", "weights", "definitions"),
         (
             "webviz/ros/*",
             "webviz/data/transforms/*",

@@ -150,7 +150,7 @@ class Files(Attack):
 
     kind = "files"
     reader = "reader"
-    """The module that reads them."""
+    """Module of the process that reads them."""
 
     def __init__(self, folder: Path, good: Mapping[str, bytes] | None = None) -> None:
         self._folder = folder

@@ -11,6 +11,7 @@ import sys
 import tempfile
 import time
 import traceback
+from collections.abc import Callable
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -21,6 +22,7 @@ from webviz.api.declared import Topic
 from webviz.api.errors import Error
 from webviz.data.images import ImageError
 from webviz.data.map_file import MapFileError, read_map
+from webviz.data.messages import MessageError
 from webviz.data.names import readable
 from webviz.data.tiles import TileError
 from webviz.data.transforms.picture import draw_tree
@@ -45,7 +47,7 @@ from webviz_urdf import Resolver, load_robot
 from webviz_urdf.robot import RobotDescriptionError
 from webviz_urdf.textures import TextureError, open_image
 
-REFUSALS = (Error, RobotDescriptionError, TextureError, ImageError, TileError)
+REFUSALS = (Error, MessageError, RobotDescriptionError, TextureError, ImageError, TileError)
 """Errors that the viewer shows as a sentence."""
 MESH = (
     "<robot name='r'><link name='a'><visual><geometry><mesh filename='{}'/></geometry></visual>"
@@ -206,8 +208,12 @@ def _unreadable(sentence: str) -> str:
     return f"{len(sentence)} characters: {sentence[:200]}" if len(sentence) > MAX_SENTENCE else ""
 
 
-def main() -> None:
-    """Read files until there are no more names."""
+def serve(read: Callable[[Path], object]) -> None:
+    """Read files until there are no more names.
+
+    Args:
+        read: reads one; raises what the viewer shows as a sentence.
+    """
     logging.disable()
     resource.setrlimit(resource.RLIMIT_AS, (MAX_MEMORY, MAX_MEMORY))
     for line in sys.stdin:
@@ -230,4 +236,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    serve(read)

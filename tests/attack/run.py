@@ -16,6 +16,7 @@ from tests.attack.bridges import Bridges
 from tests.attack.clocks import Clocks
 from tests.attack.crowds import Crowds
 from tests.attack.dds import Dds
+from tests.attack.definitions import Definitions
 from tests.attack.disks import Disks
 from tests.attack.exported import Exported
 from tests.attack.files import Files
@@ -46,7 +47,7 @@ MAX_BREACHES = 20
 ROLES = (None, *Role)
 LOCAL = (
     *(Files, Saving, Bombs, Disks, Media, Tiles, Reports, Bridges, Agents, Exported),
-    *(YamlTexts, Clocks, Terminals),
+    *(Definitions, YamlTexts, Clocks, Terminals),
 )
 """Attacks on no viewer, but on what it reads and how it saves; each has a folder."""
 KINDS = (

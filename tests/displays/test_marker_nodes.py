@@ -161,11 +161,11 @@ def test_points_are_squares_and_each_opacity_is_a_node() -> None:
     where = points((0, 0, 0), (1, 0, 0), (2, 0, 0))
     each = colors((1, 1, 1, 1), (1, 1, 1, 0.5), (1, 1, 1, 0))
     nodes = drawn(marker(Marker.POINTS, (0.2, 0.2, 0), points=where, colors=each))
-    for (key, node), (x, opacity) in zip(
-        sorted(nodes.items()), [(10.0, 1.0), (11.0, 128 / 255)], strict=True
+    for (key, node), (y, opacity) in zip(
+        sorted(nodes.items()), [(0.0, 1.0), (1.0, 128 / 255)], strict=True
     ):
         assert isinstance(node, Points), key
-        np.testing.assert_array_equal(node.xyz, [(x, 0, 0)])
+        np.testing.assert_allclose(node.xyz, [(10, y, 0)], atol=1e-6)
         assert (node.colors, node.opacity) == ((255, 255, 255), opacity)
         assert (node.size, node.shape) == (0.2, "square")
 

@@ -99,8 +99,8 @@ def test_what_ros_2_dropped_or_renamed_is_skipped_or_renamed() -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("old_msgs/Missing part\n", "old_msgs/msg/Missing is missing"),
-        ("old_msgs/Odd part\n", "old_msgs/msg/Odd is missing"),
+        ("old_msgs/Missing part\n", "contains a old_msgs/msg/Missing, whose definition is missing"),
+        ("old_msgs/Odd part\n", "old_msgs/msg/Odd cannot contain itself"),
         ("float64 = (\n", "not valid .msg text"),
     ],
 )

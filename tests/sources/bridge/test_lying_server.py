@@ -16,10 +16,12 @@ from typing import Any
 import pytest
 import trustme
 from bridges import SCAN, STRING, Reader, reading
+from hostile_definitions import REFUSED, renamed
 from websockets.http11 import Request, Response
 from websockets.sync.server import ServerConnection
 
 from webviz.data.messages import definition, encode, type_exists
+from webviz.sources.bridge import definitions as bridge_definitions
 from webviz.sources.bridge import foxglove, foxglove_channels, json_frames, source
 
 Liar = Callable[..., Reader]
@@ -129,7 +131,7 @@ def nested(text: str, depth: int, names: str = "A") -> str:
         ("(" * 50_000, "not valid .msg text"),
         (nested("A{0} a\nA{0} b", 60), "more than 20000 fields"),
         (nested("A{0} a\nB{0} b", 60, "AB"), "more than 20000 fields"),
-        (nested("A{0} a", 5000), "recursion"),
+        (nested("A{0} a", 5000), "nested deeper than 64 levels"),
         (
             f"std_msgs/Header header\n{'=' * 80}\nMSG: std_msgs/Header\nuint8 x",
             "differs from ROS 2's",
@@ -149,6 +151,77 @@ def test_hostile_definitions_are_problems_of_their_topic(
         return offer is not None and problem in offer.problem
 
     reader.until(is_told)
+
+
+def test_everything_but_hostile_definitions_is_subscribed_to(liar: Liar) -> None:
+    evil = {f"evil{number}": each for number, each in enumerate(REFUSED.values())}
+    channels = [
+        channel(number, f"/{name}", f"{name}_msgs/msg/Evil", schema=renamed(text, f"{name}_msgs"))
+        for number, (name, (text, _)) in enumerate(evil.items(), 2)
+    ]
+    connections = list[ServerConnection]()
+
+    def script(connection: ServerConnection) -> None:
+        connections.append(connection)
+        connection.send(advertise(*channels, channel(1, "/words")))
+        connection.send(message(next_subscription(connection), "still here"))
+
+    reader = liar(script)
+    wanted: dict[str, Any] = {name: f"{name}_msgs/msg/Evil" for name in evil}
+    reader.want(**wanted, words=STRING)
+    assert reader.decoded("/words", STRING).data == "still here"
+    for name, (_, problem) in evil.items():
+        reader.until(
+            lambda name=name, said=problem: said in reader.source.offers()[f"/{name}"].problem
+        )
+    assert len(connections) == 1
+
+
+def test_services_with_hostile_definitions_do_not_end_the_connection(liar: Liar) -> None:
+    services = [
+        {
+            "id": number,
+            "name": f"/evil{number}",
+            "type": f"evil{number}_msgs/srv/Evil",
+            "requestSchema": renamed(text, f"evil{number}_msgs"),
+            "responseSchema": "",
+        }
+        for number, (text, _) in enumerate(REFUSED.values(), 1)
+    ]
+    connections = list[ServerConnection]()
+
+    def script(connection: ServerConnection) -> None:
+        connections.append(connection)
+        connection.send(json.dumps({"op": "advertiseServices", "services": services}))
+        connection.send(advertise(channel(1, "/words")))
+        connection.send(message(next_subscription(connection), "still here"))
+
+    reader = liar(script)
+    reader.want(words=STRING)
+    assert reader.decoded("/words", STRING).data == "still here"
+    assert len(connections) == 1
+    assert not any(type_exists(f"{each['type']}_Request") for each in services)
+
+
+def test_definitions_of_services_are_bounded_together(
+    liar: Liar, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(bridge_definitions, "MAX_SERVICE_TEXT", 1000)
+    services = [
+        {
+            "id": number,
+            "name": f"/many{number}",
+            "type": f"many_msgs/srv/Many{number}",
+            "requestSchema": f"uint8 a # {'x' * 300}",
+            "responseSchema": "",
+        }
+        for number in range(5)
+    ]
+    advertised = json.dumps({"op": "advertiseServices", "services": services})
+    reader = liar(lambda connection: connection.send(advertised))
+    reader.until(lambda: type_exists("many_msgs/srv/Many2_Request"))
+    reader.until(lambda: reader.bridge.limits)
+    assert not type_exists("many_msgs/srv/Many3_Request")
 
 
 @pytest.mark.parametrize(

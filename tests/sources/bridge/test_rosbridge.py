@@ -13,6 +13,7 @@ import cbor2
 import numpy as np
 import pytest
 from bridges import SCAN, STRING, TF, Reader, reading
+from hostile_definitions import REFUSED, renamed
 from rosbridge_recording import (
     GET,
     GOAL,
@@ -178,13 +179,19 @@ def liar(liar: Liar) -> Callable[[Callable[[ServerConnection], None]], Reader]:
 
 
 def _serve(
-    connection: ServerConnection, types: dict[str, str], messages: dict[str, Any] | None = None
+    connection: ServerConnection,
+    types: dict[str, str],
+    messages: dict[str, Any] | None = None,
+    texts: dict[str, str] | None = None,
 ) -> None:
     """Answer as rosbridge does, and send a message of each topic that is subscribed to."""
     lists = {"topics": list(types), "types": list(types.values())}
     values = {
         "/rosapi/topics": lists,
-        "/rosapi/topics_and_raw_types": {**lists, "typedefs_full_text": [""] * len(types)},
+        "/rosapi/topics_and_raw_types": {
+            **lists,
+            "typedefs_full_text": [(texts or {}).get(t, "") for t in types],
+        },
         "/rosapi/nodes": {"nodes": ["/robot", "no name"]},
         "/rosapi/services_for_type": {"services": ["/robot/get_parameters"]},
     }
@@ -242,6 +249,22 @@ def test_malformed_frames_are_counted_and_the_rest_is_read(liar: Liar) -> None:
     reader.until(lambda: any(remark.startswith(ignored) for remark in reader.bridge.remarks))
     assert "The bridge reports: the motor is hot" in reader.bridge.remarks
     reader.until(lambda: reader.source.graph.nodes() == ("/robot",))
+
+
+def test_everything_but_hostile_definitions_is_subscribed_to(liar: Liar) -> None:
+    evil = {f"ros_evil{number}": each for number, each in enumerate(REFUSED.values())}
+    types = {f"/{name}": f"{name}_msgs/msg/Evil" for name in evil}
+    texts = {f"/{name}": renamed(text, f"{name}_msgs") for name, (text, _) in evil.items()}
+    reader = liar(
+        lambda c: _serve(c, {**types, "/words": STRING}, {"/words": {"data": "still here"}}, texts)
+    )
+    wanted: dict[str, Any] = {name: types[f"/{name}"] for name in evil}
+    reader.want(**wanted, words=STRING)
+    assert reader.decoded("/words", STRING).data == "still here"
+    for name, (_, problem) in evil.items():
+        reader.until(
+            lambda name=name, said=problem: said in reader.source.offers()[f"/{name}"].problem
+        )
 
 
 @pytest.mark.parametrize("values", [None, "text", {"topics": 5}, {"topics": [5], "types": [""]}])

@@ -22,7 +22,7 @@ MAX_TEXT = 16 << 20
 LONG_STRING = 4096
 """Bytes of a string that counts."""
 MAX_ELEMENTS = 2_000_000
-"""Of the sequences of a message that are not read as arrays."""
+"""Of the sequences and arrays of a message that do not become arrays of numbers."""
 _BOOL = np.dtype(np.bool_)
 _ORDERS = {0: ">", 1: "<"}
 _NATIVE = "<" if sys.byteorder == "little" else ">"
@@ -77,15 +77,19 @@ class Reader:
         self.pos = pos + 4
         return count
 
-    def elements(self) -> int:
-        """Read the number of elements of a sequence, each of which becomes an object.
+    def elements(self, length: int | None = None, weight: int = 1) -> int:
+        """Return the number of elements of a sequence or array, each of which becomes an object.
 
         An object takes fifty times the memory of an element of a few bytes.
+
+        Args:
+            length: of a fixed array; read without one.
+            weight: what an element counts as.
         """
-        count = self.count()
+        count = length or self.count()
         if count > self.size - self.pos:  # each has a byte at least
             raise CdrError(f"{count} elements are longer than the rest of the message")
-        self._elements += count
+        self._elements += count * weight
         if self._elements > MAX_ELEMENTS:
             raise TooLargeError(f"its sequences have more than {MAX_ELEMENTS} elements")
         return count

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-import keyword
 from collections.abc import Callable
-from functools import cache
 from typing import Any
 
 import msgspec
 import numpy as np
 
 from webviz.data.messages import geometry, markers, trajectories, types
+from webviz.data.messages.extents import attribute
 from webviz.data.messages.geometry import zeros
-from webviz.data.messages.typestore import MessageField, constants, fields, full_name
+from webviz.data.messages.typestore import (
+    MessageField,
+    constants,
+    fields,
+    full_name,
+    per_definitions,
+)
 
 DTYPES = {
     name: np.dtype(dtype)
@@ -88,7 +93,7 @@ SEQUENCES: dict[str, Callable[[], Any]] = {
 """Messages whose sequences have a class of their own."""
 
 
-@cache
+@per_definitions
 def message_class(type_name: str) -> type[Any]:
     """Return the class of a message type; its constructor takes the fields by name, as in rclpy.
 
@@ -107,11 +112,6 @@ def message_class(type_name: str) -> type[Any]:
         frozen=True,
         eq=False,
     )
-
-
-def attribute(name: str) -> str:
-    """Return the Python attribute of a field: its name, followed by "_" if that is a keyword."""
-    return f"{name}_" if keyword.iskeyword(name) else name
 
 
 def _default(field: MessageField) -> Any:

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Callable
-from functools import cache
 from typing import Any, TypeVar
 
 from webviz.data.messages import typestore
 from webviz.data.messages.cdr import CdrError, Reader, TooLargeError
-from webviz.data.messages.classes import WRITTEN, message_class
+from webviz.data.messages.classes import WRITTEN
 from webviz.data.messages.decoders import decoder
-from webviz.data.messages.encoders import encoder
 from webviz.data.messages.errors import DecodeError
 
 T = TypeVar("T")
@@ -66,11 +64,9 @@ def register(type_name: str, text: str) -> None:
             contradicts a type with a class in webviz, such as Header.
     """
     typestore.add(type_name, text, fixed=WRITTEN)
-    for cached in (message_class, decoder, encoder, _has_header):
-        cached.cache_clear()
 
 
-@cache
+@typestore.per_definitions
 def _has_header(type_name: str) -> bool:
     fields = typestore.fields(type_name)
     return bool(fields) and fields[0].base == "std_msgs/msg/Header" and fields[0].size is None
@@ -95,6 +91,9 @@ def _read(type_name: str, cdr: Bytes, read: Callable[[Reader], T]) -> T:
             problem, pos = str(error), reader.pos
         except TooLargeError as error:
             raise DecodeError(f"This {type_name} is too large: {error}.") from None
+        except (MemoryError, RecursionError) as error:
+            reason = "memory" if isinstance(error, MemoryError) else "stack"
+            raise DecodeError(f"This {type_name} is too large for the {reason}.") from error
         except struct.error:
             problem, pos = "it ends in the middle of a value", reader.pos
     raise DecodeError(f"Not a {type_name}: {problem} (at byte {pos} of {len(cdr)}).")

@@ -8,7 +8,6 @@ modulo 8, so a run of fixed fields has at most eight layouts.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from functools import cache
 from itertools import groupby, islice
 from struct import Struct
 from typing import Any
@@ -16,7 +15,7 @@ from typing import Any
 from webviz.data.messages.cdr import ENCAPSULATION_SIZE, CdrError, Reader
 from webviz.data.messages.classes import CODES, DTYPES, VECTORS, message_class
 from webviz.data.messages.sequences import SEQUENCE_READERS
-from webviz.data.messages.typestore import MessageField, fields, full_name
+from webviz.data.messages.typestore import MessageField, fields, full_name, per_definitions, weight
 
 Step = Callable[[Reader, list[Any]], None]
 """Reads one or several fields and appends them."""
@@ -25,7 +24,7 @@ Build = Callable[[Iterator[Any]], Any]
 """Consumes the numbers of one field from an iterator."""
 
 
-@cache
+@per_definitions
 def decoder(type_name: str, order: str) -> Read:
     """Return the function that reads a message of this type from a `Reader` of this byte order.
 
@@ -117,9 +116,8 @@ def _reader_of(field: MessageField, order: str) -> Read:
     one = _reader_of_one(field, order)
     if size is None:
         return one
-    if size:
-        return lambda reader: [one(reader) for _ in range(size)]
-    return lambda reader: [one(reader) for _ in range(reader.elements())]
+    each = weight(base) if field.is_message else 1
+    return lambda reader: [one(reader) for _ in range(reader.elements(size, each))]
 
 
 def _array_of(base: str, width: int, size: int) -> Read:

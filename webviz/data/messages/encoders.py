@@ -19,7 +19,7 @@ from webviz.data.messages.geometry import (
     PoseStampedSequence,
 )
 from webviz.data.messages.trajectories import JointTrajectoryPointSequence
-from webviz.data.messages.typestore import MessageField, fields, full_name
+from webviz.data.messages.typestore import MessageField, fields, full_name, per_definitions
 
 Write = Callable[[bytearray, Any], None]
 """Appends a value to a message."""
@@ -51,7 +51,7 @@ class Misfit(Exception):
         return "".join(reversed(list(parts)))
 
 
-@cache
+@per_definitions
 def encoder(type_name: str) -> Write:
     """Return the function that appends a message of this type.
 

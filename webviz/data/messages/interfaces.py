@@ -14,7 +14,6 @@ from concurrent.futures import CancelledError, Future
 from typing import Any, NamedTuple
 
 from rosbags.interfaces import Nodetype
-from rosbags.typesys import TypesysError, get_types_from_msg
 
 from webviz.data.messages import typestore
 from webviz.data.messages.decode import decode, register
@@ -22,9 +21,6 @@ from webviz.data.messages.errors import DefinitionError, UnknownTypeError
 from webviz.data.messages.service_definitions import ACTIONS, SERVICES
 
 _SEPARATOR = re.compile(r"^---\s*$", re.MULTILINE)
-
-# IDL has no empty struct, so rosidl gives a part without fields this one.
-_PLACEHOLDER = ("structure_needs_at_least_one_member", (Nodetype.BASE, ("uint8", 0)))
 
 
 class Service(NamedTuple):
@@ -64,7 +60,7 @@ def service(type_name: str, text: str = "") -> Service:
     if not typestore.type_exists(parts.request):
         texts = _split(type_name, text, 2)
         for part, definition in zip(parts, texts, strict=True):
-            typestore.declare(part, _fields(part, definition) or [_PLACEHOLDER])
+            typestore.declare(part, _fields(part, definition))
     return _with_event(type_name, parts)
 
 
@@ -86,7 +82,7 @@ def learn(type_name: str, request: str, response: str) -> None:
         _described(part, text) for part, text in zip(parts, (request, response), strict=True)
     ]
     for part, fields in zip(parts, described, strict=True):
-        typestore.declare(part, fields or [_PLACEHOLDER])
+        typestore.declare(part, fields)
     _with_event(type_name, parts)
 
 
@@ -122,7 +118,7 @@ def action(type_name: str, text: str = "") -> Action:
         return parts
     texts = _split(type_name, text, 3)
     for part, definition in zip((goal, result, feedback), texts, strict=True):
-        typestore.declare(part, _fields(part, definition) or [_PLACEHOLDER])
+        typestore.declare(part, _fields(part, definition))
     goal_id = ("goal_id", (Nodetype.NAME, "unique_identifier_msgs/msg/UUID"))
     stamp = ("stamp", (Nodetype.NAME, "builtin_interfaces/msg/Time"))
     accepted = ("accepted", (Nodetype.BASE, ("bool", 0)))
@@ -192,7 +188,4 @@ def _split(type_name: str, text: str, count: int) -> list[str]:
 def _fields(part: str, text: str) -> list[Any]:
     package, _, name = part.split("/")
     plain = f"{package}/msg/{name}"  # rosbags reads definitions of messages only
-    try:
-        return get_types_from_msg(text, plain)[plain][1]
-    except TypesysError as error:
-        raise DefinitionError(f"The definition of {part} is not valid .msg text.") from error
+    return typestore.parsed(plain, text)[plain][1]

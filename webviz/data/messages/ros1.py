@@ -8,11 +8,13 @@ from typing import Any
 
 import numpy as np
 from rosbags.interfaces import Nodetype
-from rosbags.typesys import Stores, TypesysError, get_types_from_msg, get_typestore
+from rosbags.typesys import Stores, get_typestore
 
 from webviz.data.messages import typestore
+from webviz.data.messages.cdr import MAX_ELEMENTS, TooLargeError
 from webviz.data.messages.encode import encode
-from webviz.data.messages.errors import DecodeError, DefinitionError
+from webviz.data.messages.errors import DecodeError
+from webviz.data.messages.extents import extent
 
 RENAMED = {"tf/msg/tfMessage": "tf2_msgs/msg/TFMessage"}
 """Types by their names in ROS 2."""
@@ -35,8 +37,26 @@ _TIMES = ("builtin_interfaces/msg/Time", "builtin_interfaces/msg/Duration")
 _SIZE = struct.Struct("<I")
 _TIME = struct.Struct("<Ii")
 
-_Read = Callable[[bytes, int], tuple[Any, int]]
+_Read = Callable[["_Message", int], tuple[Any, int]]
 """Reads a value at an offset, and returns it with the offset behind it."""
+
+
+class _Message:
+    """The bytes of a message, and the number of objects that may still be made of it.
+
+    Args:
+        data: the bytes.
+    """
+
+    def __init__(self, data: bytes) -> None:
+        self.data = data
+        self._left = MAX_ELEMENTS
+
+    def take(self, count: int) -> None:
+        """Count messages and texts; in ROS 1, those without fields have no bytes."""
+        self._left -= count
+        if self._left < 0:
+            raise TooLargeError(f"it has more than {MAX_ELEMENTS} elements")
 
 
 class Ros1Type:
@@ -54,14 +74,12 @@ class Ros1Type:
     """
 
     def __init__(self, name: str, text: str) -> None:
-        try:
-            self._defined: Mapping[str, Any] = get_types_from_msg(text, name)
-        except TypesysError as error:
-            raise DefinitionError(f"The definition of {name} is not valid .msg text.") from error
+        self._defined: Mapping[str, Any] = typestore.parsed(name, text)
+        extent(name, self._fields, {})
         self.name = RENAMED.get(name, name)
         """Of the type in ROS 2."""
         self._made: dict[str, _Read] = {}
-        self._read = self._message(name, ())
+        self._read = self._message(name)
 
     def definition(self) -> str:
         """Return the .msg text of the type in ROS 2, "" if ROS 2 has the type itself."""
@@ -83,31 +101,38 @@ class Ros1Type:
             EncodeError: ROS 2 has a field of another type.
         """
         try:
-            values, _ = self._read(data, 0)
+            values, _ = self._read(_Message(data), 0)
+        except TooLargeError as error:
+            raise DecodeError(f"This {self.name} of ROS 1 is too large: {error}.") from None
         except (struct.error, UnicodeDecodeError, ValueError) as error:
             raise DecodeError(f"{self.name} of ROS 1 is damaged.") from error
         return encode(self.name, values)
 
-    def _message(self, name: str, inside: tuple[str, ...]) -> _Read:
+    def _fields(self, name: str) -> Any:
+        """Return the fields of a type, None if it is unknown."""
+        if name in _TIMES:
+            return typestore.described(name)
+        return self._defined[name][1] if name in self._defined else None
+
+    def _message(self, name: str) -> _Read:
         """Return the reader of a message."""
         if name in self._made:
             return self._made[name]
         if name in _TIMES:
             return _time
-        if name in inside or name not in self._defined:
-            raise DefinitionError(f"The definition of {name} is missing.")
         kept = None
         if typestore.type_exists(target := RENAMED.get(name, name)):
             kept = {field.name.lower(): field.name for field in typestore.fields(target)}
         fields: list[tuple[str | None, _Read]] = []
         for field, (kind, value) in self._defined[name][1]:
             called = field if kept is None else kept.get(field.lower())
-            fields.append((called, self._field(kind, value, (*inside, name))))
+            fields.append((called, self._field(kind, value)))
 
-        def read(data: bytes, at: int) -> tuple[Any, int]:
+        def read(message: _Message, at: int) -> tuple[Any, int]:
+            message.take(1)
             found = {}
             for called, read_field in fields:
-                value, at = read_field(data, at)
+                value, at = read_field(message, at)
                 if called is not None:
                     found[called] = value
             return found, at
@@ -115,37 +140,39 @@ class Ros1Type:
         self._made[name] = read
         return read
 
-    def _field(self, kind: Nodetype, value: Any, inside: tuple[str, ...]) -> _Read:
+    def _field(self, kind: Nodetype, value: Any) -> _Read:
         if kind == Nodetype.NAME:
-            return self._message(value, inside)
+            return self._message(value)
         if kind == Nodetype.BASE:
             return _string if value[0] == "string" else _number(value[0])
         (inner, base), size = value
         count = size if kind == Nodetype.ARRAY else None
         if inner == Nodetype.BASE and base[0] != "string":
             return _numbers(base[0], count)
-        return _several(self._field(inner, base, inside), count)
+        return _several(self._field(inner, base), count)
 
 
-def _time(data: bytes, at: int) -> tuple[Any, int]:
-    seconds, nanoseconds = _TIME.unpack_from(data, at)
+def _time(message: _Message, at: int) -> tuple[Any, int]:
+    seconds, nanoseconds = _TIME.unpack_from(message.data, at)
     seconds = seconds - (1 << 32) if seconds >> 31 else seconds
     return {"sec": seconds, "nanosec": max(nanoseconds, 0)}, at + _TIME.size
 
 
-def _string(data: bytes, at: int) -> tuple[Any, int]:
-    (size,) = _SIZE.unpack_from(data, at)
+def _string(message: _Message, at: int) -> tuple[Any, int]:
+    (size,) = _SIZE.unpack_from(message.data, at)
     start = at + _SIZE.size
-    if start + size > len(data):
+    if start + size > len(message.data):
         raise ValueError
-    return data[start : start + size].decode(errors="replace").replace("\0", ""), start + size
+    return message.data[start : start + size].decode(errors="replace").replace(
+        "\0", ""
+    ), start + size
 
 
 def _number(base: str) -> _Read:
     layout = struct.Struct(f"<{_NUMBERS[base]}")
 
-    def read(data: bytes, at: int) -> tuple[Any, int]:
-        return layout.unpack_from(data, at)[0], at + layout.size
+    def read(message: _Message, at: int) -> tuple[Any, int]:
+        return layout.unpack_from(message.data, at)[0], at + layout.size
 
     return read
 
@@ -154,9 +181,9 @@ def _numbers(base: str, count: int | None) -> _Read:
     """Return a reader of an array, of a sequence without a count."""
     dtype = np.dtype(f"<{_NUMBERS[base]}")
 
-    def read(data: bytes, at: int) -> tuple[Any, int]:
-        size, at = _count(data, at, count)
-        array = np.frombuffer(data, dtype, size, at) if size else np.zeros(0, dtype)
+    def read(message: _Message, at: int) -> tuple[Any, int]:
+        size, at = _count(message, at, count)
+        array = np.frombuffer(message.data, dtype, size, at) if size else np.zeros(0, dtype)
         return array, at + size * dtype.itemsize
 
     return read
@@ -165,20 +192,21 @@ def _numbers(base: str, count: int | None) -> _Read:
 def _several(one: _Read, count: int | None) -> _Read:
     """Return a reader of several messages or texts."""
 
-    def read(data: bytes, at: int) -> tuple[Any, int]:
-        size, at = _count(data, at, count)
-        if size > len(data):
+    def read(message: _Message, at: int) -> tuple[Any, int]:
+        size, at = _count(message, at, count)
+        if count is None and size > len(message.data):
             raise ValueError
+        message.take(size)
         found = []
         for _ in range(size):
-            value, at = one(data, at)
+            value, at = one(message, at)
             found.append(value)
         return found, at
 
     return read
 
 
-def _count(data: bytes, at: int, count: int | None) -> tuple[int, int]:
+def _count(message: _Message, at: int, count: int | None) -> tuple[int, int]:
     if count is not None:
         return count, at
-    return _SIZE.unpack_from(data, at)[0], at + _SIZE.size
+    return _SIZE.unpack_from(message.data, at)[0], at + _SIZE.size

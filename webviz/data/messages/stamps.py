@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import functools
 import struct
 
 from webviz.data.messages.cdr import Reader
 from webviz.data.messages.errors import MessageError
-from webviz.data.messages.typestore import MessageField, fields
+from webviz.data.messages.typestore import MessageField, fields, per_definitions, weight
 
 TIME = "builtin_interfaces/msg/Time"
 SIZES = {
@@ -54,7 +53,7 @@ def shifted(type_name: str, cdr: bytes, by_ns: int) -> bytes:
     return bytes(moved)
 
 
-@functools.cache
+@per_definitions
 def has_stamps(type_name: str) -> bool:
     """Return whether a type has stamps anywhere in it."""
     return type_name == TIME or any(
@@ -62,12 +61,12 @@ def has_stamps(type_name: str) -> bool:
     )
 
 
-@functools.cache
+@per_definitions
 def _layout(type_name: str) -> tuple[MessageField, ...]:
     return tuple(fields(type_name))
 
 
-@functools.cache
+@per_definitions
 def _stamped(type_name: str) -> int:
     """Return the number of fields up to the last that has stamps."""
     found = _layout(type_name)
@@ -101,7 +100,8 @@ def _field(reader: Reader, field: MessageField, places: list[int], depth: int) -
         if reader.pos > reader.size:
             raise MessageError("it is cut off")
         return
-    count = 1 if field.size is None else field.size or reader.elements()
+    each = weight(field.base) if field.is_message else 1
+    count = 1 if field.size is None else reader.elements(field.size, each)
     for _ in range(count):
         if field.is_message:
             _walk(reader, field.base, places, depth + 1)

@@ -7,32 +7,49 @@ the code that it generates from them, because definitions may come from untruste
 from __future__ import annotations
 
 import re
+import threading
 from collections.abc import Callable, Container
-from functools import cache
-from typing import Any, NamedTuple
+from functools import _lru_cache_wrapper, cache
+from typing import Any, NamedTuple, TypeVar
 
 from rosbags.interfaces import Nodetype
-from rosbags.typesys import (
-    Stores,
-    TypesysError,
-    get_types_from_idl,
-    get_types_from_msg,
-    get_typestore,
-)
+from rosbags.typesys import Stores, get_typestore
 
 from webviz.data.messages.definitions import DEFINITIONS
-from webviz.data.messages.errors import DefinitionError, MessageError, UnknownTypeError
+from webviz.data.messages.errors import DefinitionError, UnknownTypeError
+from webviz.data.messages.extents import Extent, extent
+from webviz.data.messages.idl_text import types_in_idl
+from webviz.data.messages.msg_text import Description, TextError, Types, types_in_msg
 
+MAX_TEXT = 1 << 20
+"""Characters of a definition with all its nested types; the longest of ROS have a tenth of it.
+Reading them takes up to two seconds."""
+MAX_TYPES = 1000
+"""Of a definition, those that its messages consist of; those of ROS have 80. Making the class of
+each takes 0.2 ms."""
+PLACEHOLDER: tuple[str, Description] = (
+    "structure_needs_at_least_one_member",
+    (Nodetype.BASE, ("uint8", 0)),
+)
+"""The field of messages without fields: IDL has no empty structure, so rosidl adds it."""
 _IDL = re.compile(r"^={80}\nIDL: \S+$", re.MULTILINE)
 """Precedes each IDL file of a definition."""
-_PREPROCESSOR = re.compile(r"^[ \t]*#.*$", re.MULTILINE)
-"""Lines that rosbags does not read; what they include follows in the definition."""
-MAX_FIELDS = 20_000
-"""Of a message, those of nested messages included, each counted once in an array."""
 _TYPE_NAME = re.compile(r"[A-Za-z]\w*/(?:msg|srv|action)/[A-Za-z]\w*", re.ASCII)
 
 
 _finders: list[Callable[[str], object]] = []
+_cached: list[_lru_cache_wrapper[Any]] = []
+_lock = threading.RLock()
+"""Held while definitions or what is known of them change."""
+_extents: dict[str, Extent] = {}
+
+R = TypeVar("R")
+
+
+def per_definitions(function: Callable[..., R]) -> _lru_cache_wrapper[R]:
+    """Cache the results of a function until a definition changes."""
+    _cached.append(cached := cache(function))
+    return cached
 
 
 class MessageField(NamedTuple):
@@ -67,7 +84,7 @@ def _known(name: str) -> Any:
     """
     known = _store().fielddefs
     if name not in known and name in DEFINITIONS:
-        parsed = get_types_from_msg(DEFINITIONS[name], name)[name]
+        parsed = types_in_msg(DEFINITIONS[name], name)[name]
         for field in filter(lambda field: field.is_message, _fields_of(parsed)):
             _known(field.base)  # they are looked for in the store
         known[name] = parsed
@@ -107,7 +124,7 @@ def find(type_name: str) -> None:
 
 
 def type_exists(type_name: str) -> bool:
-    """Return whether messages of this type can be decoded."""
+    """Return whether a definition of this type is known."""
     try:
         return _known(full_name(type_name)) is not None
     except UnknownTypeError:
@@ -119,6 +136,7 @@ def fields(type_name: str) -> list[MessageField]:
 
     Raises:
         UnknownTypeError: No definition of the type is known.
+        DefinitionError: Types that it contains have been replaced by others that do not fit.
     """
     return _fields_of(_definition(type_name))
 
@@ -161,10 +179,9 @@ def are_same(type_name: str, text: str, other: str) -> bool:
     """Return whether two definitions are of the same type; those that are invalid are not."""
     name = full_name(type_name)
     try:
-        first, second = _types_in(name, text), _types_in(name, other)
-    except TypesysError:
+        return types_in(name, text) == types_in(name, other)
+    except DefinitionError:
         return False
-    return first == second
 
 
 def add(type_name: str, text: str, fixed: Container[str]) -> None:
@@ -173,40 +190,56 @@ def add(type_name: str, text: str, fixed: Container[str]) -> None:
     See `webviz.data.messages.register`.
     """
     name = full_name(type_name)
-    try:
-        learnt = _types_in(name, text)
-    except TypesysError as error:  # its text quotes the whole definition
-        language = "IDL" if is_idl(text) else ".msg text"
-        raise DefinitionError(f"The definition of {name} is not valid {language}.") from error
-    if name not in learnt:  # such as that of a service
-        raise DefinitionError(f"The definition of {name} does not define it.")
-    known = _store().fielddefs
+    learnt = types_in(name, text)
     for key in learnt:
         if key in fixed and _fields_of(learnt[key]) != fields(key):
             raise DefinitionError(
                 f"The definition of {name} contains a {key} that differs from ROS 2's."
             )
-    before = {key: known[key] for key in learnt if key in known}
-    known.update(learnt)
+    with _lock:
+        reached: dict[str, Extent] = {}
+        extent(name, lambda key: (learnt.get(key) or _known(key) or (None, None))[1], reached)
+        if len(reached) > MAX_TYPES:
+            raise DefinitionError(f"{name} consists of more than {MAX_TYPES} types.")
+        _store().fielddefs.update(learnt)
+        _forget()
+
+
+def types_in(name: str, text: str) -> Types:
+    """Return the types in a definition, those without fields with `PLACEHOLDER`.
+
+    Args:
+        name: the type that it defines.
+        text: .msg text, or IDL files, each after a line of "=" and "IDL: pkg/msg/Type".
+
+    Raises:
+        DefinitionError: it is invalid or longer than `MAX_TEXT`.
+    """
+    found = parsed(name, text)
+    return {key: (values, own or [PLACEHOLDER]) for key, (values, own) in found.items()}
+
+
+def parsed(name: str, text: str) -> Types:
+    """Return the types in a definition as they are there; see `types_in`.
+
+    This is the only way by which definitions come in. It takes time that grows with their length
+    alone, and raises nothing but `DefinitionError`.
+    """
+    if len(text) > MAX_TEXT:
+        raise DefinitionError(f"The definition of {name} is longer than {MAX_TEXT >> 20} MB.")
+    language = "IDL" if is_idl(text) else ".msg text"
     try:
-        _check(name, (), {})
-    except (MessageError, RecursionError):
-        for key in learnt:
-            del known[key]
-        known.update(before)
-        raise
-
-
-def _types_in(name: str, text: str) -> dict[str, Any]:
-    """Return the types in a definition; raises TypesysError."""
-    return _types_from_idl(text) if is_idl(text) else get_types_from_msg(text, name)
-
-
-def _types_from_idl(text: str) -> dict[str, Any]:
-    """Return the types in IDL files, each after a line of "=" and "IDL: pkg/msg/Type"."""
-    found: dict[str, Any] = {}
-    for file in filter(str.strip, _IDL.split(_PREPROCESSOR.sub("", text))):
-        found |= get_types_from_idl(file)
+        if language == "IDL":
+            files = filter(str.strip, _IDL.split(text))
+            found = {key: each for file in files for key, each in types_in_idl(file).items()}
+        else:
+            found = types_in_msg(text, name)
+    except TextError as error:
+        raise DefinitionError(
+            f"The definition of {name} is not valid {language}: {error}."
+        ) from error
+    if name not in found:  # such as that of a service
+        raise DefinitionError(f"The definition of {name} does not define it.")
     return found
 
 
@@ -215,9 +248,23 @@ def declare(type_name: str, described: list[Any]) -> None:
 
     Args:
         type_name: its full name.
-        described: name and kind of each field, as `rosbags.typesys` describes them.
+        described: name and kind of each field, as `rosbags.typesys` describes them; without any,
+            it gets `PLACEHOLDER`.
     """
-    _store().fielddefs[type_name] = ([], described)
+    with _lock:
+        _store().fielddefs[type_name] = ([], described or [PLACEHOLDER])
+        _forget()
+
+
+def weight(type_name: str) -> int:
+    """Return what a message of this type counts as among the elements of a sequence.
+
+    Raises:
+        MessageError: as `fields`.
+    """
+    _definition(type_name)
+    with _lock:
+        return _extent(full_name(type_name)).weight
 
 
 def described(type_name: str) -> list[Any]:
@@ -229,42 +276,28 @@ def described(type_name: str) -> list[Any]:
     return _definition(type_name)[1]
 
 
-def _check(type_name: str, inside: tuple[str, ...], counts: dict[str, int]) -> int:
-    """Return the number of fields of a type, those of its messages included.
-
-    Args:
-        type_name: of the type.
-        inside: types that contain it.
-        counts: those that are known, by type.
-
-    Raises:
-        DefinitionError: a type that it contains is unknown or contains itself, or the fields are
-            more than `MAX_FIELDS`: types that contain others twice have 2^n of them.
-    """
-    if type_name in counts:
-        return counts[type_name]
-    if type_name in inside:
-        raise DefinitionError(f"{type_name} cannot contain itself.")
-    if _known(type_name) is None:
-        raise DefinitionError(f"{inside[-1]} contains a {type_name}, whose definition is missing.")
-    count = 0
-    for field in fields(type_name):
-        count += 1
-        if field.is_message:
-            count += _check(field.base, (*inside, type_name), counts)
-        if count > MAX_FIELDS:
-            raise DefinitionError(f"{type_name} has more than {MAX_FIELDS} fields in all.")
-    counts[type_name] = count
-    return count
-
-
 def _definition(type_name: str) -> Any:
     name = full_name(type_name)
     if _known(name) is None:
         find(name)
     if (found := _known(name)) is None:
         raise UnknownTypeError(f"No definition of the message type {type_name} is known.")
+    if name not in _extents:
+        with _lock:
+            _extent(name)
     return found
+
+
+def _extent(name: str) -> Extent:
+    """Return the extent of a type; those in it may have been replaced since it was registered."""
+    return extent(name, lambda key: (_known(key) or (None, None))[1], _extents)
+
+
+def _forget() -> None:
+    """Forget what follows from definitions."""
+    _extents.clear()
+    for cached in _cached:
+        cached.cache_clear()
 
 
 def _fields_of(definition: Any) -> list[MessageField]:

@@ -11,7 +11,7 @@ from typing import Any
 import msgspec
 
 from webviz.data import plain_yaml
-from webviz.data.messages import UnknownTypeError, type_hash
+from webviz.data.messages import MessageError, type_hash
 from webviz.data.recordings.latched import LatchedMessages
 from webviz.data.recordings.mcap_writing import McapFile
 from webviz.data.recordings.metadata import INFORMATION, METADATA
@@ -243,5 +243,5 @@ def _topic(channel: RecordedChannel) -> dict[str, Any]:
 def _hash(type_name: str) -> str:
     try:
         return type_hash(type_name)
-    except UnknownTypeError:
+    except MessageError:
         return ""

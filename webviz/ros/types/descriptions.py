@@ -19,9 +19,6 @@ _DESCRIBED_NESTED = 1
 _DESCRIBED_BOUNDED_STRING = 21
 ARRAY, BOUNDED_SEQUENCE, SEQUENCE = 48, 96, 144  # added to a FieldType's number
 
-# IDL has no empty struct, so rosidl gives a message without fields this one.
-_PLACEHOLDER = ("structure_needs_at_least_one_member", (Nodetype.BASE, ("uint8", 0)))
-
 
 class Member(NamedTuple):
     """One member of a type.
@@ -55,7 +52,7 @@ def fields(type_name: str) -> list[Member]:
     result = []
     node: Any
     detail: Any
-    for name, (node, detail) in typestore.described(type_name) or [_PLACEHOLDER]:
+    for name, (node, detail) in typestore.described(type_name):
         repeated = capacity = 0
         if node in (Nodetype.ARRAY, Nodetype.SEQUENCE):
             is_array = node == Nodetype.ARRAY

@@ -7,6 +7,7 @@ import re
 from typing import Any
 
 from webviz.data.messages import interfaces, register, type_exists
+from webviz.data.messages.typestore import PLACEHOLDER
 
 _SEPARATOR = "=" * 80
 _PRIMITIVES = {"boolean": "bool", "octet": "byte", "float": "float32", "double": "float64"}
@@ -75,7 +76,7 @@ def _members(cls: Any) -> list[tuple[str, str]]:
     return [
         (name, kind)
         for name, kind in cls.get_fields_and_field_types().items()
-        if name != "structure_needs_at_least_one_member"
+        if name != PLACEHOLDER[0]
     ]
 
 

@@ -6,8 +6,9 @@ import contextlib
 
 from webviz.data.messages import MessageError, interfaces, register, type_exists
 
-MAX_TEXT = 1 << 20
-"""Characters of a definition with all its nested types; the longest of ROS have a tenth of it."""
+MAX_SERVICE_TEXT = 8 << 20
+"""Characters of the definitions of services that are read, a second for each million; those of
+large robots have a tenth of it."""
 
 
 class Definitions:
@@ -16,6 +17,7 @@ class Definitions:
     def __init__(self) -> None:
         self._learned: dict[str, tuple[str, str]] = {}
         self._services = set[str]()
+        self._service_text = 0
 
     def learn(self, type: str, text: str) -> str:
         """Register a type.
@@ -37,14 +39,18 @@ class Definitions:
     def learn_service(self, type: str, request: str, response: str) -> None:
         """Register a service type, unless it is known; what is invalid stays unknown.
 
+        So does what is above `MAX_SERVICE_TEXT`.
+
         Args:
             type: its name, such as "my_robot_msgs/srv/SetMode".
             request, response: definitions, see `webviz.data.messages.register`; "" if it is empty.
         """
-        if type in self._services or max(len(request), len(response)) > MAX_TEXT:
+        size = len(request) + len(response)
+        if type in self._services or self._service_text + size > MAX_SERVICE_TEXT:
             return
         self._services.add(type)
-        with contextlib.suppress(MessageError, RecursionError):
+        self._service_text += size
+        with contextlib.suppress(MessageError):
             interfaces.learn(type, request, response)
 
     def problem(self, type: str) -> str:
@@ -59,10 +65,8 @@ class Definitions:
                 f"the bridge does not send the definition of {type}. Source the workspace that "
                 "has its package before starting the bridge"
             )
-        if len(text) > MAX_TEXT:
-            return f"the definition of {type} is longer than {MAX_TEXT >> 20} MB"
         try:
             register(type, text)
-        except (MessageError, RecursionError) as error:
+        except MessageError as error:
             return str(error).rstrip(".")
         return ""

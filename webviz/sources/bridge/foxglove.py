@@ -10,7 +10,7 @@ from typing import Any
 from webviz.api.bridge import BridgeParameters
 from webviz.api.offer import Endpoint, Publisher
 from webviz.data.foxglove.schemas import ConversionError, conversion
-from webviz.data.messages import UnknownTypeError, definition
+from webviz.data.messages import MessageError, definition
 from webviz.data.words import plain
 from webviz.sources.bridge import foxglove_wire as wire
 from webviz.sources.bridge.foxglove_channels import FoxgloveChannels, is_foreign, type_of, unread
@@ -362,7 +362,7 @@ class FoxgloveSession:
             return known
         try:
             text = definition(advertisement.type)
-        except UnknownTypeError:
+        except MessageError:
             text = ""
         id = self._advertised[advertisement] = self._new_id()
         self._host.send(wire.advertise(id, advertisement.topic, advertisement.type, text))

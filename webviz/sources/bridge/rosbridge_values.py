@@ -12,12 +12,10 @@ from typing import Any
 from webviz.data.messages import DecodeError, EncodeError, encode
 from webviz.data.messages.cdr import CdrError, Reader
 from webviz.data.messages.classes import DTYPES
-from webviz.data.messages.typestore import MessageField, fields
+from webviz.data.messages.typestore import PLACEHOLDER, MessageField, fields, weight
 
 _BYTES = ("uint8", "char")
 """Arrays of these are texts in base64."""
-_NO_FIELD = "structure_needs_at_least_one_member"
-"""The field of messages without fields, which rosbridge does not know."""
 
 
 def to_values(type: str, cdr: bytes) -> dict[str, Any]:
@@ -43,7 +41,7 @@ def from_values(type: str, values: Mapping[str, Any]) -> bytes:
 
 def _message(type: str, reader: Reader) -> dict[str, Any]:
     values = {field.name: _value(field, reader) for field in fields(type)}
-    values.pop(_NO_FIELD, None)
+    values.pop(PLACEHOLDER[0], None)  # unknown to rosbridge
     return values
 
 
@@ -55,7 +53,8 @@ def _value(field: MessageField, reader: Reader) -> Any:
         if field.base in _BYTES:
             return base64.b64encode(array.tobytes()).decode()
         return array.tolist()
-    return [_one(field, reader) for _ in range(field.size or reader.elements())]
+    each = weight(field.base) if field.is_message else 1
+    return [_one(field, reader) for _ in range(reader.elements(field.size, each))]
 
 
 def _one(field: MessageField, reader: Reader) -> Any:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 
 from webviz.api.offer import Offer, Publisher
-from webviz.data.messages import UnknownTypeError, definition
+from webviz.data.messages import MessageError, definition
 from webviz.data.recordings import RecordedChannel
 from webviz.sources.bag.log import ROSOUT
 from webviz.sources.bag.qos import text_of
@@ -80,6 +80,6 @@ def _type_of(publishers: Sequence[Publisher]) -> str:
 def _channel(topic: str, type_: str, publishers: Sequence[Publisher]) -> RecordedChannel:
     try:
         text = definition(type_)
-    except UnknownTypeError:
+    except MessageError:
         text = ""
     return RecordedChannel(topic, type_, "cdr", text, text_of(publishers))
