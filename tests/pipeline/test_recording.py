@@ -87,6 +87,25 @@ def test_latched_messages_are_forgotten_the_oldest_first_if_they_are_too_large_t
     assert memory.pinned() == ("/large",)
 
 
+def test_latched_messages_that_arrived_since_are_not_lost_with_the_memory_before_them() -> None:
+    memory = RecentMessages(lambda topic: int(topic == "/map"), seconds=10.0, max_bytes=10**6)
+    memory.put("/scan", raw(0))
+    memory.put("/map", raw(1))
+    memory.put("/scan", raw(100))
+    assert [topic for topic, _ in memory.after(0.0)] == ["/map", "/scan"]
+    assert [topic for topic, _ in memory.after(1.0)] == ["/scan"]
+
+
+def test_latched_messages_that_just_fit_together_are_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(recent, "MAX_PINNED_BYTES", 2000)
+    memory = RecentMessages(lambda topic: 1)
+    for second, topic in enumerate(("/a", "/b")):
+        memory.put(topic, raw(second, size=1000))
+    assert memory.pinned() == ("/a", "/b")
+    memory.put("/c", raw(2, size=1000))
+    assert memory.pinned() == ("/b", "/c")
+
+
 def test_the_last_seconds_are_saved_with_what_is_latched(bench: Bench) -> None:
     bench.publish("/robot_description", STRING, {"data": "<robot/>"})
     publish(bench)

@@ -128,6 +128,14 @@ def test_a_loop_plays_the_selected_span(theater: Callable, bag: Bag) -> None:
     assert viewer.do(SelectSpan()).playback.selected is None
 
 
+def test_a_loop_over_a_moment_ends(theater: Callable) -> None:
+    viewer = theater(strings(1.0), CONFIG)
+    viewer.do(SetLoop())
+    viewer.do(Play())
+    viewer.turn_until(lambda: not viewer.playback.is_playing)
+    assert viewer.source.position_ns == viewer.source.end_ns
+
+
 @pytest.mark.parametrize("topic", ["/words", "words"])
 def test_steps_go_from_message_to_message(theater: Callable, bag: Bag, topic: str) -> None:
     viewer = theater(bag, CONFIG)

@@ -315,6 +315,26 @@ def test_a_seek_looks_back_as_far_as_displays_need_now() -> None:
     assert len(source.inbox.drain()["/path"]) == 3
 
 
+def test_what_a_seek_has_read_is_not_repeated_for_a_new_request() -> None:
+    source = HandFedSource()
+    latched = Publisher("/planner", PATH, "reliable", "transient_local")
+    source.known["/path"] = Offer((latched,), type=PATH)
+    rewindable = Rewindable(source)
+    rewindable.memory.seconds, rewindable.memory.max_bytes = 60, 10**6
+    source.inbox.read_along(lambda: rewindable.memory.put)
+    wanted = Subscription(PATH, Topic("/path"), lookbacks=(Lookback(count=1),))
+    rewindable.want({"/path": wanted})
+    source.inbox.put("/path", Raw(b"", 1, time.monotonic() - 5))
+    at_ns = rewindable.end_ns - ns(2)
+    rewindable.seek(at_ns)
+    rewindable.play(at_ns)
+    assert len(source.inbox.drain()["/path"]) == 1
+    rewindable.want({"/path": replace(wanted, asked=1)})
+    assert source.inbox.drain() == {}
+    rewindable.want({"/path": replace(wanted, asked=2)})
+    assert len(source.inbox.drain()["/path"]) == 1
+
+
 def test_a_recording_goes_on_while_the_past_is_shown(
     make: Benches, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

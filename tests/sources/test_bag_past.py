@@ -70,6 +70,15 @@ def test_of_more_than_100_older_messages_all_transforms_since_are_read(
     assert read == ([*range(120)] if is_all else parts)
 
 
+def test_a_lookback_ends_where_a_message_starts_over(tmp_path: Path) -> None:
+    path = strings(1, 2, 3, 4).write(tmp_path / "run")
+    begins = Lookback(starts_over=lambda message, type_name: message.data.endswith("2"))
+    wanted = {"/words": Subscription(STRING, Topic("/words"), lookbacks=(begins,))}
+    with opened(path) as files:
+        past = BagPast(files, files.channels, wanted, START_NS + ns(4))
+        assert [(each.stamp_ns - START_NS) // ns(1) for each in past.messages()] == [2, 3, 4]
+
+
 @pytest.mark.parametrize(("left_s", "step_s"), [(0.4, 0.1), (8, 1), (12, 1.5), (16, 2), (60, 2)])
 def test_a_step_goes_an_eighth_of_the_way_within_bounds(
     tmp_path: Path, left_s: float, step_s: float
