@@ -116,17 +116,49 @@ def test_a_goal_that_nobody_has_sent_is_a_note(robot: Node, webviz_viewer: Viewe
     viewer.wait_for(lambda: found() == [("GRAPH008", webviz.Severity.NOTE)], lambda: f"{found()}")
 
 
-def test_a_graph_without_any_other_node(webviz_domain: int, tmp_path: PathOfFile) -> None:
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST"), ("ROS_LOCALHOST_ONLY", "1")],
+)
+def test_a_graph_without_any_other_node(
+    webviz_domain: int,
+    tmp_path: PathOfFile,
+    monkeypatch: pytest.MonkeyPatch,
+    name: str,
+    value: str,
+) -> None:
     config = tmp_path / "lab.yaml"
     config.write_text("displays: [{type: LaserScan}]")
+
+    def first(*ids: str) -> webviz.Finding:
+        """Wait until one of these is the first finding above the network's."""
+        while True:  # the graph is read every two seconds
+            found = [each for each in viewer.doctor() if not each.id.startswith(("NET", "SHM"))]
+            if found and found[0].id in ids:
+                return found[0]
+
     with webviz.Viewer(config, port=0) as viewer:
-        empty = [each for each in viewer.doctor() if each.id == "GRAPH001"]
-        while not empty:  # the graph is read every two seconds
-            empty = [each for each in viewer.doctor() if each.id == "GRAPH001"]
-        assert [each.status for each in empty[0].explains[:2]] == ["Topic", "Fixed Frame"]
-        with node_of(webviz_domain, "robot"):
-            while any(each.id == "GRAPH001" for each in viewer.doctor()):
+        # The node stays on this machine; the doctor reads variables anew.
+        monkeypatch.delenv("ROS_AUTOMATIC_DISCOVERY_RANGE")
+        empty = first("GRAPH001")
+        assert [each.status for each in empty.explains[:2]] == ["Topic", "Fixed Frame"]
+        monkeypatch.setenv(name, value)
+        limited = first("ENV016")
+        assert limited.cause == (
+            f"{name} is {value}, so nodes of other machines are not found, and none of this "
+            f"machine is visible in domain {webviz_domain}."
+        )
+        assert limited.command == f"unset {name}"
+        assert limited.explains == empty.explains
+        assert "GRAPH001" not in {each.id for each in viewer.doctor()}
+        with node_of(webviz_domain, "_ros2cli_daemon"):  # shows nothing about the robot
+            while "/_ros2cli_daemon" not in str(first("ENV016").evidence["nodes"]):
                 pass
+        with node_of(webviz_domain, "robot"):
+            while {"ENV016", "GRAPH001"} & {each.id for each in viewer.doctor()}:
+                pass
+            (missing,) = [each for each in viewer.doctor() if each.id == "GRAPH010"]
+            assert missing.remedy.endswith(f"With {name}, those of other machines are not found.")
 
 
 def test_messages_above_the_limit(

@@ -168,6 +168,11 @@ class Observation:
             if display.problem(each.status):
                 yield display, each, self.offers.get(each.topic, NO_OFFER)
 
+    def is_alone(self) -> bool:
+        """Return whether webviz is the only node in sight, apart from hidden ones as of `ros2`."""
+        shown = [node for node in self.nodes if not node.rpartition("/")[2].startswith("_")]
+        return len(shown) == 1 and not self.is_recorded
+
     def undiscovered(self) -> tuple[Symptom, ...]:
         """Return the statuses of topics that have no publisher, those of transforms included."""
         found = [(d, each) for d, each, offer in self.starved() if not offer.publishers]
