@@ -25,6 +25,10 @@ from webviz.data.transforms.conflicts import Conflict, ConflictKind
 from webviz.data.transforms.reasons import Explanation, Kind
 
 NO_OFFER = Offer(())
+OF_TIME = tuple(
+    kind for kind in Kind if kind not in (Kind.EMPTY_FRAME, Kind.LEADING_SLASH, Kind.LOOP)
+)
+"""Reasons that time may cause."""
 
 
 @dataclass(frozen=True)
@@ -107,6 +111,19 @@ class DisplaySeen:
         return (Symptom(self.id, key),) if self.problem(key) else ()
 
 
+@dataclass(frozen=True)
+class ClockSeen:
+    """Simulated time, as /clock has it.
+
+    Args:
+        time_ns: of the newest message, None without one.
+        still_s: seconds since it changed, or else since webviz subscribed.
+    """
+
+    time_ns: int | None
+    still_s: float
+
+
 @dataclass(frozen=True, kw_only=True)
 class Observation:
     """A robot and a viewer at one moment, as the checks of the doctor see them.
@@ -121,6 +138,7 @@ class Observation:
         nodes: full names, with duplicates.
         is_simulated: whether ROS time comes from /clock or a bag.
         clock_hz: messages per second on /clock.
+        clock: newest time on /clock, None while nothing depends on it.
         is_paused: whether a person has paused time.
         is_recorded: whether messages come from a bag.
         environment: of this machine, None with a bag or bridge, or until it is known.
@@ -143,6 +161,7 @@ class Observation:
     nodes: Sequence[str] = ()
     is_simulated: bool = False
     clock_hz: float = 0.0
+    clock: ClockSeen | None = None
     is_paused: bool = False
     is_recorded: bool = False
     environment: Environment | None = None
@@ -185,6 +204,23 @@ class Observation:
         """Return the statuses of topics that have a publisher and no message."""
         found = [(d, each) for d, each, o in self.starved() if o.publishers and not each.received]
         return tuple(symptom for display, each in found for symptom in display.symptom(each.status))
+
+    def stalled(self) -> tuple[Symptom, ...]:
+        """Return the statuses of a robot whose time does not run as it should.
+
+        These are topics that have publishers and no messages, and frames that lack transforms for
+        another reason than their names.
+        """
+        topics = [
+            symptom
+            for display, each, offer in self.starved()
+            if offer.publishers
+            and not offer.problem
+            and display.statuses[each.status].remedy is None
+            for symptom in display.symptom(each.status)
+        ]
+        frames = [symptom for symptom, reason in self.lost(*OF_TIME) if not reason.near]
+        return (*self.symptom("Time"), *topics, *frames)
 
     def samples(self, *types: str) -> Iterator[tuple[DisplaySeen, InputSeen]]:
         """Yield the inputs with a message of one of these types."""
