@@ -290,6 +290,48 @@ def test_refused_transforms(robot: Harness) -> None:
     assert (finding.id, finding.subject) == ("TF023", "arm")
 
 
+@pytest.mark.parametrize("child", ["laser", "base_link"])
+@pytest.mark.parametrize(
+    ("parent", "rotation", "why"),
+    [
+        ("odom", (0.0, 0.0, 0.0, 0.0), "rotation holds a NaN or has length zero"),
+        ("odom", (math.nan, 0.0, 0.0, 1.0), "rotation holds a NaN or has length zero"),
+        ("", (0.0, 0.0, 0.0, 1.0), "parent frame id is empty"),
+    ],
+)
+def test_a_static_transform_that_is_refused_matters_until_it_is_replaced(
+    robot: Harness, child: str, parent: str, rotation: tuple[float, float, float, float], why: str
+) -> None:
+    if child == "base_link":
+        robot.transform("base_link", "laser", AWAY)
+    robot.transform(parent, child, xyzw=rotation)
+
+    def go_on() -> None:
+        drive(robot)
+        scan(robot)
+
+    examined(robot, 4.0, go_on)  # longer than moving transforms that are refused are reported
+    finding = only(examined(robot, 4.0, go_on))
+    assert (finding.id, finding.subject) == ("TF023", child)
+    assert why in finding.cause
+    assert {each.status for each in finding.explains} >= {"Transform", "Transforms"}
+    assert "no transform to it" not in robot.status("Scan").text
+    assert f'the transform of "{child}" was refused' in robot.status("Scan").text
+    robot.transform("odom", child)
+    assert not examined(robot, 4.0, go_on)
+
+
+def test_a_transform_that_becomes_invalid_has_not_stopped(robot: Harness) -> None:
+    mount(robot)
+
+    def diverge() -> None:
+        robot.transform("map", "odom", (math.nan, 0.0, 0.0), stamp_ns=robot.source.now)
+        scan(robot)
+
+    finding = only(examined(robot, 0.5, diverge))
+    assert (finding.id, finding.subject) == ("TF023", "odom")
+
+
 def test_a_frame_that_is_too_far(robot: Harness) -> None:
     mount(robot)
     robot.transform("base_link", "laser", (1e13, 0.0, 0.0))

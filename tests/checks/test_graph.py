@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path as PathOfFile
@@ -9,6 +10,7 @@ from pathlib import Path as PathOfFile
 import pytest
 from examining import SCAN, display, examined, live_findings
 from geometry_msgs.msg import PoseStamped
+from nav_msgs.msg import OccupancyGrid
 from nodes import node_of
 from rclpy.duration import Duration
 from rclpy.lifecycle import LifecycleNode
@@ -21,9 +23,11 @@ import webviz.ros.node
 from webviz.api.finding import CauseLevel
 from webviz.api.offer import Offer, Publisher
 from webviz.engine.commands import SetProperty
+from webviz.shell.doctor.examination import live_config
 from webviz.shell.testing.harness import Harness
 from webviz.shell.testing.live import LiveViewer
 from webviz_displays.laser_scan import LaserScan as LaserScanDisplay
+from webviz_displays.map import Map
 from webviz_displays.path import Path
 from webviz_displays.poses import Pose, PoseWithCovariance
 from webviz_displays.tf import TF
@@ -114,6 +118,44 @@ def test_a_goal_that_nobody_has_sent_is_a_note(robot: Node, webviz_viewer: Viewe
         ]
 
     viewer.wait_for(lambda: found() == [("GRAPH008", webviz.Severity.NOTE)], lambda: f"{found()}")
+
+
+def test_a_silent_publisher_is_blamed_for_no_more_than_is_known(
+    robot: Node, webviz_viewer: Viewers
+) -> None:
+    maps = robot.create_publisher(OccupancyGrid, "/map", 1)
+    maps.publish(OccupancyGrid())  # before webviz listens
+    viewer = webviz_viewer(Map(topic=webviz.Topic("/map")))
+    found = wait_for(viewer, "GRAPH008 /map")["GRAPH008 /map"]
+    words = re.compile(
+        r"Nothing has arrived on /map from /robot since webviz began to listen \S+ m?s ago\."
+    )
+    assert words.fullmatch(found.cause)
+    assert found.remedy.endswith("Let it publish as transient local if it sent a message earlier.")
+    waited = found.evidence["silent_s"]
+
+    def is_longer() -> bool:
+        now = live_findings(viewer, CauseLevel.GRAPH)["GRAPH008 /map"].evidence["silent_s"]
+        return now > waited  # pyright: ignore[reportOperatorIssue]
+
+    viewer.wait_for(is_longer)
+
+
+def test_tools_of_webviz_are_not_accused(webviz_domain: int, webviz_viewer: Viewers) -> None:
+    with node_of(webviz_domain, "webviz") as other, node_of(webviz_domain, "robot") as robot:
+        other.create_publisher(PoseStamped, "/goal_pose", 1)
+        robot.create_publisher(PoseStamped, "/pose", 1)
+        viewer = webviz_viewer(
+            Pose(topic=webviz.Topic("/goal_pose")), Pose(topic=webviz.Topic("/pose"))
+        )
+
+        def silent() -> set[str]:
+            found = viewer.viewer.snapshot().findings
+            return {each.subject for each in found if each.id == "GRAPH008"}
+
+        viewer.wait_for(lambda: silent() == {"/pose"}, lambda: f"{silent()}")
+        shown = live_config(viewer.source.offers()).displays
+        assert [each.topic.name for each in shown if isinstance(each, Pose)] == ["/pose"]
 
 
 @pytest.mark.parametrize(
@@ -252,7 +294,9 @@ def test_a_publisher_that_stops(webviz_harness: Callable[..., Harness]) -> None:
     assert examined(stage, CauseLevel.GRAPH, 0.2, publish) == {}
     (found,) = examined(stage, CauseLevel.GRAPH).values()
     assert (found.id, found.subject) == ("GRAPH009", "/scan")
-    assert found.cause == "/lidar has stopped publishing /scan, previously at 5.0 Hz."
+    assert found.cause == (
+        "Nothing has arrived on /scan from /lidar for 4.4 s, previously at 5.0 Hz."
+    )
     assert examined(stage, CauseLevel.GRAPH, 0.2, publish) == {}
 
 

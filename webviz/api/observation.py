@@ -22,11 +22,13 @@ from webviz.api.two_ends import TwoEnds
 from webviz.api.views import Camera
 from webviz.data.transforms import Diagnosis, TransformBuffer, diagnose
 from webviz.data.transforms.conflicts import Conflict, ConflictKind
-from webviz.data.transforms.reasons import Explanation, Kind
+from webviz.data.transforms.reasons import Explanation, Kind, in_words
 
 NO_OFFER = Offer(())
 OF_TIME = tuple(
-    kind for kind in Kind if kind not in (Kind.EMPTY_FRAME, Kind.LEADING_SLASH, Kind.LOOP)
+    kind
+    for kind in Kind
+    if kind not in (Kind.EMPTY_FRAME, Kind.LEADING_SLASH, Kind.LOOP, Kind.REFUSED)
 )
 """Reasons that time may cause."""
 
@@ -45,6 +47,7 @@ class InputSeen:
         received: messages since the start.
         size: of the newest message in bytes.
         rate_hz: of the last messages, 0 if unknown.
+        silent_s: seconds since the last message, or else since webviz began to listen.
         stamps: (stamp, time of reception) of the last messages with a header, in ns, oldest first.
         frame: frame id of the newest message, as it was sent.
         type: message type of `message`.
@@ -64,6 +67,12 @@ class InputSeen:
     type: str
     message: Any
     size: int = 0
+    silent_s: float = 0.0
+
+    @property
+    def silence(self) -> str:
+        """For how long webviz has listened without a message, for sentences."""
+        return in_words(round(self.silent_s * 1e9))
 
 
 @dataclass(frozen=True)
