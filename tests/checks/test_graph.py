@@ -15,7 +15,7 @@ from nodes import node_of
 from rclpy.duration import Duration
 from rclpy.lifecycle import LifecycleNode
 from rclpy.node import Node
-from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import LaserScan
 
 import webviz
@@ -246,6 +246,58 @@ def test_a_deadline_that_nobody_meets(robot: Node, webviz_viewer: Viewers) -> No
     assert found.cause.endswith("/robot offers none.")
     robot.destroy_subscription(listener)
     wait_for(viewer)
+
+
+RELIABLE, LATCHED, VOLATILE = (
+    QoSProfile(depth=1, durability=durability)
+    for durability in (
+        DurabilityPolicy.SYSTEM_DEFAULT,
+        DurabilityPolicy.TRANSIENT_LOCAL,
+        DurabilityPolicy.VOLATILE,
+    )
+)
+
+
+@pytest.mark.parametrize(
+    ("offered", "requested", "cured", "words"),
+    [
+        (BEST_EFFORT, RELIABLE, BEST_EFFORT, ("reliable", "best effort", "best effort")),
+        (VOLATILE, LATCHED, VOLATILE, ("transient local", "volatile", "as volatile")),
+    ],
+)
+def test_a_node_whose_qos_does_not_match(
+    robot: Node,
+    webviz_domain: int,
+    webviz_viewer: Viewers,
+    offered: QoSProfile,
+    requested: QoSProfile,
+    cured: QoSProfile,
+    words: tuple[str, str, str],
+) -> None:
+    robot.create_publisher(LaserScan, "/scan", offered)
+    viewer = webviz_viewer(TF())
+    with node_of(webviz_domain, "student") as student:
+        asking = student.create_subscription(LaserScan, "/scan", print, requested)
+        wait_for(viewer, "GRAPH016 /scan")
+        asked, given, remedy = words
+        cause = f"/student cannot receive /scan from /robot: requested {asked}, offered {given}."
+        viewer.wait_for(
+            lambda: live_findings(viewer, CauseLevel.GRAPH)["GRAPH016 /scan"].cause == cause,
+            lambda: f"It found {live_findings(viewer, CauseLevel.GRAPH)}.",
+        )
+        found = live_findings(viewer, CauseLevel.GRAPH)["GRAPH016 /scan"]
+        assert found.remedy.startswith("Let /student subscribe ")
+        assert remedy in found.remedy
+        assert found.remedy.endswith(f"or let /robot publish as {asked}.")
+        other = student.create_publisher(LaserScan, "/scan", requested)
+        viewer.wait_for(  # which serves the subscription, and not from the other one
+            lambda: noted(viewer).get("GRAPH016") is webviz.Severity.NOTE,
+            lambda: f"{noted(viewer)}",
+        )
+        student.destroy_publisher(other)
+        student.destroy_subscription(asking)
+        student.create_subscription(LaserScan, "/scan", print, cured)
+        wait_for(viewer)
 
 
 def test_a_node_that_was_started_twice(robot: Node, webviz_viewer: Viewers) -> None:
