@@ -115,6 +115,18 @@ def test_the_frame_id_of_data(robot: Harness, frame: str, id: str, cause: str) -
     assert found[id].explains == (Symptom(display(robot, "Scan"), "Transform"),)
 
 
+@pytest.mark.parametrize(("frame", "is_mounted"), [("camera", True), ("world", False)])
+def test_no_command_mounts_the_world_on_the_robot(
+    robot: Harness, frame: str, is_mounted: bool
+) -> None:
+    mount(robot)
+    scan(robot, frame)
+    drive(robot)
+    robot.turn()
+    command = examined(robot)[f"TF017 {frame}"].command
+    assert ("--frame-id base_link" in command) is is_mounted
+
+
 def test_a_leading_slash(robot: Harness) -> None:
     mount(robot)
     scan(robot, "/laser")
@@ -128,6 +140,21 @@ def test_static_transforms_that_are_not_latched(robot: Harness) -> None:
     robot.source.known["/tf_static"] = Offer((volatile,), ("reliable", "volatile"))
     finding = only(examined(robot))
     assert (finding.id, finding.subject) == ("TF024", "/mount")
+
+
+def test_static_transforms_that_were_missed_come_before_their_symptoms(
+    webviz_harness: Make,
+) -> None:
+    stage = webviz_harness(LaserScan(name="Scan"), fixed_frame="map")
+    volatile = Publisher("/mount", "tf2_msgs/msg/TFMessage", "reliable", "volatile")
+    stage.source.known["/tf_static"] = Offer((volatile,), ("reliable", "volatile"))
+    scan(stage)
+    finding = only(examined(stage))  # not that no transform has arrived
+    assert finding.id == "TF024"
+    assert "Transform" in {each.status for each in finding.explains}
+    drive(stage)
+    scan(stage)
+    assert only(examined(stage)).id == "TF024"  # not that no frame is named so
 
 
 def test_a_misspelt_fixed_frame(robot: Harness) -> None:
