@@ -100,7 +100,7 @@ def test_a_clock_that_is_missing_ends_or_is_there_twice(stage: Harness) -> None:
 
 
 def causes(viewer: LiveViewer) -> dict[str, str]:
-    """What the doctor finds in the graph, in time and in frames, in its order, by id."""
+    """Causes in the graph, in time and in frames, in the order of the doctor, by id."""
     return {
         each.id: each.cause
         for each in viewer.viewer.snapshot().findings

@@ -25,7 +25,7 @@ class ClockWatchPart(Part):
     def __init__(self, core: Core) -> None:
         super().__init__(core)
         self.is_wanted = False
-        """Whether to subscribe; a simulator may send a thousand messages per second."""
+        """True to subscribe; a simulator may send a thousand messages per second."""
         self._subscriber = Subscriber()
         self._began_s: float | None = None
         self._moved_s = 0.0
