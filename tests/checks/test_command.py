@@ -18,6 +18,7 @@ from webviz.api.check_registry import known_checks, register_checks
 from webviz.engine.commands import ReloadPlugin
 from webviz.shell.cli import main
 from webviz.shell.doctor.report import DoctorReport, schema_text, to_text
+from webviz.shell.testing.messages import header
 
 LASER = """
 from webviz import Check
@@ -212,3 +213,21 @@ def test_a_warning_without_a_cause_is_not_called_well(
     assert "All is well" not in said
     assert said.startswith("note[TF001]: The bag has no transforms.")  # and needs none
     assert said.splitlines()[-1].startswith("No finding explains 1 warning above")
+
+
+def test_an_error_without_a_cause_is_no_success(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    bag = Bag()
+    bag.add("/points", "sensor_msgs/msg/PointCloud2")
+    for number in range(5):
+        at_s = number / 5
+        cloud = {"header": header("map", START_NS + ns(at_s)), "width": 3, "height": 1}
+        bag.put(at_s, "/points", cloud | {"point_step": 12, "row_step": 36, "data": [0] * 7})
+    path = str(bag.write(tmp_path / "run"))
+    assert main(["doctor", "--bag", path, "--json"]) == 3
+    report = msgspec.json.decode(capsys.readouterr().out, type=DoctorReport)
+    assert not [each for each in report.findings if each.severity != "note"]
+    assert "error" in {each.level for each in report.unexplained}
+    assert main(["doctor", "--bag", path]) == 3
+    assert "No finding explains 1 error above" in capsys.readouterr().out

@@ -115,6 +115,18 @@ def test_the_frame_id_of_data(robot: Harness, frame: str, id: str, cause: str) -
     assert found[id].explains == (Symptom(display(robot, "Scan"), "Transform"),)
 
 
+@pytest.mark.parametrize(("frame", "is_mounted"), [("camera", True), ("world", False)])
+def test_no_command_mounts_the_world_on_the_robot(
+    robot: Harness, frame: str, is_mounted: bool
+) -> None:
+    mount(robot)
+    scan(robot, frame)
+    drive(robot)
+    robot.turn()
+    command = examined(robot)[f"TF017 {frame}"].command
+    assert ("--frame-id base_link" in command) is is_mounted
+
+
 def test_a_leading_slash(robot: Harness) -> None:
     mount(robot)
     scan(robot, "/laser")
@@ -128,6 +140,21 @@ def test_static_transforms_that_are_not_latched(robot: Harness) -> None:
     robot.source.known["/tf_static"] = Offer((volatile,), ("reliable", "volatile"))
     finding = only(examined(robot))
     assert (finding.id, finding.subject) == ("TF024", "/mount")
+
+
+def test_static_transforms_that_were_missed_come_before_their_symptoms(
+    webviz_harness: Make,
+) -> None:
+    stage = webviz_harness(LaserScan(name="Scan"), fixed_frame="map")
+    volatile = Publisher("/mount", "tf2_msgs/msg/TFMessage", "reliable", "volatile")
+    stage.source.known["/tf_static"] = Offer((volatile,), ("reliable", "volatile"))
+    scan(stage)
+    finding = only(examined(stage))  # not that no transform has arrived
+    assert finding.id == "TF024"
+    assert "Transform" in {each.status for each in finding.explains}
+    drive(stage)
+    scan(stage)
+    assert only(examined(stage)).id == "TF024"  # not that no frame is named so
 
 
 def test_a_misspelt_fixed_frame(robot: Harness) -> None:
@@ -288,6 +315,48 @@ def test_refused_transforms(robot: Harness) -> None:
     drive(robot)
     finding = only(examined(robot))
     assert (finding.id, finding.subject) == ("TF023", "arm")
+
+
+@pytest.mark.parametrize("child", ["laser", "base_link"])
+@pytest.mark.parametrize(
+    ("parent", "rotation", "why"),
+    [
+        ("odom", (0.0, 0.0, 0.0, 0.0), "rotation holds a NaN or has length zero"),
+        ("odom", (math.nan, 0.0, 0.0, 1.0), "rotation holds a NaN or has length zero"),
+        ("", (0.0, 0.0, 0.0, 1.0), "parent frame id is empty"),
+    ],
+)
+def test_a_static_transform_that_is_refused_matters_until_it_is_replaced(
+    robot: Harness, child: str, parent: str, rotation: tuple[float, float, float, float], why: str
+) -> None:
+    if child == "base_link":
+        robot.transform("base_link", "laser", AWAY)
+    robot.transform(parent, child, xyzw=rotation)
+
+    def go_on() -> None:
+        drive(robot)
+        scan(robot)
+
+    examined(robot, 4.0, go_on)  # longer than moving transforms that are refused are reported
+    finding = only(examined(robot, 4.0, go_on))
+    assert (finding.id, finding.subject) == ("TF023", child)
+    assert why in finding.cause
+    assert {each.status for each in finding.explains} >= {"Transform", "Transforms"}
+    assert "no transform to it" not in robot.status("Scan").text
+    assert f'the transform of "{child}" was refused' in robot.status("Scan").text
+    robot.transform("odom", child)
+    assert not examined(robot, 4.0, go_on)
+
+
+def test_a_transform_that_becomes_invalid_has_not_stopped(robot: Harness) -> None:
+    mount(robot)
+
+    def diverge() -> None:
+        robot.transform("map", "odom", (math.nan, 0.0, 0.0), stamp_ns=robot.source.now)
+        scan(robot)
+
+    finding = only(examined(robot, 0.5, diverge))
+    assert (finding.id, finding.subject) == ("TF023", "odom")
 
 
 def test_a_frame_that_is_too_far(robot: Harness) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path as PathOfFile
@@ -9,11 +10,12 @@ from pathlib import Path as PathOfFile
 import pytest
 from examining import SCAN, display, examined, live_findings
 from geometry_msgs.msg import PoseStamped
+from nav_msgs.msg import OccupancyGrid
 from nodes import node_of
 from rclpy.duration import Duration
 from rclpy.lifecycle import LifecycleNode
 from rclpy.node import Node
-from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import LaserScan
 
 import webviz
@@ -21,9 +23,11 @@ import webviz.ros.node
 from webviz.api.finding import CauseLevel
 from webviz.api.offer import Offer, Publisher
 from webviz.engine.commands import SetProperty
+from webviz.shell.doctor.examination import live_config
 from webviz.shell.testing.harness import Harness
 from webviz.shell.testing.live import LiveViewer
 from webviz_displays.laser_scan import LaserScan as LaserScanDisplay
+from webviz_displays.map import Map
 from webviz_displays.path import Path
 from webviz_displays.poses import Pose, PoseWithCovariance
 from webviz_displays.tf import TF
@@ -116,17 +120,87 @@ def test_a_goal_that_nobody_has_sent_is_a_note(robot: Node, webviz_viewer: Viewe
     viewer.wait_for(lambda: found() == [("GRAPH008", webviz.Severity.NOTE)], lambda: f"{found()}")
 
 
-def test_a_graph_without_any_other_node(webviz_domain: int, tmp_path: PathOfFile) -> None:
+def test_a_silent_publisher_is_blamed_for_no_more_than_is_known(
+    robot: Node, webviz_viewer: Viewers
+) -> None:
+    maps = robot.create_publisher(OccupancyGrid, "/map", 1)
+    maps.publish(OccupancyGrid())  # before webviz listens
+    viewer = webviz_viewer(Map(topic=webviz.Topic("/map")))
+    found = wait_for(viewer, "GRAPH008 /map")["GRAPH008 /map"]
+    words = re.compile(
+        r"Nothing has arrived on /map from /robot since webviz began to listen \S+ m?s ago\."
+    )
+    assert words.fullmatch(found.cause)
+    assert found.remedy.endswith("Let it publish as transient local if it sent a message earlier.")
+    waited = found.evidence["silent_s"]
+
+    def is_longer() -> bool:
+        now = live_findings(viewer, CauseLevel.GRAPH)["GRAPH008 /map"].evidence["silent_s"]
+        return now > waited  # pyright: ignore[reportOperatorIssue]
+
+    viewer.wait_for(is_longer)
+
+
+def test_tools_of_webviz_are_not_accused(webviz_domain: int, webviz_viewer: Viewers) -> None:
+    with node_of(webviz_domain, "webviz") as other, node_of(webviz_domain, "robot") as robot:
+        other.create_publisher(PoseStamped, "/goal_pose", 1)
+        robot.create_publisher(PoseStamped, "/pose", 1)
+        viewer = webviz_viewer(
+            Pose(topic=webviz.Topic("/goal_pose")), Pose(topic=webviz.Topic("/pose"))
+        )
+
+        def silent() -> set[str]:
+            found = viewer.viewer.snapshot().findings
+            return {each.subject for each in found if each.id == "GRAPH008"}
+
+        viewer.wait_for(lambda: silent() == {"/pose"}, lambda: f"{silent()}")
+        shown = live_config(viewer.source.offers()).displays
+        assert [each.topic.name for each in shown if isinstance(each, Pose)] == ["/pose"]
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST"), ("ROS_LOCALHOST_ONLY", "1")],
+)
+def test_a_graph_without_any_other_node(
+    webviz_domain: int,
+    tmp_path: PathOfFile,
+    monkeypatch: pytest.MonkeyPatch,
+    name: str,
+    value: str,
+) -> None:
     config = tmp_path / "lab.yaml"
     config.write_text("displays: [{type: LaserScan}]")
+
+    def first(*ids: str) -> webviz.Finding:
+        """Wait until one of these is the first finding above the network's."""
+        while True:  # the graph is read every two seconds
+            found = [each for each in viewer.doctor() if not each.id.startswith(("NET", "SHM"))]
+            if found and found[0].id in ids:
+                return found[0]
+
     with webviz.Viewer(config, port=0) as viewer:
-        empty = [each for each in viewer.doctor() if each.id == "GRAPH001"]
-        while not empty:  # the graph is read every two seconds
-            empty = [each for each in viewer.doctor() if each.id == "GRAPH001"]
-        assert [each.status for each in empty[0].explains[:2]] == ["Topic", "Fixed Frame"]
-        with node_of(webviz_domain, "robot"):
-            while any(each.id == "GRAPH001" for each in viewer.doctor()):
+        # The node stays on this machine; the doctor reads variables anew.
+        monkeypatch.delenv("ROS_AUTOMATIC_DISCOVERY_RANGE")
+        empty = first("GRAPH001")
+        assert [each.status for each in empty.explains[:2]] == ["Topic", "Fixed Frame"]
+        monkeypatch.setenv(name, value)
+        limited = first("ENV016")
+        assert limited.cause == (
+            f"{name} is {value}, so nodes of other machines are not found, and none of this "
+            f"machine is visible in domain {webviz_domain}."
+        )
+        assert limited.command == f"unset {name}"
+        assert limited.explains == empty.explains
+        assert "GRAPH001" not in {each.id for each in viewer.doctor()}
+        with node_of(webviz_domain, "_ros2cli_daemon"):  # shows nothing about the robot
+            while "/_ros2cli_daemon" not in str(first("ENV016").evidence["nodes"]):
                 pass
+        with node_of(webviz_domain, "robot"):
+            while {"ENV016", "GRAPH001"} & {each.id for each in viewer.doctor()}:
+                pass
+            (missing,) = [each for each in viewer.doctor() if each.id == "GRAPH010"]
+            assert missing.remedy.endswith(f"With {name}, those of other machines are not found.")
 
 
 def test_messages_above_the_limit(
@@ -172,6 +246,58 @@ def test_a_deadline_that_nobody_meets(robot: Node, webviz_viewer: Viewers) -> No
     assert found.cause.endswith("/robot offers none.")
     robot.destroy_subscription(listener)
     wait_for(viewer)
+
+
+RELIABLE, LATCHED, VOLATILE = (
+    QoSProfile(depth=1, durability=durability)
+    for durability in (
+        DurabilityPolicy.SYSTEM_DEFAULT,
+        DurabilityPolicy.TRANSIENT_LOCAL,
+        DurabilityPolicy.VOLATILE,
+    )
+)
+
+
+@pytest.mark.parametrize(
+    ("offered", "requested", "cured", "words"),
+    [
+        (BEST_EFFORT, RELIABLE, BEST_EFFORT, ("reliable", "best effort", "best effort")),
+        (VOLATILE, LATCHED, VOLATILE, ("transient local", "volatile", "as volatile")),
+    ],
+)
+def test_a_node_whose_qos_does_not_match(
+    robot: Node,
+    webviz_domain: int,
+    webviz_viewer: Viewers,
+    offered: QoSProfile,
+    requested: QoSProfile,
+    cured: QoSProfile,
+    words: tuple[str, str, str],
+) -> None:
+    robot.create_publisher(LaserScan, "/scan", offered)
+    viewer = webviz_viewer(TF())
+    with node_of(webviz_domain, "student") as student:
+        asking = student.create_subscription(LaserScan, "/scan", print, requested)
+        wait_for(viewer, "GRAPH016 /scan")
+        asked, given, remedy = words
+        cause = f"/student cannot receive /scan from /robot: requested {asked}, offered {given}."
+        viewer.wait_for(
+            lambda: live_findings(viewer, CauseLevel.GRAPH)["GRAPH016 /scan"].cause == cause,
+            lambda: f"It found {live_findings(viewer, CauseLevel.GRAPH)}.",
+        )
+        found = live_findings(viewer, CauseLevel.GRAPH)["GRAPH016 /scan"]
+        assert found.remedy.startswith("Let /student subscribe ")
+        assert remedy in found.remedy
+        assert found.remedy.endswith(f"or let /robot publish as {asked}.")
+        other = student.create_publisher(LaserScan, "/scan", requested)
+        viewer.wait_for(  # which serves the subscription, and not from the other one
+            lambda: noted(viewer).get("GRAPH016") is webviz.Severity.NOTE,
+            lambda: f"{noted(viewer)}",
+        )
+        student.destroy_publisher(other)
+        student.destroy_subscription(asking)
+        student.create_subscription(LaserScan, "/scan", print, cured)
+        wait_for(viewer)
 
 
 def test_a_node_that_was_started_twice(robot: Node, webviz_viewer: Viewers) -> None:
@@ -220,7 +346,9 @@ def test_a_publisher_that_stops(webviz_harness: Callable[..., Harness]) -> None:
     assert examined(stage, CauseLevel.GRAPH, 0.2, publish) == {}
     (found,) = examined(stage, CauseLevel.GRAPH).values()
     assert (found.id, found.subject) == ("GRAPH009", "/scan")
-    assert found.cause == "/lidar has stopped publishing /scan, previously at 5.0 Hz."
+    assert found.cause == (
+        "Nothing has arrived on /scan from /lidar for 4.4 s, previously at 5.0 Hz."
+    )
     assert examined(stage, CauseLevel.GRAPH, 0.2, publish) == {}
 
 

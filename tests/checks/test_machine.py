@@ -255,7 +255,7 @@ LOADED = "until grep -q librmw_fast /proc/$node/maps; do sleep 0.05; done"
     ("id", "faulty", "cured"),
     [
         ("NET001", f"{ETH}; {NO_MULTICAST}", ETH),
-        ("NET002", LO, ETH),
+        ("NET002", f"{ETH}; ip route del default", ETH),
         ("NET003", LO, ETH),
         ("NET004", f"{ETH}; {OTHER}", ETH),
         ("NET005", f"{ETH}; ip link set eth0 mtu 1400", ETH),
@@ -280,6 +280,20 @@ LOADED = "until grep -q librmw_fast /proc/$node/maps; do sleep 0.05; done"
 def test_namespaces(examiner: subprocess.Popen[str], id: str, faulty: str, cured: str) -> None:
     assert id in in_namespaces(examiner, faulty)
     assert id not in in_namespaces(examiner, cured)
+
+
+def test_a_machine_without_a_network_is_not_said_to_lose_multicast(
+    examiner: subprocess.Popen[str],
+) -> None:
+    found = in_namespaces(examiner, LO)
+    assert "NET003" in found
+    assert "NET002" not in found
+
+
+def test_programs_of_other_domains_are_not_accused(examiner: subprocess.Popen[str]) -> None:
+    apart = f'unshare -m sh -c \'{SHM} size=1g; exec "$0" "$@"\' {NODE} {QUIET}; {LOADED}'
+    assert "SHM005" in in_namespaces(examiner, f"{LO}; {apart}")
+    assert "SHM005" not in in_namespaces(examiner, f"{LO}; export ROS_DOMAIN_ID=5; {apart}")
 
 
 def can_unshare() -> bool:

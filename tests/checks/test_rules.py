@@ -81,7 +81,7 @@ def test_a_rule_is_a_subject_a_value_and_a_limit(
 def test_a_bad_rule_is_one_sentence(
     text: str, reason: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(["test", "--rule", text]) == 1
+    assert main(["test", "--rule", text]) == 2
     assert reason in capsys.readouterr().err
 
 

@@ -133,3 +133,51 @@ def _writes(function: ast.expr) -> bool:
         and function.attr in ("write", "writelines")
         and ast.unparse(function.value) in ("sys.stdout", "sys.stderr", "sys.stdout.buffer")
     )
+
+
+INITIALIZE = {
+    "jsonrpc": "2.0",
+    "id": 1,
+    "method": "initialize",
+    "params": {
+        "protocolVersion": "2025-03-26",
+        "capabilities": {},
+        "clientInfo": {"name": "test", "version": "1"},
+    },
+}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "is_json"),
+    [
+        (["doctor", "--json", "--seconds", "2"], True),
+        (["frames", "--seconds", "0.5"], False),
+        (["test", "--rule", "doctor.errors == 99", "--seconds", "1"], False),
+        (["mcp", "--port", "0", "--no-restore"], True),
+    ],
+)
+def test_what_dds_prints_is_kept_apart_from_results(
+    webviz_domain: int,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    arguments: list[str],
+    is_json: bool,
+) -> None:
+    profile = tmp_path / "profile.xml"
+    profile.write_text("<dds><profiles><unknown/></profiles></dds>")
+    monkeypatch.setenv("FASTRTPS_DEFAULT_PROFILES_FILE", str(profile))
+    monkeypatch.setenv("FASTDDS_DEFAULT_PROFILES_FILE", str(profile))
+    done = subprocess.run(
+        [sys.executable, "-m", "webviz", *arguments],
+        input=f"{json.dumps(INITIALIZE)}\n",
+        capture_output=True,
+        text=True,
+        timeout=120.0,
+        check=False,
+    )
+    assert "XMLPARSER" in done.stderr, f"DDS complains nowhere: {done.stderr}"
+    assert done.stdout
+    assert "XMLPARSER" not in done.stdout
+    if is_json:
+        answer = json.loads(done.stdout)
+        assert answer.get("findings") or answer["result"]["serverInfo"]

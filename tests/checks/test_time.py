@@ -7,13 +7,19 @@ from collections.abc import Callable
 
 import examining
 import pytest
+from builtin_interfaces.msg import Time
 from examining import SCAN, three_ranges
+from nodes import node_of
+from rclpy.parameter import Parameter
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import LaserScan as LaserScanMessage
 
-from webviz import Finding
+from webviz import Finding, Severity, Topic
 from webviz.api.finding import CauseLevel
 from webviz.api.offer import Offer, Publisher
 from webviz.engine.commands import Reset
 from webviz.shell.testing.harness import Harness
+from webviz.shell.testing.live import LiveViewer
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.source import SECOND
 from webviz_displays.laser_scan import LaserScan
@@ -91,6 +97,62 @@ def test_a_clock_that_is_missing_ends_or_is_there_twice(stage: Harness) -> None:
     assert examined(stage) == {}
     clocks(stage)
     assert [*standing(stage, 6)] == ["TIME002"]
+
+
+def causes(viewer: LiveViewer) -> dict[str, str]:
+    """Causes in the graph, in time and in frames, in the order of the doctor, by id."""
+    return {
+        each.id: each.cause
+        for each in viewer.viewer.snapshot().findings
+        if each.severity > Severity.NOTE and each.id.startswith(("GRAPH", "TIME", "TF"))
+    }
+
+
+@pytest.mark.parametrize("is_followed", [False, True])
+def test_a_clock_of_a_paused_simulator(
+    webviz_domain: int, webviz_viewer: Callable[..., LiveViewer], is_followed: bool
+) -> None:
+    with node_of(webviz_domain, "gazebo") as node:
+        clock = node.create_publisher(Clock, "/clock", 1)
+        node.create_publisher(LaserScanMessage, "/scan", 1)
+        viewer = webviz_viewer(LaserScan(topic=Topic("/scan")), fixed_frame="map")
+        if is_followed:
+            parameter = Parameter("use_sim_time", value=True)
+            viewer.source._node.set_parameters([parameter])  # pyright: ignore[reportPrivateUsage]
+
+        def found(step: int | None = 0) -> dict[str, str]:
+            """The causes by id; a message on /clock is sent before, unless there is no step."""
+            nonlocal time_s
+            if step is not None:
+                time_s += step
+                clock.publish(Clock(clock=Time(sec=time_s)))
+            return causes(viewer)
+
+        time_s = 7
+        missing = "TIME001" if is_followed else "TIME013"
+        viewer.wait_for(lambda: [*found(None)] == [missing], lambda: f"It found {found(None)}.")
+        assert "othing has arrived on /clock from /gazebo" in found(None)[missing]
+        still = "Simulated time stands still at 7.0 s (/gazebo), so nodes with use_sim_time wait."
+        viewer.wait_for(lambda: found() == {"TIME013": still}, lambda: f"It found {found()}.")
+        # While time runs, the topic itself is to blame, and what publishes no transforms.
+        viewer.wait_for(
+            lambda: [*found(1)][:1] == ["GRAPH008"],
+            lambda: f"It found {found()}.",
+        )
+
+
+def test_two_clocks_come_before_what_they_cause(
+    webviz_domain: int, webviz_viewer: Callable[..., LiveViewer]
+) -> None:
+    with node_of(webviz_domain, "gazebo") as one, node_of(webviz_domain, "player") as other:
+        one.create_publisher(LaserScanMessage, "/scan", 1)
+        for node in (one, other):
+            node.create_publisher(Clock, "/clock", 1)
+        viewer = webviz_viewer(LaserScan(topic=Topic("/scan")), fixed_frame="map")
+
+        viewer.wait_for(
+            lambda: [*causes(viewer)] == ["TIME003"], lambda: f"It found {causes(viewer)}."
+        )
 
 
 def test_a_node_on_wall_time(stage: Harness) -> None:

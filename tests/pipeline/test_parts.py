@@ -94,6 +94,7 @@ HOOKS = sorted(
 PARTS = [
     "Autosave",
     "Black box",
+    "Clock",
     "Connection",
     "Counter",
     "Displays",

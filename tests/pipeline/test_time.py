@@ -54,7 +54,7 @@ def test_before_the_first_clock_the_viewer_waits_and_says_for_what(b: Any) -> No
     assert level == "WARN"
     assert "Waiting for /clock: use_sim_time is set, but it has no publisher" in text
     publishes(b, "/clock", "/gazebo")
-    assert "/gazebo has not published yet" in statuses(b)["Time"][1]
+    assert "nothing has arrived from /gazebo" in statuses(b)["Time"][1]
     b.clock += 20.0
     b.source.now = T
     assert "Time" not in statuses(b)

@@ -108,3 +108,25 @@ class Environment:
     security_problem: str = ""
     zenoh_routers: Mapping[str, str] = field(default_factory=dict)
     discovery_servers: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def domain(self) -> str:
+        """The domain of ROS."""
+        return self.variables.get("ROS_DOMAIN_ID") or "0"
+
+    @property
+    def has_static_peers(self) -> bool:
+        """Return whether discovery looks for named machines, too."""
+        return bool(self.variables.get("ROS_STATIC_PEERS")) and not self._is_localhost_only
+
+    @property
+    def local_only(self) -> str:
+        """The variable that limits discovery to this machine, "" if none does."""
+        if self._is_localhost_only:
+            return "ROS_LOCALHOST_ONLY"
+        name = "ROS_AUTOMATIC_DISCOVERY_RANGE"
+        return name if self.variables.get(name, "").upper() == "LOCALHOST" else ""
+
+    @property
+    def _is_localhost_only(self) -> bool:
+        return self.variables.get("ROS_LOCALHOST_ONLY") == "1"

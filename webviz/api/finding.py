@@ -104,6 +104,8 @@ class Finding:
         command: to type in a terminal, "" if none repairs it.
         button: a change of the viewer that repairs it, None if none does.
         explains: the statuses that follow from it.
+        causes: level of the symptoms that it comes before, if that affects more than its own; time
+            that stands still is the cause of silent topics.
         first_ns, last_ns: ROS time when it was first and last seen; 0 while unknown.
         began_s: position in the recording, or in the memory of live topics, when it was first seen;
             None without one.
@@ -118,6 +120,7 @@ class Finding:
     command: str = ""
     button: ChangeDisplay | OtherFixedFrame | None = None
     explains: tuple[Symptom, ...] = ()
+    causes: CauseLevel | None = None
     first_ns: int = field(default=0, compare=False)
     last_ns: int = field(default=0, compare=False)
     began_s: float | None = field(default=None, compare=False)

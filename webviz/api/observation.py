@@ -22,9 +22,15 @@ from webviz.api.two_ends import TwoEnds
 from webviz.api.views import Camera
 from webviz.data.transforms import Diagnosis, TransformBuffer, diagnose
 from webviz.data.transforms.conflicts import Conflict, ConflictKind
-from webviz.data.transforms.reasons import Explanation, Kind
+from webviz.data.transforms.reasons import Explanation, Kind, in_words
 
 NO_OFFER = Offer(())
+OF_TIME = tuple(
+    kind
+    for kind in Kind
+    if kind not in (Kind.EMPTY_FRAME, Kind.LEADING_SLASH, Kind.LOOP, Kind.REFUSED)
+)
+"""Reasons that time may cause."""
 
 
 @dataclass(frozen=True)
@@ -41,6 +47,7 @@ class InputSeen:
         received: messages since the start.
         size: of the newest message in bytes.
         rate_hz: of the last messages, 0 if unknown.
+        silent_s: seconds since the last message, or else since webviz began to listen.
         stamps: (stamp, time of reception) of the last messages with a header, in ns, oldest first.
         frame: frame id of the newest message, as it was sent.
         type: message type of `message`.
@@ -60,6 +67,12 @@ class InputSeen:
     type: str
     message: Any
     size: int = 0
+    silent_s: float = 0.0
+
+    @property
+    def silence(self) -> str:
+        """For how long webviz has listened without a message, for sentences."""
+        return in_words(round(self.silent_s * 1e9))
 
 
 @dataclass(frozen=True)
@@ -107,6 +120,19 @@ class DisplaySeen:
         return (Symptom(self.id, key),) if self.problem(key) else ()
 
 
+@dataclass(frozen=True)
+class ClockSeen:
+    """Simulated time, as /clock has it.
+
+    Args:
+        time_ns: of the newest message, None without one.
+        still_s: seconds since it changed, or else since webviz subscribed.
+    """
+
+    time_ns: int | None
+    still_s: float
+
+
 @dataclass(frozen=True, kw_only=True)
 class Observation:
     """A robot and a viewer at one moment, as the checks of the doctor see them.
@@ -121,6 +147,7 @@ class Observation:
         nodes: full names, with duplicates.
         is_simulated: whether ROS time comes from /clock or a bag.
         clock_hz: messages per second on /clock.
+        clock: newest time on /clock, None while nothing depends on it.
         is_paused: whether a person has paused time.
         is_recorded: whether messages come from a bag.
         environment: of this machine, None with a bag or bridge, or until it is known.
@@ -143,6 +170,7 @@ class Observation:
     nodes: Sequence[str] = ()
     is_simulated: bool = False
     clock_hz: float = 0.0
+    clock: ClockSeen | None = None
     is_paused: bool = False
     is_recorded: bool = False
     environment: Environment | None = None
@@ -168,6 +196,11 @@ class Observation:
             if display.problem(each.status):
                 yield display, each, self.offers.get(each.topic, NO_OFFER)
 
+    def is_alone(self) -> bool:
+        """Return whether webviz is the only node in sight, apart from hidden ones as of `ros2`."""
+        shown = [node for node in self.nodes if not node.rpartition("/")[2].startswith("_")]
+        return len(shown) == 1 and not self.is_recorded
+
     def undiscovered(self) -> tuple[Symptom, ...]:
         """Return the statuses of topics that have no publisher, those of transforms included."""
         found = [(d, each) for d, each, offer in self.starved() if not offer.publishers]
@@ -180,6 +213,23 @@ class Observation:
         """Return the statuses of topics that have a publisher and no message."""
         found = [(d, each) for d, each, o in self.starved() if o.publishers and not each.received]
         return tuple(symptom for display, each in found for symptom in display.symptom(each.status))
+
+    def stalled(self) -> tuple[Symptom, ...]:
+        """Return the statuses of a robot whose time does not run as it should.
+
+        These are topics that have publishers and no messages, and frames that lack transforms for
+        another reason than their names.
+        """
+        topics = [
+            symptom
+            for display, each, offer in self.starved()
+            if offer.publishers
+            and not offer.problem
+            and display.statuses[each.status].remedy is None
+            for symptom in display.symptom(each.status)
+        ]
+        frames = [symptom for symptom, reason in self.lost(*OF_TIME) if not reason.near]
+        return (*self.symptom("Time"), *topics, *frames)
 
     def samples(self, *types: str) -> Iterator[tuple[DisplaySeen, InputSeen]]:
         """Yield the inputs with a message of one of these types."""

@@ -7,6 +7,13 @@ from collections.abc import Mapping
 
 NODE = "webviz"
 """Name of the viewer's node, for private names."""
+
+
+def is_own(node: str) -> bool:
+    """Return whether a node, by its full name, is one of webviz."""
+    return node.rpartition("/")[2] == NODE
+
+
 _TOPIC = re.compile(r"(/[A-Za-z_][A-Za-z0-9_]*)+", re.ASCII)
 
 

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from webviz.api.check import Check
 from webviz.api.finding import Finding
 from webviz.api.observation import Observation
+from webviz.data.transforms.reasons import Kind
 
-RECENT_NS = 5_000_000_000
 OLD = "TF_OLD_DATA"
 
 
@@ -23,7 +23,8 @@ class RefusedTransforms(Check):
         NaN; a message that was never filled in has a quaternion of zeros.
 
     Repair:
-        Correct the publisher. Print its transforms with
+        Correct the publisher, and start it again if the transform is static, since it is sent once
+        only. Print transforms with
 
             ros2 topic echo /tf
     """
@@ -31,15 +32,32 @@ class RefusedTransforms(Check):
     id = "TF023"
 
     def find(self, seen: Observation) -> Iterator[Finding]:
-        """Yield a finding for each frame of which transforms were refused lately."""
+        """Yield a finding for each frame whose transform is refused, or that lacks it since."""
+        lost = [
+            (reason.link, symptom)
+            for symptom, reason in seen.lost(Kind.REFUSED, Kind.AHEAD, Kind.NO_DATA)
+            if reason.kind is Kind.REFUSED or is_refused(seen, reason.link)
+        ]
+        causes = {link for link, _ in lost}
         for frame, refused in seen.buffer.refusals.rejections.items():
-            if seen.now_ns - refused.received_ns > RECENT_NS or refused.reason == OLD:
+            is_current = refused.is_current(seen.now_ns) or frame in causes
+            if not is_current or refused.reason == OLD:
                 continue
+            topic = "/tf_static" if refused.is_static else "/tf"
             yield self.found(
                 f'Transforms of "{frame}" are refused: {refused.sentence}.',
                 "Correct the publisher of the transform.",
                 subject=frame,
                 evidence={"frame": frame, "reason": refused.reason, "count": refused.count},
-                command="ros2 topic echo /tf",
-                explains=seen.symptom("Transforms"),
+                command=f"ros2 topic echo {topic}",
+                explains=(
+                    *(symptom for link, symptom in lost if link == frame),
+                    *seen.symptom("Transforms"),
+                ),
             )
+
+
+def is_refused(seen: Observation, frame: str) -> bool:
+    """Return whether a frame lacks transforms because its publisher sends invalid ones."""
+    refused = seen.buffer.refusals.rejections.get(frame)
+    return refused is not None and refused.reason != OLD and refused.is_current(seen.now_ns)

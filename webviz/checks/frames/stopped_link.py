@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from webviz.api.check import Check
 from webviz.api.finding import Finding, Severity
 from webviz.api.observation import Observation
+from webviz.checks.frames.refused import is_refused
 from webviz.data.transforms.reasons import Kind
 
 
@@ -28,7 +29,7 @@ class StoppedLink(Check):
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each such frame."""
         for symptom, reason in seen.lost(Kind.AHEAD, Kind.NO_DATA):
-            if reason.is_catching_up:
+            if reason.is_catching_up or is_refused(seen, reason.link):
                 continue
             yield self.found(
                 f'The transform of "{reason.link or reason.frame}" is no longer published.',

@@ -7,7 +7,12 @@ from collections.abc import Iterator
 from webviz.api.check import Check
 from webviz.api.finding import Finding, Severity
 from webviz.api.observation import Observation
+from webviz.checks.frames.names import is_named
 from webviz.data.transforms.reasons import Kind
+
+WORLDS = ("map", "odom", "world", "earth", "utm")
+"""Frames that the robot moves in, so that they are not mounted on it."""
+BASES = ("base_link", "base_footprint")
 
 
 class UnknownFrame(Check):
@@ -32,13 +37,20 @@ class UnknownFrame(Check):
         for symptom, reason in seen.lost(Kind.UNKNOWN_FRAME):
             if reason.near:
                 continue
+            is_world = is_named(reason.frame, *WORLDS)
+            frames = sorted(seen.buffer.frames())
+            base = next((each for name in BASES for each in frames if is_named(each, name)), "")
             yield self.found(
                 f'No transform leads to the frame "{reason.frame}".',
-                "Publish where it is mounted, or correct the frame id of the data.",
+                "Start what places the robot in it, or correct the frame id of the data."
+                if is_world
+                else "Publish where it is mounted, or correct the frame id of the data.",
                 subject=reason.link or reason.frame,
                 severity=Severity.ERROR,
                 evidence={"frame": reason.frame},
-                command="ros2 run tf2_ros static_transform_publisher "
-                f"--frame-id base_link --child-frame-id {reason.frame}",
+                command=""
+                if is_world or not base
+                else "ros2 run tf2_ros static_transform_publisher "
+                f"--frame-id {base} --child-frame-id {reason.frame}",
                 explains=(symptom,),
             )

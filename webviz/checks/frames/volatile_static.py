@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from webviz.api.check import Check
-from webviz.api.finding import Finding
+from webviz.api.finding import CauseLevel, Finding
 from webviz.api.observation import Observation
+from webviz.data.transforms.reasons import Kind
 
 
 class VolatileStatic(Check):
@@ -29,6 +30,10 @@ class VolatileStatic(Check):
         offer = seen.offers.get("/tf_static")
         if offer is None or offer.is_recorded:
             return
+        kinds = Kind.NO_TRANSFORMS, Kind.UNKNOWN_FIXED_FRAME, Kind.UNKNOWN_FRAME, Kind.NOT_CONNECTED
+        lost = tuple(symptom for symptom, reason in seen.lost(*kinds) if not reason.near)
+        links = map(seen.buffer.link, seen.buffer.frames())
+        explains = () if any(link and link.is_static for link in links) else lost
         for publisher in offer.publishers:
             if publisher.durability == "volatile" and publisher.is_qos_known:
                 yield self.found(
@@ -38,4 +43,6 @@ class VolatileStatic(Check):
                     subject=publisher.label,
                     evidence={"node": publisher.label, "durability": publisher.durability},
                     command="ros2 topic info /tf_static --verbose",
+                    explains=explains,
+                    causes=CauseLevel.FRAMES,
                 )

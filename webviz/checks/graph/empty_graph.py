@@ -32,10 +32,9 @@ class EmptyGraph(Check):
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding if the graph has one node, and topics or transforms are lacking."""
         explains = seen.undiscovered()
-        if seen.is_recorded or len(seen.nodes) != 1 or not explains:
+        if not seen.is_alone() or not explains:
             return
-        variables = seen.environment.variables if seen.environment else {}
-        domain = variables.get("ROS_DOMAIN_ID", "0")
+        domain = seen.environment.domain if seen.environment else "0"
         yield self.found(
             f"No other ROS node is visible in domain {domain}.",
             "Start the robot, or set the ROS_DOMAIN_ID of its nodes.",

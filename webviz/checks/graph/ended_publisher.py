@@ -15,7 +15,8 @@ class EndedPublisher(Check):
     Messages arrived on a topic that has no publisher any more.
 
     Why:
-        The node has exited or crashed; what is shown is its last message.
+        The node has exited or crashed, or its machine is out of reach; what is shown is its last
+        message.
 
     Repair:
         Start the node again. Its last words are in the log of its launch file, and in
@@ -30,8 +31,8 @@ class EndedPublisher(Check):
             if not each.received or offer.publishers:
                 continue
             yield self.found(
-                f"The publisher of {each.topic} has ended.",
-                "Start its node again.",
+                f"{each.topic} no longer has a publisher.",
+                "Start its node again, or restore the link to its machine.",
                 subject=each.topic,
                 evidence={"topic": each.topic, "received": each.received},
                 command="ros2 node list",

@@ -1,4 +1,4 @@
-"""Lifecycle nodes that send nothing."""
+"""Lifecycle nodes from which nothing arrives."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ EVENT = "lifecycle_msgs/msg/TransitionEvent"
 
 
 class InactiveNode(Check):
-    """Lifecycle node that sends nothing.
+    """Lifecycle node from which nothing arrives.
 
     A topic is published by a lifecycle node, and no message has arrived.
 
@@ -38,8 +38,8 @@ class InactiveNode(Check):
             nodes = lifecycle_nodes(seen, offer.publishers)
             if nodes and is_silent(seen, display, each, offer):
                 yield self.found(
-                    f"{nodes[0]} is a lifecycle node and has sent nothing on {each.topic}: it is "
-                    "probably not active.",
+                    f"Nothing has arrived on {each.topic} from {nodes[0]}, a lifecycle node that "
+                    "is probably not active.",
                     "Configure and activate the node.",
                     subject=each.topic,
                     evidence={"topic": each.topic, "nodes": tuple(nodes)},

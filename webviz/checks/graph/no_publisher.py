@@ -9,6 +9,7 @@ from webviz.api.finding import ChangeDisplay, Finding
 from webviz.api.observation import Observation
 from webviz.api.status import Remedy
 from webviz.checks.graph.names import suggested
+from webviz.data.words import joined
 
 
 class NoPublisher(Check):
@@ -36,12 +37,16 @@ class NoPublisher(Check):
                 continue
             status = display.problem(each.status)
             remedy = status and status.remedy
+            hiding = seen.environment.local_only if seen.environment else ""
             place = "The bag has no messages on" if seen.is_recorded else "No node publishes"
             yield self.found(
                 f"{place} {each.topic}.",
                 "Choose another topic."
                 if seen.is_recorded
-                else "Start the node that publishes it, or choose another topic.",
+                else joined(
+                    "Start the node that publishes it, or choose another topic.",
+                    hiding and f"With {hiding}, those of other machines are not found.",
+                ),
                 subject=each.topic,
                 evidence={"topic": each.topic, "types": each.types},
                 command=f"ros2 topic find {each.types[0]}",

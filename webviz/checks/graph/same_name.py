@@ -8,9 +8,8 @@ from collections.abc import Iterator
 from webviz.api.check import Check
 from webviz.api.finding import Finding, Severity
 from webviz.api.observation import Observation
+from webviz.sources.names import is_own
 
-VIEWER = "webviz"
-"""Several viewers at once, or `webviz doctor` beside one, are normal."""
 SHARED = {"/tf", "/tf_static", "/rosout", "/parameter_events", "/diagnostics", "/clock"}
 """Topics that many nodes publish."""
 
@@ -38,7 +37,7 @@ class SameName(Check):
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each such name."""
         for node, number in Counter(seen.nodes).items():
-            if number < 2 or node.rpartition("/")[2] == VIEWER:
+            if number < 2 or is_own(node):  # a viewer, and `webviz doctor` beside it
                 continue
             both = sorted(
                 topic

@@ -12,7 +12,7 @@ def is_nameless(offer: Offer) -> bool:
 
 
 def is_silent(seen: Observation, display: DisplaySeen, each: InputSeen, offer: Offer) -> bool:
-    """Return whether a topic is published and matches, but has sent nothing yet."""
+    """Return whether a topic is published and matches, but nothing has arrived."""
     publishers = [p for p in offer.publishers if p.type in each.types]
     if each.received or offer.problem or not publishers or seen.is_recorded:
         return False

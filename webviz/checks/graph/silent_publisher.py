@@ -1,4 +1,4 @@
-"""Publishers that have sent nothing."""
+"""Publishers from which nothing has arrived."""
 
 from __future__ import annotations
 
@@ -9,7 +9,10 @@ from webviz.api.finding import Finding, Severity
 from webviz.api.observation import Observation
 from webviz.checks.graph.inactive_node import lifecycle_nodes
 from webviz.checks.graph.silence import is_nameless, is_silent
+from webviz.data.words import joined
+from webviz.sources.names import is_own
 
+MAP = "nav_msgs/msg/OccupancyGrid"
 STREAMS = {
     *(
         f"sensor_msgs/msg/{name}"
@@ -32,7 +35,7 @@ STREAMS = {
             "Temperature",
         )
     ),
-    "nav_msgs/msg/OccupancyGrid",
+    MAP,
     "nav_msgs/msg/Odometry",
     "tf2_msgs/msg/TFMessage",
 }
@@ -40,14 +43,15 @@ STREAMS = {
 
 
 class SilentPublisher(Check):
-    """Publisher that sends nothing.
+    """Publisher from which nothing arrives.
 
-    A topic has a publisher that matches the display, but no message has arrived. Of goals, paths,
-    markers and others that are sent on an event it is a note.
+    A topic has a publisher that matches the display, but no message has arrived since webviz began
+    to listen. Of goals, paths, markers and others that are sent on an event it is a note.
 
     Why:
-        The node runs and waits for something itself, such as a sensor that is off or an input
-        topic.
+        The node waits for something itself, such as a sensor that is off or an input topic, or it
+        hangs; its machine or the link to it may have failed, which DDS notices after its lease of
+        about 20 s; or it sent its message earlier and, being volatile, does not repeat it.
 
     Repair:
         Look at the log of the node, and at the topics that it subscribes to:
@@ -65,13 +69,26 @@ class SilentPublisher(Check):
             if lifecycle_nodes(seen, offer.publishers):
                 continue
             publishers = [p for p in offer.publishers if p.type in each.types]
+            if all(is_own(p.node) for p in publishers):
+                continue
             node = publishers[0].label
+            is_repeated = any(p.durability == "transient_local" for p in publishers)
+            is_single = each.types[0] not in STREAMS or each.types[0] == MAP
+            earlier = "Let it publish as transient local if it sent a message earlier."
             yield self.found(
-                f"{node} publishes {each.topic}, but has sent nothing yet.",
-                "Check what the node waits for, such as its sensor or its inputs.",
+                f"Nothing has arrived on {each.topic} from {node} since webviz began to listen "
+                f"{each.silence} ago.",
+                joined(
+                    "Check what the node waits for, such as its sensor or its inputs.",
+                    earlier if is_single and not is_repeated else "",
+                ),
                 subject=each.topic,
                 severity=Severity.WARNING if {*each.types} & STREAMS else Severity.NOTE,
-                evidence={"topic": each.topic, "nodes": tuple(p.label for p in publishers)},
+                evidence={
+                    "topic": each.topic,
+                    "nodes": tuple(p.label for p in publishers),
+                    "silent_s": round(each.silent_s, 1),
+                },
                 command=f"ros2 node info {node}" if publishers[0].node else "",
                 explains=display.symptom(each.status),
             )

@@ -7,14 +7,14 @@ from collections.abc import Iterator
 from webviz.api.check import Check
 from webviz.api.finding import Finding, Severity
 from webviz.api.observation import Observation
-from webviz.checks.graph.silent_publisher import STREAMS
+from webviz.checks.graph.silent_publisher import MAP, STREAMS
 
-ON_CHANGE = "nav_msgs/msg/OccupancyGrid"
+ON_CHANGE = MAP
 """Some mappers publish only while the robot moves."""
 
 
 class StoppedPublisher(Check):
-    """Publisher that has stopped sending.
+    """Messages that no longer arrive.
 
     Messages arrived at a steady rate, and then no more, although the publisher still exists. Of
     maps, paths, poses of localisation and others that are only sent while the robot moves, it is a
@@ -40,8 +40,11 @@ class StoppedPublisher(Check):
             yield self.found(
                 f"{each.topic} stops in the bag; its rate was {rate}."
                 if seen.is_recorded
-                else f"{who} has stopped publishing {each.topic}, previously at {rate}.",
-                "Look at the log of the node and at its sensor.",
+                else f"Nothing has arrived on {each.topic} from {who} for {each.silence}, "
+                f"previously at {rate}.",
+                "Look at the log of the node and at its sensor."
+                if seen.is_recorded
+                else "Check the log of the node, its sensor, and the link to its machine.",
                 subject=each.topic,
                 severity=Severity.WARNING if each.type in STREAMS - {ON_CHANGE} else Severity.NOTE,
                 evidence={

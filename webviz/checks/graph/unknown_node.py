@@ -34,7 +34,8 @@ class UnknownNode(Check):
         for display, each, offer in seen.starved():
             if is_silent(seen, display, each, offer) and is_nameless(offer):
                 yield self.found(
-                    f"The publisher of {each.topic} belongs to no known node and sends nothing.",
+                    f"Nothing has arrived on {each.topic}, whose publisher belongs to no known "
+                    "node.",
                     "Check the DDS program or bridge that offers the topic.",
                     subject=each.topic,
                     severity=Severity.WARNING if {*each.types} & STREAMS else Severity.NOTE,

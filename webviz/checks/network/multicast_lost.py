@@ -31,13 +31,17 @@ class MulticastLost(Check):
         environment = seen.environment
         if environment is None or environment.multicast_returns is not False:
             return
+        outer = [each for each in environment.interfaces if not each.is_loopback]
+        if not outer:
+            return  # there is no network, which NET003 finds
         explains = seen.undiscovered()
         names = tuple(each.name for each in environment.interfaces)
+        best = next((each.name for each in outer if each.has_multicast), outer[0].name)
         yield self.found(
             "A multicast packet of this machine to itself does not arrive.",
             "Allow multicast in the firewall, or add a route for 224.0.0.0/4.",
             severity=Severity.WARNING if explains else Severity.NOTE,
             evidence={"interfaces": names},
-            command="sudo ip route add 224.0.0.0/4 dev eth0",
+            command=f"sudo ip route add 224.0.0.0/4 dev {best}",
             explains=explains,
         )

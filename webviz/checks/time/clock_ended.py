@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from webviz.api.check import Check
-from webviz.api.finding import Finding
+from webviz.api.finding import CauseLevel, Finding
 from webviz.api.observation import Observation
 
 
@@ -27,13 +27,13 @@ class ClockEnded(Check):
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
         is_over = bool(seen.now_ns) and seen.is_simulated and not seen.nodes_of("/clock")
-        explains = seen.symptom("Time")
-        if is_over and explains and not seen.is_recorded:
+        if is_over and seen.symptom("Time") and not seen.is_recorded:
             yield self.found(
                 f"Simulated time has stopped at {seen.now_ns / 1e9:.1f} s: no node publishes "
                 "/clock.",
                 "Start the simulator or the playback of the bag again.",
                 evidence={"time_s": seen.now_ns / 1e9},
                 command="ros2 topic info /clock --verbose",
-                explains=explains,
+                explains=seen.stalled(),
+                causes=CauseLevel.GRAPH,
             )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from webviz.api.check import Check
-from webviz.api.finding import Finding, Severity
+from webviz.api.finding import CauseLevel, Finding, Severity
 from webviz.api.observation import Observation
 
 
@@ -32,12 +32,13 @@ class ClockMissing(Check):
             return
         nodes = seen.nodes_of("/clock")
         yield self.found(
-            f"{nodes} publishes /clock, but has sent nothing."
+            f"webviz follows simulated time, and nothing has arrived on /clock from {nodes}."
             if nodes
             else "webviz follows simulated time, but nothing publishes /clock.",
             "Start or resume the simulator, or start webviz without use_sim_time.",
             severity=Severity.ERROR,
             evidence={"publishers": nodes},
             command="ros2 topic hz /clock",
-            explains=seen.symptom("Time"),
+            explains=seen.stalled(),
+            causes=CauseLevel.GRAPH,
         )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from webviz.api.check import Check
-from webviz.api.finding import Finding
+from webviz.api.finding import CauseLevel, Finding
 from webviz.api.observation import Observation
 
 
@@ -34,5 +34,6 @@ class TwoClocks(Check):
                 "Stop all but one of them.",
                 evidence={"nodes": nodes},
                 command="ros2 topic info /clock --verbose",
-                explains=seen.symptom("Time"),
+                explains=seen.stalled(),
+                causes=CauseLevel.GRAPH,
             )

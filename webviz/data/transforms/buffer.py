@@ -135,7 +135,7 @@ class TransformBuffer:
             or not abs(qw * qw + qx * qx + qy * qy + qz * qz - 1.0) < QUATERNION_TOLERANCE
         ):
             fault = fault_of(parent, child, translation)
-            self.refusals.reject(child, stamp_ns, received_ns, fault)
+            self.refusals.reject((parent, child), stamp_ns, received_ns, fault, is_static)
             return False
 
         tree = self._tree
@@ -152,8 +152,10 @@ class TransformBuffer:
         sample = ((x, y, z, qx, qy, qz, qw), parent)
         if not cache.insert(stamp_ns, sample):
             fault = too_old(stamp_ns, cache.newest_stamp)
-            self.refusals.reject(child, stamp_ns, received_ns, fault)
+            self.refusals.reject((parent, child), stamp_ns, received_ns, fault)
             return False
+        if is_static:
+            self.refusals.replace(child)
         if before != (cache.newest if is_static else cache.parent):
             self.structure_version += 1
         self._claim(child, sample if is_static else authority, authority, stamp_ns)

@@ -48,6 +48,11 @@ def _reason(
     except LookupException:
         return _loop(tree, fixed_frame, frame)
     except ConnectivityException:
+        for root in (ancestors(tree, frame)[-1], ancestors(tree, fixed_frame)[-1]):
+            if root in buffer.refusals.rejections:
+                return _refused(buffer, fixed_frame, frame, root) or _not_connected(
+                    tree, fixed_frame, frame
+                )
         return _not_connected(tree, fixed_frame, frame)
     except TransformException as error:
         return explain_time(buffer, fixed_frame, frame, stamp_ns, now_ns, str(error))
@@ -75,6 +80,9 @@ def _invalid(buffer: TransformBuffer, fixed_frame: str, frame: str) -> Explanati
                 other_frame=fixed_frame.lstrip("/") if name == fixed_frame else "",
             )
     names = buffer.tree.names
+    for name in (frame, fixed_frame):
+        if name not in names and (refused := _refused(buffer, fixed_frame, frame, name)):
+            return refused
     if not names and buffer.recorded:
         return Explanation(
             Kind.NO_TRANSFORMS,
@@ -103,6 +111,22 @@ def _invalid(buffer: TransformBuffer, fixed_frame: str, frame: str) -> Explanati
             )
         return Explanation(Kind.UNKNOWN_FRAME, sentence, near=near)
     return None
+
+
+def _refused(
+    buffer: TransformBuffer, fixed_frame: str, frame: str, lost: str
+) -> Explanation | None:
+    """Explain that the transform that places a frame was refused, if it was."""
+    if (found := buffer.refusals.naming(lost)) is None:
+        return None
+    child, rejection = found
+    return Explanation(
+        Kind.REFUSED,
+        f'"{frame}" has no pose in "{fixed_frame}", as the transform of "{child}" was refused: '
+        f"{rejection.sentence}. Fix its publisher.",
+        cause=child,
+        link=child,
+    )
 
 
 def unknown_fixed_frame(buffer: TransformBuffer, fixed_frame: str) -> Explanation:

@@ -25,6 +25,7 @@ class Kind(StrEnum):
     EMPTY_FRAME = "empty frame_id"
     LEADING_SLASH = "leading slash"
     NO_TRANSFORMS = "no transforms at all"
+    REFUSED = "transform refused"
     UNKNOWN_FRAME = "frame never seen"
     UNKNOWN_FIXED_FRAME = "fixed frame never seen"
     NOT_CONNECTED = "two trees"

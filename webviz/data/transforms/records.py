@@ -45,6 +45,10 @@ class NewestTransform:
     is_static: bool
 
 
+RECENT_NS = 5_000_000_000
+"""For which a refused transform that is repeated is reported."""
+
+
 @dataclass(frozen=True, slots=True)
 class Rejection:
     """Why the buffer last refused a transform of a child, and how often.
@@ -55,6 +59,8 @@ class Rejection:
         count: transforms of this child refused since the buffer was made or cleared.
         stamp_ns: stamp of the last one refused.
         received_ns: when that one was received; 0 if unknown.
+        parent: of the last one refused.
+        is_static: whether that one is static, so that its publisher does not repeat it.
     """
 
     reason: str
@@ -62,6 +68,12 @@ class Rejection:
     count: int
     stamp_ns: int
     received_ns: int = 0
+    parent: str = ""
+    is_static: bool = False
+
+    def is_current(self, now_ns: int) -> bool:
+        """Return whether it matters: a static one until it is replaced, others for some seconds."""
+        return self.is_static or now_ns - self.received_ns < RECENT_NS
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,6 +20,7 @@ from webviz.engine.doctor.judging import Judge
 from webviz.engine.doctor.load import LoadMeter
 from webviz.engine.doctor.observing import observe
 from webviz.engine.doctor.ordering import ordered
+from webviz.engine.parts.clock_watch import ClockWatchPart
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core
 from webviz.engine.state import State
@@ -58,6 +59,7 @@ class Doctor:
         core: shared by all parts.
         displays: have messages and statuses.
         numbers: returns those in messages since its last call, by the message paths of rules.
+        clock: looks at /clock.
         waiting: monotonic time in seconds, which goes on while a recording is paused.
     """
 
@@ -66,12 +68,14 @@ class Doctor:
         core: Core,
         displays: DisplaysPart,
         numbers: Callable[[], Mapping[str, Sequence[float]]],
+        clock: ClockWatchPart,
         waiting: Callable[[], float] = time.monotonic,
     ) -> None:
         self._core = core
         self._waiting = waiting
         self._displays = displays
         self._numbers = numbers
+        self._clock = clock
         self._checks: Sequence[Check] = ()
         self._began = -EVERY_S, -EVERY_S
         self._round: Iterator[None] | None = None
@@ -118,6 +122,7 @@ class Doctor:
         is_asked = time.monotonic() < self._asked_until_s or any(self._rules(state))
         if not (self._core.is_watched() or is_asked):
             self._round = None
+            self._clock.is_wanted = False
         elif self._round is not None or self._is_due():
             self._round = self._round or self._examined(state)
             self._continue(self._round)
@@ -164,7 +169,8 @@ class Doctor:
         load, cores = self._load.measure()
         seen = observe(core, self._displays, state, self._environment(state), load, cores)
         others = [each for each in self.findings if each.id != OF_RULES]
-        seen = replace(seen, findings=others, numbers=self._numbers())
+        seen = replace(seen, findings=others, numbers=self._numbers(), clock=self._clock.seen())
+        self._clock.is_wanted = bool(seen.stalled()) and not seen.is_paused
         self.verdicts = self._judge.judge(self._rules(state), seen)
         seen = replace(seen, verdicts=self.verdicts)
         found: list[Finding] = []

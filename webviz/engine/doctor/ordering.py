@@ -15,9 +15,10 @@ def ordered(findings: Iterable[Finding]) -> Sequence[Finding]:
     """Return the findings to show, the one to repair first at the beginning.
 
     Findings of one check about one subject become one. Of the others, those on a level that affects
-    more come first; notes, which break nothing, come last, and errors of this machine, with which
-    ROS does not start, before its warnings. A finding that explains no status but
-    those of the ones before it is a symptom of these, and left out.
+    more come first, or those that cause the symptoms on such a level; notes, which break nothing,
+    come last, and errors of this machine, with which ROS does not start, before its warnings. A
+    finding that explains no status but those of the ones before it is a symptom of these, and left
+    out.
     """
     merged: dict[tuple[str, str], Finding] = {}
     for finding in findings:
@@ -36,8 +37,9 @@ def ordered(findings: Iterable[Finding]) -> Sequence[Finding]:
     return tuple(shown)
 
 
-def _place(finding: Finding) -> tuple[bool, int, bool, str, int, str]:
-    is_note, level = finding.severity is Severity.NOTE, finding.level
+def _place(finding: Finding) -> tuple[bool, int, bool, bool, str, int, str]:
+    is_note, level = finding.severity is Severity.NOTE, finding.causes or finding.level
     is_milder = level is CauseLevel.MACHINE and finding.severity is not Severity.ERROR
     symptoms = len(finding.explains)
-    return is_note, level.place, is_milder, finding.id, -symptoms, finding.subject
+    is_symptom = finding.causes is None
+    return is_note, level.place, is_symptom, is_milder, finding.id, -symptoms, finding.subject

@@ -15,7 +15,7 @@ LONGEST = 80
 
 
 def programs_apart(memory: Path) -> Sequence[str]:
-    """Return the command lines of ROS programs whose shared memory is not that of this program.
+    """Return the command lines of ROS programs of this domain with other shared memory.
 
     A container with the network of the host (`--network host`) has its own unless it is started
     with `--ipc=host`. Fast DDS takes it for the same machine, and sends through shared memory.
@@ -28,6 +28,7 @@ def programs_apart(memory: Path) -> Sequence[str]:
     except OSError:
         return ()
     found: list[str] = []
+    domain = os.environ.get("ROS_DOMAIN_ID") or "0"
     for process in PROC.glob("[0-9]*"):
         try:
             if os.stat(f"{process}/root{memory}").st_dev == own:
@@ -36,8 +37,17 @@ def programs_apart(memory: Path) -> Sequence[str]:
                 continue
             maps = (process / "maps").read_bytes()
             words = (process / "cmdline").read_bytes().replace(b"\0", b" ")
+            if _domain(process) != domain:
+                continue
         except OSError:  # it has ended, or belongs to another user
             continue
         if any(library in maps for library in LIBRARIES):
             found.append(words.decode(errors="replace").strip()[:LONGEST])
     return tuple(sorted(found)[:MOST])
+
+
+def _domain(process: Path) -> str:
+    """Return the domain of ROS in the environment that a process was started with."""
+    entries = (process / "environ").read_bytes().split(b"\0")
+    named = (each for each in entries if each.startswith(b"ROS_DOMAIN_ID="))
+    return next(named, b"").partition(b"=")[2].decode(errors="replace") or "0"

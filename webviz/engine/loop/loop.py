@@ -25,6 +25,7 @@ from webviz.engine.parts import Core, Part, Parts
 from webviz.engine.parts.autosave import AutosavePart
 from webviz.engine.parts.black_box import BlackBoxPart
 from webviz.engine.parts.bridges import BridgesPart
+from webviz.engine.parts.clock_watch import ClockWatchPart
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.driving import DrivingPart
 from webviz.engine.parts.files import FilesPart
@@ -172,9 +173,10 @@ class FrameLoop:
             WhatIfPart(core, self._displays, services),
             *(make(core) for make in parts),
         ]
-        self._parts = Parts([*first, *others, numbers, *last], self._guard)
+        clock_watch = ClockWatchPart(core)
+        self._parts = Parts([*first, *others, numbers, clock_watch, *last], self._guard)
         self._do = history.noting(self._parts.do)
-        self.doctor = Doctor(core, self._displays, numbers.numbers, waiting)
+        self.doctor = Doctor(core, self._displays, numbers.numbers, clock_watch, waiting)
         """Finds the causes behind the statuses."""
         self._arrivals = Arrivals(core, self._time, transforms)
         self._showing = Showing(scene, views, self._guard)

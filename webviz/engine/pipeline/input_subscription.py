@@ -253,6 +253,7 @@ class InputSubscription:
             received=self._topic_statistics.count,
             size=self._topic_statistics.size,
             rate_hz=self._topic_statistics.rate(),
+            silent_s=self._topic_statistics.silent_s,
             stamps=tuple(self._stamps),
             frame=self._frame,
             type=self.type,

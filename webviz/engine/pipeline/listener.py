@@ -14,6 +14,7 @@ from webviz.data.messages.transform_layout import Layouts, TransformBatch
 from webviz.data.transforms import TransformBuffer
 from webviz.data.transforms.buffer import MAX_FRAMES
 from webviz.data.transforms.clocks import clock_problem
+from webviz.data.transforms.records import RECENT_NS
 from webviz.data.words import joined
 from webviz.sources import Offer, Raw, Subscriber, Subscription
 
@@ -32,7 +33,6 @@ BACK_MESSAGES = 10
 than the newest transform of their frame: a bag that loops without /clock. A machine whose clock
 lags does not match, as its stamps follow its own."""
 REVIEW_S = 1.0
-REFUSED_NS = 5_000_000_000
 ASK_S = 2.0
 """Minimum time between two subscriptions to /tf_static."""
 MAX_PROBLEMS = 3
@@ -214,10 +214,10 @@ class TransformListener:
                 else ". Fix the publisher."
             )
             for child, rejection in buffer.refusals.rejections.items()
-            if now_ns - rejection.received_ns < REFUSED_NS
+            if rejection.is_current(now_ns)
         ]
         surplus = buffer.refusals.surplus
-        if surplus is not None and now_ns - surplus.received_ns < REFUSED_NS:
+        if surplus is not None and now_ns - surplus.received_ns < RECENT_NS:
             problems.append(
                 f'{surplus.count} transforms, the last of "{surplus.child}", were ignored, because '
                 f"there are more than {MAX_FRAMES} frames. Stop the publisher that keeps naming "

@@ -68,7 +68,7 @@ class RosTime:
         publishers = offers["/clock"].publishers if "/clock" in offers else ()
         nodes = ", ".join(publisher.label for publisher in publishers)
         if not self._now_ns:
-            missing = f"{nodes} has not published yet" if nodes else "it has no publisher"
+            missing = f"nothing has arrived from {nodes}" if nodes else "it has no publisher"
             return Status(
                 Level.WARN,
                 f"Waiting for /clock: use_sim_time is set, but {missing}. Start the simulator, or "

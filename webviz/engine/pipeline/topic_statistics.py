@@ -38,6 +38,9 @@ class TopicStatistics:
         self.size = 0
         """Of the newest message in bytes."""
         self.last: Raw | None = None
+        self.silent_s = 0.0
+        """Seconds since the last message, or else since listening began, as of the last status."""
+        self._listening_s: float | None = None
         self._path = path
         self.type = spec.types[0] if spec.types[0] != ANY else ""
         self._types = spec.types
@@ -68,7 +71,7 @@ class TopicStatistics:
         """Forget all messages, such as after a jump of time."""
         self.count = 0
         self._times.clear()
-        self.last = None
+        self.last = self._listening_s = None
 
     def status(self, offers: Mapping[str, Offer], now_ns: int, clock: float) -> Status:
         """Return the status: what is received, or why nothing is.
@@ -81,6 +84,12 @@ class TopicStatistics:
         if not self._name:
             return Status(Level.ERROR, self._problem)
         offer = offers.get(self._name)
+        if offer is None or offer.requested is None:
+            self._listening_s = None
+        elif self._listening_s is None:
+            self._listening_s = clock
+        began_s = clock if self._listening_s is None else self._listening_s
+        self.silent_s = clock - (self._times[-1] if self._times else began_s)
         if offer and offer.problem:
             return Status(Level.ERROR, f"{self._name}: {offer.problem}")
         if offer and offer.type not in ("", self.type):

@@ -16,7 +16,9 @@ def program() -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # no traceback of the following imports
     gc.set_threshold(IMPORTED_OBJECTS)
     from webviz.shell.cli.ending import finish, leave, on_signal, piped
+    from webviz.shell.cli.terminal import claim_output
 
+    claim_output()
     on_signal(leave)
     finish(piped(main))
 

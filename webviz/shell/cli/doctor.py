@@ -35,8 +35,8 @@ Examples:
   webviz doctor --peer user@robot    compare this machine with another, over ssh
   webviz doctor --explain TF003      explain a finding
 
-Exit status: 0 without findings above "note", 3 with some, 1 after an error or with too little time
-to find any, 2 for invalid arguments.
+Exit status: 0 without findings above "note", 3 with some or with an error of a display that none
+explains, 1 after an error or with too little time to find any, 2 for invalid arguments.
 
 """
 FOUND, UNKNOWN = 3, 1

@@ -6,11 +6,37 @@ must not forge a line, hide one, turn its direction or change the terminal.
 
 from __future__ import annotations
 
+import contextlib
 import logging
+import os
 import sys
 from typing import TextIO
 
 from webviz.data.names import escaped, readable
+
+OUTPUT, ERRORS = 1, 2
+"""File descriptors."""
+
+
+def claim_output() -> None:
+    """Reserve standard output for Python; what libraries in C++ print there becomes an error text.
+
+    Fast DDS writes its complaints to the file descriptor, in the middle of JSON.
+    """
+    stdout = sys.stdout
+    with contextlib.suppress(OSError, AttributeError):  # None or closed: there is nothing to keep
+        if stdout.fileno() != OUTPUT:
+            return
+        stdout.flush()
+        own = os.dup(OUTPUT)
+        os.dup2(ERRORS, OUTPUT)
+        sys.stdout = open(  # noqa: SIM115 - until the program ends
+            own,
+            "w",
+            encoding=stdout.encoding,
+            errors=stdout.errors,
+            buffering=1 if stdout.isatty() else -1,
+        )
 
 
 def say(*lines: str) -> None:

@@ -79,6 +79,13 @@ def _check(
 ) -> None:
     """Raise ValueError for an invalid combination of arguments."""
     connect.check(options.bag is not None)
+    for text in options.rule:
+        from webviz.files.config import WatchRule
+
+        try:
+            WatchRule(rule=text)
+        except ValueError as error:
+            raise ValueError(f"--rule {error}") from error
     if report is None:
         if options.output or options.check:
             raise ValueError("-o and --check need a bug report: webviz test bug.zip -o test_bug.py")
@@ -155,10 +162,7 @@ def _rules(options: RuleOptions, config: "Config | None") -> "RuleResults":
     from webviz.files.config import WatchRule
     from webviz.shell.doctor.rule_results import RuleResults
 
-    try:
-        own = [WatchRule(rule=text) for text in options.rule]
-    except ValueError as error:
-        raise Error(f"--rule {error}") from error
+    own = [WatchRule(rule=text) for text in options.rule]
     results = RuleResults(
         str(options.bag or "live"), [*(config.settings.watch if config else ()), *own]
     )

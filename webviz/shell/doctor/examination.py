@@ -30,6 +30,7 @@ from webviz.shell.doctor.scene import NoScene
 from webviz.sources import Offer, Source
 from webviz.sources.bag.source import BagSource
 from webviz.sources.bag.steps import steps_of
+from webviz.sources.names import is_own
 
 DISCOVERY_S = 4.3
 """Time for the graph, which is read every two seconds: the first reading may be half of it."""
@@ -198,8 +199,7 @@ def examine_live(
         time.sleep(REST_S)
     is_given = config is not None or MAP in source.offers()
     if config is None:
-        offers = {topic: offer for topic, offer in source.offers().items() if offer.publishers}
-        config = live_config(offers)
+        config = live_config(source.offers())
     return Examination(config, source, progress, results).watch(until_s, is_given)
 
 
@@ -244,7 +244,15 @@ def examine_machine(environment: Environment, ends: TwoEnds | None = None) -> Do
 
 
 def live_config(offers: Mapping[str, Offer]) -> Config:
-    """Return displays for published topics, without those of panes, whose messages are large."""
-    config, _ = displays_of(offers)
+    """Return displays for published topics, without those of panes, whose messages are large.
+
+    What only tools of webviz publish is sent when a person uses them.
+    """
+    published = {
+        topic: offer
+        for topic, offer in offers.items()
+        if not all(is_own(each.node) for each in offer.publishers)
+    }
+    config, _ = displays_of(published)
     config.displays = [each for each in config.displays if not getattr(each, "has_pane", False)]
     return config

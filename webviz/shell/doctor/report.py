@@ -21,6 +21,7 @@ UNFINISHED = (
     "This machine is busy: there was too little time to check topics, transforms and data. Repeat "
     "the command with --seconds 30."
 )
+LEVELS = {Level.ERROR: "error", Level.WARN: "warning"}
 Meta = msgspec.Meta
 
 
@@ -30,6 +31,7 @@ class ReportedStatus(msgspec.Struct):
     display: Annotated[str, Meta(description='Name of the display; "" for the whole viewer.')]
     status: Annotated[str, Meta(description="Name of the status.")]
     text: Annotated[str, Meta(description="What it says.")] = ""
+    level: Annotated[str, Meta(description='"error" or "warning"; "" if it is gone.')] = ""
     values: Annotated[
         Sequence[Measurement], Meta(description="What was measured, more exact than in the text.")
     ] = ()
@@ -81,8 +83,10 @@ class DoctorReport(msgspec.Struct, kw_only=True):
 
     @property
     def is_well(self) -> bool:
-        """Return whether no finding is more than a note."""
-        return all(finding.severity == "note" for finding in self.findings)
+        """Return whether no finding is more than a note, and each error is explained by one."""
+        return all(each.severity == "note" for each in self.findings) and not any(
+            each.level == LEVELS[Level.ERROR] for each in self.unexplained
+        )
 
     @property
     def is_unknown(self) -> bool:
@@ -111,7 +115,10 @@ def report_of(
         name = names.get(place[0], "")
         if status is None:
             return ReportedStatus(name, place[1], finding=causes.get(place, ""))
-        return ReportedStatus(name, place[1], status.text, status.values, causes.get(place, ""))
+        level = LEVELS.get(status.level, "")
+        return ReportedStatus(
+            name, place[1], status.text, level, status.values, causes.get(place, "")
+        )
 
     causes = {
         (symptom.display, symptom.status): finding.id
@@ -204,7 +211,11 @@ def _lines(report: DoctorReport, is_colored: bool) -> Iterator[str]:
         first = next(each.id for each in report.findings)
         yield f"{counted(severe, 'finding')} ({scope}). More: webviz doctor --explain {first}"
     elif unexplained:
-        yield f"No finding explains {counted(len(report.unexplained), 'warning')} above ({scope})."
+        errors = sum(each.level == LEVELS[Level.ERROR] for each in report.unexplained)
+        lacking = (
+            counted(errors, "error") if errors else counted(len(report.unexplained), "warning")
+        )
+        yield f"No finding explains {lacking} above ({scope})."
     elif not report.unfinished:
         yield f"{paint('All is well', 'ok')} ({scope})."
 
