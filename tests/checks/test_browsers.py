@@ -296,7 +296,7 @@ def test_a_browser_without_webgl(room: Room, monkeypatch: pytest.MonkeyPatch) ->
     try:
         tab = bare.new_page()
         tab.goto(room.viewer.url)
-        notice = tab.get_by_role("alert").filter(has_text="This browser has no WebGL 2")
+        notice = tab.get_by_role("alert").filter(has_text="webviz needs WebGL 2")
         playwright.expect(notice).to_be_visible()
         found = room.wait("WEB001")
     finally:

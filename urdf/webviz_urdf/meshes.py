@@ -147,13 +147,11 @@ def _parts(data: bytes, suffix: str, textures: TextureFolder) -> list[MeshPart]:
             place = np.asarray(transform, np.float64)
             if suffix in GLTF:
                 place = Z_UP @ place
-            parts.append(_part(mesh, place, unit, is_linear=suffix in GLTF))
+            parts.append(_part(mesh, place, unit, is_gltf=suffix in GLTF))
     return parts
 
 
-def _part(
-    mesh: trimesh.Trimesh, transform: np.ndarray, unit: float, *, is_linear: bool
-) -> MeshPart:
+def _part(mesh: trimesh.Trimesh, transform: np.ndarray, unit: float, *, is_gltf: bool) -> MeshPart:
     """Return the mesh in the scene's frame, in metres."""
     exact, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
     linear, is_moved = transform[:3, :3], not np.array_equal(transform, np.eye(4))
@@ -162,8 +160,8 @@ def _part(
     vertices = exact.astype(np.float32) if unit == 1.0 else (exact * unit).astype(np.float32)
     if not np.isfinite(vertices).all():
         raise ValueError("a vertex is not finite, or too far away")
-    surface, uvs = _surface(mesh)
-    colors = _vertex_colors(mesh, is_linear=is_linear)
+    surface, uvs = _surface(mesh, is_gltf=is_gltf)
+    colors = _vertex_colors(mesh, is_linear=is_gltf)
     # trimesh has no public way to ask whether the file gave normals; without, it computes some.
     normals = mesh._cache.cache.get("vertex_normals")
     if normals is None:
@@ -194,7 +192,7 @@ def _unit_metres(mesh: trimesh.Trimesh) -> float:
     return float(factor) if name else 1.0
 
 
-def _surface(mesh: trimesh.Trimesh) -> tuple[Surface | None, np.ndarray | None]:
+def _surface(mesh: trimesh.Trimesh, *, is_gltf: bool) -> tuple[Surface | None, np.ndarray | None]:
     """Return the file's own material, None if it has none, and texture coordinates."""
     visual: Any = mesh.visual
     if visual.kind != "texture":
@@ -202,8 +200,11 @@ def _surface(mesh: trimesh.Trimesh) -> tuple[Surface | None, np.ndarray | None]:
     uvs = None if visual.uv is None else np.asarray(visual.uv, np.float32)
     material = visual.material
     if isinstance(material, PBRMaterial):
-        return _gltf_surface(material, has_uvs=uvs is not None), uvs
-    if isinstance(material, SimpleMaterial) and material.kwargs:
+        if is_gltf:
+            return _gltf_surface(material, has_uvs=uvs is not None), uvs
+        # trimesh has these for COLLADA, too, whose colours are sRGB.
+        factor, image = material.baseColorFactor, material.baseColorTexture
+    elif isinstance(material, SimpleMaterial) and material.kwargs:
         factor, image = material.diffuse, material.image
     else:  # trimesh's placeholder for texture coordinates without a material
         return None, uvs

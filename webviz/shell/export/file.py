@@ -26,15 +26,24 @@ POLICY = "; ".join(
     )
 )
 """As the server's (`webviz.server.http.requests.add_policy`), without any server."""
-INCOMPLETE = "This file is incomplete. Copy it again, or export it anew."
+BEGIN = """\
+window.webvizRun = true;
+addEventListener("load", () => {
+  // What comes last is missing from a file that was cut off, maybe with all modules.
+  if (document.querySelector('script[type="webviz/about"]')) return;
+  const bar = document.createElement("p");
+  bar.className = "wv-contact";
+  bar.setAttribute("role", "alert");
+  bar.style = "position: fixed; inset: 0 0 auto; z-index: 10000; font-family: sans-serif";
+  bar.textContent = "This file is incomplete. Copy it again, or export it anew.";
+  document.body.append(bar);
+  document.documentElement.dataset.wvShown = "";
+});
+"""
 HEAD = (
     f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">'
     '<meta name="referrer" content="no-referrer">'
-    "<script>window.webvizRun = true;"
-    # What comes last is missing from a file that was cut off, maybe with all modules.
-    """addEventListener("load", () => document.querySelector('script[type="webviz/about"]') ||"""
-    f'(document.body.textContent = "{INCOMPLETE}", document.documentElement.dataset.wvShown = ""));'
-    "</script>"
+    f"<script>{BEGIN}</script>"
 )
 END = b"</body>"
 LINE = 3 << 18
