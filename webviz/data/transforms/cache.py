@@ -102,6 +102,7 @@ class TimeCache:
         "_joined",
         "_parents",
         "_poses",
+        "_seen_ns",
         "_stamps",
         "_taken",
         "batches",
@@ -122,6 +123,7 @@ class TimeCache:
         """Messages that had come when it joined them, and when it last took its samples."""
         self._cache_time_ns = cache_time_ns
         self._delay_ns: int | None = None
+        self._seen_ns = 0
 
     def __len__(self) -> int:
         return len(self.stamps)
@@ -162,6 +164,17 @@ class TimeCache:
     @delay_ns.setter
     def delay_ns(self, delay_ns: int | None) -> None:
         self._delay_ns = delay_ns
+
+    @property
+    def seen_ns(self) -> int:
+        """Time at which the newest stamp was first received; 0 if unknown."""
+        batches = self.batches
+        late_ns = batches.delay_ns(self._joined, self.place) if batches is not None else None
+        return self._seen_ns if late_ns is None else self.newest_stamp + late_ns
+
+    @seen_ns.setter
+    def seen_ns(self, seen_ns: int) -> None:
+        self._seen_ns = seen_ns
 
     @property
     def newest_stamp(self) -> int:
@@ -231,7 +244,7 @@ class TimeCache:
     def leave(self) -> None:
         """Follow no messages any more."""
         if self.batches is not None:
-            self._delay_ns = self.delay_ns
+            self._delay_ns, self._seen_ns = self.delay_ns, self.seen_ns
             self._take()
             self.batches.leave(self.place)
             self.batches = None
@@ -334,6 +347,7 @@ class TimeCache:
         self._stamps.clear()
         self._poses.clear()
         self._parents.clear()
+        self._seen_ns = 0
         self.mixed_ns = self.twin_ns = NEVER_NS
 
 

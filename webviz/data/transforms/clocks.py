@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from webviz.data.transforms.buffer import TransformBuffer
 from webviz.data.transforms.cache import TimeCache
 from webviz.data.transforms.errors import NS_PER_S
@@ -70,3 +72,12 @@ def clock_problem(
         f"{who} are stamped {offset} the clock of this computer{rest}.",
         "Synchronise the clocks of the machines (chrony, NTP).",
     )
+
+
+def receptions(buffer: TransformBuffer) -> Mapping[int, int]:
+    """Return when the newest stamps of moving frames were first received, by stamp.
+
+    Both in nanoseconds; stamps whose reception is unknown are left out.
+    """
+    caches = (each for each in buffer.tree.caches.values() if isinstance(each, TimeCache))
+    return {each.newest_stamp: seen_ns for each in caches if (seen_ns := each.seen_ns)}
