@@ -86,6 +86,11 @@ class Ros1Recording:
             if entry := self._entry(channel, place):
                 yield entry
 
+    def newest_stamps(self, channels: Collection[RecordedChannel], end_ns: int) -> Iterator[int]:
+        """`Recording.newest_stamps`."""
+        found = [self._within(channel, 0, end_ns, -1) for channel in self._wanted(channels)]
+        return map(_stamp, heapq.merge(*found, key=_stamp, reverse=True))
+
     @property
     def used(self) -> frozenset[RecordedChannel]:
         """`Recording.used`."""

@@ -159,7 +159,7 @@ class TransformBuffer:
         self._claim(child, sample if is_static else authority, authority, stamp_ns)
         if received_ns:
             cache.delay_ns = received_ns - stamp_ns
-            if not isinstance(cache, StaticCache) and cache.newest_stamp != newest_ns:
+            if before != cache.newest if is_static else cache.newest_stamp != newest_ns:
                 cache.seen_ns = received_ns
         self.version += 1
         return True

@@ -34,9 +34,10 @@ class StaticCache:
 
     Attributes:
         delay_ns: from the stamp of the last transform to its reception; None if unknown.
+        seen_ns: when this pose was first received; 0 if unknown.
     """
 
-    __slots__ = ("delay_ns", "sample")
+    __slots__ = ("delay_ns", "sample", "seen_ns")
     is_static = True
     newest_stamp = 0
     oldest_stamp = 0
@@ -44,6 +45,7 @@ class StaticCache:
     def __init__(self) -> None:
         self.sample: ParentedPose | None = None
         self.delay_ns: int | None = None
+        self.seen_ns = 0
 
     def __len__(self) -> int:
         return 1

@@ -189,7 +189,9 @@ class TransformListener:
             self._buffer.forget_publishers()
             self._reviewed_at = None
         structure = self._buffer.structure_version  # changes with every static transform
-        if structure != self._settled_structure and self._clock() - self._asked_at > ASK_S:
+        # The time of a bag may stand still; what it repeats depends on its messages alone.
+        is_due = self._buffer.recorded or self._clock() - self._asked_at > ASK_S
+        if structure != self._settled_structure and is_due:
             self._settled_structure = structure
             changes = sum(p.changes for p in self._buffer.publishers.values())
             if changes != self._settled_changes:

@@ -153,6 +153,18 @@ class BagFile:
         except OSError as error:
             raise BagError(self._unreadable(error)) from error
 
+    def newest_stamps(self, channels: Collection[BagChannel], end_ns: int) -> Iterator[int]:
+        """Yield the times of recording of `newest`, without reading the messages.
+
+        Raises:
+            BagError: the file can no longer be read.
+        """
+        try:
+            recorded = [channel.recorded for channel in channels]
+            yield from self._recording.newest_stamps(recorded, end_ns)
+        except OSError as error:
+            raise BagError(self._unreadable(error)) from error
+
     def is_used(self, channel: BagChannel) -> bool:
         """Return whether a channel has messages, or may have."""
         return channel.recorded in self._used

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
@@ -22,7 +22,7 @@ from webviz.sources.bag.past import RECENT_NS, BagPast
 from webviz.sources.bag.time import CLOCK, TF, BagTime
 from webviz.sources.bag.transform_runs import TransformRuns
 from webviz.sources.graph import ReadOnly
-from webviz.sources.inbox import MAX_BYTES, Inbox, Raw
+from webviz.sources.inbox import MAX_BYTES, Earlier, Inbox, Raw
 from webviz.sources.names import resolved
 from webviz.sources.past_state import Event
 from webviz.sources.replay import Replay
@@ -33,6 +33,8 @@ INBOX_LIMIT = 20_000
 """Messages per topic; all latched messages arrive at once."""
 NONE = "the bag has none"
 """When the first message of a topic comes."""
+EARLIER = 100
+"""Last messages until a position whose times are known after a seek."""
 NOT_COUNTED: Mapping[str, Sequence[int]] = {}
 
 
@@ -76,6 +78,10 @@ class BagSource:
         self._wanted: dict[str, Subscription] = {}
         self._problems: dict[str, str] = {}
         self._begins: dict[str, str] = {}
+        self._first_ns: dict[str, int] = {}
+        """Times of recording of the first messages of topics."""
+        self._earlier: dict[str, Earlier] = {}
+        """By topic, the last messages until a position; for the statistics of the next one."""
         self._offers = self._all_offers()
         self._served: dict[str, str] = {}
         """Types by topic, of subscriptions that get their past from the seek before."""
@@ -152,6 +158,7 @@ class BagSource:
         ended_ns = self._runs.ended_ns(at_ns - RECENT_NS)
         self._replay.seek(at_ns, self._channels_to_read(), self._wanted, ended_ns)
         self._time.seek(self.position_ns)
+        self._earlier = dict(self._before(at_ns, self._channels()))
         for extra in self._extras:
             self._put(Recorded(extra.topic, extra.type, extra.cdr, self._file.start_ns))
         self._served = _types(self._wanted)
@@ -228,7 +235,9 @@ class BagSource:
             self._put_extras(topic)
             if topic in new:
                 self._catch_up(topic, subscription)
-            else:
+            else:  # as after a reset, which has forgotten what came before
+                own = [channel for channel in self._channels() if channel.topic == topic]
+                self._earlier = {**dict(self._before(self.position_ns, own)), **self._earlier}
                 self._repeat(topic, subscription)
         if types != _types(self._wanted):
             self._replay.read_on(self._channels_to_read())
@@ -299,6 +308,7 @@ class BagSource:
             )
             lookbacks = (*subscription.lookbacks, *([latched] if latched.count else []))
             wanted = self._wanted | {topic: replace(subscription, lookbacks=lookbacks)}
+            self._earlier |= self._before(self.position_ns, channels)
             for recorded in BagPast(self._file, channels, wanted, self.position_ns).messages():
                 self._put(recorded)
 
@@ -338,7 +348,25 @@ class BagSource:
         self._put(recorded)
 
     def _put(self, recorded: Recorded) -> None:
-        self.inbox.put(recorded.topic, Raw(recorded.cdr, self._time.at(recorded.stamp_ns)))
+        stamp_ns = recorded.stamp_ns
+        earlier = self._earlier.get(recorded.topic)
+        if earlier is not None and stamp_ns >= earlier.recorded_ns[0]:
+            # Others of the same time are delivered with it.
+            del self._earlier[recorded.topic]
+            before = [each for each in earlier.recorded_ns if each < stamp_ns]
+            earlier = replace(earlier, recorded_ns=before)
+        else:
+            earlier = None
+        raw = Raw(recorded.cdr, self._time.at(stamp_ns), recorded_ns=stamp_ns, earlier=earlier)
+        self.inbox.put(recorded.topic, raw)
+
+    def _before(self, at_ns: int, channels: Sequence[BagChannel]) -> Iterator[tuple[str, Earlier]]:
+        """Yield topics and their last messages until a time."""
+        for topic in {channel.topic for channel in channels if channel.type not in (TF, CLOCK)}:
+            own = [channel for channel in channels if channel.topic == topic]
+            stamps = list(itertools.islice(self._file.newest_stamps(own, at_ns), EARLIER))
+            if stamps:
+                yield topic, Earlier(stamps, self._first_ns.get(topic, stamps[-1]))
 
     def _all_offers(self) -> Mapping[str, Offer]:
         publishers: dict[str, tuple[Publisher, ...]] = {}
@@ -370,6 +398,7 @@ class BagSource:
         first = next(self._file.messages(channels, self._file.start_ns), None)
         if first is None:
             return NONE
+        self._first_ns[topic] = first.stamp_ns
         return f"the bag's first is at {(first.stamp_ns - self.start_ns) / 1e9:.1f} s"
 
 
