@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from webviz.api.capabilities import (
         Comparable,
         Draggable,
+        Placing,
         ProtocolClient,
         Selective,
         Sweep,
@@ -93,6 +94,7 @@ __all__ = [
     "Pane",
     "Panel",
     "Placement",
+    "Placing",
     "Points",
     "Pose",
     "Prop",
@@ -125,6 +127,7 @@ _HOMES = {
     "webviz.api.capabilities": (
         "Comparable",
         "Draggable",
+        "Placing",
         "ProtocolClient",
         "Selective",
         "Sweep",
