@@ -124,7 +124,8 @@ class MessageFilter(Generic[P]):
                 self._give_up(message, Kind.BEHIND)
             else:
                 self._queue.append(message)
-            first = message.payload if first is None else first
+            if first is None and not message.is_passed:
+                first = message.payload
         self._new.clear()
         if first is None and (longest := self._longest()) is not None:
             first = longest.payload

@@ -201,8 +201,14 @@ def _statuses(viewer: BagViewer) -> Mapping[str, str]:
     """Return the level and text of each status, without durations."""
     state = viewer.loop.state()
     found = dict(state.statuses)
+    # How well displays agree is looked at once a second.
+    others = {runner.id: runner.external_statuses.keys() for runner in viewer.loop.runners()}
     for row in state.rows:
-        found |= {f"{row.id} {row.name}: {key}": status for key, status in row.statuses.items()}
+        found |= {
+            f"{row.id} {row.name}: {key}": status
+            for key, status in row.statuses.items()
+            if key not in others.get(row.id, ())
+        }
     return {key: f"{s.level.name} {_DURATION.sub('_', s.text)}" for key, s in found.items()}
 
 
