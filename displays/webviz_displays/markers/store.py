@@ -50,6 +50,8 @@ class Store:
         """Rows to be drawn anew; whoever draws them clears it."""
         self.waiting: dict[Place, list[int]] = {}
         """Rows whose newest version has no pose yet."""
+        self._has_removed = False
+        """Whether some of them may be free."""
         self._older = OlderVersions()
         self._number = 0
         """Of the last versions."""
@@ -247,6 +249,7 @@ class Store:
         self.remarks.go(serial, Gone(key, how, at_ns))
         self._memory.free(row)
         self._todo.discard(row)
+        self._has_removed = True
         self.remarks.tilted.discard(key)
         if was_shown:
             self.changed.add(row)
@@ -257,6 +260,14 @@ class Store:
         """Draw the newest versions of all markers that have a pose."""
         if frames.fixed_frame != self._fixed_frame:
             self._move(frames)
+        if self._has_removed:
+            self._has_removed = False
+            keys = self.table.keys
+            left = {
+                place: [row for row in rows if keys[row] is not None]
+                for place, rows in self.waiting.items()
+            }
+            self.waiting = {place: rows for place, rows in left.items() if rows}
         is_new = frames.buffer.version != self._tried
         if self._todo:
             self._settle(frames)
