@@ -48,13 +48,15 @@ class _State(msgspec.Struct):
         blocks: their nodes.
         assets: the files that they name.
         readout: statuses of namespaces and of what waits, and what they were made of.
+        ticked_ns: ROS time of the last tick.
     """
 
     store: Store | None = None
     blocks: Blocks = msgspec.field(default_factory=Blocks)
     assets: Assets = msgspec.field(default_factory=Assets)
     switches: dict[str, bool] = msgspec.field(default_factory=dict)
-    readout: tuple[object, dict[str, Status]] = (None, {})
+    readout: tuple[tuple[int, int, int], dict[str, Status]] = ((-1, -1, -1), {})
+    ticked_ns: int = 0
 
 
 class Markers(Display, Placing):
@@ -139,8 +141,12 @@ class Markers(Display, Placing):
         if state.store is None:
             ctx.warn("Markers", "No message received. Start the publisher or choose another topic.")
             return
-        moment = ctx.frames.now_ns // SECOND, state.store.table.changes, state.store.waiting_count
-        if state.readout[0] != moment:
+        now_ns, before_ns = ctx.frames.now_ns, state.ticked_ns
+        state.ticked_ns = now_ns
+        made = state.readout[0]
+        moment = now_ns, state.store.table.changes, state.store.waiting_count
+        is_other_second = made[0] // SECOND != now_ns // SECOND
+        if made[1:] != moment[1:] or is_other_second or (before_ns == now_ns != made[0]):
             report_namespaces(state.store, self._off, ctx)
             report_waiting(state.store, ctx)
             state.readout = moment, dict(ctx.statuses)

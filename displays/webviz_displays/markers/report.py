@@ -157,8 +157,8 @@ def report_waiting(store: Store, ctx: Context) -> None:
     if not late:
         return
     count = sum(map(len, late.values()))
-    (frame, stamp_ns), rows = max(late.items(), key=lambda item: len(item[1]))
-    key = table.keys[rows[0]]
+    (frame, stamp_ns), rows = max(late.items(), key=lambda item: (len(item[1]), item[0]))
+    key = min(filter(None, (table.keys[row] for row in rows)), default=None)
     first = "" if key is None else f" ({name_of(key)}{', ...' if count > 1 else ''})"
     reason = ctx.frames.explain(frame, stamp_ns)
     verb = "waits" if count == 1 else "wait"

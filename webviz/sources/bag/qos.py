@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import functools
 import io
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
 from ruamel.yaml import YAML
@@ -79,3 +79,13 @@ def text_of(publishers: Iterable[Publisher]) -> str:
     text = io.StringIO()
     YAML(typ="safe").dump(profiles, text)
     return text.getvalue()
+
+
+def weakest(publishers: Sequence[Publisher]) -> tuple[Reliability, Durability]:
+    """Return the QoS that all of them offer."""
+    reliable = all(p.reliability == "reliable" for p in publishers)
+    latched = all(p.durability == "transient_local" for p in publishers)
+    return (
+        "reliable" if reliable else "best_effort",
+        "transient_local" if latched else "volatile",
+    )
