@@ -83,6 +83,8 @@ class BagFiles:
         self.names = tuple(file.path.name for file in files)
         self.start_ns = min(file.start_ns for file in files)
         self.end_ns = max(file.end_ns for file in files)
+        self.topics = {channel.topic for file in files for channel in file.channels}
+        self.topics.update(topic for file in files for topic in file.skipped)
         self._redefined: dict[str, str] = {}
         self.channels = tuple(self._agreeing())
         self._used = {c.topic for file in files for c in file.channels if file.is_used(c)}

@@ -253,12 +253,12 @@ class BagSource:
         return 0
 
     def resolve(self, topic: str) -> str:
-        """Return the full name of a topic, remapped.
+        """Return the full name of a topic, remapped; those in the bag are valid.
 
         Raises:
             ValueError: it is not a valid topic name.
         """
-        return resolved(topic, self._remappings)
+        return resolved(topic, self._remappings, self._file.topics)
 
     def close(self) -> None:
         """Close the file."""
