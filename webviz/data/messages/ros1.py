@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import struct
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -13,6 +14,7 @@ from rosbags.typesys import Stores, TypesysError, get_types_from_msg, get_typest
 from webviz.data.messages import typestore
 from webviz.data.messages.encode import encode
 from webviz.data.messages.errors import DecodeError, DefinitionError
+from webviz.data.messages.ros1_transforms import transforms_to_cdr
 
 RENAMED = {"tf/msg/tfMessage": "tf2_msgs/msg/TFMessage"}
 """Types by their names in ROS 2."""
@@ -34,6 +36,8 @@ _NUMBERS = {
 _TIMES = ("builtin_interfaces/msg/Time", "builtin_interfaces/msg/Duration")
 _SIZE = struct.Struct("<I")
 _TIME = struct.Struct("<Ii")
+
+TRANSFORMS = "tf2_msgs/msg/TFMessage"
 
 _Read = Callable[[bytes, int], tuple[Any, int]]
 """Reads a value at an offset, and returns it with the offset behind it."""
@@ -62,6 +66,8 @@ class Ros1Type:
         """Of the type in ROS 2."""
         self._made: dict[str, _Read] = {}
         self._read = self._message(name, ())
+        self._is_usual: bool | None = None if self.name == TRANSFORMS else False
+        """Whether `transforms_to_cdr` reads it; None until both ways were compared."""
 
     def definition(self) -> str:
         """Return the .msg text of the type in ROS 2, "" if ROS 2 has the type itself."""
@@ -83,10 +89,17 @@ class Ros1Type:
             EncodeError: ROS 2 has a field of another type.
         """
         try:
+            if self._is_usual:
+                return transforms_to_cdr(data)
             values, _ = self._read(data, 0)
         except (struct.error, UnicodeDecodeError, ValueError) as error:
             raise DecodeError(f"{self.name} of ROS 1 is damaged.") from error
-        return encode(self.name, values)
+        cdr = encode(self.name, values)
+        if self._is_usual is None and values.get("transforms"):
+            # The text that came with the bag decides, which anybody may have written.
+            with contextlib.suppress(struct.error, ValueError):
+                self._is_usual = transforms_to_cdr(data) == cdr
+        return cdr
 
     def _message(self, name: str, inside: tuple[str, ...]) -> _Read:
         """Return the reader of a message."""
