@@ -12,9 +12,9 @@ if TYPE_CHECKING:
     from webviz.api.capabilities import (
         Comparable,
         Draggable,
-        Placing,
         ProtocolClient,
         Selective,
+        SelfPlacing,
         Sweep,
     )
     from webviz.api.check import Check
@@ -94,7 +94,6 @@ __all__ = [
     "Pane",
     "Panel",
     "Placement",
-    "Placing",
     "Points",
     "Pose",
     "Prop",
@@ -104,6 +103,7 @@ __all__ = [
     "Rgb",
     "Sample",
     "Selective",
+    "SelfPlacing",
     "Send",
     "Severity",
     "Shape",
@@ -127,9 +127,9 @@ _HOMES = {
     "webviz.api.capabilities": (
         "Comparable",
         "Draggable",
-        "Placing",
         "ProtocolClient",
         "Selective",
+        "SelfPlacing",
         "Sweep",
     ),
     "webviz.api.check": ("Check",),

@@ -35,7 +35,7 @@ class Selective:
         return True
 
 
-class Placing:
+class SelfPlacing:
     """A display that places what it has folded by itself, such as markers with stamps of their own.
 
     What a seek passes is not drawn, and its transforms are gone when the seek ends.
@@ -121,12 +121,12 @@ class Draggable(ProtocolClient):
         """Take up what a browser does with a handle. One at a time holds it."""
 
 
-CAPABILITIES = (Comparable, Draggable, Placing, ProtocolClient, Selective, Sweep)
+CAPABILITIES = (Comparable, Draggable, SelfPlacing, ProtocolClient, Selective, Sweep)
 
 FORMER_HOOKS = {"communicate": "talk", "drag": "grip"}
 """Names that hooks had in the version before."""
 
-C = TypeVar("C", bound=Comparable | Placing | ProtocolClient | Selective | Sweep)
+C = TypeVar("C", bound=Comparable | SelfPlacing | ProtocolClient | Selective | Sweep)
 
 
 def capability(display: object, kind: type[C]) -> C | None:

@@ -22,11 +22,11 @@ from webviz import (
     Input,
     Lookback,
     OtherFixedFrame,
-    Placing,
     Pose,
     Prop,
     Remedy,
     Sample,
+    SelfPlacing,
     Topic,
     compose,
 )
@@ -106,7 +106,7 @@ class _State(msgspec.Struct):
     grid: TiledGrid | None = None
 
 
-class MapDisplay(Display, Placing):
+class MapDisplay(Display, SelfPlacing):
     """Base of displays that draw a grid of cells as a flat picture."""
 
     is_threaded = True

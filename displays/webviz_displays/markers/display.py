@@ -16,9 +16,9 @@ from webviz import (
     Hit,
     Input,
     Lookback,
-    Placing,
     Prop,
     Sample,
+    SelfPlacing,
     Status,
     Topic,
 )
@@ -59,7 +59,7 @@ class _State(msgspec.Struct):
     ticked_ns: int = 0
 
 
-class Markers(Display, Placing):
+class Markers(Display, SelfPlacing):
     """Base of both displays: what differs is their topics."""
 
     slow_bytes = 1_000_000

@@ -51,7 +51,7 @@ class Store:
         self.waiting: dict[Place, list[int]] = {}
         """Rows whose newest version has no pose yet."""
         self._has_removed = False
-        """Whether some of them may be free."""
+        """True if some of them may be free."""
         self._older = OlderVersions()
         self._number = 0
         """Of the last versions."""

@@ -32,7 +32,7 @@ class Ages:
         self._stamps_ns = np.zeros(0, np.int64)
         self._changed_ns = np.zeros(0, np.int64)
         self._is_exact = np.zeros(0, np.bool_)
-        """Whether a time is that of reception, instead of the tick that noticed it."""
+        """True if a time is that of reception, instead of the tick that noticed it."""
 
     def update(
         self,

@@ -67,7 +67,7 @@ class Ros1Type:
         self._made: dict[str, _Read] = {}
         self._read = self._message(name, ())
         self._is_usual: bool | None = None if self.name == TRANSFORMS else False
-        """Whether `transforms_to_cdr` reads it; None until both ways were compared."""
+        """True if `transforms_to_cdr` reads it; None until both ways were compared."""
 
     def definition(self) -> str:
         """Return the .msg text of the type in ROS 2, "" if ROS 2 has the type itself."""

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
-from webviz.api.capabilities import Placing, Sweep, capability
+from webviz.api.capabilities import SelfPlacing, Sweep, capability
 from webviz.api.display import Display, Sync, inputs_of, overrides
 from webviz.api.frames import Frames
 from webviz.api.lookback import Lookback
@@ -47,7 +47,7 @@ class Inputs:
         """Continue with another instance that has the same inputs."""
         self._display = display
         self._sweep = capability(display, Sweep)
-        self._placing = capability(display, Placing)
+        self._placing = capability(display, SelfPlacing)
         self._guard = guard
 
     def subscriptions(self) -> dict[str, Subscription]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 
-from webviz.api.capabilities import Placing, Selective, capability
+from webviz.api.capabilities import Selective, SelfPlacing, capability
 from webviz.api.display import Display, Keep, overrides
 from webviz.api.frames import Frames
 from webviz.api.nodes import Pose
@@ -37,7 +37,7 @@ class SampleBuffer:
         self._id = id
         self._display = display
         self._selective = capability(display, Selective)
-        self._placing = capability(display, Placing)
+        self._placing = capability(display, SelfPlacing)
         self._placed_at: tuple[int, str] = -1, ""
         """Version of the transforms and fixed frame, when what is folded was placed."""
         self._guard = guard
@@ -52,7 +52,7 @@ class SampleBuffer:
         """Continue with another instance that has the same inputs."""
         self._display = display
         self._selective = capability(display, Selective)
-        self._placing = capability(display, Placing)
+        self._placing = capability(display, SelfPlacing)
         self._guard = guard
         self.inputs.replace(display, guard)
 

@@ -1,4 +1,4 @@
-"""What came before the messages that a seek reads, for the statistics of their topics."""
+"""Times of the messages before those that a seek reads, for the statistics of their topics."""
 
 from __future__ import annotations
 
