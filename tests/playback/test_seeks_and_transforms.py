@@ -196,3 +196,15 @@ def test_frames_keep_their_age_in_another_fixed_frame_and_after_a_reset(tmp_path
         viewer.do(Reset())
         viewer.play_to(11.9)
         assert statuses(viewer, "Frames")[1].startswith("2 of 3 frames shown, 1 have no transform")
+
+
+def test_a_marker_of_long_ago_is_where_its_frame_was(tmp_path: Path) -> None:
+    bag = Bag()
+    bag.add("/markers", "visualization_msgs/msg/MarkerArray")
+    for step in range(200):
+        bag.transform(step / 5, "map", "base", x=step / 5)
+    for at_s in (3.1, 7.3):
+        one = marker("base", START_NS + ns(at_s), round(at_s), 0.5)
+        bag.put(at_s, "/markers", {"markers": [one]})
+    config = "fixed_frame: map\ndisplays: [{type: MarkerArray, topic: /markers}]\n"
+    check_seeks(bag.write_file(tmp_path / "run.mcap"), config, times=[39.0, 25.0, 5.0])
