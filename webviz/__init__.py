@@ -14,6 +14,7 @@ if TYPE_CHECKING:
         Draggable,
         ProtocolClient,
         Selective,
+        SelfPlacing,
         Sweep,
     )
     from webviz.api.check import Check
@@ -102,6 +103,7 @@ __all__ = [
     "Rgb",
     "Sample",
     "Selective",
+    "SelfPlacing",
     "Send",
     "Severity",
     "Shape",
@@ -127,6 +129,7 @@ _HOMES = {
         "Draggable",
         "ProtocolClient",
         "Selective",
+        "SelfPlacing",
         "Sweep",
     ),
     "webviz.api.check": ("Check",),

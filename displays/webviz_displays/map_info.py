@@ -47,8 +47,8 @@ class MapInfo(Display):
         return False
 
     def lookback(self, name: str) -> Lookback:
-        """Return the newest; loops are counted from there on."""
-        return Lookback(count=1)
+        """Return all: their loops are counted."""
+        return Lookback()
 
     def fold(self, name: str, sample: Sample, state: SeenInfo | None) -> SeenInfo:
         """Count loops, and remember the newest message."""
@@ -75,8 +75,8 @@ class MapInfo(Display):
             ctx.ok("Position", f"x {x:.3f}, y {y:.3f}, z {z:.3f} m.")
             roll, pitch, yaw = to_rpy(pose.wxyz)
             ctx.ok("Orientation", f"roll {roll:.3f}, pitch {pitch:.3f}, yaw {yaw:.3f} rad.")
-        ctx.ok("Loop closures", f"{counted(seen.loops, 'loop closure')} since it is shown.")
-        ctx.ok("Proximity detections", f"{counted(seen.nearby, 'detection')} since it is shown.")
+        ctx.ok("Loop closures", f"{counted(seen.loops, 'loop closure')} so far.")
+        ctx.ok("Proximity detections", f"{counted(seen.nearby, 'detection')} so far.")
         names, values = message.stats_keys, message.stats_values
         if len(names) != len(values):
             text = f"{len(values)} values for {counted(len(names), 'name')}. Fix the publisher."

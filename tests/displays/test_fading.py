@@ -20,18 +20,28 @@ def test_frames_turn_grey_and_then_transparent(age, greyness, opacity) -> None:
 
 def test_frames_that_move_stay_young_though_their_stamps_are_of_another_day() -> None:
     ages, day = Ages(), 86_400 * SECOND
-    ages.update(np.array([SECOND]), day)
-    assert ages.update(np.array([2 * SECOND]), day + SECOND).tolist() == [0.0]
-    assert ages.update(np.array([2 * SECOND]), day + 4 * SECOND).tolist() == [3.0]
+    ages.update(np.array([SECOND]), day, dict)
+    assert ages.update(np.array([2 * SECOND]), day + SECOND, dict).tolist() == [0.0]
+    assert ages.update(np.array([2 * SECOND]), day + 4 * SECOND, dict).tolist() == [3.0]
 
 
-def test_a_frame_first_seen_late_is_as_old_as_its_stamp() -> None:
+def test_a_frame_first_seen_late_is_as_old_as_the_reception_of_its_transform() -> None:
+    ages, day = Ages(), 86_400 * SECOND
+    ages.update(np.array([8 * SECOND]), day, lambda: {8 * SECOND: day})
+    stamps = np.array([8 * SECOND, 3 * SECOND])
+    found = ages.update(stamps, day + 2 * SECOND, lambda: {3 * SECOND: day - 5 * SECOND})
+    assert found.tolist() == [2.0, 7.0]
+
+
+def test_a_frame_that_stopped_while_nothing_was_drawn_is_as_old_as_its_transform() -> None:
     ages = Ages()
-    ages.update(np.array([8 * SECOND]), 8 * SECOND)
-    assert ages.update(np.array([8 * SECOND, 3 * SECOND]), 10 * SECOND).tolist() == [2.0, 7.0]
+    ages.update(np.array([SECOND]), 2 * SECOND, dict)
+    ages.update(np.array([2 * SECOND]), 10 * SECOND, dict)  # noticed late
+    found = ages.update(np.array([2 * SECOND]), 12 * SECOND, lambda: {2 * SECOND: 3 * SECOND})
+    assert found.tolist() == [9.0]
 
 
 def test_a_frame_with_a_stamp_in_the_future_is_not_younger_than_new() -> None:
     ages = Ages()
-    assert ages.update(np.array([9 * SECOND]), 5 * SECOND).tolist() == [0.0]
-    assert ages.update(np.array([9 * SECOND]), 6 * SECOND).tolist() == [1.0]
+    assert ages.update(np.array([9 * SECOND]), 5 * SECOND, dict).tolist() == [0.0]
+    assert ages.update(np.array([9 * SECOND]), 6 * SECOND, dict).tolist() == [1.0]

@@ -8,7 +8,8 @@ from typing import Any
 import pytest
 
 from webviz.data.messages import DecodeError, DefinitionError, decode, register
-from webviz.data.messages.ros1 import Ros1Type
+from webviz.data.messages.ros1 import TRANSFORMS, Ros1Type
+from webviz.data.messages.ros1_transforms import transforms_to_cdr
 
 NAME = "old_msgs/msg/Mixed"
 TEXT = """time at
@@ -107,3 +108,69 @@ def test_what_ros_2_dropped_or_renamed_is_skipped_or_renamed() -> None:
 def test_a_definition_that_is_incomplete_or_endless_is_refused(text: str, said: str) -> None:
     with pytest.raises(DefinitionError, match=said):
         Ros1Type("old_msgs/msg/Odd", text)
+
+
+TF_TEXT = (
+    "geometry_msgs/TransformStamped[] transforms\n"
+    + ("=" * 80 + "\nMSG: geometry_msgs/TransformStamped\nstd_msgs/Header header\n")
+    + "string child_frame_id\ngeometry_msgs/Transform transform\n"
+    + ("=" * 80 + f"\nMSG: std_msgs/Header\n{HEADER}")
+    + ("=" * 80 + "\nMSG: geometry_msgs/Transform\n")
+    + "geometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n"
+    + ("=" * 80 + "\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n")
+    + ("=" * 80 + "\nMSG: geometry_msgs/Quaternion\n")
+    + "float64 x\nfloat64 y\nfloat64 z\nfloat64 w\n"
+)
+
+
+def transforms(*names: tuple[bytes, bytes], seconds: int = 5, nanoseconds: int = 6) -> bytes:
+    """Return a message of ROS 1."""
+    parts = [struct.pack("<I", len(names))]
+    for number, (frame, child) in enumerate(names):
+        parts.append(struct.pack("<III", number, seconds & 0xFFFFFFFF, nanoseconds & 0xFFFFFFFF))
+        parts += [struct.pack("<I", len(each)) + each for each in (frame, child)]
+        parts.append(struct.pack("<7d", *(number + place for place in range(7))))
+    return b"".join(parts)
+
+
+ODD_NAMES = [
+    [],
+    [(b"map", b"base")],
+    [(b"", b"a"), (b"ab", b"abc"), (b"abcd", b"abcde")],
+    [(b"a\xfcb", "ü".encode()), (b"nul\0l", b"\0")],
+]
+
+
+@pytest.mark.parametrize("names", ODD_NAMES)
+@pytest.mark.parametrize(("seconds", "nanoseconds"), [(5, 6), (-1, -1), (2**31 - 1, 10**9)])
+def test_transforms_are_converted_as_every_message(
+    names: list[tuple[bytes, bytes]], seconds: int, nanoseconds: int
+) -> None:
+    data = transforms(*names, seconds=seconds, nanoseconds=nanoseconds)
+    general = Ros1Type(TRANSFORMS, TF_TEXT)
+    general._is_usual = False
+    assert transforms_to_cdr(data) == general.to_cdr(data)
+
+
+def test_transforms_are_converted_the_fast_way_once_that_is_known_to_fit() -> None:
+    known = Ros1Type(TRANSFORMS, TF_TEXT)
+    known.to_cdr(transforms())
+    assert known._is_usual is None  # an empty message shows nothing
+    data = transforms((b"map", b"base"))
+    first = known.to_cdr(data)
+    assert known._is_usual
+    assert known.to_cdr(data) == first
+    for size in range(len(data)):
+        with pytest.raises(DecodeError):
+            known.to_cdr(data[:size])
+
+
+def test_transforms_of_another_definition_are_read_by_that() -> None:
+    text = TF_TEXT.replace("string child_frame_id\n", "string child_frame_id\nint32 extra\n")
+    data = transforms((b"map", b"base"))
+    data = data[:-56] + struct.pack("<i", 9) + data[-56:]
+    other = Ros1Type(TRANSFORMS, text)
+    for _ in range(2):
+        (found,) = decode(TRANSFORMS, other.to_cdr(data)).transforms
+        assert (found.parent, found.child, found.translation) == ("map", "base", (0.0, 1.0, 2.0))
+    assert other._is_usual is False

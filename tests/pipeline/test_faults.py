@@ -17,12 +17,14 @@ from webviz import (
     Context,
     Display,
     Draggable,
+    Frames,
     Hit,
     Input,
     Keep,
     Lookback,
     Sample,
     Selective,
+    SelfPlacing,
     Sweep,
     Topic,
 )
@@ -135,12 +137,19 @@ class Faulty(Display, Comparable, Draggable, Selective, Sweep):
         self._raise_in("drag")
 
 
-class FaultyFold(Faulty):
-    """Raises when it folds."""
+class FaultyFold(Faulty, SelfPlacing):
+    """Raises when it folds, or when it places that."""
 
     def fold(self, name: str, sample: Sample, state: Any) -> Any:
         self._raise_in("fold")
-        return state
+        return sample.message
+
+    def places(self, name: str) -> bool:
+        self._raise_in("places")
+        return True
+
+    def place(self, message: Any, frames: Frames) -> None:
+        self._raise_in("place")
 
 
 HOOKS = sorted(
@@ -165,7 +174,8 @@ def feed(b: Any) -> None:
 def test_what_a_hook_raises_is_a_status_of_its_display_and_logged_once(
     bench: Benches, caplog: pytest.LogCaptureFixture, hook: str, leaves: bool
 ) -> None:
-    faulty = (FaultyFold if hook == "fold" else Faulty)(name="Faulty", hook=hook, leaves=leaves)
+    faulty_class = FaultyFold if hook in ("fold", "place", "places") else Faulty
+    faulty = faulty_class(name="Faulty", hook=hook, leaves=leaves)
     sound = Sound(name="Sound")
     b = bench(faulty, sound, strict=False)
     dot = Picks("display1/tick/", "dot", ((1, 0, (0.0, 0.0, 0.0), None),))

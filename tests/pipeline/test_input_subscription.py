@@ -280,6 +280,7 @@ def test_one_message_that_came_before_its_transform_is_no_warning_for_long(b: An
     b.transform("map", "base", T, static=True)
     assert b.statuses()["Transform"][0] == "WARN"
     b.clock += 1.1
+    b.source.now += SECOND + SECOND // 10
     assert b.statuses()["Transform"] == ("OK", "Transform OK")
 
 

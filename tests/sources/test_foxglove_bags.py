@@ -100,13 +100,13 @@ def test_what_has_no_equal_is_listed_with_the_reason(
 ) -> None:
     def fill(writer: Writer) -> None:
         add(writer, "/notes", "json", "foxglove.ImageAnnotations", b"{}")
-        add(writer, "no slash", "protobuf", "foxglove.FrameTransform", TRANSFORM)
+        add(writer, "/two\nlines", "protobuf", "foxglove.FrameTransform", TRANSFORM)
         add(writer, "/tf", "protobuf", "foxglove.FrameTransform", TRANSFORM)
 
     file = bag(tmp_path / "run.mcap", fill)
     assert [channel.topic for channel in file.channels] == ["/tf"]
     assert "has no equal message in ROS" in file.skipped["/notes"]
-    assert "none of a topic of ROS" in file.skipped["no slash"]
+    assert "invisible characters" in file.skipped["/two\nlines"]
     file.close()
     monkeypatch.setattr(schemas, "_is_installed", lambda: False)
     file = BagFile(tmp_path / "run.mcap")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -12,8 +13,11 @@ from rosbags.rosbag1 import Writer
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from webviz.data.messages import decode
+from webviz.data.messages.ros1 import Ros1Type
 from webviz.data.recordings import RecordingError, open_recording
-from webviz.shell.testing import check_seeks
+from webviz.data.recordings.ros1 import Ros1Recording
+from webviz.engine.commands import Seek
+from webviz.shell.testing import BagViewer, check_seeks
 from webviz.sources.bag.log import read_log
 from webviz.sources.bag.source import BagSource
 
@@ -164,3 +168,33 @@ def test_one_flipped_bit_ends_in_a_sentence(tmp_path: Path) -> None:
             list(recording.messages(recording.channels, *recording.span_ns))
         recording.close()
     assert said <= {0}
+
+
+def test_messages_are_converted_once_for_several_seeks(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    converted: list[int] = []
+    convert = Ros1Type.to_cdr
+
+    def counting(own: Ros1Type, data: bytes) -> bytes:
+        converted.append(len(data))
+        return convert(own, data)
+
+    with contextlib.closing(BagViewer(written(tmp_path / "run.bag"))) as viewer:
+        viewer.do(Seek(9.0))
+        monkeypatch.setattr(Ros1Type, "to_cdr", counting)
+        viewer.do(Seek(2.0))
+        viewer.do(Seek(9.0))
+    assert not converted
+
+
+def test_converted_messages_that_are_kept_are_bounded(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("webviz.data.recordings.ros1.MAX_CONVERTED", 1000)
+    recording = Ros1Recording(written(tmp_path / "run.bag"))
+    found = list(recording.messages(recording.channels, 0, 2**63))
+    assert len(found) > 100
+    kept = sum(len(each.data) for each in recording._converted.values())
+    assert 0 < kept == recording._converted_bytes <= 1000
+    recording.close()

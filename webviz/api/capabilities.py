@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from webviz.api.connection import GraphConnection
     from webviz.api.consistency import ConsistencyInput
     from webviz.api.context import Context
+    from webviz.api.frames import Frames
     from webviz.api.handles import Drag, Handle
     from webviz.api.sample import Sample
 
@@ -32,6 +33,30 @@ class Selective:
         A text reports why the message cannot be shown.
         """
         return True
+
+
+class SelfPlacing:
+    """A display that places what it has folded by itself, such as markers with stamps of their own.
+
+    What a seek passes is not drawn, and its transforms are gone when the seek ends.
+    """
+
+    __slots__ = ()
+
+    def places(self, name: str) -> bool:
+        """Return whether that takes transforms at the stamps of the input `name`."""
+        return True
+
+    def place(self, message: Any, frames: Frames) -> None:
+        """Note where that is which now has a transform.
+
+        Called on every turn of the frame loop on which messages or transforms have arrived, whether
+        anything is drawn or not.
+
+        Args:
+            message: what `fold` has returned last.
+            frames: the transforms of the turn.
+        """
 
 
 class Sweep:
@@ -96,12 +121,12 @@ class Draggable(ProtocolClient):
         """Take up what a browser does with a handle. One at a time holds it."""
 
 
-CAPABILITIES = (Comparable, Draggable, ProtocolClient, Selective, Sweep)
+CAPABILITIES = (Comparable, Draggable, SelfPlacing, ProtocolClient, Selective, Sweep)
 
 FORMER_HOOKS = {"communicate": "talk", "drag": "grip"}
 """Names that hooks had in the version before."""
 
-C = TypeVar("C", bound=Comparable | ProtocolClient | Selective | Sweep)
+C = TypeVar("C", bound=Comparable | SelfPlacing | ProtocolClient | Selective | Sweep)
 
 
 def capability(display: object, kind: type[C]) -> C | None:

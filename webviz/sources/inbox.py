@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 
 MAX_BYTES = 64 << 20
@@ -17,6 +17,19 @@ PAST_LIMIT = 20_000
 
 
 @dataclass(frozen=True, slots=True)
+class Earlier:
+    """The messages of a topic before one of a recording, of which a seek read only some.
+
+    Args:
+        recorded_ns: times of recording of the last ones, the newest first.
+        first_ns: that of the first one of all.
+    """
+
+    recorded_ns: Sequence[int]
+    first_ns: int
+
+
+@dataclass(frozen=True, slots=True)
 class Raw:
     """A message as it arrived.
 
@@ -24,11 +37,15 @@ class Raw:
         cdr: the serialised message with its encapsulation header.
         received_ns: ROS time of arrival.
         arrived_s: monotonic time of arrival, in seconds.
+        recorded_ns: time of recording of one of a bag, 0 for a live one.
+        earlier: the messages before it, if not all of them were delivered; for statistics.
     """
 
     cdr: bytes
     received_ns: int
     arrived_s: float = field(default_factory=time.monotonic)
+    recorded_ns: int = 0
+    earlier: Earlier | None = None
 
 
 class Inbox:

@@ -84,6 +84,10 @@ class MemoryPast:
         found = [self._newest_of(channel.topic, end_ns) for channel in channels]
         return heapq.merge(*found, key=_order, reverse=True)
 
+    def newest_stamps(self, channels: Collection[MemoryChannel], end_ns: int) -> Iterator[int]:
+        """Return the times of `newest`."""
+        return (message.stamp_ns for message in self.newest(channels, end_ns))
+
     def has(self, topic: str) -> bool:
         """Return whether there is any message of a topic."""
         return topic in self._by_topic

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 
 NODE = "webviz"
 """Name of the viewer's node, for private names."""
@@ -26,12 +26,15 @@ def is_full_name(name: str) -> bool:
     return len(name) <= MAX_NAME and _TOPIC.fullmatch(name) is not None
 
 
-def resolved(topic: str, remappings: Mapping[str, str]) -> str:
+def resolved(
+    topic: str, remappings: Mapping[str, str], recorded: Container[str] = frozenset()
+) -> str:
     """Return the full name of a topic.
 
     Args:
         topic: as a user wrote it.
         remappings: other full names by full names.
+        recorded: full names that are valid although ROS 2 forbids them.
 
     Raises:
         ValueError: it is not a valid topic name.
@@ -39,7 +42,9 @@ def resolved(topic: str, remappings: Mapping[str, str]) -> str:
     name = topic if topic.startswith("/") else f"/{topic}"
     if topic.startswith("~"):
         name = f"/{NODE}/{topic.removeprefix('~').removeprefix('/')}"
-    if not _TOPIC.fullmatch(name):
+    if topic in recorded:
+        name = topic
+    elif name not in recorded and not _TOPIC.fullmatch(name):
         raise ValueError(
             f"{topic!r} is not a valid topic name: it must be words of letters, digits and "
             "underscores, separated by slashes, that do not start with a digit"

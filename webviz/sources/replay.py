@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import Generic
 
 from webviz.sources.bag.past import BagPast, C, M, PastMessages
+from webviz.sources.bag.transform_runs import Runs
 from webviz.sources.source import Subscription
 
 MAX_BATCH = 500
@@ -69,7 +70,7 @@ class Replay(Generic[C, M]):
         at_ns: int,
         channels: Collection[C],
         wanted: Mapping[str, Subscription],
-        ended_ns: Sequence[int] = (),
+        runs: Runs | None = None,
     ) -> None:
         """Go to where playing leads to a time: to the first message that subscriptions need.
 
@@ -77,9 +78,9 @@ class Replay(Generic[C, M]):
             at_ns: the time of recording.
             channels: those to read.
             wanted: the subscriptions by topic.
-            ended_ns: when frames that have ended had their last transforms.
+            runs: when frames have transforms, as far as that is known.
         """
-        needed = BagPast(self.past, channels, wanted, at_ns, ended_ns).messages()
+        needed = BagPast(self.past, channels, wanted, at_ns, runs).messages()
         self._upcoming = itertools.chain(needed, self.past.messages(channels, at_ns + 1))
         self._next = next(self._upcoming, None)
         first_ns = at_ns if self._next is None else self._next.stamp_ns

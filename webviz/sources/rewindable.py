@@ -11,7 +11,7 @@ from webviz.api.declared import Topic
 from webviz.api.lookback import Lookback
 from webviz.data.recordings.latched import STATIC_TF
 from webviz.sources.bag.log import LOG, ROSOUT
-from webviz.sources.bag.past import RECENT_NS, BagPast
+from webviz.sources.bag.past import BagPast
 from webviz.sources.bag.time import TF
 from webviz.sources.bag.transform_runs import Runs
 from webviz.sources.graph import Graph
@@ -158,8 +158,7 @@ class Rewindable:
         self._note_runs(newest)
         self._replay.past = past
         at_ns = min(at_ns, self.end_ns - NEARLY_NS)
-        ended_ns = self._runs.ended_ns(at_ns - RECENT_NS)
-        self._replay.seek(at_ns, self._channels_to_read(), self._wanted, ended_ns)
+        self._replay.seek(at_ns, self._channels_to_read(), self._wanted, self._runs)
         self._served = {topic: subscription.type for topic, subscription in self._wanted.items()}
 
     def rejoin(self, at_once: bool = False) -> bool:
@@ -288,9 +287,9 @@ class Rewindable:
         for topic, raw in entries:
             self._runs_until_s = raw.arrived_s
             wanted = self._wanted.get(topic)
-            is_moving = wanted is not None and wanted.type == TF and not topic.endswith(STATIC_TF)
-            if is_moving and raw.arrived_s > known_s:
-                self._runs.read(raw.cdr, self._clock.stamp_ns(raw.arrived_s))
+            if wanted is not None and wanted.type == TF and raw.arrived_s > known_s:
+                is_static = topic.endswith(STATIC_TF)
+                self._runs.read(raw.cdr, self._clock.stamp_ns(raw.arrived_s), is_static)
 
     def _catch_up_with_memory(self) -> None:
         """Read what has arrived since the memory was read."""

@@ -102,7 +102,12 @@ class Switchable:
 
     def resolve(self, topic: str) -> str:
         """Return the full name of a topic; raises ValueError."""
-        return self.live.resolve(topic)
+        try:
+            return self.live.resolve(topic)
+        except ValueError:
+            if self.bag is None:
+                raise
+            return self.bag.resolve(topic)  # which may have names that ROS forbids
 
     def close(self) -> None:
         """Close the bag and the live source."""

@@ -16,6 +16,7 @@ from webviz import (
     Context,
     Details,
     Display,
+    Frames,
     Hit,
     Image,
     Input,
@@ -25,6 +26,7 @@ from webviz import (
     Prop,
     Remedy,
     Sample,
+    SelfPlacing,
     Topic,
     compose,
 )
@@ -74,6 +76,7 @@ class Folded(msgspec.Struct, frozen=True):
         remedy: of that.
         updates: how many changed the grid.
         update_fault: why the last update was refused.
+        placed: the pose that the frame of the map had at its stamp, by fixed frame; the last one.
     """
 
     grid: TiledGrid | None
@@ -82,6 +85,7 @@ class Folded(msgspec.Struct, frozen=True):
     remedy: Remedy | None = None
     updates: int = 0
     update_fault: str = ""
+    placed: dict[str, Pose] = msgspec.field(default_factory=dict)
 
 
 Tile = tuple[NDArray[np.int8], Image]
@@ -95,16 +99,14 @@ class _State(msgspec.Struct):
         look: of all tiles.
         tiles: by corner.
         grid: whole.
-        at_stamp: fixed frame, frame and stamp of the map, and the pose that it had.
     """
 
     look: MapStyle | None = None
     tiles: dict[Corner, Tile] = msgspec.field(default_factory=dict)
     grid: TiledGrid | None = None
-    at_stamp: tuple[tuple[str, str, int], Pose] | None = None
 
 
-class MapDisplay(Display):
+class MapDisplay(Display, SelfPlacing):
     """Base of displays that draw a grid of cells as a flat picture."""
 
     is_threaded = True
@@ -210,7 +212,8 @@ class MapDisplay(Display):
         images = _images(grid, look, ctx.state)
         outer, frame = Pose(), grid.frame
         if self.use_timestamp and folded.stamp_ns:
-            if at_stamp := self._pose_at_stamp(grid.frame, folded.stamp_ns, ctx):
+            self.place(folded, ctx.frames)
+            if at_stamp := folded.placed.get(ctx.frames.fixed_frame):
                 outer, frame = at_stamp, None
             else:
                 reason = ctx.frames.explain(grid.frame, folded.stamp_ns)
@@ -221,6 +224,18 @@ class MapDisplay(Display):
             corner = (column * grid.resolution, row * grid.resolution, 0.0)
             group.add(tile_key((row, column)), image, Pose(corner))
         self._report(folded, grid, ctx)
+
+    def places(self, name: str) -> bool:
+        """Return whether the map stays where its frame was at its stamp."""
+        return self.waits(name)
+
+    def place(self, message: Folded, frames: Frames) -> None:
+        """Keep where the frame was at the stamp, because transforms expire after seconds."""
+        if not (self.use_timestamp and message.stamp_ns and message.grid):
+            return
+        if pose := frames.at(message.grid.frame, message.stamp_ns):
+            message.placed.clear()
+            message.placed[frames.fixed_frame] = pose
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
         """Return a cell, with the value that it has now."""
@@ -234,14 +249,6 @@ class MapDisplay(Display):
             return None
         told = [self.told(int(value)) for value in np.arange(256).astype(np.uint8).view(np.int8)]
         return Cells(corner, grid.width, grid.resolution, grid.origin, grid.frame, told)
-
-    def _pose_at_stamp(self, frame: str, stamp_ns: int, ctx: Context) -> Pose | None:
-        """Where the frame was at the stamp; kept, because transforms expire after seconds."""
-        key = (ctx.frames.fixed_frame, frame, stamp_ns)
-        if pose := ctx.frames.at(frame, stamp_ns):
-            ctx.state.at_stamp = (key, pose)
-        known, pose = ctx.state.at_stamp or (None, None)
-        return pose if known == key else None
 
     def _report(self, folded: Folded, grid: TiledGrid, ctx: Context) -> None:
         size = f"{grid.width} x {grid.height} cells of {grid.resolution:.4g} m"

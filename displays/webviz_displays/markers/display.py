@@ -8,7 +8,20 @@ from typing import Annotated
 
 import msgspec
 
-from webviz import Context, Details, Display, Hit, Input, Lookback, Prop, Sample, Status, Topic
+from webviz import (
+    Context,
+    Details,
+    Display,
+    Frames,
+    Hit,
+    Input,
+    Lookback,
+    Prop,
+    Sample,
+    SelfPlacing,
+    Status,
+    Topic,
+)
 from webviz.data import messages
 from webviz_displays.markers.actions import deletes_all
 from webviz_displays.markers.assets import Assets
@@ -34,17 +47,19 @@ class _State(msgspec.Struct):
         store: all markers, None before the first message.
         blocks: their nodes.
         assets: the files that they name.
-        readout: statuses of namespaces, and the second in which they were made.
+        readout: statuses of namespaces and of what waits, and what they were made of.
+        ticked_ns: ROS time of the last tick.
     """
 
     store: Store | None = None
     blocks: Blocks = msgspec.field(default_factory=Blocks)
     assets: Assets = msgspec.field(default_factory=Assets)
     switches: dict[str, bool] = msgspec.field(default_factory=dict)
-    readout: tuple[int, dict[str, Status]] = (-1, {})
+    readout: tuple[tuple[int, int, int], dict[str, Status]] = ((-1, -1, -1), {})
+    ticked_ns: int = 0
 
 
-class Markers(Display):
+class Markers(Display, SelfPlacing):
     """Base of both displays: what differs is their topics."""
 
     slow_bytes = 1_000_000
@@ -78,6 +93,11 @@ class Markers(Display):
         else:
             store.apply(messages.MarkerSequence.of([message]), sample.received_ns, is_array=False)
         return store
+
+    def place(self, message: Store, frames: Frames) -> None:
+        """Place the versions that have received their transforms."""
+        if not message.is_unfinished:
+            message.place(frames)
 
     def depends(self, ctx: Context) -> object:
         """Return what has expired or received its transform since the last tick."""
@@ -121,11 +141,15 @@ class Markers(Display):
         if state.store is None:
             ctx.warn("Markers", "No message received. Start the publisher or choose another topic.")
             return
-        second = ctx.frames.now_ns // SECOND
-        if state.readout[0] != second:
+        now_ns, before_ns = ctx.frames.now_ns, state.ticked_ns
+        state.ticked_ns = now_ns
+        made = state.readout[0]
+        moment = now_ns, state.store.table.changes, state.store.waiting_count
+        is_other_second = made[0] // SECOND != now_ns // SECOND
+        if made[1:] != moment[1:] or is_other_second or (before_ns == now_ns != made[0]):
             report_namespaces(state.store, self._off, ctx)
             report_waiting(state.store, ctx)
-            state.readout = second, dict(ctx.statuses)
+            state.readout = moment, dict(ctx.statuses)
         ctx.statuses.update(state.readout[1])
         report_nothing(state.store, ctx)
 

@@ -13,12 +13,15 @@ from webviz.data.words import counted, joined, listed
 from webviz_displays.markers.actions import Key, name_of
 from webviz_displays.markers.blocks import MAX_PLACES, Blocks
 from webviz_displays.markers.store import MAX_MARKERS, Store
+from webviz_displays.markers.table import Place
 
 NAMED = 10
 """Markers and namespaces that get a status of their own; the rest is counted."""
 MAX_TEXTS = 4096
 """That a page of viser shows, those of other displays included."""
 SECOND = 1_000_000_000
+PATIENCE_NS = SECOND
+"""A marker that waits longer for its transform is reported; TF is often late."""
 
 
 def report_markers(store: Store, blocks: Blocks, off: Set[str], loading: int, ctx: Context) -> None:
@@ -93,7 +96,7 @@ def _report_total(store: Store, shown: int, off: Set[str], ctx: Context) -> None
     namespaces = table.namespaces
     named_off = sorted(off & namespaces.keys())
     hidden = sum(namespaces[name] for name in named_off)
-    waiting = sum(len(rows) for rows in store.waiting.values())
+    waiting = store.waiting_count
     if not total:
         return  # see report_nothing
     text = (
@@ -130,17 +133,38 @@ def report_nothing(store: Store, ctx: Context) -> None:
 
 
 def report_waiting(store: Store, ctx: Context) -> None:
-    """Report which markers have no transform, and why."""
+    """Report which markers have no transform, and why.
+
+    Those that wait for less than `PATIENCE_NS`, as transforms often come late, are reported only in
+    a bag, in which nothing comes while its time stands still, and only if none of their versions is
+    drawn.
+    """
     if not store.waiting:
         return
-    count = sum(len(rows) for rows in store.waiting.values())
-    (frame, stamp_ns), rows = max(store.waiting.items(), key=lambda item: len(item[1]))
-    key = store.table.keys[rows[0]]
+    table, now_ns, since_ns = store.table, ctx.frames.now_ns, store.waiting_since_ns()
+    is_recorded = bool(ctx.frames.buffer.recorded)
+    late: dict[Place, list[int]] = {}
+    level = Level.WARN
+    for place, rows in store.waiting.items():
+        numbers = np.array(rows)
+        is_late = now_ns - since_ns[numbers] > PATIENCE_NS
+        if is_late.any():
+            level = Level.ERROR
+        if is_recorded:
+            is_late |= ~table.is_shown[numbers]
+        if is_late.any():
+            late[place] = numbers[is_late].tolist()
+    if not late:
+        return
+    count = sum(map(len, late.values()))
+    (frame, stamp_ns), rows = max(late.items(), key=lambda item: (len(item[1]), item[0]))
+    key = min(filter(None, (table.keys[row] for row in rows)), default=None)
     first = "" if key is None else f" ({name_of(key)}{', ...' if count > 1 else ''})"
     reason = ctx.frames.explain(frame, stamp_ns)
     verb = "waits" if count == 1 else "wait"
     text = f"{counted(count, 'marker')}{first} {verb} for a transform. {reason.sentence}"
-    ctx.error("Transform", text, OtherFixedFrame.of(reason), reason)
+    say = ctx.error if level is Level.ERROR else ctx.warn
+    say("Transform", text, OtherFixedFrame.of(reason), reason)
 
 
 def report_namespaces(store: Store, off: Set[str], ctx: Context) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -15,8 +15,9 @@ from webviz.data.rotations import matrices, multiply_many, normalized, w_first
 from webviz_displays.markers.actions import Key, effect_of
 from webviz_displays.markers.contents import Memory, detached, is_same, size_of
 from webviz_displays.markers.faults import is_valid
+from webviz_displays.markers.older import OlderVersions, Versions
 from webviz_displays.markers.remarks import REMEMBERED, Gone, Remarks
-from webviz_displays.markers.table import FOREVER, LOOK, LOOK_NAMES, Table
+from webviz_displays.markers.table import FOREVER, LOOK, LOOK_NAMES, Place, Table, by_place
 
 MAX_MARKERS = 100_000
 """Of a display; further ones are refused."""
@@ -33,15 +34,12 @@ MAX_LOOKUPS = 1000
 TILTED = 1e-3
 """Tolerance of the length of a quaternion around 1."""
 
-Place = tuple[str, int]
-"""A frame and a stamp."""
-
 
 class Store:
     """All markers of a display.
 
-    A new version waits for its transform while the former one stays; one that is replaced
-    meanwhile is dropped. What is deleted goes at once.
+    A new version waits for its transform while the former one stays, and so do versions that come
+    meanwhile: the newest one that has a transform is drawn. What is deleted goes at once.
     """
 
     def __init__(self) -> None:
@@ -51,7 +49,12 @@ class Store:
         self.changed: set[int] = set()
         """Rows to be drawn anew; whoever draws them clears it."""
         self.waiting: dict[Place, list[int]] = {}
-        """Rows that have no pose yet."""
+        """Rows whose newest version has no pose yet."""
+        self._has_removed = False
+        """True if some of them may be free."""
+        self._older = OlderVersions()
+        self._number = 0
+        """Of the last versions."""
         self.remarks = Remarks()
         self._steps: Iterator[None] = iter(())
         self.is_unfinished = False
@@ -78,6 +81,19 @@ class Store:
         self.is_unfinished = True
         if len(markers) <= AT_ONCE:
             self.advance()
+
+    @property
+    def waiting_count(self) -> int:
+        """Return how many markers wait for a transform."""
+        return sum(map(len, self.waiting.values()))
+
+    def waiting_since_ns(self) -> NDArray[np.int64]:
+        """Return when the oldest version was received that is not drawn yet, of rows that wait."""
+        table = self.table
+        since_ns = table.wanted["received_ns"].copy()
+        for versions in self._older.undrawn(table):
+            np.minimum.at(since_ns, versions.rows, versions.look["received_ns"])
+        return np.where(table.is_shown, since_ns, table.first_ns)
 
     def advance(self) -> None:
         """Take the next markers of the last message."""
@@ -137,6 +153,7 @@ class Store:
         keys = list(zip(namespaces, markers.ids[numbers].tolist(), strict=True))
         contents = [markers.contents[i] for i in numbered]
         found = [table.rows.get(key) for key in keys]
+        self._older.keep(table, np.array([row for row in found if row is not None], np.intp))
         each = zip(found, contents, ok[numbers].tolist(), strict=True)
         # Most are there, with what they have; a step each in the interpreter is most of the time.
         is_easy = [
@@ -153,6 +170,8 @@ class Store:
         where = _span(np.array(rows))
         is_new = ~table.is_shown[where] | _is_other(new, table.wanted[where])
         is_new |= new["stamp_ns"] != table.wanted["stamp_ns"][where]
+        is_first = table.versions[where] == 0
+        table.first_ns[where] = np.where(is_first, received_ns, table.first_ns[where])
         table.wanted[where] = new
         self._next_expiry = min(self._next_expiry, int(new["expires_ns"].min()))
         self._todo.update(itertools.compress(rows, is_new.tolist()))
@@ -163,6 +182,8 @@ class Store:
             if frame != frames[row] or wanted[row] is not shown[row]:
                 frames[row] = frame
                 self._todo.add(row)
+        self._number += 1
+        table.versions[[row for row in rows if row in self._todo]] = self._number
         self.remarks.accept(table.keys[row] for row in rows)
 
     def _row_for(self, key: Key, content: Content, is_ok: bool, received_ns: int) -> int | None:
@@ -228,6 +249,7 @@ class Store:
         self.remarks.go(serial, Gone(key, how, at_ns))
         self._memory.free(row)
         self._todo.discard(row)
+        self._has_removed = True
         self.remarks.tilted.discard(key)
         if was_shown:
             self.changed.add(row)
@@ -238,17 +260,34 @@ class Store:
         """Draw the newest versions of all markers that have a pose."""
         if frames.fixed_frame != self._fixed_frame:
             self._move(frames)
+        if self._has_removed:
+            self._has_removed = False
+            keys = self.table.keys
+            left = {
+                place: [row for row in rows if keys[row] is not None]
+                for place, rows in self.waiting.items()
+            }
+            self.waiting = {place: rows for place, rows in left.items() if rows}
+        is_new = frames.buffer.version != self._tried
         if self._todo:
             self._settle(frames)
-        elif self.waiting and frames.buffer.version != self._tried:
+        elif self.waiting and is_new:
             tried = list(itertools.islice(self.waiting, MAX_LOOKUPS))
-            self._tried = frames.buffer.version
             for place in tried:
                 rows = self.waiting.pop(place)
                 if (pose := _pose(place, frames)) is None:
                     self.waiting[place] = rows  # the others come first in the next turn
                 else:
                     self._show(np.array(rows), pose)
+        if self._older and is_new:
+            self._show_older(frames)
+        self._tried = frames.buffer.version
+
+    def _show_older(self, frames: Frames) -> None:
+        """Draw the newest versions with a pose of markers whose newest version has none."""
+        for versions in self._older.undrawn(self.table):
+            if (pose := _pose(versions.place, frames)) is not None:
+                self._show(versions.rows, pose, versions)
 
     def _settle(self, frames: Frames) -> None:
         """Draw what is new, if it has a pose."""
@@ -256,7 +295,7 @@ class Store:
         self.waiting = {}
         rows = [row for row in late | self._todo if self.table.keys[row] is not None]
         self._todo.clear()
-        for number, (place, some) in enumerate(self._by_place(rows).items()):
+        for number, (place, some) in enumerate(by_place(self.table, rows).items()):
             pose = _pose(place, frames) if number < MAX_LOOKUPS else None
             if pose is None:
                 self.waiting[place] = some
@@ -264,41 +303,33 @@ class Store:
                 self._show(np.array(some), pose)
         self.version += 1
 
-    def _by_place(self, rows: Sequence[int]) -> dict[Place, list[int]]:
-        """Rows by what their pose depends on; locked ones need none."""
-        frames, some = self.table.frames, self.table.wanted[np.array(rows, np.intp)]
-        found: dict[Place, list[int]] = {}
-        stamps, names = some["stamp_ns"], {frames[row] for row in rows}
-        if len(names) == 1 and not some["locked"].any() and (stamps == stamps[0]).all():
-            return {(names.pop(), int(stamps[0])): list(rows)}  # as most arrays have them
-        each = zip(rows, some["locked"].tolist(), some["stamp_ns"].tolist(), strict=True)
-        for row, is_locked, stamp_ns in each:
-            place = ("", 0) if is_locked else (frames[row], stamp_ns)
-            found.setdefault(place, []).append(row)
-        return found
-
-    def _show(self, rows: NDArray[np.intp], pose: Pose) -> None:
-        """Draw the newest versions of some markers, whose frame has this pose."""
+    def _show(self, rows: NDArray[np.intp], pose: Pose, older: Versions | None = None) -> None:
+        """Draw versions of some markers, whose frame has this pose: the newest, or older ones."""
         table = self.table
         where = _span(rows)
-        new = table.wanted[where]
+        new = table.wanted[where] if older is None else older.look
         look = np.zeros(len(rows), LOOK)
         for name in LOOK_NAMES:
             look[name] = new[name]
         look["position"], look["wxyz"] = _moved(new["position"], new["wxyz"], pose)
         changed = ~table.is_shown[where] | _is_other(look, table.shown[where])
         table.shown[where], table.is_shown[where] = look, True
+        table.shown_versions[where] = table.versions[where] if older is None else older.numbers
         self.changed.update(rows[changed].tolist())
         is_locked = bool(new["locked"].any())
-        frames, shown_frames = table.frames, table.shown_frames
-        wanted, shown = table.wanted_contents, table.shown_contents
-        for row in rows.tolist():
-            if frames[row] != shown_frames[row]:
-                shown_frames[row] = frames[row]
+        shown_frames, shown = table.shown_frames, table.shown_contents
+        numbers = rows.tolist()
+        frames = [table.frames[row] for row in numbers] if older is None else older.frames
+        contents = (
+            [table.wanted_contents[row] for row in numbers] if older is None else older.contents
+        )
+        for row, frame, content in zip(numbers, frames, contents, strict=True):
+            if frame != shown_frames[row]:
+                shown_frames[row] = frame
                 if is_locked:
                     self.changed.add(row)
-            if wanted[row] is not shown[row]:
-                table.show_content(row, wanted[row])
+            if content is not shown[row]:
+                table.show_content(row, content)
                 self.changed.add(row)
         self.version += 1
 
@@ -314,7 +345,7 @@ class Store:
             return
         shift = frames.latest(former)
         loose = [row for row in shown if not table.shown["locked"][row]]
-        for place, rows in self._by_place(loose).items():
+        for place, rows in by_place(table, loose).items():
             if _pose(place, frames) is not None:
                 self._todo.update(rows)
             elif shift is not None:

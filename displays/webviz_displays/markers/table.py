@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import heapq
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -31,6 +31,14 @@ LOOK: np.dtype[np.void] = np.dtype(_LOOK, align=True)
 """Appearance of a marker, apart from its content."""
 LOOK_NAMES = tuple(name for name, *_ in _LOOK)
 _FIRST = 64
+_COLUMNS = (
+    *("wanted", "shown", "is_shown", "counts", "serials", "versions", "shown_versions"),
+    *("first_ns", "_namespace_of"),
+)
+
+
+Place = tuple[str, int]
+"""A frame and a stamp."""
 
 
 class Table:
@@ -46,6 +54,10 @@ class Table:
         is_shown: whether `shown` is valid, which it is not in a free row.
         counts: how many points are drawn of each marker.
         serials: a number that no other marker has, (ns, id) of two lives included.
+        versions, shown_versions: numbers of the newest version and of the one that is drawn; a
+            later version has a higher number, 0 is none.
+        first_ns: when the first version was received.
+        changes: how often a marker came or went.
     """
 
     def __init__(self) -> None:
@@ -61,6 +73,10 @@ class Table:
         self.is_shown = np.zeros(_FIRST, np.bool_)
         self.counts = np.zeros(_FIRST, np.intp)
         self.serials = np.zeros(_FIRST, np.int64)
+        self.versions = np.zeros(_FIRST, np.int64)
+        self.shown_versions = np.zeros(_FIRST, np.int64)
+        self.first_ns = np.zeros(_FIRST, np.int64)
+        self.changes = 0
         self.wanted["expires_ns"] = FOREVER
         self._namespace_of = np.full(_FIRST, -1)
         self._numbers: dict[str, int] = {}
@@ -90,7 +106,9 @@ class Table:
         self.namespaces[key[0]] += 1
         self._namespace_of[row] = self._numbers.setdefault(key[0], self._serial)
         self.is_shown[row] = False
+        self.versions[row] = self.shown_versions[row] = 0
         self.wanted["expires_ns"][row] = FOREVER
+        self.changes += 1
         return row
 
     def remove(self, key: Key) -> int:
@@ -102,6 +120,8 @@ class Table:
             del self.namespaces[key[0]], self._numbers[key[0]]
         self._namespace_of[row] = -1
         self.is_shown[row] = False
+        self.versions[row] = 0
+        self.changes += 1
         self.wanted["expires_ns"][row] = FOREVER
         self.wanted_contents[row] = NOTHING
         self.show_content(row, NOTHING)
@@ -134,10 +154,24 @@ class Table:
 
     def _grow(self) -> None:
         size = 2 * len(self.wanted)
-        for name in ("wanted", "shown", "is_shown", "counts", "serials", "_namespace_of"):
+        for name in _COLUMNS:
             old = getattr(self, name)
             new = np.zeros(size, old.dtype)
             new[: len(old)] = old
             setattr(self, name, new)
         self.wanted["expires_ns"][size // 2 :] = FOREVER
         self._namespace_of[size // 2 :] = -1
+
+
+def by_place(table: Table, rows: Sequence[int]) -> dict[Place, list[int]]:
+    """Return rows by what the pose of their newest versions depends on; locked ones need none."""
+    frames, some = table.frames, table.wanted[np.array(rows, np.intp)]
+    found: dict[Place, list[int]] = {}
+    stamps, names = some["stamp_ns"], {frames[row] for row in rows}
+    if len(names) == 1 and not some["locked"].any() and (stamps == stamps[0]).all():
+        return {(names.pop(), int(stamps[0])): list(rows)}  # as most arrays have them
+    each = zip(rows, some["locked"].tolist(), some["stamp_ns"].tolist(), strict=True)
+    for row, is_locked, stamp_ns in each:
+        place = ("", 0) if is_locked else (frames[row], stamp_ns)
+        found.setdefault(place, []).append(row)
+    return found

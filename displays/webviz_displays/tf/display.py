@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import Annotated
 
 import msgspec
@@ -23,7 +24,7 @@ from webviz import (
     Sample,
     Status,
 )
-from webviz.data.transforms import Explanation, distinct
+from webviz.data.transforms import Explanation, distinct, receptions
 from webviz_displays.shared.geometry import origin_near
 from webviz_displays.tf.fading import Ages, fade
 from webviz_displays.tf.frame_filter import (
@@ -165,7 +166,7 @@ class TF(Display):
             ctx.warn("Frames", f"No transforms yet: {recorded}." if recorded else text)
             return
         known = self._known(ctx, poses.names)
-        ages = state.ages.update(poses.stamps_ns, now_ns)
+        ages = state.ages.update(poses.stamps_ns, now_ns, partial(receptions, ctx.frames.buffer))
         is_young = ages <= self.frame_timeout
         shown = known.selected & poses.ok & is_young
         # By name, as the order in which frames came depends on when somebody began to listen.

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,6 +13,9 @@ U8 = NDArray[np.uint8]
 GREY = 178.5
 """RViz's 0.7 of white."""
 
+STILL_S = 1.0
+"""Age from which a frame that has stopped ages from the reception of its transform."""
+
 STEPS = 10
 """Levels of opacity: the browser rebuilds a batch of transparent solids for each new one."""
 
@@ -18,29 +23,50 @@ STEPS = 10
 class Ages:
     """Time since the transform of each frame last changed, in ROS time.
 
-    A stamp alone is not enough: a bag played without its clock has stamps of another day, yet its
-    frames move. A frame therefore ages from when it was first seen, and anew with each new stamp.
+    A stamp is not enough: that of a bag played without its clock, or of a machine whose clock is
+    wrong, may be of another day, yet its frames move. A frame therefore ages from when its newest
+    stamp was received, whether that was seen in passing or not.
     """
 
     def __init__(self) -> None:
         self._stamps_ns = np.zeros(0, np.int64)
         self._changed_ns = np.zeros(0, np.int64)
+        self._is_exact = np.zeros(0, np.bool_)
+        """True if a time is that of reception, instead of the tick that noticed it."""
 
-    def update(self, stamps_ns: NDArray[np.int64], now_ns: int) -> F64:
+    def update(
+        self,
+        stamps_ns: NDArray[np.int64],
+        now_ns: int,
+        seen_ns: Callable[[], Mapping[int, int]],
+    ) -> F64:
         """Ages in seconds, float64 (N,); 0 for frames with static transforms only.
 
         Args:
             stamps_ns: int64 (N,), the newest stamp of each frame, 0 for static ones. Frames keep
                 their places from call to call; new ones are appended.
             now_ns: ROS time.
+            seen_ns: the times of reception by stamp, both in nanoseconds; asked only for frames
+                that are new or that have stopped.
         """
-        known = len(self._stamps_ns)
-        same = stamps_ns[:known] == self._stamps_ns
-        self._changed_ns = np.concatenate(
-            (np.where(same, self._changed_ns, now_ns), np.minimum(stamps_ns[known:], now_ns))
-        )
-        self._stamps_ns = stamps_ns
-        return np.where(stamps_ns == 0, 0.0, (now_ns - self._changed_ns) / 1e9)
+        known, count = len(self._stamps_ns), len(stamps_ns)
+        same = np.zeros(count, np.bool_)
+        same[:known] = stamps_ns[:known] == self._stamps_ns
+        changed_ns = np.full(count, now_ns)
+        changed_ns[:known] = np.where(same[:known], self._changed_ns, now_ns)
+        is_exact = stamps_ns == 0
+        is_exact[:known] |= same[:known] & self._is_exact
+        is_asked = ~is_exact & (now_ns - changed_ns > STILL_S * 1e9)
+        is_asked[known:] |= ~is_exact[known:]
+        if is_asked.any():
+            received_ns = seen_ns()
+            for place in np.flatnonzero(is_asked).tolist():
+                stamp_ns = int(stamps_ns[place])
+                noticed_ns = int(changed_ns[place]) if place < known else stamp_ns
+                changed_ns[place] = min(received_ns.get(stamp_ns, noticed_ns), now_ns)
+            is_exact |= is_asked
+        self._stamps_ns, self._changed_ns, self._is_exact = stamps_ns, changed_ns, is_exact
+        return np.where(stamps_ns == 0, 0.0, (now_ns - changed_ns) / 1e9)
 
 
 def fade(ages: F64, timeout: float) -> tuple[F64, F64]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import struct
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -15,6 +16,7 @@ from webviz.data.messages.cdr import MAX_ELEMENTS, TooLargeError
 from webviz.data.messages.encode import encode
 from webviz.data.messages.errors import DecodeError
 from webviz.data.messages.extents import extent
+from webviz.data.messages.ros1_transforms import transforms_to_cdr
 
 RENAMED = {"tf/msg/tfMessage": "tf2_msgs/msg/TFMessage"}
 """Types by their names in ROS 2."""
@@ -36,6 +38,8 @@ _NUMBERS = {
 _TIMES = ("builtin_interfaces/msg/Time", "builtin_interfaces/msg/Duration")
 _SIZE = struct.Struct("<I")
 _TIME = struct.Struct("<Ii")
+
+TRANSFORMS = "tf2_msgs/msg/TFMessage"
 
 _Read = Callable[["_Message", int], tuple[Any, int]]
 """Reads a value at an offset, and returns it with the offset behind it."""
@@ -80,6 +84,8 @@ class Ros1Type:
         """Of the type in ROS 2."""
         self._made: dict[str, _Read] = {}
         self._read = self._message(name)
+        self._is_usual: bool | None = None if self.name == TRANSFORMS else False
+        """True if `transforms_to_cdr` reads it; None until both ways were compared."""
 
     def definition(self) -> str:
         """Return the .msg text of the type in ROS 2, "" if ROS 2 has the type itself."""
@@ -101,12 +107,19 @@ class Ros1Type:
             EncodeError: ROS 2 has a field of another type.
         """
         try:
+            if self._is_usual:
+                return transforms_to_cdr(data)
             values, _ = self._read(_Message(data), 0)
         except TooLargeError as error:
             raise DecodeError(f"This {self.name} of ROS 1 is too large: {error}.") from None
         except (struct.error, UnicodeDecodeError, ValueError) as error:
             raise DecodeError(f"{self.name} of ROS 1 is damaged.") from error
-        return encode(self.name, values)
+        cdr = encode(self.name, values)
+        if self._is_usual is None and values.get("transforms"):
+            # The text that came with the bag decides, which anybody may have written.
+            with contextlib.suppress(struct.error, ValueError):
+                self._is_usual = transforms_to_cdr(data) == cdr
+        return cdr
 
     def _fields(self, name: str) -> Any:
         """Return the fields of a type, None if it is unknown."""

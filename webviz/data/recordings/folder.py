@@ -95,6 +95,13 @@ class FolderRecording:
                 found = [file.part.newest(channels, end_ns) for file in run]
                 yield from self._unpacked(heapq.merge(*found, key=_stamp, reverse=True))
 
+    def newest_stamps(self, channels: Collection[RecordedChannel], end_ns: int) -> Iterator[int]:
+        """`Recording.newest_stamps`."""
+        for run in reversed(self._runs):
+            if run[0].start_ns <= end_ns:
+                found = [file.part.newest_stamps(channels, end_ns) for file in run]
+                yield from heapq.merge(*found, reverse=True)
+
     def _unpacked(self, entries: Iterator[RecordedMessage]) -> Iterator[RecordedMessage]:
         """Unpack messages that are compressed one by one."""
         for entry in entries:

@@ -6,7 +6,7 @@ import heapq
 import itertools
 from array import array
 from collections import deque
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence, Set
 from pathlib import Path
 
 import numpy as np
@@ -95,6 +95,20 @@ class McapRecording:
         """`Recording.newest`."""
         return self._read(channels, 0, end_ns, is_backwards=True)
 
+    def newest_stamps(self, channels: Collection[RecordedChannel], end_ns: int) -> Iterator[int]:
+        """`Recording.newest_stamps`, of chunks without an index by their messages."""
+        wanted = {number for number, each in self._numbers.items() if each in channels}
+        pending = deque(self._times.within(wanted, 0, end_ns, -1))
+        found: list[int] = []
+        """Negative, as a heap: times of the chunks so far."""
+        while pending or found:
+            while pending and not (found and self._chunks[pending[0]].end_ns <= -found[0]):
+                for stamp_ns in self._stamps(self._chunks[pending.popleft()], wanted):
+                    if stamp_ns <= end_ns:
+                        heapq.heappush(found, -stamp_ns)
+            if found:
+                yield -heapq.heappop(found)
+
     @property
     def used(self) -> frozenset[RecordedChannel]:
         """`Recording.used`."""
@@ -172,6 +186,20 @@ class McapRecording:
             else:
                 heapq.heappop(opened)
                 size -= own_size
+
+    def _stamps(self, chunk: McapChunk, wanted: Set[int]) -> Iterator[int]:
+        """Yield the times of the messages of some channels in a chunk."""
+        offset, size = chunk.index
+        if not 0 < size <= MAX_INDEX:
+            is_wanted = np.zeros(1 << 16, bool)
+            is_wanted[list(wanted)] = True
+            content = self._content(chunk, is_wanted)
+            yield from content.stamps[is_wanted[content.numbers]].tolist()
+            return
+        self._file.seek(offset)
+        for number, stamps in _indexed(self._file.read(size)):
+            if number in wanted:
+                yield from stamps.tolist()
 
     def _set_back(self, in_order: Sequence[McapChunk]) -> SetBack | None:
         """Return a jump of the clock between chunks in the order of the file, or within a chunk.
@@ -273,11 +301,16 @@ def _count_entries(index: bytes, table: npt.NDArray[np.int64], parts: TimeParts)
         table: rows by number of channel, and columns by part.
         parts: of the span.
     """
+    for number, stamps in _indexed(index):
+        np.add.at(table[number], parts.part_of(stamps), 1)
+
+
+def _indexed(index: bytes) -> Iterator[tuple[int, npt.NDArray[np.uint64]]]:
+    """Yield channels and the times of their messages, uint64 (N,), by the index of a chunk."""
     at = 0
     while at + INDEX_FIELDS.size <= len(index):
         _, length, number, size = INDEX_FIELDS.unpack_from(index, at)
         entries = index[at + INDEX_FIELDS.size : at + INDEX_FIELDS.size + size]
         entries = entries[: len(entries) // INDEX_ENTRY.itemsize * INDEX_ENTRY.itemsize]
-        stamps = np.frombuffer(entries, INDEX_ENTRY)["stamp_ns"]
-        np.add.at(table[number], parts.part_of(stamps), 1)
+        yield number, np.frombuffer(entries, INDEX_ENTRY)["stamp_ns"]
         at += PREFIX.size + length

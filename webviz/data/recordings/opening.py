@@ -130,6 +130,10 @@ class _Unpacked:
         """`Recording.newest`."""
         return self._inner.newest(channels, end_ns)
 
+    def newest_stamps(self, channels: Collection[RecordedChannel], end_ns: int) -> Iterator[int]:
+        """`Recording.newest_stamps`."""
+        return self._inner.newest_stamps(channels, end_ns)
+
     @property
     def used(self) -> frozenset[RecordedChannel]:
         """`Recording.used`."""

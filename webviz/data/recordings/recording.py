@@ -109,6 +109,10 @@ class Recording(Protocol):
         """
         ...
 
+    def newest_stamps(self, channels: Collection[RecordedChannel], end_ns: int) -> Iterator[int]:
+        """Return the times of `newest` by the index, which may count damaged messages, too."""
+        ...
+
     @property
     def used(self) -> frozenset[RecordedChannel]:
         """The channels that have messages, or may have if that takes long to find out."""

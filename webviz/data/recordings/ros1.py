@@ -31,6 +31,11 @@ VOLATILE = "- {reliability: reliable, durability: volatile}"
 MAX_CHUNKS = 8
 """Unpacked chunks that are kept; recorders close them at 768 kB."""
 
+MAX_CONVERTED = 32 << 20
+"""Bytes of converted messages that are kept: a seek often reads those of the one before."""
+MAX_SMALL = 64 << 10
+"""Bytes of a message that is kept."""
+
 _Place = tuple[int, int, int]
 """Of a message: time, offset of its chunk in the file, and its offset in the chunk."""
 
@@ -58,6 +63,9 @@ class Ros1Recording:
                 f"{path} cannot be read ({reason}): run `rosbag reindex {path}`."
             ) from error
         self._chunks: dict[int, bytes] = {}
+        self._converted: dict[_Place, RecordedMessage] = {}
+        """The last small ones by their places, the newest at the end."""
+        self._converted_bytes = 0
         self._types: dict[RecordedChannel, Ros1Type] = {}
         self._places: dict[RecordedChannel, list[_Place]] = {}
         for connection in self._reader.connections:
@@ -85,6 +93,11 @@ class Ros1Recording:
         for channel, place in heapq.merge(*found, key=_stamp, reverse=True):
             if entry := self._entry(channel, place):
                 yield entry
+
+    def newest_stamps(self, channels: Collection[RecordedChannel], end_ns: int) -> Iterator[int]:
+        """`Recording.newest_stamps`."""
+        found = [self._within(channel, 0, end_ns, -1) for channel in self._wanted(channels)]
+        return map(_stamp, heapq.merge(*found, key=_stamp, reverse=True))
 
     @property
     def used(self) -> frozenset[RecordedChannel]:
@@ -134,6 +147,8 @@ class Ros1Recording:
 
     def _entry(self, channel: RecordedChannel, place: _Place) -> RecordedMessage | None:
         """Return a message in the form of ROS 2, None if it is damaged."""
+        if (known := self._converted.get(place)) is not None:
+            return known
         stamp_ns, chunk, at = place
         data = self._chunk(chunk)
         size = int.from_bytes(data[at : at + 4], "little")
@@ -144,10 +159,17 @@ class Ros1Recording:
             if start > len(data) or len(message) < length:
                 self.losses.skipped[place] = "its chunk is damaged"
                 return None
-            return RecordedMessage(channel, stamp_ns, self._types[channel].to_cdr(message))
+            found = RecordedMessage(channel, stamp_ns, self._types[channel].to_cdr(message))
         except MessageError as error:
             self.losses.skipped[place] = str(error).rstrip(".")
             return None
+        if len(found.data) <= MAX_SMALL:
+            self._converted[place] = found
+            self._converted_bytes += len(found.data)
+            while self._converted_bytes > MAX_CONVERTED:
+                oldest = self._converted.pop(next(iter(self._converted)))
+                self._converted_bytes -= len(oldest.data)
+        return found
 
     def _chunk(self, position: int) -> bytes:
         """Return the unpacked chunk at an offset of the file, or what can be unpacked of it."""

@@ -46,6 +46,8 @@ _TABLES = """\
 SELECT count(*) FROM sqlite_master
 WHERE type = 'table' AND rootpage > 0 AND name IN ('messages', 'topics')"""
 _COLUMNS = "id, topic_id, timestamp, data FROM messages"
+_STAMPS = "id, topic_id, timestamp, x'' FROM messages"
+"""Without the data."""
 
 
 class _Row(NamedTuple):
@@ -65,6 +67,7 @@ class _Query(msgspec.Struct, frozen=True):
         start_ns, end_ns: times of recording, both included.
         is_backwards: newest first.
         last: stamp and id of a message up to which all are known.
+        columns: of each row.
     """
 
     topics: Collection[int]
@@ -72,6 +75,7 @@ class _Query(msgspec.Struct, frozen=True):
     end_ns: int
     is_backwards: bool
     last: tuple[int, int] = (-1, 0)
+    columns: str = _COLUMNS
 
     def after(self, row: _Row) -> _Query:
         """Return the rest behind a row."""
@@ -89,7 +93,7 @@ class _Query(msgspec.Struct, frozen=True):
         marks = ", ".join("?" * len(self.topics))
         order, known = ("DESC", ">=") if self.is_backwards else ("ASC", "<=")
         return (
-            f"SELECT {_COLUMNS} WHERE topic_id IN ({marks}) AND timestamp BETWEEN ? AND ? "
+            f"SELECT {self.columns} WHERE topic_id IN ({marks}) AND timestamp BETWEEN ? AND ? "
             f"AND NOT (timestamp = ? AND id {known} ?) "
             f"ORDER BY timestamp {order}, id {order} LIMIT ?",
             (*self.topics, self.start_ns, self.end_ns, *self.last, limit),
@@ -175,6 +179,14 @@ class SqliteRecording:
                 end_ns = min(end_ns, entry.stamp_ns - 1)
                 yield entry
         yield from reversed(deque(self.messages(channels, 0, end_ns), MAX_MISSES))
+
+    def newest_stamps(self, channels: Collection[RecordedChannel], end_ns: int) -> Iterator[int]:
+        """`Recording.newest_stamps`; of a damaged table as far as it can be read."""
+        wanted = {number for number, each in self._numbers.items() if each in channels}
+        with contextlib.suppress(sqlite3.Error):
+            for row in self._rows(wanted, 0, end_ns, is_backwards=True, columns=_STAMPS):
+                if isinstance(row.stamp_ns, int):
+                    yield row.stamp_ns
 
     def histogram(self, parts: TimeParts) -> dict[RecordedChannel, Counts]:
         """`Recording.histogram`, of a damaged table without what it cannot read."""
@@ -268,7 +280,12 @@ class SqliteRecording:
         return (first, last) if is_time else None
 
     def _rows(
-        self, wanted: Collection[int], start_ns: int, end_ns: int, is_backwards: bool = False
+        self,
+        wanted: Collection[int],
+        start_ns: int,
+        end_ns: int,
+        is_backwards: bool = False,
+        columns: str = _COLUMNS,
     ) -> Iterator[_Row]:
         """Yield the rows of some topics within a span, by time or against it.
 
@@ -281,7 +298,7 @@ class SqliteRecording:
         """
         if not wanted:
             return
-        query = _Query(wanted, start_ns, end_ns, is_backwards)
+        query = _Query(wanted, start_ns, end_ns, is_backwards, columns=columns)
         if not self._times.knows(wanted):
             row = None
             try:

@@ -1,6 +1,7 @@
 """Transforms between frames over time, equivalent to tf2."""
 
 from webviz.data.transforms.buffer import TransformBuffer
+from webviz.data.transforms.clocks import received_ns, receptions
 from webviz.data.transforms.diagnosis import Diagnosis, FrameReport, diagnose, tree_text
 from webviz.data.transforms.errors import (
     BackwardExtrapolationException,
@@ -44,5 +45,7 @@ __all__ = [
     "diagnose",
     "distinct",
     "explain",
+    "received_ns",
+    "receptions",
     "tree_text",
 ]

@@ -148,7 +148,7 @@ class TransformBuffer:
         elif not is_named:
             tree.names[parent] = None
             self.structure_version += 1
-        before = cache.newest if is_static else cache.parent
+        before, newest_ns = cache.newest if is_static else cache.parent, cache.newest_stamp
         sample = ((x, y, z, qx, qy, qz, qw), parent)
         if not cache.insert(stamp_ns, sample):
             fault = too_old(stamp_ns, cache.newest_stamp)
@@ -161,6 +161,8 @@ class TransformBuffer:
         self._claim(child, sample if is_static else authority, authority, stamp_ns)
         if received_ns:
             cache.delay_ns = received_ns - stamp_ns
+            if before != cache.newest if is_static else cache.newest_stamp != newest_ns:
+                cache.seen_ns = received_ns
         self.version += 1
         return True
 

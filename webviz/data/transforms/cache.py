@@ -34,9 +34,10 @@ class StaticCache:
 
     Attributes:
         delay_ns: from the stamp of the last transform to its reception; None if unknown.
+        seen_ns: when this pose was first received; 0 if unknown.
     """
 
-    __slots__ = ("delay_ns", "sample")
+    __slots__ = ("delay_ns", "sample", "seen_ns")
     is_static = True
     newest_stamp = 0
     oldest_stamp = 0
@@ -44,6 +45,7 @@ class StaticCache:
     def __init__(self) -> None:
         self.sample: ParentedPose | None = None
         self.delay_ns: int | None = None
+        self.seen_ns = 0
 
     def __len__(self) -> int:
         return 1
@@ -102,6 +104,7 @@ class TimeCache:
         "_joined",
         "_parents",
         "_poses",
+        "_seen_ns",
         "_stamps",
         "_taken",
         "batches",
@@ -122,6 +125,7 @@ class TimeCache:
         """Messages that had come when it joined them, and when it last took its samples."""
         self._cache_time_ns = cache_time_ns
         self._delay_ns: int | None = None
+        self._seen_ns = 0
 
     def __len__(self) -> int:
         return len(self.stamps)
@@ -162,6 +166,17 @@ class TimeCache:
     @delay_ns.setter
     def delay_ns(self, delay_ns: int | None) -> None:
         self._delay_ns = delay_ns
+
+    @property
+    def seen_ns(self) -> int:
+        """Time at which the newest stamp was first received; 0 if unknown."""
+        batches = self.batches
+        late_ns = batches.delay_ns(self._joined, self.place) if batches is not None else None
+        return self._seen_ns if late_ns is None else self.newest_stamp + late_ns
+
+    @seen_ns.setter
+    def seen_ns(self, seen_ns: int) -> None:
+        self._seen_ns = seen_ns
 
     @property
     def newest_stamp(self) -> int:
@@ -231,7 +246,7 @@ class TimeCache:
     def leave(self) -> None:
         """Follow no messages any more."""
         if self.batches is not None:
-            self._delay_ns = self.delay_ns
+            self._delay_ns, self._seen_ns = self.delay_ns, self.seen_ns
             self._take()
             self.batches.leave(self.place)
             self.batches = None
@@ -334,6 +349,7 @@ class TimeCache:
         self._stamps.clear()
         self._poses.clear()
         self._parents.clear()
+        self._seen_ns = 0
         self.mixed_ns = self.twin_ns = NEVER_NS
 
 

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Mapping
+
 from webviz.data.transforms.buffer import TransformBuffer
-from webviz.data.transforms.cache import TimeCache
+from webviz.data.transforms.cache import StaticCache, TimeCache
 from webviz.data.transforms.errors import NS_PER_S
 from webviz.data.transforms.reasons import HOUR_NS, WALL_NS, YEAR_NS, in_words
+from webviz.data.transforms.tree import ancestors
 from webviz.data.words import Problem
 
 TOLERANCE_NS = 1_500_000_000
@@ -70,3 +74,38 @@ def clock_problem(
         f"{who} are stamped {offset} the clock of this computer{rest}.",
         "Synchronise the clocks of the machines (chrony, NTP).",
     )
+
+
+def receptions(buffer: TransformBuffer) -> Mapping[int, int]:
+    """Return when the newest stamps of moving frames were first received, by stamp.
+
+    Both in nanoseconds; stamps whose reception is unknown are left out.
+    """
+    caches = (each for each in buffer.tree.caches.values() if isinstance(each, TimeCache))
+    return {each.newest_stamp: seen_ns for each in caches if (seen_ns := each.seen_ns)}
+
+
+def received_ns(buffer: TransformBuffer, target: str, source: str, stamp_ns: int) -> int:
+    """Return when the last transform was received without which a pose at a time is unknown.
+
+    All times are ROS time in nanoseconds.
+
+    Args:
+        buffer: transforms inserted with the time at which they were received.
+        target, source: frames.
+        stamp_ns: the time of the pose.
+
+    Returns:
+        As far as the delay of each link is that of its newest transform; 0 if unknown.
+    """
+    chains = [ancestors(buffer.tree, frame) for frame in (target, source)]
+    latest_ns = 0
+    for child in set(chains[0]) ^ set(chains[1]):
+        cache = buffer.tree.caches.get(child)
+        if isinstance(cache, StaticCache):
+            latest_ns = max(latest_ns, cache.seen_ns)
+        elif cache and (delay_ns := cache.delay_ns) is not None:
+            needed = itertools.takewhile(lambda each: each >= stamp_ns, reversed(cache.stamps))
+            first_ns = min(needed, default=0)
+            latest_ns = max(latest_ns, first_ns + delay_ns if first_ns else 0)
+    return latest_ns

@@ -59,6 +59,7 @@ class MessageFilter(Generic[P]):
         self._is_heavy = False
         """True if messages were given up for their bytes rather than their number."""
         self._tried: tuple[int, str] | None = None
+        self._stuck_since: P | None = None
 
     @property
     def drops(self) -> Mapping[Kind, int]:
@@ -69,6 +70,11 @@ class MessageFilter(Generic[P]):
     def is_stuck(self) -> bool:
         """Return whether messages wait that no newer one has passed, or were given up since."""
         return self._longest() is not None or self._given_up is not None
+
+    @property
+    def stuck_since(self) -> P | None:
+        """Return the first message since the last that became ready, None unless it is stuck."""
+        return self._stuck_since if self.is_stuck else None
 
     def __len__(self) -> int:
         return len(self._queue) + len(self._new)
@@ -103,6 +109,7 @@ class MessageFilter(Generic[P]):
             self._queue.clear()
         self._tried = state
         done: list[P] = []
+        first = self._stuck_since
         for message in (*waiting, *self._new):
             if not message.frame:
                 self._give_up(message, Kind.EMPTY_FRAME)
@@ -110,13 +117,19 @@ class MessageFilter(Generic[P]):
                 if is_within_reach((*pose.translation, *pose.rotation)):
                     done.append(message.payload)
                     self._pass(message)
-                else:
-                    self._give_up(message, Kind.OUT_OF_REACH)
+                    first = None
+                    continue
+                self._give_up(message, Kind.OUT_OF_REACH)
             elif _is_too_old(buffer, fixed_frame, message):
                 self._give_up(message, Kind.BEHIND)
             else:
                 self._queue.append(message)
+            if first is None and not message.is_passed:
+                first = message.payload
         self._new.clear()
+        if first is None and (longest := self._longest()) is not None:
+            first = longest.payload
+        self._stuck_since = first
         if done:
             self._given_up, self._lost, self._is_heavy = None, 0, False
         size = sum(message.size for message in self._queue)
@@ -145,6 +158,8 @@ class MessageFilter(Generic[P]):
             reason = replace(full, frame=reason.frame, link=reason.link)
         if self._lost:
             given_up = "1 message was" if self._lost == 1 else f"{self._lost} messages were"
+            if buffer.recorded:  # their number depends on where playing began
+                given_up = "Earlier ones were"
             reason = replace(reason, sentence=joined(reason.sentence, f"{given_up} given up."))
         return reason
 
@@ -155,6 +170,7 @@ class MessageFilter(Generic[P]):
         self._drops.clear()
         self._given_up, self._lost, self._tried = None, 0, None
         self._is_heavy = False
+        self._stuck_since = None
 
     def _pass(self, ready: _Waiting[P]) -> None:
         """Mark what waits although newer data of its frame shows, such as a topic's first."""

@@ -64,6 +64,11 @@ class Folding:
         """Return the message that a worker decodes or merges."""
         return self._work and self._work[0]
 
+    @property
+    def state(self) -> Any:
+        """Return what was merged so far, None before the first sample."""
+        return self._state
+
     def put(self, received: Received) -> None:
         """Add a sample; `results` has it once it is merged."""
         self._waiting.append(received)

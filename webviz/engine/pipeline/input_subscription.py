@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections import deque
 from collections.abc import Callable, Iterable, Mapping
@@ -17,7 +18,7 @@ from webviz.api.ports import ANY, Input
 from webviz.api.sample import Sample
 from webviz.api.status import Level, Measurement, OtherFixedFrame, Remedy, Status
 from webviz.data.messages import MessageError, decode, peek_header
-from webviz.data.transforms import MessageFilter
+from webviz.data.transforms import MessageFilter, received_ns
 from webviz.data.transforms.reasons import in_words
 from webviz.data.words import counted, joined
 from webviz.engine.pipeline.topic_statistics import TopicStatistics
@@ -37,7 +38,14 @@ LATE_S = 0.3
 class Arrival:
     """A message whose frame has a pose at its stamp, or that needs none.
 
-    `message` is the decoded message if it was decoded to know how long it lasts.
+    Args:
+        raw: the message.
+        frame: frame id, "" if it needs no pose.
+        stamp_ns: of its header.
+        number: of the message on its input, from 0.
+        message: the decoded message if it was decoded to know how long it lasts.
+        lasts_ns: how long that is.
+        arrived_s: when it arrived, by the clock of ages and rates.
     """
 
     raw: Raw
@@ -45,6 +53,8 @@ class Arrival:
     stamp_ns: int
     number: int
     message: Any = field(default=None, compare=False)
+    lasts_ns: int = 0
+    arrived_s: float = 0.0
 
 
 class Drops:
@@ -90,9 +100,8 @@ class InputSubscription:
         self._topic_statistics = TopicStatistics(path, spec, topic, name, problem)
         self._filter: MessageFilter[Arrival] = MessageFilter(topic.filter_size)
         self._fault = ""
-        self._placed_at = 0.0
-        self._late_s = 0.0
-        self._waiting_since: float | None = None
+        self._placed: Arrival | None = None
+        """The newest message with a pose."""
         self._newest = self._newest_placed = -1
         self._drops = Drops()
         self._followed: Offer | None = None
@@ -107,7 +116,8 @@ class InputSubscription:
     @property
     def is_waiting(self) -> bool:
         """Return whether the newest message waits for its transform."""
-        return len(self._filter) > 0 and self._newest > self._newest_placed
+        newest_placed = self._placed.number if self._placed else -1
+        return len(self._filter) > 0 and self._newest > newest_placed
 
     def is_idle(self, offer: Offer | None) -> bool:
         """Return whether `take` has nothing to do unless messages have arrived.
@@ -153,7 +163,6 @@ class InputSubscription:
         """
         arrivals: list[Arrival] = []
         topic_statistics = self._topic_statistics
-        first_new = topic_statistics.count
         if offer is not self._followed:
             self._followed = offer
             self._follow(offer)
@@ -167,10 +176,13 @@ class InputSubscription:
         )
         for raw in raws:
             last = topic_statistics.last
-            if is_latched and last and raw.cdr == last.cdr:
+            is_again = is_latched and last is not None and raw.cdr == last.cdr
+            if is_again and last and raw.recorded_ns == last.recorded_ns:
                 continue  # delivered again, by a second publisher or a new subscription
             waited_s = _waited_s(raw, frames.now_ns, offer is not None and offer.is_recorded)
             topic_statistics.note(raw, clock - waited_s, is_latched)
+            if is_again:
+                continue
             message, lasts_ns = None, 0
             try:
                 header = peek_header(self.type, raw.cdr)
@@ -187,7 +199,13 @@ class InputSubscription:
             self._frame = frame
             self._stamps.append((stamp_ns, raw.received_ns))
             arrival = Arrival(
-                raw, frames.named(frame), stamp_ns, topic_statistics.count - 1, message
+                raw,
+                frames.named(frame),
+                stamp_ns,
+                topic_statistics.count - 1,
+                message,
+                lasts_ns,
+                clock - waited_s,
             )
             if not waits:
                 arrivals.append(arrival)
@@ -198,13 +216,7 @@ class InputSubscription:
         placed = self._filter.ready(frames.buffer, frames.fixed_frame, frames.now_ns)
         arrivals += placed
         if placed:
-            self._placed_at, self._waiting_since = clock, None
-            self._newest_placed = placed[-1].number
-            has_waited = placed[-1].number < first_new
-            waited_ns = frames.now_ns - placed[-1].raw.received_ns if has_waited else 0
-            self._late_s = waited_ns / 1e9
-        elif self._waiting_since is None and self._filter.is_stuck:
-            self._waiting_since = clock
+            self._placed = placed[-1]
         return arrivals
 
     def _follow(self, offer: Offer | None) -> None:
@@ -232,9 +244,8 @@ class InputSubscription:
         self._filter.clear()
         self._topic_statistics.reset()
         self._fault = ""
-        self._placed_at = self._late_s = 0.0
-        self._waiting_since = None
-        self._newest = self._newest_placed = -1
+        self._placed = None
+        self._newest = -1
         self._stamps.clear()
 
     def observed(self, sample: Sample | None) -> InputSeen:
@@ -280,23 +291,30 @@ class InputSubscription:
 
     def _transform_status(self, frames: Frames, clock: float) -> Status | None:
         waiting = self._filter.explanation(frames.buffer, frames.fixed_frame, frames.now_ns)
-        since = self._waiting_since
-        is_late = since is not None and clock - since > PATIENCE_S
+        stuck, placed = self._filter.stuck_since, self._placed
+        since_s = math.inf if stuck is None else stuck.arrived_s
+        if placed is None:
+            since_s = min(since_s, self._topic_statistics.first_s)
+        is_late = clock - since_s > PATIENCE_S
         if waiting and (is_late or frames.buffer.none_recorded):
             size, remedy = waiting.filter_size, OtherFixedFrame.of(waiting)
             if size:
                 label = f"Set the filter size to {size}"
                 remedy = Remedy(f"{self.path}.filter_size", size, label)
             return Status(Level.ERROR, waiting.sentence, remedy, waiting, _lag(waiting.lag_ns))
-        if not self._placed_at:
+        if placed is None:
             # In a bag nothing arrives while its time stands still.
             if waiting and frames.buffer.recorded:
                 return Status(
                     Level.WARN, waiting.sentence, reason=waiting, values=_lag(waiting.lag_ns)
                 )
             return None
-        if self._late_s > LATE_S and clock - self._placed_at < PATIENCE_S:
-            late = round(self._late_s * 1e9)
+        ready_ns = 0
+        if placed.stamp_ns:
+            end_ns = placed.stamp_ns + placed.lasts_ns
+            ready_ns = received_ns(frames.buffer, frames.fixed_frame, placed.frame, end_ns)
+        late = ready_ns - placed.raw.received_ns
+        if late > LATE_S * 1e9 and frames.now_ns - ready_ns < PATIENCE_S * 1e9:
             text = f"Drawn {in_words(late)} late: the transforms arrive that long after the data."
             text = joined(text, waiting.sentence) if waiting else text
             return Status(Level.WARN, text, reason=waiting, values=_lag(late))

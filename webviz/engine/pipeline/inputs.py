@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
-from webviz.api.capabilities import Sweep, capability
+from webviz.api.capabilities import SelfPlacing, Sweep, capability
 from webviz.api.display import Display, Sync, inputs_of, overrides
 from webviz.api.frames import Frames
 from webviz.api.lookback import Lookback
@@ -47,6 +47,7 @@ class Inputs:
         """Continue with another instance that has the same inputs."""
         self._display = display
         self._sweep = capability(display, Sweep)
+        self._placing = capability(display, SelfPlacing)
         self._guard = guard
 
     def subscriptions(self) -> dict[str, Subscription]:
@@ -57,6 +58,8 @@ class Inputs:
                 is_placed = self.waits(name)
                 lookback = self._lookback(name, input_subscription, is_placed)
                 own = input_subscription.subscription(lookback, is_placed)
+                if self._placing and self._guard("places", self._placing.places, name):
+                    own = replace(own, is_placed=True)
                 wanted = dict(merged([wanted, {input_subscription.name: own}]))
         return self._subscriber.subscribe(wanted)
 

@@ -68,6 +68,8 @@ class TransformListener:
         self._settled_changes = 0
         self._settled_structure = -1
         self._reviewed_at: float | None = None
+        self._reviewed_ns = self._asked_ns = 0
+        """ROS time of the last review, and of the last call of `statuses`."""
         self._found: dict[str, Status] = {}
 
     def follow(self, robots: Sequence[NamespacedRobot]) -> None:
@@ -119,8 +121,10 @@ class TransformListener:
     def statuses(self, offers: Mapping[str, Offer], now_ns: int) -> dict[str, Status]:
         """Problems with the transforms, by key."""
         clock = self._clock()
-        if self._reviewed_at is None or clock - self._reviewed_at > REVIEW_S:
-            self._reviewed_at = clock
+        stands_still, self._asked_ns = now_ns == self._asked_ns, now_ns
+        is_due = self._reviewed_at is None or clock - self._reviewed_at > REVIEW_S
+        if is_due or (stands_still and now_ns != self._reviewed_ns):
+            self._reviewed_at, self._reviewed_ns = clock, now_ns
             self._found = self._review(offers, now_ns)
         return self._faults | self._found
 
@@ -185,7 +189,9 @@ class TransformListener:
             self._buffer.forget_publishers()
             self._reviewed_at = None
         structure = self._buffer.structure_version  # changes with every static transform
-        if structure != self._settled_structure and self._clock() - self._asked_at > ASK_S:
+        # The time of a bag may stand still; what it repeats depends on its messages alone.
+        is_due = self._buffer.recorded or self._clock() - self._asked_at > ASK_S
+        if structure != self._settled_structure and is_due:
             self._settled_structure = structure
             changes = sum(p.changes for p in self._buffer.publishers.values())
             if changes != self._settled_changes:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 
-from webviz.api.capabilities import Selective, capability
+from webviz.api.capabilities import Selective, SelfPlacing, capability
 from webviz.api.display import Display, Keep, overrides
 from webviz.api.frames import Frames
 from webviz.api.nodes import Pose
@@ -37,6 +37,9 @@ class SampleBuffer:
         self._id = id
         self._display = display
         self._selective = capability(display, Selective)
+        self._placing = capability(display, SelfPlacing)
+        self._placed_at: tuple[int, str] = -1, ""
+        """Version of the transforms and fixed frame, when what is folded was placed."""
         self._guard = guard
         self._services = services
         self.histories = self._no_histories()
@@ -49,6 +52,7 @@ class SampleBuffer:
         """Continue with another instance that has the same inputs."""
         self._display = display
         self._selective = capability(display, Selective)
+        self._placing = capability(display, SelfPlacing)
         self._guard = guard
         self.inputs.replace(display, guard)
 
@@ -65,8 +69,12 @@ class SampleBuffer:
         """Take the messages of this turn; most are only decoded once they are drawn."""
         clock = self._services.clock()
         arrived = self.inputs.take(batches, frames, offers, clock)
-        if not arrived and not self._folding.busy_with:
-            return
+        if arrived or self._folding.busy_with:
+            self._hold(arrived, frames)
+        self._place(frames, bool(arrived))
+
+    def _hold(self, arrived: Iterable[Set], frames: Frames) -> None:
+        """Hold the messages that arrived, or what is folded of them."""
         display, keep = self._display, self._keep()
         every_one = overrides(display, "fold") or self._selective or keep != Keep()
         for found in arrived:
@@ -79,6 +87,18 @@ class SampleBuffer:
         for folded in self._folding.results(display, self._guard):
             self._add(next(iter(self.histories.values())), folded, keep)
         self._trim(keep, frames)  # also without browsers
+
+    def _place(self, frames: Frames, is_new: bool) -> None:
+        """Let the display place what it has folded, if that or the transforms changed."""
+        folded = self._folding.state
+        if self._placing is None or folded is None:
+            return
+        if self._folding.busy_with and self._display.is_threaded:
+            return  # a worker reads it
+        now = frames.buffer.version, frames.fixed_frame
+        if is_new or now != self._placed_at:
+            self._placed_at = now
+            self._guard("place", self._placing.place, folded, frames)
 
     @property
     def busy_with(self) -> int:

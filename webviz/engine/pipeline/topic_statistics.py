@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import functools
 import itertools
+import math
 from collections import deque
 from collections.abc import Mapping, Sequence
 
@@ -12,11 +13,14 @@ from webviz.api.declared import Topic
 from webviz.api.ports import ANY, Input
 from webviz.api.status import Level, Measurement, Remedy, Status
 from webviz.data.transforms.reasons import in_words
+from webviz.data.words import counted
 from webviz.sources import Offer, Publisher, Raw
 
 AUTOMATIC = {"reliability": "auto", "durability": "auto"}
 """Of a topic, whose other values stay."""
 
+MAX_TIMES = 50
+"""Last messages whose times are kept. Of a bag no more are counted, as a seek skips others."""
 FEWEST = 5
 """Messages that show a rate; fewer may be a burst."""
 
@@ -49,7 +53,12 @@ class TopicStatistics:
         self._durability = "transient_local" if spec.latched else topic.durability
         self._name = name
         self._problem = problem
-        self._times: deque[float] = deque(maxlen=50)
+        self._times: deque[float] = deque(maxlen=MAX_TIMES)
+        """When the last messages arrived, in seconds; of a bag when they were recorded."""
+        self._newest_s = 0.0
+        """When the newest message arrived by the clock that `status` is asked with,"""
+        self.first_s = math.inf
+        """and when the first one did, or would have."""
         self._others: tuple[Mapping[str, Offer], str] = {}, ""
 
     def note(self, raw: Raw, arrived_s: float, is_latched: bool) -> None:
@@ -62,15 +71,24 @@ class TopicStatistics:
             arrived_s: its arrival by the clock that `status` is asked with.
             is_latched: whether the publisher repeats its last message.
         """
+        at_s = raw.recorded_ns / 1e9 if raw.recorded_ns else arrived_s
+        first_s = arrived_s
+        if (earlier := raw.earlier) is not None:
+            self._times.clear()
+            self._times.extend(each_ns / 1e9 for each_ns in reversed(earlier.recorded_ns))
+            self.count = max(self.count, len(earlier.recorded_ns))
+            first_s -= (raw.recorded_ns - earlier.first_ns) / 1e9
+        self._newest_s, self.first_s = arrived_s, min(self.first_s, first_s)
         self.last = raw if is_latched else Raw(b"", raw.received_ns, raw.arrived_s)
         self.count += 1
         self.size = len(raw.cdr)
-        self._times.append(arrived_s)
+        self._times.append(at_s)
 
     def reset(self) -> None:
         """Forget all messages, such as after a jump of time."""
         self.count = 0
         self._times.clear()
+        self.first_s = math.inf
         self.last = self._listening_s = None
 
     def status(self, offers: Mapping[str, Offer], now_ns: int, clock: float) -> Status:
@@ -116,20 +134,21 @@ class TopicStatistics:
         if not self.count:
             when = f": {offer.begins}" if offer and offer.begins else f" from {who}"
             return Status(Level.WARN, f"No message yet on {self._name}{when}.")
-        age, rate = clock - self._times[-1] if self._times else 0.0, self.rate()
+        age, rate = clock - self._newest_s if self._times else 0.0, self.rate()
         # While simulated time is paused, silence is not a problem.
         silence = min(age, (now_ns - self.last.received_ns) / 1e9) if self.last else 0.0
         if rate and not self._is_sporadic and silence > max(2.0, 5.0 * self._longest_gap()):
             text = f"No message for {_age(age)} on {self._name}, previously at {rate:.1f} Hz; "
             return Status(Level.WARN, f"{text}from {who}.", values=self._values(age))
         pace = f" at {rate:.1f} Hz" if rate else ""
-        count = f"{self.count} message{'s' if self.count != 1 else ''}"
+        is_many = offer is not None and offer.is_recorded and self.count > MAX_TIMES
+        count = f"More than {MAX_TIMES} messages" if is_many else counted(self.count, "message")
         text = f"{count}{pace}, the newest {age:.1f} s ago, from {who}."
         return Status(Level.OK, text, values=self._values(age))
 
     def _no_publisher(self, offers: Mapping[str, Offer], clock: float) -> Status:
         if self.count:
-            age = clock - self._times[-1] if self._times else 0.0
+            age = clock - self._newest_s if self._times else 0.0
             text = f"No publisher on {self._name} any more, last message {_age(age)} ago."
             return Status(Level.WARN, f"{text} Restart it.", values=self._values(age))
         if other := self._nearest(offers):

@@ -5,7 +5,8 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import random
-from collections.abc import Callable, Iterator, Sequence
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,7 @@ from webviz.shell.testing.recording import RecordingScene
 from webviz.sources.bag.source import BagSource
 
 MAX_TURNS = 100_000
+_DURATION = re.compile(r"\b\d+(\.\d+)? (ms|s|min|h)\b")
 LOOK_S = 0.02
 """For slow work of displays, per turn."""
 
@@ -114,6 +116,8 @@ def check_seeks(
 ) -> None:
     """Check that after a seek each display shows what it shows when the bag is played to there.
 
+    Statuses are compared, too, but for the durations in their texts, which are read once a second.
+
     Use it for displays that override `Display.lookback`, `history`, `fold` or `accept`. Which
     messages are dropped when more than `filter_size` wait for transforms depends on the speed of
     playing; choose a large one for bags whose transforms come late.
@@ -132,19 +136,27 @@ def check_seeks(
         duration_s = (sought.source.end_ns - sought.source.start_ns) / 1e9
         chance = random.Random(seed)
         wanted = times or [round(chance.uniform(0, duration_s), 3) for _ in range(count)]
-        truth: dict[float, dict[str, Any]] = {}
+        truth: dict[float, tuple[dict[str, Any], Mapping[str, str]]] = {}
         for at_s in sorted(set(wanted)):
             played.play_to(at_s)
             played.settle()
-            truth[at_s] = played.shown()
+            truth[at_s] = played.shown(), _statuses(played)
         for before_s, at_s in zip([0.0, *wanted], wanted, strict=False):
             sought.do(Seek(at_s))
+            nodes, statuses = truth[at_s]
+            when = f"differs at {at_s:g} s after a seek from {before_s:g} s"
             for display, found in sought.shown().items():
-                expected = truth[at_s][display]
-                if plain(found) != plain(expected):
+                if plain(found) != plain(nodes[display]):
                     raise AssertionError(
-                        f"{display} differs at {at_s:g} s after a seek from {before_s:g} s:\n"
-                        f"  sought: {_summary(found)}\n  played: {_summary(expected)}"
+                        f"{display} {when}:\n"
+                        f"  sought: {_summary(found)}\n  played: {_summary(nodes[display])}"
+                    )
+            reported = _statuses(sought)
+            for key in sorted(reported.keys() | statuses.keys()):
+                if reported.get(key) != statuses.get(key):
+                    raise AssertionError(
+                        f"The status {key} {when}:\n"
+                        f"  sought: {reported.get(key)}\n  played: {statuses.get(key)}"
                     )
 
 
@@ -183,6 +195,21 @@ def plain(value: Any) -> Any:
 def _opened(bag: Path | Sequence[Path], config: str | Config | None) -> Iterator[BagViewer]:
     with contextlib.closing(BagViewer(bag, config)) as viewer:
         yield viewer
+
+
+def _statuses(viewer: BagViewer) -> Mapping[str, str]:
+    """Return the level and text of each status, without durations."""
+    state = viewer.loop.state()
+    found = dict(state.statuses)
+    # How well displays agree is looked at once a second.
+    others = {runner.id: runner.external_statuses.keys() for runner in viewer.loop.runners()}
+    for row in state.rows:
+        found |= {
+            f"{row.id} {row.name}: {key}": status
+            for key, status in row.statuses.items()
+            if key not in others.get(row.id, ())
+        }
+    return {key: f"{s.level.name} {_DURATION.sub('_', s.text)}" for key, s in found.items()}
 
 
 def _summary(nodes: Any) -> str:

@@ -14,10 +14,11 @@ from webviz.api.offer import Publisher
 from webviz.data.foxglove.schemas import Conversion, ConversionError, conversion, is_own, problem_of
 from webviz.data.messages import MessageError, definition, register, type_exists
 from webviz.data.messages.typestore import full_name
+from webviz.data.names import problem_of as name_problem
 from webviz.data.recordings import RecordedChannel, RecordingError, open_recording
 from webviz.data.recordings.recording import Counts, RecordedMessage, TimeParts
 from webviz.sources.bag.qos import profiles_of
-from webviz.sources.names import is_full_name
+from webviz.sources.names import MAX_NAME
 
 KEEP_LAST = 1
 """Latched messages per publisher if the bag does not record the depth."""
@@ -153,6 +154,18 @@ class BagFile:
         except OSError as error:
             raise BagError(self._unreadable(error)) from error
 
+    def newest_stamps(self, channels: Collection[BagChannel], end_ns: int) -> Iterator[int]:
+        """Yield the times of recording of `newest`, without reading the messages.
+
+        Raises:
+            BagError: the file can no longer be read.
+        """
+        try:
+            recorded = [channel.recorded for channel in channels]
+            yield from self._recording.newest_stamps(recorded, end_ns)
+        except OSError as error:
+            raise BagError(self._unreadable(error)) from error
+
     def is_used(self, channel: BagChannel) -> bool:
         """Return whether a channel has messages, or may have."""
         return channel.recorded in self._used
@@ -191,20 +204,24 @@ class BagFile:
 
     def _look(self) -> None:
         channels = []
+        names = {recorded.topic for recorded in self._recording.channels}
         for recorded in self._recording.channels:
+            # Some writers leave out the first slash, with which displays name topics.
+            rooted = f"/{recorded.topic.removeprefix('/')}"
+            topic = recorded.topic if rooted in names else rooted
             reason = _obstacle(recorded)
             if reason:
-                self.skipped[recorded.topic] = reason
+                self.skipped[topic] = reason
             else:
-                channels.append(_channel(recorded, f"the bag {self.path.name}"))
+                channels.append(_channel(topic, recorded, f"the bag {self.path.name}"))
         self.channels = tuple(channels)
 
 
 def _obstacle(recorded: RecordedChannel) -> str:
     """Why the messages of a channel cannot be read, "" if they can; registers their type."""
     if is_own(recorded.type, recorded.encoding):
-        if not is_full_name(recorded.topic):
-            return "its name is none of a topic of ROS"
+        if len(recorded.topic) > MAX_NAME or name_problem(recorded.topic):
+            return "its name is too long, or contains invisible characters"
         return problem_of(recorded.type, recorded.type)
     if recorded.encoding != "cdr":
         return f"its messages are encoded as {recorded.encoding}, not as CDR"
@@ -221,13 +238,13 @@ def _obstacle(recorded: RecordedChannel) -> str:
     return ""
 
 
-def _channel(recorded: RecordedChannel, who: str) -> BagChannel:
+def _channel(topic: str, recorded: RecordedChannel, who: str) -> BagChannel:
     known = conversion(recorded.type) if is_own(recorded.type, recorded.encoding) else None
     type_name = known.type if known else full_name(recorded.type)
     profiles = profiles_of(recorded.profiles)
     publishers = tuple(Publisher(who, type_name, p.reliability, p.durability) for p in profiles)
     return BagChannel(
-        recorded.topic,
+        topic,
         type_name,
         publishers or (Publisher(who, type_name, "reliable", "volatile"),),
         sum(max(profile.depth, KEEP_LAST) for profile in profiles) or KEEP_LAST,

@@ -41,6 +41,10 @@ class MergedFile(Protocol):
         """Messages of channels until a time, the newest first."""
         ...
 
+    def newest_stamps(self, channels: Collection[BagChannel], end_ns: int) -> Iterator[int]:
+        """Return the times of `newest`."""
+        ...
+
     def is_used(self, channel: BagChannel) -> bool:
         """Return whether a channel has messages, or may have."""
         ...
@@ -79,6 +83,8 @@ class BagFiles:
         self.names = tuple(file.path.name for file in files)
         self.start_ns = min(file.start_ns for file in files)
         self.end_ns = max(file.end_ns for file in files)
+        self.topics = {channel.topic for file in files for channel in file.channels}
+        self.topics.update(topic for file in files for topic in file.skipped)
         self._redefined: dict[str, str] = {}
         self.channels = tuple(self._agreeing())
         self._used = {c.topic for file in files for c in file.channels if file.is_used(c)}
@@ -117,6 +123,15 @@ class BagFiles:
         """
         found = [file.newest(own, end_ns) for file, own in self._by_file(channels)]
         return found[0] if len(found) == 1 else heapq.merge(*found, key=_stamp, reverse=True)
+
+    def newest_stamps(self, channels: Collection[BagChannel], end_ns: int) -> Iterator[int]:
+        """Return the times of `newest`, without reading the messages.
+
+        Raises:
+            BagError: a file can no longer be read.
+        """
+        found = [file.newest_stamps(own, end_ns) for file, own in self._by_file(channels)]
+        return heapq.merge(*found, reverse=True)
 
     def _by_file(
         self, channels: Collection[BagChannel]

@@ -92,6 +92,11 @@ class GhostFile(BagFile):
         """See `BagFile.newest`."""
         return map(self._moved, super().newest(channels, end_ns - self._offset_ns))
 
+    def newest_stamps(self, channels: Collection[BagChannel], end_ns: int) -> Iterator[int]:
+        """See `BagFile.newest_stamps`."""
+        by_ns = self._offset_ns
+        return (each + by_ns for each in super().newest_stamps(channels, end_ns - by_ns))
+
     def histogram(self, parts: TimeParts) -> dict[str, Counts]:
         """See `BagFile.histogram`."""
         by_ns = self._offset_ns
@@ -132,6 +137,10 @@ class NumbersFile:
             self._of_topic(channel.topic, self.start_ns, end_ns, step=-1) for channel in channels
         ]
         return heapq.merge(*found, key=_stamp, reverse=True)
+
+    def newest_stamps(self, channels: Collection[BagChannel], end_ns: int) -> Iterator[int]:
+        """See `BagFile.newest_stamps`."""
+        return map(_stamp, self.newest(channels, end_ns))
 
     @property
     def warnings(self) -> list[str]:

@@ -8,8 +8,9 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any, Generic, Protocol, TypeVar
 
 from webviz.api.lookback import Lookback
-from webviz.data.messages import MessageError, decode
+from webviz.data.messages import MessageError, decode, peek_header
 from webviz.sources.bag.time import CLOCK, TF
+from webviz.sources.bag.transform_runs import GAP_NS, Runs, links_in
 from webviz.sources.source import Subscription
 
 RECENT_NS = 15_000_000_000
@@ -18,6 +19,8 @@ BEFORE_NS, AFTER_NS = 10_000_000_000, 3_000_000_000
 """An older message is placed with the transforms of this time around it."""
 AROUND_NS = 1_000_000_000
 """Before and after the last transform of a frame, others are read, which place it."""
+NEAR_ENDS_NS = 50_000_000
+"""Ends of transforms that are closer to each other count as one."""
 MAX_OLD = 100
 """Older messages of a topic with transforms of their own; of more, all transforms since."""
 
@@ -83,16 +86,23 @@ class PastMessages(Protocol[C_contra, M]):
         """Return the messages of some channels until a time, the newest first."""
         ...
 
+    def newest_stamps(self, channels: Collection[C_contra], end_ns: int) -> Iterator[int]:
+        """Return the times of `newest`, without reading the messages."""
+        ...
+
 
 class BagPast(Generic[C, M]):
     """Finds the messages that the state at a time depends on.
+
+    Messages that wait for transforms are drawn once these come. So the newest ones that are drawn
+    may lie far back: where the transforms of a frame above theirs have ended.
 
     Args:
         file: all messages.
         channels: those to read.
         wanted: subscriptions with their lookbacks, by topic.
         at_ns: the time of recording.
-        ended_ns: when frames that have ended before had their last transforms.
+        runs: when frames have transforms.
     """
 
     def __init__(
@@ -101,12 +111,12 @@ class BagPast(Generic[C, M]):
         channels: Collection[C],
         wanted: Mapping[str, Subscription],
         at_ns: int,
-        ended_ns: Sequence[int] = (),
+        runs: Runs | None = None,
     ) -> None:
         self._file = file
         self._wanted = wanted
         self._at_ns = at_ns
-        self._ended_ns = ended_ns
+        self._runs = Runs() if runs is None else runs
         self._channels: dict[str, list[C]] = {}
         for channel in channels:
             self._channels.setdefault(channel.topic, []).append(channel)
@@ -115,6 +125,8 @@ class BagPast(Generic[C, M]):
         """By topic, from when on all messages are needed; of those before, the following."""
         self._chosen: dict[str, set[int]] = {}
         """Stamps by topic."""
+        self._ends: dict[str, Sequence[int]] = {}
+        """By frame, when those above it had their last transforms."""
 
     def messages(self) -> Iterator[M]:
         """Return the messages by time of recording, those at the time included."""
@@ -122,7 +134,8 @@ class BagPast(Generic[C, M]):
         follow: list[C] = []
         together: list[C] = []
         alone: list[Iterator[M]] = []
-        placed = [(stamp_ns - AROUND_NS, stamp_ns + AROUND_NS) for stamp_ns in self._ended_ns]
+        ended_ns = self._runs.ended_ns(self._at_ns - RECENT_NS)
+        placed = [(stamp_ns - AROUND_NS, stamp_ns + AROUND_NS) for stamp_ns in ended_ns]
         timed: list[tuple[int, int]] = []
         for topic, channels in self._channels.items():
             if channels[0].type in (TF, CLOCK) and not self._is_whole(topic):
@@ -196,8 +209,11 @@ class BagPast(Generic[C, M]):
             chosen = self._chosen[topic] = {
                 stamp_ns
                 for lookback in subscription.lookbacks
-                for stamp_ns in self._chosen_by(channels, lookback, subscription)
+                for stamp_ns in self._chosen_by(channels, lookback, subscription, self._at_ns)
             }
+            if subscription.is_placed and self._whole_from[topic] > self._file.start_ns:
+                for end_ns in self._ends_above(channels):
+                    chosen.update(self._placed_until(channels, subscription, end_ns))
             self._starts[topic] = min([self._whole_from[topic], *chosen])
         return self._starts[topic]
 
@@ -207,19 +223,72 @@ class BagPast(Generic[C, M]):
         limit_ns = self._limit_ns(lookback)
         if not (lookback.count or lookback.starts_over):
             return limit_ns
-        newest = self._newest(channels, lookback, subscription, limit_ns)
+        newest = self._newest(channels, lookback, subscription, limit_ns, self._at_ns)
         return min((recorded.stamp_ns for recorded in newest), default=self._at_ns + 1)
 
     def _chosen_by(
-        self, channels: Sequence[C], lookback: Lookback, subscription: Subscription
+        self, channels: Sequence[C], lookback: Lookback, subscription: Subscription, until_ns: int
     ) -> Iterator[int]:
-        """Yield the stamps of the messages that a lookback chooses."""
+        """Yield the stamps of the messages until a time that a lookback chooses."""
         if lookback.chooses is None:
             return
         stamps: list[int] = []
-        newest = self._newest(channels, lookback, subscription, self._limit_ns(lookback))
+        limit_ns = self._limit_ns(lookback)
+        newest = self._newest(channels, lookback, subscription, limit_ns, until_ns)
         for number in lookback.chooses(_decoded(newest, subscription.type, stamps)):
             yield stamps[number]
+
+    def _placed_until(
+        self, channels: Sequence[C], subscription: Subscription, end_ns: int
+    ) -> Iterator[int]:
+        """Yield the stamps of the messages that were drawn when transforms ended.
+
+        Those that came a little later may have stamps before the end.
+        """
+        until_ns = min(end_ns + AROUND_NS, self._at_ns)
+        for lookback in subscription.lookbacks:
+            limit_ns = self._limit_ns(lookback)
+            before = 0
+            for stamp_ns in self._file.newest_stamps(channels, until_ns):
+                before += stamp_ns <= end_ns
+                if stamp_ns < limit_ns or before > lookback.count:
+                    break
+                yield stamp_ns
+            yield from self._chosen_by(channels, lookback, subscription, end_ns)
+
+    def _ends_above(self, channels: Sequence[C]) -> Sequence[int]:
+        """Return when frames above that of the newest message had their last transforms."""
+        newest = next(self._file.newest(channels, self._at_ns), None)
+        try:
+            header = None if newest is None else peek_header(channels[0].type, newest.cdr)
+        except MessageError:
+            header = None
+        if not header:
+            return ()
+        frame = header[0].removeprefix("/")
+        if frame not in self._ends:
+            above = self._runs.above(frame, self._at_ns)
+            ends = {end_ns for end_ns in above.values() if end_ns is not None}
+            ends.update(self._last({child for child, end_ns in above.items() if end_ns is None}))
+            found: list[int] = []
+            for end_ns in sorted(ends, reverse=True):
+                if not found or found[-1] - end_ns > NEAR_ENDS_NS:
+                    found.append(end_ns)
+            self._ends[frame] = found
+        return self._ends[frame]
+
+    def _last(self, children: set[str]) -> Iterator[int]:
+        """Yield when some frames had their last transforms, less than `GAP_NS` ago."""
+        moving = [c for own in self._channels.values() for c in own if c.type == TF]
+        for recorded in self._file.newest(moving, self._at_ns) if children else ():
+            if recorded.stamp_ns < self._at_ns - GAP_NS:
+                return
+            found = children.intersection(child for _, child in links_in(recorded.cdr))
+            if found:
+                yield recorded.stamp_ns
+                children -= found
+            if not children:
+                return
 
     def _limit_ns(self, lookback: Lookback) -> int:
         """From when on messages may count."""
@@ -233,10 +302,15 @@ class BagPast(Generic[C, M]):
         return limit_ns
 
     def _newest(
-        self, channels: Collection[C], lookback: Lookback, subscription: Subscription, limit_ns: int
+        self,
+        channels: Collection[C],
+        lookback: Lookback,
+        subscription: Subscription,
+        limit_ns: int,
+        until_ns: int,
     ) -> Iterator[M]:
-        """Yield the messages that a lookback leaves, the newest first."""
-        for number, recorded in enumerate(self._file.newest(channels, self._at_ns), 1):
+        """Yield the messages until a time that a lookback leaves, the newest first."""
+        for number, recorded in enumerate(self._file.newest(channels, until_ns), 1):
             if recorded.stamp_ns < limit_ns:
                 return
             yield recorded

@@ -6,7 +6,7 @@ Recorders other than rosbag2 write only some policies. The messages of such bags
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
 from webviz.api.offer import Durability, Publisher, Reliability
@@ -85,3 +85,13 @@ def text_of(publishers: Iterable[Publisher]) -> str:
         for publisher in publishers
     ]
     return write(profiles)
+
+
+def weakest(publishers: Sequence[Publisher]) -> tuple[Reliability, Durability]:
+    """Return the QoS that all of them offer."""
+    reliable = all(p.reliability == "reliable" for p in publishers)
+    latched = all(p.durability == "transient_local" for p in publishers)
+    return (
+        "reliable" if reliable else "best_effort",
+        "transient_local" if latched else "volatile",
+    )

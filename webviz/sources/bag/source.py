@@ -9,16 +9,18 @@ from dataclasses import replace
 from pathlib import Path
 
 from webviz.api.lookback import Lookback
-from webviz.api.offer import Durability, Offer, Publisher, Reliability
+from webviz.api.offer import Offer, Publisher
 from webviz.data.disk import in_thread
 from webviz.data.messages import MessageError, register
+from webviz.sources.bag.earlier import EarlierMessages
 from webviz.sources.bag.extras import Extra
 from webviz.sources.bag.file import BagChannel, BagError, Recorded
 from webviz.sources.bag.files import BagFiles
 from webviz.sources.bag.frames import frames_of, links_of
 from webviz.sources.bag.ghost import Ghost, ghost_files
 from webviz.sources.bag.log import LogReader
-from webviz.sources.bag.past import RECENT_NS, BagPast
+from webviz.sources.bag.past import BagPast
+from webviz.sources.bag.qos import weakest
 from webviz.sources.bag.time import CLOCK, TF, BagTime
 from webviz.sources.bag.transform_runs import TransformRuns
 from webviz.sources.graph import ReadOnly
@@ -76,6 +78,7 @@ class BagSource:
         self._wanted: dict[str, Subscription] = {}
         self._problems: dict[str, str] = {}
         self._begins: dict[str, str] = {}
+        self._earlier = EarlierMessages(self._file)
         self._offers = self._all_offers()
         self._served: dict[str, str] = {}
         """Types by topic, of subscriptions that get their past from the seek before."""
@@ -154,9 +157,10 @@ class BagSource:
     def seek(self, at_ns: int) -> None:
         """`Playable.seek`: reads what the subscriptions need of the past, and then on."""
         self.inbox.drain()
-        ended_ns = self._runs.ended_ns(at_ns - RECENT_NS)
-        self._replay.seek(at_ns, self._channels_to_read(), self._wanted, ended_ns)
+        self._replay.seek(at_ns, self._channels_to_read(), self._wanted, self._runs.found())
         self._time.seek(self.position_ns)
+        self._earlier.clear()
+        self._earlier.look(self._channels(), at_ns, is_new=True)
         for extra in self._extras:
             self._put(Recorded(extra.topic, extra.type, extra.cdr, self._file.start_ns))
         self._served = _types(self._wanted)
@@ -233,7 +237,9 @@ class BagSource:
             self._put_extras(topic)
             if topic in new:
                 self._catch_up(topic, subscription)
-            else:
+            else:  # as after a reset, which has forgotten what came before
+                own = [channel for channel in self._channels() if channel.topic == topic]
+                self._earlier.look(own, self.position_ns, is_new=False)
                 self._repeat(topic, subscription)
         if types != _types(self._wanted):
             self._replay.read_on(self._channels_to_read())
@@ -252,12 +258,12 @@ class BagSource:
         return 0
 
     def resolve(self, topic: str) -> str:
-        """Return the full name of a topic, remapped.
+        """Return the full name of a topic, remapped; those in the bag are valid.
 
         Raises:
             ValueError: it is not a valid topic name.
         """
-        return resolved(topic, self._remappings)
+        return resolved(topic, self._remappings, self._file.topics)
 
     def close(self) -> None:
         """Close the file."""
@@ -304,7 +310,10 @@ class BagSource:
             )
             lookbacks = (*subscription.lookbacks, *([latched] if latched.count else []))
             wanted = self._wanted | {topic: replace(subscription, lookbacks=lookbacks)}
-            for recorded in BagPast(self._file, channels, wanted, self.position_ns).messages():
+            self._earlier.look(channels, self.position_ns, is_new=True)
+            runs = self._runs.found()
+            past = BagPast(self._file, channels, wanted, self.position_ns, runs)
+            for recorded in past.messages():
                 self._put(recorded)
 
     def _put_extras(self, topic: str) -> None:
@@ -334,7 +343,7 @@ class BagSource:
             channel
             for channel in self._channels()
             if channel.topic == topic
-            and (subscription.latched or _weakest(channel.publishers)[1] == "transient_local")
+            and (subscription.latched or weakest(channel.publishers)[1] == "transient_local")
         ]
 
     def _arrive(self, recorded: Recorded) -> None:
@@ -343,7 +352,9 @@ class BagSource:
         self._put(recorded)
 
     def _put(self, recorded: Recorded) -> None:
-        self.inbox.put(recorded.topic, Raw(recorded.cdr, self._time.at(recorded.stamp_ns)))
+        received_ns, earlier = self._time.at(recorded.stamp_ns), self._earlier.take(recorded)
+        raw = Raw(recorded.cdr, received_ns, recorded_ns=recorded.stamp_ns, earlier=earlier)
+        self.inbox.put(recorded.topic, raw)
 
     def _all_offers(self) -> Mapping[str, Offer]:
         publishers: dict[str, tuple[Publisher, ...]] = {}
@@ -362,7 +373,7 @@ class BagSource:
         if subscription is None or not matching:
             return Offer(publishers, None, problem, is_recorded=True)
         begins = self._begins.get(topic, "")
-        qos = _weakest(matching)
+        qos = weakest(matching)
         return Offer(publishers, qos, problem, subscription.type, is_recorded=True, begins=begins)
 
     def _beginning(self, topic: str) -> str:
@@ -375,6 +386,7 @@ class BagSource:
         first = next(self._file.messages(channels, self._file.start_ns), None)
         if first is None:
             return NONE
+        self._earlier.note_first(first)
         return f"the bag's first is at {(first.stamp_ns - self.start_ns) / 1e9:.1f} s"
 
 
@@ -385,16 +397,6 @@ def _is_new(subscription: Subscription, before: Subscription | None) -> bool:
 
 def _types(subscriptions: Mapping[str, Subscription]) -> dict[str, str]:
     return {topic: subscription.type for topic, subscription in subscriptions.items()}
-
-
-def _weakest(publishers: Sequence[Publisher]) -> tuple[Reliability, Durability]:
-    """Return the QoS that all of them offer."""
-    reliable = all(p.reliability == "reliable" for p in publishers)
-    latched = all(p.durability == "transient_local" for p in publishers)
-    return (
-        "reliable" if reliable else "best_effort",
-        "transient_local" if latched else "volatile",
-    )
 
 
 __all__ = ["BagError", "BagSource"]
