@@ -107,7 +107,7 @@ class TopicStatistics:
         elif self._listening_s is None:
             self._listening_s = clock
         began_s = clock if self._listening_s is None else self._listening_s
-        self.silent_s = clock - (self._times[-1] if self._times else began_s)
+        self.silent_s = clock - (self._newest_s if self._times else began_s)
         if offer and offer.problem:
             return Status(Level.ERROR, f"{self._name}: {offer.problem}")
         if offer and offer.type not in ("", self.type):
