@@ -356,9 +356,7 @@ class TransformBuffer:
 
     def _pose(self, target: str, source: str, stamp_ns: int) -> tuple[PoseTuple, int]:
         if target == source:
-            if stamp_ns == 0:
-                stamp_ns = self._tree.latest_common_time(target, source)
-            return IDENTITY, stamp_ns
+            return IDENTITY, stamp_ns or self._tree.latest_common_time(target, source)
         self._tree.validate("lookupTransform argument target_frame", target)
         self._tree.validate("lookupTransform argument source_frame", source)
         return self._tree.resolve(target, source, stamp_ns)

@@ -305,10 +305,8 @@ class BagSource:
         """Deliver what a new subscription would hold if it had been there from the start."""
         channels = [channel for channel in self._channels() if channel.topic == topic]
         if channels and self.position_ns >= self._file.start_ns:
-            latched = Lookback(
-                count=sum(channel.depth for channel in self._latched(topic, subscription))
-            )
-            lookbacks = (*subscription.lookbacks, *([latched] if latched.count else []))
+            depth = sum(channel.depth for channel in self._latched(topic, subscription))
+            lookbacks = (*subscription.lookbacks, *([Lookback(count=depth)] if depth else []))
             wanted = self._wanted | {topic: replace(subscription, lookbacks=lookbacks)}
             self._earlier.look(channels, self.position_ns, is_new=True)
             runs = self._runs.found()
