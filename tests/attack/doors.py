@@ -102,7 +102,7 @@ DOORS: Mapping[str, Door] = {
             "webviz/shell/reference.py",
             "webviz/engine/parts/reports.py",
         ),
-        "Tokens, certificates, plug-ins and templates of whoever starts webviz.",
+        "Tokens, certificates, plug-ins and templates of the user who starts webviz.",
     ),
     "browsers of pictures": Door(
         ("exported",), ("webviz/shell/pictures/*", "webviz/shell/frames/*")

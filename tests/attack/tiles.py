@@ -26,7 +26,7 @@ TIMEOUT_S = 1.0
 PLACE = (2, 1, 0)
 """Zoom, column and row of the only tile."""
 ELSEWHERE = ("http://127.0.0.1:1/", "file:///etc/passwd", "//192.0.2.1/", "gopher://x/", "\x1b[2J")
-"""Where servers redirect to."""
+"""Targets of redirections by servers."""
 COMPUTED = (
     "CREATE VIEW tiles AS SELECT 2 zoom_level, 1 tile_column, 3 tile_row, "
     "zeroblob(1000000000) tile_data",

@@ -121,7 +121,7 @@ def test_a_clock_of_a_paused_simulator(
             viewer.source._node.set_parameters([parameter])  # pyright: ignore[reportPrivateUsage]
 
         def found(step: int | None = 0) -> dict[str, str]:
-            """The causes by id; a message on /clock is sent before, unless there is no step."""
+            """The causes by id, after a message on /clock if `step` is given."""
             nonlocal time_s
             if step is not None:
                 time_s += step

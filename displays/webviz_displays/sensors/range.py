@@ -86,7 +86,7 @@ def measured(message: Any) -> tuple[float, str]:
             return low, f"Something is within {low:g} m."
         return 0.0, f"Nothing is within {low:g} m, so there is no cone."
     if distance == math.inf:
-        return 0.0, f"Nothing is in range, which is {high:g} m, so there is no cone."
+        return 0.0, f"Nothing within the range of {high:g} m; there is no cone."
     if distance == -math.inf:
         return 0.0, f"Something is closer than {low:g} m, so its distance is unknown."
     if low <= distance <= high:

@@ -33,7 +33,7 @@ class MulticastLost(Check):
             return
         outer = [each for each in environment.interfaces if not each.is_loopback]
         if not outer:
-            return  # there is no network, which NET003 finds
+            return  # NET003 reports that no network is up
         explains = seen.undiscovered()
         names = tuple(each.name for each in environment.interfaces)
         best = next((each.name for each in outer if each.has_multicast), outer[0].name)

@@ -34,7 +34,7 @@ END, END_64 = b"PK\x05\x06", b"PK\x06\x07"
 END_BYTES = 22 + (1 << 16)
 """Of the end with its comment."""
 MAX_REASON = 200
-"""Characters of why a file is no report."""
+"""Longest reason why a file is refused, in characters."""
 BLOCK = 1 << 20
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Iterator, Mapping
+from importlib import resources
 from typing import IO, Any
 
 import msgspec
@@ -26,25 +27,7 @@ POLICY = "; ".join(
     )
 )
 """As the server's (`webviz.server.http.requests.add_policy`), without any server."""
-BEGIN = """\
-window.webvizRun = true;
-addEventListener("load", () => {
-  // What comes last is missing from a file that was cut off, maybe with all modules.
-  if (document.querySelector('script[type="webviz/about"]')) return;
-  const bar = document.createElement("p");
-  bar.className = "wv-contact";
-  bar.setAttribute("role", "alert");
-  bar.style = "position: fixed; inset: 0 0 auto; z-index: 10000; font-family: sans-serif";
-  bar.textContent = "This file is incomplete. Copy it again, or export it anew.";
-  document.body.append(bar);
-  document.documentElement.dataset.wvShown = "";
-});
-"""
-HEAD = (
-    f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">'
-    '<meta name="referrer" content="no-referrer">'
-    f"<script>{BEGIN}</script>"
-)
+HEAD = f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">\n'
 END = b"</body>"
 LINE = 3 << 18
 """Bytes that are encoded at once; a multiple of three, so that none of the text is padding."""
@@ -59,7 +42,8 @@ class RunFile:
 
     def __init__(self, file: IO[bytes]) -> None:
         self._file = file
-        page = with_head(client_page(), HEAD.encode() + Modules(CONSTANTS).head)
+        own = (resources.files("webviz.shell.export") / "head.html").read_bytes()
+        page = with_head(client_page(), HEAD.encode() + own + Modules(CONSTANTS).head)
         start, end, rest = page.rpartition(END)
         self._rest = end + rest
         file.write(start)
